@@ -1,5 +1,5 @@
-//! Builds the tiny editors of `design` a second time, as they were before their feature, so that the tests can run
-//! them: what is counted as the feature is all of it, and what is left is a whole program.
+//! Builds the tiny editors of `design` a second time without their feature, so that the tests can run them: the marked
+//! lines are the complete feature, and the remaining lines are a complete program.
 
 use std::path::Path;
 use std::{env, fs, io};
@@ -8,7 +8,7 @@ use std::{env, fs, io};
 #[allow(dead_code, unreachable_pub)]
 mod count;
 
-/// The modules, and the files in them; the first of each folder is its `mod.rs`.
+/// The modules with their files; the first file of each folder is its `mod.rs`.
 const FILES: &[(&str, &[&str])] = &[
     ("messages", &["mod.rs", "document.rs", "handles.rs", "panel.rs", "viewport.rs"]),
     ("ways", &["mod.rs", "closures.rs", "raw.rs"]),
@@ -33,11 +33,11 @@ fn main() -> io::Result<()> {
         all += "}\n";
     }
     println!("cargo::rerun-if-changed=build.rs");
-    let folder = env::var_os("OUT_DIR").expect("cargo says where");
+    let folder = env::var_os("OUT_DIR").expect("cargo sets it");
     fs::write(Path::new(&folder).join("before.rs"), all)
 }
 
-/// The text without the feature, its tests, comments and list of modules: it becomes a part of one file.
+/// Returns the text without the feature, its tests, comments and list of modules, as a part of one file.
 fn before(text: &str) -> String {
     let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text);
     let code = code.replace("#[cfg(test)]\nmod traps;", "").replace("crate::design::", "super::super::");

@@ -118,7 +118,7 @@ pub(crate) fn measure(cases: Vec<BenchCase>) -> Vec<CaseTimes> {
             measured.rounds.push(running.turn());
         }
     }
-    let others = load.others_since();
+    let others = load.background_since();
     measured.iter_mut().for_each(|one| one.others = others);
     measured
 }

@@ -1,90 +1,91 @@
-//! Reads source text with a feature's lines marked in it: leaves them out, and counts what they cost.
+//! Reads source text in which the lines of a feature are marked: removes these lines, and counts the cost of the
+//! feature.
 //!
-//! A line that ends in `// feature` belongs to the feature, and so do those between `// feature: begin` and
-//! `// feature: end`. A line that ends in `// feature, before: …` took the place of that other line. The build script
-//! uses this file too, so it stands alone.
+//! A line that ends in `// feature` belongs to the feature, and so do those between `// feature: begin` and `//
+//! feature: end`. A line that ends in `// feature, before: …` replaced that other line. The build script uses this file
+//! too, so it depends on no other.
 
-/// A file's name and its text.
-pub type Source = (&'static str, &'static str);
+/// Name and text of a file.
+pub type SourceFile = (&'static str, &'static str);
 
 const BEGIN: &str = "// feature: begin";
 const END: &str = "// feature: end";
 const ADDED: &str = "// feature";
 const CHANGED: &str = "// feature, before: ";
 
-/// What only the tests see, and is no part of an editor.
+/// Lines for the tests, which are not part of an editor.
 const TESTS: [&str; 3] = ["pub mod refused;", "#[cfg(test)]", "mod traps;"];
 
-/// Whose a line is.
+/// Origin of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Line<'a> {
-    /// It was there before.
+enum LineOrigin<'a> {
+    /// The line existed before the feature.
     Base,
-    /// Of the feature.
+    /// The feature added the line.
     Added,
-    /// Of the feature, in place of this.
+    /// The feature replaced this line.
     Changed(&'a str),
-    /// It only says where the feature begins or ends.
+    /// The line only marks the start or end of the feature.
     Mark,
 }
 
-fn lines(text: &str) -> impl Iterator<Item = (&str, Line<'_>)> {
+fn lines(text: &str) -> impl Iterator<Item = (&str, LineOrigin<'_>)> {
     let mut inside = false;
     text.lines().map(move |line| {
         let trimmed = line.trim();
         let whose = if trimmed == BEGIN || trimmed == END {
             inside = trimmed == BEGIN;
-            Line::Mark
+            LineOrigin::Mark
         } else if inside || trimmed.ends_with(ADDED) {
-            Line::Added
+            LineOrigin::Added
         } else if let Some((_, before)) = line.split_once(CHANGED) {
-            Line::Changed(before)
+            LineOrigin::Changed(before)
         } else {
-            Line::Base
+            LineOrigin::Base
         };
         (line, whose)
     })
 }
 
-/// The text as it was before the feature.
+/// Returns the text as it was before the feature.
 pub fn before(text: &str) -> String {
     let mut before = String::new();
     for (line, whose) in lines(text) {
         match whose {
-            Line::Base => before += line,
-            Line::Changed(line) => before += line,
-            Line::Added | Line::Mark => continue,
+            LineOrigin::Base => before += line,
+            LineOrigin::Changed(line) => before += line,
+            LineOrigin::Added | LineOrigin::Mark => continue,
         }
         before.push('\n');
     }
     before
 }
 
-/// What a feature cost in one way of writing it. Lines are lines of code: no comments, no empty ones, no tests.
+/// Cost of a feature in one design, in lines of code: without comments, empty lines and tests.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cost {
-    /// Lines before the feature.
+    /// Number of lines before the feature.
     pub base: usize,
-    /// Lines that the feature added.
+    /// Number of lines that the feature added.
     pub added: usize,
-    /// Lines that were there and had to change.
+    /// Number of existing lines that had to change.
     pub changed: usize,
-    /// Types that came with it, the variants of an enum included: each is a thing with a name of its own.
+    /// Number of added types and enum variants, each with a name of its own.
     pub types: usize,
-    /// Functions that came with it.
+    /// Number of added functions.
     pub functions: usize,
-    /// Functions, types and implementations that were there and had to be opened; `use` is none.
+    /// Existing functions, types and implementations that had to be edited, except `use`.
     pub places: Vec<String>,
-    /// Files that were opened.
+    /// Number of files that had to be edited.
     pub files: usize,
 }
 
 /// Counts the marked lines of `sources`.
-pub fn cost(sources: &[Source]) -> Cost {
+pub fn cost(sources: &[SourceFile]) -> Cost {
     let mut cost = Cost::default();
     for (file, text) in sources {
         let mut touched = false;
-        // The items around the line: how far they are indented, what they say, and whether they were there before.
+        // The items around the line: indentation, text, and whether they existed before the feature.
         let mut around: Vec<(usize, &str, bool)> = Vec::new();
         let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text);
         for (line, whose) in lines(code) {
@@ -95,15 +96,15 @@ pub fn cost(sources: &[Source]) -> Cost {
             let indent = line.len() - line.trim_start().len();
             around.retain(|(outer, ..)| *outer < indent);
             match whose {
-                Line::Base => cost.base += 1,
-                Line::Added => cost.added += 1,
-                Line::Changed(_) => {
+                LineOrigin::Base => cost.base += 1,
+                LineOrigin::Added => cost.added += 1,
+                LineOrigin::Changed(_) => {
                     cost.base += 1;
                     cost.changed += 1;
                 }
-                Line::Mark => {}
+                LineOrigin::Mark => {}
             }
-            if !matches!(whose, Line::Base) {
+            if !matches!(whose, LineOrigin::Base) {
                 touched = true;
                 cost.functions += usize::from(item(trimmed) == Some("fn"));
                 let variant = around.last().is_some_and(|(_, around, _)| item(around) == Some("enum"))
@@ -120,7 +121,7 @@ pub fn cost(sources: &[Source]) -> Cost {
                 }
             }
             if item(trimmed).is_some() {
-                around.push((indent, trimmed, whose == Line::Base));
+                around.push((indent, trimmed, whose == LineOrigin::Base));
             }
         }
         cost.files += usize::from(touched);
@@ -128,7 +129,7 @@ pub fn cost(sources: &[Source]) -> Cost {
     cost
 }
 
-/// What kind of item a line begins, if any.
+/// Returns the kind of item that starts in a line, if any.
 fn item(line: &str) -> Option<&'static str> {
     let line = line.strip_prefix("pub ").unwrap_or(line);
     ["fn", "struct", "enum", "type", "trait", "impl"]
@@ -136,13 +137,13 @@ fn item(line: &str) -> Option<&'static str> {
         .find(|kind| line.strip_prefix(kind).is_some_and(|rest| rest.starts_with([' ', '<'])))
 }
 
-/// The headings of a file of examples that do not compile.
+/// Returns the headings of a file of examples that do not compile.
 pub fn refused(text: &'static str) -> Vec<&'static str> {
     let headings = text.lines().filter_map(|line| line.strip_prefix("//! # "));
     headings.map(|heading| heading.split_once(". ").map_or(heading, |(_, words)| words)).collect()
 }
 
-/// The tests of a file of mistakes that do compile, their names as words.
+/// Returns the names of the tests in a file of mistakes that compile, as words.
 pub fn traps(text: &str) -> Vec<String> {
     let tests = text.split("#[test]\nfn ").skip(1);
     tests.filter_map(|test| test.split('(').next()).map(|name| name.replace('_', " ")).collect()

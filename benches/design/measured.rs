@@ -1,4 +1,4 @@
-//! The editors run without the feature, and the counts say what the README says in words.
+//! The editors work without the feature, and the counts are those that the README contains in words.
 
 use super::before::{locks, messages, skeleton::Bone};
 use super::count::{self, Cost};
@@ -10,7 +10,7 @@ fn bones() -> Vec<Bone> {
 }
 
 #[test]
-fn without_the_feature_both_are_whole_editors() {
+fn both_editors_are_complete_without_the_feature() {
     let mut stage = Stage::new();
     let [main, document, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
     let panel = messages::open(stage.context(&main), &document, &graphics, bones(), |_| {});
@@ -35,8 +35,8 @@ use a::B; // feature
 struct Bone {
     angle: f32,
     // feature: begin
-    /// Of its line.
-    colour: u32,
+    /// Color of the line.
+    color: u32,
     // feature: end
 }
 
@@ -53,7 +53,7 @@ impl Panel {
 }
 
 enum Edit {
-    SetColour, // feature
+    SetColor, // feature
 }
 
 #[cfg(test)]
@@ -91,12 +91,12 @@ mod tests {
         places: places.map(str::to_owned).to_vec(),
         files: 1,
     };
-    // The text lives as long as the program, as the sources do.
+    // The text lives as long as the program, like the sources.
     assert_eq!(count::cost(&[("f", text)]), expected);
 }
 
 #[test]
-fn the_counts_say_what_the_page_says_in_words() {
+fn the_counts_are_those_that_the_page_contains_in_words() {
     let costs = costs();
     assert!(costs.messages.added > 4 * costs.locks.added, "messages cost more than four times the lines");
     assert_eq!(
@@ -113,10 +113,10 @@ fn the_counts_say_what_the_page_says_in_words() {
 }
 
 #[test]
-fn handles_have_the_names_of_the_objects() {
+fn handles_have_the_method_names_of_the_objects() {
     let sources = [include_str!("messages/document.rs"), include_str!("messages/viewport.rs")];
     let handles = include_str!("messages/handles.rs");
-    for name in ["set_angle", "set_colour", "toggle_visible", "show", "pick"] {
+    for name in ["set_angle", "set_color", "toggle_visible", "show", "pick"] {
         let method = format!("pub fn {name}(");
         assert!(sources.iter().any(|source| source.contains(&method)), "no object has {name}");
         assert!(handles.contains(&method), "no handle has {name}");

@@ -1,9 +1,12 @@
-//! The other cost: what it takes to write the same thing with messages and with locks.
+//! Cost in source code: the same program written with messages and with locks.
 //!
 //! A tiny editor (a panel in the main thread, a viewport in the graphics thread, a skeleton between them) is written
-//! [`messages`] first and [`locks`] second. Then both get the same feature: bones have a colour and can be hidden. Its
-//! lines are marked `// feature`, so that [`count`] can tell what it cost, and so that the editors can be built without
-//! it: the build script does that, and the tests run both.
+//! with [`messages`] and with [`locks`]. Then both get the same feature: bones have a color and can be hidden. Its
+//! lines are marked `// feature`, so that [`count`] can count its cost, and so that the build script can build the
+//! editors without it; the tests run both versions.
+//!
+//! The types have the names of the editor's types that they stand for (`Document`, `Panel`, `Edit`, `Bone`), and the
+//! two designs use the same names, so that they can be compared.
 
 pub mod count;
 pub mod locks;
@@ -12,13 +15,13 @@ pub mod skeleton;
 pub mod tables;
 pub mod ways;
 
-use count::{Cost, Source};
+use count::{Cost, SourceFile};
 
-/// The data and the drawing of both, which know no thread.
-pub const SAME: &[Source] = &[("skeleton.rs", include_str!("skeleton.rs"))];
+/// The data and the drawing of both editors, without threads.
+pub const SAME: &[SourceFile] = &[("skeleton.rs", include_str!("skeleton.rs"))];
 
 /// The editor with messages.
-pub const MESSAGES: &[Source] = &[
+pub const MESSAGES: &[SourceFile] = &[
     ("messages/mod.rs", include_str!("messages/mod.rs")),
     EDITS,
     ("messages/viewport.rs", include_str!("messages/viewport.rs")),
@@ -26,39 +29,39 @@ pub const MESSAGES: &[Source] = &[
     ("messages/handles.rs", include_str!("messages/handles.rs")),
 ];
 
-/// The part of it that makes values of edits, and takes them in.
-pub const EDITS: Source = ("messages/document.rs", include_str!("messages/document.rs"));
+/// The part of it that defines edits as values and applies them.
+pub const EDITS: SourceFile = ("messages/document.rs", include_str!("messages/document.rs"));
 
-/// The panel that names messages at every call, in place of handles.
-pub const RAW: Source = ("ways/raw.rs", include_str!("ways/raw.rs"));
+/// The panel that sends messages itself, without handles.
+pub const RAW: SourceFile = ("ways/raw.rs", include_str!("ways/raw.rs"));
 
-/// The document and the panel that have closures for messages.
-pub const CLOSURES: Source = ("ways/closures.rs", include_str!("ways/closures.rs"));
+/// The document and the panel with closures as messages.
+pub const CLOSURES: SourceFile = ("ways/closures.rs", include_str!("ways/closures.rs"));
 
 /// The editor with locks.
-pub const LOCKS: &[Source] = &[
+pub const LOCKS: &[SourceFile] = &[
     ("locks/mod.rs", include_str!("locks/mod.rs")),
     ("locks/viewport.rs", include_str!("locks/viewport.rs")),
     ("locks/panel.rs", include_str!("locks/panel.rs")),
 ];
 
-/// What the feature cost in each way of writing it.
+/// Cost of the feature in each design.
 pub struct Costs {
-    /// The data and its drawing, the same in all ways and counted in none of the others.
+    /// The data and its drawing, which all designs share; not included in the others.
     pub same: Cost,
-    /// Messages behind typed handles: the whole editor.
+    /// Messages sent through typed handles: the whole editor.
     pub messages: Cost,
-    /// The part of it that makes values of edits.
+    /// The part of it that defines edits as values.
     pub edits: Cost,
-    /// Messages named at every call: what the feature cost, not the whole editor.
+    /// Messages without handles: cost of the feature, not the whole editor.
     pub raw: Cost,
-    /// Closures for messages: what the feature cost, not the whole editor.
+    /// Closures as messages: cost of the feature, not the whole editor.
     pub closures: Cost,
     /// One lock: the whole editor.
     pub locks: Cost,
 }
 
-/// Counts them all.
+/// Counts the cost in all designs.
 pub fn costs() -> Costs {
     Costs {
         same: count::cost(SAME),
@@ -70,7 +73,8 @@ pub fn costs() -> Costs {
     }
 }
 
-/// Mistakes of each way that do not compile, and those that do; each is an example or a test in the named file.
+/// Returns the file, the mistakes that do not compile, and those that compile, for each design. Each mistake is an
+/// example or a test in the file.
 pub fn mistakes() -> [(&'static str, Vec<&'static str>, Vec<String>); 2] {
     [
         (

@@ -1,60 +1,60 @@
-//! What the tiny editor edits, and what is seen of it: a chain of bones, each a line that begins where the one before
-//! it ends. It knows no thread; both ways use it as it is.
+//! The data of the tiny editor and its drawing: a chain of bones, each a line that begins at the end of the previous
+//! one. It uses no threads; both designs use it unchanged.
 
-/// A place in the picture.
+/// A point in the image.
 pub type Point = [f32; 2];
 
 // feature: begin
 /// Red, green and blue.
-pub type Colour = [u8; 3];
+pub type Color = [u8; 3];
 
-/// The colour of a bone for which nobody has chosen one.
-pub const WHITE: Colour = [255, 255, 255];
+/// Color of a bone without a chosen color.
+pub const WHITE: Color = [255, 255, 255];
 // feature: end
 
 /// One bone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bone {
-    /// What the panel calls it.
+    /// Name in the panel.
     pub name: String,
-    /// Against the bone before it, in radians.
+    /// Angle relative to the previous bone, in radians.
     pub angle: f32,
     // feature: begin
-    /// Of its line in the picture.
-    pub colour: Colour,
-    /// A hidden bone is not drawn and cannot be picked; those behind it stay where they are.
+    /// Color of the line in the image.
+    pub color: Color,
+    /// Whether the bone is drawn and can be picked. The bones after a hidden one keep their positions.
     pub visible: bool,
     // feature: end
 }
 
 impl Bone {
-    /// A bone as it is at first.
+    /// Returns a bone with the default color, visible.
     pub fn new(name: &str, angle: f32) -> Self {
         Self {
             name: name.to_owned(),
             angle,
             // feature: begin
-            colour: WHITE,
+            color: WHITE,
             visible: true,
             // feature: end
         }
     }
 }
 
-/// A bone in the picture, one unit long.
+/// A bone in the image, one unit long.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Which bone it is.
+    /// Index of the bone.
     pub bone: usize,
-    /// Where it begins.
+    /// Start of the line.
     pub from: Point,
-    /// Where it ends.
+    /// End of the line.
     pub to: Point,
-    /// In which colour it is drawn.
-    pub colour: Colour, // feature
+    /// Color of the line.
+    pub color: Color, // feature
 }
 
-/// The picture of the whole chain.
+/// Returns the image of the whole chain.
 pub fn draw(bones: &[Bone]) -> Vec<Line> {
     let mut lines = Vec::new();
     let (mut from, mut angle) = ([0.0, 0.0], 0.0_f32);
@@ -65,7 +65,7 @@ pub fn draw(bones: &[Bone]) -> Vec<Line> {
             bone: number,
             from,
             to,
-            colour: bone.colour, // feature
+            color: bone.color, // feature
         };
         lines.extend(bone.visible.then_some(line)); // feature, before: lines.push(line);
         from = to;
@@ -73,7 +73,7 @@ pub fn draw(bones: &[Bone]) -> Vec<Line> {
     lines
 }
 
-/// The bone whose line has its middle nearest to `point`, and not more than half a unit away.
+/// Returns the bone whose line has its middle nearest to `point`, at most half a unit away.
 pub fn pick(lines: &[Line], point: Point) -> Option<usize> {
     let distance = |line: &Line| {
         let middle = [0, 1].map(|axis| f32::midpoint(line.from[axis], line.to[axis]) - point[axis]);
@@ -83,11 +83,11 @@ pub fn pick(lines: &[Line], point: Point) -> Option<usize> {
     (distance(nearest) <= 0.5).then_some(nearest.bone)
 }
 
-/// A bone's row in the panel.
+/// Returns a bone's row in the panel.
 pub fn describe(bone: &Bone) -> String {
     let mut text = format!("{} {:.2}", bone.name, bone.angle);
     // feature: begin
-    let [red, green, blue] = bone.colour;
+    let [red, green, blue] = bone.color;
     text += &format!(" #{red:02x}{green:02x}{blue:02x}");
     if !bone.visible {
         text += " hidden";

@@ -1,6 +1,6 @@
 //! The two tables of the page that are counted in the source.
 
-/// What the feature cost.
+/// Returns the table of the cost of the feature.
 pub fn cost() -> String {
     let costs = super::costs();
     let mut text = String::from(
@@ -23,9 +23,9 @@ pub fn cost() -> String {
     text
 }
 
-/// What the compiler refuses, and what it does not.
+/// Returns the table of the mistakes that the compiler rejects and accepts.
 pub fn mistakes() -> String {
-    let mut text = String::from("| | does not compile | compiles, and goes wrong |\n|---|---|---|\n");
+    let mut text = String::from("| | does not compile | compiles, and fails at run time |\n|---|---|---|\n");
     for (way, refused, compiling) in super::mistakes() {
         let list = |all: Vec<String>| {
             let items: String = all.iter().map(|one| format!("<li>{one}</li>")).collect();

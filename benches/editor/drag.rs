@@ -1,8 +1,9 @@
-//! From a move of the mouse to the graphics thread having the new pose: `cargo bench -p dragonfly --bench drag`.
+//! Time from a mouse move until the graphics thread has the new pose: `cargo bench -p dragonfly --bench drag`.
 //!
-//! The three threads are those of the program, and so is what happens in them: the window's event is heard, the pose is
-//! computed and becomes an edit, the document does it and shows its state, the scene takes it and is computed for it. What
-//! follows is drawing. The end of the way is read from the runtime's trace of the graphics thread.
+//! The three threads are those of the program and do the same work: the main thread handles the event of the window,
+//! computes the pose and makes an edit of it; the document applies the edit and publishes its state; the scene receives
+//! the state and is computed for it. Drawing would follow. The end time comes from the runtime's trace of the graphics
+//! thread.
 
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Effect, Request, Settings, State, hands};
@@ -16,7 +17,7 @@ use dragonfly_document::{
 };
 use dragonfly_picture::Look;
 use dragonfly_picture::scene::Scene;
-use dragonfly_runtime::{Address, Context, Event, Receiver, Record, Thread, TraceSnapshot};
+use dragonfly_runtime::{Address, Context, Receiver, Thread, TraceEvent, TraceRecord, TraceSnapshot};
 use dragonfly_store::{Autosave, RealFiles};
 use glam::{Mat4, Quat, Vec3};
 use std::cell::RefCell;
@@ -26,17 +27,17 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Moves of the mouse that are measured.
+/// Number of measured mouse moves.
 const MOVES: usize = 2000;
-/// Between two moves: an ordinary mouse.
+/// Time between two moves: that of a common mouse.
 const PAUSE: Duration = Duration::from_millis(4);
-/// What may be, at the 99th percentile.
+/// Allowed time at the 99th percentile.
 const LIMIT: Duration = Duration::from_millis(4);
 
-/// Fails where it takes longer than [`LIMIT`].
+/// Fails if it takes longer than [`LIMIT`].
 fn main() -> ExitCode {
     let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
-    let cases: [(&str, Load, &str); 2] =
+    let cases: [(&str, LoadFn, &str); 2] =
         [("editor/drag/fox", fox, "b_Head_05"), ("editor/drag/thousand_bones", thousand, "bone 500")];
     let mut late = false;
     for (name, load, bone) in cases {
@@ -47,14 +48,14 @@ fn main() -> ExitCode {
     if late { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-type Load = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
+type LoadFn = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
 
 fn fox(_: &Source, tell: &mut dyn FnMut(Progress), cancel: &Cancel) -> Result<Opened, LoadError> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/gltf/Fox.glb");
     open_model(&Source::File(path), tell, cancel)
 }
 
-/// A tree of a thousand bones, each with two keys a frame for two seconds.
+/// Returns a tree of a thousand bones, each with two keys per frame for two seconds.
 fn thousand(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
     let bone = |index: u32| Bone {
         name: format!("bone {index}"),
@@ -93,19 +94,19 @@ fn thousand(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opene
     .into())
 }
 
-/// What the graphics thread does before it draws; then it says so, that the next move may come.
-struct Picture(Scene, Address<Taken>);
+/// The work of the graphics thread before it draws; then it reports that, so that the next move can follow.
+struct SceneReceiver(Scene, Address<ViewTaken>);
 
-/// A view was taken.
-struct Taken;
+/// Sent when a view was received.
+struct ViewTaken;
 
-impl Receiver for Picture {
+impl Receiver for SceneReceiver {
     type Message = View;
 
     fn receive(&mut self, view: View, thread: &mut Context) {
         self.0.show(&view);
         self.0.prepare(thread.now());
-        let _ = self.1.send(Taken);
+        let _ = self.1.send(ViewTaken);
     }
 
     fn name(&self) -> &str {
@@ -114,9 +115,9 @@ impl Receiver for Picture {
 }
 
 #[derive(Clone, Default)]
-struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+struct ReplyLog(Rc<RefCell<Vec<DocumentReply>>>);
 
-impl Receiver for Heard {
+impl Receiver for ReplyLog {
     type Message = DocumentReply;
 
     fn receive(&mut self, reply: DocumentReply, _: &mut Context) {
@@ -124,14 +125,14 @@ impl Receiver for Heard {
     }
 }
 
-/// Counts the views that were taken.
+/// Counts the received views.
 #[derive(Clone, Default)]
-struct Count(Rc<RefCell<usize>>);
+struct Counted(Rc<RefCell<usize>>);
 
-impl Receiver for Count {
-    type Message = Taken;
+impl Receiver for Counted {
+    type Message = ViewTaken;
 
-    fn receive(&mut self, _: Taken, _: &mut Context) {
+    fn receive(&mut self, _: ViewTaken, _: &mut Context) {
         *self.0.borrow_mut() += 1;
     }
 }
@@ -146,17 +147,17 @@ impl Receiver for Traces {
     }
 }
 
-/// Measures a drag; tells the 99th percentile.
-fn measure(name: &str, load: Load, bone: &str) -> Duration {
-    let heard = Heard::default();
+/// Measures a drag. Returns the 99th percentile.
+fn measure(name: &str, load: LoadFn, bone: &str) -> Duration {
+    let heard = ReplyLog::default();
     let traced = Rc::new(RefCell::new(None));
-    // As in the window, the main thread sleeps until it is told that something came: it does not take a processor.
+    // As in the window, the main thread sleeps until it is woken, so it does not use a CPU core.
     let own_thread = std::thread::current();
     let mut main = Thread::capture("main", move || own_thread.unpark());
     let graphics = Thread::start("graphics").expect("a thread");
     let replies = main.context().register_receiver(heard.clone());
     let traces: Address<TraceSnapshot> = main.context().register_receiver(Traces(Rc::clone(&traced)));
-    let count = Count::default();
+    let count = Counted::default();
     let taken = main.context().register_receiver(count.clone());
     let pictures = graphics.handle().reserve_address();
     let own = pictures.clone();
@@ -165,11 +166,11 @@ fn measure(name: &str, load: Load, bone: &str) -> Duration {
         .run(move |context: &mut Context| {
             let mut scene = Scene::new(Instant::now());
             scene.look = Look { viewport: [0, 0, 1280, 720], skeleton: true, ..Look::default() };
-            context.register_receiver_at(&own, Picture(scene, taken));
+            context.register_receiver_at(&own, SceneReceiver(scene, taken));
             context.set_trace(MOVES * 8);
         })
         .expect("it runs");
-    // Work is recorded on a disk, as in the program.
+    // The journal is written to a disk, as in the program.
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("drag-{}", std::process::id()));
     let autosave = Autosave::new(Arc::new(RealFiles), Some(folder.clone())).expect("a folder is given");
     let setup = Setup { load, autosave: Some(autosave), ..Setup::default() };
@@ -217,7 +218,7 @@ fn measure(name: &str, load: Load, bone: &str) -> Duration {
                 document.change(change);
             }
         }
-        // The next move only when this one went all the way, so that each has a state of its own.
+        // The next move is sent only after this one has arrived, so that each has a state of its own.
         let mut came = 0;
         loop {
             came += turn(&mut state);
@@ -226,7 +227,7 @@ fn measure(name: &str, load: Load, bone: &str) -> Duration {
             }
             std::thread::park_timeout(Duration::from_secs(1));
         }
-        // The panels are drawn meanwhile in the program; here the hands find out where the bone is now.
+        // The program draws its panels here; the bench only lets the viewport tools find the bone.
         state.begin(Instant::now());
         let end = moved[index] + PAUSE;
         while let Some(left) = end.checked_duration_since(Instant::now()) {
@@ -252,15 +253,15 @@ fn measure(name: &str, load: Load, bone: &str) -> Duration {
         show(at(100)),
     );
     document.stop();
-    // What is left there is of no use to anybody, and in a folder for that.
+    // The files are not needed any more; an error leaves them in a temporary folder.
     let _ = std::fs::remove_dir_all(folder);
     at(99)
 }
 
-/// When a view was taken and the scene computed for it.
-fn arrived(record: &Record) -> Option<Instant> {
+/// Returns the time at which a view was received and the scene was computed for it.
+fn arrived(record: &TraceRecord) -> Option<Instant> {
     match &record.event {
-        Event::Message { to, .. } if &**to == "picture" => Some(record.at + record.took),
+        TraceEvent::Message { to, .. } if &**to == "picture" => Some(record.at + record.took),
         _ => None,
     }
 }

@@ -1,4 +1,4 @@
-//! What edits cost in a take of 200 bones × 10 minutes × 120 keys a second: 43 million keys.
+//! Cost of edits in a take of 200 bones × 10 minutes × 120 keys per second: 43 million keys.
 
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
 use dragonfly_document::adapter::ModelAdapter;
@@ -13,7 +13,7 @@ const BONES: u32 = 200;
 const RATE: usize = 120;
 const SECONDS: usize = 600;
 
-/// Runs `work` a few times and prints the median, and what it asked of the allocator in its last run.
+/// Runs `work` a few times. Prints the median, and the allocations of its last run.
 fn measure(name: &str, times: usize, mut work: impl FnMut(usize)) {
     let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     if wanted.is_some_and(|part| !name.contains(&part)) {
@@ -34,7 +34,7 @@ fn measure(name: &str, times: usize, mut work: impl FnMut(usize)) {
     );
 }
 
-/// All channels share a column of times where `shared`, as in files that sample everything at once.
+/// With `shared`, all channels share a column of times, as in files that sample everything at once.
 fn model(shared: bool) -> AnimationData {
     let bones = (0..BONES).map(|bone| Bone {
         name: format!("bone {bone}"),
@@ -47,7 +47,7 @@ fn model(shared: bool) -> AnimationData {
     let keys = RATE * SECONDS;
     let column = || -> Arc<[f32]> { (0..keys).map(|key| key as f32 / RATE as f32).collect() };
     let times = column();
-    // What the values are does not matter; that each channel has its own column does not either.
+    // The values do not matter, nor that all channels share them.
     let translation: Arc<[Vec3]> = (0..keys).map(|key| Vec3::splat(key as f32 * 1e-4)).collect();
     let rotation: Arc<[Quat]> = (0..keys).map(|key| Quat::from_rotation_y(key as f32 * 1e-4)).collect();
     let tracks = (0..BONES).map(|bone| {
@@ -69,7 +69,7 @@ fn take() -> TakeRef {
     TakeRef::Index(0)
 }
 
-/// 500 keys at the end of each of 200 channels, named one by one as a timeline does.
+/// Returns 500 keys at the end of each of 200 channels, listed one by one as by a timeline.
 fn chosen() -> Vec<KeySet> {
     let last = RATE * SECONDS;
     let set = |bone| KeySet {
@@ -81,7 +81,7 @@ fn chosen() -> Vec<KeySet> {
     (0..BONES).map(set).collect()
 }
 
-/// The same, each key a set by itself.
+/// Returns the same keys, each as a set of its own.
 fn one_by_one() -> Vec<KeySet> {
     let alone = |set: KeySet| {
         let times = set.at.clone().unwrap_or_default();
@@ -122,7 +122,7 @@ pub(crate) fn run() {
             let pose = BonePose { bone: BoneRef::Index(7), translation: None, rotation, scale: None };
             let edit = Edit::SetPose(SetPose { take: take(), time, poses: vec![pose], unstep: false });
             edited.apply(edit, Some(Gesture(1))).expect("a pose can be set");
-            // What the panels and the picture still show.
+            // The versions that the panels and the viewport still show.
             if shown.len() == 2 {
                 shown.remove(0);
             }

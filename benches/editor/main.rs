@@ -1,4 +1,4 @@
-//! What opening a model and editing it cost, and what a frame of the panels does: `cargo bench -p dragonfly`.
+//! Cost of opening and editing a model, and of a frame of the panels: `cargo bench -p dragonfly`.
 
 mod edits;
 mod timeline;

@@ -1,8 +1,8 @@
-//! A frame of the timeline and the curves, and of all other panels around them, with 200 bones × 10 minutes × 120 frames
-//! a second: some 43 million keys. What is measured is the time that the processor spends in the thread of the window:
-//! building the frame, tessellating it, and doing what it asked for, edits included.
+//! A frame of the timeline and the curves, and of all other panels around them, with 200 bones × 10 minutes × 120
+//! frames per second: about 43 million keys. Measures the CPU time of the window's thread: building the frame,
+//! tessellating it, and processing its requests, edits included.
 //!
-//! `DRAGONFLY_BENCH_KEYS` takes a part of the ten minutes, 0..1, for a machine with little memory.
+//! `DRAGONFLY_BENCH_KEYS` reduces the ten minutes to a fraction, 0 to 1, for a machine with little memory.
 
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{ChannelId, Deed, KeysRequest, TimeWindow};
@@ -24,7 +24,7 @@ const RATE: f32 = 120.0;
 const SECONDS: f32 = 600.0;
 const FRAMES: usize = 400;
 
-/// Every case.
+/// Measures every case.
 pub(crate) fn all() {
     let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     if wanted.is_some_and(|part| !"editor/timeline".contains(&part)) {
@@ -39,7 +39,7 @@ pub(crate) fn all() {
     for (name, bones) in
         [("nothing selected", vec![]), ("one bone", vec![7]), ("eight bones", (3..11).collect())]
     {
-        let mut window = Window::new(&view, &bones);
+        let mut window = PanelsWindow::new(&view, &bones);
         window.measure(&format!("whole zoom, {name}"), |_, _| {});
         window.measure(&format!("zooming, {name}"), |at, state| {
             let part = 1.0 - 0.5 * (at as f64 / FRAMES as f64);
@@ -57,7 +57,7 @@ pub(crate) fn all() {
     drag(&view, middle, "middle zoom");
 }
 
-/// 100,000 selected keys are dragged, and the document answers from a thread of its own.
+/// Drags 100,000 selected keys, while the document answers from a thread of its own.
 fn drag(view: &View, zoom: TimeWindow, name: &str) {
     let (ask, asked) = channel::<Change>();
     let (answer, answers) = channel::<View>();
@@ -69,7 +69,7 @@ fn drag(view: &View, zoom: TimeWindow, name: &str) {
 }
 
 fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, answers: &Receiver<View>) {
-    let mut window = Window::new(view, &[3, 4, 5]);
+    let mut window = PanelsWindow::new(view, &[3, 4, 5]);
     let take = Arc::clone(&view.takes[0]);
     show(&mut window.state, zoom);
     window.state.execute(Request::Timeline(KeysRequest::OnlySelected(false)));
@@ -78,7 +78,7 @@ fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, ans
         .iter()
         .flat_map(|track| dragonfly::panels::keys::channel::channels(&take, track.bone))
         .collect();
-    // As many frames of all channels as make 100,000 keys.
+    // The number of frames in which all channels have 100,000 keys.
     let frames = 100_000 / channels.len() as u32;
     let from = (zoom.start + zoom.length * 0.3) as f32;
     let stretch = [from, from + frames as f32 / RATE];
@@ -92,7 +92,7 @@ fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, ans
         for effect in effects.drain(..) {
             if let Effect::Change(change) = effect {
                 edits += 1;
-                // The document ends with the bench.
+                // Fails only when the bench has ended.
                 let _ = ask.send(change);
             }
         }
@@ -113,7 +113,7 @@ fn newest(answers: &Receiver<View>) -> Option<View> {
     answers.try_iter().last()
 }
 
-/// Answers edits until nobody asks any more.
+/// Answers edits until the other end is dropped.
 fn document(first: View, asked: &Receiver<Change>, answer: &Sender<View>) {
     let mut edited = Edited::new(ModelAdapter::new(&first.loaded.model.animation));
     let mut generation = first.generation;
@@ -140,8 +140,8 @@ fn show(state: &mut State, window: TimeWindow) {
     state.execute(Request::Timeline(KeysRequest::Window(Some(window))));
 }
 
-/// The panels, without a window.
-struct Window {
+/// The panels without a window.
+struct PanelsWindow {
     context: egui::Context,
     desk: Desk,
     state: State,
@@ -149,7 +149,7 @@ struct Window {
     frame: u64,
 }
 
-impl Window {
+impl PanelsWindow {
     fn new(view: &View, bones: &[u32]) -> Self {
         let context = egui::Context::default();
         style::install(&context);
@@ -159,14 +159,14 @@ impl Window {
         let choice = dragonfly_document::bones::Choice::Replace;
         state.execute(Request::SelectBones(bones.to_vec(), choice));
         let mut window = Self { context, desk: Desk::new(""), state, begin: Instant::now(), frame: 0 };
-        // Fonts, layout, and curves that are computed over several frames.
+        // Loads fonts, lays out the panels, and computes curves, which takes several frames.
         for _ in 0..60 {
             window.frame(None);
         }
         window
     }
 
-    /// One frame, with a pointer that rests on the keys.
+    /// Runs one frame, with a pointer that rests on the keys.
     fn frame(&mut self, more: Option<Request>) -> Vec<Effect> {
         self.frame += 1;
         let now = self.begin + Duration::from_micros(16_667 * self.frame);
@@ -194,7 +194,7 @@ impl Window {
         });
     }
 
-    /// Measures frames; `before` each what comes between frames, and what is asked for in the next.
+    /// Measures frames; `before` runs before each frame and returns the request of the next one.
     fn measure_with(
         &mut self,
         name: &str,
@@ -214,21 +214,21 @@ impl Window {
     }
 }
 
-/// The time that the processor has spent in this thread.
+/// Returns the CPU time of this thread.
 #[cfg(unix)]
 fn cpu() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     Duration::new(time.tv_sec as u64, time.tv_nsec as u32)
 }
 
-/// Time on the clock, where there is no other.
+/// Returns the elapsed time, on systems without CPU times.
 #[cfg(not(unix))]
 fn cpu() -> Duration {
     static BEGIN: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
     BEGIN.get_or_init(Instant::now).elapsed()
 }
 
-/// Bones in a chain, every channel with a column of times of its own.
+/// Returns bones in a chain, with a column of times for every channel.
 fn view() -> View {
     let part = std::env::var("DRAGONFLY_BENCH_KEYS").ok().and_then(|part| part.parse::<f32>().ok());
     let keys = (SECONDS * RATE * part.unwrap_or(1.0).clamp(0.001, 1.0)) as usize;

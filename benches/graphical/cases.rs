@@ -1,32 +1,32 @@
-//! Which ways are compared in which situation, and for how long; see the table in `mod.rs`.
+//! The cases: which methods are compared in which situation, and for how long; see the table in `mod.rs`.
 
-use super::frame::Frame;
-use super::hand::Rate;
-use super::model::Size;
-use super::scenario::{Bed, Scenario, Verdict, run};
+use super::driver::Rate;
+use super::frame::FrameWork;
+use super::model::ModelSize;
+use super::scenario::{RunDefects, Scenario, ScenarioSetup, run};
 use super::script::Edits;
-use super::sharing::{WAYS, Way};
+use super::sharing::{METHODS, SharingMethod};
 use super::{cores, table};
-use crate::{Mode, Study, Variant};
+use crate::{Study, StudyMode, Variant};
 use std::time::Duration;
 
 const HERTZ_60: Option<Duration> = Some(Duration::from_nanos(16_666_667));
 const HERTZ_144: Option<Duration> = Some(Duration::from_nanos(6_944_444));
 
-/// Which ways take part.
+/// The methods that a case compares.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Field {
-    /// All.
+enum MethodSelection {
+    /// All methods.
     All,
-    /// The best of each kind, and the lock that is held for the frame.
-    Telling,
-    /// Those, and others that this case is about.
+    /// The best method of each kind, and the lock that is held for the frame.
+    BestOfEachKind,
+    /// The same, and further methods that this case is about.
     And(&'static [&'static str]),
 }
 
-impl Field {
-    fn ways(self, mode: Mode) -> Vec<Way> {
-        /// A short run has no time for more.
+impl MethodSelection {
+    fn methods(self, mode: StudyMode) -> Vec<SharingMethod> {
+        /// The methods of a short run.
         const FEW: [&str; 6] = [
             "messages, newest",
             "messages, batched",
@@ -35,55 +35,73 @@ impl Field {
             "mutex, cow",
             "arcswap, cow",
         ];
-        let wanted = |way: &&Way| match self {
-            _ if self == Self::All || mode == Mode::Check => true,
-            Self::And(names) if names.contains(&way.name) => true,
-            _ if mode == Mode::Short => FEW.contains(&way.name),
-            _ => way.telling,
+        let wanted = |method: &&SharingMethod| match self {
+            _ if self == Self::All || mode == StudyMode::Check => true,
+            Self::And(names) if names.contains(&method.name) => true,
+            _ if mode == StudyMode::Short => FEW.contains(&method.name),
+            _ => method.in_every_case,
         };
-        WAYS.iter().filter(wanted).copied().collect()
+        METHODS.iter().filter(wanted).copied().collect()
     }
 }
 
 /// Measures every case.
 pub fn all(study: &mut Study) {
     study.prints = false;
-    let usual = Size::USUAL.document();
+    let usual = ModelSize::USUAL.document();
     let draws = match study.mode {
-        Mode::Check => 1,
-        _ => Frame::calibrate(usual.skeleton.clone()),
+        StudyMode::Check => 1,
+        _ => FrameWork::calibrate(usual.skeleton.clone()),
     };
-    if study.mode != Mode::Check {
+    if study.mode != StudyMode::Check {
         println!("# a frame draws its mesh {draws} times, which takes 3 ms when nothing disturbs it");
         println!("# times in microseconds; medians of the repeats");
     }
-    let size = study.mode.pick(Size::TINY, Size::USUAL, Size::USUAL);
-    let bed = &Bed::new(size, draws);
+    let size = study.mode.pick(ModelSize::TINY, ModelSize::USUAL, ModelSize::USUAL);
+    let bed = &ScenarioSetup::new(size, draws);
     let core = basis(study.mode);
     let longer = Scenario { length: core.length * study.mode.pick(1, 1, 2), ..core };
 
-    compare(study, "drag", bed, longer, Field::All);
+    compare(study, "drag", bed, longer, MethodSelection::All);
     let slow = Rate::Every(Duration::from_millis(16));
     let flood = Scenario { rate: Rate::FlatOut, ..core };
     let takes = Scenario { edits: Edits::Large, rate: slow, ..core };
-    // A test looks at results, and those do not depend on how fast it goes.
-    if study.mode != Mode::Check {
-        compare(study, "drag/60 Hz", bed, Scenario { rate: slow, ..core }, Field::Telling);
-        compare(study, "drag/frames 144 Hz", bed, Scenario { period: HERTZ_144, ..core }, Field::Telling);
-        compare(study, "takes/60 Hz", bed, takes, Field::And(&["mutex a take"]));
+    // A test checks results, which do not depend on the speed.
+    if study.mode != StudyMode::Check {
+        compare(study, "drag/60 Hz", bed, Scenario { rate: slow, ..core }, MethodSelection::BestOfEachKind);
+        compare(
+            study,
+            "drag/frames 144 Hz",
+            bed,
+            Scenario { period: HERTZ_144, ..core },
+            MethodSelection::BestOfEachKind,
+        );
+        compare(study, "takes/60 Hz", bed, takes, MethodSelection::And(&["mutex a take"]));
     }
-    compare(study, "drag/frames unpaced", bed, Scenario { period: None, ..core }, Field::Telling);
-    compare(study, "flood", bed, flood, Field::And(&["messages", "messages, merged", "triple buffer"]));
+    compare(
+        study,
+        "drag/frames unpaced",
+        bed,
+        Scenario { period: None, ..core },
+        MethodSelection::BestOfEachKind,
+    );
+    compare(
+        study,
+        "flood",
+        bed,
+        flood,
+        MethodSelection::And(&["messages", "messages, merged", "triple buffer"]),
+    );
     let flood = Scenario { rate: Rate::FlatOut, ..takes };
-    if study.mode != Mode::Short {
-        compare(study, "takes/flood", bed, flood, Field::And(&["mutex a take"]));
+    if study.mode != StudyMode::Short {
+        compare(study, "takes/flood", bed, flood, MethodSelection::And(&["mutex a take"]));
     }
     disturbed(study, bed, core);
     questions(study, bed, core);
     large(study, draws, core);
 }
 
-fn basis(mode: Mode) -> Scenario {
+fn basis(mode: StudyMode) -> Scenario {
     let milliseconds = |check, short, full| Duration::from_millis(mode.pick(check, short, full));
     Scenario {
         edits: Edits::Small,
@@ -95,31 +113,49 @@ fn basis(mode: Mode) -> Scenario {
         main_stall: None,
         busy: 0,
         questions: None,
-        thorough: mode == Mode::Check,
+        thorough: mode == StudyMode::Check,
     }
 }
 
-/// Somebody is held up, or somebody else wants the processor.
-fn disturbed(study: &mut Study, bed: &Bed, core: Scenario) {
+/// Cases in which a thread is delayed, or other threads compete for the CPU.
+fn disturbed(study: &mut Study, bed: &ScenarioSetup, core: Scenario) {
     for milliseconds in study.mode.pick(vec![50], vec![50], vec![50, 500]) {
         let length = Duration::from_millis(study.mode.pick(milliseconds / 10, milliseconds, milliseconds));
         let at = core.length / 4;
         let lasting = Scenario { length: core.length + length, ..core };
         let stall = Scenario { graphics_stall: Some((at, length)), ..lasting };
-        compare(study, &format!("graphics stall {milliseconds} ms"), bed, stall, Field::Telling);
-        if study.mode != Mode::Short {
+        compare(
+            study,
+            &format!("graphics stall {milliseconds} ms"),
+            bed,
+            stall,
+            MethodSelection::BestOfEachKind,
+        );
+        if study.mode != StudyMode::Short {
             let stall = Scenario { main_stall: Some((at, length)), ..lasting };
-            compare(study, &format!("main stall {milliseconds} ms"), bed, stall, Field::Telling);
+            compare(
+                study,
+                &format!("main stall {milliseconds} ms"),
+                bed,
+                stall,
+                MethodSelection::BestOfEachKind,
+            );
         }
     }
-    if study.mode == Mode::Check {
+    if study.mode == StudyMode::Check {
         return;
     }
     let also = &["messages, relayed", "messages, spinning", "parking, cow"];
-    compare(study, "import", bed, Scenario { busy: 1, ..core }, Field::And(also));
+    compare(study, "import", bed, Scenario { busy: 1, ..core }, MethodSelection::And(also));
     let also = &["parking, poses", "parking, cow"];
-    if study.mode != Mode::Short {
-        compare(study, "more threads than cores", bed, Scenario { busy: 3, ..core }, Field::And(also));
+    if study.mode != StudyMode::Short {
+        compare(
+            study,
+            "more threads than cores",
+            bed,
+            Scenario { busy: 3, ..core },
+            MethodSelection::And(also),
+        );
     }
     if !study.wants("one core") {
         return;
@@ -127,59 +163,63 @@ fn disturbed(study: &mut Study, bed: &Bed, core: Scenario) {
     match cores::pin("0") {
         Some(pinned) => {
             let also = &["messages, spinning", "parking, poses", "parking, cow"];
-            compare(study, "one core", bed, core, Field::And(also));
+            compare(study, "one core", bed, core, MethodSelection::And(also));
             drop(pinned);
         }
         None => println!("# no taskset: nothing is measured on one core"),
     }
 }
 
-/// The main thread needs an answer.
-fn questions(study: &mut Study, bed: &Bed, core: Scenario) {
+/// Cases in which the main thread needs an answer.
+fn questions(study: &mut Study, bed: &ScenarioSetup, core: Scenario) {
     let idle = Scenario {
         rate: Rate::Still,
         questions: Some(Duration::from_millis(study.mode.pick(2, 3, 3))),
         ..core
     };
     let also = &["messages, read", "messages, spinning", "rwlock, frame"];
-    if study.mode != Mode::Check {
-        compare(study, "question/idle", bed, idle, Field::And(also));
+    if study.mode != StudyMode::Check {
+        compare(study, "question/idle", bed, idle, MethodSelection::And(also));
     }
     let load = Scenario { rate: Rate::EVERY_MILLISECOND, period: None, ..idle };
-    compare(study, "question/load", bed, load, Field::And(also));
-    if study.mode != Mode::Short {
+    compare(study, "question/load", bed, load, MethodSelection::And(also));
+    if study.mode != StudyMode::Short {
         let busy = Scenario { busy: 2, ..load };
-        compare(study, "question/more threads than cores", bed, busy, Field::And(also));
+        compare(study, "question/more threads than cores", bed, busy, MethodSelection::And(also));
     }
 }
 
 /// The same drag in long takes.
 fn large(study: &mut Study, draws: u32, core: Scenario) {
-    if study.mode == Mode::Check {
+    if study.mode == StudyMode::Check {
         return;
     }
-    for (name, size) in [("long takes", Size::LONG), ("43 million keys", Size::HUGE)] {
-        if study.wants(name) && (study.mode == Mode::Full || size == Size::LONG) {
-            let bed = Bed::new(size, draws);
-            compare(study, name, &bed, core, Field::And(&["mutex, clone"]));
+    for (name, size) in [("long takes", ModelSize::LONG), ("43 million keys", ModelSize::HUGE)] {
+        if study.wants(name) && (study.mode == StudyMode::Full || size == ModelSize::LONG) {
+            let bed = ScenarioSetup::new(size, draws);
+            compare(study, name, &bed, core, MethodSelection::And(&["mutex, clone"]));
         }
     }
 }
 
-fn compare(study: &mut Study, case: &str, bed: &Bed, scenario: Scenario, field: Field) {
+fn compare(study: &mut Study, case: &str, bed: &ScenarioSetup, scenario: Scenario, field: MethodSelection) {
     if !study.wants(case) {
         return;
     }
-    let ways = field.ways(study.mode);
-    let variants = ways.iter().map(|way| {
-        Variant::new(way.name, move |measured| {
-            let verdict = run(bed, way, &scenario, measured);
-            assert_eq!(verdict, Verdict::default(), "{case}, {}", way.name);
+    let methods = field.methods(study.mode);
+    let variants = methods.iter().map(|method| {
+        Variant::new(method.name, move |measured| {
+            let verdict = run(bed, method, &scenario, measured);
+            assert_eq!(verdict, RunDefects::default(), "{case}, {}", method.name);
         })
     });
     let first = study.rows().len();
     study.compare(case, study.mode.pick(1, 1, 3), variants.collect());
-    if study.mode != Mode::Check {
-        table::print(case, &ways.iter().map(|way| way.name).collect::<Vec<_>>(), &study.rows()[first..]);
+    if study.mode != StudyMode::Check {
+        table::print(
+            case,
+            &methods.iter().map(|method| method.name).collect::<Vec<_>>(),
+            &study.rows()[first..],
+        );
     }
 }

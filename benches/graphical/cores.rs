@@ -1,13 +1,14 @@
-//! Letting this program use fewer cores for a while, by the tool that every Linux has for it.
+//! Restricts this program to fewer cores for a while, with the command that every Linux has for it.
 
 use std::process::Command;
 
-/// Until it is dropped, the program runs on the cores it was pinned to.
+/// Until it is dropped, the program runs only on the given cores.
 pub struct Pinned {
     before: String,
 }
 
-/// Lets all threads of this program, and those that they start, run on `cores` only; `None` where that cannot be done.
+/// Makes all threads of this program, and those that they start, run on `cores` only. `None` where that is not
+/// possible.
 pub fn pin(cores: &str) -> Option<Pinned> {
     let own = std::process::id().to_string();
     let asked = Command::new("taskset").args(["-cp", &own]).output().ok()?;

@@ -1,134 +1,134 @@
 //! The document that the threads share: original + changes = result, in the types of `dragonfly-anim`.
 //!
-//! Every edit has a number, and writes it into all the data that it touches: into the scale of each key, where
-//! `1 + n / 2²³` is exact and too little to be seen. So a reader of half an edit is found out ([`Mark::is_torn`]), and one
-//! of an old document as well ([`Mark::number`]).
+//! Every edit has a number, which it writes into all the data that it changes: into the scale of each key, where `1 + n
+//! / 2²³` is exact and too small to be visible. So a reader of half an edit is detected ([`EditMark::is_torn`]), and so
+//! is a reader of an old document ([`EditMark::number`]).
 
 use dragonfly_anim::data::{Skeleton, Take, Track, Transform};
 use glam::Vec3;
 use std::sync::Arc;
 
-/// So many numbers can be told apart in the data; they begin anew after that.
+/// Number of distinct edit numbers in the data; they repeat after that.
 const STAMPS: u64 = 1 << 23;
 
-/// One take, in its three forms, and which edit was its last.
+/// One take in its three forms, and its last edit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
-    /// As read; never altered, so whoever wants to may keep it outside of any lock.
+pub struct TakeEntry {
+    /// The take as it was read. Never changed, so it can be used outside of any lock.
     pub original: Arc<Take>,
-    /// What was edited; the identity elsewhere.
+    /// The edits; the identity where nothing was edited.
     pub changes: Arc<Take>,
-    /// What is shown.
+    /// The take that is shown.
     pub result: Arc<Take>,
     /// Number of the newest edit of this take; 0 before the first.
     pub number: u64,
-    /// Where that edit was.
-    pub place: Place,
-    /// Number of the edit that replaced the whole take last.
+    /// Key of that edit.
+    pub place: KeyPlace,
+    /// Number of the last edit that replaced the whole take.
     pub replaced: u64,
 }
 
 /// A key of a bone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Place {
-    /// Position in the skeleton.
+pub struct KeyPlace {
+    /// Index in the skeleton.
     pub bone: u32,
-    /// Position in the channels.
+    /// Index in the channels.
     pub key: u32,
 }
 
-/// All takes. A clone is shallow; what is shared is copied when it is edited, and only the channels that are.
+/// All takes. A clone is shallow; an edit copies the shared channels that it changes, and no others.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Document {
-    /// The same for all takes; not edited here.
+pub struct SharedDocument {
+    /// Skeleton of all takes; never edited here.
     pub skeleton: Arc<Skeleton>,
-    /// At least one.
-    pub takes: Vec<Entry>,
+    /// The takes, at least one.
+    pub takes: Vec<TakeEntry>,
 }
 
-/// What the person did.
+/// An edit of the user.
 #[derive(Clone, Debug)]
-pub struct Edit {
-    /// From 1, ascending.
+pub struct NumberedEdit {
+    /// Number of the edit: from 1, ascending.
     pub number: u64,
-    /// Position in the document's takes.
+    /// Index of the take in the document.
     pub take: usize,
-    /// What happens there.
-    pub change: Change,
+    /// The change of the take.
+    pub change: EditedData,
 }
 
-/// See [`Edit`].
+/// The content of a [`NumberedEdit`].
 #[derive(Clone, Debug)]
-pub enum Change {
-    /// Small: the change of one key.
-    Key(Place, Transform),
-    /// Large: all changes of the take.
+pub enum EditedData {
+    /// A small edit: the change of one key.
+    Key(KeyPlace, Transform),
+    /// A large edit: all changes of the take.
     Take(Arc<Take>),
 }
 
-/// An edit with everything computed that needs nobody's lock. Cheap to clone.
+/// An edit with everything computed that can be computed without a lock. Cheap to clone.
 #[derive(Clone, Debug)]
-pub struct Ready {
-    edit: Edit,
+pub struct PreparedEdit {
+    edit: NumberedEdit,
     result: Option<Arc<Take>>,
 }
 
-/// What is no longer needed: dropped by the caller, outside of its lock.
+/// Replaced data, which the caller drops outside of its lock.
 pub type Remains = Option<(Arc<Take>, Arc<Take>)>;
 
-impl Edit {
-    /// Computes what depends on the originals alone, which nobody alters.
-    pub fn prepare(self, originals: &[Arc<Take>]) -> Ready {
+impl NumberedEdit {
+    /// Computes everything that depends on the originals alone, which are never changed.
+    pub fn prepare(self, originals: &[Arc<Take>]) -> PreparedEdit {
         let result = match &self.change {
-            Change::Key(..) => None,
-            Change::Take(changes) => Some(Arc::new(compose_take(&originals[self.take], changes))),
+            EditedData::Key(..) => None,
+            EditedData::Take(changes) => Some(Arc::new(compose_take(&originals[self.take], changes))),
         };
-        Ready { edit: self, result }
+        PreparedEdit { edit: self, result }
     }
 }
 
-impl Ready {
-    /// Number of the edit.
+impl PreparedEdit {
+    /// Returns the number of the edit.
     pub fn number(&self) -> u64 {
         self.edit.number
     }
 }
 
-impl Entry {
-    /// `original`, and no changes: those of `nothing`, which has as many keys.
+impl TakeEntry {
+    /// Returns an entry with `original` and without changes: `nothing` has identities for all keys.
     pub fn new(original: Arc<Take>, nothing: Arc<Take>) -> Self {
         let result = Arc::clone(&original);
-        Self { original, changes: nothing, result, number: 0, place: Place::default(), replaced: 0 }
+        Self { original, changes: nothing, result, number: 0, place: KeyPlace::default(), replaced: 0 }
     }
 
-    /// Makes the edit. What nobody else has is changed where it lies, what others have too is copied before.
-    pub fn apply(&mut self, ready: Ready) -> Remains {
-        let Ready { edit, result } = ready;
+    /// Applies the edit. Data with one owner is changed in place, shared data is copied before.
+    pub fn apply(&mut self, ready: PreparedEdit) -> Remains {
+        let PreparedEdit { edit, result } = ready;
         let remains = match (edit.change, result) {
-            (Change::Key(place, change), _) => {
+            (EditedData::Key(place, change), _) => {
                 self.place = place;
                 set(&mut self.changes, place, change);
                 let pose = compose(pose(&self.original, place), change);
                 set(&mut self.result, place, pose);
                 None
             }
-            (Change::Take(changes), Some(result)) => {
-                (self.place, self.replaced) = (Place::default(), edit.number);
+            (EditedData::Take(changes), Some(result)) => {
+                (self.place, self.replaced) = (KeyPlace::default(), edit.number);
                 let changes = std::mem::replace(&mut self.changes, changes);
                 Some((changes, std::mem::replace(&mut self.result, result)))
             }
-            (Change::Take(_), None) => unreachable!("it was prepared"),
+            (EditedData::Take(_), None) => unreachable!("it was prepared"),
         };
         self.number = edit.number;
         remains
     }
 
-    /// What must be found in the result that belongs to this; `thorough` looks at all bones.
-    pub fn mark(&self, thorough: bool) -> Mark {
+    /// Returns the mark that the result must contain; `thorough` checks all bones.
+    pub fn mark(&self, thorough: bool) -> EditMark {
         let change = pose(&self.changes, self.place);
         let first = |track: &Track| stamp(track.scale.values[0]);
         let stamps = || self.changes.tracks.iter().map(first);
-        Mark {
+        EditMark {
             number: self.number,
             place: self.place,
             expected: compose(pose(&self.original, self.place), change),
@@ -137,7 +137,8 @@ impl Entry {
         }
     }
 
-    /// A result that shares nothing with this one, except the times of the keys, which no edit here alters.
+    /// Returns a copy of the result that shares nothing with it except the times of the keys, which are never edited
+    /// here.
     pub fn copy_result(&self) -> Take {
         let mut take = (*self.result).clone();
         for track in &mut take.tracks {
@@ -149,36 +150,36 @@ impl Entry {
     }
 }
 
-impl Document {
-    /// Makes an edit of one of the takes.
-    pub fn apply(&mut self, ready: Ready) -> Remains {
+impl SharedDocument {
+    /// Applies an edit to its take.
+    pub fn apply(&mut self, ready: PreparedEdit) -> Remains {
         self.takes[ready.edit.take].apply(ready)
     }
 
-    /// The originals of all takes, which nobody alters.
+    /// Returns the originals of all takes, which are never changed.
     pub fn originals(&self) -> Vec<Arc<Take>> {
         self.takes.iter().map(|entry| Arc::clone(&entry.original)).collect()
     }
 
-    /// Keys of the result, summed over channels.
+    /// Returns the number of keys in the result, summed over channels.
     pub fn keys(&self) -> usize {
         self.takes.iter().map(|entry| entry.result.keys()).sum()
     }
 }
 
-/// What a reader saw of the changes, to be compared with what it saw of the result.
+/// The edits that a reader found in the changes, for a comparison with the result.
 #[derive(Clone, Copy, Debug)]
-pub struct Mark {
-    /// Of the newest edit that was seen.
+pub struct EditMark {
+    /// Number of the newest edit that was found.
     pub number: u64,
-    place: Place,
+    place: KeyPlace,
     expected: Transform,
     replaced: Option<u64>,
     whole: bool,
 }
 
-impl Mark {
-    /// Is `result` not what the changes say, or do the changes not say what the head says?
+impl EditMark {
+    /// Returns whether `result` does not match the changes, or the changes do not match the head of the entry.
     pub fn is_torn(&self, result: &Take) -> bool {
         let found = pose(result, self.place);
         let number = self.number % STAMPS;
@@ -189,17 +190,17 @@ impl Mark {
     }
 }
 
-/// The scale that says `number`.
+/// Returns the scale that encodes `number`.
 pub fn stamped(number: u64) -> Vec3 {
     Vec3::splat(1.0 + (number % STAMPS) as f32 / STAMPS as f32)
 }
 
-/// The number that a scale says; one that no number has where its parts do not agree.
+/// Returns the number that a scale encodes; an invalid one if its components differ.
 fn stamp(scale: Vec3) -> u64 {
     if scale == Vec3::splat(scale.x) { ((scale.x - 1.0) * STAMPS as f32) as u64 } else { u64::MAX }
 }
 
-fn pose(take: &Take, place: Place) -> Transform {
+fn pose(take: &Take, place: KeyPlace) -> Transform {
     let (track, key) = (&take.tracks[place.bone as usize], place.key as usize);
     Transform {
         translation: track.translation.values[key],
@@ -208,14 +209,14 @@ fn pose(take: &Take, place: Place) -> Transform {
     }
 }
 
-fn set(take: &mut Arc<Take>, place: Place, pose: Transform) {
+fn set(take: &mut Arc<Take>, place: KeyPlace, pose: Transform) {
     let (track, key) = (&mut Arc::make_mut(take).tracks[place.bone as usize], place.key as usize);
     Arc::make_mut(&mut track.translation.values)[key] = pose.translation;
     Arc::make_mut(&mut track.rotation.values)[key] = pose.rotation;
     Arc::make_mut(&mut track.scale.values)[key] = pose.scale;
 }
 
-/// An identity gives the original bit for bit.
+/// Applies a change to a key. An identity returns the original bit for bit.
 fn compose(original: Transform, change: Transform) -> Transform {
     let rotation = match change.rotation == glam::Quat::IDENTITY {
         true => original.rotation,
@@ -232,7 +233,7 @@ fn compose_take(original: &Take, changes: &Take) -> Take {
     let mut result = original.clone();
     let tracks = original.tracks.iter().zip(&changes.tracks).zip(&mut result.tracks).enumerate();
     for (bone, ((old, _), new)) in tracks {
-        let place = |key| Place { bone: bone as u32, key: key as u32 };
+        let place = |key| KeyPlace { bone: bone as u32, key: key as u32 };
         let poses: Vec<Transform> = (0..old.scale.len())
             .map(|key| compose(pose(original, place(key)), pose(changes, place(key))))
             .collect();
@@ -246,16 +247,16 @@ fn compose_take(original: &Take, changes: &Take) -> Take {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::graphical::model::Size;
+    use crate::graphical::model::ModelSize;
 
-    fn key(number: u64) -> Edit {
+    fn key(number: u64) -> NumberedEdit {
         let pose = Transform { scale: stamped(number), translation: Vec3::X, ..Transform::IDENTITY };
-        Edit { number, take: 0, change: Change::Key(Place { bone: 1, key: 2 }, pose) }
+        NumberedEdit { number, take: 0, change: EditedData::Key(KeyPlace { bone: 1, key: 2 }, pose) }
     }
 
     #[test]
-    fn an_edit_copies_what_is_shared_and_nothing_else() {
-        let base = Size::TINY.document();
+    fn an_edit_copies_shared_channels_and_no_others() {
+        let base = ModelSize::TINY.document();
         let mut edited = base.clone();
         let originals = base.originals();
         drop(edited.apply(key(1).prepare(&originals)));
@@ -273,8 +274,8 @@ mod tests {
     }
 
     #[test]
-    fn half_an_edit_is_torn_and_a_whole_one_is_not() {
-        let mut document = Size::TINY.document();
+    fn half_an_edit_is_torn_and_a_whole_edit_is_not() {
+        let mut document = ModelSize::TINY.document();
         let originals = document.originals();
         drop(document.apply(key(7).prepare(&originals)));
         for number in [8, 9, STAMPS - 1, STAMPS + 5] {

@@ -1,7 +1,7 @@
-//! The work of one frame: the real sampler at the clock's time, then vertices moved on the processor in place of a device;
-//! and a look whether what was sampled is one document.
+//! The work of one frame: it samples with the real sampler at the clock's time, then transforms vertices on the CPU in
+//! place of a GPU, and checks that the sampled data is from one document.
 
-use super::document::{Entry, Mark};
+use super::document::{EditMark, TakeEntry};
 use super::model::mesh;
 use super::script::SHOWN;
 use dragonfly_anim::animation::{Animation, final_poses};
@@ -12,13 +12,13 @@ use glam::{Mat4, Vec3};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Vertices of the mesh; a frame draws it several times, as shadow, reflection and picture.
+/// Number of vertices of the mesh, which a frame draws several times: for shadow, reflection and image.
 const VERTICES: usize = 5_000;
-/// What a frame is to cost.
+/// Intended duration of a frame.
 const COST: Duration = Duration::from_millis(3);
 
-/// Everything that frames keep from one to the next, so that drawing allocates nothing.
-pub struct Frame {
+/// Everything that is reused from frame to frame, so that drawing allocates nothing.
+pub struct FrameWork {
     skeleton: Arc<Skeleton>,
     animation: Animation,
     poses: Vec<Transform>,
@@ -30,12 +30,12 @@ pub struct Frame {
     thorough: bool,
     stall: Duration,
     time: f32,
-    seen: Option<Mark>,
+    seen: Option<EditMark>,
     torn: u64,
 }
 
-impl Frame {
-    /// Draws `draws` times; `thorough` looks at every bone for what does not fit together.
+impl FrameWork {
+    /// Returns the work of frames that draw `draws` times; `thorough` checks every bone for inconsistencies.
     pub fn new(skeleton: Arc<Skeleton>, draws: u32, thorough: bool) -> Self {
         let bones = skeleton.len();
         let (skin, primitive) = mesh(bones, VERTICES);
@@ -57,7 +57,7 @@ impl Frame {
         }
     }
 
-    /// How often a frame must draw to cost three milliseconds here, undisturbed.
+    /// Returns the number of draws that take three milliseconds on this machine without background load.
     pub fn calibrate(skeleton: Arc<Skeleton>) -> u32 {
         let mut frame = Self::new(skeleton, 1, false);
         let one = |frame: &mut Self| {
@@ -69,30 +69,30 @@ impl Frame {
         (COST.as_secs_f64() / quickest.as_secs_f64()).round().max(1.0) as u32
     }
 
-    /// Begins a frame for the clock's time `now`; the driver will hold it up for `stall`.
+    /// Starts a frame for the clock's time `now`, in which the simulated GPU driver blocks for `stall`.
     pub fn begin(&mut self, now: f32, stall: Duration) {
         (self.time, self.stall, self.seen) = (now, stall, None);
     }
 
-    /// Samples the shown take. All that the frame needs of the document is read here.
-    pub fn read(&mut self, entry: &Entry) {
+    /// Samples the shown take. Reads all that the frame needs of the document.
+    pub fn read(&mut self, entry: &TakeEntry) {
         self.read_copy(entry.mark(self.thorough), &entry.result);
     }
 
-    /// What must be found in a copy of the shown take of this entry; asked for together with the copy.
-    pub fn mark(&self, entry: &Entry) -> Mark {
+    /// Returns the mark that a copy of the shown take must contain; called together with the copy.
+    pub fn mark(&self, entry: &TakeEntry) -> EditMark {
         entry.mark(self.thorough)
     }
 
-    /// The same for a copy of the take, and the mark that belongs to it.
-    pub fn read_copy(&mut self, mark: Mark, take: &Take) {
+    /// Samples a copy of the take, with the mark that belongs to it.
+    pub fn read_copy(&mut self, mark: EditMark, take: &Take) {
         let time = loop_time(self.time, take.start, take.length);
         sample_take(Some(take), &self.skeleton, time, &mut self.poses);
         self.torn += u64::from(mark.is_torn(take));
         self.seen = Some(mark);
     }
 
-    /// Draws what was read; needs nothing of the document any more.
+    /// Draws the sampled poses; no longer needs the document.
     pub fn draw(&mut self) {
         let poses = &self.poses;
         self.animation.to_root_bone_poses_with(|mine| mine.copy_from_slice(poses));
@@ -107,52 +107,52 @@ impl Frame {
         }
     }
 
-    /// For those who hold a view for the whole frame: is it still the one that was read?
-    pub fn confirm(&mut self, entry: &Entry) {
+    /// For a method that holds a view for the whole frame: checks that the view is unchanged.
+    pub fn confirm(&mut self, entry: &TakeEntry) {
         let now = entry.mark(self.thorough);
         let same = self.seen.is_some_and(|seen| seen.number == now.number);
         self.torn += u64::from(!same || now.is_torn(&entry.result));
     }
 
-    /// The newest edit that this frame shows; `None` when it read nothing.
+    /// Returns the newest edit that this frame shows; `None` when it read nothing.
     pub fn seen(&self) -> Option<u64> {
         self.seen.map(|mark| mark.number)
     }
 
-    /// How many looks found things that do not belong together.
+    /// Returns the number of checks that found inconsistent data.
     pub fn torn(&self) -> u64 {
         self.torn
     }
 }
 
-/// What the main thread wants to know and does not know itself.
+/// A question of the main thread: the pose of a bone relative to its parent.
 #[derive(Clone, Copy, Debug)]
-pub struct Question {
-    /// Where is this bone of the shown take, relative to its parent,
+pub struct PoseQuestion {
+    /// The bone in the shown take.
     pub bone: usize,
-    /// at this time?
+    /// The time in the take.
     pub time: f32,
 }
 
 /// The pose of the bone, and the newest edit that it contains.
 #[derive(Clone, Copy, Debug)]
-pub struct Answer {
+pub struct PoseAnswer {
     /// Number of that edit.
     pub number: u64,
     /// The pose.
     pub pose: Transform,
 }
 
-impl Question {
-    /// The answer that `entry`, the shown take, gives.
-    pub fn answer(&self, entry: &Entry, skeleton: &Skeleton) -> Answer {
+impl PoseQuestion {
+    /// Returns the answer for `entry`, the shown take.
+    pub fn answer(&self, entry: &TakeEntry, skeleton: &Skeleton) -> PoseAnswer {
         let track = &entry.result.tracks[self.bone];
         let pose = dragonfly_anim::sample::sample_track(track, &skeleton.bones[self.bone], self.time);
-        Answer { number: entry.number, pose }
+        PoseAnswer { number: entry.number, pose }
     }
 }
 
-/// The shown take among all.
-pub fn shown(takes: &[Entry]) -> &Entry {
+/// Returns the shown take.
+pub fn shown(takes: &[TakeEntry]) -> &TakeEntry {
     &takes[SHOWN]
 }

@@ -1,7 +1,7 @@
-//! The graphics thread: workers of the runtime in their order, as in the editor. The scene opens the frame when it is due,
-//! the model is sampled and drawn, and the frame is presented; then what it showed is written down.
+//! The graphics thread: workers of the runtime, in order, as in the editor. The scene starts the frame when it is due,
+//! the model is sampled and drawn, and the frame is presented; then the edit that it shows is recorded.
 
-use super::frame::Frame;
+use super::frame::FrameWork;
 use super::ledger::Ledger;
 use super::sharing::{MakeViewing, Viewing};
 use crate::Distribution;
@@ -11,59 +11,59 @@ use std::rc::Rc;
 use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
 
-/// What the frames of one run were like.
+/// Measurements of the frames of one run.
 #[derive(Default)]
-pub struct Frames {
-    /// From the moment at which it began to its end.
+pub struct FrameMetrics {
+    /// Durations of frames, from their actual start.
     pub time: Distribution,
-    /// How much later than intended a frame began. Empty where nothing sets the pace.
+    /// Lateness of the start of frames. Empty where frames have no intended times.
     pub jitter: Distribution,
-    /// From the moment at which an edit was meant to happen to the end of the first frame that shows it.
+    /// Times from the intended time of an edit to the end of the first frame that shows it.
     pub visible: Distribution,
-    /// Moments at which a frame was to be finished and was not.
+    /// Number of intended times at which no new frame was finished.
     pub missed: u64,
-    /// Looks that found half an edit.
+    /// Number of checks that found half an edit.
     pub torn: u64,
-    /// Frames that showed an older document than they should have.
+    /// Number of frames that showed an older document than the method guarantees.
     pub stale: u64,
 }
 
-/// How the graphics thread works.
+/// Configuration of the graphics thread.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
-    /// From one frame to the next; `None` for as fast as possible.
+    /// Time from one frame to the next; `None` for as fast as possible.
     pub period: Option<Duration>,
-    /// How often the mesh is drawn in a frame.
+    /// Number of times that the mesh is drawn in a frame.
     pub draws: u32,
-    /// Is every bone of every frame looked at?
+    /// Whether every bone of every frame is checked.
     pub thorough: bool,
-    /// At which moment after the begin of the recording the driver holds a frame up, and for how long.
+    /// Delay of one frame by the simulated GPU driver: time after the start of the recording, and duration.
     pub stall: Option<(Duration, Duration)>,
 }
 
-/// What the workers share.
-struct Stage {
+/// State shared by the workers.
+struct GraphicsState {
     viewing: Box<dyn Viewing>,
-    frame: Frame,
+    frame: FrameWork,
     pace: Pace,
     ledger: Arc<Ledger>,
     begin: Instant,
-    /// When the next frame is to begin.
+    /// Start time of the next frame.
     due: Instant,
-    /// When the frame that is open was to begin, and when it began.
+    /// Intended and actual start of the current frame.
     opened: Option<(Instant, Instant)>,
-    /// When the first frame was recorded.
+    /// Time of the first recorded frame.
     recorded: Option<Instant>,
     promised: u64,
     last: u64,
-    frames: Frames,
-    done: mpsc::Sender<Frames>,
+    frames: FrameMetrics,
+    done: mpsc::Sender<FrameMetrics>,
 }
 
-/// Opens the frame.
-struct Scene(Rc<RefCell<Stage>>);
+/// Starts the frame.
+struct SceneWorker(Rc<RefCell<GraphicsState>>);
 
-impl Worker for Scene {
+impl Worker for SceneWorker {
     fn update(&mut self, thread: &mut Context) -> bool {
         let stage = &mut *self.0.borrow_mut();
         stage.promised = stage.viewing.promise(&stage.ledger);
@@ -94,9 +94,9 @@ impl Worker for Scene {
 }
 
 /// Samples and draws the model.
-struct Model(Rc<RefCell<Stage>>);
+struct ModelWorker(Rc<RefCell<GraphicsState>>);
 
-impl Worker for Model {
+impl Worker for ModelWorker {
     fn update(&mut self, _thread: &mut Context) -> bool {
         let stage = &mut *self.0.borrow_mut();
         stage.viewing.frame(&mut stage.frame);
@@ -105,9 +105,9 @@ impl Worker for Model {
 }
 
 /// Ends the frame.
-struct Present(Rc<RefCell<Stage>>);
+struct PresentWorker(Rc<RefCell<GraphicsState>>);
 
-impl Worker for Present {
+impl Worker for PresentWorker {
     fn update(&mut self, thread: &mut Context) -> bool {
         let stage = &mut *self.0.borrow_mut();
         let Some((due, began)) = stage.opened.take() else { return false };
@@ -138,26 +138,26 @@ impl Worker for Present {
     }
 }
 
-impl Drop for Stage {
+impl Drop for GraphicsState {
     fn drop(&mut self) {
-        // Nobody listens when the run was given up.
+        // Fails only when the run was given up.
         let _ = self.done.send(std::mem::take(&mut self.frames));
     }
 }
 
-/// Lets `thread` make frames from now on, until it is stopped; then what they were like arrives.
+/// Makes `thread` render frames from now on until it is stopped, and returns where the measurements arrive then.
 pub fn register(
     thread: &Thread,
     viewing: MakeViewing,
-    frame: impl FnOnce() -> Frame + Send + 'static,
+    frame: impl FnOnce() -> FrameWork + Send + 'static,
     pace: Pace,
     ledger: &Arc<Ledger>,
-) -> mpsc::Receiver<Frames> {
+) -> mpsc::Receiver<FrameMetrics> {
     let (done, frames) = mpsc::channel();
     let ledger = Arc::clone(ledger);
     let job = move |context: &mut Context| {
         let now = Instant::now();
-        let stage = Stage {
+        let stage = GraphicsState {
             viewing: viewing(context),
             frame: frame(),
             pace,
@@ -168,19 +168,19 @@ pub fn register(
             recorded: None,
             promised: 0,
             last: 0,
-            frames: Frames::default(),
+            frames: FrameMetrics::default(),
             done,
         };
         let stage = Rc::new(RefCell::new(stage));
-        context.register_worker(Scene(Rc::clone(&stage)));
-        context.register_worker(Model(Rc::clone(&stage)));
-        context.register_last_worker(Present(stage));
+        context.register_worker(SceneWorker(Rc::clone(&stage)));
+        context.register_worker(ModelWorker(Rc::clone(&stage)));
+        context.register_last_worker(PresentWorker(stage));
     };
     thread.handle().run(job).expect("it was just started");
     frames
 }
 
-/// A thread that computes all the time: an import, or another program's load.
+/// Starts a thread that computes all the time: an import, or another program.
 pub fn busy() -> Thread {
     struct Computing(u64);
     impl Worker for Computing {

@@ -1,24 +1,24 @@
-//! A document that one thread owns: edits are sent to it, and it sends its newest view to those who draw it.
+//! A document that one thread owns: edits are sent to it, and it sends its newest view to the graphics thread.
 //!
-//! A view is a reference to the whole document. What somebody else still has is copied when it is edited, as far as it must
-//! be; so the first edit after a view was published pays for a copy, and those that follow before the next view do not.
+//! A view is a reference to the whole document. An edit copies shared data before it changes it; so the first edit
+//! after a view was published pays for a copy, and those that follow before the next view do not.
 //!
 //! | name | edits | views |
 //! |---|---|---|
 //! | messages | each | after each edit |
-//! | messages, newest | each | after all edits that were waiting; a newer one replaces the one that waits |
-//! | messages, relayed | each | likewise, but by way of the main thread |
-//! | messages, read | each | likewise, and the same to the main thread, which asks nobody but reads |
-//! | messages, merged | in one gesture, a newer one replaces the one that waits | likewise |
-//! | messages, on demand | each | when a frame is due and asks for one |
-//! | messages, batched | each, but they wake nobody | likewise; all edits that wait are made then |
-//! | messages, spinning | each | as "newest"; the document looks for messages a while before it sleeps |
+//! | messages, newest | each | after all queued edits; a newer view replaces the queued one |
+//! | messages, relayed | each | as "newest", but sent through the main thread |
+//! | messages, read | each | as "newest", and also to the main thread, which reads its answers from them |
+//! | messages, merged | in one gesture, a newer edit replaces the queued one | as "newest" |
+//! | messages, on demand | each | when a frame is due and requests one |
+//! | messages, batched | each, without a wake-up | as "on demand"; all queued edits are applied then |
+//! | messages, spinning | each | as "newest"; the document's thread spins before it sleeps |
 
-use super::document::{Change, Document, Edit};
-use super::frame::{Answer, Question, shown};
+use super::document::{EditedData, NumberedEdit, SharedDocument};
+use super::frame::{PoseAnswer, PoseQuestion, shown};
 use super::ledger::Ledger;
-use super::sharing::{Asked, Sharing, Start, Started, Viewing};
-use super::views::{Asking, Newest, View};
+use super::sharing::{Sharing, SharingParts, SharingStart, TimedAnswer, Viewing};
+use super::views::{DocumentRef, NewestView, OnDemandView};
 use dragonfly_anim::data::Take;
 use dragonfly_runtime::{Address, Captured, Context, Next, Receiver, Thread, Worker};
 use std::cell::{Cell, RefCell};
@@ -26,19 +26,19 @@ use std::rc::Rc;
 use std::sync::{Arc, mpsc};
 use std::time::{Duration, Instant};
 
-/// What the document's thread understands.
+/// Messages to the document's thread.
 pub(super) enum ToDocument {
-    Edit(Edit),
-    Ask(Question, Address<Answer>),
-    /// The graphics thread wants the newest view, even when it has it.
+    NumberedEdit(NumberedEdit),
+    Ask(PoseQuestion, Address<PoseAnswer>),
+    /// A request of the graphics thread for the newest view, even if it already has it.
     Publish,
-    /// For the comparison at the end.
-    Give(mpsc::Sender<Document>),
+    /// A request for the document, for the comparison at the end.
+    Give(mpsc::Sender<SharedDocument>),
 }
 
-/// When views are sent, and to whom; how edits are.
+/// Configuration: when views are sent, to which thread, and how edits are sent.
 #[derive(Clone, Copy, Default)]
-struct Kind {
+struct MessageMethod {
     each: bool,
     relayed: bool,
     read: bool,
@@ -48,60 +48,60 @@ struct Kind {
     spin: Duration,
 }
 
-/// Every edit a message, and after every edit a view.
-pub fn plain(start: Start) -> Started {
-    begin(start, Kind { each: true, ..Kind::default() })
+/// A message for every edit, and a view after every edit.
+pub fn plain(start: SharingStart) -> SharingParts {
+    begin(start, MessageMethod { each: true, ..MessageMethod::default() })
 }
 
-/// Every edit a message; a view when no more edits wait.
-pub fn newest(start: Start) -> Started {
-    begin(start, Kind::default())
+/// A message for every edit; a view when no more edits are queued.
+pub fn newest(start: SharingStart) -> SharingParts {
+    begin(start, MessageMethod::default())
 }
 
-/// The same, with views sent to the main thread, which passes them on.
-pub fn relayed(start: Start) -> Started {
-    begin(start, Kind { relayed: true, ..Kind::default() })
+/// The same, with views sent to the main thread, which forwards them.
+pub fn relayed(start: SharingStart) -> SharingParts {
+    begin(start, MessageMethod { relayed: true, ..MessageMethod::default() })
 }
 
-/// The main thread gets the views as well, and looks there for answers.
-pub fn read(start: Start) -> Started {
-    begin(start, Kind { read: true, ..Kind::default() })
+/// The main thread receives the views too, and reads answers from them.
+pub fn read(start: SharingStart) -> SharingParts {
+    begin(start, MessageMethod { read: true, ..MessageMethod::default() })
 }
 
-/// Edits of one gesture replace each other while they wait, and so do views.
-pub fn merged(start: Start) -> Started {
-    begin(start, Kind { merges: true, ..Kind::default() })
+/// Queued edits of one gesture replace one another, and so do queued views.
+pub fn merged(start: SharingStart) -> SharingParts {
+    begin(start, MessageMethod { merges: true, ..MessageMethod::default() })
 }
 
-/// A view when a frame asks for it.
-pub fn on_demand(start: Start) -> Started {
-    begin(start, Kind { on_demand: true, ..Kind::default() })
+/// A view when a frame requests it.
+pub fn on_demand(start: SharingStart) -> SharingParts {
+    begin(start, MessageMethod { on_demand: true, ..MessageMethod::default() })
 }
 
-/// The document's thread pauses between frames, so that edits do not wake it; the frame that asks for a view does.
-pub fn batched(start: Start) -> Started {
-    begin(start, Kind { on_demand: true, batched: true, ..Kind::default() })
+/// The document's thread pauses between frames, so that edits do not wake it; the frame that requests a view does.
+pub fn batched(start: SharingStart) -> SharingParts {
+    begin(start, MessageMethod { on_demand: true, batched: true, ..MessageMethod::default() })
 }
 
-/// The document's thread does not sleep at once.
-pub fn spinning(start: Start) -> Started {
-    begin(start, Kind { spin: Duration::from_millis(2), ..Kind::default() })
+/// The document's thread spins before it sleeps.
+pub fn spinning(start: SharingStart) -> SharingParts {
+    begin(start, MessageMethod { spin: Duration::from_millis(2), ..MessageMethod::default() })
 }
 
 /// The document in its thread.
-struct Owner {
-    document: View,
+struct DocumentOwner {
+    document: DocumentRef,
     originals: Vec<Arc<Take>>,
-    views: Vec<Address<View>>,
-    kind: Kind,
+    views: Vec<Address<DocumentRef>>,
+    kind: MessageMethod,
     changed: bool,
     ledger: Arc<Ledger>,
 }
 
-impl Owner {
+impl DocumentOwner {
     fn publish(&mut self) {
         for views in &self.views {
-            // Who draws may have stopped; then nobody looks.
+            // Fails only when the graphics thread has stopped.
             let _ = views.send(Arc::clone(&self.document));
         }
         if !self.kind.relayed {
@@ -111,12 +111,12 @@ impl Owner {
     }
 }
 
-impl Receiver for Owner {
+impl Receiver for DocumentOwner {
     type Message = ToDocument;
 
     fn receive(&mut self, message: ToDocument, thread: &mut Context) {
         match message {
-            ToDocument::Edit(edit) => {
+            ToDocument::NumberedEdit(edit) => {
                 let number = edit.number;
                 let ready = edit.prepare(&self.originals);
                 drop(Arc::make_mut(&mut self.document).apply(ready));
@@ -128,16 +128,16 @@ impl Receiver for Owner {
             }
             ToDocument::Ask(question, to) => {
                 let answer = question.answer(shown(&self.document.takes), &self.document.skeleton);
-                // Who asked may have stopped.
+                // Fails only when the thread that asked has stopped.
                 let _ = to.send(answer);
             }
             ToDocument::Publish => {
                 if self.kind.batched {
-                    // Before the view goes: who has it may ask for the next, and that must end this pause.
+                    // Before the view is sent: its receiver may request the next one, which must end this pause.
                     thread.pause();
                 }
                 if !self.changed {
-                    // The asker tells an answer by its being another view.
+                    // The receiver recognizes an answer because it is a different view.
                     self.document = Arc::new((*self.document).clone());
                 }
                 self.publish();
@@ -147,7 +147,7 @@ impl Receiver for Owner {
     }
 }
 
-impl Worker for Owner {
+impl Worker for DocumentOwner {
     fn update(&mut self, _thread: &mut Context) -> bool {
         if self.changed && !self.kind.on_demand {
             self.publish();
@@ -156,26 +156,26 @@ impl Worker for Owner {
     }
 }
 
-/// Passes views on from the main thread.
+/// Forwards views from the main thread.
 struct Relay {
-    to: Address<View>,
+    to: Address<DocumentRef>,
     ledger: Arc<Ledger>,
 }
 
 impl Receiver for Relay {
-    type Message = View;
+    type Message = DocumentRef;
 
-    fn receive(&mut self, view: View, _thread: &mut Context) {
+    fn receive(&mut self, view: DocumentRef, _thread: &mut Context) {
         let number = shown(&view.takes).number;
         let _ = self.to.send(view);
         self.ledger.publish(number);
     }
 }
 
-/// Where the newest of something lies until it is read.
-struct Last<M>(Rc<Cell<Option<M>>>);
+/// Stores the newest message until it is read.
+struct LatestValue<M>(Rc<Cell<Option<M>>>);
 
-impl<M: Send + 'static> Receiver for Last<M> {
+impl<M: Send + 'static> Receiver for LatestValue<M> {
     type Message = M;
 
     fn receive(&mut self, message: M, _thread: &mut Context) {
@@ -184,34 +184,34 @@ impl<M: Send + 'static> Receiver for Last<M> {
 }
 
 /// The main thread's side.
-struct Main {
+struct MessageSharing {
     thread: Thread,
     address: Address<ToDocument>,
-    /// The place of the running gesture, where edits replace each other.
+    /// The `latest` address of the current gesture, where edits replace one another.
     gesture: Option<Address<ToDocument>>,
     merges: bool,
-    answer: Rc<Cell<Option<Answer>>>,
-    answers: Address<Answer>,
-    /// The newest view, where the main thread gets them.
-    view: Option<Rc<Cell<Option<View>>>>,
+    answer: Rc<Cell<Option<PoseAnswer>>>,
+    answers: Address<PoseAnswer>,
+    /// The newest view, where the main thread receives views.
+    view: Option<Rc<Cell<Option<DocumentRef>>>>,
 }
 
-impl Sharing for Main {
-    fn edit(&mut self, edit: Edit, begins: bool) {
-        // Only edits of one key may stand for each other, and none may overtake what was sent before its gesture began.
-        let mergeable = self.merges && matches!(edit.change, Change::Key(..));
+impl Sharing for MessageSharing {
+    fn edit(&mut self, edit: NumberedEdit, begins: bool) {
+        // Only edits of one key may replace one another, and none may overtake edits sent before its gesture began.
+        let mergeable = self.merges && matches!(edit.change, EditedData::Key(..));
         if !mergeable {
             self.gesture = None;
         } else if begins || self.gesture.is_none() {
             self.gesture = Some(self.address.latest());
         }
         let to = self.gesture.as_ref().unwrap_or(&self.address);
-        to.send(ToDocument::Edit(edit)).expect("the document lives as long as this");
+        to.send(ToDocument::NumberedEdit(edit)).expect("the document lives as long as this");
     }
 
-    fn ask(&mut self, question: Question, main: &mut Captured) -> Asked {
+    fn ask(&mut self, question: PoseQuestion, main: &mut Captured) -> TimedAnswer {
         if let Some(newest) = &self.view {
-            return Asked::at_once(|| {
+            return TimedAnswer::at_once(|| {
                 let view = newest.take().expect("there has always been one");
                 let answer = question.answer(shown(&view.takes), &view.skeleton);
                 newest.set(Some(view));
@@ -225,16 +225,16 @@ impl Sharing for Main {
         let blocked = begin.elapsed();
         loop {
             if let Some(answer) = self.answer.take() {
-                return Asked { answer, blocked };
+                return TimedAnswer { answer, blocked };
             }
-            // Here the main thread could do anything else; it has nothing else to do.
+            // The main thread could do other work here; it has none.
             if main.iterate() == Next::OnMessage && self.answer.get().is_none() {
                 std::thread::park();
             }
         }
     }
 
-    fn document(&mut self, main: &mut Captured) -> Document {
+    fn document(&mut self, main: &mut Captured) -> SharedDocument {
         let (to, from) = mpsc::channel();
         self.address.send(ToDocument::Give(to)).expect("the document lives as long as this");
         self.thread.handle().resume();
@@ -247,9 +247,9 @@ impl Sharing for Main {
     }
 }
 
-fn begin(start: Start, kind: Kind) -> Started {
-    let Start { document, graphics, main, ledger } = start;
-    let drawn: Address<View> = graphics.reserve_address();
+fn begin(start: SharingStart, kind: MessageMethod) -> SharingParts {
+    let SharingStart { document, graphics, main, ledger } = start;
+    let drawn: Address<DocumentRef> = graphics.reserve_address();
     let mut views = vec![if kind.each { drawn.clone() } else { drawn.latest() }];
     let originals = document.originals();
     let first = Arc::new(document);
@@ -260,7 +260,7 @@ fn begin(start: Start, kind: Kind) -> Started {
     }
     if kind.read {
         let newest = Rc::new(Cell::new(Some(Arc::clone(&first))));
-        views.push(main.context().register_receiver(Last(Rc::clone(&newest))).latest());
+        views.push(main.context().register_receiver(LatestValue(Rc::clone(&newest))).latest());
         view = Some(newest);
     }
     let thread = Thread::start("document").expect("the system has a thread left");
@@ -268,23 +268,23 @@ fn begin(start: Start, kind: Kind) -> Started {
     let address = thread.handle().reserve_address();
     let (own, document, ledger) = (address.clone(), Arc::clone(&first), Arc::clone(ledger));
     let register = move |context: &mut Context| {
-        let owner = Owner { document, originals, views, kind, changed: false, ledger };
+        let owner = DocumentOwner { document, originals, views, kind, changed: false, ledger };
         let owner = Rc::new(RefCell::new(owner));
         context.register_receiver_at(&own, Rc::clone(&owner));
         context.register_worker(owner);
     };
     thread.handle().run(register).expect("it was just started");
     let answer = Rc::new(Cell::new(None));
-    let answers = main.context().register_receiver(Last(Rc::clone(&answer)));
+    let answers = main.context().register_receiver(LatestValue(Rc::clone(&answer)));
     let asked = (address.clone(), kind.batched.then(|| thread.handle().clone()));
     let merges = kind.merges;
-    let sharing = Main { thread, address, gesture: None, merges, answer, answers, view };
+    let sharing = MessageSharing { thread, address, gesture: None, merges, answer, answers, view };
     let viewing = Box::new(move |graphics: &mut Context| {
-        let newest = Newest::new(first, &drawn, graphics);
+        let newest = NewestView::new(first, &drawn, graphics);
         match kind.on_demand {
-            true => Box::new(Asking::new(newest, asked.0, asked.1)) as Box<dyn Viewing>,
+            true => Box::new(OnDemandView::new(newest, asked.0, asked.1)) as Box<dyn Viewing>,
             false => Box::new(newest),
         }
     });
-    Started { sharing: Box::new(sharing), viewing }
+    SharingParts { sharing: Box::new(sharing), viewing }
 }

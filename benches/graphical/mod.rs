@@ -1,88 +1,90 @@
-//! An editor's threads over one document: with messages, and with locks.
+//! An editor's threads that share one document: with messages, and with locks.
 //!
-//! A main thread replays a recorded drag, a graphics thread makes frames from the document. Both are threads of the runtime
-//! whichever way they share: what differs is how an edit gets to the document, and how a frame gets its view
-//! ([`sharing::WAYS`]). The document is that of the editor, without its files: 60 bones, 10 takes, 300 keys, original +
-//! changes = result, in the types of `dragonfly-anim`; a frame samples it with the real sampler and moves vertices on the
-//! processor for three milliseconds, in place of a device.
+//! A main thread replays a recorded drag, and a graphics thread renders frames of the document. Both are threads of the
+//! runtime with every method: the methods differ in how an edit reaches the document, and how a frame gets its view
+//! ([`sharing::METHODS`]). The document is that of the editor, without its files: 60 bones, 10 takes, 300 keys,
+//! original + changes = result, in the types of `dragonfly-anim`; a frame samples it with the real sampler and
+//! transforms vertices on the CPU for three milliseconds, in place of a GPU.
 //!
-//! # What is compared
+//! # The methods
 //!
-//! | way | an edit | a frame |
+//! | method | an edit | a frame |
 //! |---|---|---|
-//! | messages … | is sent to the document's thread; see [`messages`] | has the newest view that came |
-//! | mutex, frame | is made in place, under the lock | holds the lock to its end |
-//! | mutex, poses | likewise | holds it while the poses of the bones are sampled: all that it needs |
-//! | mutex, clone | likewise | holds it while the shown take is copied |
-//! | mutex, cow | likewise, but what a frame still has is copied before | holds it while a reference is taken |
-//! | mutex a take | in place, under the lock of its take | holds the lock of the shown take to its end |
+//! | messages … | is sent to the document's thread; see [`messages`] | uses the newest view that has arrived |
+//! | mutex, frame | is made in place, under the lock | holds the lock until its end |
+//! | mutex, poses | is made in place, under the lock | holds the lock while the poses of the bones are sampled, which is all that it needs |
+//! | mutex, clone | is made in place, under the lock | holds the lock while the shown take is copied |
+//! | mutex, cow | is made under the lock; data that a frame still uses is copied before | holds the lock while a reference is cloned |
+//! | mutex a take | is made in place, under the lock of its take | holds the lock of the shown take until its end |
 //! | parking …, rwlock …, parking rw … | the same with other locks | |
-//! | arcswap, cow | copies what it alters and swaps | loads the newest |
-//! | triple buffer | is made in each of three documents, when it comes back | takes the newest |
+//! | arcswap, cow | copies what it changes, and swaps | loads the newest version |
+//! | triple buffer | is made in each of three documents, when it is exchanged | uses the newest version |
 //!
-//! Whole takes are composed before any lock is taken, old ones are freed after it; originals are never locked. Each way is
-//! written as somebody would who knows what it is bad at.
+//! Whole takes are composed before any lock is taken, and freed after it is released; originals are never locked. Each
+//! method is written by someone who knows its weaknesses.
 //!
-//! # What is measured, and why these cases
+//! # The cases and their purpose
 //!
-//! | case | question |
+//! | case | purpose |
 //! |---|---|
-//! | drag | a quick mouse (1 kHz) and a 60 Hz screen, the usual day: all ways |
-//! | drag/60 Hz, drag/frames 144 Hz, drag/frames unpaced | does it depend on the mouse or the screen? |
-//! | flood, takes/flood | edits as fast as they can be posted: a script, an import. How many, and what piles up? |
+//! | drag | the typical case: a fast mouse (1 kHz) and a 60 Hz screen; all methods |
+//! | drag/60 Hz, drag/frames 144 Hz, drag/frames unpaced | influence of the mouse and the screen |
+//! | flood, takes/flood | edits at full speed, from a script or an import: their number, and the length of the queue |
 //! | takes/60 Hz | edits of a whole take, every second one in a take that is not shown |
-//! | graphics stall, main stall | the driver, or the system, holds a thread up for 50 or 500 ms |
-//! | import, more threads than cores, one core | others compute: one thread, three, or two cores become one |
+//! | graphics stall, main stall | the GPU driver or the system delays a thread by 50 or 500 ms |
+//! | import, more threads than cores, one core | background load: one thread, three threads, or one core instead of two |
 //! | question/… | the main thread needs an answer: at rest, under load, with too many threads |
-//! | long takes, 43 million keys | the same drag where a channel is long: what copying on write costs then |
+//! | long takes, 43 million keys | the same drag with long channels: the cost of copy-on-write |
 //!
-//! `drag` compares all ways; the others those that are best of their kind, the lock that is held for the frame, and
-//! what the case is about. A short run takes six of them and leaves out `main stall`, `43 million keys` and one of the questions.
+//! `drag` compares all methods; the other cases compare the best of each kind, the lock that is held for the frame, and
+//! the methods that the case is about. A short run measures six methods and leaves out `main stall`, `43 million keys`
+//! and one of the questions.
 //!
-//! | metric | what it is |
+//! | metric | meaning |
 //! |---|---|
-//! | blocked | how long a call that makes an edit keeps the main thread |
-//! | frame | from the begin of a frame to its end, waiting for locks included |
-//! | jitter | how much later than intended a frame began |
-//! | missed | moments of the screen at which no new frame was finished |
-//! | visible | from the moment at which an edit was *meant* to happen to the end of the first frame that shows it |
-//! | answer, asking | from a question to its answer; how long of that the main thread could do nothing else |
-//! | posted, shown | edits a second that were posted, and that were posted and shown |
-//! | backlog, waiting_views | most edits that waited to be made, most messages that waited for the graphics thread |
-//! | memory | most bytes that all threads held at once, beyond what was there before |
-//! | cores | processor time of all threads, by the time that passed |
+//! | blocked | time for which a call that makes an edit blocks the main thread |
+//! | frame | time from the start of a frame to its end, including waits for locks |
+//! | jitter | lateness of the start of a frame |
+//! | missed | refreshes of the screen without a new frame |
+//! | visible | time from the *intended* time of an edit to the end of the first frame that shows it |
+//! | answer, asking | time from a question to its answer; the part of it for which the main thread is blocked |
+//! | posted, shown | edits per second that were posted; those that were also shown |
+//! | backlog, waiting_views | largest number of queued edits; of messages queued for the graphics thread |
+//! | memory | peak memory of all threads, in addition to the memory at the start |
+//! | cores | CPU time of all threads, divided by the elapsed time |
 //!
 //! # Method
 //!
 //! * Edits and frames have intended times that do not move when a call takes long, and latencies count from them: there
-//!   is no coordinated omission. A flood has no such times; there it is the moment at which the call began, of every
-//!   sixteenth edit.
-//! * A run begins with edits that do not count. Variants take turns in shuffled order ([`crate::Study::compare`]).
-//! * Every frame of every run is checked: each edit leaves its number in all the data that it touches
-//!   ([`document::Mark`]), so half an edit is seen, and so is a frame older than what its way promises: for locks, any edit
-//!   whose call had returned; for messages, any view that had been sent before the last iteration ended. At the end the last
-//!   edit must be shown. A run with a mistake ends the program. In check mode every bone of every frame is looked at, and the
-//!   document is compared with that of one thread alone. `tests/study/broken.rs` shows that the checker sees mistakes.
-//! * A pause of the document's thread (`messages, batched`) ends with the next frame; where no frames are made, an editor
-//!   would have to end it otherwise.
-//! * In a flood at most 65,536 edits wait (128 of whole takes); then the main thread rests. An unbounded mailbox would go on,
-//!   until the memory is full: what is measured flatters it.
+//!   is no coordinated omission. At full speed there are no such times; there the latency counts from the start of the
+//!   call, for every sixteenth edit.
+//! * A run starts with edits that are not measured. Variants run in shuffled order ([`crate::Study::compare`]).
+//! * Every frame of every run is checked: each edit writes its number into all the data that it changes
+//!   ([`document::EditMark`]), so half an edit is detected, and so is a frame that is older than its method guarantees:
+//!   for locks, any edit whose call had returned; for messages, any view that had been sent before the last iteration
+//!   ended. At the end the last edit must be shown. A run with an error ends the program. In check mode every bone of
+//!   every frame is checked, and the document is compared with that of a single thread. `tests/study/broken.rs` shows
+//!   that the checker detects errors.
+//! * A pause of the document's thread (`messages, batched`) ends with the next frame; without frames, an editor would
+//!   have to end it otherwise.
+//! * At full speed at most 65,536 edits are queued (128 of whole takes); then the main thread rests. An unbounded
+//!   mailbox would grow until the memory is full, so the measured result is better than that of a real flood.
 //!
-//! Not measured: a device and its driver; undo and the journal, which are the same for all; allocators other than the
-//! system's.
+//! Not measured: a GPU and its driver; undo and the journal, which are the same for all methods; allocators other than
+//! the system's.
 //!
-//! # Reading on
+//! # Reading the source
 //!
-//! `model` and `document` (the data), `script` (the drag), `frame` (the work), `sharing` (what a way must do), `messages`,
-//! `views`, `locks`, `swap`, `triple` (the ways), `hand` and `graphics` (the two threads), `ledger` (what they tell), `scenario` (one
-//! run), `cases` (all of them).
+//! `model` and `document` (the data), `script` (the drag), `frame` (the work), `sharing` (the interface of the
+//! methods), `messages`, `views`, `locks`, `swap`, `triple` (the methods), `driver` and `graphics` (the two threads),
+//! `ledger` (their measurement data), `scenario` (one run), `cases` (all cases).
 
 pub mod cases;
 pub mod cores;
 pub mod document;
+pub mod driver;
 pub mod frame;
 pub mod graphics;
-pub mod hand;
 pub mod ledger;
 pub mod locks;
 pub mod messages;

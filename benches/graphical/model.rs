@@ -1,6 +1,6 @@
-//! What is animated: a skeleton, takes, and a mesh to draw, of any size and always the same.
+//! The animated model: a skeleton, takes, and a mesh to draw, of any size and always the same for a size.
 
-use super::document::{Document, Entry, stamped};
+use super::document::{SharedDocument, TakeEntry, stamped};
 use dragonfly_anim::data::{
     Bone, Channel, Influence, Interpolation, Primitive, Skeleton, Skin, Take, Track, Transform, Vertices,
 };
@@ -8,33 +8,33 @@ use dragonfly_kit::random::Random;
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 
-/// How much there is.
+/// Size of the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Size {
-    /// Bones of the skeleton.
+pub struct ModelSize {
+    /// Number of bones of the skeleton.
     pub bones: usize,
-    /// Takes of the document.
+    /// Number of takes of the document.
     pub takes: usize,
-    /// Keys of every channel.
+    /// Number of keys of every channel.
     pub keys: usize,
 }
 
-impl Size {
-    /// For tests.
+impl ModelSize {
+    /// A size for tests.
     pub const TINY: Self = Self { bones: 6, takes: 3, keys: 12 };
-    /// What an animator has open on most days: 540,000 keys, counted over translation, rotation and scale.
+    /// A typical document: 540,000 keys, counted over translation, rotation and scale.
     pub const USUAL: Self = Self { bones: 60, takes: 10, keys: 300 };
-    /// Captured motion, two minutes a take: 5.4 million keys.
+    /// Motion capture, two minutes for each take: 5.4 million keys.
     pub const LONG: Self = Self { bones: 60, takes: 4, keys: 7_500 };
-    /// A day of it: 43 million keys, eight minutes a take.
+    /// A day of motion capture: 43 million keys, eight minutes for each take.
     pub const HUGE: Self = Self { bones: 60, takes: 8, keys: 29_862 };
 
-    /// A document of this size without changes.
-    pub fn document(self) -> Document {
+    /// Returns a document of this size without changes.
+    pub fn document(self) -> SharedDocument {
         let mut random = Random::new(7);
         let skeleton = Arc::new(self.skeleton());
         let times: Arc<[f32]> = (0..self.keys).map(|key| key as f32 / 60.0).collect();
-        // Nothing is changed yet, so all bones share one column of nothing.
+        // Without changes, all bones share one column of identities.
         let nothing = Arc::new(self.take(&times, "changes", {
             let translation = column(&times, self.keys, |_| Vec3::ZERO);
             let rotation = column(&times, self.keys, |_| Quat::IDENTITY);
@@ -57,12 +57,12 @@ impl Size {
                     scale: column(&times, self.keys, |_| Vec3::ONE),
                 }
             });
-            Entry::new(Arc::new(take), Arc::clone(&nothing))
+            TakeEntry::new(Arc::new(take), Arc::clone(&nothing))
         });
-        Document { takes: takes.collect(), skeleton }
+        SharedDocument { takes: takes.collect(), skeleton }
     }
 
-    /// Changes of every key of a take, made by edit `number`.
+    /// Returns changes of every key of a take, as made by edit `number`.
     pub fn changes(self, times: &Arc<[f32]>, number: u64) -> Take {
         let turn = Quat::from_rotation_y((number % 100) as f32 * 0.01);
         self.take(times, "changes", |bone| Track {
@@ -79,7 +79,7 @@ impl Size {
         Take { name: name.to_owned(), start: 0.0, length, tracks, morphs: Vec::new() }
     }
 
-    /// A spine with limbs: every bone hangs on one of the three before it.
+    /// Returns a spine with limbs: the parent of every bone is one of the three before it.
     fn skeleton(self) -> Skeleton {
         let bone = |index: usize| Bone {
             name: format!("bone {index}"),
@@ -98,7 +98,7 @@ fn column<T>(times: &Arc<[f32]>, keys: usize, value: impl FnMut(usize) -> T) -> 
     Channel { times: Arc::clone(times), values, interpolation: Interpolation::Linear }
 }
 
-/// What is drawn: so many vertices, each moved by four bones.
+/// Returns a mesh of this number of vertices, each with four bones.
 pub fn mesh(bones: usize, vertices: usize) -> (Skin, Primitive) {
     let mut random = Random::new(11);
     let point = |random: &mut Random| Vec3::new(random.unit(), random.unit(), random.unit());
@@ -126,9 +126,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sizes_are_as_they_say() {
-        assert_eq!(Size::USUAL.document().keys(), 540_000);
-        let Size { bones, takes, keys } = Size::HUGE;
+    fn documents_have_the_number_of_keys_of_their_size() {
+        assert_eq!(ModelSize::USUAL.document().keys(), 540_000);
+        let ModelSize { bones, takes, keys } = ModelSize::HUGE;
         assert!((43_000_000..43_100_000).contains(&(bones * takes * keys * 3)));
     }
 }

@@ -1,94 +1,104 @@
-//! One run: a main thread that replays the drag, a graphics thread that makes frames, one way of sharing between them, and
-//! what disturbs them.
+//! One run: a main thread that replays the drag, a graphics thread that renders frames, one method of sharing between
+//! them, and disturbances.
 
-use super::document::Document;
-use super::frame::{Frame, Question};
-use super::graphics::{self, Frames, Pace};
-use super::hand::{Hand, Rate, Record};
+use super::document::SharedDocument;
+use super::driver::{EditDriver, EditMetrics, Rate};
+use super::frame::{FrameWork, PoseQuestion};
+use super::graphics::{self, FrameMetrics, Pace};
 use super::ledger::{Ledger, MOST_WAITING};
-use super::model::Size;
+use super::model::ModelSize;
 use super::script::{Edits, Script};
-use super::sharing::{Start, Way};
-use crate::{Distribution, Measured};
+use super::sharing::{SharingMethod, SharingStart};
+use crate::{Distribution, RunValues};
 use dragonfly_kit::counting;
 use dragonfly_kit::load::CpuLoad;
 use dragonfly_runtime::Thread;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A document to begin with, and how often a frame draws on this machine.
-pub struct Bed {
-    /// How large it is.
-    pub size: Size,
-    /// Never altered: every run begins with a shallow copy.
-    pub document: Document,
-    /// How often the mesh is drawn in a frame.
+/// The initial document, and the number of draws in a frame on this machine.
+pub struct ScenarioSetup {
+    /// Size of the document.
+    pub size: ModelSize,
+    /// The initial document. Never changed: every run starts with a shallow copy.
+    pub document: SharedDocument,
+    /// Number of times that the mesh is drawn in a frame.
     pub draws: u32,
 }
 
-impl Bed {
-    /// A document of `size`.
-    pub fn new(size: Size, draws: u32) -> Self {
+impl ScenarioSetup {
+    /// Returns a setup with a document of `size`.
+    pub fn new(size: ModelSize, draws: u32) -> Self {
         Self { size, document: size.document(), draws }
     }
 }
 
-/// What happens in a run.
+/// Description of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Scenario {
-    /// What the main thread does.
+    /// The edits of the main thread.
     pub edits: Edits,
-    /// How fast.
+    /// The rate of the edits.
     pub rate: Rate,
-    /// From one frame to the next; `None` for as fast as possible.
+    /// Time from one frame to the next; `None` for as fast as possible.
     pub period: Option<Duration>,
-    /// What is measured.
+    /// Duration of the measurement.
     pub length: Duration,
-    /// What comes before that and does not count.
+    /// Duration of the warm-up before it.
     pub warm_up: Duration,
-    /// The graphics thread is held up by the driver, at this moment and so long.
+    /// Delay of the graphics thread by the simulated GPU driver: time and duration.
     pub graphics_stall: Option<(Duration, Duration)>,
-    /// The main thread does something else, at this moment and so long.
+    /// Other work of the main thread: time and duration.
     pub main_stall: Option<(Duration, Duration)>,
-    /// Threads that compute all the time.
+    /// Number of threads that compute all the time.
     pub busy: usize,
-    /// How often the main thread asks something.
+    /// Interval of the main thread's questions.
     pub questions: Option<Duration>,
-    /// For tests: looks at every bone in every frame, and compares the document with that of one thread alone.
+    /// For tests: checks every bone in every frame, and compares the document with that of a single thread.
     pub thorough: bool,
 }
 
-/// What was wrong in a run.
+/// Errors found in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Verdict {
-    /// Looks that found half an edit.
+pub struct RunDefects {
+    /// Number of checks that found half an edit.
     pub torn: u64,
-    /// Frames that showed an older document than promised.
+    /// Number of frames that showed an older document than guaranteed.
     pub stale: u64,
-    /// The last edit was never shown.
+    /// Whether the last edit was never shown.
     pub lost: bool,
-    /// The document is not what the same edits make of it one after the other.
+    /// Whether the document differs from the result of the same edits in sequence.
     pub wrong: bool,
 }
 
-/// Runs `scenario` with `way`, writes down what was measured, and says what was wrong.
-pub fn run(bed: &Bed, way: &Way, scenario: &Scenario, measured: &mut Measured) -> Verdict {
+/// Runs `scenario` with `method` and records the measurements. Returns the errors found.
+pub fn run(
+    bed: &ScenarioSetup,
+    method: &SharingMethod,
+    scenario: &Scenario,
+    measured: &mut RunValues,
+) -> RunDefects {
     let flood = scenario.rate == Rate::FlatOut;
     let ledger = Arc::new(Ledger::new(if flood { MOST_WAITING } else { 1 << 13 }));
     let (memory, (record, frames, verdict)) =
-        counting::process_peak(|| run_counted(bed, way, scenario, &ledger));
+        counting::process_peak(|| run_counted(bed, method, scenario, &ledger));
     write(scenario, &record, &frames, memory, measured);
     verdict
 }
 
-fn run_counted(bed: &Bed, way: &Way, scenario: &Scenario, ledger: &Arc<Ledger>) -> (Record, Frames, Verdict) {
+fn run_counted(
+    bed: &ScenarioSetup,
+    method: &SharingMethod,
+    scenario: &Scenario,
+    ledger: &Arc<Ledger>,
+) -> (EditMetrics, FrameMetrics, RunDefects) {
     let script = Script::new(bed.size, scenario.edits, &bed.document);
     let me = std::thread::current();
     let mut main = Thread::capture("main", move || me.unpark());
     let graphics = Thread::start("graphics").expect("the system has a thread left");
     let document = bed.document.clone();
-    let start = Start { document, graphics: graphics.handle(), main: &mut main, ledger };
-    let started = (way.start)(start);
+    let start = SharingStart { document, graphics: graphics.handle(), main: &mut main, ledger };
+    let started = (method.start)(start);
     let pace = Pace {
         period: scenario.period,
         draws: bed.draws,
@@ -96,12 +106,12 @@ fn run_counted(bed: &Bed, way: &Way, scenario: &Scenario, ledger: &Arc<Ledger>) 
         stall: scenario.graphics_stall,
     };
     let skeleton = Arc::clone(&bed.document.skeleton);
-    let frame = move || Frame::new(skeleton, pace.draws, pace.thorough);
+    let frame = move || FrameWork::new(skeleton, pace.draws, pace.thorough);
     let done = graphics::register(&graphics, started.viewing, frame, pace, ledger);
     let busy: Vec<Thread> = (0..scenario.busy).map(|_| graphics::busy()).collect();
 
-    let question = Question { bone: bed.size.bones / 2, time: 0.5 };
-    let mut hand = Hand::new(started.sharing, main, &script, ledger, graphics.handle(), question);
+    let question = PoseQuestion { bone: bed.size.bones / 2, time: 0.5 };
+    let mut hand = EditDriver::new(started.sharing, main, &script, ledger, graphics.handle(), question);
     hand.wait_for_frames(2);
     let slow = if scenario.rate == Rate::FlatOut { Rate::EVERY_MILLISECOND } else { scenario.rate };
     hand.replay(slow, scenario.warm_up, None, None);
@@ -123,11 +133,17 @@ fn run_counted(bed: &Bed, way: &Way, scenario: &Scenario, ledger: &Arc<Ledger>) 
         document
     };
     let wrong = scenario.thorough && document != expected();
-    let verdict = Verdict { torn: frames.torn, stale: frames.stale, lost, wrong };
+    let verdict = RunDefects { torn: frames.torn, stale: frames.stale, lost, wrong };
     (record, frames, verdict)
 }
 
-fn write(scenario: &Scenario, record: &Record, frames: &Frames, memory: u64, measured: &mut Measured) {
+fn write(
+    scenario: &Scenario,
+    record: &EditMetrics,
+    frames: &FrameMetrics,
+    memory: u64,
+    measured: &mut RunValues,
+) {
     let mut distribution = |name: &str, durations: &Distribution| {
         if durations.count() > 0 {
             measured.distribution(name, durations);

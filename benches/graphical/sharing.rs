@@ -1,7 +1,7 @@
-//! What every way of sharing a document must be able to do, and the list of ways.
+//! The interface of the methods to share a document, and the list of methods.
 
-use super::document::{Document, Edit};
-use super::frame::{Answer, Frame, Question};
+use super::document::{NumberedEdit, SharedDocument};
+use super::frame::{FrameWork, PoseAnswer, PoseQuestion};
 use super::ledger::Ledger;
 use super::{locks, messages, swap, triple};
 use dragonfly_runtime::{Captured, Context, ThreadHandle};
@@ -10,97 +10,97 @@ use std::time::{Duration, Instant};
 
 /// The main thread's side: edits, and reads a little.
 pub trait Sharing {
-    /// Makes the edit, or has it made. `begins`: it is the first of a gesture; those of one gesture replace each other.
-    fn edit(&mut self, edit: Edit, begins: bool);
+    /// Makes the edit, or sends it. `begins`: it is the first of a gesture; edits of one gesture replace one another.
+    fn edit(&mut self, edit: NumberedEdit, begins: bool);
 
-    /// Asks, and comes back with the answer.
-    fn ask(&mut self, question: Question, main: &mut Captured) -> Asked;
+    /// Asks a question and waits for the answer.
+    fn ask(&mut self, question: PoseQuestion, main: &mut Captured) -> TimedAnswer;
 
-    /// The document as all edits so far have left it.
-    fn document(&mut self, main: &mut Captured) -> Document;
+    /// Returns the document after all edits so far.
+    fn document(&mut self, main: &mut Captured) -> SharedDocument;
 
-    /// Edits that wait to be made when `posted` were posted.
+    /// Returns the number of queued edits after `posted` were posted.
     fn backlog(&self, _posted: u64, _ledger: &Ledger) -> u64 {
         0
     }
 }
 
-/// The graphics thread's side; made and kept there.
+/// The graphics thread's side; created and used there.
 pub trait Viewing {
     /// Draws a frame from one consistent view.
-    fn frame(&mut self, frame: &mut Frame);
+    fn frame(&mut self, frame: &mut FrameWork);
 
-    /// Called when a frame is due: may it begin? If not, the thread is asked again when a message comes, or when
-    /// the answer itself had it woken.
+    /// Called when a frame is due. Returns whether it can start; if not, called again when a message arrives, or when
+    /// this call itself has caused a wake-up.
     fn is_ready(&mut self, _thread: &mut Context) -> bool {
         true
     }
 
-    /// The edit that a frame must show that begins now: this or a newer one. Asked once in each iteration.
+    /// Returns the edit that a frame that starts now must at least show. Called once in each iteration.
     fn promise(&mut self, ledger: &Ledger) -> u64 {
         ledger.completed()
     }
 }
 
-/// An answer, and what it cost.
-pub struct Asked {
+/// An answer, and its cost.
+pub struct TimedAnswer {
     /// The answer.
-    pub answer: Answer,
-    /// How long the main thread could do nothing else.
+    pub answer: PoseAnswer,
+    /// Time for which the main thread was blocked.
     pub blocked: Duration,
 }
 
-impl Asked {
-    /// An answer that is there when the call that asked for it returns.
-    pub fn at_once(ask: impl FnOnce() -> Answer) -> Self {
+impl TimedAnswer {
+    /// Returns an answer that is available when the call that asks returns.
+    pub fn at_once(ask: impl FnOnce() -> PoseAnswer) -> Self {
         let begin = Instant::now();
         let answer = ask();
         Self { answer, blocked: begin.elapsed() }
     }
 }
 
-/// What a way of sharing starts from.
-pub struct Start<'a> {
-    /// What is shared; the first to edit copies what others have.
-    pub document: Document,
+/// The input of a method.
+pub struct SharingStart<'a> {
+    /// The document to share; the first edit copies shared data.
+    pub document: SharedDocument,
     /// The graphics thread.
     pub graphics: &'a ThreadHandle,
     /// The main thread, which is the caller's.
     pub main: &'a mut Captured,
-    /// What is told to the measurement.
+    /// The measurement data.
     pub ledger: &'a Arc<Ledger>,
 }
 
-/// Makes the graphics thread's side, in that thread.
+/// Creates the graphics thread's side, in that thread.
 pub type MakeViewing = Box<dyn FnOnce(&mut Context) -> Box<dyn Viewing> + Send>;
 
-/// Both sides.
-pub struct Started {
-    /// Stays in the main thread.
+/// Both sides of a method.
+pub struct SharingParts {
+    /// The side that stays in the main thread.
     pub sharing: Box<dyn Sharing>,
-    /// Goes to the graphics thread.
+    /// The side for the graphics thread.
     pub viewing: MakeViewing,
 }
 
-/// One way to share a document between threads.
+/// A method to share a document between threads.
 #[derive(Clone, Copy)]
-pub struct Way {
-    /// As it is called in the tables.
+pub struct SharingMethod {
+    /// Name in the tables.
     pub name: &'static str,
-    /// Starts it.
-    pub start: fn(Start) -> Started,
-    /// Is it among the few that are compared in every case?
-    pub telling: bool,
+    /// Starts the method.
+    pub start: fn(SharingStart) -> SharingParts,
+    /// Whether it is among the few methods that are compared in every case.
+    pub in_every_case: bool,
 }
 
-impl Way {
-    /// One that is compared in the core case only.
-    pub const fn new(name: &'static str, start: fn(Start) -> Started) -> Self {
-        Self { name, start, telling: false }
+impl SharingMethod {
+    /// Returns a method that is compared in the core case only.
+    pub const fn new(name: &'static str, start: fn(SharingStart) -> SharingParts) -> Self {
+        Self { name, start, in_every_case: false }
     }
 
-    const fn telling(self) -> Self {
-        Self { telling: true, ..self }
+    const fn in_every_case(self) -> Self {
+        Self { in_every_case: true, ..self }
     }
 }
 
@@ -109,28 +109,28 @@ type StdRwLock<T> = std::sync::RwLock<T>;
 type PlMutex<T> = parking_lot::Mutex<T>;
 type PlRwLock<T> = parking_lot::RwLock<T>;
 
-/// All ways.
-pub const WAYS: &[Way] = &[
-    Way::new("messages", messages::plain).telling(),
-    Way::new("messages, newest", messages::newest).telling(),
-    Way::new("messages, on demand", messages::on_demand).telling(),
-    Way::new("messages, batched", messages::batched).telling(),
-    Way::new("messages, relayed", messages::relayed),
-    Way::new("messages, read", messages::read),
-    Way::new("messages, merged", messages::merged),
-    Way::new("messages, spinning", messages::spinning),
-    Way::new("mutex, frame", locks::held::<StdMutex<_>>).telling(),
-    Way::new("mutex, poses", locks::sampled::<StdMutex<_>>).telling(),
-    Way::new("mutex, clone", locks::cloned::<StdMutex<_>>),
-    Way::new("mutex, cow", locks::copied_on_write::<StdMutex<_>>).telling(),
-    Way::new("mutex a take", locks::a_take::<StdMutex<_>>),
-    Way::new("parking, frame", locks::held::<PlMutex<_>>),
-    Way::new("parking, poses", locks::sampled::<PlMutex<_>>),
-    Way::new("parking, cow", locks::copied_on_write::<PlMutex<_>>),
-    Way::new("rwlock, frame", locks::held::<StdRwLock<_>>),
-    Way::new("rwlock, poses", locks::sampled::<StdRwLock<_>>),
-    Way::new("parking rw, frame", locks::held::<PlRwLock<_>>),
-    Way::new("parking rw, poses", locks::sampled::<PlRwLock<_>>),
-    Way::new("arcswap, cow", swap::start).telling(),
-    Way::new("triple buffer", triple::start).telling(),
+/// All methods.
+pub const METHODS: &[SharingMethod] = &[
+    SharingMethod::new("messages", messages::plain).in_every_case(),
+    SharingMethod::new("messages, newest", messages::newest).in_every_case(),
+    SharingMethod::new("messages, on demand", messages::on_demand).in_every_case(),
+    SharingMethod::new("messages, batched", messages::batched).in_every_case(),
+    SharingMethod::new("messages, relayed", messages::relayed),
+    SharingMethod::new("messages, read", messages::read),
+    SharingMethod::new("messages, merged", messages::merged),
+    SharingMethod::new("messages, spinning", messages::spinning),
+    SharingMethod::new("mutex, frame", locks::held_for_frame::<StdMutex<_>>).in_every_case(),
+    SharingMethod::new("mutex, poses", locks::sampled::<StdMutex<_>>).in_every_case(),
+    SharingMethod::new("mutex, clone", locks::cloned::<StdMutex<_>>),
+    SharingMethod::new("mutex, cow", locks::copied_on_write::<StdMutex<_>>).in_every_case(),
+    SharingMethod::new("mutex a take", locks::lock_per_take::<StdMutex<_>>),
+    SharingMethod::new("parking, frame", locks::held_for_frame::<PlMutex<_>>),
+    SharingMethod::new("parking, poses", locks::sampled::<PlMutex<_>>),
+    SharingMethod::new("parking, cow", locks::copied_on_write::<PlMutex<_>>),
+    SharingMethod::new("rwlock, frame", locks::held_for_frame::<StdRwLock<_>>),
+    SharingMethod::new("rwlock, poses", locks::sampled::<StdRwLock<_>>),
+    SharingMethod::new("parking rw, frame", locks::held_for_frame::<PlRwLock<_>>),
+    SharingMethod::new("parking rw, poses", locks::sampled::<PlRwLock<_>>),
+    SharingMethod::new("arcswap, cow", swap::start).in_every_case(),
+    SharingMethod::new("triple buffer", triple::start).in_every_case(),
 ];

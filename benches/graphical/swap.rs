@@ -1,43 +1,44 @@
-//! A document that nobody waits for: the newest version hangs in an `ArcSwap`; an edit copies what it alters and swaps.
+//! A document without waiting: the newest version is in an `ArcSwap`; an edit copies what it changes, and swaps.
 
-use super::document::{Document, Edit};
-use super::frame::{Frame, Question, shown};
-use super::sharing::{Asked, Sharing, Start, Started, Viewing};
+use super::document::{NumberedEdit, SharedDocument};
+use super::frame::{FrameWork, PoseQuestion, shown};
+use super::sharing::{Sharing, SharingParts, SharingStart, TimedAnswer, Viewing};
 use arc_swap::ArcSwap;
 use dragonfly_anim::data::Take;
 use dragonfly_runtime::Captured;
 use std::sync::Arc;
 
-struct Main {
-    newest: Arc<ArcSwap<Document>>,
+struct SwapSharing {
+    newest: Arc<ArcSwap<SharedDocument>>,
     originals: Vec<Arc<Take>>,
 }
 
-impl Sharing for Main {
-    fn edit(&mut self, edit: Edit, _begins: bool) {
-        // There is one writer, so a copy can be changed at leisure; with more this would be `rcu`, and may be done twice.
+impl Sharing for SwapSharing {
+    fn edit(&mut self, edit: NumberedEdit, _begins: bool) {
+        // There is only one writer, so the copy is not in a hurry; with several writers this would be `rcu`, which may
+        // repeat it.
         let ready = edit.prepare(&self.originals);
-        let mut document = Document::clone(&self.newest.load());
+        let mut document = SharedDocument::clone(&self.newest.load());
         drop(document.apply(ready));
         self.newest.store(Arc::new(document));
     }
 
-    fn ask(&mut self, question: Question, _main: &mut Captured) -> Asked {
-        Asked::at_once(|| {
+    fn ask(&mut self, question: PoseQuestion, _main: &mut Captured) -> TimedAnswer {
+        TimedAnswer::at_once(|| {
             let document = self.newest.load();
             question.answer(shown(&document.takes), &document.skeleton)
         })
     }
 
-    fn document(&mut self, _main: &mut Captured) -> Document {
-        Document::clone(&self.newest.load())
+    fn document(&mut self, _main: &mut Captured) -> SharedDocument {
+        SharedDocument::clone(&self.newest.load())
     }
 }
 
-struct Theirs(Arc<ArcSwap<Document>>);
+struct SwapViewing(Arc<ArcSwap<SharedDocument>>);
 
-impl Viewing for Theirs {
-    fn frame(&mut self, frame: &mut Frame) {
+impl Viewing for SwapViewing {
+    fn frame(&mut self, frame: &mut FrameWork) {
         let document = self.0.load_full();
         frame.read(shown(&document.takes));
         frame.draw();
@@ -45,11 +46,11 @@ impl Viewing for Theirs {
     }
 }
 
-/// See the module.
-pub fn start(start: Start) -> Started {
+/// Starts the method of this module.
+pub fn start(start: SharingStart) -> SharingParts {
     let originals = start.document.originals();
     let newest = Arc::new(ArcSwap::from_pointee(start.document));
     let theirs = Arc::clone(&newest);
-    let viewing = Box::new(|_: &mut _| Box::new(Theirs(theirs)) as Box<dyn Viewing>);
-    Started { sharing: Box::new(Main { newest, originals }), viewing }
+    let viewing = Box::new(|_: &mut _| Box::new(SwapViewing(theirs)) as Box<dyn Viewing>);
+    SharingParts { sharing: Box::new(SwapSharing { newest, originals }), viewing }
 }

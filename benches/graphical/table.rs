@@ -1,8 +1,8 @@
-//! One line a way, with what matters most; the rest is in the raw data.
+//! Prints one line for each method with the main metrics; the raw data contains the rest.
 
-use crate::Row;
+use crate::DataRow;
 
-/// Heading, metric, and what it is divided by.
+/// Heading, metric, and divisor.
 const COLUMNS: [(&str, &str, f64); 18] = [
     ("block50", "blocked.p50", 1e3),
     ("block99", "blocked.p99", 1e3),
@@ -24,10 +24,10 @@ const COLUMNS: [(&str, &str, f64); 18] = [
     ("cores", "cores", 1.0),
 ];
 
-/// Prints what `rows` say about `case`; columns that nobody has filled are left out.
-pub fn print(case: &str, variants: &[&str], rows: &[Row]) {
-    let others = rows.iter().map(|row| row.others).fold(0.0, f64::max);
-    println!("\n## {case} (others kept at most {others:.2} cores busy)");
+/// Prints the rows of `case`, without empty columns.
+pub fn print(case: &str, variants: &[&str], rows: &[DataRow]) {
+    let background = rows.iter().map(|row| row.background).fold(0.0, f64::max);
+    println!("\n## {case} (background load: at most {background:.2} cores)");
     let columns: Vec<_> =
         COLUMNS.iter().filter(|column| rows.iter().any(|row| row.metric == column.1)).collect();
     print!("{:<20}", "");
@@ -36,7 +36,7 @@ pub fn print(case: &str, variants: &[&str], rows: &[Row]) {
     for variant in variants {
         print!("{variant:<20}");
         for (_, metric, unit) in &columns {
-            let of = |row: &&Row| row.variant == *variant && row.metric == *metric;
+            let of = |row: &&DataRow| row.variant == *variant && row.metric == *metric;
             let mut values: Vec<f64> = rows.iter().filter(of).map(|row| row.value / unit).collect();
             values.sort_by(f64::total_cmp);
             match values.get(values.len() / 2) {

@@ -1,45 +1,46 @@
-//! Three documents: one is drawn, one is edited, one is the newest finished and waits. Nobody waits for anybody, and nothing
-//! is copied after the first touch: whoever edits makes the edits that the other two missed in them when they come back.
+//! Three documents: one is drawn, one is edited, and one is the newest finished version, ready for an exchange. No
+//! thread waits, and nothing is copied after the first edits: the editing thread also applies the edits that a document
+//! missed when it gets it back.
 //!
-//! Which document has which part is one number, exchanged atomically; each thread touches only those that are its own. The
-//! locks are there because the compiler cannot know that: they are never waited for.
+//! The roles of the documents are one number, exchanged atomically; each thread accesses only the documents that it
+//! has. The locks exist because the compiler cannot check that; they are never contended.
 
-use super::document::{Document, Edit, Ready};
-use super::frame::{Frame, Question, shown};
-use super::sharing::{Asked, Sharing, Start, Started, Viewing};
+use super::document::{NumberedEdit, PreparedEdit, SharedDocument};
+use super::frame::{FrameWork, PoseQuestion, shown};
+use super::sharing::{Sharing, SharingParts, SharingStart, TimedAnswer, Viewing};
 use dragonfly_anim::data::Take;
 use dragonfly_runtime::Captured;
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 
-/// Set beside the number of the waiting document when it is newer than the one that is drawn.
+/// Flag in addition to the number of the exchanged document, when it is newer than the one that is drawn.
 const FRESH: usize = 4;
 
 struct Buffers {
-    documents: [Mutex<Document>; 3],
-    /// The number of the one that waits.
+    documents: [Mutex<SharedDocument>; 3],
+    /// Number of the document to exchange.
     waiting: AtomicUsize,
 }
 
 impl Buffers {
-    fn own(&self, index: usize) -> MutexGuard<'_, Document> {
+    fn own(&self, index: usize) -> MutexGuard<'_, SharedDocument> {
         self.documents[index].try_lock().expect("each has one owner at a time")
     }
 }
 
-struct Main {
+struct TripleSharing {
     buffers: Arc<Buffers>,
     back: usize,
     originals: Vec<Arc<Take>>,
-    /// Edits that one of the documents still misses, oldest first.
-    log: VecDeque<Ready>,
-    /// The newest edit that each document has; of those that are away, what they had when they went.
+    /// Edits that at least one of the documents misses, oldest first.
+    log: VecDeque<PreparedEdit>,
+    /// Newest edit in each document; for documents that the other thread has, as of their exchange.
     has: [u64; 3],
 }
 
-impl Main {
-    /// Makes the edits that the document in hand misses.
+impl TripleSharing {
+    /// Applies the edits that the back document misses.
     fn catch_up(&mut self) {
         let mut document = self.buffers.own(self.back);
         let has = self.has[self.back];
@@ -55,35 +56,35 @@ impl Main {
     }
 }
 
-impl Sharing for Main {
-    fn edit(&mut self, edit: Edit, _begins: bool) {
-        // Whole takes are computed once; the three share them.
+impl Sharing for TripleSharing {
+    fn edit(&mut self, edit: NumberedEdit, _begins: bool) {
+        // Whole takes are computed once; the three documents share them.
         self.log.push_back(edit.prepare(&self.originals));
         self.catch_up();
         self.back = self.buffers.waiting.swap(self.back | FRESH, Ordering::AcqRel) & !FRESH;
     }
 
-    fn ask(&mut self, question: Question, _main: &mut Captured) -> Asked {
-        Asked::at_once(|| {
+    fn ask(&mut self, question: PoseQuestion, _main: &mut Captured) -> TimedAnswer {
+        TimedAnswer::at_once(|| {
             self.catch_up();
             let document = self.buffers.own(self.back);
             question.answer(shown(&document.takes), &document.skeleton)
         })
     }
 
-    fn document(&mut self, _main: &mut Captured) -> Document {
+    fn document(&mut self, _main: &mut Captured) -> SharedDocument {
         self.catch_up();
         self.buffers.own(self.back).clone()
     }
 }
 
-struct Theirs {
+struct TripleViewing {
     buffers: Arc<Buffers>,
     front: usize,
 }
 
-impl Viewing for Theirs {
-    fn frame(&mut self, frame: &mut Frame) {
+impl Viewing for TripleViewing {
+    fn frame(&mut self, frame: &mut FrameWork) {
         if self.buffers.waiting.load(Ordering::Relaxed) & FRESH != 0 {
             self.front = self.buffers.waiting.swap(self.front, Ordering::AcqRel) & !FRESH;
         }
@@ -94,13 +95,14 @@ impl Viewing for Theirs {
     }
 }
 
-/// See the module.
-pub fn start(start: Start) -> Started {
+/// Starts the method of this module.
+pub fn start(start: SharingStart) -> SharingParts {
     let originals = start.document.originals();
     let documents = [start.document.clone(), start.document.clone(), start.document].map(Mutex::new);
     let buffers = Arc::new(Buffers { documents, waiting: AtomicUsize::new(1) });
     let theirs = Arc::clone(&buffers);
-    let viewing = Box::new(|_: &mut _| Box::new(Theirs { buffers: theirs, front: 0 }) as Box<dyn Viewing>);
-    let main = Main { buffers, back: 2, originals, log: VecDeque::new(), has: [0; 3] };
-    Started { sharing: Box::new(main), viewing }
+    let viewing =
+        Box::new(|_: &mut _| Box::new(TripleViewing { buffers: theirs, front: 0 }) as Box<dyn Viewing>);
+    let main = TripleSharing { buffers, back: 2, originals, log: VecDeque::new(), has: [0; 3] };
+    SharingParts { sharing: Box::new(main), viewing }
 }

@@ -1,7 +1,7 @@
-//! Views in the graphics thread: those that are sent to it, and those that it asks for when a frame is due.
+//! Views in the graphics thread: sent to it, or requested by it when a frame is due.
 
-use super::document::Document;
-use super::frame::{Frame, shown};
+use super::document::SharedDocument;
+use super::frame::{FrameWork, shown};
 use super::ledger::Ledger;
 use super::messages::ToDocument;
 use super::sharing::Viewing;
@@ -11,71 +11,75 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The document as it was; whoever edits it copies what it alters.
-pub(super) type View = Arc<Document>;
+/// A version of the document; an edit copies the shared data that it changes.
+pub(super) type DocumentRef = Arc<SharedDocument>;
 
-/// The newest view that has come.
-pub(super) struct Newest {
-    view: Rc<RefCell<View>>,
+/// The newest view that has arrived.
+pub(super) struct NewestView {
+    view: Rc<RefCell<DocumentRef>>,
     promised: u64,
 }
 
-impl Newest {
-    /// Shows `first` until a view comes to `address`.
-    pub(super) fn new(first: View, address: &Address<View>, thread: &mut Context) -> Self {
+impl NewestView {
+    /// Shows `first` until a view arrives at `address`.
+    pub(super) fn new(first: DocumentRef, address: &Address<DocumentRef>, thread: &mut Context) -> Self {
         let view = Rc::new(RefCell::new(first));
-        thread.register_receiver_at(address, Views(Rc::clone(&view)));
+        thread.register_receiver_at(address, ViewReceiver(Rc::clone(&view)));
         Self { view, promised: 0 }
     }
 }
 
-impl Viewing for Newest {
-    fn frame(&mut self, frame: &mut Frame) {
+impl Viewing for NewestView {
+    fn frame(&mut self, frame: &mut FrameWork) {
         let view = Arc::clone(&self.view.borrow());
         frame.read(shown(&view.takes));
         frame.draw();
         frame.confirm(shown(&view.takes));
     }
 
-    /// What had been published before the messages of this iteration were taken out of the queue.
+    /// The edit that was published before the messages of this iteration were taken from the queue.
     fn promise(&mut self, ledger: &Ledger) -> u64 {
         std::mem::replace(&mut self.promised, ledger.published())
     }
 }
 
-struct Views(Rc<RefCell<View>>);
+struct ViewReceiver(Rc<RefCell<DocumentRef>>);
 
-impl Receiver for Views {
-    type Message = View;
+impl Receiver for ViewReceiver {
+    type Message = DocumentRef;
 
-    fn receive(&mut self, view: View, _thread: &mut Context) {
+    fn receive(&mut self, view: DocumentRef, _thread: &mut Context) {
         *self.0.borrow_mut() = view;
     }
 }
 
-/// A view is asked for when a frame is due, and the frame begins when it has come: so there is one copy and one wake-up a
-/// frame, however many edits there are, and the view is as fresh as it can be.
-pub(super) struct Asking {
-    newest: Newest,
+/// A view is requested when a frame is due, and the frame starts when it arrives: so there is one copy and one wake-up
+/// for each frame, however many edits there are, and the view is as fresh as possible.
+pub(super) struct OnDemandView {
+    newest: NewestView,
     document: Address<ToDocument>,
-    /// The document's thread, where it pauses between frames.
+    /// The document's thread, if it pauses between frames.
     pausing: Option<ThreadHandle>,
-    /// When it was asked for, and which view was there then.
-    asked: Option<(Instant, View)>,
+    /// Time of the request, and the view at that time.
+    asked: Option<(Instant, DocumentRef)>,
 }
 
-/// A document that is busy does not hold up the picture any longer than this; the frame shows the view that is there.
+/// Longest time that a busy document delays a frame; then the frame shows the existing view.
 const PATIENCE: Duration = Duration::from_millis(2);
 
-impl Asking {
-    /// Asks `document`, which answers to where `newest` looks.
-    pub(super) fn new(newest: Newest, document: Address<ToDocument>, pausing: Option<ThreadHandle>) -> Self {
+impl OnDemandView {
+    /// Returns a side that requests views from `document`, which arrive in `newest`.
+    pub(super) fn new(
+        newest: NewestView,
+        document: Address<ToDocument>,
+        pausing: Option<ThreadHandle>,
+    ) -> Self {
         Self { newest, document, pausing, asked: None }
     }
 }
 
-impl Viewing for Asking {
-    fn frame(&mut self, frame: &mut Frame) {
+impl Viewing for OnDemandView {
+    fn frame(&mut self, frame: &mut FrameWork) {
         self.newest.frame(frame);
     }
 
@@ -86,7 +90,7 @@ impl Viewing for Asking {
     fn is_ready(&mut self, thread: &mut Context) -> bool {
         let now = Instant::now();
         let Some((when, old)) = &self.asked else {
-            // A document that has stopped does not answer; the frame begins without it.
+            // A document that has stopped does not answer; the frame starts without it.
             let _ = self.document.send(ToDocument::Publish);
             if let Some(pausing) = &self.pausing {
                 pausing.resume();

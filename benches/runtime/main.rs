@@ -2,7 +2,7 @@
 
 use dragonfly_kit::counting::CountingAllocator;
 use dragonfly_study::goal::goals;
-use dragonfly_study::{Mode, Study, runtime};
+use dragonfly_study::{Study, StudyMode, runtime};
 
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;
@@ -12,7 +12,7 @@ fn main() {
     runtime::all(&mut study);
     let mode = study.mode;
     let rows = study.finish();
-    if mode != Mode::Check {
+    if mode != StudyMode::Check {
         goals(&rows).iter().for_each(|goal| println!("{goal}"));
     }
 }

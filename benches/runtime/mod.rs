@@ -1,4 +1,4 @@
-//! What a message costs: queues, actors, and the Savina suite, ours and others'.
+//! Cost of a message: queues, actors, and the Savina suite, in our runtime and in other crates.
 
 pub mod actor;
 pub mod cases;

@@ -1,53 +1,53 @@
-//! One way of sending messages to another thread, ours or another's: what every case of `work` is written against.
+//! The interface of a message queue or actor crate, ours or another: all cases of `work` are written for it.
 
 use std::ops::ControlFlow;
 
-/// What a consumer does with a message; `Break` ends the consumer.
+/// Called by a consumer with each message; `Break` ends the consumer.
 ///
-/// A box for all alike: each call costs everybody one jump through a pointer, about a nanosecond.
-pub type Take<M> = Box<dyn FnMut(M) -> ControlFlow<()> + Send>;
+/// Boxed for all peers: each call costs all of them one indirect call, about a nanosecond.
+pub type OnMessage<M> = Box<dyn FnMut(M) -> ControlFlow<()> + Send>;
 
-/// A queue with a thread behind it, or an actor.
+/// A queue with a consumer thread, or an actor.
 ///
-/// Each implementation says in its comment which of the ways that its documentation offers it takes. All queues are
-/// unbounded, or so long that they never fill up.
+/// Each implementation documents which of the crate's documented alternatives it uses. All queues are unbounded, or
+/// long enough never to be full.
 pub trait Peer: 'static {
-    /// Does the consumer change between threads while it runs? Then nobody can count for one thread what it does.
+    /// Whether the consumer moves between threads while it runs. Then its allocations cannot be counted by thread.
     const MIGRATES: bool = false;
 
-    /// Where messages of one type are sent.
+    /// The address for messages of one type.
     type Address<M: Message>: Clone + Send + Sync + 'static;
 
-    /// A consumer that lives.
+    /// A running consumer.
     type Running;
 
-    /// Makes a consumer that gives each message to `take`, in an OS thread that is not the producers'.
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running);
+    /// Starts a consumer that calls `take` with each message, in an OS thread of its own.
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running);
 
-    /// Sends, and goes on.
+    /// Sends a message without waiting.
     fn send<M: Message>(address: &Self::Address<M>, message: M);
 
-    /// Waits until the consumer has ended of itself.
+    /// Waits until the consumer has ended by itself.
     fn wait(running: Self::Running);
 }
 
-/// What is sent: a number, and as many bytes as are wanted.
+/// A message: a number, and padding up to its size.
 pub trait Message: Copy + Send + Sync + 'static {
-    /// All of its bytes say `number`.
+    /// Returns a message whose words all contain `number`.
     fn of(number: u64) -> Self;
 
-    /// The number; looks at both ends, so a torn message is found.
+    /// Returns the number. Reads both ends, so that a torn message is detected.
     fn number(self) -> u64;
 }
 
-/// A message of so many words of 8 bytes.
+/// A message of `N` words of 8 bytes.
 #[derive(Clone, Copy)]
-pub struct Words<const COUNT: usize>([u64; COUNT]);
+pub struct WordMessage<const COUNT: usize>([u64; COUNT]);
 
 /// The message of most cases: 8 bytes.
-pub type Small = Words<1>;
+pub type SmallMessage = WordMessage<1>;
 
-impl<const COUNT: usize> Message for Words<COUNT> {
+impl<const COUNT: usize> Message for WordMessage<COUNT> {
     #[inline]
     fn of(number: u64) -> Self {
         Self([number; COUNT])
@@ -60,7 +60,7 @@ impl<const COUNT: usize> Message for Words<COUNT> {
     }
 }
 
-/// The sum of the numbers below `end`: what a consumer must have added up.
+/// Returns the sum of the numbers below `end`, which the consumer must have added up.
 pub fn sum_below(end: u64) -> u64 {
     end * end.saturating_sub(1) / 2
 }

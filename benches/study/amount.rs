@@ -1,13 +1,13 @@
-//! Numbers with their units, as one reads them.
+//! Formats values with their units for tables and charts.
 
-/// A unit to show a value in, and how many of the measured one make it.
+/// Returns the unit in which a value is printed, and its size in the measured unit.
 fn shown_in(value: f64, unit: &str) -> (&'static str, f64) {
     let steps: &[(&'static str, f64)] = match unit {
         "ns" => &[("ns", 1.0), ("µs", 1e3), ("ms", 1e6), ("s", 1e9)],
         "bytes" => &[("bytes", 1.0), ("KiB", 1024.0), ("MiB", 1_048_576.0), ("GiB", 1_073_741_824.0)],
         "1/s" => &[("/s", 1.0), ("k/s", 1e3), ("M/s", 1e6)],
-        "1/msg" => &[("a message", 1.0)],
-        "1/edit" => &[("an edit", 1.0)],
+        "1/msg" => &[("per message", 1.0)],
+        "1/edit" => &[("per edit", 1.0)],
         "ratio" => &[("×", 1.0)],
         "%" => &[("%", 1.0)],
         "cores" => &[("cores", 1.0)],
@@ -17,12 +17,12 @@ fn shown_in(value: f64, unit: &str) -> (&'static str, f64) {
     *steps.iter().rev().find(fits).unwrap_or(&steps[0])
 }
 
-/// How much one step of the unit is in which `value` is shown: 1,048,576 for some MiB.
+/// Returns the size of the unit in which `value` is printed: 1,048,576 if that is MiB.
 pub fn step(value: f64, unit: &str) -> f64 {
     shown_in(value, unit).1
 }
 
-/// Three digits that matter: `0.04`, `9.12`, `34.5`, `12,300`.
+/// Formats a number with three significant digits: `0.040`, `9.12`, `34.5`, `12,300`.
 pub fn digits(value: f64) -> String {
     match value.abs() {
         0.0 => "0".into(),
@@ -42,13 +42,13 @@ pub fn digits(value: f64) -> String {
     }
 }
 
-/// A value with its unit: `9.12 µs`.
+/// Formats a value with its unit: `9.12 µs`.
 pub fn amount(value: f64, unit: &str) -> String {
     let (name, size) = shown_in(value, unit);
     format!("{} {name}", digits(value / size)).trim_end().to_owned()
 }
 
-/// A round value on an axis: `10 µs`, not `10.0 µs`.
+/// Formats a round value on an axis: `10 µs`, not `10.0 µs`.
 pub fn tick(value: f64, unit: &str) -> String {
     if value == 0.0 {
         return "0".into();
@@ -60,7 +60,8 @@ pub fn tick(value: f64, unit: &str) -> String {
     format!("{text} {name}").trim_end().to_owned()
 }
 
-/// A median with its spread, all in the median's unit: `9.12 [8.90 .. 12.1] µs`. Without spread, the value alone.
+/// Formats a median with its spread, all in the median's unit: `9.12 [8.90 .. 12.1] µs`. Without a spread, only the
+/// value.
 pub fn spread(median: f64, low: f64, high: f64, unit: &str) -> String {
     let (name, size) = shown_in(median, unit);
     let number = |value: f64| {
@@ -80,12 +81,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_read_well() {
+    fn values_are_formatted_with_a_readable_unit() {
         assert_eq!(amount(9123.0, "ns"), "9.12 µs");
         assert_eq!(amount(0.0, "ns"), "0 ns");
         assert_eq!(amount(12_345.6, "count"), "12,346");
         assert_eq!(amount(43_000_000.0, "bytes"), "41.0 MiB");
-        assert_eq!(amount(0.04, "1/msg"), "0.040 a message");
+        assert_eq!(amount(0.04, "1/msg"), "0.040 per message");
         assert_eq!(tick(10_000.0, "ns"), "10 µs");
         assert_eq!(tick(0.5, "ratio"), "0.5 ×");
         assert_eq!(tick(1e6, "ns"), "1 ms");

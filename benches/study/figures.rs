@@ -1,61 +1,61 @@
-//! Which tables and charts the study shows, and what of the raw data is in each: a line here and a pair of comments in
-//! `README.md` are all that a new one takes.
+//! The tables and charts of the study, and the part of the raw data that each shows. A new one needs a line here and a
+//! pair of comments in `README.md`.
 
-use crate::chart::Scale;
-use crate::table::Column;
+use crate::chart::AxisScale;
+use crate::table::TableColumn;
 
 /// A table of the raw data in `README.md`, between `<!-- table: name -->` and `<!-- end -->`.
-pub struct Table {
-    /// Its name there.
+pub struct TableSpec {
+    /// Name in the comments.
     pub name: &'static str,
-    /// Which rows it shows.
-    pub source: Source,
-    /// What its columns show, and what they are called.
-    pub columns: &'static [Column],
+    /// The rows that it shows.
+    pub source: DataSource,
+    /// Metric and heading of each column.
+    pub columns: &'static [TableColumn],
 }
 
 /// A chart of the raw data, `results/name.svg`, shown between `<!-- chart: name -->` and `<!-- end -->`.
-pub struct Chart {
-    /// Its name there.
+pub struct ChartSpec {
+    /// Name in the comments and of the file.
     pub name: &'static str,
-    /// The question that it answers.
+    /// Title in the picture.
     pub title: &'static str,
-    /// Which rows it shows.
-    pub source: Source,
-    /// How.
-    pub kind: Kind,
+    /// The rows that it shows.
+    pub source: DataSource,
+    /// Kind of the drawing.
+    pub kind: ChartKind,
 }
 
 /// A file of raw data, and the cases that are taken from it.
 #[derive(Clone, Copy)]
-pub struct Source {
-    /// `results/file.csv`.
+pub struct DataSource {
+    /// Name of the file `results/file.csv`, without its extension.
     pub file: &'static str,
-    /// Any of these; one that ends in `*` stands for all that begin so. One that begins with `?` cannot be measured on
-    /// every machine; if there is nothing else, nothing is shown.
+    /// The cases. A name that ends in `*` matches all cases with this prefix. A name that starts with `?` is a case that
+    /// cannot be measured on every machine; if there are only such cases and no data, nothing is shown.
     pub cases: &'static [&'static str],
 }
 
 /// How a chart is drawn.
-pub enum Kind {
-    /// See [`rows`](crate::chart::rows).
-    Rows(&'static [Column], Scale),
-    /// See [`curves`](crate::chart::curves): the percentiles of this distribution, by these; one case.
+pub enum ChartKind {
+    /// A row for each variant: [`rows`](crate::chart::rows).
+    Rows(&'static [TableColumn], AxisScale),
+    /// Percentiles of a distribution in one case, for the given variants: [`curves`](crate::chart::curves).
     Curves(&'static str, &'static [&'static str]),
-    /// See [`ratios`](crate::chart::ratios): this metric, in times this variant's, of these.
+    /// A metric, the variant that it is divided by, and the other variants: [`ratios`](crate::chart::ratios).
     Ratios(&'static str, &'static str, &'static [&'static str]),
 }
 
-/// The files of raw data: two are written by the benches of their names; the third is two runs of the first, before and
-/// after what it found was mended.
-pub const FILES: [&str; 3] = ["runtime", "graphical", "mended"];
+/// The files of raw data. The first two are written by the benches with these names; the third contains two runs of the
+/// first, before and after the changes that its results led to.
+pub const FILES: [&str; 3] = ["runtime", "graphical", "optimized"];
 
-const fn runtime(cases: &'static [&'static str]) -> Source {
-    Source { file: "runtime", cases }
+const fn runtime(cases: &'static [&'static str]) -> DataSource {
+    DataSource { file: "runtime", cases }
 }
 
-const fn graphical(cases: &'static [&'static str]) -> Source {
-    Source { file: "graphical", cases }
+const fn graphical(cases: &'static [&'static str]) -> DataSource {
+    DataSource { file: "graphical", cases }
 }
 
 // The cases of `graphical`.
@@ -68,8 +68,8 @@ const STALLS: &[&str] = &["graphics stall*", "main stall*"];
 const THREADS: &[&str] = &["drag", "import", "more threads than cores", "one core"];
 const QUESTIONS: &[&str] = &["question/*"];
 
-/// The ways that are drawn: the others of each kind lie near them, and are in the tables.
-const TELLING: &[&str] = &[
+/// The variants that are drawn. The others of each kind have similar values and are in the tables.
+const DRAWN: &[&str] = &[
     "messages",
     "messages, newest",
     "messages, batched",
@@ -80,7 +80,7 @@ const TELLING: &[&str] = &[
     "triple buffer",
 ];
 
-// The cases that queues and actors are compared in.
+// The cases in which queues and actors are compared.
 const ONE_WAY: &[&str] = &[
     "queue/one_way/1_producer/64*",
     "queue/one_way/2_producers/64*",
@@ -88,120 +88,116 @@ const ONE_WAY: &[&str] = &[
     "actor/one_way/2_producers/64*",
 ];
 
-const TRIP: &[Column] =
+const TRIP: &[TableColumn] =
     &[("trip.p50", "p50"), ("trip.p99", "p99"), ("trip.p99.9", "p99.9"), ("trip.max", "longest")];
-const TRIP_MARKS: &[Column] = &[("trip.p50", "p50"), ("trip.p99", "p99"), ("trip.p99.9", "p99.9")];
-const MACHINE: &[Column] = &[
+const TRIP_MARKS: &[TableColumn] = &[("trip.p50", "p50"), ("trip.p99", "p99"), ("trip.p99.9", "p99.9")];
+const MACHINE: &[TableColumn] = &[
     ("cores", "cores"),
-    ("clock.cost", "looking at the clock"),
+    ("clock.cost", "reading the clock"),
     ("clock.step", "step of the clock"),
     ("two_wake_ups.p50", "two wake-ups, p50"),
     ("two_wake_ups.p99", "p99"),
-    ("overshoot_1ms.p50", "sleep of 1 ms too long by, p50"),
+    ("overshoot_1ms.p50", "lateness of a sleep of 1 ms, p50"),
     ("overshoot_1ms.p99", "p99"),
 ];
-/// What every case of `graphical` has.
-const EDITING: &[Column] = &[
+/// Columns for metrics that every case of `graphical` has.
+const EDITING: &[TableColumn] = &[
     ("blocked.p50", "blocked, p50"),
     ("blocked.p99", "blocked, p99"),
     ("blocked.max", "blocked, longest"),
     ("visible.p50", "visible after, p50"),
     ("visible.p99", "visible after, p99"),
-    ("jitter.p99", "frame late by, p99"),
+    ("jitter.p99", "frame lateness, p99"),
     ("shown", "frames"),
 ];
 
 /// All tables.
-pub const TABLES: &[Table] = &[
-    Table { name: "machine-runtime", source: runtime(&["machine"]), columns: MACHINE },
-    Table { name: "machine-graphical", source: graphical(&["machine"]), columns: MACHINE },
-    Table { name: "round-trip-queues", source: runtime(&["queue/round_trip/*"]), columns: TRIP },
-    Table { name: "round-trip-actors", source: runtime(&["actor/round_trip/*"]), columns: TRIP },
-    Table { name: "round-trip-bound", source: runtime(&["?actor/round_trip_bound/*"]), columns: TRIP },
-    Table {
+pub const TABLES: &[TableSpec] = &[
+    TableSpec { name: "machine-runtime", source: runtime(&["machine"]), columns: MACHINE },
+    TableSpec { name: "machine-graphical", source: graphical(&["machine"]), columns: MACHINE },
+    TableSpec { name: "round-trip-queues", source: runtime(&["queue/round_trip/*"]), columns: TRIP },
+    TableSpec { name: "round-trip-actors", source: runtime(&["actor/round_trip/*"]), columns: TRIP },
+    TableSpec { name: "round-trip-bound", source: runtime(&["?actor/round_trip_bound/*"]), columns: TRIP },
+    TableSpec {
         name: "one-way",
         source: runtime(ONE_WAY),
+        columns: &[("per_message", "per message"), ("send", "of that, send"), ("allocations", "allocations")],
+    },
+    TableSpec {
+        name: "optimized",
+        source: DataSource { file: "optimized", cases: &["*"] },
         columns: &[
-            ("per_message", "a message"),
-            ("send", "of it the sender"),
+            ("per_message", "per message"),
             ("allocations", "allocations"),
+            ("send", "send"),
+            ("drain", "receive"),
+            ("trip.p50", "round trip, p50"),
         ],
     },
-    Table {
-        name: "mended",
-        source: Source { file: "mended", cases: &["*"] },
-        columns: &[
-            ("per_message", "a message"),
-            ("allocations", "allocations"),
-            ("send", "to send one"),
-            ("drain", "to take one"),
-            ("trip.p50", "there and back, p50"),
-        ],
-    },
-    Table {
+    TableSpec {
         name: "burst",
         source: runtime(&["queue/burst", "actor/burst"]),
-        columns: &[("send", "to send one"), ("drain", "to take one")],
+        columns: &[("send", "send"), ("drain", "receive")],
     },
-    Table {
+    TableSpec {
         name: "late",
         source: runtime(&["queue/late/*", "actor/late/*"]),
         columns: &[
-            ("delay.p50", "late by, p50"),
+            ("delay.p50", "delay, p50"),
             ("delay.p99", "p99"),
             ("delay.p99.9", "p99.9"),
-            ("sender_late.p99", "the sender itself, p99"),
+            ("sender_late.p99", "lateness of the sender, p99"),
         ],
     },
-    Table {
+    TableSpec {
         name: "chain",
         source: runtime(&["actor/chain/*"]),
-        columns: &[("per_message", "a message"), ("allocations", "allocations")],
+        columns: &[("per_message", "per message"), ("allocations", "allocations")],
     },
-    Table {
+    TableSpec {
         name: "creation",
         source: runtime(&["actor/creation"]),
         columns: &[
-            ("make", "to make one"),
-            ("first_message", "its first message"),
-            ("end_with_all", "its end"),
+            ("make", "create"),
+            ("first_message", "first message"),
+            ("end_with_all", "destroy"),
             ("memory", "memory"),
         ],
     },
-    Table { name: "spin", source: runtime(&["?own/spin/*"]), columns: TRIP },
-    Table {
+    TableSpec { name: "spin", source: runtime(&["?own/spin/*"]), columns: TRIP },
+    TableSpec {
         name: "addresses",
         source: runtime(&["own/addresses/*"]),
         columns: &[
-            ("send", "to send one"),
-            ("all_delivered", "until all are there, each"),
+            ("send", "send"),
+            ("all_delivered", "until all are delivered, per message"),
             ("longest_queue", "longest queue"),
             ("replaced", "replaced"),
             ("refused", "refused"),
             ("allocations", "allocations"),
         ],
     },
-    Table {
+    TableSpec {
         name: "registers",
         source: runtime(&["own/registers"]),
-        columns: &[("register", "to register one"), ("remove", "to remove it")],
+        columns: &[("register", "register"), ("remove", "remove")],
     },
-    Table {
+    TableSpec {
         name: "observed",
         source: runtime(&["own/observed"]),
-        columns: &[("per_message", "a message"), ("allocations", "allocations")],
+        columns: &[("per_message", "per message"), ("allocations", "allocations")],
     },
-    Table {
+    TableSpec {
         name: "idle",
         source: runtime(&["own/idle_iteration"]),
-        columns: &[("iteration", "an iteration")],
+        columns: &[("iteration", "per iteration")],
     },
-    Table {
+    TableSpec {
         name: "savina",
         source: runtime(&["savina/*"]),
-        columns: &[("total", "time"), ("per_message", "a message")],
+        columns: &[("total", "time"), ("per_message", "per message")],
     },
-    Table {
+    TableSpec {
         name: "blocked",
         source: graphical(DRAG),
         columns: &[
@@ -212,7 +208,7 @@ pub const TABLES: &[Table] = &[
             ("blocked.max", "longest"),
         ],
     },
-    Table {
+    TableSpec {
         name: "visible",
         source: graphical(DRAG),
         columns: &[
@@ -221,143 +217,143 @@ pub const TABLES: &[Table] = &[
             ("visible.max", "longest"),
             ("frame.p50", "frame, p50"),
             ("frame.p99", "p99"),
-            ("jitter.p99", "frame late by, p99"),
+            ("jitter.p99", "frame lateness, p99"),
             ("missed", "frames missed"),
         ],
     },
-    Table {
+    TableSpec {
         name: "means",
         source: graphical(DRAG),
         columns: &[
-            ("memory", "memory at most"),
+            ("memory", "peak memory"),
             ("cores", "cores in use"),
-            ("backlog", "edits waiting at most"),
+            ("backlog", "queued edits, maximum"),
         ],
     },
-    Table {
+    TableSpec {
         name: "flat-out",
         source: graphical(FLOODS),
         columns: &[
             ("posted", "edits"),
             ("visible.p50", "visible after, p50"),
             ("visible.p99", "p99"),
-            ("backlog", "edits waiting at most"),
+            ("backlog", "queued edits, maximum"),
             ("blocked.p99", "blocked, p99"),
         ],
     },
-    Table { name: "rates", source: graphical(RATES), columns: EDITING },
-    Table { name: "takes", source: graphical(TAKES), columns: EDITING },
-    Table { name: "sizes", source: graphical(SIZES), columns: EDITING },
-    Table { name: "stalls", source: graphical(STALLS), columns: EDITING },
-    Table { name: "threads", source: graphical(THREADS), columns: EDITING },
-    Table {
+    TableSpec { name: "rates", source: graphical(RATES), columns: EDITING },
+    TableSpec { name: "takes", source: graphical(TAKES), columns: EDITING },
+    TableSpec { name: "sizes", source: graphical(SIZES), columns: EDITING },
+    TableSpec { name: "stalls", source: graphical(STALLS), columns: EDITING },
+    TableSpec { name: "threads", source: graphical(THREADS), columns: EDITING },
+    TableSpec {
         name: "questions",
         source: graphical(QUESTIONS),
         columns: &[
             ("answer.p50", "answer after, p50"),
             ("answer.p99", "p99"),
             ("answer.max", "longest"),
-            ("asking.p50", "blocked by asking, p50"),
+            ("asking.p50", "blocked by the question, p50"),
             ("asking.p99", "p99"),
         ],
     },
 ];
 
 /// All charts.
-pub const CHARTS: &[Chart] = &[
-    Chart {
+pub const CHARTS: &[ChartSpec] = &[
+    ChartSpec {
         name: "round-trip-queues",
-        title: "How long does it take to ask another thread and have the answer, by queue?",
+        title: "Round trip to another thread, by queue",
         source: runtime(&["queue/round_trip/*"]),
-        kind: Kind::Rows(TRIP_MARKS, Scale::Log),
+        kind: ChartKind::Rows(TRIP_MARKS, AxisScale::Log),
     },
-    Chart {
+    ChartSpec {
         name: "round-trip-actors",
-        title: "How long does it take to ask an actor and have the answer?",
+        title: "Round trip to an actor",
         source: runtime(&["actor/round_trip/*"]),
-        kind: Kind::Rows(TRIP_MARKS, Scale::Log),
+        kind: ChartKind::Rows(TRIP_MARKS, AxisScale::Log),
     },
-    Chart {
+    ChartSpec {
         name: "one-way",
-        title: "What does a message of 64 bytes cost when nobody waits for an answer?",
+        title: "Cost of a message of 64 bytes without an answer",
         source: runtime(ONE_WAY),
-        kind: Kind::Rows(&[("per_message", "time a message")], Scale::Linear),
+        kind: ChartKind::Rows(&[("per_message", "time per message")], AxisScale::Linear),
     },
-    Chart {
+    ChartSpec {
         name: "chain",
-        title: "What does a message cost between actors that share a thread?",
+        title: "Cost of a message between actors in one thread",
         source: runtime(&["actor/chain/*"]),
-        kind: Kind::Rows(&[("per_message", "time a message")], Scale::Linear),
+        kind: ChartKind::Rows(&[("per_message", "time per message")], AxisScale::Linear),
     },
-    Chart {
+    ChartSpec {
         name: "spin",
-        title: "What does looking before sleeping gain, and what does it cost where there is one core?",
+        title: "Round trip with spinning before sleeping, on two cores and on one",
         source: runtime(&["?own/spin/*"]),
-        kind: Kind::Rows(TRIP_MARKS, Scale::Log),
+        kind: ChartKind::Rows(TRIP_MARKS, AxisScale::Log),
     },
-    Chart {
+    ChartSpec {
         name: "savina-1-thread",
-        title: "How do actor systems compare over the Savina suite, on one thread?",
+        title: "Savina suite, actor systems on one thread",
         source: runtime(&["savina/*"]),
-        kind: Kind::Ratios(
+        kind: ChartKind::Ratios(
             "total",
             "dragonfly 1 thread",
             &["actix 1 thread", "kameo 1 thread", "ractor 1 thread", "stakker"],
         ),
     },
-    Chart {
+    ChartSpec {
         name: "savina-2-threads",
-        title: "How do actor systems compare over the Savina suite, on two threads or one for each actor?",
+        title: "Savina suite, actor systems on two threads or one for each actor",
         source: runtime(&["savina/*"]),
-        kind: Kind::Ratios(
+        kind: ChartKind::Ratios(
             "total",
             "dragonfly 2 threads",
             &["actix 2 threads", "kameo 2 threads", "ractor 2 threads", "tonari-actor"],
         ),
     },
-    Chart {
+    ChartSpec {
         name: "blocked",
-        title: "How long does an edit keep the main thread from its window?",
+        title: "Time for which an edit blocks the main thread",
         source: graphical(DRAG),
-        kind: Kind::Curves("blocked", TELLING),
+        kind: ChartKind::Curves("blocked", DRAWN),
     },
-    Chart {
+    ChartSpec {
         name: "visible",
-        title: "How long does an edit take until a frame shows it?",
+        title: "Time from an edit to the frame that shows it",
         source: graphical(DRAG),
-        kind: Kind::Curves("visible", TELLING),
+        kind: ChartKind::Curves("visible", DRAWN),
     },
-    Chart {
+    ChartSpec {
         name: "jitter",
-        title: "How much too late is a frame?",
+        title: "Lateness of frames",
         source: graphical(DRAG),
-        kind: Kind::Curves("jitter", TELLING),
+        kind: ChartKind::Curves("jitter", DRAWN),
     },
-    Chart {
+    ChartSpec {
         name: "missed",
-        title: "How many frames are missed?",
+        title: "Missed frames",
         source: graphical(DRAG),
-        kind: Kind::Rows(&[("missed", "frames missed in a run")], Scale::Linear),
+        kind: ChartKind::Rows(&[("missed", "missed frames per run")], AxisScale::Linear),
     },
-    Chart {
+    ChartSpec {
         name: "questions",
-        title: "How long does it take to ask the document something and have the answer?",
+        title: "Round trip of a question to the document",
         source: graphical(QUESTIONS),
-        kind: Kind::Rows(
+        kind: ChartKind::Rows(
             &[("answer.p50", "p50"), ("answer.p99", "p99"), ("answer.p99.9", "p99.9")],
-            Scale::Log,
+            AxisScale::Log,
         ),
     },
-    Chart {
+    ChartSpec {
         name: "memory",
-        title: "How much memory does each way take at most?",
+        title: "Peak memory",
         source: graphical(DRAG),
-        kind: Kind::Rows(&[("memory", "memory")], Scale::Linear),
+        kind: ChartKind::Rows(&[("memory", "memory")], AxisScale::Linear),
     },
-    Chart {
+    ChartSpec {
         name: "cores",
-        title: "How much of the processor does each way take?",
+        title: "CPU cores in use",
         source: graphical(DRAG),
-        kind: Kind::Rows(&[("cores", "cores in use, on average")], Scale::Linear),
+        kind: ChartKind::Rows(&[("cores", "cores in use, on average")], AxisScale::Linear),
     },
 ];

@@ -1,9 +1,9 @@
-//! What all measurements of the study share: how they are planned, counted, written down and drawn.
+//! The parts that all measurements of the study share: planning, recording, and the report.
 //!
-//! A bench says which *variants* of one *case* it compares; [`Study::compare`] runs them in turns and in shuffled order,
-//! several times, so that a slow minute of the machine hits all alike. Each run writes *metrics*: single values, or
-//! whole distributions ([`Distribution`]). Every row goes into a CSV file with the load that other programs put on the
-//! machine meanwhile. From these files, and from nothing else, [`report`] makes the tables and charts of `README.md`.
+//! A bench lists the *variants* of one *case* that it compares. [`Study::compare`] runs them several times in turn, in
+//! shuffled order, so that a slow minute of the machine affects all of them equally. Each run records *metrics*: single
+//! values, or whole distributions ([`Distribution`]). Every row goes into a CSV file together with the background load of
+//! the machine during the run. [`report`] makes the tables and charts of `README.md` from these files alone.
 
 pub mod amount;
 pub mod chart;
@@ -24,5 +24,5 @@ pub mod summary;
 pub mod table;
 
 pub use distribution::Distribution;
-pub use plan::{Mode, Study, Variant};
-pub use record::{Measured, Row};
+pub use plan::{Study, StudyMode, Variant};
+pub use record::{DataRow, RunValues};

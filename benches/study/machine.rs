@@ -1,30 +1,30 @@
-//! What the machine itself costs, measured before anything else: its clock, its wake-ups, and who else is working.
+//! Properties of the machine, measured before anything else: its clock, its wake-ups, and the background load.
 
 use crate::Distribution;
 use std::fs;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What the machine is, and what its clock and wake-ups cost.
+/// The machine, and the cost of its clock and wake-ups.
 pub struct Machine {
-    /// The processor's name.
+    /// Name of the processor.
     pub processor: String,
-    /// Cores that this program may use.
+    /// Number of cores that this program may use.
     pub cores: usize,
-    /// The kernel's release.
+    /// Release of the kernel.
     pub kernel: String,
-    /// What reading the clock costs, in nanoseconds.
+    /// Cost of reading the clock, in nanoseconds.
     pub clock_cost: f64,
-    /// The smallest step of the clock that was seen, in nanoseconds.
+    /// Smallest observed step of the clock, in nanoseconds.
     pub clock_step: u64,
-    /// There and back between two threads that wake each other with nothing else to do: two wake-ups.
+    /// Round trips between two threads that only wake each other: two wake-ups each.
     pub wake_ups: Distribution,
-    /// How much later than asked a sleep of one millisecond ends.
+    /// Lateness of a sleep of one millisecond.
     pub overshoot: Distribution,
 }
 
 impl Machine {
-    /// Looks and measures; takes about half a second.
+    /// Reads and measures them, in about half a second.
     pub fn measure() -> Self {
         let cpu = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
         let processor = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
@@ -58,7 +58,7 @@ fn clock() -> (f64, u64) {
     (begin.elapsed().as_nanos() as f64 / f64::from(READS), step)
 }
 
-/// Two bare threads that unpark each other: the least that any message between sleeping threads can cost.
+/// Measures round trips of two threads that unpark each other: the lower limit for messages between sleeping threads.
 fn wake_ups() -> Distribution {
     use std::sync::Arc;
     use std::sync::atomic::{AtomicU32, Ordering};
@@ -106,12 +106,12 @@ mod tests {
     use dragonfly_kit::load::CpuLoad;
 
     #[test]
-    fn work_of_this_program_is_not_laid_to_others() {
+    fn work_of_this_program_does_not_count_as_background_load() {
         let load = CpuLoad::now();
         let begin = Instant::now();
         while begin.elapsed() < Duration::from_millis(200) {}
         let own = load.own_since();
         assert!(own >= Duration::from_millis(50), "{own:?} of 200 ms of work were seen");
-        assert!(load.others_since() >= 0.0);
+        assert!(load.background_since() >= 0.0);
     }
 }

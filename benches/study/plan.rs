@@ -1,26 +1,26 @@
-//! In which order things are measured, and how often.
+//! Order and number of the measurements.
 
 use crate::machine::Machine;
-use crate::record::{self, Measured, Row};
+use crate::record::{self, DataRow, RunValues};
 use crate::report;
-use crate::summary::{Summary, summarise};
+use crate::summary::{Summary, summarize};
 use dragonfly_kit::load::CpuLoad;
 use dragonfly_kit::random::Random;
 use std::time::Instant;
 
-/// How thorough a run is.
+/// Thoroughness of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
-    /// Does everything once with little data: for tests, which look at results and not at times.
+pub enum StudyMode {
+    /// Everything once with little data: for tests, which check results and not times.
     Check,
-    /// Under two minutes for all of the study: rough figures.
+    /// All of the study in under two minutes: rough numbers.
     Short,
-    /// The figures of the study; written down in `benches/results`.
+    /// The numbers of the study, written to `benches/results`.
     Full,
 }
 
-impl Mode {
-    /// One of three values, by thoroughness.
+impl StudyMode {
+    /// Returns one of three values, by thoroughness.
     pub fn pick<T>(self, check: T, short: T, full: T) -> T {
         match self {
             Self::Check => check,
@@ -30,45 +30,45 @@ impl Mode {
     }
 }
 
-/// One of the things a case compares: its name, and what to do to measure it once.
+/// One of the alternatives that a case compares: its name, and a closure that measures it once.
 pub struct Variant<'a> {
     name: &'a str,
-    run: Box<dyn FnMut(&mut Measured) + 'a>,
+    run: Box<dyn FnMut(&mut RunValues) + 'a>,
 }
 
 impl<'a> Variant<'a> {
-    /// `run` sets up what it needs, does the work, checks its result, and writes down what it measured.
-    pub fn new(name: &'a str, run: impl FnMut(&mut Measured) + 'a) -> Self {
+    /// `run` prepares the work, does it, checks its result, and records the measured values.
+    pub fn new(name: &'a str, run: impl FnMut(&mut RunValues) + 'a) -> Self {
         Self { name, run: Box::new(run) }
     }
 }
 
 /// One run of one bench program.
 pub struct Study {
-    /// How thorough it is.
-    pub mode: Mode,
-    /// Are results printed as they come? A bench that prints tables of its own says no.
+    /// Thoroughness of the run.
+    pub mode: StudyMode,
+    /// Whether results are printed during the run. `false` for a bench that prints tables of its own.
     pub prints: bool,
     name: &'static str,
     only: Option<String>,
     order: Random,
-    rows: Vec<Row>,
+    rows: Vec<DataRow>,
     begin: Instant,
 }
 
 impl Study {
-    /// Reads the program's arguments: `--full`, `--check`, `--seed N`, and a part of a case's name to measure only those.
-    /// Prints what the machine is and what its clock and wake-ups cost.
+    /// Reads the program's arguments: `--full`, `--check`, `--seed N`, and a part of a name, which selects cases. Prints
+    /// the properties of the machine.
     pub fn start(name: &'static str) -> Self {
-        let mut mode = Mode::Short;
+        let mut mode = StudyMode::Short;
         let (mut only, mut seed) = (None, 1);
         let mut arguments = std::env::args().skip(1);
         while let Some(argument) = arguments.next() {
             match argument.as_str() {
-                "--full" => mode = Mode::Full,
-                "--check" => mode = Mode::Check,
+                "--full" => mode = StudyMode::Full,
+                "--check" => mode = StudyMode::Check,
                 "--seed" => seed = arguments.next().and_then(|word| word.parse().ok()).unwrap_or(seed),
-                // What cargo itself says to every bench.
+                // Cargo passes such arguments to every bench.
                 word if word.starts_with("--") => {}
                 word => only = Some(word.to_owned()),
             }
@@ -84,19 +84,19 @@ impl Study {
         };
         let load = CpuLoad::now();
         let machine = Machine::measure();
-        let others = load.others_since();
+        let background = load.background_since();
         println!("# {name}, {mode:?}, order by seed {seed}");
         println!("# {}, {} cores, Linux {}", machine.processor, machine.cores, machine.kernel);
-        println!("# clock: {:.0} ns a look, steps of {} ns", machine.clock_cost, machine.clock_step);
+        println!("# clock: {:.0} ns per call, steps of {} ns", machine.clock_cost, machine.clock_step);
         let (wake, late) = (&machine.wake_ups, &machine.overshoot);
         println!(
-            "# two wake-ups: p50 {} ns, p99 {} ns; a sleep of 1 ms is late by p50 {} ns, p99 {} ns",
+            "# two wake-ups: p50 {} ns, p99 {} ns; lateness of a sleep of 1 ms: p50 {} ns, p99 {} ns",
             wake.percentile(50.0),
             wake.percentile(99.0),
             late.percentile(50.0),
             late.percentile(99.0),
         );
-        let mut measured = Measured::default();
+        let mut measured = RunValues::default();
         measured.value("cores", "count", machine.cores as f64);
         measured.value("order.seed", "count", seed as f64);
         measured.value("clock.cost", "ns", machine.clock_cost);
@@ -105,14 +105,14 @@ impl Study {
         measured.distribution("overshoot_1ms", late);
         let mut study = study;
         let name = format!("{}, Linux {}", machine.processor, machine.kernel);
-        study.keep("machine", &name, 0, measured, others);
+        study.keep("machine", &name, 0, measured, background);
         study
     }
 
-    /// For tests: everything once, nothing printed or written.
+    /// Returns a run for tests: everything once, nothing printed or written.
     pub fn check() -> Self {
         Self {
-            mode: Mode::Check,
+            mode: StudyMode::Check,
             prints: false,
             name: "check",
             only: None,
@@ -122,9 +122,9 @@ impl Study {
         }
     }
 
-    /// Measures every variant of `case`, `repeats` times, each time in another order. One line a variant is printed.
+    /// Measures every variant of `case`, `repeats` times, each time in another order. Prints a line for each variant.
     ///
-    /// Skipped when the program was told to measure something else.
+    /// Does nothing when the arguments of the program select other cases.
     pub fn compare(&mut self, case: &str, repeats: u32, variants: Vec<Variant>) {
         if !self.wants(case) {
             return;
@@ -136,61 +136,61 @@ impl Study {
             for place in (1..variants.len()).rev() {
                 variants.swap(place, self.order.below(place + 1));
             }
-            // Over all variants of the repeat: the kernel counts in steps of 10 ms, too coarse for one that is short.
+            // Measured over all variants of a repeat: the kernel counts in steps of 10 ms, too coarse for a short one.
             let load = CpuLoad::now();
             let begin = self.rows.len();
             for variant in &mut variants {
-                let mut measured = Measured::default();
+                let mut measured = RunValues::default();
                 (variant.run)(&mut measured);
                 self.keep(case, variant.name, repeat, measured, 0.0);
             }
-            let others = load.others_since();
-            self.rows[begin..].iter_mut().for_each(|row| row.others = others);
+            let background = load.background_since();
+            self.rows[begin..].iter_mut().for_each(|row| row.background = background);
         }
-        if self.prints && self.mode != Mode::Check {
+        if self.prints && self.mode != StudyMode::Check {
             self.print(first, &names);
         }
     }
 
-    /// Is `case` to be measured?
+    /// Returns whether `case` is selected.
     pub fn wants(&self, case: &str) -> bool {
         self.only.as_ref().is_none_or(|only| case.contains(only.as_str()))
     }
 
-    fn keep(&mut self, case: &str, variant: &str, repeat: u32, measured: Measured, others: f64) {
-        self.rows.extend(measured.values.into_iter().map(|(metric, unit, value)| Row {
+    fn keep(&mut self, case: &str, variant: &str, repeat: u32, measured: RunValues, background: f64) {
+        self.rows.extend(measured.values.into_iter().map(|(metric, unit, value)| DataRow {
             case: case.to_owned(),
             variant: variant.to_owned(),
             repeat,
             metric,
             unit,
             value,
-            others,
+            background,
         }));
     }
 
-    /// One line for each variant and metric: the median of the repeats, their spread, and the load of others.
+    /// Prints a line for each variant and metric: the median of the repeats, their spread, and the background load.
     fn print(&self, first: usize, variants: &[String]) {
-        let all = summarise(&self.rows[first..]);
+        let all = summarize(&self.rows[first..]);
         for variant in variants {
             for one in all.iter().filter(|one| one.variant == *variant) {
-                let Summary { case, metric, unit, median, low, high, others, .. } = one;
+                let Summary { case, metric, unit, median, low, high, background, .. } = one;
                 println!(
-                    "{case:<44} {variant:<18} {metric:<22} {median:>14.1} {unit:<5} [{low:.1} .. {high:.1}] others {others:.2}"
+                    "{case:<44} {variant:<18} {metric:<22} {median:>14.1} {unit:<5} [{low:.1} .. {high:.1}] background {background:.2}"
                 );
             }
         }
     }
 
-    /// Everything measured so far.
-    pub fn rows(&self) -> &[Row] {
+    /// Returns everything measured so far.
+    pub fn rows(&self) -> &[DataRow] {
         &self.rows
     }
 
-    /// Writes the raw data, and says where: of a full and whole run to `benches/results`, with the tables and charts made
-    /// anew; of any other run to the target folder.
-    pub fn finish(self) -> Vec<Row> {
-        let kept = self.mode == Mode::Full && self.only.is_none();
+    /// Writes the raw data and prints its path. A full run of all cases is written to `benches/results`, and the tables and
+    /// charts are made again; any other run is written to the target folder.
+    pub fn finish(self) -> Vec<DataRow> {
+        let kept = self.mode == StudyMode::Full && self.only.is_none();
         let folder = if kept {
             report::folder().join("results")
         } else {
@@ -206,12 +206,12 @@ impl Study {
         }
         if self.only.is_none() {
             let missing = report::missing(self.name, &self.rows);
-            missing.iter().for_each(|what| println!("# not to be shown: {what}"));
+            missing.iter().for_each(|what| println!("# no data for: {what}"));
         }
         if kept {
             match report::update(&folder, &report::folder()) {
-                Ok(changed) => changed.iter().for_each(|path| println!("# made anew: {}", path.display())),
-                Err(error) => eprintln!("the report is not made: {error}"),
+                Ok(changed) => changed.iter().for_each(|path| println!("# updated: {}", path.display())),
+                Err(error) => eprintln!("cannot make the report: {error}"),
             }
         }
         self.rows
@@ -223,7 +223,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_variant_has_its_turn_in_every_repeat_and_not_always_in_the_same_order() {
+    fn every_variant_runs_in_every_repeat_in_shuffled_order() {
         let turns = std::cell::RefCell::new(String::new());
         let mut study = Study::check();
         let variant = |name: &'static str| {

@@ -1,33 +1,33 @@
-//! The tables of `README.md` and its charts, all made from the files of raw data and from nothing else.
+//! Makes the tables of `README.md` and its charts from the files of raw data alone.
 
 use crate::amount;
 use crate::chart;
 use crate::design;
-use crate::figures::{CHARTS, Chart, FILES, Kind, Source, TABLES, Table};
+use crate::figures::{CHARTS, ChartKind, ChartSpec, DataSource, FILES, TABLES, TableSpec};
 use crate::goal::{self, Spread};
-use crate::record::{self, Row};
-use crate::summary::{Summary, summarise};
+use crate::record::{self, DataRow};
+use crate::summary::{Summary, summarize};
 use crate::table;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What went wrong, in words.
-pub type Failed = Box<dyn std::error::Error>;
+/// An error with its message.
+pub type ReportError = Box<dyn std::error::Error>;
 
-/// What stands where nothing has been measured.
-const NOTHING: &str = "*No full run has been kept yet.*";
+/// Text in place of a table or chart without data.
+const NOTHING: &str = "*There are no results of a full run yet.*";
 
 /// The raw data of the last full runs.
 #[derive(Default)]
-pub struct Data(BTreeMap<&'static str, Vec<Row>>);
+pub struct Data(BTreeMap<&'static str, Vec<DataRow>>);
 
 impl Data {
-    /// Reads those files in `results` that are there.
+    /// Reads the existing files in `results`.
     ///
     /// # Errors
-    /// When one cannot be read or understood.
-    pub fn read(results: &Path) -> Result<Self, Failed> {
+    /// When a file cannot be read or parsed.
+    pub fn read(results: &Path) -> Result<Self, ReportError> {
         let mut data = Self::default();
         for file in FILES {
             let path = results.join(file).with_extension("csv");
@@ -39,34 +39,34 @@ impl Data {
         Ok(data)
     }
 
-    /// The rows of `source`; `None` when its file is not there.
+    /// Returns the rows of `source`; `None` when its file does not exist.
     ///
     /// # Errors
-    /// When the file is there and has none: then the list of figures is wrong.
-    fn rows(&self, name: &str, source: &Source) -> Result<Option<Vec<Row>>, Failed> {
+    /// When the file contains none of these cases, because then the list of figures is wrong.
+    fn rows(&self, name: &str, source: &DataSource) -> Result<Option<Vec<DataRow>>, ReportError> {
         let Some(rows) = self.0.get(source.file) else { return Ok(None) };
         let matches = |case: &str, wanted: &str| match wanted.trim_start_matches('?').strip_suffix('*') {
             Some(begin) => case.starts_with(begin),
             None => case == wanted.trim_start_matches('?'),
         };
-        let wanted = |row: &&Row| source.cases.iter().any(|wanted| matches(&row.case, wanted));
-        let rows: Vec<Row> = rows.iter().filter(wanted).cloned().collect();
+        let wanted = |row: &&DataRow| source.cases.iter().any(|wanted| matches(&row.case, wanted));
+        let rows: Vec<DataRow> = rows.iter().filter(wanted).cloned().collect();
         if rows.is_empty() {
             if source.cases.iter().all(|case| case.starts_with('?')) {
                 return Ok(None);
             }
-            return Err(format!("{name}: {}.csv has nothing of {:?}", source.file, source.cases).into());
+            return Err(format!("{name}: {}.csv contains none of {:?}", source.file, source.cases).into());
         }
         Ok(Some(rows))
     }
 }
 
-/// Every file that is made from the data, by its path in the folder of the study: `README.md`, given as it is now;
-/// the charts; and the tables of everything.
+/// Returns every file that is made from the data, with its path in the folder of the study: the page, whose current text
+/// is `readme`; the charts; and the complete tables.
 ///
 /// # Errors
-/// When a table or chart has no data, or the README does not show it or shows one that does not exist.
-pub fn render(data: &Data, readme: &str) -> Result<Vec<(PathBuf, String)>, Failed> {
+/// When a table or chart has no data, or when the page lacks it or contains an unknown one.
+pub fn render(data: &Data, readme: &str) -> Result<Vec<(PathBuf, String)>, ReportError> {
     let mut blocks: BTreeMap<String, String> = BTreeMap::new();
     let mut files = Vec::new();
     for one in TABLES {
@@ -82,9 +82,9 @@ pub fn render(data: &Data, readme: &str) -> Result<Vec<(PathBuf, String)>, Faile
     }
     for (file, rows) in &data.0 {
         let text = format!(
-            "# Everything in {file}.csv\n\nWhat the page before shows a part of. `others`: cores that other programs kept \
-             busy, at worst.\n\n{}",
-            table::long(&summarise(rows))
+            "# All data of {file}.csv\n\nThe page of the study shows a part of it. Background load: the largest number of cores \
+             that other programs used during a repeat.\n\n{}",
+            table::long(&summarize(rows))
         );
         files.push((format!("results/{file}.md").into(), text));
     }
@@ -92,29 +92,28 @@ pub fn render(data: &Data, readme: &str) -> Result<Vec<(PathBuf, String)>, Faile
     Ok(files)
 }
 
-/// What stands between the markers of a table.
-fn table_block(data: &Data, one: &Table) -> Result<String, Failed> {
+/// Returns the text between the markers of a table.
+fn table_block(data: &Data, one: &TableSpec) -> Result<String, ReportError> {
     let Some(rows) = data.rows(one.name, &one.source)? else { return Ok(NOTHING.to_owned()) };
-    let shown = summarise(&rows);
-    let lacks = |(metric, _): &&table::Column| !shown.iter().any(|one| one.metric == *metric);
+    let shown = summarize(&rows);
+    let lacks = |(metric, _): &&table::TableColumn| !shown.iter().any(|one| one.metric == *metric);
     if let Some((metric, _)) = one.columns.iter().find(lacks) {
-        return Err(format!("table {}: nothing was measured as {metric}", one.name).into());
+        return Err(format!("table {}: there is no metric {metric}", one.name).into());
     }
     let mut text = table::wide(&shown, one.columns);
     let lines = text.lines().count() - 2;
-    // What would fill the window is folded.
+    // A long table is folded.
     if lines > 12 {
         text = format!("<details><summary>The numbers: {lines} rows</summary>\n\n{text}\n</details>\n");
     }
-    Ok(format!("{text}\n{}", from(&one.source, &shown)))
+    Ok(format!("{text}\n{}", source_line(&one.source, &shown)))
 }
 
-/// What our runtime was to reach beside its peers, and whether it did.
+/// Returns the table of the goals with their results.
 fn goals_block(data: &Data) -> String {
     let Some(rows) = data.0.get("runtime") else { return NOTHING.to_owned() };
-    let mut text = String::from(
-        "| goal | ours | beside | theirs | ratio | at most | |\n|---|--:|---|--:|--:|--:|---|\n",
-    );
+    let mut text =
+        String::from("| goal | ours | rival | theirs | ratio | limit | |\n|---|--:|---|--:|--:|--:|---|\n");
     for goal in goal::goals(rows) {
         let shown = |of: &Spread| amount::spread(of.median(), of.low(), of.high(), &goal.unit);
         text += &format!(
@@ -128,22 +127,22 @@ fn goals_block(data: &Data) -> String {
             goal.verdict().as_str(),
         );
     }
-    text + "\n*From [runtime.csv](results/runtime.csv); a ratio of medians.*"
+    text + "\n*From [runtime.csv](results/runtime.csv); ratios of medians.*"
 }
 
-/// What stands between the markers of a chart, and the chart's file.
-fn chart_block(data: &Data, one: &Chart) -> Result<(String, Option<(PathBuf, String)>), Failed> {
+/// Returns the text between the markers of a chart, and the file of the chart.
+fn chart_block(data: &Data, one: &ChartSpec) -> Result<(String, Option<(PathBuf, String)>), ReportError> {
     let Some(rows) = data.rows(one.name, &one.source)? else { return Ok((NOTHING.to_owned(), None)) };
     let path = format!("results/{}.svg", one.name);
-    let block = format!("![{}]({path})\n\n{}", one.title, from(&one.source, &summarise(&rows)));
+    let block = format!("![{}]({path})\n\n{}", one.title, source_line(&one.source, &summarize(&rows)));
     Ok((block, Some((path.into(), draw(one, &rows)?))))
 }
 
-/// Makes everything of the files of raw data in `results` and writes it into `folder`; says what changed.
+/// Makes all files from the raw data in `results` and writes them into `folder`. Returns the paths of those that changed.
 ///
 /// # Errors
-/// As above, and when something cannot be read or written.
-pub fn update(results: &Path, folder: &Path) -> Result<Vec<PathBuf>, Failed> {
+/// As for [`render`], and when a file cannot be read or written.
+pub fn update(results: &Path, folder: &Path) -> Result<Vec<PathBuf>, ReportError> {
     let data = Data::read(results)?;
     let readme = fs::read_to_string(self::folder().join("README.md"))?;
     let mut changed = Vec::new();
@@ -158,67 +157,67 @@ pub fn update(results: &Path, folder: &Path) -> Result<Vec<PathBuf>, Failed> {
     Ok(changed)
 }
 
-/// What could not be shown if `rows` were the raw data of `file`; so a case that has another name now is found in a short
+/// Returns the errors of the tables and charts if `rows` were the raw data of `file`. So a renamed case is found in a short
 /// run, and not after an hour of measuring.
-pub fn missing(file: &'static str, rows: &[Row]) -> Vec<String> {
+pub fn missing(file: &'static str, rows: &[DataRow]) -> Vec<String> {
     let data = Data([(file, rows.to_vec())].into());
     let tables = TABLES.iter().map(|one| table_block(&data, one).err());
     let charts = CHARTS.iter().map(|one| chart_block(&data, one).err());
     tables.chain(charts).flatten().map(|error| error.to_string()).collect()
 }
 
-/// The folder of the study: where `README.md` and `results` are.
+/// Returns the folder of the study, which contains `README.md` and `results`.
 pub fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Where the numbers come from.
-fn from(source: &Source, shown: &[Summary]) -> String {
+/// Returns the line with the source of the numbers.
+fn source_line(source: &DataSource, shown: &[Summary]) -> String {
     let fewest = shown.iter().map(|one| one.repeats).min().unwrap_or(0);
     let most = shown.iter().map(|one| one.repeats).max().unwrap_or(0);
     let repeats = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
-    let others = shown.iter().map(|one| one.others).fold(0.0, f64::max);
+    let background = shown.iter().map(|one| one.background).fold(0.0, f64::max);
     let file = source.file;
     format!(
-        "<sub>Raw data: [{file}.csv](results/{file}.csv), `{}`; repeats: {repeats}; load by others: at most {} cores.</sub>\n",
+        "<sub>Raw data: [{file}.csv](results/{file}.csv), `{}`; repeats: {repeats}; background load: at most {} cores.</sub>\n",
         source.cases.join("`, `").replace('?', ""),
-        amount::digits(others),
+        amount::digits(background),
     )
 }
 
-fn draw(chart: &Chart, rows: &[Row]) -> Result<String, Failed> {
-    let all = summarise(rows);
+fn draw(chart: &ChartSpec, rows: &[DataRow]) -> Result<String, ReportError> {
+    let all = summarize(rows);
     let cases = table::distinct(all.iter().map(|one| one.case.as_str()));
     let has = |metric: &str| all.iter().any(|one| one.metric.starts_with(metric));
     let metric = match &chart.kind {
-        Kind::Rows(columns, _) => columns.iter().map(|column| column.0).find(|metric| !has(metric)),
-        Kind::Curves(metric, _) | Kind::Ratios(metric, ..) => (!has(metric)).then_some(*metric),
+        ChartKind::Rows(columns, _) => columns.iter().map(|column| column.0).find(|metric| !has(metric)),
+        ChartKind::Curves(metric, _) | ChartKind::Ratios(metric, ..) => (!has(metric)).then_some(*metric),
     };
     if let Some(metric) = metric {
-        return Err(format!("chart {}: nothing was measured as {metric}", chart.name).into());
+        return Err(format!("chart {}: there is no metric {metric}", chart.name).into());
     }
     let named: Vec<&str> = match &chart.kind {
-        Kind::Rows(..) => Vec::new(),
-        Kind::Curves(_, who) => who.to_vec(),
-        Kind::Ratios(_, ours, peers) => peers.iter().chain([ours]).copied().collect(),
+        ChartKind::Rows(..) => Vec::new(),
+        ChartKind::Curves(_, who) => who.to_vec(),
+        ChartKind::Ratios(_, ours, peers) => peers.iter().chain([ours]).copied().collect(),
     };
     if let Some(who) = named.iter().find(|who| !all.iter().any(|one| one.variant == **who)) {
-        return Err(format!("chart {}: there is no {who}", chart.name).into());
+        return Err(format!("chart {}: there is no variant {who}", chart.name).into());
     }
     Ok(match &chart.kind {
-        Kind::Rows(columns, scale) => chart::rows(chart.title, &all, columns, *scale),
-        Kind::Ratios(metric, ours, peers) => chart::ratios(chart.title, rows, metric, ours, peers),
-        Kind::Curves(metric, who) => {
+        ChartKind::Rows(columns, scale) => chart::rows(chart.title, &all, columns, *scale),
+        ChartKind::Ratios(metric, ours, peers) => chart::ratios(chart.title, rows, metric, ours, peers),
+        ChartKind::Curves(metric, who) => {
             if cases.len() != 1 {
-                return Err(format!("chart {}: one case is wanted, there are {cases:?}", chart.name).into());
+                return Err(format!("chart {}: needs one case, there are {cases:?}", chart.name).into());
             }
             chart::curves(chart.title, &all, metric, who)
         }
     })
 }
 
-/// Puts each block between its marker and the next `<!-- end -->`.
-fn fill(readme: &str, blocks: &BTreeMap<String, String>) -> Result<String, Failed> {
+/// Inserts each block between its marker and the next `<!-- end -->`.
+fn fill(readme: &str, blocks: &BTreeMap<String, String>) -> Result<String, ReportError> {
     let mut filled = String::new();
     let mut unused: Vec<&String> = blocks.keys().collect();
     let mut inside = None;
@@ -226,19 +225,19 @@ fn fill(readme: &str, blocks: &BTreeMap<String, String>) -> Result<String, Faile
         let comment = line.trim().strip_prefix("<!-- ").and_then(|rest| rest.strip_suffix(" -->"));
         match (comment, inside) {
             (Some("end"), Some(_)) => inside = None,
-            (Some("end"), None) => return Err("README.md: an `end` of nothing".into()),
+            (Some("end"), None) => return Err("README.md: an `end` without a start".into()),
             (Some(name), None) if name.starts_with("table: ") || name.starts_with("chart: ") => {
                 let Some(block) = blocks.get(name) else {
-                    return Err(format!("README.md: there is no {name}").into());
+                    return Err(format!("README.md: unknown {name}").into());
                 };
                 let place = unused.iter().position(|unused| *unused == name);
-                unused.remove(place.ok_or_else(|| format!("README.md: {name} is there twice"))?);
+                unused.remove(place.ok_or_else(|| format!("README.md: {name} occurs twice"))?);
                 inside = Some(name);
                 filled += &format!("{line}\n\n{}\n\n<!-- end -->\n", block.trim_end());
                 continue;
             }
             (Some(name), Some(_)) => {
-                return Err(format!("README.md: {name} before the `end` of another").into());
+                return Err(format!("README.md: {name} starts before the `end` of another").into());
             }
             (_, Some(_)) => continue,
             _ => {
@@ -251,7 +250,7 @@ fn fill(readme: &str, blocks: &BTreeMap<String, String>) -> Result<String, Faile
         return Err(format!("README.md: {name} has no `end`").into());
     }
     if !unused.is_empty() {
-        return Err(format!("README.md: these are not shown: {unused:?}").into());
+        return Err(format!("README.md: missing: {unused:?}").into());
     }
     Ok(filled)
 }
@@ -267,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_between_the_markers_is_made_anew_and_nothing_else() {
+    fn only_the_text_between_the_markers_is_replaced() {
         let readme = "# One\n\n<!-- table: a -->\nold\n<!-- end -->\ntext\n<!-- a comment -->\n<!-- chart: b -->\n<!-- end -->\n";
         let expected = "# One\n\n<!-- table: a -->\n\n| new |\n\n<!-- end -->\ntext\n<!-- a comment -->\n\
             <!-- chart: b -->\n\n![b](b.svg)\n\n<!-- end -->\n";
@@ -277,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn a_marker_that_is_wrong_or_missing_is_reported() {
+    fn a_wrong_or_missing_marker_is_an_error() {
         let both = "<!-- table: a -->\n<!-- end -->\n<!-- chart: b -->\n<!-- end -->\n";
         assert!(fill(both, &blocks()).is_ok());
         for wrong in [
@@ -292,13 +291,13 @@ mod tests {
         }
     }
 
-    /// Invented rows for everything that is shown: two repeats of each metric, by all who are named and one who is not.
+    /// Returns invented rows for all tables and charts: two repeats of each metric, for all named variants and one other.
     fn invented() -> Data {
         let mut data = Data::default();
-        let mut add = |source: &Source, who: &[&str], metrics: &[String]| {
+        let mut add = |source: &DataSource, who: &[&str], metrics: &[String]| {
             let rows = data.0.entry(source.file).or_default();
             for case in source.cases {
-                for (place, who) in who.iter().chain(&["somebody"]).enumerate() {
+                for (place, who) in who.iter().chain(&["another"]).enumerate() {
                     for metric in metrics {
                         for repeat in 0..2 {
                             let value = 1e4 * (place + 1) as f64 + f64::from(repeat);
@@ -315,18 +314,19 @@ mod tests {
                 }
             }
         };
-        let names =
-            |columns: &[table::Column]| columns.iter().map(|column| column.0.to_owned()).collect::<Vec<_>>();
+        let names = |columns: &[table::TableColumn]| {
+            columns.iter().map(|column| column.0.to_owned()).collect::<Vec<_>>()
+        };
         for one in TABLES {
             add(&one.source, &[], &names(one.columns));
         }
         for one in CHARTS {
             match &one.kind {
-                Kind::Rows(columns, _) => add(&one.source, &[], &names(columns)),
-                Kind::Ratios(metric, ours, peers) => {
+                ChartKind::Rows(columns, _) => add(&one.source, &[], &names(columns)),
+                ChartKind::Ratios(metric, ours, peers) => {
                     add(&one.source, &[&[*ours], *peers].concat(), &[(*metric).to_owned()]);
                 }
-                Kind::Curves(metric, who) => {
+                ChartKind::Curves(metric, who) => {
                     let points = ["p50", "p90", "p99", "p99.9", "max"];
                     add(&one.source, who, &points.map(|point| format!("{metric}.{point}")));
                 }
@@ -336,12 +336,12 @@ mod tests {
     }
 
     #[test]
-    fn a_whole_page_is_made_from_raw_data_and_made_anew_it_stays() {
+    fn a_page_is_made_from_raw_data_and_does_not_change_when_made_again() {
         let readme = fs::read_to_string(folder().join("README.md")).unwrap();
         let data = invented();
         let files = render(&data, &readme).unwrap();
         let page = &files.iter().find(|(path, _)| path.ends_with("README.md")).unwrap().1;
-        assert!(!page.contains(NOTHING), "something was not measured");
+        assert!(!page.contains(NOTHING), "a table or chart has no data");
         assert_eq!(&render(&data, page).unwrap().last().unwrap().1, page);
         for chart in CHARTS {
             assert!(
@@ -350,7 +350,7 @@ mod tests {
                 chart.name
             );
         }
-        // Everything that was measured is in the tables of everything.
+        // The complete tables contain all rows.
         for (file, rows) in &data.0 {
             let all = &files.iter().find(|(path, _)| path.ends_with(format!("{file}.md"))).unwrap().1;
             for row in rows {
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn a_case_or_metric_that_has_another_name_is_missed() {
+    fn a_renamed_case_or_metric_is_reported_as_missing() {
         let all = invented();
         for (file, rows) in &all.0 {
             assert_eq!(missing(file, rows), [""; 0]);
@@ -375,13 +375,13 @@ mod tests {
     }
 
     #[test]
-    fn a_case_is_named_whole_unless_it_ends_in_a_star() {
+    fn a_case_matches_by_its_whole_name_unless_it_ends_in_a_star() {
         let rows = ["drag", "drag/60 Hz"].map(|case| row(case, "who", 0, "m", "ns", 1.0)).to_vec();
         let data = Data([("graphical", rows)].into());
-        let count = |cases| data.rows("x", &Source { file: "graphical", cases }).unwrap().unwrap().len();
+        let count = |cases| data.rows("x", &DataSource { file: "graphical", cases }).unwrap().unwrap().len();
         assert_eq!((count(&["drag"]), count(&["drag*"]), count(&["drag/*"])), (1, 2, 1));
-        assert!(data.rows("x", &Source { file: "graphical", cases: &["dra"] }).is_err());
-        assert!(data.rows("x", &Source { file: "graphical", cases: &["?dra"] }).unwrap().is_none());
-        assert!(data.rows("x", &Source { file: "runtime", cases: &["drag"] }).unwrap().is_none());
+        assert!(data.rows("x", &DataSource { file: "graphical", cases: &["dra"] }).is_err());
+        assert!(data.rows("x", &DataSource { file: "graphical", cases: &["?dra"] }).unwrap().is_none());
+        assert!(data.rows("x", &DataSource { file: "runtime", cases: &["drag"] }).unwrap().is_none());
     }
 }

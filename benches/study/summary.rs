@@ -1,34 +1,34 @@
-//! Repeats put together: what is shown of raw data, in tables, in charts and while measuring.
+//! Summaries of the repeats of a measurement, for tables, for charts and for printing.
 
-use crate::Row;
+use crate::DataRow;
 
 /// One metric of one variant of one case, over all its repeats.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// As in [`Row`].
+    /// The case, as in [`DataRow`].
     pub case: String,
-    /// As in [`Row`].
+    /// The variant, as in [`DataRow`].
     pub variant: String,
-    /// As in [`Row`].
+    /// The metric, as in [`DataRow`].
     pub metric: String,
-    /// As in [`Row`].
+    /// The unit, as in [`DataRow`].
     pub unit: String,
-    /// The median of the repeats; of an even number of them, between the two in the middle.
+    /// Median of the repeats; for an even number of them, the mean of the two in the middle.
     pub median: f64,
-    /// The smallest repeat.
+    /// Smallest repeat.
     pub low: f64,
-    /// The greatest repeat.
+    /// Largest repeat.
     pub high: f64,
-    /// How many repeats there are.
+    /// Number of repeats.
     pub repeats: usize,
-    /// The load by other programs during the repeat that had most of it, in cores.
-    pub others: f64,
+    /// Largest background load during a repeat, in cores.
+    pub background: f64,
 }
 
-/// Puts the repeats in `rows` together, in the order in which cases, variants and metrics first appear.
-pub fn summarise(rows: &[Row]) -> Vec<Summary> {
-    let mut groups: Vec<Vec<&Row>> = Vec::new();
-    let key = |row: &Row| (row.case.clone(), row.variant.clone(), row.metric.clone());
+/// Summarizes the repeats in `rows`, in the order in which cases, variants and metrics first appear.
+pub fn summarize(rows: &[DataRow]) -> Vec<Summary> {
+    let mut groups: Vec<Vec<&DataRow>> = Vec::new();
+    let key = |row: &DataRow| (row.case.clone(), row.variant.clone(), row.metric.clone());
     let mut places = std::collections::HashMap::new();
     for row in rows {
         let place = *places.entry(key(row)).or_insert(groups.len());
@@ -40,7 +40,7 @@ pub fn summarise(rows: &[Row]) -> Vec<Summary> {
     groups.iter().map(|group| of(group)).collect()
 }
 
-fn of(group: &[&Row]) -> Summary {
+fn of(group: &[&DataRow]) -> Summary {
     let first = group[0];
     let [low, median, high] = spread(group.iter().map(|row| row.value));
     Summary {
@@ -52,11 +52,11 @@ fn of(group: &[&Row]) -> Summary {
         low,
         high,
         repeats: group.len(),
-        others: group.iter().map(|row| row.others).fold(0.0, f64::max),
+        background: group.iter().map(|row| row.background).fold(0.0, f64::max),
     }
 }
 
-/// The smallest, the median and the greatest of at least one value.
+/// Returns the smallest, the median and the largest of at least one value.
 pub fn spread(values: impl Iterator<Item = f64>) -> [f64; 3] {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
@@ -65,7 +65,7 @@ pub fn spread(values: impl Iterator<Item = f64>) -> [f64; 3] {
     [values[0], f64::midpoint(lower, upper), values[values.len() - 1]]
 }
 
-/// Is it ours, among others' of the same case?
+/// Returns whether a variant is one of this project.
 pub fn is_ours(variant: &str) -> bool {
     variant.starts_with("dragonfly") || variant.starts_with("messages")
 }
@@ -75,27 +75,34 @@ pub(crate) mod tests {
     use super::*;
 
     /// An invented row.
-    pub(crate) fn row(case: &str, variant: &str, repeat: u32, metric: &str, unit: &str, value: f64) -> Row {
-        Row {
+    pub(crate) fn row(
+        case: &str,
+        variant: &str,
+        repeat: u32,
+        metric: &str,
+        unit: &str,
+        value: f64,
+    ) -> DataRow {
+        DataRow {
             case: case.into(),
             variant: variant.into(),
             repeat,
             metric: metric.into(),
             unit: unit.into(),
             value,
-            others: f64::from(repeat) / 10.0,
+            background: f64::from(repeat) / 10.0,
         }
     }
 
     #[test]
     fn repeats_become_a_median_and_a_spread() {
-        let mut rows: Vec<Row> =
+        let mut rows: Vec<DataRow> =
             [5.0, 1.0, 3.0].iter().zip(0..).map(|(value, n)| row("a", "x", n, "m", "ns", *value)).collect();
         rows.push(row("a", "y", 0, "m", "ns", 2.0));
         rows.push(row("a", "y", 1, "m", "ns", 4.0));
-        let all = summarise(&rows);
+        let all = summarize(&rows);
         let shown: Vec<_> = all.iter().map(|one| (one.low, one.median, one.high, one.repeats)).collect();
         assert_eq!(shown, [(1.0, 3.0, 5.0, 3), (2.0, 3.0, 4.0, 2)]);
-        assert_eq!(all[0].others, 0.2);
+        assert_eq!(all[0].background, 0.2);
     }
 }

@@ -4,21 +4,21 @@ use crate::amount;
 use crate::summary::Summary;
 use std::fmt::Write as _;
 
-/// A metric and what its column is called.
-pub type Column = (&'static str, &'static str);
+/// A metric and the heading of its column.
+pub type TableColumn = (&'static str, &'static str);
 
-/// A row for each variant of each case, a column for each metric that some of them have; the best of the first column
-/// first. The last column is what other programs did to the machine meanwhile, at worst.
-pub fn wide(all: &[Summary], columns: &[Column]) -> String {
-    let in_use = |column: &&Column| all.iter().any(|one| one.metric == column.0);
-    let columns: Vec<&Column> = columns.iter().filter(in_use).collect();
+/// Returns a table with a row for each variant of each case, sorted by the first column, and a column for each metric that
+/// at least one of them has. The last column is the largest background load.
+pub fn wide(all: &[Summary], columns: &[TableColumn]) -> String {
+    let in_use = |column: &&TableColumn| all.iter().any(|one| one.metric == column.0);
+    let columns: Vec<&TableColumn> = columns.iter().filter(in_use).collect();
     let cases = distinct(all.iter().map(|one| one.case.as_str()));
     let prefix = common_folder(&cases);
-    let mut text = String::from(if cases.len() > 1 { "| case | who |" } else { "| who |" });
+    let mut text = String::from(if cases.len() > 1 { "| case | variant |" } else { "| variant |" });
     for (_, heading) in &columns {
         let _ = write!(text, " {heading} |");
     }
-    text += " others |\n";
+    text += " background load |\n";
     let count = columns.len() + usize::from(cases.len() > 1) + 2;
     text += &format!("|{}\n", "---|".repeat(count));
     for case in &cases {
@@ -37,37 +37,37 @@ pub fn wide(all: &[Summary], columns: &[Column]) -> String {
                 let _ = write!(text, "| {} ", &case[prefix..]);
             }
             let _ = write!(text, "| {variant} |");
-            let mut others = 0.0_f64;
+            let mut background = 0.0_f64;
             for (metric, _) in &columns {
                 match find(variant, metric) {
                     Some(one) => {
-                        others = others.max(one.others);
+                        background = background.max(one.background);
                         let _ =
                             write!(text, " {} |", amount::spread(one.median, one.low, one.high, &one.unit));
                     }
                     None => text += " – |",
                 }
             }
-            let _ = writeln!(text, " {others:.2} |");
+            let _ = writeln!(text, " {background:.2} |");
         }
     }
     text
 }
 
-/// A row for everything.
+/// Returns a table with a row for each summary.
 pub fn long(all: &[Summary]) -> String {
     let mut text = String::from(
-        "| case | who | what | median [min .. max] | repeats | others |\n|---|---|---|---|---|---|\n",
+        "| case | variant | metric | median [min .. max] | repeats | background load |\n|---|---|---|---|---|---|\n",
     );
     for one in all {
         let value = amount::spread(one.median, one.low, one.high, &one.unit);
-        let Summary { case, variant, metric, repeats, others, .. } = one;
-        let _ = writeln!(text, "| {case} | {variant} | {metric} | {value} | {repeats} | {others:.2} |");
+        let Summary { case, variant, metric, repeats, background, .. } = one;
+        let _ = writeln!(text, "| {case} | {variant} | {metric} | {value} | {repeats} | {background:.2} |");
     }
     text
 }
 
-/// Each once, in the order of first appearance.
+/// Returns each name once, in the order of first appearance.
 pub fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut found = Vec::new();
     for name in names {
@@ -78,7 +78,7 @@ pub fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     found
 }
 
-/// How much of all names is the folders that they share.
+/// Returns the length of the folders that all names share.
 pub fn common_folder(names: &[&str]) -> usize {
     let Some(first) = names.first() else { return 0 };
     let shared = |end: &usize| names.iter().all(|name| name.starts_with(&first[..*end]));
@@ -88,11 +88,11 @@ pub fn common_folder(names: &[&str]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::summary::{summarise, tests::row};
+    use crate::summary::{summarize, tests::row};
 
     #[test]
-    fn a_table_has_every_variant_the_best_first_and_says_what_is_missing() {
-        let all = summarise(&[
+    fn a_table_has_every_variant_sorted_and_a_dash_for_each_missing_value() {
+        let all = summarize(&[
             row("queue/trip/a", "slow", 0, "p50", "ns", 20_000.0),
             row("queue/trip/a", "slow", 1, "p50", "ns", 30_000.0),
             row("queue/trip/a", "slow", 2, "p50", "ns", 25_000.0),
@@ -102,9 +102,9 @@ mod tests {
         ]);
         let columns = [("p50", "median"), ("allocations", "allocations"), ("p99", "rare")];
         let expected = "\
-| case | who | median | allocations | others |
+| case | variant | median | allocations | background load |
 |---|---|---|---|---|
-| a | fast | 900 ns | 0.50 a message | 0.00 |
+| a | fast | 900 ns | 0.50 per message | 0.00 |
 | a | slow | 25.0 [20.0 .. 30.0] µs | – | 0.20 |
 | b | fast | 1.00 ns | – | 0.00 |
 ";
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_cut_at_folders_only() {
+    fn names_are_shortened_by_whole_folders_only() {
         assert_eq!(common_folder(&["a/b/cc", "a/b/cd"]), 4);
         assert_eq!(common_folder(&["a/b", "ab/b"]), 0);
         assert_eq!(common_folder(&["alone/here"]), 6);

@@ -1,40 +1,44 @@
-//! Where to send a message: typed, cheap to clone, never waiting.
+//! Typed addresses of receivers, to which other threads send messages without blocking.
 
-use crate::batch::{Content, Wrapped};
-use crate::shared::Shared;
+use crate::batch::{Envelope, LetterContent};
+use crate::shared::ThreadShared;
 use crate::sync::atomic::{AtomicUsize, Ordering};
-use crate::sync::{Held, planted};
+use crate::sync::{BriefLock, mutant};
 use std::fmt;
 use std::sync::Arc;
 
 /// The address of a receiver in some thread (thesis §3.2.6.4: target thread and receiver).
 ///
 /// Messages sent by one thread to one thread arrive in the order of sending, whichever receivers
-/// they are for. There are three flavours; all clones of one share its bounds:
+/// they are for. There are three flavors; all clones of an address share its bounds:
 ///
-/// | made by | when messages come faster than they are taken |
+/// | created by | when messages arrive faster than they are delivered |
 /// |---|---|
-/// | registering a receiver | all wait, in any number |
-/// | [`latest`](Self::latest) | the newest takes the place of the one that waits |
+/// | registering a receiver | all are queued, without a limit |
+/// | [`latest`](Self::latest) | the newest replaces the queued one |
 /// | [`bounded`](Self::bounded) | the sender gets [`SendError::Full`] |
 ///
-/// Use `latest` for what a newer one makes pointless (pointer moves, sizes, scrubbing), `bounded`
-/// where a fast producer must learn that it is too fast, the plain one for edits and requests.
+/// Use `latest` for messages that a newer one makes obsolete (pointer moves, sizes, scrubbing),
+/// `bounded` where a fast producer needs back-pressure, and the plain address for edits and
+/// requests.
+#[doc(alias = "channel")]
+#[doc(alias = "sender")]
+#[doc(alias = "actor reference")]
 pub struct Address<M>(Arc<Route<M>>);
 
-/// The way to a receiver, shared by all clones of an address.
+/// Target and bounds of an address, shared by all its clones.
 struct Route<M> {
-    thread: Arc<Shared>,
+    thread: Arc<ThreadShared>,
     receiver: u32,
-    /// Where in the thread's mailbox the letters of this flavour lie.
+    /// Number of the mailbox row that stores this flavor's letters.
     row: u32,
-    flavour: Flavour<M>,
+    flavor: Flavor<M>,
 }
 
-enum Flavour<M> {
+enum Flavor<M> {
     Plain,
-    /// The message that waits.
-    Latest(Held<Option<M>>),
+    /// The queued message, if there is one.
+    Latest(BriefLock<Option<M>>),
     Bounded {
         limit: usize,
         weight: fn(&M) -> usize,
@@ -42,91 +46,99 @@ enum Flavour<M> {
     },
 }
 
-/// Letters of the three flavours.
-struct Plain<M>(M);
-struct Newest<M>(Arc<Route<M>>);
-struct Weighed<M>(M, usize, Arc<Route<M>>);
+/// A message sent to a plain address.
+struct PlainLetter<M>(M);
+/// A queue position for the message that a `latest` address holds when it is delivered.
+struct LatestLetter<M>(Arc<Route<M>>);
+/// A message sent to a bounded address, its weight, and the address that counts it.
+struct BoundedLetter<M>(M, usize, Arc<Route<M>>);
 
 impl<M: Send + 'static> Address<M> {
-    pub(crate) fn new(thread: &Arc<Shared>, receiver: u32) -> Self {
-        Self::with::<Plain<M>>(thread, receiver, Flavour::Plain)
+    pub(crate) fn new(thread: &Arc<ThreadShared>, receiver: u32) -> Self {
+        Self::with::<PlainLetter<M>>(thread, receiver, Flavor::Plain)
     }
 
-    fn with<C: Content>(thread: &Arc<Shared>, receiver: u32, flavour: Flavour<M>) -> Self {
+    fn with<C: LetterContent>(thread: &Arc<ThreadShared>, receiver: u32, flavor: Flavor<M>) -> Self {
         let (thread, row) = (Arc::clone(thread), thread.mailbox.0.row::<C>());
-        Self(Arc::new(Route { thread, receiver, row, flavour }))
+        Self(Arc::new(Route { thread, receiver, row, flavor }))
     }
 
-    /// Stores `message` for the receiver's next iteration and goes on at once.
+    /// Queues `message` for the receiver's next iteration and returns at once.
     ///
     /// `Ok` does not mean delivered: the receiver may have been removed, or the thread may stop
-    /// with the message still queued. Both are counted there ([`Counters`](crate::Counters)).
+    /// with the message still queued. The thread counts both ([`Counters`](crate::Counters)).
     ///
     /// # Errors
-    /// Gives the message back when the thread has stopped, or when this address is bounded and
-    /// full.
+    /// Returns the message when the thread has stopped, or when this address is bounded and full.
     pub fn send(&self, message: M) -> Result<(), SendError<M>> {
-        let stopped = |content: Plain<M>| SendError::Stopped(content.0);
-        match &self.0.flavour {
-            Flavour::Plain => self.put(Plain(message)).map_err(stopped),
-            Flavour::Latest(waiting) => self.replace(waiting, message),
-            Flavour::Bounded { .. } => {
+        let stopped = |content: PlainLetter<M>| SendError::Stopped(content.0);
+        match &self.0.flavor {
+            Flavor::Plain => self.put(PlainLetter(message)).map_err(stopped),
+            Flavor::Latest(waiting) => self.replace(waiting, message),
+            Flavor::Bounded { .. } => {
                 let Some(weight) = self.0.admit(&message) else {
                     self.0.thread.tallies.0.refused.add(1);
                     return Err(SendError::Full(message));
                 };
-                let letter = Weighed(message, weight, Arc::clone(&self.0));
-                let back = self.put(letter).err().and_then(Wrapped::open);
+                let letter = BoundedLetter(message, weight, Arc::clone(&self.0));
+                let back = self.put(letter).err().and_then(Envelope::open);
                 back.map_or(Ok(()), |message| Err(SendError::Stopped(message)))
             }
         }
     }
 
-    /// An address of the same receiver at which at most one message waits: the newest.
+    /// Returns an address of the same receiver at which only the newest message is queued.
     ///
-    /// It is delivered in the place of the first one it stands for, so it may overtake messages
-    /// that were sent to other addresses in between.
+    /// It is delivered at the queue position of the first message that it replaced, so it may
+    /// overtake messages that were sent to other addresses in between.
     #[must_use]
     pub fn latest(&self) -> Self {
-        Self::with::<Newest<M>>(&self.0.thread, self.0.receiver, Flavour::Latest(Held::new(None)))
+        Self::with::<LatestLetter<M>>(&self.0.thread, self.0.receiver, Flavor::Latest(BriefLock::new(None)))
     }
 
-    /// An address of the same receiver at which at most `limit` messages wait.
+    /// Returns an address of the same receiver at which at most `limit` messages are queued.
     #[must_use]
     pub fn bounded(&self, limit: usize) -> Self {
         self.bounded_by(limit, |_| 1)
     }
 
-    /// An address of the same receiver at which messages of at most `limit` in all wait, each
-    /// weighing what `weight` says: bytes, say. One that outweighs the limit alone never passes.
+    /// Returns an address of the same receiver at which at most `limit` total weight is queued.
+    /// `weight` returns the weight of a message, for example its bytes. A message heavier than
+    /// `limit` is never accepted.
     #[must_use]
     pub fn bounded_by(&self, limit: usize, weight: fn(&M) -> usize) -> Self {
-        let bounded = Flavour::Bounded { limit, weight, waiting: AtomicUsize::new(0) };
-        Self::with::<Weighed<M>>(&self.0.thread, self.0.receiver, bounded)
+        let bounded = Flavor::Bounded { limit, weight, waiting: AtomicUsize::new(0) };
+        Self::with::<BoundedLetter<M>>(&self.0.thread, self.0.receiver, bounded)
     }
 
-    /// How much waits at this address: messages, or their weight. 0 for a plain one, which does
-    /// not count; see [`queue_len`](Self::queue_len).
+    /// Returns how much is queued at this address: the number of messages, or their total weight.
+    /// Always 0 for a plain address, which does not count; see [`queue_len`](Self::queue_len).
     pub fn waiting(&self) -> usize {
-        match &self.0.flavour {
-            Flavour::Plain => 0,
-            Flavour::Latest(waiting) => waiting.with(|waiting| usize::from(waiting.is_some())),
-            Flavour::Bounded { waiting, .. } => waiting.load(Ordering::Relaxed),
+        match &self.0.flavor {
+            Flavor::Plain => 0,
+            Flavor::Latest(waiting) => waiting.with(|waiting| usize::from(waiting.is_some())),
+            Flavor::Bounded { waiting, .. } => waiting.load(Ordering::Relaxed),
         }
     }
 
-    /// How many messages its thread has stored for the next iteration, for all receivers.
+    /// Returns the number of messages queued in the receiver's thread, for all its receivers.
     pub fn queue_len(&self) -> usize {
         self.0.thread.mailbox.0.len()
     }
 
-    /// Has the thread stopped, so that every send fails?
+    /// Returns whether the thread has stopped, so that every send fails.
     pub fn is_stopped(&self) -> bool {
         self.0.thread.mailbox.0.is_closed()
     }
 
-    /// A caller's mistake, not a thing that happens: addresses are not mixed up by chance.
-    pub(crate) fn receiver_in(&self, thread: &Arc<Shared>) -> u32 {
+    /// The thread of the receiver.
+    pub(crate) fn thread(&self) -> &Arc<ThreadShared> {
+        &self.0.thread
+    }
+
+    /// The number of the receiver in `thread`. Panics when the address belongs to another thread,
+    /// which is a bug of the caller.
+    pub(crate) fn receiver_in(&self, thread: &Arc<ThreadShared>) -> u32 {
         let (own, other) = (&self.0.thread.name, &thread.name);
         assert!(
             Arc::ptr_eq(&self.0.thread, thread),
@@ -135,32 +147,36 @@ impl<M: Send + 'static> Address<M> {
         self.0.receiver
     }
 
-    fn put<C: Content>(&self, content: C) -> Result<(), C> {
+    fn put<C: LetterContent>(&self, content: C) -> Result<(), C> {
         self.0.thread.send(self.0.receiver, self.0.row, content)
     }
 
-    /// Whoever finds nothing waiting holds a place in the thread's queue for it; whoever finds a
-    /// message takes its place. When the turn of that place comes, nothing waits again.
-    fn replace(&self, waiting: &Held<Option<M>>, message: M) -> Result<(), SendError<M>> {
+    /// Replaces the message of a `latest` address. The sender that finds none queues a letter,
+    /// whose delivery takes the message out again; every other sender relies on that letter.
+    fn replace(&self, waiting: &BriefLock<Option<M>>, message: M) -> Result<(), SendError<M>> {
         if self.is_stopped() {
             return Err(SendError::Stopped(message));
         }
-        let early = planted("announced_too_long").then(|| waiting.with(|waiting| waiting.is_some()));
-        let old = waiting.with(|waiting| waiting.replace(message));
-        if early.unwrap_or(old.is_some()) {
+        mutant!(self.announced_too_long(waiting, message));
+        if waiting.with(|waiting| waiting.replace(message)).is_some() {
             self.0.thread.tallies.0.replaced.add(1);
             return Ok(());
         }
-        // When it stopped meanwhile, and a newer one came between, that one is given back.
-        let back = self.put(Newest(Arc::clone(&self.0))).err().and_then(Wrapped::open);
+        self.announce()
+    }
+
+    /// Queues the letter of a `latest` address. If the thread has stopped since, the message is
+    /// returned, or a newer one if another sender has replaced it.
+    pub(crate) fn announce(&self) -> Result<(), SendError<M>> {
+        let back = self.put(LatestLetter(Arc::clone(&self.0))).err().and_then(Envelope::open);
         back.map_or(Ok(()), |newest| Err(SendError::Stopped(newest)))
     }
 }
 
 impl<M> Route<M> {
-    /// What the message weighs, when there is room for it; the room is taken then.
+    /// Reserves room for the message and returns its weight; `None` when there is no room.
     fn admit(&self, message: &M) -> Option<usize> {
-        let Flavour::Bounded { limit, weight, waiting } = &self.flavour else { return Some(0) };
+        let Flavor::Bounded { limit, weight, waiting } = &self.flavor else { return Some(0) };
         let weight = weight(message);
         let fits = |now: usize| now.checked_add(weight).filter(|after| after <= limit);
         waiting.fetch_update(Ordering::Relaxed, Ordering::Relaxed, fits).ok()?;
@@ -168,13 +184,13 @@ impl<M> Route<M> {
     }
 
     fn release(&self, weight: usize) {
-        if let Flavour::Bounded { waiting, .. } = &self.flavour {
+        if let Flavor::Bounded { waiting, .. } = &self.flavor {
             waiting.fetch_sub(weight, Ordering::Relaxed);
         }
     }
 }
 
-impl<M: Send + 'static> Wrapped for Plain<M> {
+impl<M: Send + 'static> Envelope for PlainLetter<M> {
     type Message = M;
 
     fn open(self) -> Option<M> {
@@ -182,20 +198,20 @@ impl<M: Send + 'static> Wrapped for Plain<M> {
     }
 }
 
-impl<M: Send + 'static> Wrapped for Newest<M> {
+impl<M: Send + 'static> Envelope for LatestLetter<M> {
     type Message = M;
 
-    /// Nothing, when its sender was given it back at the very moment of the stop.
+    /// `None` when the message was returned to its sender because the thread stopped.
     fn open(self) -> Option<M> {
-        let Flavour::Latest(waiting) = &self.0.flavour else { return None };
+        let Flavor::Latest(waiting) = &self.0.flavor else { return None };
         waiting.with(Option::take)
     }
 }
 
-impl<M: Send + 'static> Wrapped for Weighed<M> {
+impl<M: Send + 'static> Envelope for BoundedLetter<M> {
     type Message = M;
 
-    /// Its room in the address is free as soon as it has left the queue.
+    /// Frees the room of the message as soon as it has left the queue.
     fn open(self) -> Option<M> {
         self.2.release(self.1);
         Some(self.0)
@@ -214,17 +230,17 @@ impl<M> fmt::Debug for Address<M> {
     }
 }
 
-/// Why a message was not accepted. The message can be recovered.
+/// The reason why a message was not accepted, with the message.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum SendError<M> {
-    /// The thread has stopped; nothing will ever be delivered there again.
+    /// The thread has stopped and will never deliver a message again.
     Stopped(M),
-    /// The bounded address is full; the same send may pass later.
+    /// The bounded address is full; the same send may succeed later.
     Full(M),
 }
 
 impl<M> SendError<M> {
-    /// The message that was not sent.
+    /// Returns the message that was not sent.
     pub fn into_inner(self) -> M {
         match self {
             Self::Stopped(message) | Self::Full(message) => message,
@@ -241,7 +257,7 @@ impl<M> fmt::Display for SendError<M> {
     }
 }
 
-// By hand, because messages need not be `Debug`.
+// Not derived, because messages need not be `Debug`.
 impl<M> fmt::Debug for SendError<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "SendError({self})")

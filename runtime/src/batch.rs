@@ -1,54 +1,54 @@
-//! Messages at rest: those of each type side by side in a row of their own, and one list that keeps
-//! the order between the rows.
+//! Queued messages: one array ("row") for each message type, and a list that keeps the order
+//! between the rows.
 //!
 //! ```text
 //! order    2 of row 1, 1 of row 0, 1 of row 1
-//! row 0    [resize]                each row an array of one type,
-//! row 1    [edit][edit][edit]      whose room is used again and again
+//! row 0    [resize]                each row is an array of one type,
+//! row 1    [edit][edit][edit]      whose memory is reused
 //! ```
 //!
 //! So a message is moved, not boxed: storing it allocates nothing once its row has grown, and a
-//! thread still has one queue for all types. The box that forgets the type is around the row.
+//! thread still has one queue for all types. Only the row is boxed and type-erased.
 
 use crate::Context;
 use crate::object::short_type_name;
-use crate::sync::planted;
+use crate::sync::mutant;
 use crate::trace::Stamped;
 use std::any::Any;
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What is stored until the thread's next iteration: a message of the thesis (§3.2.6.4), that is
-/// whom it is for, and data of one type.
+/// A queued message with its target: the message of the thesis (§3.2.6.4), which is a receiver and
+/// data of one type.
 pub(crate) struct Letter<C> {
     /// The receiver's number; 0 for the thread itself.
     pub(crate) to: u32,
-    /// Who sent it and when; only when the thread that gets it is traced.
+    /// Sender and time of sending; only when the receiving thread is traced.
     pub(crate) stamp: Stamped,
     pub(crate) content: C,
 }
 
-/// What a letter may hold: it knows what to do when its turn comes.
-pub(crate) trait Content: Send + 'static {
-    /// The type of the message, or what is asked of the thread.
+/// The data of a letter, and how it is delivered or discarded.
+pub(crate) trait LetterContent: Send + 'static {
+    /// Returns the type name of the message, or the name of the command to the thread.
     fn name(&self) -> &'static str;
 
-    /// Its turn has come.
+    /// Delivers it to the receiver `to` of `thread`.
     fn deliver(self, to: u32, stamp: Stamped, thread: &mut Context);
 
-    /// Its turn will not come: how many messages of the program (not of the runtime) that was.
+    /// Drops it undelivered. Returns the number of user messages (not commands) that it held.
     fn discard(self) -> usize;
 }
 
-/// What a message of the program is wrapped in while it waits: all that is left is to open it.
-pub(crate) trait Wrapped: Send + 'static {
+/// Letter content that holds a user message.
+pub(crate) trait Envelope: Send + 'static {
     type Message: Send + 'static;
 
-    /// The message; `None` when it was taken out meanwhile.
+    /// Returns the message; `None` when it was taken out in the meantime.
     fn open(self) -> Option<Self::Message>;
 }
 
-impl<W: Wrapped> Content for W {
+impl<W: Envelope> LetterContent for W {
     fn name(&self) -> &'static str {
         short_type_name::<W::Message>()
     }
@@ -64,36 +64,42 @@ impl<W: Wrapped> Content for W {
     }
 }
 
-/// Letters in the order in which they were stored.
+/// Letters of all types in the order in which they were queued.
 #[derive(Default)]
 pub(crate) struct Batch {
-    /// Which row, and how many of it one after the other.
+    /// Runs in order: the number of a row, and how many of its letters follow one another.
     order: VecDeque<(u32, u32)>,
-    /// By number; `None` where nothing of that type has come yet.
-    rows: Vec<Option<Box<dyn Row>>>,
+    /// Rows by number; `None` where no letter of that type has arrived yet.
+    rows: Vec<Option<Box<dyn MessageRow>>>,
     len: usize,
-    /// How many there were at most, which is how many there is room for.
+    /// Largest number of letters so far, which is the number that there is memory for.
     most: usize,
-    /// How many batches in turn have left most of the room unused.
-    calm: u32,
+    /// Number of consecutive batches that left most of that memory unused.
+    small_batches: u32,
 }
 
-/// Letters of one type, which is forgotten.
-trait Row: Any + Send {
+/// Letters of one type, type-erased.
+trait MessageRow: Any + Send {
+    /// Returns receiver and name of the letter at `place`.
     fn describe(&self, place: usize) -> (u32, &'static str);
-    /// Delivers up to `count` from `place` on, while the thread takes them, and counts them off.
+    /// Delivers up to `count` letters starting at `place`, until the thread halts. Decrements `count`
+    /// before each delivery.
     fn deliver(&mut self, place: usize, count: &mut u32, thread: &mut Context);
-    fn append(&mut self, newer: &mut dyn Row);
+    /// Moves all letters of `newer`, a row of the same type, to the end.
+    fn append(&mut self, newer: &mut dyn MessageRow);
+    /// Drops all letters and returns the number of user messages among them.
     fn discard(&mut self) -> usize;
 }
 
-/// Room for so many letters is always kept; room for more is given back after so many batches that
-/// did not use it.
-const KEPT: (usize, u32) = (4096, 16);
+/// Number of letters whose memory is never freed.
+const ALWAYS_KEPT: usize = 4096;
+
+/// Number of consecutive small batches after which more memory than that is freed.
+const SMALL_BATCHES: u32 = 16;
 
 impl Batch {
-    /// Stores `letter` in row number `row`, which holds its type.
-    pub(crate) fn push<C: Content>(&mut self, row: u32, letter: Letter<C>) {
+    /// Appends `letter` to row number `row`, which must hold letters of its type.
+    pub(crate) fn push<C: LetterContent>(&mut self, row: u32, letter: Letter<C>) {
         match self.order.back_mut() {
             Some((last, count)) if *last == row => *count += 1,
             _ => self.order.push_back((row, 1)),
@@ -112,7 +118,7 @@ impl Batch {
         self.len
     }
 
-    /// Puts all of `newer` behind what is here; `newer` is empty then, and has room.
+    /// Appends all letters of `newer`, which is empty afterwards and keeps its memory.
     pub(crate) fn append(&mut self, newer: &mut Self) {
         if self.len == 0 {
             return std::mem::swap(self, newer);
@@ -128,14 +134,14 @@ impl Batch {
         self.len += std::mem::take(&mut newer.len);
     }
 
-    /// Delivers in order, while the thread takes it.
+    /// Delivers the letters in order until the thread halts.
     pub(crate) fn deliver(&mut self, thread: &mut Context) {
+        mutant!(self.reversed_batch(thread));
         while let Some((row, count)) = self.order.front_mut() {
-            let (before, reversed) = (*count, planted("reversed_batch") as usize);
+            let before = *count;
             if let Some(row) = &mut self.rows[*row as usize] {
-                // Counted off one by one, and outside of what a panic unwinds.
-                let place = (before as usize - 1) * reversed;
-                thread.contain("message", "drop", |thread| row.deliver(place, count, thread));
+                // The count lives outside of what a panic unwinds, so it stays correct.
+                thread.catch_and_report("message", "drop", |thread| row.deliver(0, count, thread));
             }
             self.len -= (before - *count) as usize;
             if *count == before {
@@ -146,8 +152,8 @@ impl Batch {
         }
     }
 
-    /// Delivers the letter at `index` of [`describe`](Self::describe) before all others; `false`
-    /// when there is none, or the thread takes none.
+    /// Delivers the letter at `index` of [`describe`](Self::describe) before all others. Returns
+    /// `false` when there is none, or the thread has halted.
     pub(crate) fn deliver_at(&mut self, index: usize, thread: &mut Context) -> bool {
         let Some((run, row, place)) = self.places().nth(index) else { return false };
         let mut left = 1;
@@ -158,12 +164,12 @@ impl Batch {
         left == 0
     }
 
-    /// Whom each letter is for, and its name, in order.
+    /// Returns receiver and name of each letter, in order.
     pub(crate) fn describe(&self) -> impl Iterator<Item = (u32, &'static str)> {
         self.places().filter_map(|(_, row, place)| Some(self.rows[row].as_ref()?.describe(place)))
     }
 
-    /// Of each letter, in order: its run, its row, and its place there.
+    /// Returns the run, the row and the place in that row of each letter, in order.
     fn places(&self) -> impl Iterator<Item = (usize, usize, usize)> {
         let mut next = vec![0; self.rows.len()];
         let all = self.order.iter().enumerate();
@@ -174,23 +180,23 @@ impl Batch {
         })
     }
 
-    /// Throws everything away: how many messages of the program that was.
+    /// Drops all letters and returns the number of user messages among them.
     pub(crate) fn discard(mut self) -> usize {
         self.rows.iter_mut().flatten().map(|row| row.discard()).sum()
     }
 
-    /// Gives the memory of a flood back, once batches have become small again: this one, which
-    /// is empty now, had `letters`.
+    /// Frees the memory of an unusually large batch, once batches have become small again. Called
+    /// when the batch, which had `letters` letters, has been delivered.
     pub(crate) fn shrink(&mut self, letters: usize) {
         self.most = self.most.max(letters);
-        self.calm = if letters < self.most / 4 { self.calm + 1 } else { 0 };
-        if self.most > KEPT.0 && self.calm > KEPT.1 && self.len == 0 {
+        self.small_batches = if letters < self.most / 4 { self.small_batches + 1 } else { 0 };
+        if self.most > ALWAYS_KEPT && self.small_batches > SMALL_BATCHES && self.len == 0 {
             *self = Self::default();
         }
     }
 }
 
-impl<C: Content> Row for VecDeque<Letter<C>> {
+impl<C: LetterContent> MessageRow for VecDeque<Letter<C>> {
     fn describe(&self, place: usize) -> (u32, &'static str) {
         (self[place].to, self[place].content.name())
     }
@@ -205,13 +211,13 @@ impl<C: Content> Row for VecDeque<Letter<C>> {
         }
     }
 
-    fn append(&mut self, newer: &mut dyn Row) {
+    fn append(&mut self, newer: &mut dyn MessageRow) {
         let newer: &mut dyn Any = newer;
         Self::append(self, newer.downcast_mut().expect("rows of one number are of one type"));
     }
 
     fn discard(&mut self) -> usize {
-        // One that panics when it is dropped is dropped all the same, and the others after it.
+        // A letter that panics when it is dropped does not keep the others from being dropped.
         let discard = |letter: Letter<C>| catch_unwind(AssertUnwindSafe(|| letter.content.discard()));
         self.drain(..).map(|letter| discard(letter).unwrap_or(1)).sum()
     }

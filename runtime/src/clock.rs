@@ -1,4 +1,4 @@
-//! Where a thread gets the time from: the system, or a test's hand.
+//! Source of time of a thread: the system's clock, or one that a test advances.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -6,14 +6,14 @@ use std::time::{Duration, Instant};
 
 /// The source of time of a thread. Clones of a manual clock show the same time.
 #[derive(Clone)]
-pub(crate) enum Clock {
+pub(crate) enum ThreadClock {
     /// The system's monotonic clock.
     Real,
-    /// Stands still until a [`Stage`](crate::Stage) turns it.
+    /// Advanced by a [`Stage`](crate::Stage) only.
     Manual { start: Instant, nanos: Arc<AtomicU64> },
 }
 
-impl Clock {
+impl ThreadClock {
     pub(crate) fn manual() -> Self {
         Self::Manual { start: Instant::now(), nanos: Arc::default() }
     }
@@ -25,7 +25,7 @@ impl Clock {
         }
     }
 
-    /// Turns a manual clock forward; a real one goes on by itself. 584 years at most.
+    /// Advances a manual clock, by 584 years at most in total. Does nothing to a real one.
     pub(crate) fn advance(&self, by: Duration) {
         if let Self::Manual { nanos, .. } = self {
             let by = u64::try_from(by.as_nanos()).unwrap_or(u64::MAX);
@@ -36,9 +36,9 @@ impl Clock {
 
 /// Time since a start, for fluid animation (thesis §3.2.5.1).
 ///
-/// Not one for the whole program as in the thesis: a timer is a small value that is cloned to
-/// whom it concerns, so that a test can hand out one whose clock it turns itself.
-/// The caller keeps the previous stamp, so any number of objects can measure with one timer.
+/// Unlike in the thesis there is not one timer for the whole program: a timer is a small value that
+/// is cloned for every object that needs it, so a test can pass one whose clock it advances itself.
+/// The caller stores the previous time, so any number of objects can measure with one timer.
 ///
 /// ```
 /// # use dragonfly_runtime::Timer;
@@ -51,32 +51,33 @@ impl Clock {
 /// ```
 #[derive(Clone)]
 pub struct Timer {
-    clock: Clock,
+    clock: ThreadClock,
     start: Instant,
 }
 
 impl Timer {
-    /// A timer that starts now, on the system's monotonic clock.
+    /// Returns a timer that starts now, on the system's monotonic clock.
     pub fn start() -> Self {
-        Self::with_clock(Clock::Real)
+        Self::with_clock(ThreadClock::Real)
     }
 
-    pub(crate) fn with_clock(clock: Clock) -> Self {
+    pub(crate) fn with_clock(clock: ThreadClock) -> Self {
         let start = clock.now();
         Self { clock, start }
     }
 
-    /// The moment at which [`time`](Self::time) was zero.
+    /// Returns the moment at which [`time`](Self::time) was zero.
     pub fn start_time(&self) -> Instant {
         self.start
     }
 
-    /// Time since the start. Never goes back.
+    /// Returns the time since the start. Never decreases.
     pub fn time(&self) -> Duration {
         self.clock.now().saturating_duration_since(self.start)
     }
 
-    /// Time since `previous`, an earlier [`time`](Self::time); zero when `previous` lies ahead.
+    /// Returns the time since `previous`, an earlier [`time`](Self::time); zero when `previous` is in
+    /// the future.
     pub fn elapsed(&self, previous: Duration) -> Duration {
         self.time().saturating_sub(previous)
     }

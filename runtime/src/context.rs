@@ -1,43 +1,44 @@
-//! What a worker or receiver can ask of the thread it lives in.
+//! The inside of a thread: what a worker or receiver can use while it is called.
 
 use crate::batch::Batch;
 use crate::handle::ThreadHandle;
-use crate::register::{Factory, LAST, Label, Object, RUN, Register, Slot, WORKER, WorkerId};
-use crate::shared::Shared;
+use crate::register::{LAST, Label, Object, ObjectFactory, ObjectSlot, RUN, Register, WORKER, WorkerId};
+use crate::shared::ThreadShared;
 use crate::trace::Trace;
 use crate::{Address, Fault, Receiver, Timer, TraceSnapshot, Worker};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The inside of a thread: its loop's state and its registers.
+/// The inside of a thread: the state of its loop and the register of its objects.
 ///
-/// Every call in the thread gets it as `&mut Context`. Changes of the registers take place at
-/// once: a message that waits for a removed receiver is undeliverable, a removed worker is not called
-/// any more. A worker that comes while workers are being called has its first turn in the next
+/// Every call in the thread gets it as `&mut Context`. Changes of the register take effect at once:
+/// a message queued for a removed receiver is undeliverable, and a removed worker is not called
+/// again. A worker that is registered while workers are being called is first called in the next
 /// iteration, so an iteration always ends.
 pub struct Context {
     pub(crate) handle: ThreadHandle,
     pub(crate) objects: Register,
-    /// Taken from the mailbox, not yet delivered; rests here while the thread sleeps or pauses.
+    /// Letters fetched from the mailbox and not yet delivered, also while the thread sleeps or pauses.
     pub(crate) batch: Batch,
     pub(crate) again: bool,
     pub(crate) stopped: bool,
     pub(crate) ended: bool,
     pub(crate) sleep_until: Option<Instant>,
     pub(crate) spin: Duration,
-    /// One for each object at most. Few, so a list is quicker than a map, and keeps its memory.
+    /// Alarms by object, at most one each. They are few, so a list is faster than a map, and it keeps
+    /// its memory.
     pub(crate) alarms: Vec<(u32, Instant)>,
-    pub(crate) observer: Option<Observer>,
+    pub(crate) observer: Option<FaultObserver>,
     pub(crate) trace: Option<Trace>,
-    /// Does a watchdog want to know what the objects are called?
+    /// Whether a watchdog needs the names of the objects.
     watched: bool,
 }
 
-/// Who is told of panics.
-type Observer = Box<dyn FnMut(&Fault)>;
+/// Called with every panic in the thread.
+type FaultObserver = Box<dyn FnMut(&Fault)>;
 
 impl Context {
-    pub(crate) fn new(shared: Arc<Shared>) -> Self {
+    pub(crate) fn new(shared: Arc<ThreadShared>) -> Self {
         Self {
             handle: ThreadHandle { shared },
             objects: Register::new(),
@@ -54,38 +55,38 @@ impl Context {
         }
     }
 
-    /// This thread, as others see it. Sending to it is for the next iteration.
+    /// Returns the handle of this thread. Messages sent to it are delivered in the next iteration.
     pub fn handle(&self) -> &ThreadHandle {
         &self.handle
     }
 
-    /// The time now, by this thread's clock; in a test that is turned by hand.
+    /// Returns the current time of this thread's clock, which a test may advance itself.
     pub fn now(&self) -> Instant {
         self.shared().clock.now()
     }
 
-    /// A timer that starts now and goes by this thread's clock.
+    /// Returns a timer that starts now and uses this thread's clock.
     pub fn timer(&self) -> Timer {
         Timer::with_clock(self.shared().clock.clone())
     }
 
-    /// Adds `worker` behind the others, but before those that stay last.
+    /// Adds `worker` after all others except those registered to stay last.
     pub fn register_worker(&mut self, worker: impl Worker) -> WorkerId {
         let id = self.shared().new_id() | WORKER;
         self.insert(id, Object::worker(worker), None);
         WorkerId(id)
     }
 
-    /// Adds `worker` behind all others, those that come later included; among several of these,
-    /// registration order counts.
+    /// Adds `worker` after all others, including those registered later. Several such workers are
+    /// called in the order of registration.
     pub fn register_last_worker(&mut self, worker: impl Worker) -> WorkerId {
         let id = self.shared().new_id() | LAST;
         self.insert(id, Object::worker(worker), None);
         WorkerId(id)
     }
 
-    /// Adds the worker that `make` makes, and has it made anew, in the same place, when it panics:
-    /// at most [`RESTARTS`](crate::RESTARTS) times in [`RESTART_WINDOW`](crate::RESTART_WINDOW).
+    /// Adds the worker that `make` returns. When it panics, `make` is called again to replace it at
+    /// the same position: at most [`RESTARTS`](crate::RESTARTS) times in [`RESTART_WINDOW`](crate::RESTART_WINDOW).
     pub fn register_restartable_worker<W: Worker>(
         &mut self,
         mut make: impl FnMut(&mut Context) -> W + 'static,
@@ -95,15 +96,14 @@ impl Context {
         WorkerId(id)
     }
 
-    /// Adds `receiver`.
+    /// Adds `receiver` and returns its address.
     pub fn register_receiver<R: Receiver>(&mut self, receiver: R) -> Address<R::Message> {
         let address = self.handle.reserve_address();
         self.register_receiver_at(&address, receiver);
         address
     }
 
-    /// Adds `receiver` at an address that was reserved before, or puts it in the place of the one
-    /// that is there.
+    /// Adds `receiver` at a reserved address, or replaces the receiver registered there.
     ///
     /// # Panics
     /// When the address belongs to another thread.
@@ -111,8 +111,8 @@ impl Context {
         self.insert(address.receiver_in(self.shared()), Object::receiver(receiver), None);
     }
 
-    /// Adds the receiver that `make` makes at an address that was reserved before, and has it made
-    /// anew when it panics: at most [`RESTARTS`](crate::RESTARTS) times in
+    /// Adds the receiver that `make` returns at a reserved address. When it panics, `make` is called
+    /// again to replace it: at most [`RESTARTS`](crate::RESTARTS) times in
     /// [`RESTART_WINDOW`](crate::RESTART_WINDOW). Only the message that it panicked with is lost.
     ///
     /// # Panics
@@ -125,14 +125,14 @@ impl Context {
         self.insert_made(address.receiver_in(self.shared()), move |thread| Object::receiver(make(thread)));
     }
 
-    /// Removes and drops a worker; `false` when there is none of that number.
+    /// Removes and drops a worker. Returns `false` when there is no worker with that id.
     /// A worker that removes itself is dropped when its call returns.
     pub fn unregister_worker(&mut self, id: WorkerId) -> bool {
         self.remove(id.0)
     }
 
-    /// Removes and drops a receiver; `false` when there is none at that address. What is queued
-    /// for it is undeliverable.
+    /// Removes and drops a receiver. Returns `false` when there is none at that address. Messages
+    /// queued for it are undeliverable.
     ///
     /// # Panics
     /// When the address belongs to another thread.
@@ -140,33 +140,34 @@ impl Context {
         self.remove(address.receiver_in(self.shared()))
     }
 
-    /// Ends the thread when the running call returns: nothing more is delivered or called. See
-    /// [`remote_stop`](ThreadHandle::remote_stop) for the other way, behind all queued messages.
+    /// Ends the thread when the running call returns: no further message is delivered and no worker
+    /// called. [`remote_stop`](ThreadHandle::remote_stop) ends it after all queued messages instead.
     pub fn stop(&mut self) {
         self.stopped = true;
     }
 
-    /// Lets the thread sleep from when the running call returns, which ends the iteration; messages
-    /// it has not delivered come first in the next one. Messages do not wake it, they are stored; a
-    /// [`remote_stop`](ThreadHandle::remote_stop) does.
+    /// Makes the thread sleep for `duration` as soon as the running call returns, which ends the
+    /// iteration; messages not yet delivered are delivered first in the next one. Messages do not
+    /// wake the thread, they are queued; a [`remote_stop`](ThreadHandle::remote_stop) does.
     pub fn sleep(&mut self, duration: Duration) {
         self.sleep_until = self.now().checked_add(duration);
     }
 
-    /// Like [`sleep`](Self::sleep), until somebody calls [`resume`](ThreadHandle::resume).
+    /// Like [`sleep`](Self::sleep), but until [`resume`](ThreadHandle::resume) is called.
     pub fn pause(&mut self) {
         self.handle.pause();
     }
 
-    /// Asks for another iteration without waiting for a message. Holds for the next one only, so
-    /// who wants to run continuously asks in every call.
+    /// Requests another iteration without waiting for a message. Valid for one iteration, so an
+    /// object that must run continuously calls this in every call.
     pub fn iterate_again(&mut self) {
         self.again = true;
     }
 
-    /// Asks for an iteration at `when` at the latest. Each object has one such alarm: a later call
-    /// replaces it, it is gone when it has rung, and when the object is removed. Outside of an object's
-    /// call, in a closure that makes or runs something, it is the one alarm of the thread itself.
+    /// Requests an iteration at `when` at the latest. Each object has one such alarm: a later call
+    /// replaces it, and it is removed when it is due and when the object is removed. Outside of an
+    /// object's call, in a closure that was sent to the thread, it sets the alarm of the thread
+    /// itself.
     pub fn wake_at(&mut self, when: Instant) {
         let owner = match self.shared().running() as u32 {
             0 => RUN,
@@ -176,74 +177,74 @@ impl Context {
         self.alarms.push((owner, when));
     }
 
-    /// From now on the thread looks for messages for `limit` before it sleeps, which saves the
-    /// system's wake-up: a message is there in well under a microsecond instead of five to fifty.
-    /// For the length of a gesture, with a limit of a few milliseconds; it costs a core's time.
-    /// Who else needs the core gets it. Zero, as at the start, is the end of it. A captured thread
-    /// sleeps in its owner's loop, and so is not concerned.
+    /// Makes the thread spin for up to `limit` before it sleeps. That avoids the wake-up by the
+    /// system: a message then arrives in well under a microsecond instead of 5 to 50.
+    /// Meant for the length of a gesture, with a limit of a few milliseconds, because it uses a CPU
+    /// core; other threads that need the core still get it. Zero, the default, turns it off. No
+    /// effect on a captured thread, which sleeps in its owner's loop.
     pub fn set_spin(&mut self, limit: Duration) {
         self.spin = limit;
     }
 
-    /// Tells `observer` of every panic in this thread from now on, in place of any earlier one.
-    /// Panics are reported to `tracing` at level ERROR in any case.
+    /// Calls `observer` with every panic in this thread from now on. Replaces an earlier observer.
+    /// Panics are also logged with `tracing` at level ERROR.
     pub fn observe(&mut self, observer: impl FnMut(&Fault) + 'static) {
         self.observer = Some(Box::new(observer));
     }
 
-    /// Keeps the newest `capacity` records of what happens from now on; 0 ends the trace.
+    /// Starts a trace that keeps the newest `capacity` records; 0 ends it.
     pub fn set_trace(&mut self, capacity: usize) {
         self.trace = (capacity > 0).then(|| Trace::new(capacity));
         let traced = &self.shared().traced;
         traced.store(capacity > 0, std::sync::atomic::Ordering::Relaxed);
     }
 
-    /// The records of the trace; empty when it is off.
+    /// Returns the records of the trace; empty when it is off.
     pub fn trace(&self) -> TraceSnapshot {
         let records = self.trace.iter().flat_map(|trace| &trace.records).cloned().collect();
         TraceSnapshot { thread: Arc::clone(&self.shared().name), taken: self.now(), records }
     }
 
-    pub(crate) fn shared(&self) -> &Arc<Shared> {
+    pub(crate) fn shared(&self) -> &Arc<ThreadShared> {
         &self.handle.shared
     }
 
-    /// Puts an object in its place in the register; one that was there is dropped.
-    pub(crate) fn insert(&mut self, id: u32, object: Object, factory: Option<Factory>) {
-        self.show_label(id, Some(object.label.clone()));
-        let slot = Slot { object: Some(object), factory, failures: Vec::new() };
+    /// Puts an object into the register and drops the one that it replaces, if any.
+    pub(crate) fn insert(&mut self, id: u32, object: Object, factory: Option<ObjectFactory>) {
+        self.publish_label(id, Some(object.label.clone()));
+        let slot = ObjectSlot { object: Some(object), factory, failures: Vec::new() };
         if let Some(old) = self.objects.insert(id, slot) {
             self.drop_slot(old);
         }
     }
 
-    /// Puts the object that `factory` makes in its place, with the factory beside it.
+    /// Puts the object that `factory` returns into the register, together with the factory.
     pub(crate) fn insert_made(&mut self, id: u32, mut factory: impl FnMut(&mut Self) -> Object + 'static) {
         let first = factory(self);
         self.insert(id, first, Some(Box::new(factory)));
     }
 
-    /// Removes and drops an object, and what is kept of it elsewhere; `false` when there is none.
+    /// Removes and drops an object, its alarm and its label. Returns `false` when there is none.
     pub(crate) fn remove(&mut self, id: u32) -> bool {
         let Some(slot) = self.objects.remove(&id) else {
             return false;
         };
         self.alarms.retain(|(owner, _)| *owner != id);
-        self.show_label(id, None);
+        self.publish_label(id, None);
         self.drop_slot(slot);
         true
     }
 
-    /// From now on others see what the objects of this thread are called.
-    pub(crate) fn show_labels(&mut self) {
+    /// Shows the names of this thread's objects to other threads from now on.
+    pub(crate) fn publish_labels(&mut self) {
         self.watched = true;
         for (id, slot) in &self.objects {
-            self.show_label(*id, Some(slot.label()));
+            self.publish_label(*id, Some(slot.label()));
         }
-        self.show_label(RUN, Some(Label { name: "run".into(), call: "run" }));
+        self.publish_label(RUN, Some(Label { name: "run".into(), call: "run" }));
     }
 
-    fn show_label(&self, id: u32, label: Option<Label>) {
+    fn publish_label(&self, id: u32, label: Option<Label>) {
         if self.watched {
             self.shared().labels.with(|labels| match label {
                 Some(label) => labels.insert(id, label),

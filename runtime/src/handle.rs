@@ -1,81 +1,84 @@
-//! A thread, as other threads see it.
+//! The handle of a thread, through which other threads control it.
 
-use crate::batch::Content;
+use crate::batch::LetterContent;
 use crate::register::{LAST, Object, RUN, WORKER, WorkerId};
-use crate::shared::{Counters, Shared};
+use crate::shared::{Counters, ThreadShared};
 use crate::sync::atomic::Ordering;
-use crate::sync::planted;
+use crate::sync::mutant;
 use crate::trace::Stamped;
 use crate::{Address, Context, Fault, Receiver, SendError, TraceSnapshot, Worker};
 use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What can be sent to a thread to be done there: any closure of this shape.
-pub trait Job<T = ()>: FnOnce(&mut Context) -> T + Send + 'static {}
+/// A closure that can be sent to a thread and runs in that thread's loop. Implemented for every
+/// closure of this signature. Work that takes long belongs in a [`Job`](crate::Job).
+pub trait ContextFn<T = ()>: FnOnce(&mut Context) -> T + Send + 'static {}
 
-impl<T, F: FnOnce(&mut Context) -> T + Send + 'static> Job<T> for F {}
+impl<T, F: FnOnce(&mut Context) -> T + Send + 'static> ContextFn<T> for F {}
 
-/// A thread's remote control: cheap to clone, usable anywhere, never waiting.
+/// A remote control for a thread: cheap to clone, usable from any thread, never blocking.
 ///
-/// What it asks for is a message to the thread (thesis §2.2.3.3), so it happens in order with all
-/// other messages of the same sender. Asking a stopped thread does nothing.
+/// Each request is a message to the thread (thesis §2.2.3.3), so it is processed in order with all
+/// other messages of the same sender. Requests to a stopped thread do nothing.
 ///
 /// Objects of a thread need not be [`Send`]; what is sent is a closure that makes the object
-/// there. A closure that panics is reported like an object that does. Whatever has no method here,
-/// such as registering an object that is made anew when it panics, is done with [`run`](Self::run).
+/// there. A closure that panics is reported like an object that panics. Whatever has no method
+/// here, such as registering an object that is restarted after a panic, is done with
+/// [`run`](Self::run).
 #[derive(Clone)]
 pub struct ThreadHandle {
-    pub(crate) shared: Arc<Shared>,
+    pub(crate) shared: Arc<ThreadShared>,
 }
 
 impl ThreadHandle {
-    /// The name given at the start; also that of the OS thread, of which Linux shows 15 bytes.
+    /// Returns the name given at the start. It is also the name of the OS thread, of which Linux
+    /// shows 15 bytes.
     pub fn name(&self) -> &str {
         &self.shared.name
     }
 
-    /// Runs `job` in the thread, between two of its messages.
+    /// Runs `call` in the thread, between two of its messages.
     ///
     /// # Errors
-    /// When the thread has stopped; `job` is dropped.
-    pub fn run(&self, job: impl Job) -> Result<(), SendError<()>> {
-        self.ask("run", job).map_err(|_| SendError::Stopped(()))
+    /// When the thread has stopped; `call` is dropped.
+    pub fn run(&self, call: impl ContextFn) -> Result<(), SendError<()>> {
+        self.ask("run", call).map_err(|_| SendError::Stopped(()))
     }
 
-    /// Adds the worker that `make` makes behind the others; see [`Context::register_worker`].
-    pub fn register_worker<W: Worker>(&self, make: impl Job<W>) -> WorkerId {
+    /// Adds the worker that `make` returns after the others; see [`Context::register_worker`].
+    pub fn register_worker<W: Worker>(&self, make: impl ContextFn<W>) -> WorkerId {
         let id = self.shared.new_id() | WORKER;
         self.insert(id, |thread| Object::worker(make(thread)));
         WorkerId(id)
     }
 
-    /// Adds the worker that `make` makes behind all; see [`Context::register_last_worker`].
-    pub fn register_last_worker<W: Worker>(&self, make: impl Job<W>) -> WorkerId {
+    /// Adds the worker that `make` returns after all others; see [`Context::register_last_worker`].
+    pub fn register_last_worker<W: Worker>(&self, make: impl ContextFn<W>) -> WorkerId {
         let id = self.shared.new_id() | LAST;
         self.insert(id, |thread| Object::worker(make(thread)));
         WorkerId(id)
     }
 
-    /// Adds the receiver that `make` makes. The address is good at once: what is sent to it after
-    /// this call arrives after the receiver was made.
-    pub fn register_receiver<R: Receiver>(&self, make: impl Job<R>) -> Address<R::Message> {
+    /// Adds the receiver that `make` returns. The address is valid at once: messages sent to it
+    /// after this call arrive after the receiver was made.
+    pub fn register_receiver<R: Receiver>(&self, make: impl ContextFn<R>) -> Address<R::Message> {
         let address = self.reserve_address();
         self.register_receiver_at(&address, make);
         address
     }
 
-    /// Adds the receiver that `make` makes at an address reserved before, or puts it in the place
-    /// of the one that is there.
+    /// Adds the receiver that `make` returns at a reserved address, or replaces the receiver
+    /// registered there.
     ///
     /// # Panics
     /// When the address belongs to another thread.
-    pub fn register_receiver_at<R: Receiver>(&self, address: &Address<R::Message>, make: impl Job<R>) {
+    pub fn register_receiver_at<R: Receiver>(&self, address: &Address<R::Message>, make: impl ContextFn<R>) {
         self.insert(address.receiver_in(&self.shared), |thread| Object::receiver(make(thread)));
     }
 
-    /// An address at which nobody is registered yet, for objects that need each other's address.
-    /// What arrives before a receiver is registered there is undeliverable.
+    /// Returns an address without a receiver, for objects that need each other's address. Messages
+    /// that arrive before a receiver is registered there are undeliverable.
     pub fn reserve_address<M: Send + 'static>(&self) -> Address<M> {
         Address::new(&self.shared, self.shared.new_id())
     }
@@ -85,7 +88,8 @@ impl ThreadHandle {
         self.remove(id.0);
     }
 
-    /// Removes and drops a receiver, in its thread. What is queued behind this is undeliverable.
+    /// Removes and drops a receiver, in its thread. Messages queued after this call are
+    /// undeliverable.
     ///
     /// # Panics
     /// When the address belongs to another thread.
@@ -93,74 +97,73 @@ impl ThreadHandle {
         self.remove(address.receiver_in(&self.shared));
     }
 
-    /// Ends the thread behind all messages queued so far: they are delivered, later ones are not.
-    /// Ends a sleep or pause early. [`Thread::wait_for`](crate::Thread::wait_for) waits for it.
+    /// Ends the thread after all messages queued so far: they are delivered, later ones are not.
+    /// Interrupts a sleep or pause. [`Thread::wait_for`](crate::Thread::wait_for) waits for it.
     pub fn remote_stop(&self) {
         self.shared.stopping.store(true, Ordering::SeqCst);
-        // Nothing to do when it has stopped already.
+        // Fails only when it has stopped already.
         let _ = self.ask("stop", Context::stop);
         self.shared.mailbox.0.wake_now();
     }
 
-    /// Lets the thread sleep for `duration`, behind all messages queued so far; see
+    /// Makes the thread sleep for `duration`, after all messages queued so far; see
     /// [`Context::sleep`].
     pub fn remote_sleep(&self, duration: Duration) {
-        // A stopped thread sleeps well enough.
+        // Fails only when the thread has stopped, where it has no use.
         let _ = self.ask("sleep", move |thread| thread.sleep(duration));
     }
 
-    /// Lets the thread rest as soon as the call that is running there returns: it does not wait in
-    /// the queue. Messages are stored until [`resume`](Self::resume).
+    /// Suspends the thread as soon as the call that is running there returns, before all queued
+    /// messages. Messages are queued until [`resume`](Self::resume).
     pub fn pause(&self) {
         self.shared.paused.store(true, Ordering::SeqCst);
     }
 
-    /// Ends a pause. Pauses do not add up.
+    /// Ends a pause. One call ends any number of pauses.
     pub fn resume(&self) {
+        mutant!(self.silent_resume());
         self.shared.paused.store(false, Ordering::SeqCst);
-        if !planted("silent_resume") {
-            self.shared.mailbox.0.wake_now();
-        }
+        self.shared.mailbox.0.wake_now();
     }
 
-    /// Has the loop ended, with every object of the thread dropped?
+    /// Returns whether the loop has ended and every object of the thread has been dropped.
     pub fn is_stopped(&self) -> bool {
         self.shared.finished.load(Ordering::SeqCst)
     }
 
-    /// How many messages are stored for the next iteration.
+    /// Returns the number of messages queued for the next iteration.
     pub fn queue_len(&self) -> usize {
         self.shared.mailbox.0.len()
     }
 
-    /// What happened in the thread so far.
+    /// Returns the statistics of the thread since its start.
     pub fn counters(&self) -> Counters {
         self.shared.tallies.0.read()
     }
 
-    /// Tells `observer`, in that thread, of every panic there; see [`Context::observe`].
+    /// Calls `observer`, in that thread, with every panic there; see [`Context::observe`].
     pub fn observe(&self, observer: impl FnMut(&Fault) + Send + 'static) {
         self.command(move |thread| thread.observe(observer));
     }
 
-    /// Lets the thread look for messages for `limit` before it sleeps; see [`Context::set_spin`].
+    /// Makes the thread spin for up to `limit` before it sleeps; see [`Context::set_spin`].
     pub fn set_spin(&self, limit: Duration) {
         self.command(move |thread| thread.set_spin(limit));
     }
 
-    /// Traces the thread, keeping the newest `capacity` records; 0 ends the trace.
+    /// Starts a trace that keeps the newest `capacity` records; 0 ends it.
     pub fn set_trace(&self, capacity: usize) {
         self.command(move |thread| thread.set_trace(capacity));
     }
 
-    /// Asks for the records of the trace; they come as a message, like any answer.
+    /// Requests the records of the trace, which are sent to `to` as a message.
     pub fn request_trace(&self, to: &Address<TraceSnapshot>) {
         let to = to.clone();
-        // Who has stopped does not want them any more.
+        // Fails only when the receiver's thread has stopped.
         self.command(move |thread| _ = to.send(thread.trace()));
     }
 
-    fn insert(&self, id: u32, make: impl Job<Object>) {
+    fn insert(&self, id: u32, make: impl ContextFn<Object>) {
         self.command(move |thread| {
             let object = make(thread);
             thread.insert(id, object, None);
@@ -171,30 +174,30 @@ impl ThreadHandle {
         self.command(move |thread| _ = thread.remove(id));
     }
 
-    /// A message that the thread itself understands. A stopped thread has no use for it.
-    fn command(&self, job: impl Job) {
-        let _ = self.ask("run", job);
+    /// Sends a command to the thread. A stopped thread ignores it.
+    fn command(&self, call: impl ContextFn) {
+        let _ = self.ask("run", call);
     }
 
-    fn ask(&self, name: &'static str, job: impl Job) -> Result<(), Asked> {
-        let row = self.shared.mailbox.0.row::<Asked>();
-        self.shared.send(0, row, Asked { name, job: Box::new(job) })
+    fn ask(&self, name: &'static str, call: impl ContextFn) -> Result<(), ThreadCommand> {
+        let row = self.shared.mailbox.0.row::<ThreadCommand>();
+        self.shared.send(0, row, ThreadCommand { name, call: Box::new(call) })
     }
 }
 
-/// A letter to the thread itself: registers, observers, traces, sleep and stop.
-struct Asked {
+/// A letter to the thread itself: changes of the register, the observer or the trace, sleep, stop.
+struct ThreadCommand {
     name: &'static str,
-    job: Box<dyn FnOnce(&mut Context) + Send>,
+    call: Box<dyn FnOnce(&mut Context) + Send>,
 }
 
-impl Content for Asked {
+impl LetterContent for ThreadCommand {
     fn name(&self) -> &'static str {
         self.name
     }
 
     fn deliver(self, _: u32, _: Stamped, thread: &mut Context) {
-        thread.shown(RUN, &"run".into(), |thread| thread.contain("run", "run", self.job));
+        thread.call_as(RUN, &"run".into(), |thread| thread.catch_and_report("run", "run", self.call));
     }
 
     fn discard(self) -> usize {
@@ -203,7 +206,7 @@ impl Content for Asked {
 }
 
 impl PartialEq for ThreadHandle {
-    /// Do both stand for the same thread?
+    /// Returns whether both are handles of the same thread.
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.shared, &other.shared)
     }

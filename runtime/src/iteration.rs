@@ -1,15 +1,15 @@
 //! The one loop of all threads (thesis §2.2.3.3 and §3.2.6.1).
 //!
-//! An iteration: (1) deliver every message stored since the last one, in order; (2) call the
-//! workers, in order, until one returns `false`. Then say when the next iteration is due.
+//! An iteration: (1) deliver every message queued since the last one, in order; (2) call the
+//! workers, in order, until one returns `false`; (3) return when the next iteration is due.
 
 use crate::Context;
-use crate::fault::{Fault, Outcome, allow_restart, reason};
+use crate::fault::{Fault, Outcome, allow_restart, panic_text};
 use crate::object::short_type_name;
-use crate::register::{LAST, Label, Object, Slot, WORKER};
+use crate::register::{LAST, Label, Object, ObjectSlot, WORKER};
 use crate::sync::atomic::Ordering;
-use crate::sync::planted;
-use crate::trace::{self, End, Event, Record, Stamped};
+use crate::sync::mutant;
+use crate::trace::{self, CallEnd, Stamped, TraceEvent, TraceRecord};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -19,13 +19,13 @@ use std::time::Instant;
 /// When a thread's next iteration is due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Next {
-    /// At once: messages are stored, or somebody asked for it.
+    /// At once: messages are queued, or another iteration was requested.
     Now,
-    /// At this moment, or before it when a message comes.
+    /// At this moment, or earlier when a message arrives.
     At(Instant),
-    /// When a message comes.
+    /// When a message arrives.
     OnMessage,
-    /// Never: the thread has stopped and its objects are dropped.
+    /// Never: the thread has stopped, and its objects have been dropped.
     Stopped,
 }
 
@@ -35,12 +35,12 @@ impl Context {
             return Next::Stopped;
         }
         if let Some(next) = self.suspended() {
-            self.shared().mailbox.0.stay_awake(); // What comes need not wake it.
+            self.shared().mailbox.0.set_awake(); // New messages need not wake it.
             return next;
         }
         self.again = false;
         if !self.alarms.is_empty() {
-            let now = self.now(); // A look at the clock costs as much as a message.
+            let now = self.now(); // Reading the clock costs as much as a message.
             self.alarms.retain(|(_, when)| *when > now);
         }
         self.shared().tallies.0.iterations.add_own(1);
@@ -49,11 +49,11 @@ impl Context {
         self.next()
     }
 
-    /// Delivers every message stored since the last iteration. What the deliveries themselves send
-    /// to this thread is for the next one.
+    /// Delivers every message queued since the last iteration. Messages that these deliveries send to
+    /// this thread are delivered in the next one.
     fn dispatch_messages(&mut self) {
         self.fetch_messages();
-        // Out of the context meanwhile, which the deliveries need whole.
+        // Taken out of the context, which the deliveries borrow as a whole.
         let mut batch = std::mem::take(&mut self.batch);
         let letters = batch.len();
         batch.deliver(self);
@@ -61,15 +61,15 @@ impl Context {
         self.batch = batch;
     }
 
-    /// Takes over what is stored, behind what an earlier iteration left undelivered.
+    /// Appends the queued letters to those that an earlier iteration left undelivered.
     pub(crate) fn fetch_messages(&mut self) {
         self.handle.shared.mailbox.0.empty_into(&mut self.batch);
     }
 
-    /// Hands a message to its receiver, if that is still there.
+    /// Calls the receiver `to` with `message`, or counts the message as undeliverable if it is gone.
     pub(crate) fn resolve_message<M: Send + 'static>(&mut self, to: u32, message: M, stamp: Stamped) {
         let mut message = Some(message);
-        let end = self.call(to, &mut message, |label, begin, end| Event::Message {
+        let end = self.call(to, &mut message, |label, begin, end| TraceEvent::Message {
             from: stamp.as_ref().map(|stamp| Arc::clone(&stamp.from)).unwrap_or_default(),
             to: label.name,
             message: short_type_name::<M>(),
@@ -77,7 +77,7 @@ impl Context {
             end,
         });
         let tallies = &self.shared().tallies;
-        if end != End::Undeliverable {
+        if end != CallEnd::Undeliverable {
             return tallies.0.delivered.add_own(1);
         }
         tallies.0.undeliverable.add_own(1);
@@ -85,7 +85,8 @@ impl Context {
         tracing::debug!(%thread, receiver = to, message = name, "undeliverable");
     }
 
-    /// Calls the workers in order. Those registered meanwhile wait for the next iteration.
+    /// Calls the workers in order. Those registered during the calls are first called in the next
+    /// iteration.
     fn update_workers(&mut self) {
         let newcomers = self.shared().next_id();
         let mut from = WORKER;
@@ -94,46 +95,46 @@ impl Context {
             let Some(id) = ahead.find(|id| id & !(WORKER | LAST) < newcomers) else {
                 return;
             };
-            let event = |label: Label, _, end| Event::Worker { name: label.name, end };
-            // What a panicking worker should have done is not done: as if it had said so.
-            if self.call(id, &mut (), event) != End::Done(true) {
+            let event = |label: Label, _, end| TraceEvent::Worker { name: label.name, end };
+            // A worker that panicked has not done its work, as if it had returned `false`.
+            if self.call(id, &mut (), event) != CallEnd::Done(true) {
                 return;
             }
             from = id + 1;
         }
     }
 
-    /// Calls an object, with the register free for changes meanwhile, and traces that as `event`.
+    /// Calls an object and traces the call as `event`. The call may change the register.
     fn call(
         &mut self,
         id: u32,
         message: &mut dyn Any,
-        event: impl FnOnce(Label, Instant, End) -> Event,
-    ) -> End {
+        event: impl FnOnce(Label, Instant, CallEnd) -> TraceEvent,
+    ) -> CallEnd {
         let begin = self.trace.is_some().then(|| self.now());
         let object = self.objects.get_mut(&id).and_then(|slot| slot.object.take());
         let label = begin.and(object.as_ref()).map(|object| object.label.clone());
-        let end = object.map_or(End::Undeliverable, |object| self.call_object(id, object, message));
+        let end = object.map_or(CallEnd::Undeliverable, |object| self.call_object(id, object, message));
         if let (Some(trace), Some(begin)) = (&mut self.trace, begin) {
             let took = self.handle.shared.clock.now().saturating_duration_since(begin);
             let iteration = self.handle.shared.tallies.0.iterations.get();
             let event = event(label.unwrap_or_default(), begin, end);
-            trace.add(Record { iteration, at: begin, took, event });
+            trace.add(TraceRecord { iteration, at: begin, took, event });
         }
         end
     }
 
-    fn call_object(&mut self, id: u32, mut object: Object, message: &mut dyn Any) -> End {
+    fn call_object(&mut self, id: u32, mut object: Object, message: &mut dyn Any) -> CallEnd {
         let Object { label, call } = &mut object;
-        let answer = self.shown(id, &label.name, |thread| thread.guarded(|thread| call(message, thread)));
-        let end = answer.as_ref().map_or(End::Panicked, |answer| End::Done(*answer));
-        if let (Ok(_), Some(Slot { object: place @ None, .. })) = (&answer, self.objects.get_mut(&id)) {
+        let answer = self.call_as(id, &label.name, |thread| thread.catch(|thread| call(message, thread)));
+        let end = answer.as_ref().map_or(CallEnd::Panicked, |answer| CallEnd::Done(*answer));
+        if let (Ok(_), Some(ObjectSlot { object: place @ None, .. })) = (&answer, self.objects.get_mut(&id)) {
             *place = Some(object);
             return end;
         }
-        // It panicked, or was unregistered or replaced by its own call.
+        // The object panicked, or was unregistered or replaced by its own call.
         let Object { label, call } = object;
-        self.contain(&label.name, "drop", |_| drop(call));
+        self.catch_and_report(&label.name, "drop", |_| drop(call));
         if let Err(payload) = answer {
             let outcome = self.after_panic(id);
             self.report(&label.name, label.call, &*payload, outcome);
@@ -141,18 +142,18 @@ impl Context {
         end
     }
 
-    /// Removes the object that panicked, or makes it anew when it has a factory.
+    /// Removes the object that panicked, or restarts it when it has a factory.
     fn after_panic(&mut self, id: u32) -> Outcome {
         let now = self.now();
         let slot = self.objects.get_mut(&id);
         let Some(slot) = slot.filter(|slot| slot.object.is_none()) else {
-            return Outcome::Removed; // It had removed itself before.
+            return Outcome::Removed; // It had removed itself before it panicked.
         };
         let allowed = allow_restart(&mut slot.failures, now);
         let factory = slot.factory.take();
         let outcome = if factory.is_some() { Outcome::GivenUp } else { Outcome::Removed };
         if let Some(mut factory) = factory.filter(|_| allowed) {
-            let made = self.guarded(|thread| factory(thread));
+            let made = self.catch(|thread| factory(thread));
             if let (Ok(object), Some(slot)) = (made, self.objects.get_mut(&id)) {
                 slot.object = Some(object);
                 slot.factory = Some(factory);
@@ -168,48 +169,54 @@ impl Context {
         self.shared().tallies.0.panics.add_own(1);
         let thread = Arc::clone(&self.shared().name);
         let object = object.into();
-        let reason = reason(payload);
+        let reason = panic_text(payload).to_owned();
         tracing::error!(%thread, %object, call, reason, ?outcome, "panic");
         let fault = Fault { thread, object, call, reason, outcome };
         if let Some(mut observer) = self.observer.take() {
-            // One that panics itself is not asked again.
+            // An observer that panics itself is removed.
             if catch_unwind(AssertUnwindSafe(|| observer(&fault))).is_ok() {
                 self.observer = Some(observer);
             }
         }
     }
 
-    /// Runs `call`; a panic ends here. What it had in hand is dropped or made anew by the caller,
-    /// so no half-changed state is seen again.
-    fn guarded<A>(&mut self, call: impl FnOnce(&mut Self) -> A) -> thread::Result<A> {
+    /// Runs `call` and catches a panic. The caller must drop or restart the objects that `call`
+    /// used, so that no half-changed state is used again.
+    fn catch<A>(&mut self, call: impl FnOnce(&mut Self) -> A) -> thread::Result<A> {
         catch_unwind(AssertUnwindSafe(|| call(self)))
     }
 
-    /// Runs `job`; a panic is reported as one in `what` was done with `object`.
-    pub(crate) fn contain(&mut self, object: &str, what: &'static str, job: impl FnOnce(&mut Self)) {
-        if let Err(payload) = self.guarded(job) {
+    /// Runs `call`. Reports a panic as one that happened while `object` was in the state `what`,
+    /// such as `"drop"`.
+    pub(crate) fn catch_and_report(
+        &mut self,
+        object: &str,
+        what: &'static str,
+        call: impl FnOnce(&mut Self),
+    ) {
+        if let Err(payload) = self.catch(call) {
             self.report(object, what, &*payload, Outcome::Removed);
         }
     }
 
-    pub(crate) fn drop_slot(&mut self, slot: Slot) {
+    pub(crate) fn drop_slot(&mut self, slot: ObjectSlot) {
         let Label { name, .. } = slot.label();
-        self.contain(&name, "drop", |_| drop(slot));
+        self.catch_and_report(&name, "drop", |_| drop(slot));
     }
 
-    /// Runs `call`, which must not panic, while the watchdog sees what is running, and what is sent
-    /// bears its name.
-    pub(crate) fn shown<A>(&mut self, id: u32, name: &Arc<str>, call: impl FnOnce(&mut Self) -> A) -> A {
+    /// Runs `call`, which must not panic, as the object `id`: the watchdog sees it running, and
+    /// messages that it sends are traced with its `name`.
+    pub(crate) fn call_as<A>(&mut self, id: u32, name: &Arc<str>, call: impl FnOnce(&mut Self) -> A) -> A {
         let sender = trace::sender(&self.shared().name, name);
         let outer = sender.map(|sender| trace::send_as(Some(sender)));
-        self.shared().show_running(id);
+        self.shared().set_running(id);
         let answer = call(self);
-        self.shared().show_running(0);
+        self.shared().set_running(0);
         outer.map(trace::send_as);
         answer
     }
 
-    /// When the next iteration is due; sleeps (in the mailbox's sense) or finishes.
+    /// Returns when the next iteration is due. Marks the mailbox as asleep, or ends the thread.
     fn next(&mut self) -> Next {
         if self.stopped {
             self.finish();
@@ -225,9 +232,11 @@ impl Context {
         first.map_or(Next::OnMessage, Next::At)
     }
 
-    /// Told to sleep or to pause, and until when. A stop in the queue overrules both.
+    /// Returns until when the thread sleeps or pauses; `None` if it does neither. A queued stop
+    /// interrupts both.
     fn suspended(&mut self) -> Option<Next> {
-        if self.shared().stopping.load(Ordering::SeqCst) && !planted("stuck_in_pause") {
+        mutant!(self.stuck_in_pause());
+        if self.shared().stopping.load(Ordering::SeqCst) {
             self.sleep_until = None;
             return None;
         }
@@ -246,15 +255,20 @@ impl Context {
         self.stopped || self.suspended().is_some()
     }
 
-    /// Ends the thread: refuses messages, then drops all objects, users before what they use,
-    /// which is in reverse order of registration, and workers first; then tells who waits.
+    /// Ends the thread: refuses messages, then drops all objects in reverse order of registration,
+    /// workers first, so that users are dropped before what they use; then cancels the thread's
+    /// jobs and waits for them; then wakes the threads that wait for this one.
     pub(crate) fn finish(&mut self) {
         if std::mem::replace(&mut self.ended, true) {
             return;
         }
-        if planted("finished_too_early") {
-            self.shared().finish();
-        }
+        mutant!(self.finished_too_early());
+        self.drop_everything();
+        self.shared().finish();
+    }
+
+    /// All of [`finish`](Self::finish) before the wake-up.
+    pub(crate) fn drop_everything(&mut self) {
         let mut left = std::mem::take(&mut self.batch);
         left.append(&mut self.shared().mailbox.0.close());
         let left = left.discard();
@@ -262,14 +276,15 @@ impl Context {
         while let Some((_, slot)) = self.objects.pop_last() {
             self.drop_slot(slot);
         }
+        let shared = self.shared();
+        shared.jobs.finish(&shared.name);
         self.trace = None;
         tracing::debug!(thread = %self.shared().name, left, "stopped");
-        self.shared().finish();
     }
 }
 
 impl Drop for Context {
-    /// However the loop ended, nobody may wait for this thread in vain.
+    /// Ends the thread however the loop ended, so that waiting for it always returns.
     fn drop(&mut self) {
         self.finish();
     }

@@ -1,53 +1,56 @@
-//! The one place where threads meet: what is stored, and who must be woken when something comes.
+//! The queue of a thread, shared by its senders: the letters, and whether the owner must be woken.
 //!
-//! Everything that must be seen together changes together, under one short lock:
+//! Letters and state change together, under one short lock:
 //!
 //! ```text
 //! sender                          owner, before it sleeps      owner, when it closes
-//! closed? -> give it back         something stored? -> go on   state = CLOSED
-//! store it                        state = ASLEEP               throw away what is stored
+//! closed? -> return the message   letters? -> do not sleep     state = CLOSED
+//! store the letter                state = ASLEEP               take all letters
 //! asleep? -> state = AWAKE, and
 //! wake it, outside the lock
 //! ```
 //!
 //! Cost of a send to a thread that is awake: one short lock and the move of the message; no
-//! allocation, once there is room for as many as wait at a time. The owner takes all that is
-//! stored by changing places with an empty batch, whose room the senders fill next.
+//! allocation, once the queue has grown to its usual length. The owner takes all letters at once by
+//! swapping them for an empty batch, whose memory the senders fill next.
 
-use crate::batch::{Batch, Content, Letter};
+use crate::batch::{Batch, Letter, LetterContent};
 use crate::sync::atomic::{AtomicU8, Ordering};
-use crate::sync::{Held, planted};
+use crate::sync::{BriefLock, mutant};
 use std::any::TypeId;
 
-const AWAKE: u8 = 0;
-const ASLEEP: u8 = 1;
-const CLOSED: u8 = 2;
-/// Does nothing but look at the state: as good as asleep, but need not be woken.
-const LOOKING: u8 = 3;
+pub(crate) const AWAKE: u8 = 0;
+pub(crate) const ASLEEP: u8 = 1;
+pub(crate) const CLOSED: u8 = 2;
+/// The owner spins and reads the state: idle as if asleep, but it need not be woken.
+const SPINNING: u8 = 3;
 
-/// The queue of one thread. Any thread may [`send`](Self::send); everything else is the owner's.
+/// The queue of one thread. Any thread may [`send`](Self::send); only the owner calls the other
+/// methods that change it.
+#[doc(alias = "channel")]
 pub(crate) struct Mailbox {
-    stored: Held<Stored>,
-    /// Changed under the lock, and looked at from outside, where a moment ago is good enough.
-    state: AtomicU8,
+    pub(crate) stored: BriefLock<MailboxContent>,
+    /// Changed under the lock only. Read without it where a slightly outdated value is sufficient.
+    pub(crate) state: AtomicU8,
     wake: Box<dyn Fn() + Send + Sync>,
 }
 
 #[derive(Default)]
-struct Stored {
-    batch: Batch,
-    /// The types of the batch's rows.
+pub(crate) struct MailboxContent {
+    pub(crate) batch: Batch,
+    /// The content types of the batch's rows, by row number.
     rows: Vec<TypeId>,
 }
 
 impl Mailbox {
     /// `wake` must end the owner's sleep; it is called from sending threads.
     pub(crate) fn new(wake: Box<dyn Fn() + Send + Sync>) -> Self {
-        Self { stored: Held::new(Stored::default()), state: AtomicU8::new(AWAKE), wake }
+        Self { stored: BriefLock::new(MailboxContent::default()), state: AtomicU8::new(AWAKE), wake }
     }
 
-    /// The number of the row in which such letters lie here: few types, so a short list.
-    pub(crate) fn row<C: Content>(&self) -> u32 {
+    /// Returns the number of the row for letters of type `C`. There are few types, so a list is
+    /// searched.
+    pub(crate) fn row<C: LetterContent>(&self) -> u32 {
         let own = TypeId::of::<C>();
         self.stored.with(|stored| {
             let known = stored.rows.iter().position(|row| *row == own);
@@ -58,57 +61,57 @@ impl Mailbox {
         })
     }
 
-    /// Stores `letter`, or gives its content back when the mailbox is closed. Never waits for
-    /// more than another's move of a message.
-    pub(crate) fn send<C: Content>(&self, row: u32, letter: Letter<C>) -> Result<(), C> {
-        let early = planted("lost_notify").then(|| self.state());
-        let late = planted("late_send").then(|| self.state());
+    /// Stores `letter`, or returns its content when the mailbox is closed. Blocks for no longer than
+    /// another sender needs to move a message.
+    pub(crate) fn send<C: LetterContent>(&self, row: u32, letter: Letter<C>) -> Result<(), C> {
+        mutant!(self.lost_notify(row, letter));
+        mutant!(self.late_send(row, letter));
         let state = self.stored.with(|stored| {
-            let state = late.unwrap_or_else(|| self.state());
+            let state = self.state();
             if state == CLOSED {
                 return Err(letter.content);
             }
             stored.batch.push(row, letter);
-            let state = early.unwrap_or(state);
             if state != AWAKE {
                 self.state.store(AWAKE, Ordering::SeqCst);
             }
             Ok(state)
         })?;
         if state == ASLEEP {
-            self.wake_now(); // Of many senders only the first pays for it.
+            self.wake_now(); // Only the first of several senders pays for it.
         }
         Ok(())
     }
 
-    /// Ends any sleep, also one that no message ends (paused, or told to sleep).
+    /// Wakes the owner, also from a sleep or pause that messages do not end.
     pub(crate) fn wake_now(&self) {
         (self.wake)();
     }
 
-    /// The owner is up: senders need not wake it. One that does so meanwhile does no harm.
-    pub(crate) fn stay_awake(&self) {
+    /// Called by the owner when it is running: senders need not wake it. One that has just done so
+    /// does no harm.
+    pub(crate) fn set_awake(&self) {
         if self.is_asleep() {
             self.state.store(AWAKE, Ordering::SeqCst);
         }
     }
 
-    /// The owner wants to sleep until a message comes. `false`: one is here already.
+    /// Called by the owner before it sleeps. Returns `false` when it must not sleep, because a letter
+    /// is queued.
     pub(crate) fn fall_asleep(&self) -> bool {
-        let empty = |stored: &mut Stored| stored.batch.len() == 0;
-        let early = planted("unchecked_sleep").then(|| self.stored.with(empty));
+        mutant!(self.unchecked_sleep());
         self.stored.with(|stored| {
-            let sleeps = early.unwrap_or_else(|| empty(stored));
-            if sleeps {
+            let empty = stored.batch.len() == 0;
+            if empty {
                 self.state.store(ASLEEP, Ordering::SeqCst);
             }
-            sleeps
+            empty
         })
     }
 
-    /// The owner has fallen asleep, but looks for messages as long as `patient` says, before it
-    /// really sleeps.
-    pub(crate) fn look(&self, patient: impl Fn() -> bool) {
+    /// Called by the owner after [`fall_asleep`](Self::fall_asleep): spins until a letter arrives or
+    /// `patient` returns `false`.
+    pub(crate) fn spin(&self, patient: impl Fn() -> bool) {
         let change = |from, to| {
             self.stored.with(|_| {
                 if self.state() == from {
@@ -116,30 +119,29 @@ impl Mailbox {
                 }
             })
         };
-        change(ASLEEP, LOOKING);
-        while self.state() == LOOKING && patient() {}
-        change(LOOKING, ASLEEP);
+        change(ASLEEP, SPINNING);
+        while self.state() == SPINNING && patient() {}
+        change(SPINNING, ASLEEP);
     }
 
-    /// The owner is up, and puts everything stored so far behind what is in `batch`.
+    /// Called by the owner when it is running: appends all queued letters to `batch`.
     pub(crate) fn empty_into(&self, batch: &mut Batch) {
         self.stored.with(|stored| {
-            self.stay_awake();
+            self.set_awake();
             batch.append(&mut stored.batch);
         });
     }
 
-    /// Refuses what comes from now on: what was stored before.
+    /// Closes the mailbox, so that every later send fails, and returns the letters queued so far.
     pub(crate) fn close(&self) -> Batch {
-        let take = |stored: &mut Stored| std::mem::take(&mut stored.batch);
-        let early = planted("sweep_before_close").then(|| self.stored.with(take));
+        mutant!(self.sweep_before_close());
         self.stored.with(|stored| {
             self.state.store(CLOSED, Ordering::SeqCst);
-            early.unwrap_or_else(|| take(stored))
+            std::mem::take(&mut stored.batch)
         })
     }
 
-    /// Has nothing happened since [`fall_asleep`](Self::fall_asleep)?
+    /// Returns whether no letter has arrived since [`fall_asleep`](Self::fall_asleep).
     pub(crate) fn is_asleep(&self) -> bool {
         self.state() == ASLEEP
     }
@@ -152,7 +154,7 @@ impl Mailbox {
         self.stored.with(|stored| stored.batch.len())
     }
 
-    fn state(&self) -> u8 {
+    pub(crate) fn state(&self) -> u8 {
         self.state.load(Ordering::SeqCst)
     }
 }

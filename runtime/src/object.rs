@@ -1,39 +1,44 @@
-//! What lives in a thread: workers and receivers (thesis §2.2.3.3, §3.2.6.2, §3.2.6.3).
+//! The objects of a thread: workers and receivers (thesis §2.2.3.3, §3.2.6.2, §3.2.6.3).
 
 use crate::Context;
 use std::any::type_name;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Does the real work: called once in every iteration, in the order of registration.
+/// An object that works: called once in every iteration, in the order of registration.
 ///
 /// Need not be [`Send`]: it is made, used and dropped in one thread.
+#[doc(alias = "system")]
 pub trait Worker: 'static {
-    /// Works once, for as long as it takes; messages that arrive meanwhile are stored.
+    /// Works once, for as long as it takes; messages that arrive during the call are queued.
     ///
-    /// `false` ends this iteration: the workers behind are not called, because what they depend on
-    /// was not done. It says nothing about the next iteration; who wants one asks with
+    /// Returning `false` ends this iteration: the workers after this one are not called, because
+    /// what they depend on was not done. It does not affect the next iteration; request one with
     /// [`iterate_again`](Context::iterate_again) or [`wake_at`](Context::wake_at).
     fn update(&mut self, thread: &mut Context) -> bool;
 
-    /// Its name in reports and traces, read once, at registration. The type's name unless given.
+    /// Returns the name in reports and traces; called once, at registration. By default the name of
+    /// the type.
     fn name(&self) -> &str {
         short_type_name::<Self>()
     }
 }
 
-/// Gets messages of one type, in the order in which each sender sent them.
+/// An object that receives messages of one type, in the order in which each sender sent them.
 ///
-/// Does only simple things with them; real work belongs in a [`Worker`] (thesis §2.2.3.5).
-/// Need not be [`Send`]; its messages must be.
+/// It should only do short work with them, such as storing them; the work itself belongs in a
+/// [`Worker`] (thesis §2.2.3.5). Need not be [`Send`]; its messages must be.
+#[doc(alias = "actor")]
+#[doc(alias = "handler")]
 pub trait Receiver: 'static {
-    /// What is sent to it. Small and owned; big things travel as [`Arc`](std::sync::Arc).
+    /// The type of its messages: small and owned. Send large data as [`Arc`](std::sync::Arc).
     type Message: Send + 'static;
 
-    /// Takes one message. What it sends to its own thread comes in the next iteration.
+    /// Handles one message. Messages sent to the own thread are delivered in the next iteration.
     fn receive(&mut self, message: Self::Message, thread: &mut Context);
 
-    /// Its name in reports and traces, read once, at registration. The type's name unless given.
+    /// Returns the name in reports and traces; called once, at registration. By default the name of
+    /// the type.
     fn name(&self) -> &str {
         short_type_name::<Self>()
     }
@@ -41,7 +46,7 @@ pub trait Receiver: 'static {
 
 /// One object can be both, as `Graphics` is in the thesis: register clones of the same [`Rc`].
 ///
-/// Its name is the type's, whatever [`Worker::name`] of the object says.
+/// Its name is the name of the type; [`Worker::name`] of the object is ignored.
 impl<W: Worker> Worker for Rc<RefCell<W>> {
     fn update(&mut self, thread: &mut Context) -> bool {
         self.borrow_mut().update(thread)
@@ -52,7 +57,7 @@ impl<W: Worker> Worker for Rc<RefCell<W>> {
     }
 }
 
-/// See the same for [`Worker`].
+/// As for [`Worker`].
 impl<R: Receiver> Receiver for Rc<RefCell<R>> {
     type Message = R::Message;
 
@@ -65,11 +70,12 @@ impl<R: Receiver> Receiver for Rc<RefCell<R>> {
     }
 }
 
-/// The last word of a type's path, without its parameters: `Graphics` of `editor::Graphics<T>`.
+/// Returns the last part of a type's path, without its parameters: `Graphics` for
+/// `editor::Graphics<T>`.
 pub(crate) fn short_type_name<T: ?Sized>() -> &'static str {
     let full = type_name::<T>();
     if !full.starts_with(|first: char| first.is_alphabetic()) {
-        return full; // A tuple, array or reference reads best as it is.
+        return full; // The name of a tuple, array or reference is kept as it is.
     }
     let path = full.split('<').next().unwrap_or(full);
     path.rsplit("::").next().unwrap_or(path)

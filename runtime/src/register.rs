@@ -1,4 +1,4 @@
-//! The register of a thread: which workers and receivers it has, in which order.
+//! The register of a thread: its workers and receivers, in order.
 
 use crate::object::short_type_name;
 use crate::{Context, Receiver, Worker};
@@ -7,60 +7,60 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A worker's number in its thread's register.
+/// Identifies a worker within its thread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct WorkerId(pub(crate) u32);
 
-/// The bit that sorts workers behind receivers.
+/// Bit of an object number that sorts workers after receivers.
 pub(crate) const WORKER: u32 = 1 << 30;
 
-/// The bit that sorts the workers that stay last behind all others, also behind those that come
-/// later.
+/// Bit of an object number that sorts the workers registered to stay last after all others, also
+/// after those registered later.
 pub(crate) const LAST: u32 = 1 << 31;
 
-/// Stands for a closure that was sent to the thread, where an object's number is expected.
+/// Object number of a closure that was sent to the thread.
 pub(crate) const RUN: u32 = u32::MAX;
 
-/// Objects by number: receivers, then workers, then those that stay last. Otherwise numbers ascend,
-/// so the order of numbers is the order of registration.
-pub(crate) type Register = BTreeMap<u32, Slot>;
+/// Objects by number: receivers, then workers, then workers that stay last. Within each group numbers
+/// ascend, so their order is the order of registration.
+pub(crate) type Register = BTreeMap<u32, ObjectSlot>;
 
-/// The place of one object. It outlives the object when that is made anew.
-pub(crate) struct Slot {
-    /// Taken out while it is called, so that the call may change the register it stands in.
+/// The entry of one object in the register. Kept when the object is restarted.
+pub(crate) struct ObjectSlot {
+    /// `None` while the object is being called, so that the call may change the register.
     pub(crate) object: Option<Object>,
-    pub(crate) factory: Option<Factory>,
-    /// When it panicked lately.
+    pub(crate) factory: Option<ObjectFactory>,
+    /// Times of the recent panics.
     pub(crate) failures: Vec<Instant>,
 }
 
-impl Slot {
-    /// What the object is called; nothing while it is being called itself.
+impl ObjectSlot {
+    /// Returns the label of the object; an empty one while the object is being called.
     pub(crate) fn label(&self) -> Label {
         self.object.as_ref().map(|object| object.label.clone()).unwrap_or_default()
     }
 }
 
-/// What an object is called in reports.
+/// The name of an object and of its calls in reports.
 #[derive(Clone, Default)]
 pub(crate) struct Label {
     pub(crate) name: Arc<str>,
-    /// What its calls are called: the message type, or `"update"`.
+    /// The type name of the messages, or `"update"` for a worker.
     pub(crate) call: &'static str,
 }
 
-/// A worker or receiver whose type has been forgotten: what is left is its label, and how to call it.
+/// A type-erased worker or receiver.
 pub(crate) struct Object {
     pub(crate) label: Label,
     pub(crate) call: Call,
 }
 
-/// Calls the object that it holds: a worker, or a receiver with the message that it finds in an
-/// `Option<Message>` whose type has been forgotten, and leaves `None` there. The answer is the worker's.
+/// Calls the object inside. For a receiver the argument is a type-erased `Option<Message>`, from which
+/// the message is taken. Returns what the worker returns, and `true` for a receiver.
 pub(crate) type Call = Box<dyn FnMut(&mut dyn Any, &mut Context) -> bool>;
 
-/// Makes an object, and makes it anew after a panic.
-pub(crate) type Factory = Box<dyn FnMut(&mut Context) -> Object>;
+/// Makes an object: at its registration, and again after each panic.
+pub(crate) type ObjectFactory = Box<dyn FnMut(&mut Context) -> Object>;
 
 impl Object {
     pub(crate) fn worker(mut worker: impl Worker) -> Self {

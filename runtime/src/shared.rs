@@ -1,108 +1,113 @@
-//! What of a thread other threads may touch: its mailbox, a few flags, and counters.
+//! The part of a thread that other threads access: its mailbox, a few flags, and counters.
 
-use crate::batch::{Content, Letter};
-use crate::clock::Clock;
+use crate::batch::{Letter, LetterContent};
+use crate::clock::ThreadClock;
+use crate::job::Jobs;
 use crate::mailbox::Mailbox;
 use crate::register::Label;
 use crate::sync::atomic::{AtomicBool, Ordering};
-use crate::sync::{Held, planted, thread};
+use crate::sync::{BriefLock, mutant, thread};
 use crate::trace;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{self as std_atomic, AtomicU32, AtomicU64, AtomicUsize};
 
-/// Has cache lines to itself: who changes it all the time does not take what lies beside it from
-/// those who only read.
+/// Aligns its content to cache lines of its own, so that frequent writes to it do not slow down reads
+/// of the neighboring fields (false sharing).
 #[repr(align(128))]
-pub(crate) struct Apart<T>(pub(crate) T);
+pub(crate) struct CacheAligned<T>(pub(crate) T);
 
-/// Shared by a thread's loop, its handles and the addresses of its receivers.
-pub(crate) struct Shared {
+/// ThreadShared by a thread's loop, its handles and the addresses of its receivers.
+pub(crate) struct ThreadShared {
     pub(crate) name: Arc<str>,
-    pub(crate) clock: Clock,
-    pub(crate) mailbox: Apart<Mailbox>,
-    /// Nothing is delivered or called while this is set.
+    pub(crate) clock: ThreadClock,
+    pub(crate) mailbox: CacheAligned<Mailbox>,
+    /// While this is set, no message is delivered and no worker is called.
     pub(crate) paused: AtomicBool,
-    /// A stop is in the queue: no sleep and no pause may keep the thread from reaching it.
+    /// A stop is queued: it interrupts a sleep or pause.
     pub(crate) stopping: AtomicBool,
-    /// The loop has ended and every object of the thread is dropped.
+    /// The loop has ended, and every object of the thread has been dropped.
     pub(crate) finished: AtomicBool,
-    /// Woken when the loop has ended.
-    pub(crate) waiters: Held<Vec<thread::Thread>>,
-    /// What the objects are called, for a watchdog; empty without one.
-    pub(crate) labels: Held<BTreeMap<u32, Label>>,
+    /// Threads to wake when the loop has ended.
+    pub(crate) waiters: BriefLock<Vec<thread::Thread>>,
+    /// The background work that belongs to the thread.
+    pub(crate) jobs: Jobs,
+    /// Names of the objects, for a watchdog; empty without one.
+    pub(crate) labels: BriefLock<BTreeMap<u32, Label>>,
     next_id: AtomicU32,
-    running: Apart<AtomicU64>,
-    /// Do senders stamp what they send here?
+    running: CacheAligned<AtomicU64>,
+    /// Whether senders add a stamp to their messages.
     pub(crate) traced: std_atomic::AtomicBool,
-    pub(crate) tallies: Apart<Counters<Tally>>,
+    pub(crate) tallies: CacheAligned<Counters<Counter>>,
 }
 
-impl Shared {
-    pub(crate) fn new(name: &str, clock: Clock, wake: Box<dyn Fn() + Send + Sync>) -> Arc<Self> {
+impl ThreadShared {
+    pub(crate) fn new(name: &str, clock: ThreadClock, wake: Box<dyn Fn() + Send + Sync>) -> Arc<Self> {
         Arc::new(Self {
             name: name.into(),
             clock,
-            mailbox: Apart(Mailbox::new(wake)),
+            mailbox: CacheAligned(Mailbox::new(wake)),
             paused: AtomicBool::new(false),
             stopping: AtomicBool::new(false),
             finished: AtomicBool::new(false),
-            waiters: Held::new(Vec::new()),
-            labels: Held::new(BTreeMap::new()),
+            waiters: BriefLock::new(Vec::new()),
+            jobs: Jobs::new(),
+            labels: BriefLock::new(BTreeMap::new()),
             next_id: AtomicU32::new(1),
-            running: Apart(AtomicU64::new(0)),
+            running: CacheAligned(AtomicU64::new(0)),
             traced: std_atomic::AtomicBool::new(false),
-            tallies: Apart(Counters::default()),
+            tallies: CacheAligned(Counters::default()),
         })
     }
 
-    /// A number for a worker or receiver, unique in this thread, ascending; never 0.
+    /// Returns a number for a worker or receiver: unique in this thread, ascending, never 0.
     pub(crate) fn new_id(&self) -> u32 {
         self.next_id.fetch_add(1, std_atomic::Ordering::Relaxed)
     }
 
-    /// The number that comes next: those registered from now on have it or a higher one.
+    /// Returns the next number: objects registered from now on have this or a higher one.
     pub(crate) fn next_id(&self) -> u32 {
         self.next_id.load(std_atomic::Ordering::Relaxed)
     }
 
-    /// Stores `content` for the next iteration; gives it back when the thread has stopped.
-    pub(crate) fn send<C: Content>(&self, to: u32, row: u32, content: C) -> Result<(), C> {
+    /// Queues `content` for the next iteration, or returns it when the thread has stopped.
+    pub(crate) fn send<C: LetterContent>(&self, to: u32, row: u32, content: C) -> Result<(), C> {
         let traced = self.traced.load(std_atomic::Ordering::Relaxed);
         let stamp = traced.then(|| Box::new(trace::Stamp::now(&self.clock)));
         self.mailbox.0.send(row, Letter { to, stamp, content })
     }
 
-    /// Says that the loop has ended and all objects are dropped, and wakes who waits for it.
+    /// Marks the thread as finished and wakes the threads that wait for it.
     pub(crate) fn finish(&self) {
-        let order = if planted("relaxed_finish") { Ordering::Relaxed } else { Ordering::SeqCst };
-        self.finished.store(true, order);
+        mutant!(self.relaxed_finish());
+        self.finished.store(true, Ordering::SeqCst);
         self.waiters.with(std::mem::take).into_iter().for_each(|waiter| waiter.unpark());
     }
 
-    /// Lets the watchdog see which object is running, and that it is another call than before.
-    pub(crate) fn show_running(&self, id: u32) {
+    /// Publishes to the watchdog which object is being called, with a new number of the call.
+    pub(crate) fn set_running(&self, id: u32) {
         let calls = (self.running() >> 32) + 1;
         self.running.0.store(calls << 32 | u64::from(id), std_atomic::Ordering::Relaxed);
     }
 
-    /// The number of the object being called, 0 for none; above it the number of the call.
+    /// Returns the number of the object being called in the lower 32 bits, 0 for none, and the number
+    /// of the call in the upper ones.
     pub(crate) fn running(&self) -> u64 {
         self.running.0.load(std_atomic::Ordering::Relaxed)
     }
 }
 
-/// A number that goes up; read by anybody, exact once the counting threads are at rest.
+/// A statistics counter. Exact once the threads that increment it have stopped doing so.
 #[derive(Default)]
-pub(crate) struct Tally(AtomicUsize);
+pub(crate) struct Counter(AtomicUsize);
 
-impl Tally {
-    /// Counts what any thread may do.
+impl Counter {
+    /// Adds `count`; any thread may call this.
     pub(crate) fn add(&self, count: usize) {
         self.0.fetch_add(count, std_atomic::Ordering::Relaxed);
     }
 
-    /// Counts what the thread itself does and nobody else: no thread has to be kept out.
+    /// Adds `count` without an atomic read-modify-write; only the owning thread may call this.
     pub(crate) fn add_own(&self, count: usize) {
         self.0.store(self.0.load(std_atomic::Ordering::Relaxed) + count, std_atomic::Ordering::Relaxed);
     }
@@ -112,31 +117,31 @@ impl Tally {
     }
 }
 
-/// What happened in a thread since its start. Every message that was accepted is counted in
-/// exactly one of the first four, once the thread has stopped.
+/// Statistics of a thread since its start. Once the thread has stopped, every accepted message is
+/// counted in exactly one of the first four fields.
 ///
-/// What others get are plain numbers; the thread itself counts in the same fields with atomic ones.
+/// The public form has plain numbers; the thread itself uses atomic ones in the same fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters<N = u64> {
-    /// Messages handed to their receiver, also when it panicked with them.
+    /// Number of messages that their receiver was called with, also if it panicked.
     pub delivered: N,
-    /// Messages to a receiver that was not, or no longer, registered.
+    /// Number of messages to a receiver that was not, or no longer, registered.
     pub undeliverable: N,
-    /// Messages still queued when the thread stopped.
+    /// Number of messages still queued when the thread stopped.
     pub undelivered: N,
-    /// Messages whose place a newer one took ([`Address::latest`](crate::Address::latest)).
+    /// Number of messages replaced by a newer one ([`Address::latest`](crate::Address::latest)).
     pub replaced: N,
-    /// Messages given back because the address was full: not accepted.
+    /// Number of messages not accepted because the address was full.
     pub refused: N,
-    /// Turns of the loop.
+    /// Number of iterations of the loop.
     pub iterations: N,
-    /// Calls that ended in a panic.
+    /// Number of calls that panicked.
     pub panics: N,
-    /// Objects made anew after a panic.
+    /// Number of objects restarted after a panic.
     pub restarts: N,
 }
 
-impl Counters<Tally> {
+impl Counters<Counter> {
     pub(crate) fn read(&self) -> Counters {
         Counters {
             delivered: self.delivered.get(),

@@ -1,15 +1,16 @@
-//! Threads on a test's strings: iterations, clock and message order are stepped by hand.
+//! Deterministic single-step scheduler for tests: the test controls iterations, clock and message
+//! order.
 
-use crate::clock::Clock;
-use crate::shared::Shared;
+use crate::clock::ThreadClock;
+use crate::shared::ThreadShared;
 use crate::{Context, Next, ThreadHandle};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A stage: threads without OS threads, and one clock for all that stands still until turned.
+/// A test scheduler: threads without OS threads, and one clock for all that the test advances.
 ///
-/// Everything runs in the caller, in the order the caller says, so a test built on it always goes
-/// the same way. The loop is that of every other thread.
+/// Everything runs in the caller's thread, in the order of the caller's calls, so a test built on it
+/// is deterministic. The loop is the one of every other thread.
 ///
 /// ```
 /// # use dragonfly_runtime::{Context, Next, Receiver, Stage};
@@ -32,17 +33,20 @@ use std::time::{Duration, Instant};
 /// stage.advance(Duration::from_secs(1));
 /// assert_eq!(stage.iterate(&tower), Next::OnMessage);
 /// ```
+#[doc(alias = "mock")]
+#[doc(alias = "test scheduler")]
+#[doc(alias = "virtual time")]
 pub struct Stage {
-    clock: Clock,
+    clock: ThreadClock,
     threads: Vec<Context>,
 }
 
-/// A message that waits for delivery.
+/// A queued message.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Waiting {
-    /// The receiver's name; empty when there is none, and for messages to the thread itself.
+pub struct PendingMessage {
+    /// The receiver's name; empty when there is none, and for commands to the thread itself.
     pub to: Arc<str>,
-    /// The type of the message; `run`, `sleep` or `stop` for those to the thread itself.
+    /// The type of the message; `run`, `sleep` or `stop` for commands to the thread itself.
     pub message: &'static str,
 }
 
@@ -53,57 +57,57 @@ impl Default for Stage {
 }
 
 impl Stage {
-    /// An empty stage. Its clock starts at the present time.
+    /// Returns an empty stage. Its clock starts at the current time.
     pub fn new() -> Self {
-        Self { clock: Clock::manual(), threads: Vec::new() }
+        Self { clock: ThreadClock::manual(), threads: Vec::new() }
     }
 
-    /// Puts a thread on the stage. It does nothing until told to.
+    /// Adds a thread. It runs only when the stage iterates it.
     pub fn start(&mut self, name: &str) -> ThreadHandle {
-        let thread = Context::new(Shared::new(name, self.clock.clone(), Box::new(|| {})));
+        let thread = Context::new(ThreadShared::new(name, self.clock.clone(), Box::new(|| {})));
         let handle = thread.handle().clone();
         self.threads.push(thread);
         handle
     }
 
-    /// The time on the stage.
+    /// Returns the time of the stage's clock.
     pub fn now(&self) -> Instant {
         self.clock.now()
     }
 
-    /// Turns the clock forward. Nobody is called: see what is due with [`settle`](Self::settle).
+    /// Advances the clock. Calls no object: run what is due with [`settle`](Self::settle).
     pub fn advance(&mut self, by: Duration) {
         self.clock.advance(by);
     }
 
-    /// One iteration of `thread`.
+    /// Runs one iteration of `thread`.
     ///
     /// # Panics
-    /// Like all methods that name a thread, when it is not on this stage.
+    /// When `thread` is not on this stage, as for all methods that take a thread.
     pub fn iterate(&mut self, thread: &ThreadHandle) -> Next {
         self.context(thread).iterate()
     }
 
-    /// The inside of `thread`, for registering objects directly.
+    /// Returns the inside of `thread`, for registering objects directly.
     pub fn context(&mut self, thread: &ThreadHandle) -> &mut Context {
         let found = self.threads.iter_mut().find(|one| one.handle() == thread);
         found.unwrap_or_else(|| panic!("thread {:?} is not on this stage", thread.name()))
     }
 
-    /// What waits for `thread`, in the order in which it would be delivered.
-    pub fn waiting(&mut self, thread: &ThreadHandle) -> Vec<Waiting> {
+    /// Returns the queued messages of `thread`, in the order in which they would be delivered.
+    pub fn waiting(&mut self, thread: &ThreadHandle) -> Vec<PendingMessage> {
         let context = self.context(thread);
         context.fetch_messages();
         let describe = |(to, message)| {
             let to = context.objects.get(&to).map(|slot| slot.label().name).unwrap_or_default();
-            Waiting { to, message }
+            PendingMessage { to, message }
         };
         context.batch.describe().map(describe).collect()
     }
 
     /// Delivers the message at `index` of [`waiting`](Self::waiting) before all others, and calls
-    /// no worker; `false` when there is none. Messages of different senders may come in any order,
-    /// so a test may try any; those of one sender keep theirs on a real thread.
+    /// no worker. Returns `false` when there is none. Messages of different senders may arrive in any
+    /// order, so a test may try each; on a real thread those of one sender keep their order.
     pub fn deliver(&mut self, thread: &ThreadHandle, index: usize) -> bool {
         let context = self.context(thread);
         context.fetch_messages();
@@ -113,8 +117,8 @@ impl Stage {
         found
     }
 
-    /// Iterates all threads in turn, in the order in which they were started, until nothing is due
-    /// before the clock is turned, or for `limit` rounds. `true`: nothing is due.
+    /// Iterates all threads in turn, in the order of their start, until nothing is due at the current
+    /// time, or for `limit` rounds. Returns whether nothing is due any more.
     pub fn settle(&mut self, limit: usize) -> bool {
         for _ in 0..limit {
             let mut busy = false;
@@ -122,7 +126,7 @@ impl Stage {
                 let next = thread.iterate();
                 busy |= next == Next::Now || matches!(next, Next::At(when) if when <= self.clock.now());
             }
-            // Somebody may have sent to one that had its turn in this round.
+            // A later thread may have sent a message to one that was already iterated in this round.
             let mut mail = self.threads.iter_mut();
             if !busy && !mail.any(|thread| thread.handle.queue_len() > 0 && !thread.halted()) {
                 return true;

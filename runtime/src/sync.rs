@@ -1,4 +1,5 @@
-//! All that threads share passes through here, so that the model checkers see the real code.
+//! The lock, threads and atomics of the crate, replaceable by those of a model checker, so that the
+//! checkers run the real code.
 //!
 //! | build | lock, threads, atomics |
 //! |---|---|
@@ -6,13 +7,13 @@
 //! | `--cfg loom`, `--cfg shuttle` | the checker's |
 //! | `--cfg tsan` | `std`, with a lock that ThreadSanitizer can look into |
 //!
-//! Statistics (counters, what is running) stay with `std`: nothing waits for them, and each
-//! further atomic multiplies what a checker has to try.
+//! Statistics (counters, the running object) and the flags of jobs always use `std`: no thread waits
+//! for them, and each further atomic multiplies the schedules that a checker has to try.
 
-/// The checkers' lock and atomics, and threads that park as the standard library's do.
+/// The checker's lock and atomics, and threads that park like those of the standard library.
 #[cfg(any(loom, shuttle))]
 use crate::modelled as parts;
-pub(crate) use parts::{atomic, planted, thread};
+pub(crate) use parts::{atomic, thread};
 use std::time::Instant;
 
 #[cfg(not(any(loom, shuttle)))]
@@ -22,26 +23,28 @@ mod parts {
     #[cfg(not(tsan))]
     pub(crate) use std::sync::Mutex;
     pub(crate) use std::{sync::atomic, thread};
-
-    /// Is the planted bug of this name on? Never, in a normal build: the question compiles to
-    /// nothing.
-    ///
-    /// A model that cannot fail proves nothing. `.ci/models` turns each bug on in turn and demands
-    /// that a checker finds it.
-    pub(crate) const fn planted(_bug: &str) -> bool {
-        false
-    }
 }
 
-/// The one lock of the crate, and so the one thing that two threads ever wait for in it: as in the
-/// thesis, whose queue has one for the same reason (§3.2.6.1).
-///
-/// It cannot be held: there is no guard, only a closure. What runs in there moves a few bytes
-/// and returns; nothing of the program's is called, and no second one is taken, so no two can be
-/// taken in the wrong order. Debug builds check that.
-pub(crate) struct Held<T>(parts::Mutex<T>);
+/// `mutant!(self.faulty(arguments))` returns what `faulty` returns, if a model checker has planted
+/// the bug of that name: see `tests/runtime/mutants.rs`. Expands to nothing in a normal build.
+macro_rules! mutant {
+    ($object:ident $(. $method:ident)? $(:: $function:ident)? ($($argument:expr),*)) => {
+        #[cfg(any(loom, shuttle))]
+        if crate::modelled::planted(concat!($(stringify!($method))? $(stringify!($function))?)) {
+            return $object $(. $method)? $(:: $function)? ($($argument),*);
+        }
+    };
+}
+pub(crate) use mutant;
 
-impl<T> Held<T> {
+/// The only kind of lock in the crate. The thesis's queue has one for the same reason (§3.2.6.1).
+///
+/// It cannot be held: there is no guard, only a closure. The closure moves a few bytes and returns;
+/// it calls no user code and takes no second lock, so no two locks can be taken in the wrong order.
+/// Debug builds check that.
+pub(crate) struct BriefLock<T>(parts::Mutex<T>);
+
+impl<T> BriefLock<T> {
     pub(crate) fn new(content: T) -> Self {
         Self(parts::Mutex::new(content))
     }
@@ -49,7 +52,7 @@ impl<T> Held<T> {
     pub(crate) fn with<R>(&self, briefly: impl FnOnce(&mut T) -> R) -> R {
         alone::inside(true);
         #[cfg(not(tsan))]
-        // What runs inside cannot panic half way; and a message more or less is no broken promise.
+        // A poisoned lock is used as it is: no closure can panic in the middle of a change.
         let mut content = self.0.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         #[cfg(tsan)]
         let mut content = self.0.lock();
@@ -60,7 +63,8 @@ impl<T> Held<T> {
     }
 }
 
-/// No thread is in two locks at once. Not under the checkers, all of whose threads are one.
+/// Checks that no thread takes a lock inside another. Not under the checkers, which run all threads in
+/// one OS thread.
 mod alone {
     #[cfg(all(debug_assertions, not(any(loom, shuttle))))]
     thread_local!(static INSIDE: std::cell::Cell<bool> = const { std::cell::Cell::new(false) });
@@ -71,8 +75,8 @@ mod alone {
     }
 }
 
-/// Sleeps until somebody unparks this thread, or until `deadline`. May return early.
-/// The checkers know no time: there a deadline never comes, and a lost wake-up shows as a deadlock.
+/// Blocks until this thread is unparked, or until `deadline`. May return early.
+/// The checkers have no time: there a deadline never passes, and a lost wake-up is a deadlock.
 pub(crate) fn park(deadline: Option<Instant>) {
     match deadline {
         #[cfg(not(any(loom, shuttle)))]

@@ -1,22 +1,25 @@
-//! A thread's owner: an OS thread of its own, or one that is driven from outside.
+//! The owner of a thread: with an OS thread of its own, or driven by the caller's loop.
 
-use crate::clock::Clock;
-use crate::shared::Shared;
-use crate::sync::{Held, park, planted, thread};
+use crate::clock::ThreadClock;
+use crate::shared::ThreadShared;
+use crate::sync::{BriefLock, mutant, park, thread};
 use crate::{Context, Next, ThreadHandle};
 use std::cell::Cell;
 use std::io;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// How long dropping a [`Thread`] waits for it to end.
+/// Longest time that dropping a [`Thread`] waits for it to end.
 pub const DROP_DEADLINE: Duration = Duration::from_secs(2);
 
-/// An OS thread that runs the loop: asleep until a message comes, a deadline passes, or for as
-/// long as a worker asks to go on.
+/// An OS thread that runs the loop. It sleeps until a message arrives or a deadline passes, unless a
+/// worker requests another iteration.
 ///
-/// Dropping it stops the thread behind its queued messages and waits for that, for at most
-/// [`DROP_DEADLINE`]; a thread that is stuck in a call is then left to itself and reported.
+/// Dropping it stops the thread after its queued messages and waits for that, for at most
+/// [`DROP_DEADLINE`]; a thread that is stuck in a call is then left running and logged.
+#[doc(alias = "event loop")]
+#[doc(alias = "actor system")]
+#[doc(alias = "executor")]
 pub struct Thread {
     handle: ThreadHandle,
     os_thread: Option<thread::JoinHandle<()>>,
@@ -26,56 +29,57 @@ impl Thread {
     /// Starts an OS thread called `name`.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// When the system cannot create a thread.
     ///
     /// # Panics
     /// When `name` contains a zero byte.
     pub fn start(name: &str) -> io::Result<Self> {
-        // The mailbox must know whom to wake, and the loop needs the mailbox: so the thread is
-        // started first, and waits until its mailbox is laid in the cradle.
-        let cradle = Arc::new(Held::new(None));
-        let theirs = Arc::clone(&cradle);
+        // The mailbox needs the OS thread in order to wake it, and the loop needs the mailbox: so the
+        // OS thread is started first and waits for its mailbox.
+        let handoff = Arc::new(BriefLock::new(None));
+        let theirs = Arc::clone(&handoff);
         let os_thread = thread::Builder::new().name(name.to_owned()).spawn(move || thread_proc(&theirs))?;
         let sleeper = os_thread.thread().clone();
         let wake = Box::new(move || sleeper.unpark());
-        let shared = Shared::new(name, Clock::Real, wake);
-        cradle.with(|cradle| *cradle = Some(Arc::clone(&shared)));
+        let shared = ThreadShared::new(name, ThreadClock::Real, wake);
+        handoff.with(|handoff| *handoff = Some(Arc::clone(&shared)));
         os_thread.thread().unpark();
         Ok(Self { handle: ThreadHandle { shared }, os_thread: Some(os_thread) })
     }
 
-    /// Makes a thread of the caller's: there is no OS thread, the caller's loop calls
-    /// [`Captured::iterate`]. For the main thread, whose loop belongs to the window system.
+    /// Makes a runtime thread of the calling OS thread, whose loop calls [`Captured::iterate`]. For
+    /// the main thread, whose loop belongs to the window system.
     ///
-    /// `wake` is called from sending threads when a message comes after `iterate` said it would
-    /// wait, and on [`resume`](ThreadHandle::resume) and
-    /// [`remote_stop`](ThreadHandle::remote_stop). It must be quick and make the caller's loop
-    /// call `iterate` soon; once too often does no harm.
+    /// `wake` is called from sending threads when a message arrives after `iterate` returned that it
+    /// waits for one, and by [`resume`](ThreadHandle::resume) and
+    /// [`remote_stop`](ThreadHandle::remote_stop). It must be fast and make the caller's loop call
+    /// `iterate` soon; an unnecessary call does no harm.
     pub fn capture(name: &str, wake: impl Fn() + Send + Sync + 'static) -> Captured {
-        Captured { context: Context::new(Shared::new(name, Clock::Real, Box::new(wake))) }
+        Captured { context: Context::new(ThreadShared::new(name, ThreadClock::Real, Box::new(wake))) }
     }
 
-    /// Its remote control.
+    /// Returns the handle of the thread, for other threads.
     pub fn handle(&self) -> &ThreadHandle {
         &self.handle
     }
 
-    /// Waits until all of `threads` have stopped and dropped their objects.
+    /// Blocks until all of `threads` have stopped and dropped their objects.
     ///
-    /// It only waits: stop them before. A thread that waits for itself waits in vain.
+    /// It does not stop them: call [`remote_stop`](ThreadHandle::remote_stop) before. A thread that
+    /// waits for itself waits until `deadline`.
     ///
     /// # Errors
-    /// The names of those that still run at `deadline`.
+    /// The names of the threads that are still running at `deadline`.
     pub fn wait_for(threads: &[ThreadHandle], deadline: Instant) -> Result<(), Vec<String>> {
+        mutant!(Self::unchecked_wait(threads, deadline));
         let names = || -> Vec<String> {
             let running = threads.iter().filter(|one| !one.is_stopped());
             running.map(|one| one.name().to_owned()).collect()
         };
-        let early = planted("unchecked_wait").then(names);
-        // First said, then looked: a thread that finishes in between either sees who waits or is
-        // seen as finished.
+        // Registered first, checked second: a thread that finishes in between either finds this waiter
+        // or is found finished.
         threads.iter().for_each(|one| one.shared.waiters.with(|waiters| waiters.push(thread::current())));
-        let mut running = early.unwrap_or_else(names);
+        let mut running = names();
         while !running.is_empty() {
             if Instant::now() >= deadline {
                 return Err(running);
@@ -94,11 +98,11 @@ impl Drop for Thread {
         };
         self.handle.remote_stop();
         if os_thread.thread().id() == thread::current().id() {
-            return; // It owns itself; the stop is in its queue.
+            return; // Dropped by itself; the stop is in its queue.
         }
         let waited = Self::wait_for(std::slice::from_ref(&self.handle), Instant::now() + DROP_DEADLINE);
         if waited.is_err() {
-            tracing::error!(thread = self.handle.name(), "does not stop; left to itself");
+            tracing::error!(thread = self.handle.name(), "does not stop; left running");
             return;
         }
         if os_thread.join().is_err() {
@@ -107,10 +111,10 @@ impl Drop for Thread {
     }
 }
 
-/// The loop of a thread of its own (thesis §3.2.6.1).
-fn thread_proc(cradle: &Held<Option<Arc<Shared>>>) {
+/// The loop of an OS thread (thesis §3.2.6.1).
+fn thread_proc(handoff: &BriefLock<Option<Arc<ThreadShared>>>) {
     let shared = loop {
-        match cradle.with(Option::take) {
+        match handoff.with(Option::take) {
             Some(shared) => break shared,
             None => park(None),
         }
@@ -127,15 +131,15 @@ fn thread_proc(cradle: &Held<Option<Arc<Shared>>>) {
         let left = |deadline: Instant| deadline.saturating_duration_since(Instant::now());
         let due = || deadline.is_some_and(|deadline| left(deadline).is_zero());
         let mailbox = &context.shared().mailbox.0;
-        // Who was told to sleep or to pause is awake in this sense, and looks for nothing.
+        // A thread that sleeps or pauses on request is not marked as asleep, and does not spin.
         if !context.spin.is_zero() && mailbox.is_asleep() {
             mailbox
-                .look(patience(deadline.map_or(context.spin, |deadline| left(deadline).min(context.spin))));
+                .spin(patience(deadline.map_or(context.spin, |deadline| left(deadline).min(context.spin))));
             if !mailbox.is_asleep() {
                 continue;
             }
         }
-        // A wake-up that nobody meant, which the system allows itself, is slept through.
+        // A spurious wake-up by the system is ignored.
         park(deadline);
         while !due() && mailbox.is_asleep() {
             park(deadline);
@@ -143,15 +147,15 @@ fn thread_proc(cradle: &Held<Option<Arc<Shared>>>) {
     }
 }
 
-/// Looks on for as long as `limit`. In between whoever waits for this core has a turn, soon: it
-/// may be the one that is waited for.
+/// Returns a condition that holds for `limit`. Every 16th check yields the core to another thread,
+/// which may be the one whose message is awaited.
 fn patience(limit: Duration) -> impl Fn() -> bool {
-    const LOOKS: u32 = 16;
-    let (begin, looks) = (Instant::now(), Cell::new(0));
+    const CHECKS: u32 = 16;
+    let (begin, checks) = (Instant::now(), Cell::new(0));
     move || {
-        looks.set(looks.get() + 1);
+        checks.set(checks.get() + 1);
         std::hint::spin_loop();
-        if looks.get() % LOOKS != 0 {
+        if checks.get() % CHECKS != 0 {
             return true;
         }
         thread::yield_now();
@@ -159,29 +163,29 @@ fn patience(limit: Duration) -> impl Fn() -> bool {
     }
 }
 
-/// A thread that is driven from outside: the same loop, one [`iterate`](Self::iterate) at a time.
+/// A thread that is driven by the caller's loop, one [`iterate`](Self::iterate) at a time.
 ///
-/// Dropping it ends it at once: what is queued is not delivered, its objects are dropped.
+/// Dropping it ends it at once: queued messages are not delivered, its objects are dropped.
 pub struct Captured {
     context: Context,
 }
 
 impl Captured {
-    /// Its remote control.
+    /// Returns the handle of the thread, for other threads.
     pub fn handle(&self) -> &ThreadHandle {
         self.context.handle()
     }
 
-    /// One iteration: delivers, calls the workers, and says when to call this again.
+    /// Runs one iteration: delivers messages and calls the workers. Returns when to call this again.
     ///
     /// With winit: `Now` is `ControlFlow::Poll`, `At` is `WaitUntil`, `OnMessage` is `Wait`,
-    /// `Stopped` leaves the event loop. Calling it earlier than asked does no harm.
+    /// `Stopped` leaves the event loop. An earlier call does no harm.
     pub fn iterate(&mut self) -> Next {
         self.context.iterate()
     }
 
-    /// The inside of the thread, for registering objects directly. Call [`iterate`](Self::iterate)
-    /// afterwards, so that what was asked for here is taken into account.
+    /// Returns the inside of the thread, for registering objects directly. Call
+    /// [`iterate`](Self::iterate) afterwards, so that alarms and stops requested here take effect.
     pub fn context(&mut self) -> &mut Context {
         &mut self.context
     }

@@ -1,10 +1,11 @@
-//! Who sent what to whom, when, how long it waited and how long it took.
+//! Trace of a thread: each message with its sender, its receiver, its time in the queue and the
+//! duration of the call.
 //!
-//! Off, it costs one relaxed load for each message sent, and next to nothing for each call. On, each
-//! message and each worker call becomes a [`Record`] in a ring that belongs to the traced thread,
+//! Off, it costs one relaxed load for each message sent, and nearly nothing for each call. On, each
+//! message and each worker call becomes a [`TraceRecord`] in a ring that belongs to the traced thread,
 //! and an event of the `tracing` crate at level TRACE, target `dragonfly_runtime::trace`.
 
-use crate::clock::Clock;
+use crate::clock::ThreadClock;
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -13,51 +14,51 @@ use std::time::{Duration, Instant};
 
 /// One message delivered, or one worker called.
 #[derive(Clone, Debug)]
-pub struct Record {
+pub struct TraceRecord {
     /// The iteration it happened in, counted from 1 since the thread's start.
     pub iteration: u64,
-    /// When the call began.
+    /// Start of the call.
     pub at: Instant,
-    /// How long the call took.
+    /// Duration of the call.
     pub took: Duration,
-    /// What it was.
-    pub event: Event,
+    /// The object and the message of the call.
+    pub event: TraceEvent,
 }
 
-/// What a [`Record`] tells of.
+/// The call of a [`TraceRecord`].
 #[derive(Clone, Debug)]
-pub enum Event {
+pub enum TraceEvent {
     /// A message was taken from the queue.
     Message {
-        /// `thread/object` that sent it; empty when it was sent outside of any runtime thread, or
-        /// before the trace was on.
+        /// The sender as `thread/object` or `thread/job`; empty when it was sent outside of the
+        /// runtime, or before the trace was on.
         from: Arc<str>,
-        /// The receiver's name; empty when there is none any more.
+        /// The receiver's name; empty when it no longer exists.
         to: Arc<str>,
         /// The type of the message.
         message: &'static str,
-        /// How long it lay in the queue; `None` when it was sent before the trace was on.
+        /// Time in the queue; `None` when it was sent before the trace was on.
         waited: Option<Duration>,
-        /// What became of it.
-        end: End,
+        /// How the call ended.
+        end: CallEnd,
     },
     /// A worker was called.
     Worker {
         /// The worker's name.
         name: Arc<str>,
-        /// What became of the call; `Done(false)` ended the iteration.
-        end: End,
+        /// How the call ended; `Done(false)` ended the iteration.
+        end: CallEnd,
     },
 }
 
 /// How a call ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// It returned; the answer is a worker's, and `true` for messages.
+pub enum CallEnd {
+    /// It returned this value; always `true` for messages.
     Done(bool),
     /// It panicked.
     Panicked,
-    /// There is no such receiver.
+    /// The receiver does not exist.
     Undeliverable,
 }
 
@@ -66,19 +67,19 @@ pub enum End {
 pub struct TraceSnapshot {
     /// The thread's name.
     pub thread: Arc<str>,
-    /// When it was taken.
+    /// When the snapshot was made.
     pub taken: Instant,
-    /// At most as many as the trace was told to keep.
-    pub records: Vec<Record>,
+    /// The records, at most the capacity of the trace.
+    pub records: Vec<TraceRecord>,
 }
 
-/// The ring.
+/// The ring of records.
 pub(crate) struct Trace {
     capacity: usize,
-    pub(crate) records: VecDeque<Record>,
+    pub(crate) records: VecDeque<TraceRecord>,
 }
 
-/// How many threads are traced. While it is 0 nobody keeps track of who is sending.
+/// Number of traced threads. While it is 0, senders are not recorded.
 static TRACED_THREADS: AtomicUsize = AtomicUsize::new(0);
 
 impl Trace {
@@ -87,13 +88,13 @@ impl Trace {
         Self { capacity, records: VecDeque::with_capacity(capacity) }
     }
 
-    pub(crate) fn add(&mut self, record: Record) {
+    pub(crate) fn add(&mut self, record: TraceRecord) {
         let took = record.took;
         match &record.event {
-            Event::Message { from, to, message, waited, end } => {
+            TraceEvent::Message { from, to, message, waited, end } => {
                 tracing::trace!(%from, %to, message, ?waited, ?took, ?end, "message")
             }
-            Event::Worker { name, end } => tracing::trace!(worker = %name, ?took, ?end, "worker"),
+            TraceEvent::Worker { name, end } => tracing::trace!(worker = %name, ?took, ?end, "worker"),
         }
         if self.records.len() == self.capacity {
             self.records.pop_front();
@@ -108,37 +109,37 @@ impl Drop for Trace {
     }
 }
 
-/// Put on a message by its sender.
+/// Sender and time of a message.
 pub(crate) struct Stamp {
     pub(crate) from: Arc<str>,
     pub(crate) sent: Instant,
 }
 
-/// On messages to a traced thread only.
+/// The stamp of a letter; only letters to a traced thread have one.
 pub(crate) type Stamped = Option<Box<Stamp>>;
 
-/// Thread and object that are sending.
+/// Names of the thread and of the object or job that is sending.
 pub(crate) type Sender = Option<(Arc<str>, Arc<str>)>;
 
 thread_local! {
-    /// Which object of which runtime thread is being called on this OS thread.
+    /// The object or job that is running in this OS thread.
     static SENDER: RefCell<Sender> = const { RefCell::new(None) };
 }
 
 impl Stamp {
-    pub(crate) fn now(clock: &Clock) -> Self {
+    pub(crate) fn now(clock: &ThreadClock) -> Self {
         let name = |(thread, object): &(Arc<str>, Arc<str>)| format!("{thread}/{object}").into();
         let from = SENDER.with_borrow(|sender| sender.as_ref().map(name)).unwrap_or_default();
         Self { from, sent: clock.now() }
     }
 }
 
-/// The names of an object as a sender. `None`, and next to free, while no thread is traced.
+/// Returns the names of an object as a sender. `None`, at nearly no cost, while no thread is traced.
 pub(crate) fn sender(thread: &Arc<str>, object: &Arc<str>) -> Sender {
     (TRACED_THREADS.load(Ordering::Relaxed) > 0).then(|| (Arc::clone(thread), Arc::clone(object)))
 }
 
-/// From now on what this OS thread sends is stamped with `sender`; returns who it was before.
+/// Stamps messages of this OS thread with `sender` from now on. Returns the previous sender.
 pub(crate) fn send_as(sender: Sender) -> Sender {
     SENDER.replace(sender)
 }

@@ -1,4 +1,4 @@
-//! Says which object of which thread does not come back, and with which type of message.
+//! Detects stalls: reports the object of a thread whose call does not return, with its message type.
 
 use crate::register::Label;
 use crate::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
@@ -8,10 +8,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// How long a call may take before the watchdog speaks, unless another time is given.
+/// Usual duration of a call above which a watchdog reports it.
 pub const STALL_LIMIT: Duration = Duration::from_secs(5);
 
-/// A call that has taken longer than the limit, and goes on.
+/// A running call that has taken longer than the limit.
 #[derive(Clone, Debug)]
 pub struct Stall {
     /// The thread's name.
@@ -20,27 +20,27 @@ pub struct Stall {
     pub object: Arc<str>,
     /// The type of the message being received, `update` for a worker, `run` for a closure.
     pub call: &'static str,
-    /// How long it has been seen running, at least.
+    /// Minimum duration of the call so far.
     pub running: Duration,
 }
 
-/// Watches any number of threads; itself a worker and receiver like any other.
+/// Watches any number of threads. It is a worker and receiver like any other.
 ///
-/// It looks four times within the limit, at one atomic number for each thread; the watched
-/// threads do nothing for it but store that number. A stall is reported once, between one limit
-/// and one and a quarter after it began.
+/// Four times within the limit it reads one atomic number of each thread; the only cost for the
+/// watched threads is storing that number. A stall is reported once, between 1 and 1.25 times the
+/// limit after the call began.
 pub struct Watchdog {
     address: Address<ThreadHandle>,
-    /// Ends with the watchdog, when it has a thread of its own.
+    /// The watchdog's own thread, if it has one. Stopped with the watchdog.
     _thread: Option<Thread>,
 }
 
 impl Watchdog {
-    /// Starts a watchdog in a thread of its own. `report` is called there, and the stall is
-    /// reported to `tracing` at level WARN in any case.
+    /// Starts a watchdog in a thread of its own. `report` is called there; each stall is also logged
+    /// with `tracing` at level WARN.
     ///
     /// # Errors
-    /// When the system gives no thread.
+    /// When the system cannot create a thread.
     pub fn start(limit: Duration, report: impl FnMut(&Stall) + Send + 'static) -> io::Result<Self> {
         let thread = Thread::start("watchdog")?;
         let mut watchdog = Self::start_in(thread.handle(), limit, report);
@@ -48,7 +48,7 @@ impl Watchdog {
         Ok(watchdog)
     }
 
-    /// Starts a watchdog in a thread that is there already, and lives as long as it.
+    /// Starts a watchdog in an existing thread. It ends with that thread.
     pub fn start_in(
         thread: &ThreadHandle,
         limit: Duration,
@@ -56,9 +56,13 @@ impl Watchdog {
     ) -> Self {
         let address = thread.reserve_address();
         let own = address.clone();
-        // A stopped thread watches nobody.
+        // Fails only when the thread has stopped, where a watchdog has no use.
         let _ = thread.run(move |thread| {
-            let watch = Rc::new(RefCell::new(Watch { limit, report: Box::new(report), looks: Vec::new() }));
+            let watch = Rc::new(RefCell::new(WatchdogState {
+                limit,
+                report: Box::new(report),
+                watched_threads: Vec::new(),
+            }));
             thread.register_receiver_at(&own, Rc::clone(&watch));
             thread.register_worker(watch);
         });
@@ -68,58 +72,60 @@ impl Watchdog {
     /// Watches `thread` until it stops.
     pub fn watch(&self, thread: &ThreadHandle) {
         let address = self.address.clone();
-        // A stopped thread need not be watched, and a watchdog that has stopped watches nobody.
+        // Fails only when the thread or the watchdog has stopped.
         let _ = thread.run(move |thread| {
-            thread.show_labels();
+            thread.publish_labels();
             let _ = address.send(thread.handle().clone());
         });
     }
 }
 
-struct Watch {
+/// The worker and receiver of a watchdog.
+struct WatchdogState {
     limit: Duration,
     report: Box<dyn FnMut(&Stall)>,
-    looks: Vec<Look>,
+    watched_threads: Vec<WatchedThread>,
 }
 
-/// What was seen of a thread.
-struct Look {
+/// The state of a watched thread at the last check.
+struct WatchedThread {
     thread: ThreadHandle,
-    /// The call that was running.
+    /// Number of the call that was running.
     running: u64,
-    /// When it was seen first; `None` when it was reported.
+    /// Time of the first check that found this call; `None` once it was reported.
     since: Option<Instant>,
 }
 
-impl Receiver for Watch {
+impl Receiver for WatchdogState {
     type Message = ThreadHandle;
 
     fn receive(&mut self, thread: ThreadHandle, _: &mut Context) {
-        if self.looks.iter().all(|look| look.thread != thread) {
-            self.looks.push(Look { thread, running: 0, since: None });
+        if self.watched_threads.iter().all(|watched| watched.thread != thread) {
+            self.watched_threads.push(WatchedThread { thread, running: 0, since: None });
         }
     }
 }
 
-impl Worker for Watch {
+impl Worker for WatchdogState {
     fn update(&mut self, thread: &mut Context) -> bool {
         let now = thread.now();
-        self.looks.retain(|look| !look.thread.is_stopped());
-        for look in &mut self.looks {
-            if let Some(stall) = look.again(now, self.limit) {
+        self.watched_threads.retain(|watched| !watched.thread.is_stopped());
+        for watched in &mut self.watched_threads {
+            if let Some(stall) = watched.check(now, self.limit) {
                 tracing::warn!(?stall, "stalled");
                 (self.report)(&stall);
             }
         }
-        if !self.looks.is_empty() {
+        if !self.watched_threads.is_empty() {
             thread.wake_at(now + self.limit / 4);
         }
         true
     }
 }
 
-impl Look {
-    fn again(&mut self, now: Instant, limit: Duration) -> Option<Stall> {
+impl WatchedThread {
+    /// Checks the thread again. Returns a stall that was not reported yet.
+    fn check(&mut self, now: Instant, limit: Duration) -> Option<Stall> {
         let running = self.thread.shared.running();
         if running != self.running {
             self.running = running;

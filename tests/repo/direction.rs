@@ -5,7 +5,7 @@ use crate::tree::{File, files, none, one};
 /// What a crate may depend on at run time.
 const DEPENDENCIES: &[(&str, &[&str])] = &[
     ("anim", &["base64", "crc", "glam", "gltf", "percent-encoding", "serde_json", "thiserror"]),
-    ("runtime", &["loom", "shuttle", "spin", "tracing"]),
+    ("runtime", &["flume", "loom", "shuttle", "spin", "tracing"]),
 ];
 
 /// The entries of `[dependencies]` and of those for one platform or configuration, without development.

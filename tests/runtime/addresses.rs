@@ -1,19 +1,19 @@
-//! Addresses: typed, clonable, never waiting, and no message vanishes unseen.
+//! Addresses: typed, clonable, non-blocking, and no message is lost silently.
 
-use crate::cast::{LIMIT, Log, deadline, hear, listen, outlet, plain_thread};
+use crate::helpers::{LIMIT, Log, deadline, fn_receiver, forwarder, log_messages, plain_thread};
 use dragonfly_kit::eventually;
 use dragonfly_runtime::{Address, SendError, Stage, Thread};
 use std::rc::Rc;
 
 #[test]
-fn an_address_is_good_before_its_receiver_exists() {
+fn messages_sent_before_the_receiver_is_made_arrive() {
     let thread = Thread::start("early").unwrap();
-    let (receiver, hears) = outlet();
+    let (receiver, received) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
     for message in 0..100_u32 {
         address.send(message).unwrap();
     }
-    let got: Vec<_> = (0..100).map(|_| hears.recv_timeout(LIMIT).unwrap()).collect();
+    let got: Vec<_> = (0..100).map(|_| received.recv_timeout(LIMIT).unwrap()).collect();
     assert_eq!(got, (0..100).collect::<Vec<_>>());
 }
 
@@ -22,17 +22,17 @@ fn an_object_need_not_be_send() {
     let thread = Thread::start("local").unwrap();
     let (inside, outside) = std::sync::mpsc::channel();
     let address = thread.handle().register_receiver(move |_| {
-        let local = Rc::new(5); // Lives and dies in that thread.
-        hear(move |message: u32, _| inside.send(message + *local).unwrap())
+        let local = Rc::new(5); // Made, used and dropped in that thread.
+        fn_receiver(move |message: u32, _| inside.send(message + *local).unwrap())
     });
     address.send(1).unwrap();
     assert_eq!(outside.recv_timeout(LIMIT), Ok(6));
 }
 
 #[test]
-fn a_stopped_thread_gives_the_message_back() {
+fn a_send_to_a_stopped_thread_returns_the_message() {
     let thread = Thread::start("short").unwrap();
-    let address = thread.handle().register_receiver(|_| hear(|_: String, _| ()));
+    let address = thread.handle().register_receiver(|_| fn_receiver(|_: String, _| ()));
     let (latest, bounded) = (address.latest(), address.bounded(1));
     thread.handle().remote_stop();
     Thread::wait_for(&[thread.handle().clone()], deadline()).unwrap();
@@ -48,11 +48,11 @@ fn a_stopped_thread_gives_the_message_back() {
 }
 
 #[test]
-fn a_message_to_a_receiver_that_is_gone_is_counted_and_harms_nobody() {
+fn a_message_to_a_removed_receiver_is_counted_as_undeliverable() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    let gone = stage.context(&thread).register_receiver(listen(&log, "gone"));
-    let here = stage.context(&thread).register_receiver(listen(&log, "here"));
+    let gone = stage.context(&thread).register_receiver(log_messages(&log, "gone"));
+    let here = stage.context(&thread).register_receiver(log_messages(&log, "here"));
     assert!(stage.context(&thread).unregister_receiver(&gone));
     gone.send(1).unwrap();
     gone.latest().send(2).unwrap();
@@ -63,16 +63,16 @@ fn a_message_to_a_receiver_that_is_gone_is_counted_and_harms_nobody() {
 }
 
 #[test]
-fn the_latest_message_takes_the_place_of_the_one_that_waits() {
+fn a_latest_address_replaces_the_queued_message() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    let plain = stage.context(&thread).register_receiver(listen(&log, "m"));
+    let plain = stage.context(&thread).register_receiver(log_messages(&log, "m"));
     let latest = plain.latest();
     for message in 1..=5 {
         latest.clone().send(message).unwrap();
     }
     assert_eq!((latest.waiting(), latest.queue_len()), (1, 1));
-    assert_eq!(thread.counters().replaced, 4, "each as soon as the next was sent");
+    assert_eq!(thread.counters().replaced, 4, "each is counted as soon as the next one is sent");
     stage.iterate(&thread);
     assert_eq!(log.take(), "m5");
     assert_eq!(thread.counters().replaced, 4);
@@ -81,14 +81,14 @@ fn the_latest_message_takes_the_place_of_the_one_that_waits() {
     plain.send(8).unwrap();
     latest.send(9).unwrap();
     stage.iterate(&thread);
-    assert_eq!(log.take(), "m9 m8", "the newest, in the place of the first");
+    assert_eq!(log.take(), "m9 m8", "the newest, at the position of the first");
 }
 
 #[test]
-fn a_full_address_gives_the_message_back() {
+fn a_send_to_a_full_address_returns_the_message() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    let bounded = stage.context(&thread).register_receiver(listen(&log, "m")).bounded(2);
+    let bounded = stage.context(&thread).register_receiver(log_messages(&log, "m")).bounded(2);
     bounded.send(1).unwrap();
     bounded.clone().send(2).unwrap();
     assert_eq!(bounded.waiting(), 2);
@@ -106,7 +106,7 @@ fn a_full_address_gives_the_message_back() {
 fn a_bound_can_be_in_bytes() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
-    let receiver = hear(|_: Vec<u8>, _| ());
+    let receiver = fn_receiver(|_: Vec<u8>, _| ());
     let bounded = stage.context(&thread).register_receiver(receiver).bounded_by(100, Vec::len);
     bounded.send(vec![0; 60]).unwrap();
     assert!(bounded.send(vec![0; 60]).is_err());
@@ -116,7 +116,7 @@ fn a_bound_can_be_in_bytes() {
 }
 
 #[test]
-fn what_was_never_delivered_gives_its_room_back() {
+fn an_undeliverable_message_frees_its_room_in_a_bounded_address() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
     let bounded = thread.reserve_address::<u32>().bounded(1);
@@ -130,7 +130,7 @@ fn messages_of_one_sender_keep_their_order_across_receivers() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     let all: Vec<Address<u32>> =
-        ["a", "b", "c"].map(|name| stage.context(&thread).register_receiver(listen(&log, name))).into();
+        ["a", "b", "c"].map(|name| stage.context(&thread).register_receiver(log_messages(&log, name))).into();
     for message in 0..9 {
         all[message % 3].send(message as u32).unwrap();
     }
@@ -140,10 +140,10 @@ fn messages_of_one_sender_keep_their_order_across_receivers() {
 }
 
 #[test]
-fn each_message_that_was_accepted_is_counted_once() {
+fn every_accepted_message_is_counted_exactly_once() {
     let thread = Thread::start("count").unwrap();
     let handle = thread.handle().clone();
-    let address = handle.register_receiver(|_| hear(|_: u32, _| ()));
+    let address = handle.register_receiver(|_| fn_receiver(|_: u32, _| ()));
     let senders: Vec<_> = [address.clone(), address.latest(), handle.reserve_address()]
         .into_iter()
         .map(|address| plain_thread(move || (0..).take_while(|n| address.send(*n).is_ok()).count()))

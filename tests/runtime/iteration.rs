@@ -1,15 +1,15 @@
-//! The loop: deliver everything stored, then call the workers in order (thesis §3.2.6.1).
+//! The loop: deliver all queued messages, then call the workers in order (thesis §3.2.6.1).
 
-use crate::cast::{Log, hear, listen, note, work};
+use crate::helpers::{Log, fn_receiver, fn_worker, log_calls, log_messages};
 use dragonfly_runtime::{Next, Stage};
 
 #[test]
-fn all_stored_messages_are_delivered_before_the_workers_are_called() {
+fn all_queued_messages_are_delivered_before_the_workers_are_called() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(note(&log, "work"));
-    let a = stage.context(&thread).register_receiver(listen(&log, "a"));
-    let b = stage.context(&thread).register_receiver(listen(&log, "b"));
+    stage.context(&thread).register_worker(log_calls(&log, "work"));
+    let a = stage.context(&thread).register_receiver(log_messages(&log, "a"));
+    let b = stage.context(&thread).register_receiver(log_messages(&log, "b"));
     a.send(1).unwrap();
     b.send(2).unwrap();
     a.send(3).unwrap();
@@ -24,7 +24,7 @@ fn workers_are_called_in_the_order_of_registration() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     for name in ["open", "draw", "present"] {
-        stage.context(&thread).register_worker(note(&log, name));
+        stage.context(&thread).register_worker(log_calls(&log, name));
     }
     stage.iterate(&thread);
     stage.iterate(&thread);
@@ -35,10 +35,10 @@ fn workers_are_called_in_the_order_of_registration() {
 fn a_worker_that_returns_false_ends_the_iteration() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(note(&log, "first"));
+    stage.context(&thread).register_worker(log_calls(&log, "first"));
     let mut ready = false;
-    stage.context(&thread).register_worker(work(move |_| std::mem::replace(&mut ready, true)));
-    stage.context(&thread).register_worker(note(&log, "third"));
+    stage.context(&thread).register_worker(fn_worker(move |_| std::mem::replace(&mut ready, true)));
+    stage.context(&thread).register_worker(log_calls(&log, "third"));
     stage.iterate(&thread);
     assert_eq!(log.take(), "first", "the device is not ready");
     stage.iterate(&thread);
@@ -46,19 +46,19 @@ fn a_worker_that_returns_false_ends_the_iteration() {
 }
 
 #[test]
-fn what_is_sent_during_an_iteration_comes_in_the_next() {
+fn messages_sent_during_an_iteration_are_delivered_in_the_next_one() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     let echo = stage.context(&thread).handle().reserve_address();
     let (own, lines) = (echo.clone(), log.clone());
-    let receiver = hear(move |message: u32, _| {
+    let receiver = fn_receiver(move |message: u32, _| {
         lines.add(message.to_string());
         if message < 3 {
             own.send(message + 1).unwrap();
         }
     });
     stage.context(&thread).register_receiver_at(&echo, receiver);
-    stage.context(&thread).register_worker(note(&log, "|"));
+    stage.context(&thread).register_worker(log_calls(&log, "|"));
     echo.send(1).unwrap();
     assert_eq!(stage.iterate(&thread), Next::Now);
     assert_eq!(stage.iterate(&thread), Next::Now);
@@ -67,11 +67,11 @@ fn what_is_sent_during_an_iteration_comes_in_the_next() {
 }
 
 #[test]
-fn an_iteration_is_due_at_once_only_while_a_worker_asks_for_it() {
+fn an_iteration_is_due_at_once_only_while_a_worker_requests_it() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
     let mut frames = 3;
-    stage.context(&thread).register_worker(work(move |thread| {
+    stage.context(&thread).register_worker(fn_worker(move |thread| {
         frames -= 1;
         if frames > 0 {
             thread.iterate_again();
@@ -83,10 +83,10 @@ fn an_iteration_is_due_at_once_only_while_a_worker_asks_for_it() {
 }
 
 #[test]
-fn returning_false_asks_for_nothing() {
+fn returning_false_does_not_request_another_iteration() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(work(|_| false));
+    stage.context(&thread).register_worker(fn_worker(|_| false));
     assert_eq!(stage.iterate(&thread), Next::OnMessage);
 }
 
@@ -96,7 +96,7 @@ fn an_iteration_without_messages_or_changes_allocates_nothing() {
     let thread = stage.start("thread");
     let start = stage.now();
     for _ in 0..5 {
-        stage.context(&thread).register_worker(work(move |thread| {
+        stage.context(&thread).register_worker(fn_worker(move |thread| {
             thread.iterate_again();
             thread.wake_at(start);
             true

@@ -1,14 +1,15 @@
-//! What the runtime promises, one module a promise.
+//! The guarantees of the runtime, one module for each.
 
-mod cast;
+mod helpers;
 
 mod addresses;
 mod alarms_and_sleep;
 mod iteration;
-mod messages_at_rest;
+mod jobs;
 mod no_locks;
 mod overload;
 mod panics;
+mod queue_memory;
 mod registers;
 mod shutdown;
 mod size;

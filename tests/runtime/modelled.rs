@@ -1,12 +1,12 @@
-//! What stands in for the standard library's lock and threads while a model checker runs: compiled into the
-//! runtime's `sync` module, in builds with `--cfg loom` or `--cfg shuttle` only.
+//! Replaces the standard library's lock and threads while a model checker runs: compiled into the runtime's
+//! `sync` module, in builds with `--cfg loom` or `--cfg shuttle` only.
 
 #[cfg(loom)]
 pub use loom::sync::{Mutex, atomic};
 #[cfg(shuttle)]
 pub use shuttle::sync::{Mutex, atomic};
 
-/// Is the planted bug of this name the one that the environment asks for?
+/// Returns whether the environment variable `PLANTED` selects the planted bug of this name.
 pub(crate) fn planted(bug: &str) -> bool {
     static ON: std::sync::LazyLock<String> =
         std::sync::LazyLock::new(|| std::env::var("PLANTED").unwrap_or_default());
@@ -16,10 +16,10 @@ pub(crate) fn planted(bug: &str) -> bool {
 #[cfg(shuttle)]
 pub use shuttle::thread;
 
-/// loom's threads with a `park` that keeps the standard library's promise.
+/// loom's threads with a `park` that behaves like the standard library's.
 ///
 /// loom 0.7's own `unpark` also wakes a thread that is blocked in a lock or a join, which then
-/// panics inside loom. Here a token under loom's lock and condition is what wakes.
+/// panics inside loom. Here a token under loom's lock and condition variable wakes it.
 #[cfg(loom)]
 pub mod thread {
     use loom::sync::{Condvar, Mutex};
@@ -28,10 +28,11 @@ pub mod thread {
     use std::io;
     use std::sync::Arc;
 
+    /// Has the name of the type that it replaces, `std::thread::Thread`.
     #[derive(Clone)]
-    pub struct Thread(Arc<Token>);
+    pub struct Thread(Arc<ParkToken>);
 
-    struct Token {
+    struct ParkToken {
         given: Mutex<bool>,
         changed: Condvar,
     }
@@ -42,7 +43,7 @@ pub mod thread {
 
     impl Thread {
         fn new() -> Self {
-            Self(Arc::new(Token { given: Mutex::new(false), changed: Condvar::new() }))
+            Self(Arc::new(ParkToken { given: Mutex::new(false), changed: Condvar::new() }))
         }
 
         pub fn unpark(&self) {

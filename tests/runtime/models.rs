@@ -2,16 +2,16 @@
 //!
 //! `.ci/models` builds this with `--cfg loom` and `--cfg shuttle` and starts each model in a
 //! process of its own, because a deadlock that loom finds aborts the process. With `PLANTED=name`
-//! a bug of that name is on in the runtime, and the model must fail.
+//! the bug of that name (`mutants.rs`) is active in the runtime, and the model must fail.
 //!
 //! ```text
 //! models list             the models of this build, each with the planted bugs it must find
-//! models NAME [SCHEDULES] one model; SCHEDULES is for shuttle: that many random and PCT ones
+//! models NAME [SCHEDULES] one model; for shuttle, SCHEDULES random and SCHEDULES PCT schedules
 //! ```
 //!
-//! Built the usual way it holds what `sanitizers.sh` starts under ThreadSanitizer: `models exercise`
-//! does with real threads everything that threads share, and `models race` holds a true race. Both
-//! keep away from the test harness and from `mpsc`, which ThreadSanitizer does not understand.
+//! A normal build contains the programs that `sanitizers.sh` runs under ThreadSanitizer: `models
+//! exercise` uses everything that threads share from real threads, and `models race` contains a real
+//! data race. Both avoid the test harness and `mpsc`, which ThreadSanitizer cannot analyze.
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -27,7 +27,7 @@ mod models {
     use std::sync::{Arc, mpsc};
     use std::time::{Duration, Instant};
 
-    /// Passes on what it gets.
+    /// Calls a closure with each message.
     struct Tap(Box<dyn FnMut(u32)>);
 
     impl Receiver for Tap {
@@ -37,8 +37,8 @@ mod models {
         }
     }
 
-    /// Keeps what it gets in a list that the model reads. The checkers do not look into mpsc
-    /// without waiting, so it adds no schedules.
+    /// Returns a receiver that stores its messages in a list that the model reads. The checkers do not
+    /// see a non-blocking `mpsc` channel, so it adds no schedules.
     fn recorder() -> (Tap, mpsc::Receiver<u32>) {
         let (keep, kept) = mpsc::channel();
         let tap = Tap(Box::new(move |message| keep.send(message).unwrap()));
@@ -50,7 +50,7 @@ mod models {
         Thread::capture("captured", move || owner.unpark())
     }
 
-    /// Time has no meaning here: a wait that is not woken is a deadlock, which the checker sees.
+    /// A deadline that never passes: a wait that is not woken is a deadlock, which the checker finds.
     fn never() -> Instant {
         Instant::now() + Duration::from_secs(1_000_000)
     }
@@ -96,8 +96,8 @@ mod models {
         assert_eq!(first, [10, 11]);
     }
 
-    /// A thread ends while somebody sends: each message is delivered, counted as undelivered, or
-    /// comes back.
+    /// A thread ends while another one sends: each message is delivered, counted as undelivered, or
+    /// returned.
     pub(crate) fn close() {
         let mut captured = capture();
         let (tap, kept) = recorder();
@@ -105,7 +105,7 @@ mod models {
         let handle = captured.handle().clone();
         let sender = thread::spawn(move || {
             let sent = [1, 2].map(|message| address.send(message).is_ok());
-            assert!(sent[0] || !sent[1], "it opened again");
+            assert!(sent[0] || !sent[1], "the mailbox was open again");
             sent.iter().filter(|sent| **sent).count()
         });
         captured.iterate();
@@ -118,7 +118,7 @@ mod models {
         assert_eq!(handle.queue_len(), 0, "left lying");
     }
 
-    /// The newest message of a conflating address always arrives.
+    /// The newest message of a `latest` address always arrives.
     pub(crate) fn latest() {
         let mut captured = capture();
         let (tap, kept) = recorder();
@@ -136,7 +136,7 @@ mod models {
         assert!(all == [2] || all == [1, 2], "{all:?}");
     }
 
-    /// Two senders share a conflating address: each message is delivered or replaced, none twice.
+    /// Two senders share a `latest` address: each message is delivered or replaced, none twice.
     pub(crate) fn latest_of_two() {
         let mut captured = capture();
         let (tap, kept) = recorder();
@@ -158,24 +158,24 @@ mod models {
         assert!(delivered.contains(&11) || delivered.contains(&20), "{delivered:?}");
     }
 
-    /// Who waits for a thread is woken, after all its messages were delivered and its objects
-    /// dropped; and sees what they did.
+    /// A waiter is woken after the thread has delivered all its messages and dropped its objects, and
+    /// sees what they wrote.
     pub(crate) fn stop() {
-        /// Says in its last moment how many messages it got.
-        struct Last {
+        /// Writes the number of its messages when it is dropped.
+        struct CountOnDrop {
             got: u32,
             #[cfg(loom)]
             said: Arc<loom::cell::UnsafeCell<u32>>,
             #[cfg(shuttle)]
             said: Arc<shuttle::sync::atomic::AtomicU32>,
         }
-        impl Receiver for Last {
+        impl Receiver for CountOnDrop {
             type Message = u32;
             fn receive(&mut self, _: u32, _: &mut Context) {
                 self.got += 1;
             }
         }
-        impl Drop for Last {
+        impl Drop for CountOnDrop {
             fn drop(&mut self) {
                 #[cfg(loom)]
                 self.said.with_mut(|said| write(said, self.got));
@@ -185,11 +185,11 @@ mod models {
         }
 
         let said = Arc::new(Default::default());
-        let theirs = Shared(Arc::clone(&said));
+        let theirs = CheckedCell(Arc::clone(&said));
         let thread = Thread::start("stopped").unwrap();
         let address = thread.handle().register_receiver(move |_| {
             let said = theirs.take();
-            Last { got: 0, said }
+            CountOnDrop { got: 0, said }
         });
         address.send(7).unwrap();
         thread.handle().remote_stop();
@@ -201,7 +201,7 @@ mod models {
         assert!(address.send(8).is_err());
     }
 
-    /// A paused thread goes on when it is resumed, and a stop reaches it though it is paused.
+    /// A paused thread continues when it is resumed, and a stop ends a pause.
     pub(crate) fn pause() {
         let thread = Thread::start("paused").unwrap();
         let got = Arc::new(AtomicUsize::new(0));
@@ -215,7 +215,7 @@ mod models {
         handle.pause();
         address.send(1).unwrap();
         handle.resume();
-        // Sent by the thread itself, so it proves that the thread woke and delivered.
+        // Set by the thread itself, so it proves that the thread woke and delivered.
         let owner = thread::current();
         let woke = Arc::new(AtomicUsize::new(0));
         let said = Arc::clone(&woke);
@@ -234,13 +234,13 @@ mod models {
         Thread::wait_for(&[handle], never()).unwrap();
     }
 
-    /// A chain of `stages` threads passes `messages` messages on: all come out, in order, without
-    /// a further push.
+    /// A chain of `stages` threads forwards `messages` messages: all arrive at its end, in order,
+    /// without any further message.
     pub(crate) fn chain(stages: usize, messages: u32) {
         run_chain(stages, messages, false);
     }
 
-    /// The same when the chain is stopped at once, from its head to its end: none is left inside.
+    /// The same when the chain is stopped at once, from its head to its end: no message is left inside.
     pub(crate) fn stopped_chain(stages: usize, messages: u32) {
         run_chain(stages, messages, true);
     }
@@ -269,7 +269,7 @@ mod models {
         if !stop_at_once {
             iterate_until(&mut captured, || done(&kept));
         }
-        // The head of the chain is the thread that was made last.
+        // The head of the chain is the thread that was started last.
         for thread in threads.iter().rev() {
             thread.handle().remote_stop();
             Thread::wait_for(&[thread.handle().clone()], never()).unwrap();
@@ -281,7 +281,7 @@ mod models {
 
     #[cfg(loom)]
     mod cell {
-        // Only the cell that the checker watches needs it; a real one would be a real race.
+        // Only needed for the cell that the checker tracks; with a normal cell this would be a data race.
         #![allow(unsafe_code)]
 
         pub(super) fn write(cell: *mut u32, value: u32) {
@@ -294,22 +294,24 @@ mod models {
             unsafe { *cell }
         }
 
-        pub(super) struct Shared<T>(pub(super) T);
+        /// Lets a cell that the checker tracks be sent to another thread.
+        pub(super) struct CheckedCell<T>(pub(super) T);
         // SAFETY: as above; loom's cell is to be shared by threads, that is its purpose.
-        unsafe impl<T> Send for Shared<T> {}
-        impl<T> Shared<T> {
+        unsafe impl<T> Send for CheckedCell<T> {}
+        impl<T> CheckedCell<T> {
             pub(super) fn take(self) -> T {
                 self.0
             }
         }
     }
     #[cfg(loom)]
-    use cell::{Shared, read, write};
+    use cell::{CheckedCell, read, write};
 
+    /// The same name for a value that needs no such cell under shuttle.
     #[cfg(shuttle)]
-    struct Shared<T>(T);
+    struct CheckedCell<T>(T);
     #[cfg(shuttle)]
-    impl<T> Shared<T> {
+    impl<T> CheckedCell<T> {
         fn take(self) -> T {
             self.0
         }
@@ -317,13 +319,13 @@ mod models {
 }
 
 #[cfg(any(loom, shuttle))]
-type Model = (&'static str, fn(), &'static [&'static str]);
+type NamedModel = (&'static str, fn(), &'static [&'static str]);
 
 #[cfg(loom)]
 mod run {
-    use super::{Model, models};
+    use super::{NamedModel, models};
 
-    const MODELS: &[Model] = &[
+    const MODELS: &[NamedModel] = &[
         ("mailbox", models::mailbox, &["lost_notify", "unchecked_sleep", "reversed_batch"]),
         ("close", models::close, &["late_send", "sweep_before_close"]),
         ("latest", models::latest, &["announced_too_long"]),
@@ -359,9 +361,9 @@ mod run {
 
 #[cfg(shuttle)]
 mod run {
-    use super::{Model, models};
+    use super::{NamedModel, models};
 
-    const MODELS: &[Model] = &[
+    const MODELS: &[NamedModel] = &[
         ("mailbox", models::mailbox, &["lost_notify", "unchecked_sleep", "reversed_batch"]),
         ("close", models::close, &["late_send", "sweep_before_close"]),
         ("latest", models::latest, &["announced_too_long"]),
@@ -386,13 +388,13 @@ mod run {
 }
 
 #[cfg(any(loom, shuttle))]
-fn find(models: &[Model], name: &str) -> fn() {
+fn find(models: &[NamedModel], name: &str) -> fn() {
     let found = models.iter().find(|(known, ..)| *known == name);
     found.expect("see the list").1
 }
 
 #[cfg(any(loom, shuttle))]
-fn list(models: &[Model]) {
+fn list(models: &[NamedModel]) {
     for (name, _, bugs) in models {
         println!("{name} {}", bugs.join(" "));
     }
@@ -411,7 +413,7 @@ mod run {
 
 #[cfg(not(any(loom, shuttle)))]
 mod race {
-    // A race cannot be written without it, which is the point of the language.
+    // Safe Rust cannot contain a data race.
     #![allow(unsafe_code)]
 
     use dragonfly_runtime::{Context, Receiver, Thread};
@@ -424,15 +426,15 @@ mod race {
         number: UnsafeCell<u64>,
         ready: AtomicUsize,
     }
-    // SAFETY: it is not sound, on purpose: two threads change it with nothing between them.
+    // SAFETY: deliberately not sound: two threads write it without synchronization.
     unsafe impl Sync for Unguarded {}
 
     struct Racer(Arc<Unguarded>);
     impl Receiver for Racer {
         type Message = ();
         fn receive(&mut self, (): (), _: &mut Context) {
-            // Both at once: else one could be through before the other is sent its first message, in order. Relaxed
-            // numbers put nothing in order themselves.
+            // Waits until both run: otherwise one could end before the other gets its first message, which
+            // would order the two. Relaxed atomics do not order anything themselves.
             self.0.ready.fetch_add(1, Relaxed);
             while self.0.ready.load(Relaxed) < 2 {
                 std::thread::yield_now();
@@ -444,7 +446,7 @@ mod race {
         }
     }
 
-    /// Two threads add to one number without a message between them.
+    /// Two threads increment one number without any message between them.
     pub(crate) fn run() {
         let number = Arc::new(Unguarded { number: UnsafeCell::new(0), ready: AtomicUsize::new(0) });
         let threads = ["one", "two"].map(|name| Thread::start(name).expect("a thread"));
@@ -468,14 +470,14 @@ mod exercise {
     };
     use std::time::{Duration, Instant};
 
-    /// A ball with a number that grows with each hop; it carries memory from thread to thread.
-    struct Ball(Box<u32>);
+    /// A message with a hop count on the heap, so that memory moves from thread to thread.
+    struct RingMessage(Box<u32>);
 
-    /// Passes balls on, for so many hops; some go by way of the other flavours of addresses.
+    /// Sends balls on for a number of hops; some through the other flavors of addresses.
     struct Player {
-        next: Address<Ball>,
-        latest: Address<Ball>,
-        bounded: Address<Ball>,
+        next: Address<RingMessage>,
+        latest: Address<RingMessage>,
+        bounded: Address<RingMessage>,
         home: Address<u32>,
         caught: Vec<u32>,
     }
@@ -483,17 +485,17 @@ mod exercise {
     const HOPS: u32 = 400;
 
     impl Receiver for Player {
-        type Message = Ball;
-        fn receive(&mut self, ball: Ball, _: &mut Context) {
-            let Ball(mut hops) = ball;
+        type Message = RingMessage;
+        fn receive(&mut self, ball: RingMessage, _: &mut Context) {
+            let RingMessage(mut hops) = ball;
             *hops += 1;
             self.caught.push(*hops);
-            // At the end of a round the others may have stopped already, or be full.
+            // At the end of a round the others may have stopped already, or their addresses be full.
             match (*hops).cmp(&HOPS) {
                 std::cmp::Ordering::Less => {
-                    let _ = self.latest.send(Ball(Box::new(HOPS)));
-                    let _ = self.bounded.send(Ball(Box::new(HOPS)));
-                    let _ = self.next.send(Ball(hops));
+                    let _ = self.latest.send(RingMessage(Box::new(HOPS)));
+                    let _ = self.bounded.send(RingMessage(Box::new(HOPS)));
+                    let _ = self.next.send(RingMessage(hops));
                 }
                 std::cmp::Ordering::Equal => _ = self.home.send(*hops),
                 std::cmp::Ordering::Greater => {}
@@ -510,8 +512,8 @@ mod exercise {
         }
     }
 
-    struct Home(u32);
-    impl Receiver for Home {
+    struct HomeReceiver(u32);
+    impl Receiver for HomeReceiver {
         type Message = u32;
         fn receive(&mut self, _: u32, thread: &mut Context) {
             self.0 += 1;
@@ -542,13 +544,13 @@ mod exercise {
     fn round() {
         let main = std::thread::current();
         let mut captured = Thread::capture("home", move || main.unpark());
-        let home = captured.context().register_receiver(Home(0));
+        let home = captured.context().register_receiver(HomeReceiver(0));
         let traces = captured.context().register_receiver(Inspector);
         let watchdog = Watchdog::start(Duration::from_millis(4), |_| ()).expect("a thread");
         let threads = ["a", "b", "c", "d"].map(|name| Thread::start(name).expect("a thread"));
         let handles: Vec<ThreadHandle> = threads.iter().map(|thread| thread.handle().clone()).collect();
         // Addresses are made before the players, because a ring has no first one.
-        let ring: Vec<Address<Ball>> = handles.iter().map(ThreadHandle::reserve_address).collect();
+        let ring: Vec<Address<RingMessage>> = handles.iter().map(ThreadHandle::reserve_address).collect();
         for (index, handle) in handles.iter().enumerate() {
             handle.set_trace(64);
             watchdog.watch(handle);
@@ -561,7 +563,7 @@ mod exercise {
             handle.register_receiver_at(&own, player);
         }
         for address in &ring {
-            address.send(Ball(Box::new(0))).expect("it runs");
+            address.send(RingMessage(Box::new(0))).expect("it runs");
         }
         handles[1].pause();
         handles[1].resume();

@@ -1,6 +1,8 @@
-//! R5: a panic costs one message, or one object; never the thread.
+//! R5: a panic costs one message, or one object, never the thread.
 
-use crate::cast::{LIMIT, Log, Work, deadline, hear, listen, note, outlet, panic_quietly, work};
+use crate::helpers::{
+    FnWorker, LIMIT, Log, deadline, fn_receiver, fn_worker, forwarder, log_calls, log_messages, panic_quietly,
+};
 use dragonfly_kit::process::{alone, resident_bytes};
 use dragonfly_runtime::{Context, Fault, Outcome, Receiver, Stage, Thread};
 use std::cell::RefCell;
@@ -9,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-/// Collects the faults of a thread on a stage.
+/// Returns a list that collects the faults of a thread on a stage.
 fn faults(thread: &mut Context) -> Rc<RefCell<Vec<Fault>>> {
     let seen = Rc::new(RefCell::new(Vec::new()));
     let list = Rc::clone(&seen);
@@ -18,7 +20,7 @@ fn faults(thread: &mut Context) -> Rc<RefCell<Vec<Fault>>> {
 }
 
 #[test]
-fn a_worker_that_panics_is_removed_and_reported_and_the_rest_goes_on() {
+fn a_worker_that_panics_is_removed_and_reported_and_the_others_continue() {
     struct Clumsy;
     impl dragonfly_runtime::Worker for Clumsy {
         fn update(&mut self, _: &mut Context) -> bool {
@@ -29,11 +31,11 @@ fn a_worker_that_panics_is_removed_and_reported_and_the_rest_goes_on() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("kitchen");
     let seen = faults(stage.context(&thread));
-    stage.context(&thread).register_worker(note(&log, "a"));
+    stage.context(&thread).register_worker(log_calls(&log, "a"));
     stage.context(&thread).register_worker(Clumsy);
-    stage.context(&thread).register_worker(note(&log, "b"));
+    stage.context(&thread).register_worker(log_calls(&log, "b"));
     stage.iterate(&thread);
-    assert_eq!(log.take(), "a", "those behind may depend on it: as if it had returned false");
+    assert_eq!(log.take(), "a", "workers after it may depend on it: as if it had returned false");
     stage.iterate(&thread);
     assert_eq!(log.take(), "a b");
     let seen = seen.borrow();
@@ -48,9 +50,9 @@ fn a_receiver_that_panics_is_removed_and_reported_with_its_message_type() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("kitchen");
     let seen = faults(stage.context(&thread));
-    let bad = hear(|_: String, _: &mut Context| panic_quietly("no"));
+    let bad = fn_receiver(|_: String, _: &mut Context| panic_quietly("no"));
     let bad = stage.context(&thread).register_receiver(bad);
-    let good = stage.context(&thread).register_receiver(listen(&log, "good"));
+    let good = stage.context(&thread).register_receiver(log_messages(&log, "good"));
     bad.send("one".to_owned()).unwrap();
     good.send(1).unwrap();
     bad.send("two".to_owned()).unwrap();
@@ -63,7 +65,7 @@ fn a_receiver_that_panics_is_removed_and_reported_with_its_message_type() {
 }
 
 #[test]
-fn a_panic_anywhere_in_the_thread_is_contained() {
+fn a_panic_in_a_closure_a_factory_or_a_drop_does_not_end_the_thread() {
     struct Sticky;
     impl Receiver for Sticky {
         type Message = ();
@@ -79,7 +81,7 @@ fn a_panic_anywhere_in_the_thread_is_contained() {
     let thread = stage.start("kitchen");
     let seen = faults(stage.context(&thread));
     thread.run(|_| panic_quietly("in a closure")).unwrap();
-    thread.register_worker(|_| -> Work<fn(&mut Context) -> bool> { panic_quietly("in the making") });
+    thread.register_worker(|_| -> FnWorker<fn(&mut Context) -> bool> { panic_quietly("in the making") });
     let sticky = thread.register_receiver(|_| Sticky);
     thread.unregister_receiver(&sticky);
     thread.register_receiver(|_| Sticky); // Dropped at the end of the thread.
@@ -92,7 +94,7 @@ fn a_panic_anywhere_in_the_thread_is_contained() {
 }
 
 #[test]
-fn a_message_that_panics_when_dropped_stops_nobody() {
+fn a_message_that_panics_when_dropped_does_not_end_the_thread() {
     struct Grudge;
     impl Drop for Grudge {
         fn drop(&mut self) {
@@ -103,12 +105,12 @@ fn a_message_that_panics_when_dropped_stops_nobody() {
     let thread = Thread::start("grudge").unwrap();
     let handle = thread.handle().clone();
     let gone = handle.reserve_address::<Grudge>();
-    let (receiver, hears) = outlet();
+    let (receiver, received) = forwarder();
     let alive = handle.register_receiver(|_| receiver);
     gone.send(Grudge).unwrap();
     gone.latest().send(Grudge).unwrap();
     alive.send(1).unwrap();
-    assert_eq!(hears.recv_timeout(LIMIT), Ok(1));
+    assert_eq!(received.recv_timeout(LIMIT), Ok(1));
     assert_eq!(handle.counters().undeliverable, 2);
     handle.pause();
     handle.run(|thread| thread.stop()).unwrap();
@@ -120,7 +122,7 @@ fn a_message_that_panics_when_dropped_stops_nobody() {
 }
 
 #[test]
-fn an_observer_that_panics_is_not_asked_again() {
+fn an_observer_that_panics_is_removed() {
     let mut stage = Stage::new();
     let thread = stage.start("kitchen");
     let asked = Rc::new(RefCell::new(0));
@@ -136,7 +138,7 @@ fn an_observer_that_panics_is_not_asked_again() {
     assert_eq!((*asked.borrow(), thread.counters().panics), (1, 3));
 }
 
-/// Counts its messages, and panics with every multiple of `trap`.
+/// Returns a factory of receivers that count their messages and panic with every multiple of `trap`.
 fn trapped(trap: u32, log: &Log) -> impl FnMut(&mut Context) -> Trapped + use<> {
     let log = log.clone();
     move |_| Trapped { trap, count: 0, log: log.clone() }
@@ -160,7 +162,7 @@ impl Receiver for Trapped {
 }
 
 #[test]
-fn a_restartable_receiver_comes_back_fresh_and_loses_only_that_message() {
+fn a_restarted_receiver_has_new_state_and_loses_only_one_message() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("kitchen");
     let seen = faults(stage.context(&thread));
@@ -176,15 +178,15 @@ fn a_restartable_receiver_comes_back_fresh_and_loses_only_that_message() {
 }
 
 #[test]
-fn a_restartable_worker_keeps_its_place() {
+fn a_restarted_worker_keeps_its_position() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("kitchen");
-    stage.context(&thread).register_worker(note(&log, "a"));
+    stage.context(&thread).register_worker(log_calls(&log, "a"));
     let (lines, mut made) = (log.clone(), 0);
     stage.context(&thread).register_restartable_worker(move |_| {
         made += 1;
         let (lines, made) = (lines.clone(), made);
-        work(move |_: &mut Context| {
+        fn_worker(move |_: &mut Context| {
             if made == 1 {
                 panic_quietly("the first one");
             }
@@ -192,14 +194,14 @@ fn a_restartable_worker_keeps_its_place() {
             true
         })
     });
-    stage.context(&thread).register_worker(note(&log, "b"));
+    stage.context(&thread).register_worker(log_calls(&log, "b"));
     stage.iterate(&thread);
     stage.iterate(&thread);
     assert_eq!(log.take(), "a a made2 b");
 }
 
 #[test]
-fn objects_can_be_made_restartable_from_outside() {
+fn restartable_objects_can_be_registered_from_another_thread() {
     let thread = Thread::start("outside").unwrap();
     let (inside, outside) = std::sync::mpsc::channel();
     let said = inside.clone();
@@ -207,7 +209,7 @@ fn objects_can_be_made_restartable_from_outside() {
     let receiver = move |_: &mut Context| {
         made += 1;
         let (said, made) = (said.clone(), made);
-        hear(move |message: u32, _: &mut Context| match message {
+        fn_receiver(move |message: u32, _: &mut Context| match message {
             0 => panic_quietly("zero"),
             _ => said.send((made, message)).unwrap(),
         })
@@ -216,7 +218,7 @@ fn objects_can_be_made_restartable_from_outside() {
     let worker = move |_: &mut Context| {
         turns += 1;
         let (inside, turns) = (inside.clone(), turns);
-        work(move |_: &mut Context| match turns {
+        fn_worker(move |_: &mut Context| match turns {
             1 => panic_quietly("the first one"),
             _ => inside.send((turns, 0)).is_ok(),
         })
@@ -243,20 +245,20 @@ fn objects_can_be_made_restartable_from_outside() {
 }
 
 #[test]
-fn more_than_three_panics_in_ten_seconds_are_too_many() {
+fn an_object_is_given_up_after_more_than_three_panics_in_ten_seconds() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("kitchen");
     let seen = faults(stage.context(&thread));
     let address = thread.reserve_address();
     stage.context(&thread).register_restartable_receiver_at(&address, trapped(1, &log));
-    // Spread out: a thousand are allowed.
+    // One in four seconds: a thousand are allowed.
     for _ in 0..1000 {
         stage.advance(Duration::from_secs(4));
         address.send(1).unwrap();
         stage.iterate(&thread);
     }
     assert!(seen.borrow().iter().all(|fault| fault.outcome == Outcome::Restarted));
-    // In a row: the fourth is the last.
+    // Without a pause: the fourth is the last.
     stage.advance(Duration::from_secs(10));
     seen.borrow_mut().clear();
     for _ in 0..5 {
@@ -269,7 +271,7 @@ fn more_than_three_panics_in_ten_seconds_are_too_many() {
     assert_eq!(thread.counters().undeliverable, 1, "the fifth message");
 }
 
-/// In a real thread: 1,200 panics, in receivers and in workers, among 60,000 messages.
+/// In an OS thread: 1,200 panics, in receivers and in workers, among 60,000 messages.
 #[test]
 fn a_thousand_panics_lose_no_other_message_and_no_memory() {
     alone("panics::a_thousand_panics_lose_no_other_message_and_no_memory", || {
@@ -281,11 +283,11 @@ fn a_thousand_panics_lose_no_other_message_and_no_memory() {
         handle.observe(move |_| {
             reports.fetch_add(1, Ordering::Relaxed);
         });
-        let (receiver, hears) = outlet();
+        let (receiver, received) = forwarder();
         let steady = handle.register_receiver(|_| receiver);
         let round = |round: u64| {
-            let bad = handle.register_receiver(|_| hear(|_: Vec<u8>, _| panic_quietly("injected")));
-            handle.register_worker(|_| work(|_| panic_quietly("injected")));
+            let bad = handle.register_receiver(|_| fn_receiver(|_: Vec<u8>, _| panic_quietly("injected")));
+            handle.register_worker(|_| fn_worker(|_| panic_quietly("injected")));
             for message in 0..49 {
                 steady.send(round * 98 + message).unwrap();
             }
@@ -295,10 +297,10 @@ fn a_thousand_panics_lose_no_other_message_and_no_memory() {
             }
             bad.send(vec![0; 1000]).unwrap();
             for message in 0..98 {
-                assert_eq!(hears.recv_timeout(LIMIT), Ok(round * 98 + message));
+                assert_eq!(received.recv_timeout(LIMIT), Ok(round * 98 + message));
             }
         };
-        (0..ROUNDS / 10).for_each(round); // The allocator's own growth.
+        (0..ROUNDS / 10).for_each(round); // Lets the allocator grow to its usual size.
         let before = resident_bytes();
         (ROUNDS / 10..ROUNDS / 10 + ROUNDS / 2).for_each(round);
         let grown = resident_bytes().saturating_sub(before);

@@ -1,45 +1,45 @@
-//! The registers: changed at any time, by message or from inside, with the order kept
+//! The register of a thread can be changed at any time, by message or from inside, and keeps its order
 //! (thesis §2.2.3.3, §2.2.5.1).
 
-use crate::cast::{Farewell, Log, hear, listen, note, work};
+use crate::helpers::{Log, LogOnDrop, fn_receiver, fn_worker, log_calls, log_messages};
 use dragonfly_runtime::{Context, Receiver, Stage, Worker};
 use std::cell::RefCell;
 use std::rc::Rc;
 
 #[test]
-fn a_last_worker_stays_behind_those_that_come_later() {
+fn a_last_worker_is_called_after_workers_registered_later() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(note(&log, "open"));
-    stage.context(&thread).register_last_worker(note(&log, "present"));
-    stage.context(&thread).register_worker(note(&log, "draw"));
-    stage.context(&thread).register_last_worker(note(&log, "count"));
+    stage.context(&thread).register_worker(log_calls(&log, "open"));
+    stage.context(&thread).register_last_worker(log_calls(&log, "present"));
+    stage.context(&thread).register_worker(log_calls(&log, "draw"));
+    stage.context(&thread).register_last_worker(log_calls(&log, "count"));
     stage.iterate(&thread);
     assert_eq!(log.take(), "open draw present count");
 }
 
 #[test]
-fn a_worker_leaves_and_the_others_keep_their_order() {
+fn removing_a_worker_keeps_the_order_of_the_others() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     let ids: Vec<_> =
-        ["a", "b", "c", "d"].map(|name| stage.context(&thread).register_worker(note(&log, name))).into();
+        ["a", "b", "c", "d"].map(|name| stage.context(&thread).register_worker(log_calls(&log, name))).into();
     assert!(stage.context(&thread).unregister_worker(ids[1]));
     assert!(!stage.context(&thread).unregister_worker(ids[1]), "it is gone already");
-    stage.context(&thread).register_worker(note(&log, "e"));
+    stage.context(&thread).register_worker(log_calls(&log, "e"));
     stage.iterate(&thread);
     assert_eq!(log.take(), "a c d e");
 }
 
 #[test]
-fn registers_are_changed_by_message_in_order_with_other_messages() {
+fn changes_of_the_register_by_message_keep_the_order_of_messages() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
-    let (said, hears) = std::sync::mpsc::channel();
+    let (said, received) = std::sync::mpsc::channel();
     let make = |name: &'static str| {
         let said = said.clone();
         move |_: &mut Context| {
-            work(move |_: &mut Context| {
+            fn_worker(move |_: &mut Context| {
                 said.send(name).unwrap();
                 true
             })
@@ -49,34 +49,34 @@ fn registers_are_changed_by_message_in_order_with_other_messages() {
     thread.register_last_worker(make("last"));
     thread.register_worker(make("second"));
     stage.iterate(&thread);
-    assert_eq!(hears.try_iter().collect::<Vec<_>>(), ["first", "second", "last"]);
+    assert_eq!(received.try_iter().collect::<Vec<_>>(), ["first", "second", "last"]);
     thread.unregister_worker(first);
     thread.register_worker(make("third"));
     stage.iterate(&thread);
-    assert_eq!(hears.try_iter().collect::<Vec<_>>(), ["second", "third", "last"]);
+    assert_eq!(received.try_iter().collect::<Vec<_>>(), ["second", "third", "last"]);
 }
 
 #[test]
 fn a_message_sent_before_the_removal_arrives_and_one_sent_after_does_not() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
-    let (receiver, hears) = crate::cast::outlet();
+    let (receiver, received) = crate::helpers::forwarder();
     let address = thread.register_receiver(|_| receiver);
     address.send(1).unwrap();
     thread.unregister_receiver(&address);
     address.send(2).unwrap();
     stage.iterate(&thread);
-    assert_eq!(hears.try_iter().collect::<Vec<u32>>(), [1]);
+    assert_eq!(received.try_iter().collect::<Vec<u32>>(), [1]);
     assert_eq!(thread.counters().undeliverable, 1);
 }
 
 #[test]
-fn a_worker_that_comes_during_the_workers_turn_is_called_from_the_next_iteration_on() {
+fn a_worker_registered_during_an_iteration_is_first_called_in_the_next_one() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     let lines = log.clone();
-    stage.context(&thread).register_worker(work(move |thread| {
-        thread.register_worker(note(&lines, "new"));
+    stage.context(&thread).register_worker(fn_worker(move |thread| {
+        thread.register_worker(log_calls(&lines, "new"));
         lines.add("old");
         true
     }));
@@ -87,20 +87,20 @@ fn a_worker_that_comes_during_the_workers_turn_is_called_from_the_next_iteration
 }
 
 #[test]
-fn a_worker_can_remove_itself_and_those_behind_it() {
+fn a_worker_can_remove_itself_and_workers_after_it() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     let ids = Rc::new(RefCell::new(Vec::new()));
-    let (theirs, farewell) = (Rc::clone(&ids), Farewell(log.clone(), "dropped"));
-    let own = stage.context(&thread).register_worker(work(move |thread| {
+    let (theirs, farewell) = (Rc::clone(&ids), LogOnDrop(log.clone(), "dropped"));
+    let own = stage.context(&thread).register_worker(fn_worker(move |thread| {
         for id in theirs.borrow_mut().drain(..) {
             assert!(thread.unregister_worker(id));
         }
         farewell.0.add("removed");
         true
     }));
-    let behind = stage.context(&thread).register_worker(note(&log, "behind"));
-    stage.context(&thread).register_worker(note(&log, "stays"));
+    let behind = stage.context(&thread).register_worker(log_calls(&log, "behind"));
+    stage.context(&thread).register_worker(log_calls(&log, "stays"));
     ids.borrow_mut().extend([own, behind]);
     stage.iterate(&thread);
     assert_eq!(log.take(), "removed dropped stays");
@@ -112,9 +112,9 @@ fn a_receiver_can_replace_itself_at_its_own_address() {
     let thread = stage.start("thread");
     let address = thread.reserve_address();
     let (own, lines) = (address.clone(), log.clone());
-    let first = hear(move |message: u32, thread: &mut Context| {
+    let first = fn_receiver(move |message: u32, thread: &mut Context| {
         lines.add(format!("first{message}"));
-        thread.register_receiver_at(&own, listen(&lines, "second"));
+        thread.register_receiver_at(&own, log_messages(&lines, "second"));
     });
     stage.context(&thread).register_receiver_at(&address, first);
     address.send(1).unwrap();
@@ -123,7 +123,7 @@ fn a_receiver_can_replace_itself_at_its_own_address() {
     assert_eq!(log.take(), "first1 second2");
 }
 
-/// Counts as a worker what it got as a receiver, like `Graphics` in the thesis.
+/// Logs as a worker the sum of the messages that it received, like `Graphics` in the thesis.
 struct Both {
     got: u32,
     log: Log,
@@ -157,13 +157,13 @@ fn one_object_can_be_worker_and_receiver() {
 }
 
 #[test]
-fn objects_that_need_each_other_are_made_with_reserved_addresses() {
+fn objects_that_need_each_others_address_use_reserved_addresses() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     let (ping, pong) = (thread.reserve_address::<u32>(), thread.reserve_address::<u32>());
     for (own, other, name) in [(&ping, &pong, "ping"), (&pong, &ping, "pong")] {
         let (other, lines) = (other.clone(), log.clone());
-        let player = hear(move |ball: u32, _: &mut Context| {
+        let player = fn_receiver(move |ball: u32, _: &mut Context| {
             lines.add(format!("{name}{ball}"));
             if ball < 4 {
                 other.send(ball + 1).unwrap();
@@ -182,5 +182,5 @@ fn an_address_of_another_thread_is_refused() {
     let mut stage = Stage::new();
     let (one, two) = (stage.start("one"), stage.start("two"));
     let address = one.reserve_address::<u32>();
-    two.register_receiver_at(&address, |_| hear(|_, _| ()));
+    two.register_receiver_at(&address, |_| fn_receiver(|_, _| ()));
 }

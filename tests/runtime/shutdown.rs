@@ -1,6 +1,6 @@
-//! R6: shutting down never hangs, whatever the threads are doing.
+//! R6: a shutdown never hangs, whatever the threads are doing.
 
-use crate::cast::{LIMIT, hear, panic_quietly, work};
+use crate::helpers::{LIMIT, fn_receiver, fn_worker, panic_quietly};
 use dragonfly_kit::process::{alone, os_threads};
 use dragonfly_kit::{eventually, random};
 use dragonfly_runtime::{Context, Thread};
@@ -23,8 +23,8 @@ fn a_thousand_shutdowns_at_random_moments_all_end() {
     });
 }
 
-/// A panicked, a sleeping, a paused and a busy thread, and one with a full queue, which all send
-/// to one another; stopped in random order after a random while. How long it took.
+/// Stops, in random order and after a random time, five threads that send to one another: one after a
+/// panic, one asleep, one paused, one busy, and one with a full queue. Returns how long that took.
 fn shut_down_once(random: &mut random::Random) -> Duration {
     let threads: Vec<_> =
         ["panicked", "asleep", "paused", "busy", "full"].map(|name| Thread::start(name).unwrap()).into();
@@ -33,19 +33,19 @@ fn shut_down_once(random: &mut random::Random) -> Duration {
     for (index, handle) in handles.iter().enumerate() {
         let next = addresses[(index + 1) % addresses.len()].clone();
         handle.register_receiver_at(&addresses[index], move |_| {
-            // The next may have stopped already.
-            hear(move |message: u32, _: &mut Context| {
+            // The next thread may have stopped already.
+            fn_receiver(move |message: u32, _: &mut Context| {
                 if message > 0 {
                     let _ = next.send(message - 1);
                 }
             })
         });
     }
-    handles[0].register_worker(|_| work(|_| panic_quietly("on purpose")));
+    handles[0].register_worker(|_| fn_worker(|_| panic_quietly("on purpose")));
     handles[1].remote_sleep(LIMIT);
     handles[2].pause();
     handles[3].register_worker(|_| {
-        work(|thread| {
+        fn_worker(|thread| {
             thread.iterate_again();
             true
         })
@@ -69,8 +69,8 @@ fn shut_down_once(random: &mut random::Random) -> Duration {
 }
 
 #[test]
-fn a_thread_that_is_stuck_does_not_hold_up_who_drops_it() {
-    let (let_go, held) = std::sync::mpsc::channel::<()>();
+fn dropping_a_stuck_thread_returns_at_the_deadline() {
+    let (release, held) = std::sync::mpsc::channel::<()>();
     let thread = Thread::start("stuck").unwrap();
     let handle = thread.handle().clone();
     handle.run(move |_| _ = held.recv()).unwrap();
@@ -78,6 +78,6 @@ fn a_thread_that_is_stuck_does_not_hold_up_who_drops_it() {
     drop(thread);
     assert!(begin.elapsed() >= dragonfly_runtime::DROP_DEADLINE && begin.elapsed() < LIMIT);
     assert!(!handle.is_stopped());
-    drop(let_go);
+    drop(release);
     eventually(LIMIT, || handle.is_stopped());
 }

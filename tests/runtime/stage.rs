@@ -1,15 +1,15 @@
-//! The stage: everything in the order a test says.
+//! The stage: everything happens in the order that the test chooses.
 
-use crate::cast::{Log, hear, listen, note, work};
-use dragonfly_runtime::{Context, Next, Stage, Waiting};
+use crate::helpers::{Log, fn_receiver, fn_worker, log_calls, log_messages};
+use dragonfly_runtime::{Context, Next, PendingMessage, Stage};
 use std::time::Duration;
 
 #[test]
-fn messages_are_delivered_in_the_order_the_test_says() {
+fn messages_are_delivered_in_the_order_that_the_test_chooses() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(note(&log, "|"));
-    let a = stage.context(&thread).register_receiver(listen(&log, "a"));
+    stage.context(&thread).register_worker(log_calls(&log, "|"));
+    let a = stage.context(&thread).register_receiver(log_messages(&log, "a"));
     for message in 1..=3 {
         a.send(message).unwrap();
     }
@@ -22,7 +22,7 @@ fn messages_are_delivered_in_the_order_the_test_says() {
 }
 
 #[test]
-fn what_waits_can_be_seen() {
+fn queued_messages_can_be_listed() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
     let gone = thread.reserve_address::<String>();
@@ -32,8 +32,11 @@ fn what_waits_can_be_seen() {
     gone.send("x".to_owned()).unwrap();
     thread.remote_sleep(Duration::ZERO);
     thread.remote_stop();
-    let seen: Vec<_> =
-        stage.waiting(&thread).into_iter().map(|Waiting { to, message }| format!("{to}<{message}")).collect();
+    let seen: Vec<_> = stage
+        .waiting(&thread)
+        .into_iter()
+        .map(|PendingMessage { to, message }| format!("{to}<{message}"))
+        .collect();
     assert_eq!(seen, ["Ear<u32", "Ear<u32", "<String", "<sleep", "<stop"]);
 }
 
@@ -44,7 +47,7 @@ impl dragonfly_runtime::Receiver for Ear {
 }
 
 #[test]
-fn time_stands_still_until_it_is_turned() {
+fn the_clock_of_a_stage_advances_only_on_request() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
     let now = stage.now();
@@ -62,7 +65,7 @@ fn settle_runs_until_nothing_is_due() {
     let (to_left, to_right) = (left.reserve_address::<u32>(), right.reserve_address::<u32>());
     for (thread, own, other) in [(&left, &to_left, &to_right), (&right, &to_right, &to_left)] {
         let (other, lines) = (other.clone(), log.clone());
-        let receiver = hear(move |ball: u32, thread: &mut Context| {
+        let receiver = fn_receiver(move |ball: u32, thread: &mut Context| {
             lines.add(format!("{}{ball}", thread.handle().name()));
             if ball > 0 {
                 other.send(ball - 1).unwrap();
@@ -83,7 +86,7 @@ fn settle_runs_until_nothing_is_due() {
 fn settle_gives_up_on_what_never_settles() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(work(|thread| {
+    stage.context(&thread).register_worker(fn_worker(|thread| {
         thread.iterate_again();
         true
     }));

@@ -1,17 +1,19 @@
-//! Stopping, pausing, waiting for threads; the order in which things end (thesis §2.2.6.3,
-//! §3.2.6.1).
+//! Stopping, pausing and waiting for threads; the order of a shutdown (thesis §2.2.6.3, §3.2.6.1).
 
-use crate::cast::{Farewell, LIMIT, Log, deadline, hear, keep, listen, note, outlet, plain_thread, work};
+use crate::helpers::{
+    LIMIT, Log, LogOnDrop, deadline, fn_receiver, fn_worker, forwarder, log_calls, log_messages,
+    plain_thread, worker_holding,
+};
 use dragonfly_runtime::{Context, Next, Stage, Thread};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 #[test]
-fn a_remote_stop_comes_behind_all_messages_queued_before_it() {
+fn a_remote_stop_comes_after_all_messages_queued_before_it() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(note(&log, "work"));
-    let address = stage.context(&thread).register_receiver(listen(&log, "m"));
+    stage.context(&thread).register_worker(log_calls(&log, "work"));
+    let address = stage.context(&thread).register_receiver(log_messages(&log, "m"));
     address.send(1).unwrap();
     address.send(2).unwrap();
     thread.remote_stop();
@@ -23,15 +25,15 @@ fn a_remote_stop_comes_behind_all_messages_queued_before_it() {
 }
 
 #[test]
-fn a_stop_from_inside_is_at_once() {
+fn a_stop_from_inside_takes_effect_at_once() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(note(&log, "a"));
-    stage.context(&thread).register_worker(work(|thread| {
+    stage.context(&thread).register_worker(log_calls(&log, "a"));
+    stage.context(&thread).register_worker(fn_worker(|thread| {
         thread.stop();
         true
     }));
-    stage.context(&thread).register_worker(note(&log, "b"));
+    stage.context(&thread).register_worker(log_calls(&log, "b"));
     assert_eq!(stage.iterate(&thread), Next::Stopped);
     assert_eq!(log.take(), "a");
     assert!(thread.is_stopped());
@@ -42,10 +44,10 @@ fn objects_are_dropped_in_reverse_order_workers_first() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     let context = stage.context(&thread);
-    let part = |name| keep(Farewell(log.clone(), name));
-    let device = Farewell(log.clone(), "device");
-    context.register_receiver(hear(move |_: u32, _: &mut Context| {
-        let Farewell(..) = &device;
+    let part = |name| worker_holding(LogOnDrop(log.clone(), name));
+    let device = LogOnDrop(log.clone(), "device");
+    context.register_receiver(fn_receiver(move |_: u32, _: &mut Context| {
+        let LogOnDrop(..) = &device;
     }));
     context.register_last_worker(part("present"));
     context.register_worker(part("scene"));
@@ -56,10 +58,10 @@ fn objects_are_dropped_in_reverse_order_workers_first() {
 }
 
 #[test]
-fn messages_left_in_a_stopped_thread_are_dropped_not_kept() {
+fn messages_left_in_a_stopped_thread_are_dropped() {
     let thread = Thread::start("left").unwrap();
     let content = Arc::new(());
-    let address = thread.handle().register_receiver(|_| hear(|_: Arc<()>, _| ()));
+    let address = thread.handle().register_receiver(|_| fn_receiver(|_: Arc<()>, _| ()));
     // Both in one batch, whether the thread is awake or not.
     thread.handle().pause();
     thread.handle().run(|thread| thread.stop()).unwrap();
@@ -70,11 +72,11 @@ fn messages_left_in_a_stopped_thread_are_dropped_not_kept() {
 }
 
 #[test]
-fn a_paused_thread_rests_until_it_is_resumed() {
+fn a_paused_thread_does_nothing_until_it_is_resumed() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(note(&log, "|"));
-    let address = stage.context(&thread).register_receiver(listen(&log, "m"));
+    stage.context(&thread).register_worker(log_calls(&log, "|"));
+    let address = stage.context(&thread).register_receiver(log_messages(&log, "m"));
     thread.pause();
     address.send(1).unwrap();
     assert_eq!(stage.iterate(&thread), Next::OnMessage);
@@ -85,11 +87,11 @@ fn a_paused_thread_rests_until_it_is_resumed() {
 }
 
 #[test]
-fn a_pause_takes_hold_between_two_calls() {
+fn a_pause_takes_effect_between_two_calls() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     let lines = log.clone();
-    let receiver = hear(move |message: u32, thread: &mut Context| {
+    let receiver = fn_receiver(move |message: u32, thread: &mut Context| {
         lines.add(message.to_string());
         if message == 1 {
             thread.pause();
@@ -102,14 +104,14 @@ fn a_pause_takes_hold_between_two_calls() {
     assert_eq!(log.take(), "1");
     thread.resume();
     stage.iterate(&thread);
-    assert_eq!(log.take(), "2", "what was left comes first");
+    assert_eq!(log.take(), "2", "undelivered messages come first");
 }
 
 #[test]
 fn a_stop_ends_a_pause_and_a_sleep() {
     for rest in [|thread: &mut Context| thread.pause(), |thread: &mut Context| thread.sleep(LIMIT)] {
         let thread = Thread::start("resting").unwrap();
-        let (receiver, hears) = outlet();
+        let (receiver, received) = forwarder();
         let address = thread.handle().register_receiver(|_| receiver);
         thread.handle().run(rest).unwrap();
         address.send(1_u32).unwrap();
@@ -117,7 +119,7 @@ fn a_stop_ends_a_pause_and_a_sleep() {
         thread.handle().remote_stop();
         Thread::wait_for(&[thread.handle().clone()], deadline()).unwrap();
         assert!(begin.elapsed() < LIMIT / 2);
-        assert_eq!(hears.try_iter().collect::<Vec<_>>(), [1], "and delivers before it");
+        assert_eq!(received.try_iter().collect::<Vec<_>>(), [1], "messages before the stop are delivered");
     }
 }
 
@@ -137,7 +139,7 @@ fn wait_for_waits_for_several_threads() {
 }
 
 #[test]
-fn wait_for_names_those_that_still_run_at_the_deadline() {
+fn wait_for_returns_the_names_of_threads_still_running_at_the_deadline() {
     let threads = ["stays", "goes", "stays too"].map(|name| Thread::start(name).unwrap());
     let handles = threads.each_ref().map(|thread| thread.handle().clone());
     handles[1].remote_stop();
@@ -149,23 +151,23 @@ fn wait_for_names_those_that_still_run_at_the_deadline() {
 }
 
 #[test]
-fn dropping_a_thread_stops_it_behind_its_messages() {
-    let (receiver, hears) = outlet();
+fn dropping_a_thread_stops_it_after_its_messages() {
+    let (receiver, received) = forwarder();
     let thread = Thread::start("dropped").unwrap();
     let address = thread.handle().register_receiver(|_| receiver);
     for message in 0..1000_u32 {
         address.send(message).unwrap();
     }
     drop(thread);
-    assert_eq!(hears.try_iter().count(), 1000);
+    assert_eq!(received.try_iter().count(), 1000);
     assert!(address.send(1).is_err());
 }
 
 #[test]
 fn a_captured_thread_that_is_dropped_is_stopped() {
     let (mut captured, log) = (Thread::capture("window", || ()), Log::default());
-    let address = captured.context().register_receiver(listen(&log, "m"));
-    captured.context().register_worker(keep(Farewell(log.clone(), "dropped")));
+    let address = captured.context().register_receiver(log_messages(&log, "m"));
+    captured.context().register_worker(worker_holding(LogOnDrop(log.clone(), "dropped")));
     let handle = captured.handle().clone();
     address.send(1).unwrap();
     drop(captured);

@@ -1,16 +1,16 @@
-//! R3: real threads, many messages, nothing lost, doubled or out of order.
+//! R3: many messages between OS threads: none is lost, duplicated or out of order.
 
-use crate::cast::{hear, plain_thread};
+use crate::helpers::{fn_receiver, plain_thread};
 use dragonfly_kit::process::alone;
 use dragonfly_runtime::{Context, Thread};
 use std::time::{Duration, Instant};
 
-/// Messages in all; a script may ask for fewer where each is slow, or for more.
+/// Total number of messages: 10 million, or the number in `DRAGONFLY_STRESS`.
 fn messages() -> u64 {
     std::env::var("DRAGONFLY_STRESS").map_or(10_000_000, |count| count.parse().expect("a number"))
 }
 
-/// Four senders to four threads, all to all.
+/// Four senders, each of which sends to all of four threads.
 #[test]
 fn ten_million_messages_arrive_once_each_and_in_order() {
     alone("stress::ten_million_messages_arrive_once_each_and_in_order", || {
@@ -25,7 +25,7 @@ fn ten_million_messages_arrive_once_each_and_in_order() {
                 let inside = inside.clone();
                 thread.handle().register_receiver(move |_| {
                     let (mut next, mut sum) = ([0; SENDERS as usize], 0_u64);
-                    hear(move |(sender, number): (usize, u64), _: &mut Context| {
+                    fn_receiver(move |(sender, number): (usize, u64), _: &mut Context| {
                         assert_eq!(number, next[sender], "of sender {sender}");
                         next[sender] += 1;
                         sum = sum.wrapping_add(number * (sender as u64 + 1));
@@ -45,7 +45,7 @@ fn ten_million_messages_arrive_once_each_and_in_order() {
                         for address in &addresses {
                             address.send((sender, number)).unwrap();
                         }
-                        // Senders outrun takers by far; the queue need not hold everything.
+                        // Senders are much faster than receivers; this bounds the queue.
                         while number % 1024 == 0 && addresses[0].queue_len() > 100_000 {
                             std::thread::yield_now();
                         }

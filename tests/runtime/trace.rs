@@ -1,13 +1,15 @@
-//! The trace: who sent what to whom, how long it waited, how long it took.
+//! The trace: sender, receiver, time in the queue and duration of each message.
 
-use crate::cast::{LIMIT, Log, hear, note, outlet, panic_quietly, work};
-use dragonfly_runtime::{Context, End, Event, Receiver, Record, Stage, Thread, TraceSnapshot, Worker};
+use crate::helpers::{LIMIT, Log, fn_receiver, fn_worker, forwarder, log_calls, panic_quietly};
+use dragonfly_runtime::{
+    CallEnd, Context, Receiver, Stage, Thread, TraceEvent, TraceRecord, TraceSnapshot, Worker,
+};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 const MS: Duration = Duration::from_millis(1);
 
-/// A message.
+/// The message of these tests.
 struct Order;
 
 struct Waiter(dragonfly_runtime::Address<Order>);
@@ -26,23 +28,23 @@ impl Receiver for Cook {
     }
 }
 
-fn line(record: &Record) -> String {
+fn line(record: &TraceRecord) -> String {
     let turn = record.iteration;
     match &record.event {
-        Event::Message { from, to, message, waited, end } => {
+        TraceEvent::Message { from, to, message, waited, end } => {
             format!("{turn}: {from} -{message}-> {to} waited {waited:?} {end:?}")
         }
-        Event::Worker { name, end } => format!("{turn}: {name} {end:?}"),
+        TraceEvent::Worker { name, end } => format!("{turn}: {name} {end:?}"),
     }
 }
 
 #[test]
-fn the_trace_says_who_sent_what_to_whom_and_how_long_it_waited() {
+fn the_trace_records_sender_receiver_and_time_in_the_queue() {
     let mut stage = Stage::new();
     let (hall, kitchen) = (stage.start("hall"), stage.start("kitchen"));
     stage.context(&kitchen).set_trace(100);
     let address = stage.context(&kitchen).register_receiver(Cook);
-    stage.context(&kitchen).register_worker(work(|_| false));
+    stage.context(&kitchen).register_worker(fn_worker(|_| false));
     stage.context(&hall).register_worker(Waiter(address.clone()));
     stage.iterate(&hall);
     stage.advance(MS * 7);
@@ -50,55 +52,58 @@ fn the_trace_says_who_sent_what_to_whom_and_how_long_it_waited() {
     stage.iterate(&kitchen);
     let lines: Vec<_> = stage.context(&kitchen).trace().records.iter().map(line).collect();
     assert_eq!(lines[0], "1: hall/Waiter -Order-> chef waited Some(7ms) Done(true)");
-    assert_eq!(lines[1], "1:  -Order-> chef waited Some(0ns) Done(true)", "sent by no thread of ours");
+    assert_eq!(
+        lines[1], "1:  -Order-> chef waited Some(0ns) Done(true)",
+        "sent by a thread outside of the runtime"
+    );
     assert!(lines[2].ends_with("Done(false)"), "{}", lines[2]);
 }
 
 #[test]
-fn the_trace_says_how_long_each_call_took() {
+fn the_trace_records_the_duration_of_each_call() {
     let timer = Thread::start("timed").unwrap();
     timer.handle().set_trace(10);
-    let (let_go, held) = std::sync::mpsc::channel::<()>();
-    let slow = hear(move |_: u32, _: &mut Context| _ = held.recv());
+    let (release, held) = std::sync::mpsc::channel::<()>();
+    let slow = fn_receiver(move |_: u32, _: &mut Context| _ = held.recv());
     let address = timer.handle().register_receiver(|_| slow);
     address.send(1).unwrap();
     let begin = std::time::Instant::now();
     while begin.elapsed() < MS * 5 {
         std::hint::spin_loop();
     }
-    drop(let_go);
-    let (receiver, hears) = outlet::<TraceSnapshot>();
+    drop(release);
+    let (receiver, received) = forwarder::<TraceSnapshot>();
     let answers = timer.handle().register_receiver(|_| receiver);
     timer.handle().request_trace(&answers);
-    let snapshot = hears.recv_timeout(LIMIT).unwrap();
+    let snapshot = received.recv_timeout(LIMIT).unwrap();
     assert_eq!(&*snapshot.thread, "timed");
     assert!(snapshot.records[0].took > Duration::ZERO, "{:?}", snapshot.records);
 }
 
 #[test]
-fn the_trace_shows_what_went_wrong() {
+fn the_trace_records_panics_and_undeliverable_messages() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
     stage.context(&thread).set_trace(100);
     let gone = thread.reserve_address::<u32>();
-    let bad = hear(|_: u32, _: &mut Context| panic_quietly("no"));
+    let bad = fn_receiver(|_: u32, _: &mut Context| panic_quietly("no"));
     let bad = stage.context(&thread).register_receiver(bad);
     gone.send(1).unwrap();
     bad.send(2).unwrap();
     stage.iterate(&thread);
-    let end = |record: &Record| match record.event {
-        Event::Message { end, .. } | Event::Worker { end, .. } => end,
+    let end = |record: &TraceRecord| match record.event {
+        TraceEvent::Message { end, .. } | TraceEvent::Worker { end, .. } => end,
     };
     let ends: Vec<_> = stage.context(&thread).trace().records.iter().map(end).collect();
-    assert_eq!(ends, [End::Undeliverable, End::Panicked]);
+    assert_eq!(ends, [CallEnd::Undeliverable, CallEnd::Panicked]);
 }
 
 #[test]
-fn the_ring_keeps_the_newest() {
+fn the_trace_keeps_the_newest_records() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
-    stage.context(&thread).register_worker(note(&log, "work"));
-    assert!(stage.context(&thread).trace().records.is_empty(), "off unless asked for");
+    stage.context(&thread).register_worker(log_calls(&log, "work"));
+    assert!(stage.context(&thread).trace().records.is_empty(), "off by default");
     thread.set_trace(3);
     for _ in 0..10 {
         stage.iterate(&thread);
@@ -113,26 +118,26 @@ fn the_ring_keeps_the_newest() {
 }
 
 #[test]
-fn off_it_adds_no_allocation_to_a_send() {
+fn a_trace_that_is_off_adds_no_allocation_to_a_send() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
-    let address = stage.context(&thread).register_receiver(hear(|_: u64, _: &mut Context| ()));
+    let address = stage.context(&thread).register_receiver(fn_receiver(|_: u64, _: &mut Context| ()));
     let turn = |stage: &mut Stage| {
         address.send(1).unwrap();
         stage.iterate(&thread);
     };
-    // Two batches change places: each has to grow once.
+    // Two batches are swapped in turn: each must grow once.
     turn(&mut stage);
     turn(&mut stage);
     let (count, ()) = dragonfly_kit::counting::count(|| (0..100).for_each(|_| turn(&mut stage)));
     assert_eq!(count.allocations, 0, "{count:?}");
 }
 
-/// Keeps what `tracing` gets: each event's fields, as one line.
+/// A `tracing` subscriber that stores the fields of each event as one line.
 #[derive(Clone, Default)]
-struct Listener(Arc<Mutex<Vec<String>>>);
+struct EventLog(Arc<Mutex<Vec<String>>>);
 
-impl tracing::Subscriber for Listener {
+impl tracing::Subscriber for EventLog {
     fn enabled(&self, metadata: &tracing::Metadata<'_>) -> bool {
         metadata.target().starts_with("dragonfly_runtime")
     }
@@ -142,13 +147,13 @@ impl tracing::Subscriber for Listener {
     fn record(&self, _: &tracing::span::Id, _: &tracing::span::Record<'_>) {}
     fn record_follows_from(&self, _: &tracing::span::Id, _: &tracing::span::Id) {}
     fn event(&self, event: &tracing::Event<'_>) {
-        struct Line(String);
-        impl tracing::field::Visit for Line {
+        struct FieldLine(String);
+        impl tracing::field::Visit for FieldLine {
             fn record_debug(&mut self, field: &tracing::field::Field, value: &dyn std::fmt::Debug) {
                 self.0 += &format!(" {field}={value:?}");
             }
         }
-        let mut line = Line(event.metadata().level().to_string());
+        let mut line = FieldLine(event.metadata().level().to_string());
         event.record(&mut line);
         self.0.lock().unwrap().push(line.0);
     }
@@ -157,8 +162,8 @@ impl tracing::Subscriber for Listener {
 }
 
 #[test]
-fn the_trace_feeds_tracing_and_trouble_is_told_even_when_it_is_off() {
-    let listener = Listener::default();
+fn records_go_to_tracing_and_errors_do_so_even_without_a_trace() {
+    let listener = EventLog::default();
     tracing::subscriber::with_default(listener.clone(), || {
         let mut stage = Stage::new();
         let kitchen = stage.start("kitchen");

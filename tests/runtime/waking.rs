@@ -1,6 +1,6 @@
-//! A thread sleeps when it has nothing to do, and wakes when it has.
+//! A thread sleeps when it has nothing to do, and wakes when it has work.
 
-use crate::cast::{LIMIT, deadline, hear, outlet, work};
+use crate::helpers::{LIMIT, deadline, fn_receiver, fn_worker, forwarder};
 use dragonfly_kit::eventually;
 use dragonfly_kit::process::{OsThread, os_threads};
 use dragonfly_runtime::{Context, Next, Thread};
@@ -31,43 +31,43 @@ fn the_os_thread_has_the_threads_name() {
 }
 
 #[test]
-fn a_thread_without_work_sleeps_and_does_not_turn() {
+fn a_thread_without_work_sleeps_and_does_not_iterate() {
     let idle = Thread::start("idle").unwrap();
-    idle.handle().register_worker(|_| work(|_| true));
+    idle.handle().register_worker(|_| fn_worker(|_| true));
     let settled = || {
         let os = os_thread("idle")?;
         (os.state == 'S' && idle.handle().counters().iterations > 0).then_some(os.waits)
     };
     eventually(LIMIT, || settled().is_some());
     let before = (settled(), idle.handle().counters());
-    // Another thread lets 200 ms pass.
-    let clock = Thread::start("clock").unwrap();
-    let (rings, rang) = outlet();
-    let bell = clock.handle().register_receiver(|_| rings);
-    clock.handle().remote_sleep(Duration::from_millis(200));
+    // Waits 200 ms with the alarm of another thread.
+    let timer = Thread::start("timer").unwrap();
+    let (rings, rang) = forwarder();
+    let bell = timer.handle().register_receiver(|_| rings);
+    timer.handle().remote_sleep(Duration::from_millis(200));
     bell.send(()).unwrap();
     rang.recv_timeout(LIMIT).unwrap();
-    assert_eq!((settled(), idle.handle().counters()), before, "it woke for nothing");
+    assert_eq!((settled(), idle.handle().counters()), before, "it woke without a reason");
 }
 
 #[test]
 fn a_sleeping_thread_wakes_for_every_message() {
     let thread = Thread::start("doze").unwrap();
-    let (receiver, hears) = outlet();
+    let (receiver, received) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
     for message in 0..1000_u32 {
         address.send(message).unwrap();
-        assert_eq!(hears.recv_timeout(LIMIT), Ok(message));
+        assert_eq!(received.recv_timeout(LIMIT), Ok(message));
     }
 }
 
 #[test]
-fn a_thread_wakes_at_its_alarm_and_not_before() {
+fn a_thread_wakes_at_its_alarm_and_not_earlier() {
     let thread = Thread::start("alarm").unwrap();
     let (inside, outside) = std::sync::mpsc::channel();
     let when = Instant::now() + Duration::from_millis(50);
     thread.handle().register_worker(move |_| {
-        work(move |thread| {
+        fn_worker(move |thread| {
             if thread.now() < when {
                 thread.wake_at(when);
             } else {
@@ -82,13 +82,13 @@ fn a_thread_wakes_at_its_alarm_and_not_before() {
 }
 
 #[test]
-fn a_thread_runs_on_only_while_a_worker_asks() {
+fn a_thread_keeps_running_only_while_a_worker_requests_it() {
     let thread = Thread::start("runner").unwrap();
     let handle = thread.handle().clone();
     let (inside, outside) = std::sync::mpsc::channel();
     handle.register_worker(move |_| {
         let mut left = 500;
-        work(move |thread| {
+        fn_worker(move |thread| {
             if left > 0 {
                 left -= 1;
                 thread.iterate_again();
@@ -100,24 +100,24 @@ fn a_thread_runs_on_only_while_a_worker_asks() {
     });
     outside.recv_timeout(LIMIT).unwrap();
     eventually(LIMIT, || is_asleep("runner"));
-    assert!(outside.try_recv().is_err(), "it was called after it had stopped asking");
+    assert!(outside.try_recv().is_err(), "it was called without having requested it");
     assert!(handle.counters().iterations >= 501);
 }
 
 #[test]
-fn a_captured_thread_is_woken_once_when_a_message_comes_while_it_waits() {
+fn a_waiting_captured_thread_is_woken_once_for_several_messages() {
     let woken = Arc::new(AtomicUsize::new(0));
     let count = Arc::clone(&woken);
     let mut captured = Thread::capture("main", move || {
         count.fetch_add(1, Ordering::SeqCst);
     });
-    let address = captured.context().register_receiver(hear(|_: u32, _| ()));
+    let address = captured.context().register_receiver(fn_receiver(|_: u32, _| ()));
     address.send(1).unwrap();
-    assert_eq!(woken.load(Ordering::SeqCst), 0, "it has not said that it waits");
+    assert_eq!(woken.load(Ordering::SeqCst), 0, "it does not wait yet");
     assert_eq!(captured.iterate(), Next::OnMessage);
     address.send(2).unwrap();
     address.send(3).unwrap();
-    assert_eq!(woken.load(Ordering::SeqCst), 1, "the first message wakes, the rest need not");
+    assert_eq!(woken.load(Ordering::SeqCst), 1, "only the first message wakes it");
     assert_eq!(captured.iterate(), Next::OnMessage);
     captured.handle().pause();
     captured.iterate();
@@ -131,22 +131,22 @@ fn a_captured_thread_is_woken_once_when_a_message_comes_while_it_waits() {
 }
 
 #[test]
-fn a_captured_and_an_own_thread_talk() {
+fn a_captured_thread_and_an_os_thread_exchange_messages() {
     let main = std::thread::current();
     let mut captured = Thread::capture("main", move || main.unpark());
-    let (receiver, hears) = outlet();
+    let (receiver, received) = forwarder();
     let answers = captured.context().register_receiver(receiver);
     let doubler = Thread::start("doubler").unwrap();
     let questions = doubler
         .handle()
-        .register_receiver(move |_| hear(move |message: u32, _| answers.send(message * 2).unwrap()));
+        .register_receiver(move |_| fn_receiver(move |message: u32, _| answers.send(message * 2).unwrap()));
     let end = deadline();
     let mut sum = 0;
     for question in 0..100 {
         questions.send(question).unwrap();
         loop {
             let next = captured.iterate();
-            if let Ok(answer) = hears.try_recv() {
+            if let Ok(answer) = received.try_recv() {
                 sum += answer;
                 break;
             }
@@ -160,43 +160,43 @@ fn a_captured_and_an_own_thread_talk() {
 }
 
 #[test]
-fn a_thread_that_looks_before_it_sleeps_needs_no_wake_up_and_sleeps_in_the_end() {
-    let thread = Thread::start("looking").unwrap();
-    let (receiver, hears) = outlet();
+fn a_spinning_thread_needs_no_wake_up_and_sleeps_in_the_end() {
+    let thread = Thread::start("spinning").unwrap();
+    let (receiver, received) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
-    let sleeps = || os_thread("looking").map_or(0, |os| os.waits);
-    // Looking for as long as the test lasts: it never goes to sleep between two messages.
+    let sleeps = || os_thread("spinning").map_or(0, |os| os.waits);
+    // Spins for as long as the test runs: it never sleeps between two messages.
     thread.handle().set_spin(LIMIT);
     address.send(0).unwrap();
-    assert_eq!(hears.recv_timeout(LIMIT), Ok(0));
+    assert_eq!(received.recv_timeout(LIMIT), Ok(0));
     let before = sleeps();
     for message in 0..1000_u32 {
         address.send(message).unwrap();
-        assert_eq!(hears.recv_timeout(LIMIT), Ok(message));
+        assert_eq!(received.recv_timeout(LIMIT), Ok(message));
     }
     let slept = sleeps() - before;
     assert!(slept < 500, "it slept {slept} times between 1,000 messages");
-    // For a moment only, and then it sleeps; told to stop looking, it sleeps at once.
+    // With 1 ms it spins for a moment and then sleeps; with zero it sleeps at once.
     for limit in [Duration::from_millis(1), Duration::ZERO] {
         thread.handle().set_spin(limit);
-        eventually(LIMIT, || is_asleep("looking"));
+        eventually(LIMIT, || is_asleep("spinning"));
         address.send(7).unwrap();
-        assert_eq!(hears.recv_timeout(LIMIT), Ok(7));
+        assert_eq!(received.recv_timeout(LIMIT), Ok(7));
     }
 }
 
 #[test]
-fn a_thread_that_looks_keeps_its_alarms_and_can_be_stopped() {
+fn a_spinning_thread_keeps_its_alarms_and_can_be_stopped() {
     let thread = Thread::start("awaiting").unwrap();
     thread.handle().set_spin(LIMIT);
-    let (rings, rang) = outlet();
+    let (rings, rang) = forwarder();
     let bell = thread.handle().register_receiver(|_| rings);
     let begin = Instant::now();
     let mut rung = false;
     thread.handle().register_worker(move |thread: &mut Context| {
         let when = thread.now() + Duration::from_millis(20);
         thread.wake_at(when);
-        work(move |thread: &mut Context| {
+        fn_worker(move |thread: &mut Context| {
             if thread.now() >= when && !rung {
                 rung = true;
                 bell.send(()).unwrap();
@@ -205,7 +205,7 @@ fn a_thread_that_looks_keeps_its_alarms_and_can_be_stopped() {
         })
     });
     rang.recv_timeout(LIMIT).unwrap();
-    assert!(begin.elapsed() < LIMIT / 2, "the alarm waited for the end of looking");
+    assert!(begin.elapsed() < LIMIT / 2, "the alarm came only after the spinning");
     thread.handle().remote_stop();
     Thread::wait_for(&[thread.handle().clone()], deadline()).unwrap();
     assert!(begin.elapsed() < LIMIT / 2);

@@ -1,4 +1,4 @@
-//! Everything that the study measures does its work right, each variant of each case, once and with little data.
+//! Every variant of every case of the study computes correct results: runs each once, with little data.
 
 mod broken;
 mod readme;
@@ -10,9 +10,9 @@ use std::collections::BTreeMap;
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;
 
-/// One test, and so one thread: a peer of ours lives in one thread for as long as the process does.
+/// One test, and so one thread: one of the crates (stakker) is bound to one thread for the life of the process.
 #[test]
-fn queues_and_actors_deliver_what_they_were_given_and_every_system_plays_the_savina_suite() {
+fn queues_and_actors_deliver_all_messages_and_every_system_runs_the_savina_suite() {
     let mut study = Study::check();
     runtime::all(&mut study);
     let mut totals = BTreeMap::<&str, usize>::new();
@@ -23,7 +23,7 @@ fn queues_and_actors_deliver_what_they_were_given_and_every_system_plays_the_sav
     }
     assert_eq!(totals.len(), 12, "{totals:?}");
     for (case, systems) in totals {
-        // One has no actors that create others, which two of the suite are about.
+        // In one system (tonari-actor) actors cannot create other actors, which two benchmarks need.
         let able = if ["savina/fork_join_creation", "savina/barber"].contains(&case) { 9 } else { 10 };
         assert_eq!(systems, able, "{case}");
     }

@@ -1,29 +1,29 @@
-//! The page says what the raw data says, and nothing else.
+//! The page contains the results of the raw data, and no others.
 
 use dragonfly_study::report::{self, Data};
 use std::fs;
 
 #[test]
-fn every_table_and_chart_is_what_the_raw_data_gives() {
+fn every_table_and_chart_is_made_from_the_raw_data() {
     let study = report::folder();
     let readme = fs::read_to_string(study.join("README.md")).expect("the page");
     let data = Data::read(&study.join("results")).expect("the raw data");
     let files = report::render(&data, &readme).expect("the report");
     for (path, text) in &files {
         let kept = fs::read_to_string(study.join(path)).unwrap_or_default();
-        assert!(kept == *text, "{} is not what the raw data gives: run the report", path.display());
+        assert!(kept == *text, "{} does not match the raw data: run the report", path.display());
     }
-    // Nothing is left over from an older run.
+    // No file is left over from an older run.
     for entry in fs::read_dir(study.join("results")).into_iter().flatten() {
         let name = entry.expect("a file").file_name();
         let name = name.to_str().expect("a plain name");
         let made = files.iter().any(|(path, _)| path.ends_with(name));
-        assert!(made || name.ends_with(".csv"), "results/{name} is made from nothing");
+        assert!(made || name.ends_with(".csv"), "results/{name} belongs to no raw data");
     }
 }
 
 #[test]
-fn a_figure_that_nobody_measured_is_noticed() {
+fn a_number_that_was_not_measured_is_removed() {
     let study = report::folder();
     let readme = fs::read_to_string(study.join("README.md")).expect("the page");
     let data = Data::read(&study.join("results")).expect("the raw data");
@@ -34,15 +34,15 @@ fn a_figure_that_nobody_measured_is_noticed() {
     let page = files.iter().find(|(path, _)| path.ends_with("README.md")).expect("the page is made");
     assert_ne!(page.1, invented);
     let again = report::render(&data, &invented).expect("the report");
-    assert!(again.contains(page), "what is between the markers is made anew");
+    assert!(again.contains(page), "the text between the markers is not replaced");
 }
 
 #[test]
-fn every_link_of_the_page_leads_somewhere() {
+fn every_link_of_the_page_has_a_target() {
     let study = report::folder();
     let readme = fs::read_to_string(study.join("README.md")).expect("the page");
     let targets = readme.split("](").skip(1).filter_map(|rest| rest.split(')').next());
     for target in targets.filter(|target| !target.contains("://") && !target.starts_with('#')) {
-        assert!(study.join(target).exists(), "{target} is not there");
+        assert!(study.join(target).exists(), "{target} does not exist");
     }
 }

@@ -1,8 +1,9 @@
-//! The tiny editor with a lock: two threads over one document.
+//! The tiny editor with a lock: two threads share one document.
 //!
-//! The panel edits the document where it is; the viewport waits until it has changed, copies it, and draws the copy
-//! without the lock. So the lock is held for a copy at most, and nobody ever holds two: the honest rival, not the
-//! careless one. To pick a bone, the panel looks at the viewport's last picture itself, and has its answer at once.
+//! The panel edits the document in place; the viewport waits until it has changed, copies it, and draws the copy
+//! without the lock. So the lock is held for a copy at most, and no thread holds two locks: a careful use of locks, as
+//! a fair comparison needs. To pick a bone, the panel reads the viewport's last image itself and has its answer at
+//! once.
 
 mod panel;
 pub mod refused;
@@ -19,29 +20,29 @@ use std::io;
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 
-/// What the lock protects.
+/// The data that the lock protects.
 pub struct Document {
     bones: Vec<Bone>,
-    /// Counts the changes.
+    /// Number of changes.
     version: u64,
     closed: bool,
 }
 
-/// What both threads see.
-pub struct Shared {
+/// The data that both threads share.
+pub struct SharedState {
     document: Mutex<Document>,
     changed: Condvar,
     picture: Mutex<Vec<Line>>,
 }
 
-impl Shared {
-    /// A document that the viewport has not seen yet.
+impl SharedState {
+    /// Returns a document that the viewport has not drawn yet.
     pub fn new(bones: Vec<Bone>) -> Self {
         let document = Document { bones, version: 1, closed: false };
         Self { document: Mutex::new(document), changed: Condvar::new(), picture: Mutex::default() }
     }
 
-    /// The one way to change it, so that nobody forgets to wake the viewport.
+    /// The only way to change the document, so that the viewport is always woken.
     pub fn edit(&self, bone: usize, change: impl FnOnce(&mut Bone)) {
         let mut document = self.document.lock();
         if let Some(bone) = document.bones.get_mut(bone) {
@@ -51,12 +52,12 @@ impl Shared {
         }
     }
 
-    /// A copy of what it is now.
+    /// Returns a copy of the current bones.
     pub fn bones(&self) -> Vec<Bone> {
         self.document.lock().bones.clone()
     }
 
-    /// Waits for a version after `seen`, and copies it; `None` when the editor closes.
+    /// Waits for a version after `seen` and returns a copy of it; `None` when the editor closes.
     pub fn wait_for_change(&self, seen: &mut u64) -> Option<Vec<Bone>> {
         let mut document = self.document.lock();
         self.changed.wait_while(&mut document, |document| document.version == *seen && !document.closed);
@@ -64,17 +65,17 @@ impl Shared {
         (!document.closed).then(|| document.bones.clone())
     }
 
-    /// Keeps the newest picture, for [`pick`](Self::pick).
+    /// Stores the newest image, for [`pick`](Self::pick).
     pub fn keep(&self, picture: Vec<Line>) {
         *self.picture.lock() = picture;
     }
 
-    /// The bone of the last picture at `point`.
+    /// Returns the bone at `point` in the last image.
     pub fn pick(&self, point: Point) -> Option<usize> {
         skeleton::pick(&self.picture.lock(), point)
     }
 
-    /// Lets the viewport end.
+    /// Makes the viewport end.
     pub fn close(&self) {
         self.document.lock().closed = true;
         self.changed.notify_all();
@@ -83,18 +84,18 @@ impl Shared {
 
 /// The editor: the panel, and the graphics thread, which ends with it.
 pub struct Editor {
-    /// What the user sees and touches.
+    /// The panel that the user sees and uses.
     pub panel: Panel,
-    shared: Arc<Shared>,
+    shared: Arc<SharedState>,
     graphics: Option<JoinHandle<()>>,
 }
 
-/// Starts an editor of `bones`. Pictures go to `screen`.
+/// Starts an editor of `bones`. Images are passed to `screen`.
 ///
 /// # Errors
-/// When the system gives no thread.
+/// When the system cannot create a thread.
 pub fn open(bones: Vec<Bone>, screen: impl FnMut(&[Line]) + Send + 'static) -> io::Result<Editor> {
-    let shared = Arc::new(Shared::new(bones));
+    let shared = Arc::new(SharedState::new(bones));
     let theirs = Arc::clone(&shared);
     let graphics = thread::Builder::new().name("graphics".into()).spawn(move || run(&theirs, screen))?;
     Ok(Editor { panel: Panel::new(Arc::clone(&shared)), shared, graphics: Some(graphics) })
@@ -103,7 +104,7 @@ pub fn open(bones: Vec<Bone>, screen: impl FnMut(&[Line]) + Send + 'static) -> i
 impl Drop for Editor {
     fn drop(&mut self) {
         self.shared.close();
-        // If the screen panicked, that was reported there.
+        // A panic of the screen was reported in its thread.
         let _ = self.graphics.take().map(JoinHandle::join);
     }
 }
@@ -116,7 +117,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn colour_and_visibility_go_from_the_panel_to_the_picture_and_back() {
+    fn color_and_visibility_go_from_the_panel_to_the_image_and_back() {
         let bones = ["hip", "knee", "foot"].map(|name| Bone::new(name, 0.0)).to_vec();
         let (seen, pictures) = mpsc::channel();
         let mut editor = open(bones, move |lines| _ = seen.send(lines.to_vec())).unwrap();
@@ -124,10 +125,10 @@ mod tests {
         assert_eq!(editor.panel.rows(), ["hip 0.00 #ffffff", "knee 0.00 #ffffff", "foot 0.00 #ffffff"]);
         assert_eq!(next().len(), 3);
 
-        editor.panel.choose_colour(0, [255, 128, 0]);
+        editor.panel.choose_color(0, [255, 128, 0]);
         editor.panel.toggle_visible(1);
         editor.panel.drag_angle(2, 0.5);
-        // Shown at once: there is only one document.
+        // Visible at once: there is only one document.
         assert_eq!(
             editor.panel.rows(),
             ["hip 0.00 #ff8000", "knee 0.00 #ffffff hidden", "foot 0.50 #ffffff"]
@@ -137,12 +138,12 @@ mod tests {
             picture = next();
         }
         assert_eq!(picture.iter().map(|line| line.bone).collect::<Vec<_>>(), [0, 2]);
-        assert_eq!(picture.iter().map(|line| line.colour).collect::<Vec<_>>(), [[255, 128, 0], WHITE]);
+        assert_eq!(picture.iter().map(|line| line.color).collect::<Vec<_>>(), [[255, 128, 0], WHITE]);
 
-        // The answer to a click is there when the call returns.
+        // The answer to a click is available when the call returns.
         editor.panel.click([0.5, 0.0]);
         assert_eq!(editor.panel.selected(), Some(0));
-        // What is hidden cannot be picked.
+        // A hidden bone cannot be picked.
         editor.panel.click([1.5, 0.0]);
         assert_eq!(editor.panel.selected(), None);
     }

@@ -1,28 +1,28 @@
 //! The panel, in the main thread.
 
-use super::Shared;
-use crate::design::skeleton::Colour; // feature
+use super::SharedState;
+use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::{Point, describe};
 use std::sync::Arc;
 
-/// Shows the document, and edits it where it is.
+/// Shows the document, and edits it in place.
 pub struct Panel {
-    shared: Arc<Shared>,
+    shared: Arc<SharedState>,
     selected: Option<usize>,
 }
 
 impl Panel {
-    /// A panel over `shared`.
-    pub fn new(shared: Arc<Shared>) -> Self {
+    /// Returns a panel of `shared`.
+    pub fn new(shared: Arc<SharedState>) -> Self {
         Self { shared, selected: None }
     }
 
-    /// What it shows.
+    /// Returns the rows that it shows.
     pub fn rows(&self) -> Vec<String> {
         self.shared.bones().iter().map(describe).collect()
     }
 
-    /// The bone that was clicked last.
+    /// Returns the bone that was clicked last.
     pub fn selected(&self) -> Option<usize> {
         self.selected
     }
@@ -33,18 +33,18 @@ impl Panel {
     }
 
     // feature: begin
-    /// The user chooses a colour.
-    pub fn choose_colour(&self, bone: usize, colour: Colour) {
-        self.shared.edit(bone, |bone| bone.colour = colour);
+    /// The user chooses a color.
+    pub fn choose_color(&self, bone: usize, color: Color) {
+        self.shared.edit(bone, |bone| bone.color = color);
     }
 
-    /// The user clicks the eye beside a bone.
+    /// The user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         self.shared.edit(bone, |bone| bone.visible = !bone.visible);
     }
     // feature: end
 
-    /// The user clicks into the picture.
+    /// The user clicks into the image.
     pub fn click(&mut self, point: Point) {
         self.selected = self.shared.pick(point);
     }

@@ -1,5 +1,5 @@
-//! Mistakes that do not compile. Each example stands beside a right one that differs in the one line, so that it is
-//! this line that is refused; both are tested.
+//! Mistakes that do not compile. Each example follows a correct one that differs in one line, so that the compiler
+//! rejects this line; both are tested.
 //!
 //! # 1. The lock is forgotten
 //! ```
@@ -15,7 +15,7 @@
 //! }
 //! ```
 //!
-//! # 2. Something is kept from under the lock
+//! # 2. A reference outlives the lock
 //! ```
 //! use parking_lot::Mutex;
 //! fn first(bones: &Mutex<Vec<String>>) -> String {
@@ -29,7 +29,7 @@
 //! }
 //! ```
 //!
-//! # 3. Something is used after the lock was given back
+//! # 3. A reference is used after the lock was released
 //! ```
 //! use parking_lot::Mutex;
 //! fn first(bones: &Mutex<Vec<String>>) {
@@ -49,7 +49,7 @@
 //! }
 //! ```
 //!
-//! # 4. Two threads share what has no lock
+//! # 4. Two threads share data without a lock
 //! ```
 //! use parking_lot::Mutex;
 //! use std::{cell::RefCell, sync::Arc, thread};
@@ -79,7 +79,7 @@
 //! }
 //! ```
 //!
-//! # 6. A lock that one thread took is given back by another
+//! # 6. A lock that one thread took is released by another
 //! ```
 //! use std::{sync::Mutex, thread};
 //! fn elsewhere(bones: &'static Mutex<Vec<String>>) {

@@ -1,6 +1,6 @@
-//! Mistakes that compile. Each test makes one happen, every time, and nothing here waits for chance.
+//! Mistakes that compile. Each test makes one happen, deterministically.
 
-use super::{Document, Shared};
+use super::{Document, SharedState};
 use crate::design::skeleton::Bone;
 use parking_lot::Mutex;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -8,17 +8,17 @@ use std::sync::{Arc, Barrier, mpsc};
 use std::thread;
 use std::time::Duration;
 
-/// A lock that is not free within this is asked for in vain; none of these would be free in a year.
+/// A lock that is not free within this time counts as deadlocked; none of these would ever become free.
 const DEADLINE: Duration = Duration::from_millis(20);
 
-fn shared() -> Shared {
-    Shared::new(vec![Bone::new("hip", 0.0), Bone::new("knee", 0.0)])
+fn shared() -> SharedState {
+    SharedState::new(vec![Bone::new("hip", 0.0), Bone::new("knee", 0.0)])
 }
 
 #[test]
 fn deadlock_by_a_call_under_the_lock_that_takes_it_again() {
     let shared = shared();
-    // `bones()` in place of the inner part would wait for the outer call, which waits for `bones()`.
+    // `bones()` without the inner part would wait for the outer call, which waits for `bones()`.
     shared.edit(0, |_| assert!(shared.document.try_lock_for(DEADLINE).is_none()));
     assert!(shared.document.try_lock().is_some());
 }
@@ -74,21 +74,21 @@ fn deadlock_by_waiting_for_an_answer_under_the_lock() {
 #[test]
 fn race_by_reading_under_one_lock_and_writing_under_the_next() {
     let shared = shared();
-    // Two sliders, each turning by one; both looked before either wrote.
+    // Two sliders, each of which turns by one; both read before either writes.
     let first = shared.bones()[0].angle;
     let second = shared.bones()[0].angle;
     shared.edit(0, |bone| bone.angle = first + 1.0);
     shared.edit(0, |bone| bone.angle = second + 1.0);
     assert_eq!(shared.bones()[0].angle, 1.0, "one of two is lost");
-    // The cure: one lock for both.
+    // The fix: one lock for both steps.
     shared.edit(0, |bone| bone.angle += 1.0);
     assert_eq!(shared.bones()[0].angle, 2.0);
 }
 
 #[test]
-fn torn_view_by_two_locks_for_what_belongs_together() {
+fn torn_view_by_two_locks_for_data_that_belongs_together() {
     let shared = shared();
-    // The rule of this program, say: both bones are turned alike. A frame looks at them one by one.
+    // A rule of this program, for example: both bones have the same angle. A frame reads them one after the other.
     let hip = shared.document.lock().bones[0].angle;
     shared.edit(0, |bone| bone.angle = 1.0);
     shared.edit(1, |bone| bone.angle = 1.0);
@@ -106,11 +106,11 @@ fn stale_answer_by_using_it_after_the_lock() {
 }
 
 #[test]
-fn missed_wake_up_by_changing_behind_the_door() {
+fn missed_wake_up_by_a_change_that_bypasses_the_interface() {
     let shared = shared();
     let mut seen = 0;
     shared.wait_for_change(&mut seen);
-    // Any code in this module can: neither `version` nor `changed` is told.
+    // Any code in this module can do that: neither `version` nor `changed` is updated.
     shared.document.lock().bones[0].angle = 1.0;
     let Document { version, .. } = *shared.document.lock();
     assert_eq!(version, seen, "the viewport sleeps on");
@@ -118,7 +118,7 @@ fn missed_wake_up_by_changing_behind_the_door() {
 
 #[test]
 fn half_an_edit_by_a_panic_under_the_lock() {
-    // A panic in the middle of what belongs together, and the next one sees the half.
+    // A panic in the middle of a change of two values, and the next reader sees half of it.
     let half = Mutex::new((0, 0));
     let broken = catch_unwind(AssertUnwindSafe(|| {
         let mut both = half.lock();
@@ -128,7 +128,7 @@ fn half_an_edit_by_a_panic_under_the_lock() {
     }));
     assert!(broken.is_err());
     assert_eq!(*half.lock(), (1, 0));
-    // The standard library's lock says so instead; with the usual `unwrap` the panic spreads to every thread.
+    // The standard library's lock reports that instead; with the usual `unwrap` the panic spreads to every thread.
     let poisoned = Arc::new(std::sync::Mutex::new(0));
     let theirs = Arc::clone(&poisoned);
     let broken = catch_unwind(AssertUnwindSafe(move || {

@@ -2,33 +2,33 @@
 
 use super::{PanelHandle, ViewportHandle};
 use crate::design::skeleton::Bone;
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use dragonfly_runtime::{Context, Receiver};
 use std::sync::Arc;
 
-/// The document as it was at one moment; never changed.
+/// A version of the document; never changed.
 pub type View = Arc<[Bone]>;
 
-/// What others may ask of the document.
+/// The messages of the document.
 pub enum Edit {
     /// Turns a bone.
     SetAngle {
-        /// Which.
+        /// Index of the bone.
         bone: usize,
-        /// Against the one before it, in radians.
+        /// Angle relative to the previous bone, in radians.
         angle: f32,
     },
     // feature: begin
-    /// Chooses a colour.
-    SetColour {
-        /// Of which bone.
+    /// Chooses a color.
+    SetColor {
+        /// Index of the bone.
         bone: usize,
-        /// Which.
-        colour: Colour,
+        /// The new color.
+        color: Color,
     },
     /// Hides a bone, or shows it again.
     ToggleVisible {
-        /// Which.
+        /// Index of the bone.
         bone: usize,
     },
     // feature: end
@@ -42,7 +42,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// A document that shows itself at once.
+    /// Returns a document that publishes its state at once.
     pub fn new(bones: Vec<Bone>, panel: PanelHandle, viewport: ViewportHandle) -> Self {
         let document = Self { bones, panel, viewport };
         document.publish();
@@ -55,9 +55,9 @@ impl Document {
     }
 
     // feature: begin
-    /// Chooses a bone's colour.
-    pub fn set_colour(&mut self, bone: usize, colour: Colour) {
-        self.change(bone, |bone| bone.colour = colour);
+    /// Chooses a bone's color.
+    pub fn set_color(&mut self, bone: usize, color: Color) {
+        self.change(bone, |bone| bone.color = color);
     }
 
     /// Hides a bone, or shows it again.
@@ -66,7 +66,7 @@ impl Document {
     }
     // feature: end
 
-    /// The one way to change it, so that nobody forgets to show it.
+    /// The only way to change the document, so that every change is published.
     fn change(&mut self, bone: usize, change: impl FnOnce(&mut Bone)) {
         if let Some(bone) = self.bones.get_mut(bone) {
             change(bone);
@@ -88,7 +88,7 @@ impl Receiver for Document {
         match edit {
             Edit::SetAngle { bone, angle } => self.set_angle(bone, angle),
             // feature: begin
-            Edit::SetColour { bone, colour } => self.set_colour(bone, colour),
+            Edit::SetColor { bone, color } => self.set_color(bone, color),
             Edit::ToggleVisible { bone } => self.toggle_visible(bone),
             // feature: end
         }

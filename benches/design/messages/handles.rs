@@ -1,9 +1,10 @@
 //! Handles: the same method names as the objects, from any thread (the thesis's method pairs, §2.2.6.2).
 //!
-//! Who has stopped shows and edits nothing any more: the program is ending. That is decided here, once.
+//! An object whose thread has stopped no longer shows or edits anything, because the program is ending. That is decided
+//! here, once.
 
 use super::{Edit, PanelMessage, View, ViewportMessage};
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::Point;
 use dragonfly_runtime::Address;
 
@@ -18,9 +19,9 @@ impl DocumentHandle {
     }
 
     // feature: begin
-    /// Chooses a bone's colour.
-    pub fn set_colour(&self, bone: usize, colour: Colour) {
-        let _ = self.0.send(Edit::SetColour { bone, colour });
+    /// Chooses a bone's color.
+    pub fn set_color(&self, bone: usize, color: Color) {
+        let _ = self.0.send(Edit::SetColor { bone, color });
     }
 
     /// Hides a bone, or shows it again.
@@ -40,7 +41,7 @@ impl ViewportHandle {
         let _ = self.0.send(ViewportMessage::Show(view));
     }
 
-    /// Has the panel told which bone is at `point`.
+    /// Requests the bone at `point`; the panel receives the answer.
     pub fn pick(&self, point: Point) {
         let _ = self.0.send(ViewportMessage::Pick(point));
     }
@@ -56,7 +57,7 @@ impl PanelHandle {
         let _ = self.0.send(PanelMessage::Show(view));
     }
 
-    /// The answer to a click.
+    /// Passes the answer to a click.
     pub fn picked(&self, bone: Option<usize>) {
         let _ = self.0.send(PanelMessage::Picked(bone));
     }

@@ -1,8 +1,9 @@
-//! The tiny editor with messages: three threads, each the only owner of what it works on.
+//! The tiny editor with messages: three threads, each the only owner of its data.
 //!
-//! The main thread has the [`Panel`], the document thread the [`Document`], the graphics thread the [`Viewport`]. What
-//! the user does goes to the document as an [`Edit`]; what the document became goes to the other two as a [`View`],
-//! which nobody changes any more. To pick a bone, the panel asks the viewport, and the answer is a message too.
+//! The main thread owns the [`Panel`], the document thread the [`Document`], the graphics thread the [`Viewport`]. The
+//! user's actions are sent to the document as an [`Edit`]; the new state of the document is sent to the other two as a
+//! [`View`], which no one changes. To pick a bone, the panel sends a message to the viewport, and the answer is a
+//! message too.
 
 mod document;
 mod handles;
@@ -22,7 +23,7 @@ use dragonfly_runtime::{Context, ThreadHandle};
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Puts an editor of `bones` into three threads, of which `main` is the caller's own. Pictures go to `screen`.
+/// Starts an editor of `bones` in three threads; `main` is the caller's own. Images are passed to `screen`.
 pub fn open(
     main: &mut Context,
     document: &ThreadHandle,
@@ -30,7 +31,7 @@ pub fn open(
     bones: Vec<Bone>,
     screen: impl FnMut(&[Line]) + Send + 'static,
 ) -> Rc<RefCell<Panel>> {
-    // They know each other, so the addresses are there before the objects.
+    // The objects need one another's addresses, so these are reserved first.
     let panel_address = main.handle().reserve_address();
     let document_address = document.reserve_address();
     let viewport_address = graphics.reserve_address();
@@ -42,7 +43,7 @@ pub fn open(
     main.register_receiver_at(&panel_address, Rc::clone(&panel));
     let answers = panel_handle.clone();
     let address = viewport_address.clone();
-    // Made in its own thread: nothing in it need be fit for another.
+    // Created in its own thread, so nothing in it needs to be `Send`.
     let started = graphics.run(move |thread| {
         let viewport = Rc::new(RefCell::new(Viewport::new(answers, Box::new(screen))));
         thread.register_receiver_at(&address, Rc::clone(&viewport));
@@ -68,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn colour_and_visibility_go_from_the_panel_to_the_picture_and_back() {
+    fn color_and_visibility_go_from_the_panel_to_the_image_and_back() {
         let mut stage = Stage::new();
         let [main, document, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
         let (seen, pictures) = mpsc::channel();
@@ -78,7 +79,7 @@ mod tests {
         assert_eq!(panel.borrow().rows(), ["hip 0.00 #ffffff", "knee 0.00 #ffffff", "foot 0.00 #ffffff"]);
         assert_eq!(pictures.try_iter().last().unwrap().len(), 3);
 
-        panel.borrow().choose_colour(0, [255, 128, 0]);
+        panel.borrow().choose_color(0, [255, 128, 0]);
         panel.borrow().toggle_visible(1);
         panel.borrow().drag_angle(2, 0.5);
         assert!(stage.settle(10));
@@ -88,21 +89,21 @@ mod tests {
         );
         let picture = pictures.try_iter().last().unwrap();
         assert_eq!(picture.iter().map(|line| line.bone).collect::<Vec<_>>(), [0, 2]);
-        assert_eq!(picture.iter().map(|line| line.colour).collect::<Vec<_>>(), [[255, 128, 0], WHITE]);
+        assert_eq!(picture.iter().map(|line| line.color).collect::<Vec<_>>(), [[255, 128, 0], WHITE]);
 
-        // The answer to a click comes later, as a message.
+        // The answer to a click arrives later, as a message.
         panel.borrow().click([0.5, 0.0]);
         assert_eq!(panel.borrow().selected(), None);
         assert!(stage.settle(10));
         assert_eq!(panel.borrow().selected(), Some(0));
-        // What is hidden cannot be picked.
+        // A hidden bone cannot be picked.
         panel.borrow().click([1.5, 0.0]);
         assert!(stage.settle(10));
         assert_eq!(panel.borrow().selected(), None);
     }
 
     #[test]
-    fn real_threads_do_the_same() {
+    fn the_editor_works_with_os_threads() {
         let (wake, woken) = mpsc::channel();
         let mut main = Thread::capture("main", move || _ = wake.send(()));
         let document = Thread::start("document").unwrap();

@@ -1,20 +1,20 @@
 //! The panel, in the main thread.
 
 use super::{DocumentHandle, View, ViewportHandle};
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::{Point, describe};
 use dragonfly_runtime::{Context, Receiver};
 use std::sync::Arc;
 
-/// What others tell the panel.
+/// The messages of the panel.
 pub enum PanelMessage {
-    /// Show this from now on.
+    /// Show this view from now on.
     Show(View),
     /// The answer to a click.
     Picked(Option<usize>),
 }
 
-/// Shows the newest view, and sends on what the user does. It waits for nobody.
+/// Shows the newest view, and sends the user's actions. It never waits.
 pub struct Panel {
     view: View,
     selected: Option<usize>,
@@ -23,17 +23,17 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// An empty panel.
+    /// Returns an empty panel.
     pub fn new(document: DocumentHandle, viewport: ViewportHandle) -> Self {
         Self { view: Arc::new([]), selected: None, document, viewport }
     }
 
-    /// What it shows.
+    /// Returns the rows that it shows.
     pub fn rows(&self) -> Vec<String> {
         self.view.iter().map(describe).collect()
     }
 
-    /// The bone that was clicked last.
+    /// Returns the bone that was clicked last.
     pub fn selected(&self) -> Option<usize> {
         self.selected
     }
@@ -44,18 +44,18 @@ impl Panel {
     }
 
     // feature: begin
-    /// The user chooses a colour.
-    pub fn choose_colour(&self, bone: usize, colour: Colour) {
-        self.document.set_colour(bone, colour);
+    /// The user chooses a color.
+    pub fn choose_color(&self, bone: usize, color: Color) {
+        self.document.set_color(bone, color);
     }
 
-    /// The user clicks the eye beside a bone.
+    /// The user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         self.document.toggle_visible(bone);
     }
     // feature: end
 
-    /// The user clicks into the picture; the answer comes later.
+    /// The user clicks into the image; the answer arrives later.
     pub fn click(&self, point: Point) {
         self.viewport.pick(point);
     }

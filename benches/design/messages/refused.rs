@@ -1,8 +1,8 @@
-//! Mistakes that do not compile. Each example stands beside a right one that differs in the one line, so that it is
-//! this line that is refused; both are tested.
+//! Mistakes that do not compile. Each example follows a correct one that differs in one line, so that the compiler
+//! rejects this line; both are tested.
 //!
-//! # 1. Not everything that may come is handled
-//! A new message without its arm; so a new `Edit` cannot be forgotten in the document.
+//! # 1. A message is not handled
+//! A message without its arm; so a new `Edit` cannot be forgotten in the document.
 //! ```
 //! use dragonfly_study::design::messages::PanelMessage;
 //! fn receive(message: PanelMessage) {
@@ -22,7 +22,7 @@
 //! }
 //! ```
 //!
-//! # 2. What belongs to one thread is sent to another
+//! # 2. Data that belongs to one thread is sent to another
 //! ```
 //! use dragonfly_runtime::{Context, Receiver};
 //! use std::sync::Arc;
@@ -58,7 +58,7 @@
 //! }
 //! ```
 //!
-//! # 4. What was sent is used by its sender
+//! # 4. The sender uses a message that it has sent
 //! ```
 //! use dragonfly_study::design::messages::Edit;
 //! use dragonfly_runtime::Address;
@@ -76,7 +76,7 @@
 //! }
 //! ```
 //!
-//! # 5. What others read is changed
+//! # 5. Shared data is changed
 //! ```
 //! use dragonfly_study::design::messages::View;
 //! fn straighten(mut view: View) -> f32 {

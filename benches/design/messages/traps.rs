@@ -1,12 +1,12 @@
-//! Mistakes that compile. Each test makes one happen, every time: on a stage, where a test decides what is delivered
-//! when, or between two real threads that a barrier holds in place.
+//! Mistakes that compile. Each test makes one happen, deterministically: on a stage, where the test chooses the order
+//! of delivery, or between two OS threads synchronized by a barrier.
 
 use super::*;
 use dragonfly_runtime::{Address, Receiver, Stage, Thread};
 use std::sync::{Arc, Barrier, mpsc};
 use std::time::Duration;
 
-/// The editor on a stage, at rest, with two bones.
+/// Returns the editor on a stage, at rest, with two bones.
 fn editor() -> (Stage, [ThreadHandle; 3], Rc<RefCell<Panel>>) {
     let mut stage = Stage::new();
     let threads = ["main", "document", "graphics"].map(|name| stage.start(name));
@@ -17,34 +17,34 @@ fn editor() -> (Stage, [ThreadHandle; 3], Rc<RefCell<Panel>>) {
     (stage, threads, panel)
 }
 
-/// Asks the other one, in the middle of its own message, and waits.
+/// Asks the other asker in the middle of its own message, and waits.
 struct Asker {
-    /// Both are in the middle of a message; both have looked for their answer.
+    /// Both askers are in the middle of a message; both have looked for their answer.
     stations: Arc<[Barrier; 2]>,
     found: mpsc::Sender<bool>,
 }
 
-enum Question {
-    Begin { other: Address<Question> },
+enum AnswerRequest {
+    Begin { other: Address<AnswerRequest> },
     Ask { answer: mpsc::Sender<()> },
 }
 
 impl Receiver for Asker {
-    type Message = Question;
+    type Message = AnswerRequest;
 
-    fn receive(&mut self, question: Question, _: &mut Context) {
+    fn receive(&mut self, question: AnswerRequest, _: &mut Context) {
         match question {
-            Question::Begin { other } => {
+            AnswerRequest::Begin { other } => {
                 let (answer, answers) = mpsc::channel();
                 self.stations[0].wait();
-                other.send(Question::Ask { answer }).expect("it runs");
-                // Neither can answer before this very call returns: `recv()` would wait for ever.
+                other.send(AnswerRequest::Ask { answer }).expect("it runs");
+                // Neither can answer before this call returns: `recv()` would wait forever.
                 let found = answers.recv_timeout(Duration::from_millis(20)).is_ok();
                 self.stations[1].wait();
                 self.found.send(found).expect("the test listens");
             }
-            // Nobody listens any more when it comes.
-            Question::Ask { answer } => _ = answer.send(()),
+            // Fails only when the test has ended.
+            AnswerRequest::Ask { answer } => _ = answer.send(()),
         }
     }
 }
@@ -58,13 +58,13 @@ fn deadlock_by_waiting_for_an_answer_in_the_middle_of_a_message() {
         let (stations, found) = (Arc::clone(&stations), found.clone());
         thread.handle().register_receiver(move |_| Asker { stations, found })
     });
-    addresses[0].send(Question::Begin { other: addresses[1].clone() }).unwrap();
-    addresses[1].send(Question::Begin { other: addresses[0].clone() }).unwrap();
+    addresses[0].send(AnswerRequest::Begin { other: addresses[1].clone() }).unwrap();
+    addresses[1].send(AnswerRequest::Begin { other: addresses[0].clone() }).unwrap();
     let result = || results.recv_timeout(Duration::from_secs(10)).expect("both come back");
     assert_eq!([result(), result()], [false, false], "each waits for the other");
 }
 
-/// Passes on what it gets, for ever: two of these keep each other busy.
+/// Sends every message on, forever: two of these keep each other busy.
 struct Echo {
     to: Address<u32>,
 }
@@ -78,7 +78,7 @@ impl Receiver for Echo {
 }
 
 #[test]
-fn no_rest_by_messages_that_go_in_a_circle() {
+fn endless_activity_by_messages_in_a_circle() {
     let mut stage = Stage::new();
     let (left, right) = (stage.start("left"), stage.start("right"));
     let (to_left, to_right) = (left.reserve_address(), right.reserve_address());
@@ -96,19 +96,19 @@ fn no_rest_by_messages_that_go_in_a_circle() {
 }
 
 #[test]
-fn race_by_reading_a_view_and_sending_what_follows_from_it() {
+fn race_by_reading_a_view_and_sending_a_value_computed_from_it() {
     let (mut stage, _, panel) = editor();
     let turn = || {
         let row = panel.borrow().rows()[0].clone();
         let angle: f32 = row.split(' ').nth(1).unwrap().parse().unwrap();
         panel.borrow().drag_angle(0, angle + 1.0);
     };
-    // Twice before the view came back.
+    // Twice, before the view has arrived.
     turn();
     turn();
     assert!(stage.settle(10));
     assert_eq!(panel.borrow().rows()[0], "hip 1.00 #ffffff", "one of two is lost");
-    // The cure: an edit that says what to do, and leaves to the owner what comes of it.
+    // The fix: an edit that contains the operation, whose result the owner computes.
     panel.borrow().toggle_visible(0);
     panel.borrow().toggle_visible(0);
     panel.borrow().toggle_visible(0);
@@ -128,9 +128,9 @@ fn stale_view_until_the_new_one_is_delivered() {
 }
 
 #[test]
-fn stale_answer_by_two_ways_to_the_same_thread() {
+fn stale_answer_by_two_routes_to_the_same_thread() {
     let (mut stage, [main, document, graphics], panel) = editor();
-    // Hidden first, clicked second; but one goes by way of the document, the other straight to the viewport.
+    // Hidden first, clicked second; but one message is sent by way of the document, the other directly to the viewport.
     panel.borrow().toggle_visible(0);
     panel.borrow().click([0.5, 0.0]);
     stage.iterate(&graphics);
@@ -141,14 +141,14 @@ fn stale_answer_by_two_ways_to_the_same_thread() {
 }
 
 #[test]
-fn flood_by_a_sender_that_nobody_slows_down() {
+fn flood_by_a_sender_without_back_pressure() {
     let (stage, [_, document, _], panel) = editor();
     for step in 0..100_000 {
         panel.borrow().drag_angle(0, step as f32);
     }
     assert_eq!(document.queue_len(), 100_000, "all wait");
     drop(stage);
-    // The cure, where only the newest counts.
+    // The fix, where only the newest message counts.
     let (_stage, [_, document, _], _) = editor();
     let newest = document.reserve_address::<Edit>().latest();
     for step in 0..100_000 {
@@ -158,7 +158,7 @@ fn flood_by_a_sender_that_nobody_slows_down() {
 }
 
 #[test]
-fn lost_message_by_sending_to_who_is_gone() {
+fn lost_message_by_sending_to_a_removed_receiver() {
     let (mut stage, [_, document, _], _) = editor();
     let nobody = document.reserve_address::<Edit>();
     let before = document.counters().undeliverable;

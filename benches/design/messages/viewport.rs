@@ -4,14 +4,14 @@ use super::{PanelHandle, View};
 use crate::design::skeleton::{self, Line, Point};
 use dragonfly_runtime::{Context, Receiver, Worker};
 
-/// Where pictures go.
+/// Called with each image.
 pub type Screen = Box<dyn FnMut(&[Line])>;
 
-/// What others may ask of the viewport.
+/// The messages of the viewport.
 pub enum ViewportMessage {
-    /// Show this from now on.
+    /// Show this view from now on.
     Show(View),
-    /// Which bone is here? The panel gets the answer.
+    /// A request for the bone at this point. The panel receives the answer.
     Pick(Point),
 }
 
@@ -24,17 +24,17 @@ pub struct Viewport {
 }
 
 impl Viewport {
-    /// A viewport that has nothing to show yet.
+    /// Returns a viewport without a view.
     pub fn new(panel: PanelHandle, screen: Screen) -> Self {
         Self { newest: None, picture: Vec::new(), panel, screen }
     }
 
-    /// Draws `view` in the next frame, unless a newer one comes before.
+    /// Draws `view` in the next frame, unless a newer one arrives before.
     pub fn show(&mut self, view: View) {
         self.newest = Some(view);
     }
 
-    /// Tells the panel which bone of the last picture is at `point`.
+    /// Sends the panel the bone at `point` in the last image.
     pub fn pick(&self, point: Point) {
         self.panel.picked(skeleton::pick(&self.picture, point));
     }

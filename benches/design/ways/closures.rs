@@ -1,14 +1,14 @@
-//! The document and the panel once more, with closures for messages: as short as with a lock, and one owner all the
-//! same. What is lost is the edit as a value: it cannot be written into a journal, taken back, or seen in a trace.
+//! The document and the panel again, with closures as messages: as short as with a lock, and still with one owner. The
+//! edit is no longer a value, though: it cannot be written into a journal, undone, or shown in a trace.
 
 use crate::design::messages::{PanelMessage, View, ViewportHandle};
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::{Bone, Point, describe};
 use dragonfly_runtime::{Address, Context, Receiver};
 use std::sync::Arc;
 
-/// Anything that can be done to a bone.
-pub struct Change {
+/// A change of a bone.
+pub struct BoneChange {
     bone: usize,
     change: Box<dyn FnOnce(&mut Bone) + Send>,
 }
@@ -20,7 +20,7 @@ pub struct ClosureDocument {
 }
 
 impl ClosureDocument {
-    /// A document that shows itself at once, by `show`.
+    /// Returns a document that publishes its state at once, with `show`.
     pub fn new(bones: Vec<Bone>, show: impl Fn(View) + 'static) -> Self {
         show(bones.as_slice().into());
         Self { bones, show: Box::new(show) }
@@ -28,9 +28,9 @@ impl ClosureDocument {
 }
 
 impl Receiver for ClosureDocument {
-    type Message = Change;
+    type Message = BoneChange;
 
-    fn receive(&mut self, Change { bone, change }: Change, _: &mut Context) {
+    fn receive(&mut self, BoneChange { bone, change }: BoneChange, _: &mut Context) {
         if let Some(bone) = self.bones.get_mut(bone) {
             change(bone);
             (self.show)(self.bones.as_slice().into());
@@ -38,14 +38,14 @@ impl Receiver for ClosureDocument {
     }
 }
 
-/// The document's handle: it never grows.
+/// The document's handle, whose interface never grows.
 #[derive(Clone)]
-pub struct ClosureHandle(pub Address<Change>);
+pub struct ClosureHandle(pub Address<BoneChange>);
 
 impl ClosureHandle {
-    /// Does `change` to a bone, there and later.
+    /// Applies `change` to a bone, later and in the document's thread.
     pub fn edit(&self, bone: usize, change: impl FnOnce(&mut Bone) + Send + 'static) {
-        let _ = self.0.send(Change { bone, change: Box::new(change) });
+        let _ = self.0.send(BoneChange { bone, change: Box::new(change) });
     }
 }
 
@@ -58,17 +58,17 @@ pub struct ClosurePanel {
 }
 
 impl ClosurePanel {
-    /// An empty panel.
+    /// Returns an empty panel.
     pub fn new(document: ClosureHandle, viewport: ViewportHandle) -> Self {
         Self { view: Arc::new([]), selected: None, document, viewport }
     }
 
-    /// What it shows.
+    /// Returns the rows that it shows.
     pub fn rows(&self) -> Vec<String> {
         self.view.iter().map(describe).collect()
     }
 
-    /// The bone that was clicked last.
+    /// Returns the bone that was clicked last.
     pub fn selected(&self) -> Option<usize> {
         self.selected
     }
@@ -79,18 +79,18 @@ impl ClosurePanel {
     }
 
     // feature: begin
-    /// The user chooses a colour.
-    pub fn choose_colour(&self, bone: usize, colour: Colour) {
-        self.document.edit(bone, move |bone| bone.colour = colour);
+    /// The user chooses a color.
+    pub fn choose_color(&self, bone: usize, color: Color) {
+        self.document.edit(bone, move |bone| bone.color = color);
     }
 
-    /// The user clicks the eye beside a bone.
+    /// The user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         self.document.edit(bone, |bone| bone.visible = !bone.visible);
     }
     // feature: end
 
-    /// The user clicks into the picture; the answer comes later.
+    /// The user clicks into the image; the answer arrives later.
     pub fn click(&self, point: Point) {
         self.viewport.pick(point);
     }
@@ -116,7 +116,7 @@ mod tests {
     use std::rc::Rc;
 
     #[test]
-    fn closures_edit_as_well() {
+    fn closures_edit_the_document_too() {
         let mut stage = Stage::new();
         let [main, document] = ["main", "document"].map(|name| stage.start(name));
         let to_panel = main.reserve_address();
@@ -124,11 +124,11 @@ mod tests {
         let bones = vec![Bone::new("hip", 0.0)];
         let to_document =
             document.register_receiver(|_| ClosureDocument::new(bones, move |view| show.show(view)));
-        // Nobody draws here.
+        // Nothing is drawn here.
         let viewport = ViewportHandle(main.reserve_address());
         let panel = Rc::new(RefCell::new(ClosurePanel::new(ClosureHandle(to_document), viewport)));
         stage.context(&main).register_receiver_at(&to_panel, Rc::clone(&panel));
-        panel.borrow().choose_colour(0, [255, 0, 0]);
+        panel.borrow().choose_color(0, [255, 0, 0]);
         panel.borrow().toggle_visible(0);
         panel.borrow().drag_angle(0, 0.5);
         panel.borrow().click([0.5, 0.0]);

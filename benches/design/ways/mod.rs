@@ -1,9 +1,10 @@
-//! Other ways to send the same: messages named at every call, and closures. Only what differs from [`messages`] is here.
+//! Other ways to send the same edits: messages without handles, and closures. Contains only the differences from
+//! [`messages`].
 //!
 //! [`messages`]: super::messages
 
 mod closures;
 mod raw;
 
-pub use closures::{Change, ClosureDocument, ClosureHandle, ClosurePanel};
+pub use closures::{BoneChange, ClosureDocument, ClosureHandle, ClosurePanel};
 pub use raw::RawPanel;

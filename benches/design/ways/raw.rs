@@ -1,7 +1,7 @@
-//! The panel again, without handles: it names the messages and decides about their loss at every call.
+//! The panel again, without handles: each call names a message and handles the error of sending it.
 
 use crate::design::messages::{Edit, PanelMessage, View, ViewportMessage};
-use crate::design::skeleton::Colour; // feature
+use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::{Point, describe};
 use dragonfly_runtime::{Address, Context, Receiver};
 use std::sync::Arc;
@@ -15,17 +15,17 @@ pub struct RawPanel {
 }
 
 impl RawPanel {
-    /// An empty panel.
+    /// Returns an empty panel.
     pub fn new(document: Address<Edit>, viewport: Address<ViewportMessage>) -> Self {
         Self { view: Arc::new([]), selected: None, document, viewport }
     }
 
-    /// What it shows.
+    /// Returns the rows that it shows.
     pub fn rows(&self) -> Vec<String> {
         self.view.iter().map(describe).collect()
     }
 
-    /// The bone that was clicked last.
+    /// Returns the bone that was clicked last.
     pub fn selected(&self) -> Option<usize> {
         self.selected
     }
@@ -36,18 +36,18 @@ impl RawPanel {
     }
 
     // feature: begin
-    /// The user chooses a colour.
-    pub fn choose_colour(&self, bone: usize, colour: Colour) {
-        let _ = self.document.send(Edit::SetColour { bone, colour });
+    /// The user chooses a color.
+    pub fn choose_color(&self, bone: usize, color: Color) {
+        let _ = self.document.send(Edit::SetColor { bone, color });
     }
 
-    /// The user clicks the eye beside a bone.
+    /// The user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         let _ = self.document.send(Edit::ToggleVisible { bone });
     }
     // feature: end
 
-    /// The user clicks into the picture; the answer comes later.
+    /// The user clicks into the image; the answer arrives later.
     pub fn click(&self, point: Point) {
         let _ = self.viewport.send(ViewportMessage::Pick(point));
     }
@@ -74,7 +74,7 @@ mod tests {
     use std::rc::Rc;
 
     #[test]
-    fn a_panel_that_sends_its_messages_itself_does_the_same() {
+    fn a_panel_that_sends_its_messages_itself_works_the_same() {
         let bones = ["hip", "knee", "foot"].map(|name| Bone::new(name, 0.0)).to_vec();
         let mut stage = Stage::new();
         let [main, document, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
@@ -87,7 +87,7 @@ mod tests {
         let handles = (PanelHandle(panel_address), ViewportHandle(viewport_address));
         document.register_receiver_at(&document_address, move |_| Document::new(bones, handles.0, handles.1));
         assert!(stage.settle(10));
-        panel.borrow().choose_colour(0, [255, 128, 0]);
+        panel.borrow().choose_color(0, [255, 128, 0]);
         panel.borrow().toggle_visible(1);
         panel.borrow().drag_angle(2, 0.5);
         panel.borrow().click([0.5, 0.0]);

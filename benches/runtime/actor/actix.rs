@@ -1,22 +1,22 @@
 //! actix: an actor lives in an arbiter, which is an OS thread with a current-thread runtime of tokio.
 
-use crate::runtime::peer::{Message, Peer, Take};
+use crate::runtime::peer::{Message, OnMessage, Peer};
 use crate::runtime::work::threads;
 use ::actix::{Actor, ActorContext, Addr, Context, Handler, System};
 use std::sync::mpsc;
 use std::thread::JoinHandle;
 
-/// Hands on what it gets; tells its system to end when it has ended.
-pub struct Holder<M>(pub Take<M>);
+/// Passes its messages to a function; stops its system when it has ended.
+pub struct ActixConsumer<M>(pub OnMessage<M>);
 
-/// What actix calls a message.
+/// A message, as actix requires it.
 pub struct Parcel<M>(pub M);
 
 impl<M: Message> ::actix::Message for Parcel<M> {
     type Result = ();
 }
 
-impl<M: Message> Actor for Holder<M> {
+impl<M: Message> Actor for ActixConsumer<M> {
     type Context = Context<Self>;
 
     fn stopped(&mut self, _: &mut Self::Context) {
@@ -24,7 +24,7 @@ impl<M: Message> Actor for Holder<M> {
     }
 }
 
-impl<M: Message> Handler<Parcel<M>> for Holder<M> {
+impl<M: Message> Handler<Parcel<M>> for ActixConsumer<M> {
     type Result = ();
 
     fn handle(&mut self, message: Parcel<M>, context: &mut Self::Context) {
@@ -34,19 +34,19 @@ impl<M: Message> Handler<Parcel<M>> for Holder<M> {
     }
 }
 
-/// A system, and so an OS thread, for each actor. Told with `do_send`, which ignores the mailbox's limit and is the
-/// cheapest of its ways to send.
+/// A system, and so an OS thread, for each actor. Uses `do_send`, which ignores the mailbox's limit and is the fastest
+/// way to send.
 pub struct Actix;
 
 impl Peer for Actix {
-    type Address<M: Message> = Addr<Holder<M>>;
+    type Address<M: Message> = Addr<ActixConsumer<M>>;
     type Running = JoinHandle<()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let (tell, address) = mpsc::channel();
         let thread = threads::start("consumer", move || {
             let system = System::new();
-            system.block_on(async { _ = tell.send(Holder(take).start()) });
+            system.block_on(async { _ = tell.send(ActixConsumer(take).start()) });
             system.run().expect("the system ends well");
         });
         (address.recv().expect("the actor starts"), thread)

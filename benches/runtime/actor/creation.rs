@@ -1,9 +1,9 @@
-//! What it costs to make an actor, to send it its first message, and to keep it while it does nothing.
+//! Cost of creating an actor, of its first message, and of an idle actor's memory.
 
-use super::local::Local;
+use super::local::LocalPeer;
 use super::tonari::Tonari;
-use crate::Measured;
-use crate::runtime::peer::{Message, Peer, Small};
+use crate::RunValues;
+use crate::runtime::peer::{Message, Peer, SmallMessage};
 use dragonfly_kit::counting;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -11,15 +11,15 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use tokio::sync::oneshot;
 
-/// Writes down what `count` actors took. The memory is the most that was held at any time from before the first to
-/// behind the message of the last; without the stacks of threads, which the allocator does not see.
+/// Records the cost of `count` actors. The memory is the peak between the creation of the first actor and the delivery
+/// of the last message, without the stacks of threads, which the allocator does not see.
 pub fn write(
     count: u64,
     made: Duration,
     used: Duration,
     ended: Duration,
     bytes: u64,
-    measured: &mut Measured,
+    measured: &mut RunValues,
 ) {
     let each = |time: Duration| time.as_nanos() as f64 / count as f64;
     measured.value("make", "ns", each(made));
@@ -28,8 +28,8 @@ pub fn write(
     measured.value("memory", "bytes", bytes as f64 / count as f64);
 }
 
-/// With the actors of `P`, all on this thread.
-pub fn run<P: Local>(count: u64, measured: &mut Measured) {
+/// Measures the actors of `P`, all on this thread.
+pub fn run<P: LocalPeer>(count: u64, measured: &mut RunValues) {
     let mut stage = P::stage();
     let (tell, over) = oneshot::channel();
     let tell = Arc::new(Mutex::new(Some(tell)));
@@ -38,7 +38,7 @@ pub fn run<P: Local>(count: u64, measured: &mut Measured) {
     let mut used = Duration::ZERO;
     let (bytes, actors) = counting::peak(|| {
         let begin = Instant::now();
-        let actors: Vec<P::Address<Small>> = (0..count)
+        let actors: Vec<P::Address<SmallMessage>> = (0..count)
             .map(|_| {
                 let (left, tell) = (Arc::clone(&left), Arc::clone(&tell));
                 let take = move |_| {
@@ -48,12 +48,12 @@ pub fn run<P: Local>(count: u64, measured: &mut Measured) {
                     }
                     ControlFlow::Continue(())
                 };
-                P::start_in::<Small>(&mut stage, Box::new(take))
+                P::start_in::<SmallMessage>(&mut stage, Box::new(take))
             })
             .collect();
         made = begin.elapsed();
         let begin = Instant::now();
-        actors.iter().for_each(|actor| P::send(actor, Small::of(0)));
+        actors.iter().for_each(|actor| P::send(actor, SmallMessage::of(0)));
         P::run(&mut stage, over);
         used = begin.elapsed();
         actors
@@ -64,17 +64,17 @@ pub fn run<P: Local>(count: u64, measured: &mut Measured) {
     write(count, made, used, begin.elapsed(), bytes, measured);
 }
 
-/// With the actors of tonari-actor, which have an OS thread each.
-pub fn threads(count: u64, measured: &mut Measured) {
+/// Measures the actors of tonari-actor, which have an OS thread each.
+pub fn threads(count: u64, measured: &mut RunValues) {
     let mut all = Vec::new();
     let begin = Instant::now();
     let (bytes, made) = counting::peak(|| {
-        all.extend((0..count).map(|_| Tonari::start::<Small>(Box::new(|_| ControlFlow::Break(())))));
+        all.extend((0..count).map(|_| Tonari::start::<SmallMessage>(Box::new(|_| ControlFlow::Break(())))));
         begin.elapsed()
     });
     let begin = Instant::now();
-    all.iter().for_each(|(address, _)| Tonari::send(address, Small::of(0)));
-    all.iter().for_each(|(_, running)| running.had_its_last());
+    all.iter().for_each(|(address, _)| Tonari::send(address, SmallMessage::of(0)));
+    all.iter().for_each(|(_, running)| running.wait_for_last_message());
     let used = begin.elapsed();
     let begin = Instant::now();
     all.into_iter().for_each(|(_, running)| running.end());

@@ -1,6 +1,6 @@
-//! kameo: an actor is a task of tokio, its mailbox one of tokio's channels.
+//! kameo: an actor is a tokio task, and its mailbox is a tokio channel.
 
-use crate::runtime::peer::{Message, Peer, Take};
+use crate::runtime::peer::{Message, OnMessage, Peer};
 use crate::runtime::work::threads;
 use ::kameo::Actor;
 use ::kameo::actor::{ActorRef, Spawn};
@@ -11,10 +11,10 @@ use std::sync::{LazyLock, mpsc};
 use std::thread::JoinHandle;
 use tokio::runtime::{Builder, Runtime};
 
-/// Hands on what it gets.
-pub struct Holder<M: Message>(pub Take<M>);
+/// Passes its messages to a function.
+pub struct KameoConsumer<M: Message>(pub OnMessage<M>);
 
-impl<M: Message> Actor for Holder<M> {
+impl<M: Message> Actor for KameoConsumer<M> {
     type Args = Self;
     type Error = Infallible;
 
@@ -23,7 +23,7 @@ impl<M: Message> Actor for Holder<M> {
     }
 }
 
-impl<M: Message> message::Message<M> for Holder<M> {
+impl<M: Message> message::Message<M> for KameoConsumer<M> {
     type Reply = ();
 
     async fn handle(&mut self, message: M, context: &mut Context<Self, ()>) {
@@ -33,20 +33,20 @@ impl<M: Message> message::Message<M> for Holder<M> {
     }
 }
 
-/// Starts one with an unbounded mailbox in the runtime that the caller is in.
-pub fn start<M: Message>(take: Take<M>) -> ActorRef<Holder<M>> {
-    Holder::spawn_with_mailbox(Holder(take), mailbox::unbounded())
+/// Starts an actor with an unbounded mailbox in the caller's runtime.
+pub fn start<M: Message>(take: OnMessage<M>) -> ActorRef<KameoConsumer<M>> {
+    KameoConsumer::spawn_with_mailbox(KameoConsumer(take), mailbox::unbounded())
 }
 
-/// Unbounded mailbox, told with `try_send`, which for such a mailbox never fails and needs no runtime at the sender;
-/// each actor has an OS thread with a current-thread runtime. For one consumer that is faster than several workers.
-pub struct CurrentThread;
+/// Unbounded mailbox and `try_send`, which never fails for such a mailbox and needs no runtime at the sender; each
+/// actor has an OS thread with a current-thread runtime. For one consumer that is faster than several workers.
+pub struct KameoCurrentThread;
 
-impl Peer for CurrentThread {
-    type Address<M: Message> = ActorRef<Holder<M>>;
+impl Peer for KameoCurrentThread {
+    type Address<M: Message> = ActorRef<KameoConsumer<M>>;
     type Running = JoinHandle<()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let (tell, address) = mpsc::channel();
         let thread = threads::start("consumer", move || {
             current_thread().block_on(async {
@@ -67,16 +67,16 @@ impl Peer for CurrentThread {
     }
 }
 
-/// The same on tokio's usual runtime with two workers, which all actors share. tokio runs a task that another wakes on
-/// the same worker where it can: two actors that answer each other then never cross threads.
-pub struct TwoWorkers;
+/// The same on tokio's default runtime with two workers, which all actors share. tokio runs a task that another one
+/// wakes on the same worker where possible, so two actors that answer each other never cross threads.
+pub struct KameoTwoWorkers;
 
-impl Peer for TwoWorkers {
+impl Peer for KameoTwoWorkers {
     const MIGRATES: bool = true;
-    type Address<M: Message> = ActorRef<Holder<M>>;
+    type Address<M: Message> = ActorRef<KameoConsumer<M>>;
     type Running = Box<dyn FnOnce()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let _inside = two_workers().enter();
         let actor = start(take);
         let other = actor.clone();
@@ -84,7 +84,7 @@ impl Peer for TwoWorkers {
     }
 
     fn send<M: Message>(address: &Self::Address<M>, message: M) {
-        CurrentThread::send(address, message);
+        KameoCurrentThread::send(address, message);
     }
 
     fn wait(running: Self::Running) {
@@ -92,12 +92,12 @@ impl Peer for TwoWorkers {
     }
 }
 
-/// A runtime for the thread that it is made in.
+/// Returns a runtime for the calling thread.
 pub fn current_thread() -> Runtime {
     Builder::new_current_thread().build().expect("the system has what it needs")
 }
 
-/// The runtime that the variants with two workers share.
+/// Returns the runtime that the variants with two workers share.
 pub fn two_workers() -> &'static Runtime {
     static SHARED: LazyLock<Runtime> = LazyLock::new(|| {
         Builder::new_multi_thread().worker_threads(2).build().expect("the system has threads left")

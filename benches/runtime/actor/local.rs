@@ -1,39 +1,38 @@
-//! Many actors on the one thread that measures: nobody has to be woken, so what remains is the cost of a message, and
-//! of an actor.
+//! Many actors on the measuring thread: no thread is woken, so only the cost of messages and actors is measured.
 
 use super::{actix, kameo, ractor};
-use crate::runtime::own::peer::{Dragonfly, Sink};
-use crate::runtime::peer::{Message, Peer, Take};
+use crate::runtime::own::peer::{ConsumerReceiver, Dragonfly};
+use crate::runtime::peer::{Message, OnMessage, Peer};
 use ::actix::{Actor, SystemRunner};
 use dragonfly_runtime::{Captured, Next, Thread};
 use std::marker::PhantomData;
 use tokio::runtime::Runtime;
 use tokio::sync::oneshot;
 
-/// A peer whose actors can live on the calling thread.
-pub trait Local: Peer {
-    /// What they live in.
+/// A peer whose actors can run on the calling thread.
+pub trait LocalPeer: Peer {
+    /// The environment of the actors.
     type Stage;
 
-    /// Makes it.
+    /// Creates the environment.
     fn stage() -> Self::Stage;
 
-    /// Makes an actor there.
-    fn start_in<M: Message>(stage: &mut Self::Stage, take: Take<M>) -> Self::Address<M>;
+    /// Starts an actor in the environment.
+    fn start_in<M: Message>(stage: &mut Self::Stage, take: OnMessage<M>) -> Self::Address<M>;
 
-    /// Runs them until one of them says that it is over.
+    /// Runs the actors until one of them sends to `over`.
     fn run(stage: &mut Self::Stage, over: oneshot::Receiver<()>);
 }
 
-impl Local for Dragonfly {
+impl LocalPeer for Dragonfly {
     type Stage = Captured;
 
     fn stage() -> Captured {
         Thread::capture("local", || {})
     }
 
-    fn start_in<M: Message>(stage: &mut Captured, take: Take<M>) -> Self::Address<M> {
-        stage.context().register_receiver(Sink::new(take))
+    fn start_in<M: Message>(stage: &mut Captured, take: OnMessage<M>) -> Self::Address<M> {
+        stage.context().register_receiver(ConsumerReceiver::new(take))
     }
 
     fn run(stage: &mut Captured, mut over: oneshot::Receiver<()>) {
@@ -45,14 +44,14 @@ impl Local for Dragonfly {
     }
 }
 
-impl Local for kameo::CurrentThread {
+impl LocalPeer for kameo::KameoCurrentThread {
     type Stage = Runtime;
 
     fn stage() -> Runtime {
         kameo::current_thread()
     }
 
-    fn start_in<M: Message>(stage: &mut Runtime, take: Take<M>) -> Self::Address<M> {
+    fn start_in<M: Message>(stage: &mut Runtime, take: OnMessage<M>) -> Self::Address<M> {
         let _inside = stage.enter();
         kameo::start(take)
     }
@@ -62,16 +61,16 @@ impl Local for kameo::CurrentThread {
     }
 }
 
-impl Local for ractor::CurrentThread {
+impl LocalPeer for ractor::RactorCurrentThread {
     type Stage = Runtime;
 
     fn stage() -> Runtime {
         kameo::current_thread()
     }
 
-    fn start_in<M: Message>(stage: &mut Runtime, take: Take<M>) -> Self::Address<M> {
+    fn start_in<M: Message>(stage: &mut Runtime, take: OnMessage<M>) -> Self::Address<M> {
         let _inside = stage.enter();
-        let actor = ractor::Holder(PhantomData);
+        let actor = ractor::RactorConsumer(PhantomData);
         let (address, _) = ::ractor::ActorRuntime::spawn_instant(None, actor, take).expect("it starts");
         address
     }
@@ -81,15 +80,15 @@ impl Local for ractor::CurrentThread {
     }
 }
 
-impl Local for actix::Actix {
+impl LocalPeer for actix::Actix {
     type Stage = SystemRunner;
 
     fn stage() -> SystemRunner {
         ::actix::System::new()
     }
 
-    fn start_in<M: Message>(stage: &mut SystemRunner, take: Take<M>) -> Self::Address<M> {
-        stage.block_on(async { actix::Holder(take).start() })
+    fn start_in<M: Message>(stage: &mut SystemRunner, take: OnMessage<M>) -> Self::Address<M> {
+        stage.block_on(async { actix::ActixConsumer(take).start() })
     }
 
     fn run(stage: &mut SystemRunner, over: oneshot::Receiver<()>) {

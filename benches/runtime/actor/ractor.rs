@@ -1,22 +1,26 @@
-//! ractor: an actor is a task of tokio with four of its channels; that for messages is always unbounded.
+//! ractor: an actor is a tokio task with four tokio channels; the one for messages is always unbounded.
 
 use super::kameo::{current_thread, two_workers};
-use crate::runtime::peer::{Message, Peer, Take};
+use crate::runtime::peer::{Message, OnMessage, Peer};
 use crate::runtime::work::threads;
 use ::ractor::{Actor, ActorProcessingErr, ActorRef};
 use std::marker::PhantomData;
 use std::sync::mpsc;
 use std::thread::JoinHandle;
 
-/// Hands on what it gets. What takes it is the actor's state, as ractor wants it.
-pub struct Holder<M>(pub PhantomData<M>);
+/// Passes its messages to a function, which is the actor's state, as ractor requires.
+pub struct RactorConsumer<M>(pub PhantomData<M>);
 
-impl<M: Message> Actor for Holder<M> {
+impl<M: Message> Actor for RactorConsumer<M> {
     type Msg = M;
-    type State = Take<M>;
-    type Arguments = Take<M>;
+    type State = OnMessage<M>;
+    type Arguments = OnMessage<M>;
 
-    async fn pre_start(&self, _: ActorRef<M>, take: Take<M>) -> Result<Take<M>, ActorProcessingErr> {
+    async fn pre_start(
+        &self,
+        _: ActorRef<M>,
+        take: OnMessage<M>,
+    ) -> Result<OnMessage<M>, ActorProcessingErr> {
         Ok(take)
     }
 
@@ -24,7 +28,7 @@ impl<M: Message> Actor for Holder<M> {
         &self,
         own: ActorRef<M>,
         message: M,
-        take: &mut Take<M>,
+        take: &mut OnMessage<M>,
     ) -> Result<(), ActorProcessingErr> {
         if take(message).is_break() {
             own.stop(None);
@@ -33,19 +37,21 @@ impl<M: Message> Actor for Holder<M> {
     }
 }
 
-/// Sent with `send_message` (`cast`), which needs no runtime at the sender; each actor has an OS thread with a
-/// current-thread runtime. Built without `message_span_propogation`, which costs it a look at the thread's span.
-pub struct CurrentThread;
+/// Uses `send_message` (`cast`), which needs no runtime at the sender; each actor has an OS thread with a
+/// current-thread runtime. Built without `message_span_propogation`, which would read the thread's tracing span for
+/// each message.
+pub struct RactorCurrentThread;
 
-impl Peer for CurrentThread {
+impl Peer for RactorCurrentThread {
     type Address<M: Message> = ActorRef<M>;
     type Running = JoinHandle<()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let (tell, address) = mpsc::channel();
         let thread = threads::start("consumer", move || {
             current_thread().block_on(async {
-                let (actor, end) = Actor::spawn(None, Holder(PhantomData), take).await.expect("it starts");
+                let (actor, end) =
+                    Actor::spawn(None, RactorConsumer(PhantomData), take).await.expect("it starts");
                 let _ = tell.send(actor);
                 end.await.expect("it ends well");
             });
@@ -62,20 +68,21 @@ impl Peer for CurrentThread {
     }
 }
 
-/// The same on tokio's usual runtime with two workers, which all actors share; see there for what follows.
-pub struct TwoWorkers;
+/// The same on tokio's default runtime with two workers, which all actors share; see
+/// [`KameoTwoWorkers`](super::kameo::KameoTwoWorkers) for the consequence.
+pub struct RactorTwoWorkers;
 
-impl Peer for TwoWorkers {
+impl Peer for RactorTwoWorkers {
     const MIGRATES: bool = true;
     type Address<M: Message> = ActorRef<M>;
     type Running = ::ractor::concurrency::JoinHandle<()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
-        two_workers().block_on(Actor::spawn(None, Holder(PhantomData), take)).expect("it starts")
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
+        two_workers().block_on(Actor::spawn(None, RactorConsumer(PhantomData), take)).expect("it starts")
     }
 
     fn send<M: Message>(address: &Self::Address<M>, message: M) {
-        CurrentThread::send(address, message);
+        RactorCurrentThread::send(address, message);
     }
 
     fn wait(running: Self::Running) {

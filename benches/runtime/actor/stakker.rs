@@ -1,13 +1,13 @@
-//! stakker: all actors of a process on one thread, which the program's own loop drives; calls are closures, laid one
-//! behind the other into one piece of memory.
+//! stakker: all actors of a process run on one thread, in a loop of the program; calls are closures, stored one after
+//! another in one block of memory.
 //!
-//! Its default features are its fastest, and bind it to the one OS thread that makes the first of them: here the one
-//! that measures. So it is both the consumer and, in [`Stakker::wait`], the loop.
+//! With its default features, which are the fastest, it is bound to the first OS thread that uses it: here the
+//! measuring thread. So that thread is both the consumer and, in [`Stakker::wait`], the loop.
 
-use crate::runtime::peer::{Message, Peer, Small, Take};
-use crate::runtime::work::round_trip::{self, First, Plan, Step};
-use crate::runtime::work::threads::{self, Place};
-use crate::{Distribution, Measured};
+use crate::runtime::peer::{Message, OnMessage, Peer, SmallMessage};
+use crate::runtime::work::round_trip::{self, First, RoundTripPlan, RoundTripStep};
+use crate::runtime::work::threads::{self, CoreChoice};
+use crate::{Distribution, RunValues};
 use ::stakker::sync::{Channel, ChannelGuard, PipedThread};
 use ::stakker::{ActorOwn, CX, Fwd, call, fwd_do, fwd_to, ret_shutdown};
 use std::ops::ControlFlow;
@@ -16,14 +16,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Hands on what it gets.
-struct Holder<M: Message> {
-    take: Take<M>,
+/// Passes its messages to a function.
+struct StakkerConsumer<M: Message> {
+    take: OnMessage<M>,
     _open: ChannelGuard,
 }
 
-impl<M: Message> Holder<M> {
-    fn init(_: CX![], take: Take<M>, open: ChannelGuard) -> Option<Self> {
+impl<M: Message> StakkerConsumer<M> {
+    fn init(_: CX![], take: OnMessage<M>, open: ChannelGuard) -> Option<Self> {
         Some(Self { take, _open: open })
     }
 
@@ -34,19 +34,21 @@ impl<M: Message> Holder<M> {
     }
 }
 
-/// What other threads send comes through its `Channel`; the loop sleeps in `park`, from which its waker wakes it.
+/// Messages from other threads arrive through a `Channel`; the loop sleeps in `park` and is woken by the channel's
+/// waker.
 pub struct Stakker;
 
 impl Peer for Stakker {
     type Address<M: Message> = Channel<M>;
     type Running = (Loop, Box<dyn std::any::Any>);
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let mut stakker = Loop::new();
         let core = &mut stakker.stakker;
-        let actor: ActorOwn<Holder<M>> = ::stakker::actor_new!(core, Holder<M>, ret_shutdown!(core));
+        let actor: ActorOwn<StakkerConsumer<M>> =
+            ::stakker::actor_new!(core, StakkerConsumer<M>, ret_shutdown!(core));
         let (channel, open) = Channel::new(core, fwd_to!([actor], receive() as (M)));
-        call!([actor], <Holder<M>>::init(take, open));
+        call!([actor], <StakkerConsumer<M>>::init(take, open));
         (channel, (stakker, Box::new(actor)))
     }
 
@@ -59,10 +61,10 @@ impl Peer for Stakker {
     }
 }
 
-/// The loop that its documentation shows, with a sleep that other threads can end.
+/// The loop of stakker's documentation, with a sleep that other threads can interrupt.
 pub struct Loop {
     stakker: ::stakker::Stakker,
-    /// Beside the thread's own mark, which whatever parks in a call of an actor takes away.
+    /// A flag in addition to the thread's park token, which a `park` inside an actor's call would consume.
     woken: Arc<AtomicBool>,
 }
 
@@ -93,19 +95,25 @@ impl Loop {
     }
 }
 
-/// An actor that sends to a thread of stakker's own making, which sends back.
+/// An actor that sends to a stakker `PipedThread`, which sends back.
 struct Traveller {
     first: First,
-    away: PipedThread<Small, Small>,
+    away: PipedThread<SmallMessage, SmallMessage>,
     _open: ChannelGuard,
 }
 
 impl Traveller {
-    fn init(cx: CX![], first: First, plan: Plan, place: Option<Place>, open: ChannelGuard) -> Option<Self> {
-        let home: Fwd<Small> = fwd_to!([cx], receive() as (Small));
+    fn init(
+        cx: CX![],
+        first: First,
+        plan: RoundTripPlan,
+        place: Option<CoreChoice>,
+        open: ChannelGuard,
+    ) -> Option<Self> {
+        let home: Fwd<SmallMessage> = fwd_to!([cx], receive() as (SmallMessage));
         let away = PipedThread::spawn(home, fwd_do!(|_| ()), cx, move |link| {
             let mut back = round_trip::second(plan);
-            // Where it cannot be bound, nor can the other end, and nothing is written down.
+            // If this thread cannot be bound, neither can the other one, and nothing is recorded.
             place.map(threads::stay);
             while let Some(ping) = link.recv() {
                 link.send(ping);
@@ -117,23 +125,23 @@ impl Traveller {
         Some(Self { first, away, _open: open })
     }
 
-    fn receive(&mut self, cx: CX![], message: Small) {
+    fn receive(&mut self, cx: CX![], message: SmallMessage) {
         match self.first.take(message) {
-            Step::Send(ping) => self.away.send(ping),
-            Step::Wait => {}
-            Step::End => cx.stop(),
+            RoundTripStep::Send(ping) => self.away.send(ping),
+            RoundTripStep::Wait => {}
+            RoundTripStep::End => cx.stop(),
         }
     }
 }
 
-/// Round trips in stakker's way: there cannot be a second one, so the other end is its `PipedThread`.
-pub fn round_trips(plan: Plan, measured: &mut Measured) {
+/// Round trips in stakker: there cannot be a second instance, so the other end is a `PipedThread`.
+pub fn round_trips(plan: RoundTripPlan, measured: &mut RunValues) {
     measured.distribution("trip", &trips(plan, None));
 }
 
-/// The same, both ends bound to their places.
-pub fn placed(plan: Plan, [away, here]: [Place; 2], measured: &mut Measured) {
-    // It runs on the thread that measures, which is let go afterwards.
+/// The same with both ends bound to cores.
+pub fn placed(plan: RoundTripPlan, [away, here]: [CoreChoice; 2], measured: &mut RunValues) {
+    // It runs on the measuring thread, which is unbound afterwards.
     if threads::stay(here) {
         let all = trips(plan, Some(away));
         if threads::roam() {
@@ -142,12 +150,12 @@ pub fn placed(plan: Plan, [away, here]: [Place; 2], measured: &mut Measured) {
     }
 }
 
-fn trips(plan: Plan, away: Option<Place>) -> Distribution {
+fn trips(plan: RoundTripPlan, away: Option<CoreChoice>) -> Distribution {
     let (first, result) = First::new(plan);
     let mut stakker = Loop::new();
     let core = &mut stakker.stakker;
     let actor: ActorOwn<Traveller> = ::stakker::actor_new!(core, Traveller, ret_shutdown!(core));
-    let (channel, open) = Channel::new(core, fwd_to!([actor], receive() as (Small)));
+    let (channel, open) = Channel::new(core, fwd_to!([actor], receive() as (SmallMessage)));
     call!([actor], Traveller::init(first, plan, away, open));
     let result = round_trip::ask(plan, result, move |message| Stakker::send(&channel, message));
     stakker.run();

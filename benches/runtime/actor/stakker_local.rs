@@ -1,22 +1,22 @@
-//! stakker within its thread: a call from one actor to another is a closure on its queue.
+//! stakker within its thread: a call from one actor to another is a closure in its queue.
 
-use super::chain::{self, Plan, Score, Turn};
+use super::chain::{self, ChainPlan, ChainTurn, Score};
 use super::creation;
-use crate::Measured;
-use crate::runtime::peer::{Message, Small};
+use crate::RunValues;
+use crate::runtime::peer::{Message, SmallMessage};
 use ::stakker::{Actor, ActorOwn, CX, Stakker, actor, call, ret_nop};
 use dragonfly_kit::counting;
 use std::cell::Cell;
 use std::rc::Rc;
 use std::time::Instant;
 
-struct Source<M: Message> {
-    sink: Actor<Sink<M>>,
-    plan: Plan,
+struct BatchSource<M: Message> {
+    sink: Actor<BatchSink<M>>,
+    plan: ChainPlan,
 }
 
-impl<M: Message> Source<M> {
-    fn init(_: CX![], sink: Actor<Sink<M>>, plan: Plan) -> Option<Self> {
+impl<M: Message> BatchSource<M> {
+    fn init(_: CX![], sink: Actor<BatchSink<M>>, plan: ChainPlan) -> Option<Self> {
         Some(Self { sink, plan })
     }
 
@@ -28,68 +28,68 @@ impl<M: Message> Source<M> {
     }
 }
 
-struct Sink<M: Message> {
+struct BatchSink<M: Message> {
     score: Score,
-    source: Actor<Source<M>>,
+    source: Actor<BatchSource<M>>,
 }
 
-impl<M: Message> Sink<M> {
-    fn init(_: CX![], score: Score, source: Actor<Source<M>>) -> Option<Self> {
+impl<M: Message> BatchSink<M> {
+    fn init(_: CX![], score: Score, source: Actor<BatchSource<M>>) -> Option<Self> {
         Some(Self { score, source })
     }
 
     fn receive(&mut self, cx: CX![], message: M) {
         match self.score.add(message) {
-            Turn::Wait => {}
-            Turn::Again => call!([self.source, cx], send()),
-            Turn::Over => cx.stop(),
+            ChainTurn::Wait => {}
+            ChainTurn::Again => call!([self.source, cx], send()),
+            ChainTurn::Over => cx.stop(),
         }
     }
 }
 
-/// As [`chain::run`].
-pub fn chain<M: Message>(plan: Plan, measured: &mut Measured) {
+/// Like [`chain::run`].
+pub fn chain<M: Message>(plan: ChainPlan, measured: &mut RunValues) {
     let (score, result) = Score::new(plan);
     let mut stakker = Stakker::new(Instant::now());
     let core = &mut stakker;
-    let source: ActorOwn<Source<M>> = ::stakker::actor_new!(core, Source<M>, ret_nop!());
-    let sink: ActorOwn<Sink<M>> = ::stakker::actor_new!(core, Sink<M>, ret_nop!());
-    call!([source], <Source<M>>::init(sink.clone(), plan));
-    call!([sink], <Sink<M>>::init(score, source.clone()));
+    let source: ActorOwn<BatchSource<M>> = ::stakker::actor_new!(core, BatchSource<M>, ret_nop!());
+    let sink: ActorOwn<BatchSink<M>> = ::stakker::actor_new!(core, BatchSink<M>, ret_nop!());
+    call!([source], <BatchSource<M>>::init(sink.clone(), plan));
+    call!([sink], <BatchSink<M>>::init(score, source.clone()));
     call!([source], send());
     core.run(Instant::now(), false);
     chain::write(plan, &result, measured);
 }
 
-/// An actor that counts.
-struct Idle {
+/// An actor that counts its messages.
+struct CountingActor {
     left: Rc<Cell<u64>>,
 }
 
-impl Idle {
+impl CountingActor {
     fn init(_: CX![], left: Rc<Cell<u64>>) -> Option<Self> {
         Some(Self { left })
     }
 
-    fn receive(&mut self, _: CX![], _: Small) {
+    fn receive(&mut self, _: CX![], _: SmallMessage) {
         self.left.set(self.left.get() - 1);
     }
 }
 
-/// As [`creation::run`].
-pub fn creation(count: u64, measured: &mut Measured) {
+/// Like [`creation::run`].
+pub fn creation(count: u64, measured: &mut RunValues) {
     let mut stakker = Stakker::new(Instant::now());
     let left = Rc::new(Cell::new(count));
     let begin = Instant::now();
     let (bytes, (actors, made, used)) = counting::peak(|| {
         let core = &mut stakker;
-        let actors: Vec<ActorOwn<Idle>> =
-            (0..count).map(|_| actor!(core, Idle::init(Rc::clone(&left)), ret_nop!())).collect();
+        let actors: Vec<ActorOwn<CountingActor>> =
+            (0..count).map(|_| actor!(core, CountingActor::init(Rc::clone(&left)), ret_nop!())).collect();
         core.run(Instant::now(), false);
         let made = begin.elapsed();
         let begin = Instant::now();
         for actor in &actors {
-            let message = Small::of(0);
+            let message = SmallMessage::of(0);
             call!([actor], receive(message));
         }
         core.run(Instant::now(), false);

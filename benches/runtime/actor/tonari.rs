@@ -1,17 +1,17 @@
-//! tonari-actor: one OS thread an actor, which selects among three channels of flume.
+//! tonari-actor: one OS thread for each actor, which selects from three flume channels.
 
-use crate::runtime::peer::{Message, Peer, Take};
+use crate::runtime::peer::{Message, OnMessage, Peer};
 use std::ops::ControlFlow;
 use std::sync::mpsc;
 use tonari_actor::{Actor, Addr, Capacity, Context, System};
 
-/// Hands on what it gets.
-pub struct Holder<M> {
-    take: Take<M>,
+/// Passes its messages to a function.
+pub struct TonariConsumer<M> {
+    take: OnMessage<M>,
     ended: mpsc::Sender<()>,
 }
 
-impl<M: Message> Actor for Holder<M> {
+impl<M: Message> Actor for TonariConsumer<M> {
     type Message = M;
     type Error = String;
     type Context = Context<M>;
@@ -24,23 +24,23 @@ impl<M: Message> Actor for Holder<M> {
     }
 }
 
-/// Its inboxes are bounded, by 5 messages unless something else is said. Here by more than are ever sent, so that
-/// a send never fails.
+/// Its inboxes are bounded, by default to 5 messages. Here the bound is larger than the number of messages ever sent,
+/// so that a send never fails.
 pub struct Tonari;
 
-/// An actor, what says that it had its last message, and the system that ends its thread.
-pub struct Running {
+/// A running actor: the channel that signals its last message, and the system that ends its thread.
+pub struct TonariRunning {
     ended: mpsc::Receiver<()>,
     system: System,
 }
 
-impl Running {
-    /// Waits until it had its last message.
-    pub fn had_its_last(&self) {
+impl TonariRunning {
+    /// Waits until the actor has received its last message.
+    pub fn wait_for_last_message(&self) {
         self.ended.recv().expect("it tells");
     }
 
-    /// Ends its thread.
+    /// Ends the actor's thread.
     pub fn end(self) {
         self.system.shutdown().expect("its thread ends well");
     }
@@ -48,17 +48,17 @@ impl Running {
 
 impl Peer for Tonari {
     type Address<M: Message> = Addr<M>;
-    type Running = Running;
+    type Running = TonariRunning;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let mut system = System::new("peer");
         let (tell, ended) = mpsc::channel();
-        // The factory, because the actor itself could only be made here if it were `Send` and `Sync` alike.
-        let actor = system.prepare_fn(move || Holder { take, ended: tell });
+        // Uses the factory, because an actor can be made here only if it is both `Send` and `Sync`.
+        let actor = system.prepare_fn(move || TonariConsumer { take, ended: tell });
         let capacity = Capacity { normal: 1 << 30, high: 5 };
         (
             actor.with_capacity(capacity).spawn().expect("the system has a thread left"),
-            Running { ended, system },
+            TonariRunning { ended, system },
         )
     }
 
@@ -67,7 +67,7 @@ impl Peer for Tonari {
     }
 
     fn wait(running: Self::Running) {
-        running.had_its_last();
+        running.wait_for_last_message();
         running.end();
     }
 }

@@ -1,27 +1,27 @@
-//! The three kinds of addresses under a sender that does not stop: what a send costs, how long the queue gets, and what
-//! becomes of the messages.
+//! The three flavors of addresses with a sender at full speed: cost of a send, length of the queue, and number of
+//! replaced and refused messages.
 
-use super::peer::{Sink, wait_for};
-use crate::runtime::peer::{Message, Small};
+use super::peer::{ConsumerReceiver, wait_for};
+use crate::runtime::peer::{Message, SmallMessage};
 use crate::runtime::work::threads;
-use crate::{Measured, Study, Variant};
+use crate::{RunValues, Study, Variant};
 use dragonfly_kit::counting;
 use dragonfly_runtime::{Address, SendError, Thread};
 use std::ops::ControlFlow;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
-/// What a bounded address lets in.
+/// Limit of the bounded address.
 const LIMIT: usize = 1024;
 
-/// To a receiver that only counts, and to one that works for a microsecond on each message.
+/// Measures a receiver that only counts, and one that works for a microsecond on each message.
 pub fn all(study: &mut Study) {
     let repeats = study.mode.pick(1, 3, 7);
     for (case, work) in [("own/addresses/idle", 0), ("own/addresses/busy", 1_000)] {
         let count = study.mode.pick(1_000, 100_000, 300_000);
         let work = Duration::from_nanos(work);
-        let kind = |name, make: fn(&Address<Small>) -> Address<Small>| {
-            Variant::new(name, move |measured: &mut Measured| run(make, count, work, measured))
+        let kind = |name, make: fn(&Address<SmallMessage>) -> Address<SmallMessage>| {
+            Variant::new(name, move |measured: &mut RunValues| run(make, count, work, measured))
         };
         let variants = vec![
             kind("plain", Address::clone),
@@ -32,14 +32,19 @@ pub fn all(study: &mut Study) {
     }
 }
 
-/// Sends the numbers below `count`, the last one until it is accepted; it must arrive, and nothing twice.
-fn run(make: fn(&Address<Small>) -> Address<Small>, count: u64, work: Duration, measured: &mut Measured) {
+/// Sends the numbers below `count`, the last one until it is accepted. It must arrive, and no message twice.
+fn run(
+    make: fn(&Address<SmallMessage>) -> Address<SmallMessage>,
+    count: u64,
+    work: Duration,
+    measured: &mut RunValues,
+) {
     let thread = Thread::start("receiver").expect("the system has a thread left");
     let (tell, result) = mpsc::channel();
     let (mut delivered, mut next) = (0, 0);
     let mut allocated = counting::Count::default();
     let plain = thread.handle().register_receiver(move |_| {
-        Sink::new(move |message: Small| {
+        ConsumerReceiver::new(move |message: SmallMessage| {
             if delivered == 0 {
                 allocated = counting::so_far();
             }
@@ -64,9 +69,9 @@ fn run(make: fn(&Address<Small>) -> Address<Small>, count: u64, work: Duration, 
         let begin = Instant::now();
         let (sent, ()) = counting::count(|| {
             for number in 0..count {
-                while let Err(SendError::Full(_)) = address.send(Small::of(number)) {
+                while let Err(SendError::Full(_)) = address.send(SmallMessage::of(number)) {
                     refused += 1;
-                    // It is told that it is too fast; the receiver may need its core.
+                    // The sender is too fast; the receiver may need its core.
                     std::thread::yield_now();
                 }
                 if number % 16 == 0 {

@@ -1,4 +1,4 @@
-//! What only our runtime has: kinds of addresses, registers, the trace and the watchdog, spinning.
+//! Features that only our runtime has: flavors of addresses, registers, the trace and the watchdog, spinning.
 
 pub mod addresses;
 pub mod observed;

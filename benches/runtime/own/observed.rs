@@ -1,16 +1,16 @@
-//! What it costs to be looked at: the trace, off and on; the watchdog; and an iteration with nothing to do.
+//! Cost of observation: the trace, off and on; the watchdog; and an iteration without work.
 
-use super::peer::Sink;
-use crate::runtime::peer::{Message, Small};
+use super::peer::ConsumerReceiver;
+use crate::runtime::peer::{Message, SmallMessage};
 use crate::runtime::queue::one_thread::{BATCH, timed};
-use crate::{Measured, Study, Variant};
+use crate::{RunValues, Study, Variant};
 use dragonfly_runtime::{Captured, Context, STALL_LIMIT, Thread, Watchdog, Worker};
 use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::rc::Rc;
 use std::time::Instant;
 
-/// Messages to the own thread, and idle iterations.
+/// Measures messages to the own thread, and iterations without work.
 pub fn all(study: &mut Study) {
     let repeats = study.mode.pick(1, 5, 11);
     let rounds = study.mode.pick(2, 100, 1_000);
@@ -39,37 +39,37 @@ pub fn all(study: &mut Study) {
     study.compare("own/idle_iteration", repeats, variants);
 }
 
-fn messages(rounds: u64, look: impl FnOnce(&mut Captured), measured: &mut Measured) {
+fn messages(rounds: u64, look: impl FnOnce(&mut Captured), measured: &mut RunValues) {
     let mut thread = Thread::capture("observed", || {});
     look(&mut thread);
     let sum = Rc::new(Cell::new(0));
     let add = Rc::clone(&sum);
-    let address = thread.context().register_receiver(Sink::new(move |message: Small| {
+    let address = thread.context().register_receiver(ConsumerReceiver::new(move |message: SmallMessage| {
         add.set(add.get() + message.number());
         ControlFlow::Continue(())
     }));
     thread.iterate();
     timed(rounds, measured, || {
-        (0..BATCH).for_each(|number| address.send(Small::of(number)).expect("the thread lives"));
+        (0..BATCH).for_each(|number| address.send(SmallMessage::of(number)).expect("the thread lives"));
         assert_eq!(address.queue_len() as u64, BATCH, "the queue's length is visible");
         thread.iterate();
         sum.take()
     });
 }
 
-struct Count(Rc<Cell<u64>>);
+struct CallCounter(Rc<Cell<u64>>);
 
-impl Worker for Count {
+impl Worker for CallCounter {
     fn update(&mut self, _: &mut Context) -> bool {
         self.0.set(self.0.get() + 1);
         true
     }
 }
 
-fn idle(iterations: u64, workers: u64, measured: &mut Measured) {
+fn idle(iterations: u64, workers: u64, measured: &mut RunValues) {
     let mut thread = Thread::capture("idle", || {});
     let calls = Rc::new(Cell::new(0));
-    (0..workers).for_each(|_| _ = thread.context().register_worker(Count(Rc::clone(&calls))));
+    (0..workers).for_each(|_| _ = thread.context().register_worker(CallCounter(Rc::clone(&calls))));
     (0..iterations / 10).for_each(|_| _ = thread.iterate());
     calls.set(0);
     let begin = Instant::now();

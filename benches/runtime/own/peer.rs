@@ -1,22 +1,22 @@
-//! Our runtime as a peer: a thread, and one receiver in it.
+//! Our runtime as a peer: a thread with one receiver.
 
-use crate::runtime::peer::{Message, Peer, Take};
+use crate::runtime::peer::{Message, OnMessage, Peer};
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle};
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// A receiver that hands on what it gets; stops the thread when it is told so.
-pub struct Sink<M, F>(F, PhantomData<M>);
+/// A receiver that passes its messages to a function and stops the thread when that returns `Break`.
+pub struct ConsumerReceiver<M, F>(F, PhantomData<M>);
 
-impl<M, F> Sink<M, F> {
-    /// What comes is for `take`.
+impl<M, F> ConsumerReceiver<M, F> {
+    /// Returns a receiver that calls `take`.
     pub fn new(take: F) -> Self {
         Self(take, PhantomData)
     }
 }
 
-impl<M: Send + 'static, F: FnMut(M) -> ControlFlow<()> + 'static> Receiver for Sink<M, F> {
+impl<M: Send + 'static, F: FnMut(M) -> ControlFlow<()> + 'static> Receiver for ConsumerReceiver<M, F> {
     type Message = M;
 
     fn receive(&mut self, message: M, thread: &mut Context) {
@@ -26,16 +26,16 @@ impl<M: Send + 'static, F: FnMut(M) -> ControlFlow<()> + 'static> Receiver for S
     }
 }
 
-/// An OS thread a consumer, plain addresses.
+/// An OS thread for each consumer, and plain addresses.
 pub struct Dragonfly;
 
 impl Peer for Dragonfly {
     type Address<M: Message> = Address<M>;
     type Running = Thread;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let thread = Thread::start("consumer").expect("the system has a thread left");
-        (thread.handle().register_receiver(|_| Sink::new(take)), thread)
+        (thread.handle().register_receiver(|_| ConsumerReceiver::new(take)), thread)
     }
 
     fn send<M: Message>(address: &Self::Address<M>, message: M) {
@@ -47,7 +47,7 @@ impl Peer for Dragonfly {
     }
 }
 
-/// Waits for the end of a thread that stops of itself.
+/// Waits for the end of a thread that stops by itself.
 pub fn wait_for(thread: &ThreadHandle) {
     let deadline = Instant::now() + Duration::from_secs(120);
     Thread::wait_for(std::slice::from_ref(thread), deadline).expect("it stops of itself");

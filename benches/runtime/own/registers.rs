@@ -1,21 +1,21 @@
-//! What it costs to register and to remove, from inside of the thread and by message.
+//! Cost of registering and removing objects, from inside of the thread and by message.
 
-use super::peer::{Sink, wait_for};
-use crate::runtime::peer::{Message, Small};
-use crate::{Measured, Study, Variant};
+use super::peer::{ConsumerReceiver, wait_for};
+use crate::runtime::peer::{Message, SmallMessage};
+use crate::{RunValues, Study, Variant};
 use dragonfly_runtime::{Context, Thread, Worker, WorkerId};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-struct Idle;
+struct IdleWorker;
 
-impl Worker for Idle {
+impl Worker for IdleWorker {
     fn update(&mut self, _: &mut Context) -> bool {
         true
     }
 }
 
-/// Receivers and workers, so many that the register is not just one cache line.
+/// Measures receivers and workers, in a number for which the register is larger than a cache line.
 pub fn all(study: &mut Study) {
     let count = study.mode.pick(10, 1_000, 1_000);
     let variants = vec![
@@ -26,14 +26,14 @@ pub fn all(study: &mut Study) {
     study.compare("own/registers", study.mode.pick(1, 11, 51), variants);
 }
 
-fn sink() -> Sink<Small, impl FnMut(Small) -> ControlFlow<()>> {
-    Sink::new(|message: Small| {
+fn sink() -> ConsumerReceiver<SmallMessage, impl FnMut(SmallMessage) -> ControlFlow<()>> {
+    ConsumerReceiver::new(|message: SmallMessage| {
         assert_eq!(message.number(), 0);
         ControlFlow::Continue(())
     })
 }
 
-fn receivers_inside(count: u64, measured: &mut Measured) {
+fn receivers_inside(count: u64, measured: &mut RunValues) {
     let mut thread = Thread::capture("registers", || {});
     let context = thread.context();
     let begin = Instant::now();
@@ -44,19 +44,19 @@ fn receivers_inside(count: u64, measured: &mut Measured) {
     write(count, made, begin.elapsed(), measured);
 }
 
-fn workers_inside(count: u64, measured: &mut Measured) {
+fn workers_inside(count: u64, measured: &mut RunValues) {
     let mut thread = Thread::capture("registers", || {});
     let context = thread.context();
     let begin = Instant::now();
-    let all: Vec<WorkerId> = (0..count).map(|_| context.register_worker(Idle)).collect();
+    let all: Vec<WorkerId> = (0..count).map(|_| context.register_worker(IdleWorker)).collect();
     let made = begin.elapsed();
     let begin = Instant::now();
     all.into_iter().for_each(|id| assert!(context.unregister_worker(id)));
     write(count, made, begin.elapsed(), measured);
 }
 
-/// From the first request until the thread has done all, and then from the first removal.
-fn receivers_by_message(count: u64, measured: &mut Measured) {
+/// Measures from the first request until the thread has processed all, and the same for the removal.
+fn receivers_by_message(count: u64, measured: &mut RunValues) {
     let thread = Thread::start("registers").expect("the system has a thread left");
     let handle = thread.handle();
     let (tell, done) = std::sync::mpsc::channel();
@@ -76,7 +76,7 @@ fn receivers_by_message(count: u64, measured: &mut Measured) {
     write(count, made, removed, measured);
 }
 
-fn write(count: u64, made: std::time::Duration, removed: std::time::Duration, measured: &mut Measured) {
+fn write(count: u64, made: std::time::Duration, removed: std::time::Duration, measured: &mut RunValues) {
     measured.value("register", "ns", made.as_nanos() as f64 / count as f64);
     measured.value("remove", "ns", removed.as_nanos() as f64 / count as f64);
 }

@@ -1,30 +1,30 @@
-//! Round trips when both threads look for messages for a while before they sleep, and on how many cores.
+//! Round trips between threads that spin for a while before they sleep, on two cores and on one.
 //!
-//! Crossbeam's channel always does that, for a few microseconds. Where both threads have only one core, spinning can
-//! only keep the other from working.
+//! Crossbeam's channel always spins for a few microseconds. On a single core, spinning can only keep the other thread
+//! from working.
 
 use super::peer::{Dragonfly, wait_for};
-use crate::runtime::peer::{Message, Peer, Take};
+use crate::runtime::peer::{Message, OnMessage, Peer};
 use crate::runtime::queue::channels::{Crossbeam, Kanal};
-use crate::runtime::work::round_trip::{Plan, placed};
-use crate::runtime::work::threads::{self, Place};
-use crate::{Distribution, Measured, Mode, Study, Variant};
+use crate::runtime::work::round_trip::{RoundTripPlan, placed};
+use crate::runtime::work::threads::{self, CoreChoice};
+use crate::{Distribution, RunValues, Study, StudyMode, Variant};
 use dragonfly_runtime::{Address, Thread};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// For how long a thread looks before it sleeps.
+/// Time for which a thread spins before it sleeps.
 pub const LIMIT: Duration = Duration::from_micros(50);
 
-/// As [`Dragonfly`], spinning for [`LIMIT`].
+/// Like [`Dragonfly`], spinning for [`LIMIT`].
 pub struct Spinning;
 
 impl Peer for Spinning {
     type Address<M: Message> = Address<M>;
     type Running = Thread;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let (address, thread) = Dragonfly::start(take);
         thread.handle().set_spin(LIMIT);
         (address, thread)
@@ -39,9 +39,9 @@ impl Peer for Spinning {
     }
 }
 
-/// Two threads that hand a number to and fro and never sleep: the least that this machine allows, which is how long
-/// the two cores need to show each other a change. It differs from hour to hour where a hypervisor moves cores about.
-fn bare(plan: Plan, measured: &mut Measured) {
+/// Measures two threads that pass a number back and forth and never sleep. That is the lower limit on this machine: the
+/// time until a write of one core is visible to the other. It changes from hour to hour where a hypervisor moves cores.
+fn bare(plan: RoundTripPlan, measured: &mut RunValues) {
     let turn = Arc::new(AtomicU64::new(0));
     let wait_for = |turn: &AtomicU64, number| while turn.load(Ordering::Acquire) != number {};
     let theirs = Arc::clone(&turn);
@@ -53,9 +53,9 @@ fn bare(plan: Plan, measured: &mut Measured) {
     };
     let all = threads::start("places", move || {
         let mut all = Distribution::new();
-        let placed = threads::stay(Place::First);
+        let placed = threads::stay(CoreChoice::First);
         let other = threads::start("echo", echo);
-        let placed = placed && threads::stay(Place::Last);
+        let placed = placed && threads::stay(CoreChoice::Last);
         let mut begin = Instant::now();
         for trip in 0..plan.trips {
             turn.store(2 * trip + 1, Ordering::Release);
@@ -72,22 +72,27 @@ fn bare(plan: Plan, measured: &mut Measured) {
     }
 }
 
-/// On two cores, and on one.
+/// Measures on two cores, and on one.
 pub fn all(study: &mut Study) {
-    let plan = Plan { trips: study.mode.pick(50, 2_000, 20_000), rest: None };
+    let plan = RoundTripPlan { trips: study.mode.pick(50, 2_000, 20_000), rest: None };
     let repeats = study.mode.pick(1, 3, 7);
-    let mut on_two = variants(plan, [Place::First, Place::Last]);
-    if study.mode != Mode::Check {
-        // Pointless where two threads must share a core, as tests may have to.
+    let mut on_two = variants(plan, [CoreChoice::First, CoreChoice::Last]);
+    if study.mode != StudyMode::Check {
+        // Meaningless where both threads share a core, as they may in tests.
         on_two.push(Variant::new("bare", move |measured| bare(plan, measured)));
     }
     study.compare("own/spin/two_cores", repeats, on_two);
-    study.compare("own/spin/one_core", repeats, variants(plan, [Place::First, Place::First]));
-    let rested = Plan { trips: study.mode.pick(10, 150, 500), rest: Some(Duration::from_micros(300)) };
-    study.compare("own/spin/one_core_rested", repeats, variants(rested, [Place::First, Place::First]));
+    study.compare("own/spin/one_core", repeats, variants(plan, [CoreChoice::First, CoreChoice::First]));
+    let rested =
+        RoundTripPlan { trips: study.mode.pick(10, 150, 500), rest: Some(Duration::from_micros(300)) };
+    study.compare(
+        "own/spin/one_core_rested",
+        repeats,
+        variants(rested, [CoreChoice::First, CoreChoice::First]),
+    );
 }
 
-fn variants(plan: Plan, places: [Place; 2]) -> Vec<Variant<'static>> {
+fn variants(plan: RoundTripPlan, places: [CoreChoice; 2]) -> Vec<Variant<'static>> {
     vec![
         Variant::new("crossbeam", move |measured| placed::<Crossbeam>(plan, places, measured)),
         Variant::new("kanal", move |measured| placed::<Kanal>(plan, places, measured)),

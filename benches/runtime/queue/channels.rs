@@ -1,21 +1,25 @@
-//! The channels, each with a thread behind it that takes one message at a time, or all that are there.
+//! Channels, each with a thread that receives one message at a time, or all queued ones.
 
-use crate::runtime::peer::{Message, Peer, Take};
+use crate::runtime::peer::{Message, OnMessage, Peer};
 use crate::runtime::work::threads;
 use std::ops::ControlFlow;
 use std::sync::mpsc;
 use std::thread::JoinHandle;
 
-/// A thread that gives `take` what `next` gives it.
-fn consumer<M: Message>(mut take: Take<M>, mut next: impl FnMut() -> M + Send + 'static) -> JoinHandle<()> {
+/// Starts a thread that calls `take` with each result of `next`.
+fn consumer<M: Message>(
+    mut take: OnMessage<M>,
+    mut next: impl FnMut() -> M + Send + 'static,
+) -> JoinHandle<()> {
     threads::start("consumer", move || while take(next()).is_continue() {})
 }
 
-/// A thread that takes all that is there: `fill` waits for at least one message and adds all others.
+/// Starts a thread that receives all queued messages at once: `fill` waits for at least one message and adds all
+/// others.
 ///
-/// Its list keeps its memory, as that of our thread does.
+/// Its list keeps its memory, like the batch of our thread.
 fn drainer<M: Message>(
-    mut take: Take<M>,
+    mut take: OnMessage<M>,
     mut fill: impl FnMut(&mut Vec<M>) + Send + 'static,
 ) -> JoinHandle<()> {
     threads::start("consumer", move || {
@@ -33,14 +37,14 @@ fn drainer<M: Message>(
 
 const OPEN: &str = "both ends are there until the last message was taken";
 
-/// `std::sync::mpsc`, unbounded; it is crossbeam's channel with one end.
+/// `std::sync::mpsc`, unbounded. Internally it is crossbeam's channel with one receiver.
 pub struct Std;
 
 impl Peer for Std {
     type Address<M: Message> = mpsc::Sender<M>;
     type Running = JoinHandle<()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let (enter, leave) = mpsc::channel();
         (enter, consumer(take, move || leave.recv().expect(OPEN)))
     }
@@ -61,7 +65,7 @@ impl Peer for Crossbeam {
     type Address<M: Message> = crossbeam_channel::Sender<M>;
     type Running = JoinHandle<()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let (enter, leave) = crossbeam_channel::unbounded();
         (enter, consumer(take, move || leave.recv().expect(OPEN)))
     }
@@ -82,7 +86,7 @@ impl Peer for Flume {
     type Address<M: Message> = flume::Sender<M>;
     type Running = JoinHandle<()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let (enter, leave) = flume::unbounded();
         (enter, consumer(take, move || leave.recv().expect(OPEN)))
     }
@@ -96,14 +100,14 @@ impl Peer for Flume {
     }
 }
 
-/// flume, unbounded, emptied with `drain`, which takes its lock once for all.
+/// flume, unbounded, emptied with `drain`, which takes its lock once for all messages.
 pub struct FlumeDrained;
 
 impl Peer for FlumeDrained {
     type Address<M: Message> = flume::Sender<M>;
     type Running = JoinHandle<()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let (enter, leave) = flume::unbounded();
         let fill = move |all: &mut Vec<M>| {
             all.push(leave.recv().expect(OPEN));
@@ -128,7 +132,7 @@ impl Peer for Kanal {
     type Address<M: Message> = kanal::Sender<M>;
     type Running = JoinHandle<()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let (enter, leave) = kanal::unbounded();
         (enter, consumer(take, move || leave.recv().expect(OPEN)))
     }
@@ -142,14 +146,14 @@ impl Peer for Kanal {
     }
 }
 
-/// kanal, unbounded, emptied with `drain_into`, in the way that its documentation shows.
+/// kanal, unbounded, emptied with `drain_into` as in its documentation.
 pub struct KanalDrained;
 
 impl Peer for KanalDrained {
     type Address<M: Message> = kanal::Sender<M>;
     type Running = JoinHandle<()>;
 
-    fn start<M: Message>(take: Take<M>) -> (Self::Address<M>, Self::Running) {
+    fn start<M: Message>(take: OnMessage<M>) -> (Self::Address<M>, Self::Running) {
         let (enter, leave) = kanal::unbounded();
         let fill = move |all: &mut Vec<M>| {
             if leave.drain_into(all).expect(OPEN) == 0 {

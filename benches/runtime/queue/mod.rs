@@ -1,4 +1,4 @@
-//! Our mailbox against channels, each with one thread behind it.
+//! Our mailbox compared with channels, each with one consumer thread.
 
 pub mod channels;
 pub mod one_thread;

@@ -1,8 +1,8 @@
-//! Send and deliver on one thread: what a queue costs when nobody has to be woken and nobody is in the way.
+//! Sending and receiving on one thread: cost of a queue without wake-ups and without contention.
 
-use crate::runtime::own::peer::Sink;
+use crate::runtime::own::peer::ConsumerReceiver;
 use crate::runtime::peer::{Message, sum_below};
-use crate::{Measured, Study, Variant};
+use crate::{RunValues, Study, Variant};
 use dragonfly_kit::counting;
 use dragonfly_runtime::Thread;
 use std::cell::Cell;
@@ -12,18 +12,18 @@ use std::rc::Rc;
 use std::sync::mpsc;
 use std::time::Instant;
 
-/// So many are sent before the first is taken.
+/// Number of messages that are sent before the first is received.
 pub const BATCH: u64 = 1000;
 
-/// Queues of 8 and of 64 bytes.
+/// Measures queues for messages of 8 and of 64 bytes.
 pub fn all(study: &mut Study) {
-    use crate::runtime::peer::Words;
+    use crate::runtime::peer::WordMessage;
     let rounds = study.mode.pick(2, 200, 2000);
-    study.compare("queue/one_thread/8_bytes", study.mode.pick(1, 5, 11), variants::<Words<1>>(rounds));
-    study.compare("queue/one_thread/64_bytes", study.mode.pick(1, 5, 11), variants::<Words<8>>(rounds));
+    study.compare("queue/one_thread/8_bytes", study.mode.pick(1, 5, 11), variants::<WordMessage<1>>(rounds));
+    study.compare("queue/one_thread/64_bytes", study.mode.pick(1, 5, 11), variants::<WordMessage<8>>(rounds));
 }
 
-/// A channel whose two ends stay on the thread that measures.
+/// A channel whose two ends stay on the measuring thread.
 macro_rules! channel {
     ($name:literal, $rounds:ident, $make:expr) => {
         Variant::new($name, move |measured| {
@@ -34,7 +34,7 @@ macro_rules! channel {
     };
 }
 
-/// Why nothing fails.
+/// Message for errors that cannot happen.
 const HERE: &str = "the other end lives here as well";
 
 fn variants<M: Message>(rounds: u64) -> Vec<Variant<'static>> {
@@ -47,19 +47,19 @@ fn variants<M: Message>(rounds: u64) -> Vec<Variant<'static>> {
     ]
 }
 
-fn batches<M: Message>(rounds: u64, measured: &mut Measured, send: impl Fn(M), receive: impl Fn() -> M) {
+fn batches<M: Message>(rounds: u64, measured: &mut RunValues, send: impl Fn(M), receive: impl Fn() -> M) {
     timed(rounds, measured, || {
         (0..BATCH).for_each(|number| send(black_box(M::of(number))));
         (0..BATCH).map(|_| black_box(receive()).number()).sum()
     });
 }
 
-/// A captured thread, so that sending and delivering happen on the thread that measures.
-fn dragonfly<M: Message>(rounds: u64, measured: &mut Measured) {
+/// Measures a captured thread, so that sending and delivering happen on the measuring thread.
+fn dragonfly<M: Message>(rounds: u64, measured: &mut RunValues) {
     let mut thread = Thread::capture("one thread", || {});
     let sum = Rc::new(Cell::new(0));
     let add = Rc::clone(&sum);
-    let address = thread.context().register_receiver(Sink::new(move |message: M| {
+    let address = thread.context().register_receiver(ConsumerReceiver::new(move |message: M| {
         add.set(add.get() + message.number());
         ControlFlow::Continue(())
     }));
@@ -70,8 +70,8 @@ fn dragonfly<M: Message>(rounds: u64, measured: &mut Measured) {
     });
 }
 
-/// A tenth of the rounds for warming up, then all of them on the clock.
-pub fn timed(rounds: u64, measured: &mut Measured, mut round: impl FnMut() -> u64) {
+/// Runs a tenth of the rounds as a warm-up, then measures all of them.
+pub fn timed(rounds: u64, measured: &mut RunValues, mut round: impl FnMut() -> u64) {
     let mut rounds_of = |count: u64| (0..count).for_each(|_| assert_eq!(round(), sum_below(BATCH)));
     rounds_of(rounds.div_ceil(10));
     let begin = Instant::now();

@@ -1,9 +1,9 @@
-//! The standard suite for actors: Shams Imam and Vivek Sarkar, "Savina – An Actor Benchmark Suite", AGERE 2014; those
-//! of its benchmarks that are about messages rather than about arithmetic.
+//! The standard suite for actors: Shams Imam and Vivek Sarkar, "Savina – An Actor Benchmark Suite", AGERE 2014; only
+//! its benchmarks of messages, without those of arithmetic.
 //!
-//! The actors of each are written once (`suite/`), with no call or box between them and a system (`systems/`). Every run
-//! checks what it computed, by assertions in the actors; one that fails, any other panic, and a run that takes longer
-//! than a minute fail the program, which says which system and benchmark it was.
+//! The actors of each benchmark are written once (`suite/`), without an additional call or box between them and the
+//! actor systems (`systems/`). Assertions in the actors check the result of every run. A failed assertion, any other
+//! panic, and a run of more than a minute end the program, which prints the system and the benchmark.
 //!
 //! | benchmark | original | `Full` | `Short` |
 //! |---|---|---|---|
@@ -15,29 +15,29 @@
 //! | `chameneos` | 100 creatures, 200,000 meetings | 1 | 1/10 |
 //! | `big` | 120 actors, 20,000 pings each | 1/5 | 1/20 |
 //! | `dictionary` | 20 workers, 10,000 requests each, one in ten writes | 1 | 1/10 |
-//! | `bounded_buffer` | 40 producers, 1,000 items each, 40 consumers, room for 50 | 1 | 1/5 |
+//! | `bounded_buffer` | 40 producers, 1,000 items each, 40 consumers, a buffer of 50 | 1 | 1/5 |
 //! | `philosophers` | 20 philosophers, 10,000 meals each | 1 | 1/10 |
 //! | `barber` | 5,000 haircuts, 1,000 seats | 1/2 of both | 1/5 of both |
 //! | `smokers` | 200 smokers, 1,000 rounds | 1 | 1 |
 //!
-//! A fraction is of the original's messages; there are as many actors as in the original, except in the barber's shop,
-//! whose customers are actors.
+//! A fraction is relative to the messages of the original. The number of actors is that of the original, except in
+//! `barber`, whose customers are actors.
 //!
-//! Measured: `total`, from before the first actor is created to the last message that matters, threads and runtimes
-//! standing already; and `per_message`, that divided by the messages which the answer needs. Each benchmark says what
-//! it counts, and where it departs from the original.
+//! Metrics: `total` is the time from before the creation of the first actor to the last message that the result needs,
+//! without the start of threads and runtimes; `per_message` is `total` divided by the number of these messages. Each
+//! benchmark documents which messages it counts, and its differences from the original.
 
-// Each system compiles the suite for itself; `suite/mod.rs` says why.
+// Each system compiles the suite for itself; `suite/mod.rs` explains why.
 #![allow(clippy::duplicate_mod)]
 
 mod run;
 mod systems;
 
-use crate::{Measured, Study, Variant};
+use crate::{RunValues, Study, Variant};
 use run::Finish;
 use systems::{SYSTEMS, System};
 
-/// The benchmarks, and whether their actors create others and end one by one.
+/// The benchmarks, and whether their actors create other actors and end one by one.
 const BENCHMARKS: [(&str, bool); 12] = [
     ("ping_pong", false),
     ("counting", false),
@@ -53,7 +53,7 @@ const BENCHMARKS: [(&str, bool); 12] = [
     ("smokers", false),
 ];
 
-/// Measures every benchmark in every system that can play it.
+/// Measures every benchmark in every system that supports it.
 pub fn all(study: &mut Study) {
     let mode = study.mode;
     for (name, creates) in BENCHMARKS {
@@ -73,7 +73,7 @@ pub fn all(study: &mut Study) {
     }
 }
 
-fn record(measured: &mut Measured, finish: Finish) {
+fn record(measured: &mut RunValues, finish: Finish) {
     let nanoseconds = finish.took.as_nanos() as f64;
     measured.value("total", "ns", nanoseconds);
     measured.value("per_message", "ns", nanoseconds / finish.messages as f64);

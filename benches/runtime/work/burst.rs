@@ -1,8 +1,8 @@
-//! Very many messages while the consumer is busy with something else, which then takes them all.
+//! Burst: many messages are queued while the consumer is busy, which then receives them all.
 
 use super::threads;
-use crate::Measured;
-use crate::runtime::peer::{Message, Peer, Small, sum_below};
+use crate::RunValues;
+use crate::runtime::peer::{Message, Peer, SmallMessage, sum_below};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,17 +10,18 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Makes the consumer wait until the burst is over.
+/// Makes the consumer wait until all messages of the burst are sent.
 const HOLD: u64 = u64::MAX;
 
-/// Two bursts of `messages` each, the first one for warming up; what the second cost the sender, and the consumer.
-pub fn run<P: Peer>(messages: u64, measured: &mut Measured) {
+/// Sends two bursts of `messages` each, the first as a warm-up. Measures the time of the sender and of the consumer in
+/// the second.
+pub fn run<P: Peer>(messages: u64, measured: &mut RunValues) {
     let over: Arc<[AtomicBool; 2]> = Arc::default();
     let (tell, drained) = mpsc::channel();
     let (mut seen, mut sum, mut round) = (0, 0, 0);
     let mut begin = Instant::now();
     let gates = Arc::clone(&over);
-    let (address, running) = P::start::<Small>(Box::new(move |message| {
+    let (address, running) = P::start::<SmallMessage>(Box::new(move |message| {
         let number = message.number();
         if number == HOLD {
             while !gates[round].load(Ordering::Acquire) {
@@ -40,9 +41,9 @@ pub fn run<P: Peer>(messages: u64, measured: &mut Measured) {
     }));
     let producer = threads::start("producer", move || {
         let burst = |gate: &AtomicBool| {
-            P::send(&address, Small::of(HOLD));
+            P::send(&address, SmallMessage::of(HOLD));
             let begin = Instant::now();
-            (0..messages).for_each(|number| P::send(&address, Small::of(number)));
+            (0..messages).for_each(|number| P::send(&address, SmallMessage::of(number)));
             let sending = begin.elapsed();
             gate.store(true, Ordering::Release);
             let (draining, sum) = drained.recv().expect("the consumer tells when it has had everything");

@@ -1,26 +1,26 @@
-//! How late messages come that are to be sent at given times, while another thread keeps a core busy.
+//! Delay of messages that are sent at given times, while another thread keeps a core busy.
 //!
-//! The time runs from when a message was *to be* sent: a sender that was held up does not make the delay look short
-//! (Tene's coordinated omission). How late the sender itself was is written down beside it.
+//! The delay counts from the time at which a message *should have been* sent: so a sender that was delayed does not
+//! make the delay look short (Tene's coordinated omission). The lateness of the sender itself is recorded separately.
 
 use super::threads::{self, Noise};
-use crate::runtime::peer::{Message, Peer, Small};
-use crate::{Distribution, Measured};
+use crate::runtime::peer::{Message, Peer, SmallMessage};
+use crate::{Distribution, RunValues};
 use std::ops::ControlFlow;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
-/// How often, and how many.
+/// Period and number of messages.
 #[derive(Clone, Copy)]
-pub struct Plan {
+pub struct LatePlan {
     /// Time between two messages.
     pub period: Duration,
-    /// On the clock; a tenth of it goes before, for warming up.
+    /// Number of measured messages. Before them, a tenth of this number is sent as a warm-up.
     pub messages: u64,
 }
 
-/// Messages at their times; all must come, in order.
-pub fn run<P: Peer>(plan: Plan, measured: &mut Measured) {
+/// Sends messages at their times. All must arrive, in order.
+pub fn run<P: Peer>(plan: LatePlan, measured: &mut RunValues) {
     let _noise = Noise::start();
     let warm_up = plan.messages / 10;
     let total = plan.messages + warm_up;
@@ -29,7 +29,7 @@ pub fn run<P: Peer>(plan: Plan, measured: &mut Measured) {
     let intended = move |number: u64| base + plan.period * number as u32;
     let mut seen = 0;
     let mut delays = Distribution::new();
-    let (address, running) = P::start::<Small>(Box::new(move |message| {
+    let (address, running) = P::start::<SmallMessage>(Box::new(move |message| {
         let number = message.number();
         assert_eq!(number, seen, "messages came out of order");
         if number >= warm_up {
@@ -48,7 +48,7 @@ pub fn run<P: Peer>(plan: Plan, measured: &mut Measured) {
         for number in 0..total {
             threads::wait_until(intended(number));
             late.record(Instant::now() - intended(number));
-            P::send(&address, Small::of(number));
+            P::send(&address, SmallMessage::of(number));
         }
         late
     });

@@ -1,7 +1,7 @@
-//! How fast messages go one way, flat out: from the first send to the last delivery.
+//! Throughput in one direction at full speed: from the first send to the last delivery.
 
 use super::threads;
-use crate::Measured;
+use crate::RunValues;
 use crate::runtime::peer::{Message, Peer, sum_below};
 use dragonfly_kit::counting;
 use std::ops::ControlFlow;
@@ -9,24 +9,24 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Barrier, mpsc};
 use std::time::Instant;
 
-/// Who sends how much.
+/// Number of producers and messages.
 #[derive(Clone, Copy)]
-pub struct Plan {
-    /// OS threads that send at the same time.
+pub struct OneWayPlan {
+    /// Number of OS threads that send at the same time.
     pub producers: u64,
-    /// How many messages each sends while the clock runs.
+    /// Number of measured messages of each producer.
     pub messages: u64,
 }
 
-/// What the consumer saw when it had the last message.
-struct End {
+/// Recorded by the consumer at the last message.
+struct OneWayEnd {
     when: Instant,
     sum: u64,
     allocations: u64,
 }
 
-/// Sends a tenth of it for warming up; when all that is delivered, the rest on the clock.
-pub fn run<P: Peer, M: Message>(plan: Plan, measured: &mut Measured) {
+/// Sends a tenth of the messages as a warm-up, and measures the others once these are delivered.
+pub fn run<P: Peer, M: Message>(plan: OneWayPlan, measured: &mut RunValues) {
     let warm_up = (plan.messages / 10).max(1);
     let (warm, total) = (warm_up * plan.producers, (warm_up + plan.messages) * plan.producers);
     let is_warm = Arc::new(AtomicBool::new(false));
@@ -44,7 +44,7 @@ pub fn run<P: Peer, M: Message>(plan: Plan, measured: &mut Measured) {
             return ControlFlow::Continue(());
         }
         let allocations = counting::so_far().allocations.saturating_sub(allocated);
-        let _ = tell.send(End { when: Instant::now(), sum, allocations });
+        let _ = tell.send(OneWayEnd { when: Instant::now(), sum, allocations });
         ControlFlow::Break(())
     }));
     let together = Arc::new(Barrier::new(plan.producers as usize));

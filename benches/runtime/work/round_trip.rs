@@ -1,34 +1,35 @@
-//! There and back between two consumers, each in its thread.
+//! Round trips between two consumers, each in its thread.
 
-use super::threads::{self, Place};
-use crate::runtime::peer::{Message, Peer, Small};
-use crate::{Distribution, Measured};
+use super::threads::{self, CoreChoice};
+use crate::runtime::peer::{Message, Peer, SmallMessage};
+use crate::{Distribution, RunValues};
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock, mpsc};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Begin a trip now.
+/// Message that starts a round trip.
 const GO: u64 = u64::MAX;
 
-/// How many trips, and what is between two of them.
+/// Number of round trips, and the rest between two of them.
 #[derive(Clone, Copy)]
-pub struct Plan {
-    /// On the clock; a tenth of it goes before, for warming up.
+pub struct RoundTripPlan {
+    /// Number of measured round trips. Before them runs a warm-up of a tenth of this number.
     pub trips: u64,
-    /// Time in which everybody falls asleep, before a third thread asks for the next trip; `None`: one trip begins
-    /// with the end of the one before.
+    /// Time in which all threads fall asleep before a third thread starts the next round trip; `None`: each round trip
+    /// starts at the end of the previous one.
     pub rest: Option<Duration>,
 }
 
-/// Between two consumers of `P`.
-pub fn run<P: Peer>(plan: Plan, measured: &mut Measured) {
+/// Measures round trips between two consumers of `P`.
+pub fn run<P: Peer>(plan: RoundTripPlan, measured: &mut RunValues) {
     measured.distribution("trip", &trips::<P>(plan, || true).expect("nothing was in the way"));
 }
 
-/// Between two consumers of `P`, each bound to its place. Measures nothing where threads cannot be bound.
-pub fn placed<P: Peer>(plan: Plan, places: [Place; 2], measured: &mut Measured) {
-    // A thread starts where the one is that starts it; this one ends with the measurement.
+/// Measures round trips between two consumers of `P`, each bound to a core. Measures nothing where threads cannot be
+/// bound.
+pub fn placed<P: Peer>(plan: RoundTripPlan, places: [CoreChoice; 2], measured: &mut RunValues) {
+    // A new thread starts on the core of the thread that starts it. This one ends with the measurement.
     let trips = threads::start("places", move || {
         let mut places = places.into_iter();
         trips::<P>(plan, || places.next().is_some_and(threads::stay))
@@ -38,29 +39,30 @@ pub fn placed<P: Peer>(plan: Plan, places: [Place; 2], measured: &mut Measured) 
     }
 }
 
-/// All trips but those for warming up. `before` is asked before each of the two consumers starts; `None` when it says
-/// that it could not do what it should.
-pub fn trips<P: Peer>(plan: Plan, mut before: impl FnMut() -> bool) -> Option<Distribution> {
+/// Returns the durations of all round trips except the warm-up. Calls `before` before each of the two consumers starts;
+/// returns `None` if one of these calls returns `false`.
+pub fn trips<P: Peer>(plan: RoundTripPlan, mut before: impl FnMut() -> bool) -> Option<Distribution> {
     if !before() {
         return None;
     }
     let (mut first, result) = First::new(plan);
-    let home: Arc<OnceLock<P::Address<Small>>> = Arc::default();
+    let home: Arc<OnceLock<P::Address<SmallMessage>>> = Arc::default();
     let mut back = second(plan);
     let to = Arc::clone(&home);
-    let (away, second_running) = P::start::<Small>(Box::new(move |ping| {
+    let (away, second_running) = P::start::<SmallMessage>(Box::new(move |ping| {
         P::send(to.get().expect("it is known before the first ping"), ping);
         back()
     }));
     let moved = before();
-    let (address, first_running) = P::start::<Small>(Box::new(move |message| match first.take(message) {
-        Step::Send(ping) => {
-            P::send(&away, ping);
-            ControlFlow::Continue(())
-        }
-        Step::Wait => ControlFlow::Continue(()),
-        Step::End => ControlFlow::Break(()),
-    }));
+    let (address, first_running) =
+        P::start::<SmallMessage>(Box::new(move |message| match first.take(message) {
+            RoundTripStep::Send(ping) => {
+                P::send(&away, ping);
+                ControlFlow::Continue(())
+            }
+            RoundTripStep::Wait => ControlFlow::Continue(()),
+            RoundTripStep::End => ControlFlow::Break(()),
+        }));
     let _ = home.set(address.clone());
     let result = ask(plan, result, move |message| P::send(&address, message));
     P::wait(first_running);
@@ -68,8 +70,8 @@ pub fn trips<P: Peer>(plan: Plan, mut before: impl FnMut() -> bool) -> Option<Di
     Some(threads::join(result)).filter(|_| moved)
 }
 
-/// Counts what the second consumer has sent back.
-pub fn second(plan: Plan) -> impl FnMut() -> ControlFlow<()> {
+/// Returns a function that counts the messages of the second consumer and returns `Break` at the last one.
+pub fn second(plan: RoundTripPlan) -> impl FnMut() -> ControlFlow<()> {
     let mut left = plan.trips + plan.trips / 10;
     move || {
         left -= 1;
@@ -77,15 +79,15 @@ pub fn second(plan: Plan) -> impl FnMut() -> ControlFlow<()> {
     }
 }
 
-/// A third thread that asks for trips, and at the end has the result.
+/// Starts a third thread, which starts the round trips and returns the result at the end.
 pub fn ask(
-    plan: Plan,
+    plan: RoundTripPlan,
     result: mpsc::Receiver<Option<Distribution>>,
-    send: impl Fn(Small) + Send + 'static,
+    send: impl Fn(SmallMessage) + Send + 'static,
 ) -> thread::JoinHandle<Distribution> {
     threads::start("asks", move || {
         loop {
-            send(Small::of(GO));
+            send(SmallMessage::of(GO));
             if let Some(all) = result.recv().expect("the first consumer tells") {
                 return all;
             }
@@ -98,13 +100,13 @@ pub fn ask(
     })
 }
 
-/// What the first consumer does.
-pub enum Step {
-    /// Send this to the second.
-    Send(Small),
-    /// For somebody to ask.
+/// The next action of the first consumer.
+pub enum RoundTripStep {
+    /// Send this to the second consumer.
+    Send(SmallMessage),
+    /// Wait until the third thread starts the next round trip.
     Wait,
-    /// That was the last one.
+    /// Stop: that was the last one.
     End,
 }
 
@@ -113,25 +115,26 @@ pub struct First {
     begin: Instant,
     warm_up: u64,
     done: u64,
-    plan: Plan,
+    plan: RoundTripPlan,
     all: Distribution,
     tell: mpsc::Sender<Option<Distribution>>,
 }
 
 impl First {
-    /// And where the result comes out: `None` for each single trip that is to be followed by a rest.
-    pub fn new(plan: Plan) -> (Self, mpsc::Receiver<Option<Distribution>>) {
+    /// Returns the consumer's state and the channel of its result, which gets `None` after each round trip that a rest
+    /// must follow.
+    pub fn new(plan: RoundTripPlan) -> (Self, mpsc::Receiver<Option<Distribution>>) {
         let (tell, result) = mpsc::channel();
         let (begin, all) = (Instant::now(), Distribution::new());
         (Self { begin, warm_up: plan.trips / 10, done: 0, plan, all, tell }, result)
     }
 
-    /// A message came: that a trip should begin, or what was sent comes back.
-    pub fn take(&mut self, message: Small) -> Step {
+    /// Handles a message: the start of a round trip, or its return.
+    pub fn take(&mut self, message: SmallMessage) -> RoundTripStep {
         let number = message.number();
         if number == GO {
             self.begin = Instant::now();
-            return Step::Send(Small::of(self.done));
+            return RoundTripStep::Send(SmallMessage::of(self.done));
         }
         let now = Instant::now();
         assert_eq!(number, self.done, "what came back is not what was sent");
@@ -142,12 +145,12 @@ impl First {
         self.begin = now;
         if self.done == self.plan.trips + self.warm_up {
             let _ = self.tell.send(Some(self.all.clone()));
-            return Step::End;
+            return RoundTripStep::End;
         }
         if self.plan.rest.is_none() {
-            return Step::Send(Small::of(self.done));
+            return RoundTripStep::Send(SmallMessage::of(self.done));
         }
         let _ = self.tell.send(None);
-        Step::Wait
+        RoundTripStep::Wait
     }
 }

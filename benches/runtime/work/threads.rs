@@ -1,4 +1,4 @@
-//! Threads that are no part of what is measured: producers, and who makes noise.
+//! Threads that are not part of the measured code: producers, and background noise.
 
 use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Starts a bare OS thread; what it panics with is passed on by [`join`].
+/// Starts an OS thread. [`join`] propagates its panic.
 pub fn start<T: Send + 'static>(
     name: &str,
     work: impl FnOnce() -> T + Send + 'static,
@@ -14,19 +14,19 @@ pub fn start<T: Send + 'static>(
     thread::Builder::new().name(name.into()).spawn(work).expect("the system has a thread left")
 }
 
-/// Waits for a thread of [`start`].
+/// Waits for a thread that [`start`] started.
 pub fn join<T>(thread: thread::JoinHandle<T>) -> T {
     thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
-/// Waits without using a processor for `flag`; may notice it up to some milliseconds late.
+/// Waits for `flag` without using the CPU. May return up to some milliseconds late.
 pub fn wait_for(flag: &AtomicBool) {
     while !flag.load(Ordering::Acquire) {
         thread::park_timeout(Duration::from_micros(50));
     }
 }
 
-/// Waits for `when`: asleep as long as there is time, then on the processor, so that the wait ends on time.
+/// Waits until `when`: asleep first, then spinning, so that the wait ends on time.
 pub fn wait_until(when: Instant) {
     const SPIN: Duration = Duration::from_micros(30);
     loop {
@@ -41,29 +41,30 @@ pub fn wait_until(when: Instant) {
     }
 }
 
-/// Lets sleeps of the calling thread end within microseconds of the time that was asked for; Linux adds 50 µs otherwise.
+/// Makes sleeps of the calling thread end within microseconds of the requested time; by default Linux adds 50 µs.
 pub fn sleep_exactly() {
     if let Some(id) = own_id() {
-        // Where it cannot be written, sleeps end later, which is measured and printed.
+        // If the file cannot be written, sleeps end later, which is measured and printed.
         let _ = std::fs::write(format!("/proc/{id}/timerslack_ns"), "1");
     }
 }
 
-/// The system's number of the calling thread; `None` where there is no `/proc`.
+/// Returns the system's id of the calling thread; `None` where there is no `/proc`.
 pub fn own_id() -> Option<String> {
     Some(std::fs::read_link("/proc/thread-self").ok()?.file_name()?.to_str()?.to_owned())
 }
 
 /// One of the cores that this program may use.
 #[derive(Clone, Copy)]
-pub enum Place {
-    /// The first of them.
+pub enum CoreChoice {
+    /// The first core.
     First,
-    /// The last of them.
+    /// The last core.
     Last,
 }
 
-/// The cores that this program could use before any thread was bound, as Linux lists them; nothing where it does not.
+/// Returns the list of cores that this program could use before any thread was bound, as Linux prints it; empty on
+/// other systems.
 fn cores() -> &'static str {
     static CORES: OnceLock<String> = OnceLock::new();
     CORES.get_or_init(|| {
@@ -73,36 +74,36 @@ fn cores() -> &'static str {
     })
 }
 
-/// Binds the calling thread, and those it starts from now on, to a core. `false` where that cannot be done.
-pub fn stay(place: Place) -> bool {
+/// Binds the calling thread, and those that it starts afterwards, to a core. Returns whether that succeeded.
+pub fn stay(place: CoreChoice) -> bool {
     let mut numbers = cores().split([',', '-']);
     let core = match place {
-        Place::First => numbers.next(),
-        Place::Last => numbers.next_back(),
+        CoreChoice::First => numbers.next(),
+        CoreChoice::Last => numbers.next_back(),
     };
     bind(core.unwrap_or_default())
 }
 
-/// Lets the calling thread run anywhere again.
+/// Lets the calling thread run on any core again.
 pub fn roam() -> bool {
     bind(cores())
 }
 
-/// With the program that Linux has for it: the system call would want code that is not safe, or a dependency.
+/// Calls a program of Linux, because the system call would need unsafe code or a dependency.
 fn bind(cores: &str) -> bool {
     let Some(id) = own_id().filter(|_| !cores.is_empty()) else { return false };
     let bind = Command::new("taskset").args(["-p", "-c", cores, &id]).output();
     bind.is_ok_and(|output| output.status.success())
 }
 
-/// Keeps one core busy for as long as it lives.
+/// Keeps one core busy until it is dropped.
 pub struct Noise {
     over: Arc<AtomicBool>,
     thread: Option<thread::JoinHandle<()>>,
 }
 
 impl Noise {
-    /// Starts it.
+    /// Starts the thread.
     pub fn start() -> Self {
         let over: Arc<AtomicBool> = Arc::default();
         let end = Arc::clone(&over);

@@ -1,7 +1,7 @@
-//! `cargo run --release -p dragonfly-study --bin report`: makes the tables and charts of the study anew from its raw data.
+//! `cargo run --release -p dragonfly-study --bin report`: makes the tables and charts of the study from its raw data.
 //!
-//! With a folder of raw data as its argument, of a short run say, it writes into `report` there and leaves the study as
-//! it is.
+//! With a folder of raw data as its argument, for example of a short run, it writes into `report` in that folder and does
+//! not change the study.
 
 use dragonfly_study::report;
 use std::path::PathBuf;

@@ -1,25 +1,25 @@
-//! What charts are drawn with: text, lines and marks at pixels.
+//! Drawing primitives of the charts: text, lines and marks at pixels.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// How wide every chart is, in pixels.
+/// Width of every chart, in pixels.
 pub(super) const WIDTH: i32 = 900;
 
 /// Text.
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x28, 0x30);
-/// Text that says less.
+/// Secondary text.
 pub(super) const SOFT: RGBColor = RGBColor(0x5c, 0x66, 0x73);
 /// Lines of the grid.
 pub(super) const GRID: RGBColor = RGBColor(0xe3, 0xe7, 0xec);
-/// Ours.
+/// Our variant.
 pub(super) const ACCENT: RGBColor = RGBColor(0xd5, 0x5e, 0x00);
-/// Ours, where there are several ways of it and shapes tell them apart.
+/// Our variants in a chart with several of them, which also differ in shape.
 pub(super) const OURS: [RGBColor; 3] = [ACCENT, RGBColor(0xe6, 0x9f, 0x00), RGBColor(0x8c, 0x3a, 0x00)];
-/// Everybody else, where labels tell them apart.
+/// All other variants in a chart with a label for each.
 pub(super) const OTHERS: RGBColor = RGBColor(0x6b, 0x7d, 0x93);
-/// Everybody else, where colours and shapes do: those of Okabe and Ito, which colour-blind people can tell apart.
+/// All other variants in a chart with a legend: colors of Okabe and Ito, which color-blind readers can distinguish.
 pub(super) const PALETTE: [RGBColor; 7] = [
     RGBColor(0x00, 0x72, 0xb2),
     RGBColor(0x00, 0x9e, 0x73),
@@ -30,20 +30,20 @@ pub(super) const PALETTE: [RGBColor; 7] = [
     RGBColor(0x8a, 0x8f, 0x98),
 ];
 
-/// Where text stands, seen from its point.
+/// Position of a text relative to its point.
 #[derive(Clone, Copy)]
 pub(super) enum Anchor {
-    /// To the right of it.
+    /// To the right of the point.
     Start,
-    /// Around it.
+    /// Centered at the point.
     Middle,
-    /// To the left of it.
+    /// To the left of the point.
     End,
 }
 
-/// What marks a value.
+/// Shape of the mark of a value.
 #[derive(Clone, Copy)]
-pub(super) enum Shape {
+pub(super) enum MarkShape {
     Disc,
     Ring,
     Square,
@@ -52,23 +52,29 @@ pub(super) enum Shape {
     Cross,
 }
 
-/// All shapes, for telling many things apart.
-pub(super) const SHAPES: [Shape; 6] =
-    [Shape::Disc, Shape::Square, Shape::Diamond, Shape::Triangle, Shape::Ring, Shape::Cross];
+/// All shapes, for charts with many variants.
+pub(super) const SHAPES: [MarkShape; 6] = [
+    MarkShape::Disc,
+    MarkShape::Square,
+    MarkShape::Diamond,
+    MarkShape::Triangle,
+    MarkShape::Ring,
+    MarkShape::Cross,
+];
 
-/// A drawing that becomes text.
-pub(super) struct Canvas<'a>(DrawingArea<SVGBackend<'a>, Shift>);
+/// An SVG drawing.
+pub(super) struct SvgCanvas<'a>(DrawingArea<SVGBackend<'a>, Shift>);
 
-/// Writing to a string fails on no machine.
+/// Message for an impossible error: writing to a string does not fail.
 const NEVER: &str = "a string takes all that is written to it";
 
-/// Draws with `draw`, and gives the SVG's text.
-pub(super) fn svg(height: i32, title: &str, under: &str, draw: impl FnOnce(&Canvas<'_>)) -> String {
+/// Draws a chart with `draw` below its title and subtitle. Returns the text of the SVG.
+pub(super) fn svg(height: i32, title: &str, under: &str, draw: impl FnOnce(&SvgCanvas<'_>)) -> String {
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, (WIDTH as u32, height as u32)).into_drawing_area();
         area.fill(&WHITE).expect(NEVER);
-        let canvas = Canvas(area);
+        let canvas = SvgCanvas(area);
         canvas.text(title, 16, 26, 17.0, INK, Anchor::Start);
         canvas.text(under, 16, 47, 12.5, SOFT, Anchor::Start);
         draw(&canvas);
@@ -77,49 +83,49 @@ pub(super) fn svg(height: i32, title: &str, under: &str, draw: impl FnOnce(&Canv
     text
 }
 
-impl Canvas<'_> {
-    /// Text around the height `y`, in pixels of font size.
-    pub(super) fn text(&self, text: &str, x: i32, y: i32, size: f64, colour: RGBColor, anchor: Anchor) {
+impl SvgCanvas<'_> {
+    /// Draws text, vertically centered at `y`, with a font size in pixels.
+    pub(super) fn text(&self, text: &str, x: i32, y: i32, size: f64, color: RGBColor, anchor: Anchor) {
         let across = match anchor {
             Anchor::Start => HPos::Left,
             Anchor::Middle => HPos::Center,
             Anchor::End => HPos::Right,
         };
-        // The backend divides by this.
+        // The backend divides the size by this factor.
         let font = ("Helvetica, Arial, sans-serif", size * 1.24).into_font();
-        let style = font.color(&colour).pos(Pos::new(across, VPos::Center));
+        let style = font.color(&color).pos(Pos::new(across, VPos::Center));
         self.0.draw(&Text::new(text.to_owned(), (x, y), style)).expect(NEVER);
     }
 
-    /// A line through all of `points`.
-    pub(super) fn line(&self, points: &[(i32, i32)], width: u32, colour: RGBColor) {
-        let path = PathElement::new(points.to_vec(), colour.stroke_width(width));
+    /// Draws a line through all of `points`.
+    pub(super) fn line(&self, points: &[(i32, i32)], width: u32, color: RGBColor) {
+        let path = PathElement::new(points.to_vec(), color.stroke_width(width));
         self.0.draw(&path).expect(NEVER);
     }
 
-    /// A filled rectangle.
-    pub(super) fn bar(&self, from: (i32, i32), to: (i32, i32), colour: RGBColor) {
-        self.0.draw(&Rectangle::new([from, to], colour.filled())).expect(NEVER);
+    /// Draws a filled rectangle.
+    pub(super) fn bar(&self, from: (i32, i32), to: (i32, i32), color: RGBColor) {
+        self.0.draw(&Rectangle::new([from, to], color.filled())).expect(NEVER);
     }
 
-    /// A mark of a value.
-    pub(super) fn mark(&self, (x, y): (i32, i32), shape: Shape, colour: RGBColor) {
+    /// Draws the mark of a value.
+    pub(super) fn mark(&self, (x, y): (i32, i32), shape: MarkShape, color: RGBColor) {
         let filled = |points: &[(i32, i32)]| {
             let points: Vec<(i32, i32)> = points.iter().map(|(right, down)| (x + right, y + down)).collect();
-            self.0.draw(&Polygon::new(points, colour.filled())).expect(NEVER);
+            self.0.draw(&Polygon::new(points, color.filled())).expect(NEVER);
         };
         match shape {
-            Shape::Disc => self.0.draw(&Circle::new((x, y), 5, colour.filled())).expect(NEVER),
-            Shape::Ring => {
+            MarkShape::Disc => self.0.draw(&Circle::new((x, y), 5, color.filled())).expect(NEVER),
+            MarkShape::Ring => {
                 self.0.draw(&Circle::new((x, y), 5, WHITE.filled())).expect(NEVER);
-                self.0.draw(&Circle::new((x, y), 4, colour.stroke_width(2))).expect(NEVER);
+                self.0.draw(&Circle::new((x, y), 4, color.stroke_width(2))).expect(NEVER);
             }
-            Shape::Square => filled(&[(-4, -4), (4, -4), (4, 4), (-4, 4)]),
-            Shape::Diamond => filled(&[(0, -6), (6, 0), (0, 6), (-6, 0)]),
-            Shape::Triangle => filled(&[(0, -5), (6, 5), (-6, 5)]),
-            Shape::Cross => {
-                self.line(&[(x - 4, y - 4), (x + 4, y + 4)], 2, colour);
-                self.line(&[(x - 4, y + 4), (x + 4, y - 4)], 2, colour);
+            MarkShape::Square => filled(&[(-4, -4), (4, -4), (4, 4), (-4, 4)]),
+            MarkShape::Diamond => filled(&[(0, -6), (6, 0), (0, 6), (-6, 0)]),
+            MarkShape::Triangle => filled(&[(0, -5), (6, 5), (-6, 5)]),
+            MarkShape::Cross => {
+                self.line(&[(x - 4, y - 4), (x + 4, y + 4)], 2, color);
+                self.line(&[(x - 4, y + 4), (x + 4, y - 4)], 2, color);
             }
         }
     }

@@ -1,7 +1,8 @@
 //! Charts in SVG, drawn from summaries.
 //!
-//! All are light, so that they read on a dark page too; ours has the one accent, and no colour alone says anything:
-//! shapes and labels do. A thin line through a mark goes from the smallest to the greatest of the repeats.
+//! All have a white background, so that they are readable on a dark page too. Our variants have the accent color; nothing
+//! is distinguished by color alone, but also by shapes and labels. A thin line through a mark spans the repeats from the
+//! smallest to the largest.
 
 mod axis;
 mod canvas;
@@ -9,7 +10,7 @@ mod curves;
 mod ratios;
 mod rows;
 
-pub use axis::Scale;
+pub use axis::AxisScale;
 pub use curves::curves;
 pub use ratios::ratios;
 pub use rows::rows;
@@ -17,11 +18,11 @@ pub use rows::rows;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Row;
-    use crate::summary::{summarise, tests::row};
+    use crate::DataRow;
+    use crate::summary::{summarize, tests::row};
 
-    /// Three repeats of a distribution around `nanoseconds`.
-    fn distribution(case: &str, variant: &str, metric: &str, nanoseconds: f64) -> Vec<Row> {
+    /// Returns three repeats of a distribution around `nanoseconds`.
+    fn distribution(case: &str, variant: &str, metric: &str, nanoseconds: f64) -> Vec<DataRow> {
         let points = [("p50", 1.0), ("p90", 1.6), ("p99", 7.0), ("p99.9", 60.0), ("max", 900.0)];
         let repeats = (0..3).flat_map(|repeat| points.map(|(point, times)| (repeat, point, times)));
         repeats
@@ -35,11 +36,11 @@ mod tests {
     fn draw_all() -> Vec<(&'static str, String)> {
         let who =
             [("dragonfly", 9e3), ("flume", 11e3), ("std, parked", 9.5e3), ("dragonfly, spinning", 700.0)];
-        let trips: Vec<Row> = ["queue/trip/at_once", "queue/trip/rested"]
+        let trips: Vec<DataRow> = ["queue/trip/at_once", "queue/trip/rested"]
             .iter()
             .flat_map(|case| who.iter().flat_map(|(who, time)| distribution(case, who, "trip", *time)))
             .collect();
-        let trips = summarise(&trips);
+        let trips = summarize(&trips);
         let columns = [("trip.p50", "p50"), ("trip.p99", "p99"), ("trip.p99.9", "p99.9")];
         let ways = [
             "messages",
@@ -50,7 +51,7 @@ mod tests {
             "arc swap",
             "per take",
         ];
-        let blocked: Vec<Row> = ways
+        let blocked: Vec<DataRow> = ways
             .iter()
             .zip([7e3, 3e5, 9e4, 1.2e4, 1.3e4, 1.4e4, 2e4])
             .flat_map(|(way, time)| distribution("graphical/60_hz", way, "blocked", time))
@@ -70,27 +71,18 @@ mod tests {
             }
         }
         vec![
-            ("rows", rows("How long does an answer take?", &trips, &columns, Scale::Log)),
-            ("bars", rows("What does one cost?", &trips, &columns[..1], Scale::Linear)),
-            (
-                "curves",
-                curves("How long is the main thread kept?", &summarise(&blocked), "blocked", &ways[..6]),
-            ),
+            ("rows", rows("Round trip", &trips, &columns, AxisScale::Log)),
+            ("bars", rows("Cost of one", &trips, &columns[..1], AxisScale::Linear)),
+            ("curves", curves("Blocked main thread", &summarize(&blocked), "blocked", &ways[..6])),
             (
                 "ratios",
-                ratios(
-                    "How do actors compare?",
-                    &suite,
-                    "took",
-                    "dragonfly",
-                    &["actix", "kameo", "ractor", "stakker"],
-                ),
+                ratios("Actors", &suite, "took", "dragonfly", &["actix", "kameo", "ractor", "stakker"]),
             ),
         ]
     }
 
     #[test]
-    fn charts_name_everything_and_stay_within_their_bounds() {
+    fn all_texts_of_a_chart_are_within_its_bounds() {
         for (name, svg) in draw_all() {
             let number = |text: &str, key: &str| -> f64 {
                 let rest = text.split(&format!("{key}=\"")).nth(1).expect(key);
@@ -101,7 +93,7 @@ mod tests {
             for text in svg.split("<text ").skip(1) {
                 let (x, y, size) = (number(text, "x"), number(text, "y"), number(text, "font-size"));
                 let words = text.split_once('>').and_then(|(_, rest)| rest.split("</text>").next());
-                // Half the size of the font is what a letter takes on average.
+                // A letter is about half as wide as the font size.
                 let long = words.expect("some").trim().chars().count() as f64 * size * 0.52;
                 let (from, to) =
                     match text.split("text-anchor=\"").nth(1).and_then(|rest| rest.split('"').next()) {

@@ -1,8 +1,8 @@
-//! A row for each case, a mark for each of the others: how many times ours they take.
+//! Chart of ratios: a row for each case, and a mark for each other variant with its time relative to ours.
 
-use super::axis::{Axis, Scale};
+use super::axis::{AxisScale, ChartAxis};
 use super::canvas::{self, ACCENT, Anchor, GRID, INK, PALETTE, SHAPES, SOFT, WIDTH};
-use crate::Row;
+use crate::DataRow;
 use crate::summary::spread;
 use crate::table::{common_folder, distinct};
 
@@ -11,8 +11,8 @@ const RIGHT: i32 = WIDTH - 40;
 const TOP: i32 = 112;
 const ROW: i32 = 30;
 
-/// Draws `metric` of `peers` in times ours, repeat by repeat: those were measured one after another.
-pub fn ratios(title: &str, rows: &[Row], metric: &str, ours: &str, peers: &[&str]) -> String {
+/// Draws `metric` of `peers` relative to ours, from the values of the same repeat, which were measured one after another.
+pub fn ratios(title: &str, rows: &[DataRow], metric: &str, ours: &str, peers: &[&str]) -> String {
     let of_metric = || rows.iter().filter(|row| row.metric == metric);
     let cases = distinct(of_metric().map(|row| row.case.as_str()));
     let prefix = common_folder(&cases);
@@ -20,7 +20,8 @@ pub fn ratios(title: &str, rows: &[Row], metric: &str, ours: &str, peers: &[&str
     for (line, case) in cases.iter().enumerate() {
         for (number, peer) in peers.iter().enumerate() {
             let of = |variant: &str, repeat: u32| {
-                let same = |row: &&Row| row.case == *case && row.variant == variant && row.repeat == repeat;
+                let same =
+                    |row: &&DataRow| row.case == *case && row.variant == variant && row.repeat == repeat;
                 of_metric().find(same).map(|row| row.value)
             };
             let theirs = of_metric().filter(|row| row.case == *case && row.variant == *peer);
@@ -31,10 +32,10 @@ pub fn ratios(title: &str, rows: &[Row], metric: &str, ours: &str, peers: &[&str
         }
     }
     let values = points.iter().flat_map(|(.., [low, _, high])| [*low, *high]);
-    let axis = Axis::fit(values.chain([1.0]), Scale::Log, "ratio", LEFT, RIGHT);
+    let axis = ChartAxis::fit(values.chain([1.0]), AxisScale::Log, "ratio", LEFT, RIGHT);
     let bottom = TOP + ROW * cases.len() as i32;
     let under = format!(
-        "Time in times {ours}'s of the same repeat: median, thin lines: smallest to greatest repeat; logarithmic scale."
+        "Time relative to {ours} in the same repeat. Median of the repeats; thin lines: smallest to largest; logarithmic scale."
     );
 
     canvas::svg(bottom + 34, title, &under, |canvas| {
@@ -61,12 +62,12 @@ pub fn ratios(title: &str, rows: &[Row], metric: &str, ours: &str, peers: &[&str
         }
         for (line, number, times) in points {
             let [low, median, high] = times.map(|value| axis.place(value));
-            // Spread over the row, so that equal ones do not cover each other.
+            // Spread over the height of the row, so that equal marks do not cover each other.
             let count = peers.len().max(2) as i32 - 1;
             let y = TOP + line * ROW + 7 + number as i32 * (ROW - 14) / count;
-            let colour = PALETTE[number % PALETTE.len()];
-            canvas.line(&[(low, y), (high, y)], 1, colour);
-            canvas.mark((median, y), SHAPES[number % SHAPES.len()], colour);
+            let color = PALETTE[number % PALETTE.len()];
+            canvas.line(&[(low, y), (high, y)], 1, color);
+            canvas.mark((median, y), SHAPES[number % SHAPES.len()], color);
         }
     })
 }

@@ -3,14 +3,14 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Batches that are measured; enough for a 99th percentile that one slow moment does not decide.
+/// Number of measured batches. Large enough that a single slow batch does not determine the 99th percentile.
 const BATCHES: usize = 400;
 
-/// Runs `work` in batches of `per_batch` calls and prints nanoseconds a call: the median and the 99th percentile over
-/// the batches.
+/// Runs `work` in batches of `per_batch` calls and prints the median and the 99th percentile over the batches, in
+/// nanoseconds per call.
 ///
-/// `name` is crate/thing/case. Skipped when the first argument of the program, as `cargo bench -- part` passes it, is
-/// not part of the name.
+/// `name` is crate/thing/case. Does nothing when the first argument of the program, as in `cargo bench -- part`, is not
+/// a part of the name.
 pub fn measure<T>(name: &str, per_batch: u32, mut work: impl FnMut() -> T) {
     let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     if wanted.is_some_and(|part| !name.contains(&part)) {

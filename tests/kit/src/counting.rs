@@ -1,4 +1,4 @@
-//! How often a piece of code allocates, counted for the thread that runs it.
+//! Counts the allocations of a piece of code in the thread that runs it.
 //!
 //! A test binary installs the allocator once:
 //!
@@ -9,44 +9,44 @@
 //! assert_eq!(count.allocations, 1);
 //! ```
 
-// A global allocator cannot be written without it; nothing else in this crate may use it.
+// A global allocator is an unsafe trait; nothing else in this crate may be unsafe.
 #![allow(unsafe_code)]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::atomic::{AtomicI64, Ordering};
 
-/// What a thread asked of the allocator.
+/// Number and size of allocations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
-    /// Calls that asked for memory: new blocks and blocks that had to grow or shrink.
+    /// Number of calls that requested memory: new blocks and blocks that grew or shrank.
     pub allocations: u64,
-    /// Bytes asked for in them.
+    /// Number of bytes requested in these calls.
     pub bytes: u64,
 }
 
 thread_local! {
     // Constant and without a destructor, so that reading it never allocates.
     static COUNT: Cell<Count> = const { Cell::new(Count { allocations: 0, bytes: 0 }) };
-    /// Bytes held now and at most, by what this thread took and gave back.
-    static HELD: Cell<(i64, i64)> = const { Cell::new((0, 0)) };
-    /// Of that, what is not yet counted for the process.
+    /// Bytes in use now and at the peak, by this thread's allocations and deallocations.
+    static IN_USE: Cell<(i64, i64)> = const { Cell::new((0, 0)) };
+    /// Part of these bytes not yet added to [`PROCESS`].
     static UNCOUNTED: Cell<i64> = const { Cell::new(0) };
 }
 
-/// A thread adds what it took and gave back to the process's count in steps of so many bytes: so the threads do not meet at
-/// one number in every call, and the count is right but for this much a thread.
+/// Number of bytes after which a thread updates [`PROCESS`]. So the threads do not contend for it in every call, and its
+/// error is at most this number for each thread.
 const STEP: i64 = 1 << 16;
 
-/// Bytes that the process holds now, and at most.
+/// Bytes in use by the process now and at the peak.
 static PROCESS: [AtomicI64; 2] = [AtomicI64::new(0), AtomicI64::new(0)];
 
-/// What the calling thread has asked for so far; zero unless [`CountingAllocator`] is the global allocator.
+/// Returns the allocations of the calling thread so far; zero unless [`CountingAllocator`] is the global allocator.
 pub fn so_far() -> Count {
     COUNT.get()
 }
 
-/// Runs `work` and tells what it asked of the allocator on this thread.
+/// Runs `work`. Returns its allocations in this thread, and its result.
 pub fn count<T>(work: impl FnOnce() -> T) -> (Count, T) {
     let before = so_far();
     let result = work();
@@ -56,18 +56,18 @@ pub fn count<T>(work: impl FnOnce() -> T) -> (Count, T) {
     (count, result)
 }
 
-/// Runs `work` and tells how many bytes more than before it held at most, taken and not given back by this thread.
+/// Runs `work`. Returns the peak of additional bytes that this thread had in use, and the result.
 pub fn peak<T>(work: impl FnOnce() -> T) -> (u64, T) {
-    let (before, outer) = HELD.get();
-    HELD.set((before, before));
+    let (before, outer) = IN_USE.get();
+    IN_USE.set((before, before));
     let result = work();
-    let (now, most) = HELD.get();
-    HELD.set((now, most.max(outer)));
+    let (now, most) = IN_USE.get();
+    IN_USE.set((now, most.max(outer)));
     ((most - before).max(0) as u64, result)
 }
 
-/// Runs `work` and tells how many bytes more than before the process held at most, all its threads together; right but for
-/// 64 KiB a thread. One at a time.
+/// Runs `work`. Returns the peak of additional bytes that all threads of the process had in use, with an error of at most
+/// 64 KiB for each thread, and the result. Must not run in two threads at once.
 pub fn process_peak<T>(work: impl FnOnce() -> T) -> (u64, T) {
     let [held, most] = &PROCESS;
     let before = held.load(Ordering::Relaxed);
@@ -76,22 +76,22 @@ pub fn process_peak<T>(work: impl FnOnce() -> T) -> (u64, T) {
     ((most.load(Ordering::Relaxed) - before).max(0) as u64, result)
 }
 
-/// The system's allocator, which counts per thread.
+/// The system's allocator with a count for each thread.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CountingAllocator;
 
 /// Adds one call to the count of this thread.
-fn note(bytes: usize) {
-    // Fails only while the thread ends; those calls are of no interest.
+fn count_call(bytes: usize) {
+    // Fails only while the thread ends; those calls are not counted.
     let _ = COUNT.try_with(|cell| {
         let count = cell.get();
         cell.set(Count { allocations: count.allocations + 1, bytes: count.bytes + bytes as u64 });
     });
 }
 
-/// Adds to the bytes that this thread holds.
-fn hold(bytes: i64) {
-    let _ = HELD.try_with(|cell| {
+/// Adds `bytes`, which may be negative, to the bytes in use by this thread.
+fn count_bytes(bytes: i64) {
+    let _ = IN_USE.try_with(|cell| {
         let (held, most) = cell.get();
         cell.set((held + bytes, most.max(held + bytes)));
     });
@@ -107,34 +107,34 @@ fn hold(bytes: i64) {
     });
 }
 
-// SAFETY: every method hands its arguments on to `System` unchanged and returns what `System` returned, so the contract
-// of `GlobalAlloc` is kept because `System` keeps it; `note` and `hold` neither allocate nor unwind.
+// SAFETY: every method passes its arguments to `System` unchanged and returns what `System` returned, so the contract of
+// `GlobalAlloc` is kept because `System` keeps it; `count_call` and `count_bytes` neither allocate nor unwind.
 unsafe impl GlobalAlloc for CountingAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        note(layout.size());
-        hold(layout.size() as i64);
+        count_call(layout.size());
+        count_bytes(layout.size() as i64);
         // SAFETY: the caller keeps the contract of `alloc`, which is that of `System.alloc`.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        note(layout.size());
-        hold(layout.size() as i64);
+        count_call(layout.size());
+        count_bytes(layout.size() as i64);
         // SAFETY: as for `alloc`.
         unsafe { System.alloc_zeroed(layout) }
     }
 
     unsafe fn realloc(&self, block: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        note(size);
+        count_call(size);
         // A block that grows may be copied: for a moment there are two.
-        hold(size as i64);
-        hold(-(layout.size() as i64));
+        count_bytes(size as i64);
+        count_bytes(-(layout.size() as i64));
         // SAFETY: `block` came from this allocator, hence from `System`, with this `layout`.
         unsafe { System.realloc(block, layout, size) }
     }
 
     unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
-        hold(-(layout.size() as i64));
+        count_bytes(-(layout.size() as i64));
         // SAFETY: `block` came from this allocator, hence from `System`, with this `layout`.
         unsafe { System.dealloc(block, layout) }
     }

@@ -1,8 +1,8 @@
-//! Waiting for what happens in another thread, without guessing how long it takes.
+//! Waiting for a condition that another thread makes true, without a fixed delay.
 
 use std::time::{Duration, Instant};
 
-/// Looks at `condition` again and again until it holds: at once, then less and less often.
+/// Polls `condition` until it holds: at once, then at growing intervals up to 5 ms.
 ///
 /// # Panics
 /// When it does not hold within `limit`, at the caller's line.

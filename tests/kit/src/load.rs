@@ -36,7 +36,7 @@ impl CpuLoad {
     }
 
     /// Returns how many cores other programs have kept busy since `self`, on average.
-    pub fn others_since(&self) -> f64 {
+    pub fn background_since(&self) -> f64 {
         let now = Self::with(&self.processes);
         let others = (now.all - self.all).saturating_sub(now.own.saturating_sub(self.own)) as f64;
         others / TICKS / (now.when - self.when).as_secs_f64().max(1e-9)

@@ -1,8 +1,8 @@
-//! Damage: files that were right, changed at random, so that a reader of files meets what nobody would write.
+//! Mutation of files for fuzz tests: valid files with random changes that no program would write.
 
 use crate::random::Random;
 
-/// Numbers that break arithmetic on sizes.
+/// Numbers at which size arithmetic or float code often fails.
 const SPECIALS: [u32; 18] = [
     0,
     1,
@@ -17,7 +17,7 @@ const SPECIALS: [u32; 18] = [
     0x8000_0000,
     0xffff_ffff,
     0xffff_fffe,
-    // As floats: infinity, NaN, nearly infinity, nearly nothing, a minus.
+    // As floats: infinity, NaN, the largest, the smallest denormal, -1.
     0x7f80_0000,
     0x7fc0_0000,
     0x7f7f_ffff,
@@ -25,19 +25,19 @@ const SPECIALS: [u32; 18] = [
     0xbf80_0000,
 ];
 
-/// Changes files: a few random steps each, all from one seed.
+/// Returns mutants of files: a few random changes each, all derived from one seed.
 pub struct Mutator<'a> {
     random: Random,
     words: &'a [&'a [u8]],
 }
 
 impl<'a> Mutator<'a> {
-    /// `words` are put in here and there: what means something in the format.
+    /// Returns a mutator. `words` are inserted at random positions: byte sequences with a meaning in the format.
     pub fn new(seed: u64, words: &'a [&'a [u8]]) -> Self {
         Self { random: Random::new(seed), words }
     }
 
-    /// One of the `files`, changed in one to four places, sometimes with a piece of another one.
+    /// Returns one of the `files` with one to four changes, sometimes with a part of another file.
     pub fn mutant(&mut self, files: &[Vec<u8>]) -> Vec<u8> {
         let mut bytes = files[self.random.below(files.len())].clone();
         let most = self.random.below(4);
@@ -71,13 +71,13 @@ impl<'a> Mutator<'a> {
             }
             7 | 8 => {
                 let word = self.words[self.random.below(self.words.len())];
-                // Words for the beginning of an object are put there.
+                // Words for the start of an object are inserted there.
                 let object = bytes[at.min(bytes.len())..].iter().position(|&byte| byte == b'{');
                 let at = if word.ends_with(b",") { object.map_or(at, |object| at + object + 1) } else { at };
                 bytes.splice(at..at, word.iter().copied());
             }
             9 => {
-                // Far back, where the numbers of a binary file are.
+                // Near the end, where a binary file has its numbers.
                 let at = bytes.len().saturating_sub(1 + self.random.below(600));
                 self.put(bytes, at & !3, |random| random.choice(&SPECIALS).to_le_bytes().to_vec());
             }
@@ -85,7 +85,7 @@ impl<'a> Mutator<'a> {
         }
     }
 
-    /// Overwrites from `at` on, as far as there is something.
+    /// Overwrites the bytes from `at` on, up to the end of the file.
     fn put(&mut self, bytes: &mut [u8], at: usize, make: impl Fn(&mut Random) -> Vec<u8>) {
         let made = make(&mut self.random);
         for (slot, byte) in bytes.iter_mut().skip(at).zip(made) {
@@ -93,7 +93,7 @@ impl<'a> Mutator<'a> {
         }
     }
 
-    /// Changes the next digit after `at`, or makes a longer number of it.
+    /// Changes the next digit after `at`, or replaces it by a longer number.
     fn change_number(&mut self, bytes: &mut Vec<u8>, at: usize) {
         let Some(digit) = bytes[at.min(bytes.len())..].iter().position(u8::is_ascii_digit) else { return };
         let at = at + digit;

@@ -1,15 +1,15 @@
-//! A test's own process: running a test alone in one, and looking at its memory and threads.
+//! The process of a test: running a test alone in one, and reading its memory and threads.
 
 use std::process::Command;
 
 const ALONE: &str = "DRAGONFLY_ALONE";
 
-/// Runs `body` in a process of its own, where no other test runs beside it.
+/// Runs `body` in a process of its own, in which no other test runs.
 ///
-/// `test` is the test's full name in its binary. What the child prints is printed here.
+/// `test` is the full name of the test in its binary. The output of the child process is printed.
 ///
 /// # Panics
-/// When the child fails.
+/// When the child process fails.
 pub fn alone(test: &str, body: impl FnOnce()) {
     if std::env::var_os(ALONE).is_some_and(|name| name == test) {
         return body();
@@ -20,16 +20,16 @@ pub fn alone(test: &str, body: impl FnOnce()) {
         .env(ALONE, test)
         .output()
         .expect("the test's own file can be started");
-    let said = String::from_utf8_lossy(&output.stdout);
-    let complained = String::from_utf8_lossy(&output.stderr);
-    print!("{said}");
-    eprint!("{complained}");
-    assert!(said.contains("1 passed"), "{test} alone: {}\n{said}\n{complained}", output.status);
+    let output_text = String::from_utf8_lossy(&output.stdout);
+    let error_text = String::from_utf8_lossy(&output.stderr);
+    print!("{output_text}");
+    eprint!("{error_text}");
+    assert!(output_text.contains("1 passed"), "{test} alone: {}\n{output_text}\n{error_text}", output.status);
 }
 
-/// Memory of this process that is in use now, in bytes (Linux; elsewhere 0).
+/// Returns the resident memory of this process in bytes (on Linux; 0 elsewhere).
 ///
-/// 0 as well when `DRAGONFLY_SANITIZER` is set: there it is the sanitizer's memory that grows.
+/// Also 0 when `DRAGONFLY_SANITIZER` is set, because the sanitizer's own memory grows.
 pub fn resident_bytes() -> usize {
     if std::env::var_os("DRAGONFLY_SANITIZER").is_some() {
         return 0;
@@ -43,15 +43,15 @@ pub fn resident_bytes() -> usize {
 /// An OS thread of this process.
 #[derive(Clone, Debug)]
 pub struct OsThread {
-    /// Its name, of which the system keeps 15 bytes.
+    /// Name of the thread, of which the system keeps 15 bytes.
     pub name: String,
-    /// `S` while it sleeps, `R` while it runs.
+    /// State: `S` while it sleeps, `R` while it runs.
     pub state: char,
-    /// How often it gave up the processor of its own accord, to wait for something.
+    /// Number of voluntary context switches: how often it blocked.
     pub waits: u64,
 }
 
-/// The OS threads of this process (Linux; elsewhere none). One that ends meanwhile is left out.
+/// Returns the OS threads of this process (on Linux; none elsewhere), without those that end during the call.
 pub fn os_threads() -> Vec<OsThread> {
     let tasks = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
     tasks.filter_map(|task| read_thread(&task.path())).collect()

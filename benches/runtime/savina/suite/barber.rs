@@ -1,26 +1,28 @@
 //! A barber, a waiting room, and customers who come back at once when it is full.
 //!
-//! Original: 5,000 haircuts, a waiting room for 1,000. Counted: seven messages a haircut, which are the customer's
-//! making, its way through the room and under the barber's hands, the barber's call for the next, and the customer's
-//! leave; how often one found the room full depends on the order of delivery, and is a metric of its own (`retries`).
-//! Checked: the room never holds more than it may, and everybody got one haircut.
+//! Original: 5,000 haircuts, a waiting room for 1,000. Counted: seven messages for each haircut: the customer's
+//! creation, its way through the waiting room to the barber, the barber's call for the next customer, and the
+//! customer's departure. The number of times that a customer found the room full depends on the order of delivery and
+//! is a metric of its own (`retries`). Checked: the room never holds more than its capacity, and every customer got one
+//! haircut.
 //!
-//! The original's factory makes all customers in one message, with pauses of busy waiting; here it makes one a message,
-//! lest it keep the others from the thread. Work is steps of a generator, 500 on average as in the original.
+//! The original's factory creates all customers in one message, with busy waiting in between; here it creates one for
+//! each message, so that it does not block the other actors of its thread. Work is steps of a generator, 500 on average
+//! as in the original.
 
 use super::super::{Actor, Address, Cx, World};
 use super::work;
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_kit::random::Random;
 use std::collections::VecDeque;
 
-/// Most work that a haircut, or making a customer, takes.
+/// Largest number of steps that a haircut, or the creation of a customer, takes.
 const STEPS: usize = 1_000;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (haircuts, seats) = mode.pick((50, 10), (1_000, 200), (2_500, 500));
     let barber = world.spawn(0, Barber { room: None, random: Random::new(1), haircuts: 0 });
-    let room = Room {
+    let room = WaitingRoom {
         barber: barber.clone(),
         waiting: VecDeque::with_capacity(seats),
         seats,
@@ -29,13 +31,13 @@ pub(super) fn start(world: &mut World, mode: Mode) {
     };
     let room = world.spawn(0, room);
     world.send(&barber, BarberMessage::Hired(room.clone()));
-    let factory = Factory { room, random: Random::new(2), haircuts, made: 0, left: haircuts };
+    let factory = CustomerFactory { room, random: Random::new(2), haircuts, made: 0, left: haircuts };
     let factory = world.spawn(1, factory);
     world.send(&factory, FactoryMessage::Make);
 }
 
-struct Factory {
-    room: Address<Room>,
+struct CustomerFactory {
+    room: Address<WaitingRoom>,
     random: Random,
     haircuts: usize,
     made: usize,
@@ -44,12 +46,12 @@ struct Factory {
 
 enum FactoryMessage {
     Make,
-    /// The room was full.
+    /// Sent back to a customer who found the room full.
     Returned(Address<Customer>),
     Done,
 }
 
-impl Actor for Factory {
+impl Actor for CustomerFactory {
     type Message = FactoryMessage;
 
     fn receive(&mut self, message: FactoryMessage, cx: &mut Cx<Self>) {
@@ -58,7 +60,7 @@ impl Actor for Factory {
                 let steps = self.random.below(STEPS);
                 work(&mut self.random, steps);
                 let factory = cx.me();
-                let customer = cx.spawn(self.made, Customer { factory, state: State::Outside });
+                let customer = cx.spawn(self.made, Customer { factory, state: CustomerState::Outside });
                 cx.send(&self.room, RoomMessage::Enter(customer));
                 self.made += 1;
                 if self.made < self.haircuts {
@@ -78,7 +80,7 @@ impl Actor for Factory {
     }
 }
 
-struct Room {
+struct WaitingRoom {
     barber: Address<Barber>,
     waiting: VecDeque<Address<Customer>>,
     seats: usize,
@@ -88,14 +90,14 @@ struct Room {
 
 enum RoomMessage {
     Enter(Address<Customer>),
-    /// The barber is free.
+    /// Sent by the barber when it is free.
     Next,
     Close {
         haircuts: usize,
     },
 }
 
-impl Actor for Room {
+impl Actor for WaitingRoom {
     type Message = RoomMessage;
 
     fn receive(&mut self, message: RoomMessage, cx: &mut Cx<Self>) {
@@ -130,13 +132,13 @@ impl Actor for Room {
 }
 
 struct Barber {
-    room: Option<Address<Room>>,
+    room: Option<Address<WaitingRoom>>,
     random: Random,
     haircuts: usize,
 }
 
 enum BarberMessage {
-    Hired(Address<Room>),
+    Hired(Address<WaitingRoom>),
     Enter(Address<Customer>),
     Close { haircuts: usize, refused: u64 },
 }
@@ -167,12 +169,12 @@ impl Actor for Barber {
 }
 
 struct Customer {
-    factory: Address<Factory>,
-    state: State,
+    factory: Address<CustomerFactory>,
+    state: CustomerState,
 }
 
 #[derive(Debug, PartialEq)]
-enum State {
+enum CustomerState {
     Outside,
     Waiting,
     Chair,
@@ -191,20 +193,20 @@ impl Actor for Customer {
     fn receive(&mut self, message: CustomerMessage, cx: &mut Cx<Self>) {
         match message {
             CustomerMessage::Full => {
-                assert_eq!(self.state, State::Outside, "who is in is not turned away");
+                assert_eq!(self.state, CustomerState::Outside, "who is in is not turned away");
                 let me = cx.me();
                 cx.send(&self.factory, FactoryMessage::Returned(me));
             }
             CustomerMessage::Wait => {
-                assert_eq!(self.state, State::Outside, "a seat is given once");
-                self.state = State::Waiting;
+                assert_eq!(self.state, CustomerState::Outside, "a seat is given once");
+                self.state = CustomerState::Waiting;
             }
             CustomerMessage::Start => {
-                assert_ne!(self.state, State::Chair, "a haircut begins once");
-                self.state = State::Chair;
+                assert_ne!(self.state, CustomerState::Chair, "a haircut begins once");
+                self.state = CustomerState::Chair;
             }
             CustomerMessage::Done => {
-                assert_eq!(self.state, State::Chair, "a haircut ends that has begun");
+                assert_eq!(self.state, CustomerState::Chair, "a haircut ends that has begun");
                 cx.send(&self.factory, FactoryMessage::Done);
                 cx.stop();
             }

@@ -1,69 +1,70 @@
-//! Everybody writes to everybody: each actor pings one of the others at random, and the next when the pong is there.
+//! All actors write to all: each actor pings a random other one, and the next one when the pong arrives.
 //!
-//! Original: 120 actors, 20,000 pings each. Counted: pings and pongs. Checked: a pong comes from the one that was
-//! pinged, and as many pings were answered as were sent.
+//! Original: 120 actors, 20,000 pings each. Counted: pings and pongs. Checked: a pong comes from the actor that was
+//! pinged, and every ping was answered.
 
 use super::super::{Actor, Address, Cx, World};
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_kit::random::Random;
 use std::sync::Arc;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (workers, pings) = mode.pick((6, 50), (120, 1_000), (120, 4_000));
-    let sink = world.spawn(0, Sink { workers: Workers::default(), pings, done: 0, answered: 0, ended: 0 });
+    let sink =
+        world.spawn(0, BigSink { workers: BigWorkers::default(), pings, done: 0, answered: 0, ended: 0 });
     let create = |index: usize| {
         let random = Random::new(index as u64);
         let sink = sink.clone();
         let worker =
-            Worker { index, sink, random, workers: None, left: pings, expected: usize::MAX, answered: 0 };
+            BigWorker { index, sink, random, workers: None, left: pings, expected: usize::MAX, answered: 0 };
         world.spawn(index, worker)
     };
-    let workers: Vec<Address<Worker>> = (0..workers).map(create).collect();
-    let workers: Workers = workers.into();
+    let workers: Vec<Address<BigWorker>> = (0..workers).map(create).collect();
+    let workers: BigWorkers = workers.into();
     for worker in workers.iter() {
-        world.send(worker, WorkerMessage::Know(Arc::clone(&workers)));
+        world.send(worker, BigMessage::Know(Arc::clone(&workers)));
     }
     world.send(&sink, SinkMessage::Begin(workers));
 }
 
-type Workers = Arc<[Address<Worker>]>;
+type BigWorkers = Arc<[Address<BigWorker>]>;
 
-struct Worker {
+struct BigWorker {
     index: usize,
-    sink: Address<Sink>,
+    sink: Address<BigSink>,
     random: Random,
-    workers: Option<Workers>,
+    workers: Option<BigWorkers>,
     left: u64,
-    /// Whose pong is awaited.
+    /// The actor whose pong is expected.
     expected: usize,
     answered: u64,
 }
 
-enum WorkerMessage {
-    Know(Workers),
+enum BigMessage {
+    Know(BigWorkers),
     Begin,
     Ping { from: usize },
     Pong { from: usize },
     End,
 }
 
-impl Actor for Worker {
-    type Message = WorkerMessage;
+impl Actor for BigWorker {
+    type Message = BigMessage;
 
-    fn receive(&mut self, message: WorkerMessage, cx: &mut Cx<Self>) {
+    fn receive(&mut self, message: BigMessage, cx: &mut Cx<Self>) {
         match message {
-            WorkerMessage::Know(workers) => self.workers = Some(workers),
-            WorkerMessage::Begin => self.ping(cx),
-            WorkerMessage::Ping { from } => {
+            BigMessage::Know(workers) => self.workers = Some(workers),
+            BigMessage::Begin => self.ping(cx),
+            BigMessage::Ping { from } => {
                 self.answered += 1;
                 let workers = self.workers.as_ref().expect("all have the list before one begins");
-                cx.send(&workers[from], WorkerMessage::Pong { from: self.index });
+                cx.send(&workers[from], BigMessage::Pong { from: self.index });
             }
-            WorkerMessage::Pong { from } => {
+            BigMessage::Pong { from } => {
                 assert_eq!(from, self.expected, "who was pinged answers");
                 self.ping(cx);
             }
-            WorkerMessage::End => {
+            BigMessage::End => {
                 cx.send(&self.sink, SinkMessage::Ended { answered: self.answered });
                 cx.stop();
             }
@@ -71,8 +72,8 @@ impl Actor for Worker {
     }
 }
 
-impl Worker {
-    /// Pings the next, or says that all are done.
+impl BigWorker {
+    /// Pings the next actor, or reports the end.
     fn ping(&mut self, cx: &mut Cx<Self>) {
         if self.left == 0 {
             return cx.send(&self.sink, SinkMessage::Done);
@@ -80,12 +81,12 @@ impl Worker {
         self.left -= 1;
         let workers = self.workers.as_ref().expect("all have the list before one begins");
         self.expected = self.random.below(workers.len());
-        cx.send(&workers[self.expected], WorkerMessage::Ping { from: self.index });
+        cx.send(&workers[self.expected], BigMessage::Ping { from: self.index });
     }
 }
 
-struct Sink {
-    workers: Workers,
+struct BigSink {
+    workers: BigWorkers,
     pings: u64,
     done: usize,
     answered: u64,
@@ -93,24 +94,24 @@ struct Sink {
 }
 
 enum SinkMessage {
-    Begin(Workers),
+    Begin(BigWorkers),
     Done,
     Ended { answered: u64 },
 }
 
-impl Actor for Sink {
+impl Actor for BigSink {
     type Message = SinkMessage;
 
     fn receive(&mut self, message: SinkMessage, cx: &mut Cx<Self>) {
         match message {
             SinkMessage::Begin(workers) => {
-                workers.iter().for_each(|worker| cx.send(worker, WorkerMessage::Begin));
+                workers.iter().for_each(|worker| cx.send(worker, BigMessage::Begin));
                 self.workers = workers;
             }
             SinkMessage::Done => {
                 self.done += 1;
                 if self.done == self.workers.len() {
-                    self.workers.iter().for_each(|worker| cx.send(worker, WorkerMessage::End));
+                    self.workers.iter().for_each(|worker| cx.send(worker, BigMessage::End));
                 }
             }
             SinkMessage::Ended { answered } => {

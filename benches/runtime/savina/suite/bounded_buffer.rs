@@ -1,25 +1,25 @@
-//! Producers, consumers, and a buffer between them that holds up who is too fast.
+//! Producers, consumers, and a buffer between them that slows down the faster side.
 //!
-//! Original: 40 producers of 1,000 items each, 40 consumers, a buffer of 50. Counted: four messages an item, which are
-//! the order, the item in, the item out, and the consumer's return. Checked: the buffer never holds more than it may,
-//! and every item was consumed exactly once.
+//! Original: 40 producers of 1,000 items each, 40 consumers, a buffer of 50. Counted: four messages for each item: the
+//! request, the item from the producer, the item to the consumer, and the consumer's return. Checked: the buffer never
+//! holds more than its capacity, and every item was consumed exactly once.
 //!
-//! The original computes some 2,500 logarithms for every item on each side, which would hide the messages; here each
-//! side does 25 steps of a generator.
+//! The original computes about 2,500 logarithms for every item on each side, which would hide the cost of the messages;
+//! here each side does 25 steps of a generator.
 
 use super::super::{Actor, Address, Cx, World};
 use super::work;
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_kit::random::Random;
 use std::collections::VecDeque;
 
-/// Work for an item, on each side.
+/// Steps of work for an item, on each side.
 const STEPS: usize = 25;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (producers, consumers, items, limit) =
         mode.pick((4, 3, 20, 6), (40, 40, 200, 50), (40, 40, 1_000, 50));
-    let buffer = Buffer {
+    let buffer = ItemBuffer {
         limit,
         items,
         held: VecDeque::new(),
@@ -36,7 +36,7 @@ pub(super) fn start(world: &mut World, mode: Mode) {
         let random = Random::new(index as u64);
         world.spawn(
             index,
-            Producer { index, buffer: buffer.clone(), next: index * items, left: items, random },
+            BufferProducer { index, buffer: buffer.clone(), next: index * items, left: items, random },
         )
     };
     let producers = (0..producers).map(produce).collect();
@@ -48,37 +48,37 @@ pub(super) fn start(world: &mut World, mode: Mode) {
     world.send(&buffer, BufferMessage::Open(producers, consumers));
 }
 
-struct Buffer {
+struct ItemBuffer {
     limit: usize,
-    /// Of each producer.
+    /// Number of items of each producer.
     items: usize,
     held: VecDeque<usize>,
-    producers: Vec<Address<Producer>>,
+    producers: Vec<Address<BufferProducer>>,
     consumers: Vec<Address<Consumer>>,
     idle_producers: VecDeque<usize>,
     idle_consumers: VecDeque<usize>,
-    /// Producers that have no more.
+    /// Number of producers that have no more items.
     ended: usize,
     consumed: Vec<bool>,
-    /// Consumers that have said what they consumed.
+    /// Number of consumers that have reported what they consumed.
     reports: usize,
 }
 
 enum BufferMessage {
-    Open(Vec<Address<Producer>>, Vec<Address<Consumer>>),
+    Open(Vec<Address<BufferProducer>>, Vec<Address<Consumer>>),
     Item { from: usize, item: usize },
     Exhausted,
     Idle { from: usize },
     Consumed(Vec<usize>),
 }
 
-impl Actor for Buffer {
+impl Actor for ItemBuffer {
     type Message = BufferMessage;
 
     fn receive(&mut self, message: BufferMessage, cx: &mut Cx<Self>) {
         match message {
             BufferMessage::Open(producers, consumers) => {
-                producers.iter().for_each(|producer| cx.send(producer, ProducerMessage::Produce));
+                producers.iter().for_each(|producer| cx.send(producer, BufferProducerMessage::Produce));
                 (self.producers, self.consumers) = (producers, consumers);
             }
             BufferMessage::Item { from, item } => {
@@ -87,11 +87,11 @@ impl Actor for Buffer {
                     None => self.held.push_back(item),
                 }
                 assert!(self.held.len() <= self.limit, "the buffer holds {}", self.held.len());
-                // Every other producer may already be about to deliver one.
+                // Every other producer may already be about to deliver an item.
                 if self.held.len() + self.producers.len() > self.limit {
                     self.idle_producers.push_back(from);
                 } else {
-                    cx.send(&self.producers[from], ProducerMessage::Produce);
+                    cx.send(&self.producers[from], BufferProducerMessage::Produce);
                 }
             }
             BufferMessage::Idle { from } => {
@@ -100,7 +100,7 @@ impl Actor for Buffer {
                     None => self.idle_consumers.push_back(from),
                 }
                 if let Some(producer) = self.idle_producers.pop_front() {
-                    cx.send(&self.producers[producer], ProducerMessage::Produce);
+                    cx.send(&self.producers[producer], BufferProducerMessage::Produce);
                 }
                 self.end_if_empty(cx);
             }
@@ -113,7 +113,7 @@ impl Actor for Buffer {
     }
 }
 
-impl Buffer {
+impl ItemBuffer {
     fn end_if_empty(&self, cx: &mut Cx<Self>) {
         if self.ended == self.producers.len() && self.idle_consumers.len() == self.consumers.len() {
             self.consumers.iter().for_each(|consumer| cx.send(consumer, ConsumerMessage::End));
@@ -134,22 +134,22 @@ impl Buffer {
     }
 }
 
-struct Producer {
+struct BufferProducer {
     index: usize,
-    buffer: Address<Buffer>,
+    buffer: Address<ItemBuffer>,
     next: usize,
     left: usize,
     random: Random,
 }
 
-enum ProducerMessage {
+enum BufferProducerMessage {
     Produce,
 }
 
-impl Actor for Producer {
-    type Message = ProducerMessage;
+impl Actor for BufferProducer {
+    type Message = BufferProducerMessage;
 
-    fn receive(&mut self, ProducerMessage::Produce: ProducerMessage, cx: &mut Cx<Self>) {
+    fn receive(&mut self, BufferProducerMessage::Produce: BufferProducerMessage, cx: &mut Cx<Self>) {
         if self.left == 0 {
             cx.send(&self.buffer, BufferMessage::Exhausted);
             return cx.stop();
@@ -163,7 +163,7 @@ impl Actor for Producer {
 
 struct Consumer {
     index: usize,
-    buffer: Address<Buffer>,
+    buffer: Address<ItemBuffer>,
     consumed: Vec<usize>,
     random: Random,
 }

@@ -1,36 +1,36 @@
-//! Creatures meet in pairs at a mall and change colour: many actors at one, and addresses that travel.
+//! Creatures meet in pairs at a mall and change color: many actors send to one, and addresses are sent in messages.
 //!
-//! Original: 100 creatures, 200,000 meetings. Counted: four messages a meeting, which are two arrivals, the
-//! introduction and the answer. Checked: every meeting was counted by two, and nobody met itself.
+//! Original: 100 creatures, 200,000 meetings. Counted: four messages for each meeting: two arrivals, the introduction
+//! and the answer. Checked: every meeting was counted by two creatures, and no creature met itself.
 
 use super::super::{Actor, Address, Cx, World};
-use crate::Mode;
+use crate::StudyMode;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (creatures, meetings) = mode.pick((10, 100), (100, 20_000), (100, 200_000));
     let mall =
         Mall { waiting: None, left: meetings, meetings, creatures: Vec::new(), counted: 0, met: 0, faded: 0 };
     let mall = world.spawn(0, mall);
-    let colours = [Colour::Blue, Colour::Red, Colour::Yellow];
+    let colors = [CreatureColor::Blue, CreatureColor::Red, CreatureColor::Yellow];
     let create = |index: usize| {
-        let colour = colours[index % colours.len()];
-        world.spawn(index, Creature { mall: mall.clone(), index, colour, meetings: 0 })
+        let color = colors[index % colors.len()];
+        world.spawn(index, Creature { mall: mall.clone(), index, color, meetings: 0 })
     };
     let creatures: Vec<Address<Creature>> = (0..creatures).map(create).collect();
     world.send(&mall, MallMessage::Open(creatures));
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Colour {
+enum CreatureColor {
     Blue,
     Red,
     Yellow,
 }
 
-impl Colour {
-    /// What two of these colours become: the same stays, different ones become the third.
+impl CreatureColor {
+    /// Returns the new color of two creatures that meet: the same color if they are equal, otherwise the third one.
     fn with(self, other: Self) -> Self {
-        use Colour::{Blue, Red, Yellow};
+        use CreatureColor::{Blue, Red, Yellow};
         match (self, other) {
             (Blue, Red) | (Red, Blue) => Yellow,
             (Blue, Yellow) | (Yellow, Blue) => Red,
@@ -40,10 +40,10 @@ impl Colour {
     }
 }
 
-/// Who comes to meet somebody.
+/// A creature that arrives at the mall.
 struct Visitor {
     index: usize,
-    colour: Colour,
+    color: CreatureColor,
     address: Address<Creature>,
 }
 
@@ -100,14 +100,14 @@ impl Actor for Mall {
 struct Creature {
     mall: Address<Mall>,
     index: usize,
-    colour: Colour,
+    color: CreatureColor,
     meetings: u64,
 }
 
 enum CreatureMessage {
     Begin,
     Meet(Visitor),
-    Change(Colour),
+    Change(CreatureColor),
     Fade,
 }
 
@@ -119,13 +119,13 @@ impl Actor for Creature {
             CreatureMessage::Begin => self.arrive(cx),
             CreatureMessage::Meet(other) => {
                 assert_ne!(other.index, self.index, "nobody meets itself");
-                self.colour = self.colour.with(other.colour);
+                self.color = self.color.with(other.color);
                 self.meetings += 1;
-                cx.send(&other.address, CreatureMessage::Change(self.colour));
+                cx.send(&other.address, CreatureMessage::Change(self.color));
                 self.arrive(cx);
             }
-            CreatureMessage::Change(colour) => {
-                self.colour = colour;
+            CreatureMessage::Change(color) => {
+                self.color = color;
                 self.meetings += 1;
                 self.arrive(cx);
             }
@@ -139,7 +139,7 @@ impl Actor for Creature {
 
 impl Creature {
     fn arrive(&self, cx: &mut Cx<Self>) {
-        let visitor = Visitor { index: self.index, colour: self.colour, address: cx.me() };
+        let visitor = Visitor { index: self.index, color: self.color, address: cx.me() };
         cx.send(&self.mall, MallMessage::Arrive(visitor));
     }
 }

@@ -1,40 +1,40 @@
-//! One actor sends, the other counts: messages in one direction, as fast as they can be sent.
+//! One actor sends, the other one counts: messages in one direction at full speed.
 //!
-//! Original: 1,000,000 messages. Counted: each of them. Checked: the counter has counted them all.
+//! Original: 1,000,000 messages. Counted: each of them. Checked: the counter has counted all of them.
 
 use super::super::{Actor, Address, Cx, World};
-use crate::Mode;
+use crate::StudyMode;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let messages = mode.pick(100, 250_000, 1_000_000);
-    let counter = world.spawn(1, Counter { count: 0 });
-    let producer = world.spawn(0, Producer { counter, messages });
-    world.send(&producer, ProducerMessage::Begin);
+    let counter = world.spawn(1, MessageCounter { count: 0 });
+    let producer = world.spawn(0, CountingProducer { counter, messages });
+    world.send(&producer, CountingProducerMessage::Begin);
 }
 
-struct Producer {
-    counter: Address<Counter>,
+struct CountingProducer {
+    counter: Address<MessageCounter>,
     messages: u64,
 }
 
-enum ProducerMessage {
+enum CountingProducerMessage {
     Begin,
     Counted(u64),
 }
 
-impl Actor for Producer {
-    type Message = ProducerMessage;
+impl Actor for CountingProducer {
+    type Message = CountingProducerMessage;
 
-    fn receive(&mut self, message: ProducerMessage, cx: &mut Cx<Self>) {
+    fn receive(&mut self, message: CountingProducerMessage, cx: &mut Cx<Self>) {
         match message {
-            ProducerMessage::Begin => {
+            CountingProducerMessage::Begin => {
                 for _ in 0..self.messages {
                     cx.send(&self.counter, CounterMessage::Increment);
                 }
                 let me = cx.me();
                 cx.send(&self.counter, CounterMessage::Tell(me));
             }
-            ProducerMessage::Counted(count) => {
+            CountingProducerMessage::Counted(count) => {
                 assert_eq!(count, self.messages, "every message was counted");
                 cx.finish(count, None);
                 cx.stop();
@@ -43,23 +43,23 @@ impl Actor for Producer {
     }
 }
 
-struct Counter {
+struct MessageCounter {
     count: u64,
 }
 
 enum CounterMessage {
     Increment,
-    Tell(Address<Producer>),
+    Tell(Address<CountingProducer>),
 }
 
-impl Actor for Counter {
+impl Actor for MessageCounter {
     type Message = CounterMessage;
 
     fn receive(&mut self, message: CounterMessage, cx: &mut Cx<Self>) {
         match message {
             CounterMessage::Increment => self.count += 1,
             CounterMessage::Tell(producer) => {
-                cx.send(&producer, ProducerMessage::Counted(self.count));
+                cx.send(&producer, CountingProducerMessage::Counted(self.count));
                 cx.stop();
             }
         }

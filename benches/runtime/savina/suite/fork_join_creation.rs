@@ -1,22 +1,22 @@
-//! Actors for a moment: each is created, computes a little with its one message, and ends.
+//! Short-lived actors: each is created, computes a little with its only message, and ends.
 //!
-//! Original: 40,000 actors. Counted: actors, so the figure is that of a creation, a message there and one back, and an
-//! end. Checked: every actor has answered, and with the message that it was sent.
+//! Original: 40,000 actors. Counted: actors, so the metric is the cost of a creation, a message there and one back, and
+//! an end. Checked: every actor has answered with the message that it was sent.
 //!
-//! The original creates from its main thread and waits until all have ended; here an actor creates, and each actor
-//! tells it before it ends.
+//! The original creates the actors from its main thread and waits until all have ended; here an actor creates them, and
+//! each actor reports to it before it ends.
 
 use super::super::{Actor, Address, Cx, World};
 use super::compute;
-use crate::Mode;
+use crate::StudyMode;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let actors = mode.pick(40, 10_000, 40_000);
-    let parent = world.spawn(0, Parent { answered: vec![false; actors], missing: actors });
+    let parent = world.spawn(0, CreatingParent { answered: vec![false; actors], missing: actors });
     world.send(&parent, ParentMessage::Begin);
 }
 
-struct Parent {
+struct CreatingParent {
     answered: Vec<bool>,
     missing: usize,
 }
@@ -26,7 +26,7 @@ enum ParentMessage {
     Done(usize),
 }
 
-impl Actor for Parent {
+impl Actor for CreatingParent {
     type Message = ParentMessage;
 
     fn receive(&mut self, message: ParentMessage, cx: &mut Cx<Self>) {
@@ -52,7 +52,7 @@ impl Actor for Parent {
 }
 
 struct Child {
-    parent: Address<Parent>,
+    parent: Address<CreatingParent>,
 }
 
 impl Actor for Child {

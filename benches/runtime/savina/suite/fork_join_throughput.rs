@@ -1,23 +1,24 @@
-//! One actor keeps many busy: messages to 60 actors in turn, each of which computes a little.
+//! One actor sends messages to 60 actors in turn, each of which computes a little.
 //!
-//! Original: 60 actors, 10,000 messages each. Counted: those messages. Checked: each actor got its messages in the
-//! order of sending, and all of them.
+//! Original: 60 actors, 10,000 messages each. Counted: those messages. Checked: each actor received all of its
+//! messages, in the order of sending.
 //!
-//! The original sends from its main thread; here an actor does.
+//! The original sends from its main thread; here an actor sends.
 
 use super::super::{Actor, Address, Cx, World};
 use super::compute;
-use crate::Mode;
+use crate::StudyMode;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (workers, messages) = mode.pick((6, 20), (60, 2_500), (60, 10_000));
-    let workers = (0..workers).map(|place| world.spawn(place, Worker { next: 0, messages })).collect();
-    let source = world.spawn(0, Source { workers, messages, done: 0 });
+    let workers =
+        (0..workers).map(|place| world.spawn(place, ForkJoinWorker { next: 0, messages })).collect();
+    let source = world.spawn(0, ForkJoinSource { workers, messages, done: 0 });
     world.send(&source, SourceMessage::Begin);
 }
 
-struct Source {
-    workers: Vec<Address<Worker>>,
+struct ForkJoinSource {
+    workers: Vec<Address<ForkJoinWorker>>,
     messages: u64,
     done: usize,
 }
@@ -27,7 +28,7 @@ enum SourceMessage {
     Done,
 }
 
-impl Actor for Source {
+impl Actor for ForkJoinSource {
     type Message = SourceMessage;
 
     fn receive(&mut self, message: SourceMessage, cx: &mut Cx<Self>) {
@@ -35,12 +36,12 @@ impl Actor for Source {
             SourceMessage::Begin => {
                 for number in 0..self.messages {
                     for worker in &self.workers {
-                        cx.send(worker, WorkerMessage::Work(number));
+                        cx.send(worker, ForkJoinMessage::Work(number));
                     }
                 }
                 for worker in &self.workers {
                     let me = cx.me();
-                    cx.send(worker, WorkerMessage::End(me));
+                    cx.send(worker, ForkJoinMessage::End(me));
                 }
             }
             SourceMessage::Done => {
@@ -54,27 +55,27 @@ impl Actor for Source {
     }
 }
 
-struct Worker {
+struct ForkJoinWorker {
     next: u64,
     messages: u64,
 }
 
-enum WorkerMessage {
+enum ForkJoinMessage {
     Work(u64),
-    End(Address<Source>),
+    End(Address<ForkJoinSource>),
 }
 
-impl Actor for Worker {
-    type Message = WorkerMessage;
+impl Actor for ForkJoinWorker {
+    type Message = ForkJoinMessage;
 
-    fn receive(&mut self, message: WorkerMessage, cx: &mut Cx<Self>) {
+    fn receive(&mut self, message: ForkJoinMessage, cx: &mut Cx<Self>) {
         match message {
-            WorkerMessage::Work(number) => {
+            ForkJoinMessage::Work(number) => {
                 assert_eq!(number, self.next, "messages come in the order of sending");
                 self.next += 1;
                 compute();
             }
-            WorkerMessage::End(source) => {
+            ForkJoinMessage::End(source) => {
                 assert_eq!(self.next, self.messages, "every message came");
                 cx.send(&source, SourceMessage::Done);
                 cx.stop();

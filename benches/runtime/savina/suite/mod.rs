@@ -1,13 +1,14 @@
-//! The benchmarks themselves: their actors, written once.
+//! The benchmarks: their actors, written once.
 //!
 //! This folder is compiled as a module of each system (`systems/*.rs`), where `Actor`, `Address`, `Cx` and `World` are
-//! that system's own. A trait with an implementation for each system would read the same, but could not be both
-//! strict and fair: actors and messages of kameo must be `Send`, and stakker's addresses, which travel in messages,
-//! cannot be. So every system gets its actors with its own types in them, no box or call more than by hand.
+//! that system's own types. A trait with an implementation for each system would look the same, but could not be both
+//! strict and fair: actors and messages of kameo must be `Send`, and stakker's addresses, which are sent in messages,
+//! cannot be. So every system gets its actors with its own types, without a box or call that hand-written code would
+//! not have.
 //!
-//! What the original passes along as the sender's reference is here, where the receiver can have a list of its
-//! partners, a number in that list: copying a reference costs the original nothing, but some of the peers several
-//! atomic operations. Addresses travel in chameneos and the barber's shop, which are about that.
+//! Where the original sends the sender's reference with a message and the receiver can have a list of its partners,
+//! this version sends an index into that list: copying a reference costs nothing in the original, but several atomic
+//! operations in some of these crates. Addresses are sent in `chameneos` and `barber`, whose purpose that is.
 
 mod barber;
 mod big;
@@ -23,12 +24,12 @@ mod smokers;
 mod thread_ring;
 
 use super::World;
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_kit::random::Random;
 use std::hint::black_box;
 
-/// Creates the actors of a benchmark and gets them going; one of them will say when the run is over.
-pub(super) fn start(benchmark: &str, world: &mut World, mode: Mode) {
+/// Creates the actors of a benchmark and starts them; one of them ends the run.
+pub(super) fn start(benchmark: &str, world: &mut World, mode: StudyMode) {
     match benchmark {
         "ping_pong" => ping_pong::start(world, mode),
         "counting" => counting::start(world, mode),
@@ -46,13 +47,13 @@ pub(super) fn start(benchmark: &str, world: &mut World, mode: Mode) {
     }
 }
 
-/// What a message of the fork-join benchmarks is computed with, as in the original.
+/// The computation for each message of the fork-join benchmarks, as in the original.
 fn compute() {
     let sine = f64::sin(black_box(37.2));
     black_box(sine * sine);
 }
 
-/// Work of so many steps of the generator.
+/// Does `steps` steps of the generator as work.
 fn work(random: &mut Random, steps: usize) {
     for _ in 0..steps {
         black_box(random.bits());

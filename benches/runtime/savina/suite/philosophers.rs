@@ -1,18 +1,18 @@
 //! Philosophers ask an arbitrator for their two forks, and ask again at once when they are refused.
 //!
-//! Original: 20 philosophers, 10,000 meals each. Counted: three messages a meal, which are the wish, the permission and
-//! the return; how often a wish was refused depends on the order of delivery, and is a metric of its own (`retries`).
-//! Checked: nobody eats with a fork that another holds, by marks on the forks that the arbitrator does not decide by;
-//! everybody had every meal.
+//! Original: 20 philosophers, 10,000 meals each. Counted: three messages for each meal: the request, the permission and
+//! the return. The number of refused requests depends on the order of delivery and is a metric of its own (`retries`).
+//! Checked: no philosopher eats with a fork that another one has, with marks on the forks that the arbitrator does not
+//! use; every philosopher had all of its meals.
 
 use super::super::{Actor, Address, Cx, World};
-use crate::Mode;
+use crate::StudyMode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (philosophers, meals) = mode.pick((5, 20), (20, 1_000), (20, 10_000));
-    let table = Arc::new(Table { held: (0..philosophers).map(|_| AtomicBool::new(false)).collect() });
+    let table = Arc::new(ForkMarks { held: (0..philosophers).map(|_| AtomicBool::new(false)).collect() });
     let arbitrator = Arbitrator {
         table: Arc::clone(&table),
         taken: vec![false; philosophers],
@@ -31,25 +31,25 @@ pub(super) fn start(world: &mut World, mode: Mode) {
     world.send(&arbitrator, ArbitratorMessage::Open(philosophers));
 }
 
-/// The forks as those see them who eat with them.
-struct Table {
+/// Marks on the forks, set by the philosophers that eat with them.
+struct ForkMarks {
     held: Vec<AtomicBool>,
 }
 
-impl Table {
+impl ForkMarks {
     fn forks(&self, philosopher: usize) -> [&AtomicBool; 2] {
         [&self.held[philosopher], &self.held[(philosopher + 1) % self.held.len()]]
     }
 
-    /// The philosopher takes its forks.
+    /// Marks both forks of a philosopher as used.
     fn take(&self, philosopher: usize) {
         for fork in self.forks(philosopher) {
             assert!(!fork.swap(true, Ordering::SeqCst), "{philosopher} takes a fork that another holds");
         }
     }
 
-    /// The arbitrator has them back.
-    fn lay_down(&self, philosopher: usize) {
+    /// Removes both marks.
+    fn release_forks(&self, philosopher: usize) {
         for fork in self.forks(philosopher) {
             assert!(fork.swap(false, Ordering::SeqCst), "{philosopher} gives back a fork that nobody holds");
         }
@@ -57,10 +57,10 @@ impl Table {
 }
 
 struct Arbitrator {
-    table: Arc<Table>,
+    table: Arc<ForkMarks>,
     taken: Vec<bool>,
     philosophers: Vec<Address<Philosopher>>,
-    /// Of each philosopher.
+    /// Number of meals of each philosopher.
     meals: u64,
     eaten: u64,
     refused: u64,
@@ -94,7 +94,7 @@ impl Actor for Arbitrator {
             }
             ArbitratorMessage::Sated(who) => {
                 self.eaten += 1;
-                self.table.lay_down(who);
+                self.table.release_forks(who);
                 [who, (who + 1) % self.taken.len()].iter().for_each(|fork| self.taken[*fork] = false);
             }
             ArbitratorMessage::Leave => {
@@ -112,7 +112,7 @@ impl Actor for Arbitrator {
 struct Philosopher {
     index: usize,
     arbitrator: Address<Arbitrator>,
-    table: Arc<Table>,
+    table: Arc<ForkMarks>,
     left: u64,
 }
 

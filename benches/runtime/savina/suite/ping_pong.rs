@@ -1,11 +1,11 @@
-//! Two actors and one message at a time: what it costs to get somebody else to run.
+//! Two actors and one message at a time: the cost of a switch to the other actor.
 //!
-//! Original: 40,000 rounds. Counted: every ping and pong. Checked: both have seen every round.
+//! Original: 40,000 rounds. Counted: every ping and pong. Checked: both actors have counted every round.
 
 use super::super::{Actor, Address, Cx, World};
-use crate::Mode;
+use crate::StudyMode;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let rounds = mode.pick(100, 10_000, 40_000);
     let pong = world.spawn(1, Pong { ping: None, pings: 0 });
     let ping = world.spawn(0, Ping { pong: pong.clone(), pongs: 0, rounds });

@@ -1,21 +1,22 @@
-//! An arbiter lets one of many smokers smoke at a time, at random.
+//! An arbiter allows one of many smokers to smoke at a time, at random.
 //!
-//! Original: 200 smokers, 1,000 rounds. Counted: two messages a round, there and back. Checked: no two smoke at once, by
-//! a mark that stays until the arbiter hears of the end; as many rounds were smoked as were asked for.
+//! Original: 200 smokers, 1,000 rounds. Counted: two messages for each round, there and back. Checked: no two smokers
+//! smoke at once, with a mark that stays until the arbiter receives the end; the number of rounds is correct.
 //!
-//! The original's smoker answers before it smokes, so that the next may smoke meanwhile; here it answers behind.
+//! The original's smoker answers before it smokes, so that the next one can smoke at the same time; here it answers
+//! afterwards.
 
 use super::super::{Actor, Address, Cx, World};
 use super::work;
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_kit::random::Random;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Most work that smoking takes.
+/// Largest number of steps that smoking takes.
 const STEPS: usize = 1_000;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (smokers, rounds) = mode.pick((10, 50), (200, 1_000), (200, 1_000));
     let smoke = Arc::new(AtomicBool::new(false));
     let arbiter = Arbiter {
@@ -38,7 +39,7 @@ pub(super) fn start(world: &mut World, mode: Mode) {
 }
 
 struct Arbiter {
-    /// Does somebody smoke?
+    /// Whether a smoker smokes.
     smoke: Arc<AtomicBool>,
     smokers: Vec<Address<Smoker>>,
     random: Random,

@@ -1,17 +1,17 @@
-//! A token goes round: one message at a time, but among many actors.
+//! A token goes around a ring: one message at a time, but among many actors.
 //!
-//! Original: 100 actors, 100,000 hops. Counted: hops, those of the word that all is over included. Checked: the token
-//! comes in the order of the ring, and that word reaches everybody once.
+//! Original: 100 actors, 100,000 hops. Counted: hops, including those of the final message. Checked: the token arrives
+//! in the order of the ring, and the final message reaches every actor once.
 //!
-//! Neighbours share a thread where there are several, as a program would have it; the token changes it once for each
-//! of them and round.
+//! Neighbors share a thread where there are several threads, as in a real program; the token changes the thread once
+//! for each thread and round.
 
 use super::super::{Actor, Address, Cx, World};
-use crate::Mode;
+use crate::StudyMode;
 
-pub(super) fn start(world: &mut World, mode: Mode) {
+pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (actors, hops) = mode.pick((10, 105), (100, 20_000), (100, 100_000));
-    // As many places as any system has threads here, each with its stretch of the ring.
+    // Number of placements: the largest number of threads of a system here. Each has a contiguous part of the ring.
     let place = |index: usize| index * 2 / actors;
     let nodes: Vec<Address<Node>> = (0..actors)
         .map(|index| world.spawn(place(index), Node { index, actors, hops, next: None }))
@@ -50,7 +50,7 @@ impl Actor for Node {
             NodeMessage::Token { left: 1.. } => cx.send(next, NodeMessage::Token { left: left - 1 }),
             NodeMessage::End { left: 1 } => cx.finish(hops as u64, None),
             _ => {
-                // The others are told; nobody sends to this one any more.
+                // All others know the end; no further message is sent to this actor.
                 let left = if left == 0 { self.actors - 1 } else { left - 1 };
                 cx.send(next, NodeMessage::End { left });
             }

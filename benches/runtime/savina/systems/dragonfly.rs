@@ -1,11 +1,11 @@
-//! Ours: actors are receivers, spread over one or two threads of the runtime by their place.
+//! Our runtime: actors are receivers, distributed over one or two threads by their placement.
 //!
-//! The first ones are registered from outside ([`ThreadHandle`]), later ones from inside ([`Context`]) when they are
-//! for the same thread. One that stops is unregistered. Behind each run the counters must say that every message was
-//! delivered and nobody panicked.
+//! The first ones are registered from outside ([`ThreadHandle`]), later ones from inside ([`Context`]) if they are for
+//! the same thread. An actor that stops is unregistered. After each run the counters must show that every message was
+//! delivered and no actor panicked.
 
 use super::super::run::{DEADLINE, Finish, Run};
-use crate::Mode;
+use crate::StudyMode;
 use dragonfly_runtime::{Context, Receiver, Thread, ThreadHandle};
 use std::mem;
 use std::sync::Arc;
@@ -22,14 +22,14 @@ trait Actor: Sized + Send + 'static {
 
 type Address<A> = dragonfly_runtime::Address<<A as Actor>::Message>;
 
-/// The threads, and the run they are for.
-struct Team {
+/// The threads, and the run that they belong to.
+struct DragonflyTeam {
     threads: Vec<ThreadHandle>,
     run: Run,
 }
 
 struct World {
-    team: Arc<Team>,
+    team: Arc<DragonflyTeam>,
 }
 
 impl World {
@@ -42,24 +42,24 @@ impl World {
     }
 }
 
-impl Team {
+impl DragonflyTeam {
     fn spawn<A: Actor>(self: &Arc<Self>, place: usize, actor: A) -> Address<A> {
         let thread = &self.threads[place % self.threads.len()];
         let (me, team) = (thread.reserve_address(), Arc::clone(self));
-        let cell = Cell { actor, me: me.clone(), team };
+        let cell = ActorReceiver { actor, me: me.clone(), team };
         thread.register_receiver_at(&me, move |_| cell);
         me
     }
 }
 
-/// An actor as a receiver.
-struct Cell<A: Actor> {
+/// An actor of the suite as a receiver.
+struct ActorReceiver<A: Actor> {
     actor: A,
     me: Address<A>,
-    team: Arc<Team>,
+    team: Arc<DragonflyTeam>,
 }
 
-impl<A: Actor> Receiver for Cell<A> {
+impl<A: Actor> Receiver for ActorReceiver<A> {
     type Message = A::Message;
 
     fn receive(&mut self, message: A::Message, thread: &mut Context) {
@@ -71,7 +71,7 @@ impl<A: Actor> Receiver for Cell<A> {
 struct Cx<'a, A: Actor> {
     thread: &'a mut Context,
     me: &'a Address<A>,
-    team: &'a Arc<Team>,
+    team: &'a Arc<DragonflyTeam>,
 }
 
 impl<A: Actor> Cx<'_, A> {
@@ -84,7 +84,7 @@ impl<A: Actor> Cx<'_, A> {
             return self.team.spawn(place, actor);
         }
         let me = self.thread.handle().reserve_address();
-        let cell = Cell { actor, me: me.clone(), team: Arc::clone(self.team) };
+        let cell = ActorReceiver { actor, me: me.clone(), team: Arc::clone(self.team) };
         self.thread.register_receiver_at(&me, cell);
         me
     }
@@ -102,16 +102,16 @@ impl<A: Actor> Cx<'_, A> {
     }
 }
 
-pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
+pub(super) fn play(threads: usize, benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     let start = |index| Thread::start(&format!("savina {index}")).expect("the system has a thread left");
     let threads: Vec<Thread> = (0..threads).map(start).collect();
     let handles: Vec<ThreadHandle> = threads.iter().map(|thread| thread.handle().clone()).collect();
     let (run, verdict) = Run::begin();
-    let mut world = World { team: Arc::new(Team { threads: handles.clone(), run }) };
+    let mut world = World { team: Arc::new(DragonflyTeam { threads: handles.clone(), run }) };
     suite::start(benchmark, &mut world, mode);
     let finish = verdict.wait();
     if finish.is_err() {
-        // A thread that is stuck would be waited for.
+        // Otherwise the end would wait for a stuck thread.
         mem::forget(threads);
         return finish;
     }

@@ -1,11 +1,11 @@
-//! kameo: actors are tasks of tokio, on its single-threaded runtime or on its work-stealing one with two workers.
+//! kameo: actors are tokio tasks, on a single-threaded runtime or on a work-stealing one with two workers.
 //!
-//! Mailboxes are unbounded, since actors that wait for room in each other's bounded ones may wait for ever; messages
-//! go through `tell(…).try_send()`, which does not wait.
+//! Mailboxes are unbounded, since actors that wait for one another's bounded mailboxes can deadlock; messages are sent
+//! with `tell(…).try_send()`, which does not wait.
 
 use super::super::run::{Finish, Run};
 use super::tokio;
-use crate::Mode;
+use crate::StudyMode;
 use kameo::actor::{ActorRef, Spawn};
 use kameo::error::Infallible;
 use kameo::mailbox;
@@ -21,7 +21,7 @@ trait Actor: Sized + Send + 'static {
     fn receive(&mut self, message: Self::Message, cx: &mut Cx<Self>);
 }
 
-type Address<A> = ActorRef<Cell<A>>;
+type Address<A> = ActorRef<KameoActor<A>>;
 
 struct World {
     run: Arc<Run>,
@@ -38,21 +38,21 @@ impl World {
 }
 
 fn spawn<A: Actor>(run: &Arc<Run>, actor: A) -> Address<A> {
-    Cell::spawn_with_mailbox(Cell { actor, run: Arc::clone(run) }, mailbox::unbounded())
+    KameoActor::spawn_with_mailbox(KameoActor { actor, run: Arc::clone(run) }, mailbox::unbounded())
 }
 
 fn send<A: Actor>(to: &Address<A>, message: A::Message) {
-    let sent = to.tell(Letter(message)).try_send();
+    let sent = to.tell(KameoMessage(message)).try_send();
     assert!(sent.is_ok(), "no benchmark sends to an actor that has stopped");
 }
 
-/// An actor in kameo's sense.
-struct Cell<A> {
+/// An actor of the suite as a kameo actor.
+struct KameoActor<A> {
     actor: A,
     run: Arc<Run>,
 }
 
-impl<A: Actor> kameo::Actor for Cell<A> {
+impl<A: Actor> kameo::Actor for KameoActor<A> {
     type Args = Self;
     type Error = Infallible;
 
@@ -61,20 +61,24 @@ impl<A: Actor> kameo::Actor for Cell<A> {
     }
 }
 
-/// A message in kameo's sense.
-struct Letter<M>(M);
+/// A message of the suite as a kameo message.
+struct KameoMessage<M>(M);
 
-impl<A: Actor> Message<Letter<A::Message>> for Cell<A> {
+impl<A: Actor> Message<KameoMessage<A::Message>> for KameoActor<A> {
     type Reply = ();
 
-    async fn handle(&mut self, Letter(message): Letter<A::Message>, context: &mut Context<Self, ()>) {
+    async fn handle(
+        &mut self,
+        KameoMessage(message): KameoMessage<A::Message>,
+        context: &mut Context<Self, ()>,
+    ) {
         let Self { actor, run } = self;
         run.watch(|| actor.receive(message, &mut Cx { context, run }));
     }
 }
 
 struct Cx<'a, A: Actor> {
-    context: &'a mut Context<Cell<A>, ()>,
+    context: &'a mut Context<KameoActor<A>, ()>,
     run: &'a Arc<Run>,
 }
 
@@ -100,6 +104,6 @@ impl<A: Actor> Cx<'_, A> {
     }
 }
 
-pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
+pub(super) fn play(threads: usize, benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     tokio::play(threads, |run| suite::start(benchmark, &mut World { run: Arc::new(run) }, mode))
 }

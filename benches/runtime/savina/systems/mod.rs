@@ -1,15 +1,16 @@
-//! The systems that run the suite: ours and its peers. Each file says how its system is run.
+//! The systems that run the suite: our runtime and other crates. Each file documents how its system is used.
 //!
-//! All offer the suite the same names, and compile it as a module of their own (`suite/mod.rs` says why):
+//! Each of them defines the same names for the suite and compiles it as a module of its own (`suite/mod.rs` explains
+//! why):
 //!
 //! * `Actor`: `receive(&mut self, message, cx)`, with one type of message;
-//! * `Address<A>`: the system's own, as a program would use it;
+//! * `Address<A>`: the system's own address, as a program would use it;
 //! * `World`: creates the first actors and sends them their first messages, from outside of the system;
-//! * `Cx`: what an actor asks of its system: its own address, sending, creating an actor, stopping itself, and
-//!   saying that the run is over.
+//! * `Cx`: used by an actor inside a call: its own address, sending, creating an actor, stopping itself, and ending the
+//!   run.
 //!
-//! The *place* of a new actor is a number; a system with several threads takes it modulo their number. A system
-//! that moves actors between threads itself pays no heed to it.
+//! The *placement* of a new actor is a number; a system with several threads uses it modulo the number of threads. A
+//! system that moves actors between threads itself ignores it.
 
 mod actix;
 mod dragonfly;
@@ -20,25 +21,25 @@ mod tokio;
 mod tonari;
 
 use super::run::Finish;
-use crate::Mode;
+use crate::StudyMode;
 
-/// A system, run in one way.
+/// A system in one configuration.
 pub(super) struct System {
-    /// What it is called in the results.
+    /// Name of the variant in the results.
     pub(super) label: &'static str,
-    /// Can its actors create others, and end one by one?
+    /// Whether its actors can create other actors, and end one by one.
     pub(super) creates: bool,
-    /// Plays the benchmark of this name once. `Err` says what went wrong.
-    pub(super) play: fn(&'static str, Mode) -> Result<Finish, String>,
+    /// Runs the benchmark of this name once. Returns the reason if it fails.
+    pub(super) play: fn(&'static str, StudyMode) -> Result<Finish, String>,
 }
 
 impl System {
-    const fn new(label: &'static str, play: fn(&'static str, Mode) -> Result<Finish, String>) -> Self {
+    const fn new(label: &'static str, play: fn(&'static str, StudyMode) -> Result<Finish, String>) -> Self {
         Self { label, creates: true, play }
     }
 }
 
-/// Every system, in every way that it is run.
+/// All systems, in all configurations.
 pub(super) const SYSTEMS: &[System] = &[
     System::new("dragonfly 1 thread", |benchmark, mode| dragonfly::play(1, benchmark, mode)),
     System::new("dragonfly 2 threads", |benchmark, mode| dragonfly::play(2, benchmark, mode)),

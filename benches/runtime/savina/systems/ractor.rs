@@ -1,11 +1,11 @@
-//! ractor: actors are tasks of tokio, on its single-threaded runtime or on its work-stealing one with two workers.
+//! ractor: actors are tokio tasks, on a single-threaded runtime or on a work-stealing one with two workers.
 //!
-//! They are created by `ActorRuntime::spawn_instant`, which does not wait until the actor is up; messages go through
-//! `ActorRef::send_message`. Its mailboxes are unbounded.
+//! They are created with `ActorRuntime::spawn_instant`, which does not wait until the actor has started; messages are
+//! sent with `ActorRef::send_message`. Its mailboxes are unbounded.
 
 use super::super::run::{Finish, Run};
 use super::tokio;
-use crate::Mode;
+use crate::StudyMode;
 use ractor::{ActorProcessingErr, ActorRef, ActorRuntime};
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -36,7 +36,7 @@ impl World {
 }
 
 fn spawn<A: Actor>(run: &Arc<Run>, actor: A) -> Address<A> {
-    let cell = Cell { actor, run: Arc::clone(run) };
+    let cell = RactorState { actor, run: Arc::clone(run) };
     let spawned = ActorRuntime::spawn_instant(None, Role(PhantomData), cell);
     spawned.expect("actors without names do not clash").0
 }
@@ -45,25 +45,25 @@ fn send<M: Send + 'static>(to: &ActorRef<M>, message: M) {
     assert!(to.send_message(message).is_ok(), "no benchmark sends to an actor that has stopped");
 }
 
-/// An actor in ractor's sense; it has no state in itself.
+/// An actor of the suite as a ractor actor, which has no state in itself.
 struct Role<A>(PhantomData<fn(A)>);
 
-/// The state that ractor keeps for it.
-struct Cell<A> {
+/// The state that ractor stores for the actor.
+struct RactorState<A> {
     actor: A,
     run: Arc<Run>,
 }
 
 impl<A: Actor> ractor::Actor for Role<A> {
     type Msg = A::Message;
-    type State = Cell<A>;
-    type Arguments = Cell<A>;
+    type State = RactorState<A>;
+    type Arguments = RactorState<A>;
 
     async fn pre_start(
         &self,
         _me: ActorRef<A::Message>,
-        cell: Cell<A>,
-    ) -> Result<Cell<A>, ActorProcessingErr> {
+        cell: RactorState<A>,
+    ) -> Result<RactorState<A>, ActorProcessingErr> {
         Ok(cell)
     }
 
@@ -71,9 +71,9 @@ impl<A: Actor> ractor::Actor for Role<A> {
         &self,
         me: ActorRef<A::Message>,
         message: A::Message,
-        cell: &mut Cell<A>,
+        cell: &mut RactorState<A>,
     ) -> Result<(), ActorProcessingErr> {
-        let Cell { actor, run } = cell;
+        let RactorState { actor, run } = cell;
         run.watch(|| actor.receive(message, &mut Cx { me, run }));
         Ok(())
     }
@@ -106,6 +106,6 @@ impl<A: Actor> Cx<'_, A> {
     }
 }
 
-pub(super) fn play(threads: usize, benchmark: &str, mode: Mode) -> Result<Finish, String> {
+pub(super) fn play(threads: usize, benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     tokio::play(threads, |run| suite::start(benchmark, &mut World { run: Arc::new(run) }, mode))
 }

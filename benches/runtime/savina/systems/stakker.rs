@@ -1,11 +1,11 @@
-//! stakker: all actors in one thread, without a lock or an atomic between them. It has no other way.
+//! stakker: all actors in one thread, without a lock or an atomic between them. It has no other mode.
 //!
-//! As it is meant to be used where it is quickest: default features, which bind it to one thread for the life of the
-//! process. That is the thread which measures, where others of the study use it too. A message is a call of the
-//! actor's one method, by `call!`. An actor holds the reference that owns it, so it lives until it stops itself.
+//! Used in its fastest configuration: the default features, which bind it to one thread for the life of the process.
+//! That is the measuring thread, where other benches of the study use it too. A message is a call of the actor's only
+//! method, with `call!`. An actor holds the reference that owns it, so it lives until it stops itself.
 
 use super::super::run::{DEADLINE, Finish, Run};
-use crate::Mode;
+use crate::StudyMode;
 use stakker::{ActorOwn, CX, Core, Stakker, actor_new, call, ret_nop};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -23,9 +23,9 @@ trait Actor: Sized + 'static {
     fn receive(&mut self, message: Self::Message, cx: &mut Cx<Self>);
 }
 
-type Address<A> = stakker::Actor<Cell<A>>;
+type Address<A> = stakker::Actor<StakkerActor<A>>;
 
-/// Has the run been given up? Nobody else could end what keeps this thread busy.
+/// Whether the run was given up. Only the actors themselves can end the loop that keeps this thread busy.
 static GIVEN_UP: AtomicBool = AtomicBool::new(false);
 
 struct World<'a> {
@@ -44,20 +44,20 @@ impl World<'_> {
 }
 
 fn spawn<A: Actor>(core: &mut Core, run: &Arc<Run>, actor: A) -> Address<A> {
-    let owner = actor_new!(core, Cell<A>, ret_nop!());
+    let owner = actor_new!(core, StakkerActor<A>, ret_nop!());
     let address = owner.access_actor().clone();
-    call!([address], <Cell<A>>::init(actor, Arc::clone(run), owner));
+    call!([address], <StakkerActor<A>>::init(actor, Arc::clone(run), owner));
     address
 }
 
-/// An actor in stakker's sense.
-struct Cell<A: Actor> {
+/// An actor of the suite as a stakker actor.
+struct StakkerActor<A: Actor> {
     actor: A,
     run: Arc<Run>,
     _owner: ActorOwn<Self>,
 }
 
-impl<A: Actor> Cell<A> {
+impl<A: Actor> StakkerActor<A> {
     fn init(_: CX![], actor: A, run: Arc<Run>, owner: ActorOwn<Self>) -> Option<Self> {
         Some(Self { actor, run, _owner: owner })
     }
@@ -72,7 +72,7 @@ impl<A: Actor> Cell<A> {
 }
 
 struct Cx<'a, 'b, A: Actor> {
-    context: &'a mut stakker::Cx<'b, Cell<A>>,
+    context: &'a mut stakker::Cx<'b, StakkerActor<A>>,
     run: &'a Arc<Run>,
 }
 
@@ -98,7 +98,7 @@ impl<A: Actor> Cx<'_, '_, A> {
     }
 }
 
-pub(super) fn play(benchmark: &str, mode: Mode) -> Result<Finish, String> {
+pub(super) fn play(benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     GIVEN_UP.store(false, Ordering::Relaxed);
     let played = thread::scope(|scope| {
         let (over, ended) = mpsc::channel::<()>();
@@ -120,11 +120,11 @@ pub(super) fn play(benchmark: &str, mode: Mode) -> Result<Finish, String> {
     }
 }
 
-fn play_through(benchmark: &str, mode: Mode) -> Result<Finish, String> {
+fn play_through(benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     let mut stakker = Stakker::new(Instant::now());
     let (run, verdict) = Run::begin();
     suite::start(benchmark, &mut World { stakker: &mut stakker, run: Arc::new(run) }, mode);
-    // Until nobody has anything left to do.
+    // Runs until no actor has work left.
     stakker.run(Instant::now(), false);
     verdict.now()
 }

@@ -1,4 +1,4 @@
-//! The threads of tokio, for the systems whose actors are its tasks.
+//! The tokio runtimes for the systems whose actors are tokio tasks.
 
 use super::super::run::{Finish, Run};
 use std::mem;
@@ -6,14 +6,13 @@ use std::thread::{self, JoinHandle};
 use tokio::runtime::{Builder, Handle, Runtime};
 use tokio::sync::oneshot;
 
-/// A runtime on threads of its own: with one, tokio's single-threaded flavour, which is the quicker one then; with
-/// more, its work-stealing one.
-enum Workers {
+/// A runtime with threads of its own: single-threaded for one thread, which is faster then; work-stealing for more.
+enum TokioThreads {
     One { handle: Handle, stop: oneshot::Sender<()>, thread: JoinHandle<()> },
     Many(Runtime),
 }
 
-impl Workers {
+impl TokioThreads {
     fn start(threads: usize) -> Self {
         if threads > 1 {
             let runtime = Builder::new_multi_thread().worker_threads(threads).build();
@@ -23,7 +22,7 @@ impl Workers {
         let (stop, stopped) = oneshot::channel();
         let handle = runtime.handle().clone();
         let thread = thread::Builder::new().name("tokio".into()).spawn(move || {
-            // An error is a stop as well: nobody holds the other end any more.
+            // An error is a stop too: the other end was dropped.
             let _ = runtime.block_on(stopped);
         });
         Self::One { handle, stop, thread: thread.expect("the system has a thread left") }
@@ -47,15 +46,15 @@ impl Workers {
         }
     }
 
-    /// Leaves the runtime to itself: a task in it may never end.
+    /// Leaves the runtime running: one of its tasks may never end.
     fn abandon(self) {
         mem::forget(self);
     }
 }
 
-/// Lets `start` make the first actors on `threads` threads, and waits for the end.
+/// Calls `start` to create the first actors on `threads` threads, and waits for the end of the run.
 pub(super) fn play(threads: usize, start: impl FnOnce(Run)) -> Result<Finish, String> {
-    let workers = Workers::start(threads);
+    let workers = TokioThreads::start(threads);
     let inside = workers.handle().enter();
     let (run, verdict) = Run::begin();
     start(run);

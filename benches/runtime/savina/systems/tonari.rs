@@ -1,10 +1,10 @@
-//! tonari-actor: one OS thread an actor; creating an actor is starting a thread.
+//! tonari-actor: one OS thread for each actor; creating an actor is starting a thread.
 //!
-//! Its mailboxes are bounded and a full one is an error; here they hold more than any benchmark sends. An actor
-//! cannot create another or end alone, so it is spared the benchmarks that are about that.
+//! Its mailboxes are bounded, and a full one is an error; here their bound is larger than what any benchmark sends. An
+//! actor cannot create another or end alone, so it does not run the benchmarks that need that.
 
 use super::super::run::{Finish, Run};
-use crate::Mode;
+use crate::StudyMode;
 use std::mem;
 use std::sync::Arc;
 use tonari_actor::{Context, Recipient, System};
@@ -12,7 +12,7 @@ use tonari_actor::{Context, Recipient, System};
 #[path = "../suite/mod.rs"]
 mod suite;
 
-/// Messages that fit in a mailbox; room that is not used takes no memory.
+/// Capacity of a mailbox in messages; unused capacity takes no memory.
 const CAPACITY: usize = 1 << 30;
 
 trait Actor: Sized + Send + 'static {
@@ -30,7 +30,7 @@ struct World {
 
 impl World {
     fn spawn<A: Actor>(&mut self, _place: usize, actor: A) -> Address<A> {
-        let cell = Cell { actor, run: Arc::clone(&self.run) };
+        let cell = TonariActor { actor, run: Arc::clone(&self.run) };
         let spawned = self.system.prepare(cell).with_capacity(CAPACITY).spawn();
         Recipient::clone(&spawned.expect("the system has a thread left"))
     }
@@ -40,13 +40,13 @@ impl World {
     }
 }
 
-/// An actor in tonari's sense.
-struct Cell<A> {
+/// An actor of the suite as a tonari actor.
+struct TonariActor<A> {
     actor: A,
     run: Arc<Run>,
 }
 
-impl<A: Actor> tonari_actor::Actor for Cell<A> {
+impl<A: Actor> tonari_actor::Actor for TonariActor<A> {
     type Message = A::Message;
     type Error = &'static str;
     type Context = Context<A::Message>;
@@ -76,7 +76,7 @@ impl<A: Actor> Cx<'_, A> {
         to.send(message).expect("it runs until the run is over");
     }
 
-    /// It stops with the others.
+    /// The actor stops with all others.
     fn stop(&mut self) {}
 
     fn finish(&mut self, messages: u64, retries: Option<u64>) {
@@ -84,14 +84,14 @@ impl<A: Actor> Cx<'_, A> {
     }
 }
 
-pub(super) fn play(benchmark: &str, mode: Mode) -> Result<Finish, String> {
+pub(super) fn play(benchmark: &str, mode: StudyMode) -> Result<Finish, String> {
     let system = System::new("savina");
     let (run, verdict) = Run::begin();
     let mut world = World { system, run: Arc::new(run) };
     suite::start(benchmark, &mut world, mode);
     let finish = verdict.wait();
     if finish.is_err() {
-        // A thread that is stuck would be waited for.
+        // Otherwise the end would wait for a stuck thread.
         mem::forget(world);
         return finish;
     }

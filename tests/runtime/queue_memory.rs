@@ -1,21 +1,21 @@
-//! A message that waits lies where messages of its type lie: it is moved there, and costs no allocation.
+//! Memory of the queue: messages are moved into an array of their type, without an allocation for each.
 
-use crate::cast::hear;
+use crate::helpers::fn_receiver;
 use dragonfly_kit::counting::{count, peak};
 use dragonfly_runtime::{Address, Captured, Next, Stage, Thread};
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// What is sent, with something inside that is not plain bytes.
-type Edit = (String, [f32; 10]);
+/// A message type with a destructor.
+type EditMessage = (String, [f32; 10]);
 
 fn captured() -> (Captured, Address<[u64; 8]>) {
     let mut captured = Thread::capture("captured", || {});
-    let address = captured.context().register_receiver(hear(|_: [u64; 8], _| {}));
+    let address = captured.context().register_receiver(fn_receiver(|_: [u64; 8], _| {}));
     (captured, address)
 }
 
-/// Allocations of 1,000 iterations with `burst` messages each, once everything has grown to its size.
+/// Returns the number of allocations in 1,000 iterations with `burst` messages each, after a warm-up.
 fn steady(captured: &mut Captured, address: &Address<[u64; 8]>, burst: usize) -> u64 {
     let mut turns = |turns: usize| {
         for _ in 0..turns {
@@ -30,18 +30,18 @@ fn steady(captured: &mut Captured, address: &Address<[u64; 8]>, burst: usize) ->
 }
 
 #[test]
-fn in_steady_state_no_message_allocates_whatever_its_address() {
+fn a_message_allocates_nothing_in_steady_state_for_every_flavor_of_address() {
     let (mut captured, plain) = captured();
     assert_eq!(steady(&mut captured, &plain, 1), 0, "plain");
     assert_eq!(steady(&mut captured, &plain, 100), 0, "plain, in bursts");
     assert_eq!(steady(&mut captured, &plain.latest(), 5), 0, "latest");
     assert_eq!(steady(&mut captured, &plain.bounded(10), 10), 0, "bounded");
     let boxed = count(|| Box::new([0_u64; 8])).0.allocations;
-    assert_eq!(boxed, 1, "the count counts");
+    assert_eq!(boxed, 1, "the counting allocator is not installed");
 }
 
 #[test]
-fn the_memory_of_a_flood_is_given_back() {
+fn the_memory_of_an_unusually_large_batch_is_freed() {
     let (mut captured, address) = captured();
     let flood = 200_000;
     let (most, ()) = peak(|| {
@@ -50,9 +50,9 @@ fn the_memory_of_a_flood_is_given_back() {
         }
         while captured.iterate() == Next::Now {}
     });
-    assert!(most > flood * 64, "{most} bytes: the flood was not stored");
+    assert!(most > flood * 64, "{most} bytes: the messages were not queued");
     let (kept, ()) = peak(|| {
-        // Two batches change places: both must have had some small turns.
+        // Two batches are swapped in turn: each must have been small a number of times.
         for _ in 0..50 {
             address.send([0; 8]).unwrap();
             captured.iterate();
@@ -66,7 +66,7 @@ fn the_memory_of_a_flood_is_given_back() {
             address.send([message; 8]).unwrap();
         }
     });
-    assert!(again > flood * 64, "{again} bytes: the room of the flood had been kept");
+    assert!(again > flood * 64, "{again} bytes: the memory of the large batch had not been freed");
 }
 
 #[test]
@@ -76,15 +76,16 @@ fn messages_of_many_types_keep_their_order_and_their_contents() {
     let log = Rc::new(RefCell::new(Vec::new()));
     let context = stage.context(&thread);
     let theirs = Rc::clone(&log);
-    let edits = context.register_receiver(hear(move |(name, values): Edit, _| {
+    let edits = context.register_receiver(fn_receiver(move |(name, values): EditMessage, _| {
         theirs.borrow_mut().push(format!("{name} {}", values[9]));
     }));
     let theirs = Rc::clone(&log);
-    let sizes =
-        context.register_receiver(hear(move |size: u32, _| theirs.borrow_mut().push(format!("size {size}"))));
+    let sizes = context
+        .register_receiver(fn_receiver(move |size: u32, _| theirs.borrow_mut().push(format!("size {size}"))));
     let theirs = Rc::clone(&log);
-    let others = context
-        .register_receiver(hear(move |size: u32, _| theirs.borrow_mut().push(format!("other {size}"))));
+    let others = context.register_receiver(fn_receiver(move |size: u32, _| {
+        theirs.borrow_mut().push(format!("other {size}"))
+    }));
     let mut expected = Vec::new();
     for turn in 0..50_u32 {
         edits.send((format!("edit {turn}"), [turn as f32; 10])).unwrap();
@@ -95,7 +96,7 @@ fn messages_of_many_types_keep_their_order_and_their_contents() {
             others.send(turn).unwrap();
             expected.push(format!("other {turn}"));
         }
-        // Some of it is taken over and left lying by a sleep, and the rest comes behind it.
+        // A sleep leaves some fetched letters undelivered; later letters are appended to them.
         if turn == 20 {
             stage.context(&thread).sleep(std::time::Duration::from_secs(1));
             stage.iterate(&thread);

@@ -1,7 +1,7 @@
-//! The main thread: replays the drag at its intended times, asks, and measures how long each call keeps it.
+//! The main thread: replays the drag at its intended times, asks questions, and measures how long each call blocks it.
 
-use super::document::Document;
-use super::frame::Question;
+use super::document::SharedDocument;
+use super::frame::PoseQuestion;
 use super::ledger::{Ledger, MOST_WAITING};
 use super::script::{SHOWN, Script};
 use super::sharing::Sharing;
@@ -9,76 +9,76 @@ use crate::Distribution;
 use dragonfly_runtime::{Captured, Next, ThreadHandle};
 use std::time::{Duration, Instant};
 
-/// How fast edits come.
+/// Rate of the edits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rate {
-    /// None at all.
+    /// No edits.
     Still,
-    /// At their times in the script, this being one interval of it; however long the calls before took.
+    /// At their times in the script, with this interval, however long the previous calls took.
     Every(Duration),
-    /// Each as soon as the call before has returned.
+    /// Each edit as soon as the previous call has returned.
     FlatOut,
 }
 
 impl Rate {
-    /// A quick mouse.
+    /// The rate of a fast mouse.
     pub const EVERY_MILLISECOND: Self = Self::Every(Duration::from_millis(1));
 }
 
-/// What the main thread has measured.
+/// Measurements of the main thread.
 #[derive(Default)]
-pub struct Record {
-    /// How long an edit kept the main thread.
+pub struct EditMetrics {
+    /// Times for which an edit blocked the main thread.
     pub blocked: Distribution,
-    /// From a question to its answer.
+    /// Times from a question to its answer.
     pub answer: Distribution,
-    /// How long the question kept the main thread.
+    /// Times for which a question blocked the main thread.
     pub asking: Distribution,
-    /// Edits a second that were posted.
+    /// Edits posted per second.
     pub posted: f64,
-    /// Edits a second from the first to be posted to the last to be shown.
+    /// Edits per second from the first one posted to the last one shown.
     pub shown: f64,
-    /// Most edits that waited to be made.
+    /// Largest number of edits that were queued.
     pub backlog: u64,
-    /// Most messages that waited for the graphics thread.
+    /// Largest number of messages that were queued for the graphics thread.
     pub views: usize,
-    /// Cores that all threads together kept busy.
+    /// CPU cores in use by all threads together.
     pub cores: f64,
 }
 
-/// The same for edits of whole takes, which are a thousand times as large.
+/// Largest number of queued edits of whole takes, which are a thousand times as large.
 const MOST_WAITING_TAKES: u64 = 128;
 
-/// In a flood, every so many edits the clock is looked at.
+/// Number of edits between two readings of the clock, at full speed.
 const CHUNK: u64 = 16;
 
-/// See the module.
-pub struct Hand<'a> {
+/// The state of the main thread.
+pub struct EditDriver<'a> {
     sharing: Box<dyn Sharing>,
     main: Captured,
     script: &'a Script,
     ledger: &'a Ledger,
     graphics: &'a ThreadHandle,
-    question: Question,
-    /// Edits posted so far.
+    question: PoseQuestion,
+    /// Number of edits posted so far.
     number: u64,
-    /// The newest of the take that is shown.
+    /// Newest edit of the take that is shown.
     newest_shown: u64,
     recorded_from: u64,
     began: Instant,
     most_waiting: u64,
-    record: Record,
+    record: EditMetrics,
 }
 
-impl<'a> Hand<'a> {
-    /// Nothing posted yet.
+impl<'a> EditDriver<'a> {
+    /// Returns a driver that has posted no edit.
     pub fn new(
         sharing: Box<dyn Sharing>,
         main: Captured,
         script: &'a Script,
         ledger: &'a Ledger,
         graphics: &'a ThreadHandle,
-        question: Question,
+        question: PoseQuestion,
     ) -> Self {
         Self {
             sharing,
@@ -92,27 +92,26 @@ impl<'a> Hand<'a> {
             recorded_from: 1,
             began: Instant::now(),
             most_waiting: if script.is_small() { MOST_WAITING } else { MOST_WAITING_TAKES },
-            record: Record::default(),
+            record: EditMetrics::default(),
         }
     }
 
-    /// Waits until so many frames are finished.
+    /// Waits until this number of frames is finished.
     pub fn wait_for_frames(&mut self, frames: u64) {
         while self.ledger.frames() < frames {
             self.rest_until(Instant::now() + Duration::from_millis(1));
         }
     }
 
-    /// What comes now counts; nothing before does.
+    /// Starts the measurement; discards what was measured before.
     pub fn start_recording(&mut self) {
         self.recorded_from = self.number + 1;
         self.ledger.record_from(self.recorded_from);
-        self.record = Record::default();
+        self.record = EditMetrics::default();
         self.began = Instant::now();
     }
 
-    /// Edits, for `length`, and asks as often as `questions` says; in between does something else for as long as
-    /// `stall` says.
+    /// Posts edits for `length`, and asks questions at the interval `questions`; does something else during `stall`.
     pub fn replay(
         &mut self,
         rate: Rate,
@@ -158,7 +157,7 @@ impl<'a> Hand<'a> {
             }
             let edit = self.script.edit(number);
             if let Some((_, length)) = stall.take_if(|(at, _)| intended >= begin + *at) {
-                // Not even messages are taken out of the queue meanwhile.
+                // During the stall, no messages are taken from the queue either.
                 let until = Instant::now() + length;
                 while Instant::now() < until {
                     std::thread::park_timeout(until - Instant::now());
@@ -190,7 +189,7 @@ impl<'a> Hand<'a> {
             }
             self.look_around();
             if self.sharing.backlog(self.number, self.ledger) + CHUNK > self.most_waiting {
-                // Here the run ends being fair to those who come after; a real flood would fill the memory.
+                // The driver waits here; without a limit the queue would fill the memory.
                 self.rest_until(now + Duration::from_micros(100));
                 continue;
             }
@@ -233,7 +232,7 @@ impl<'a> Hand<'a> {
         assert!(asked.answer.pose.is_finite() && asked.answer.number <= self.number);
     }
 
-    /// Does what a main thread does while nothing is to be done: takes messages, and sleeps.
+    /// Does what an idle main thread does: delivers messages, and sleeps.
     fn rest_until(&mut self, until: Instant) {
         loop {
             let next = self.main.iterate();
@@ -247,7 +246,7 @@ impl<'a> Hand<'a> {
         }
     }
 
-    /// Waits until the last edit is shown; `false` when that takes too long.
+    /// Waits until the last edit is shown. Returns `false` if that takes too long.
     pub fn wait_until_seen(&mut self) -> bool {
         const PATIENCE: Duration = Duration::from_secs(20);
         let begin = Instant::now();
@@ -262,8 +261,8 @@ impl<'a> Hand<'a> {
         true
     }
 
-    /// What was measured, how many edits were posted, and what they made of the document.
-    pub fn end(mut self) -> (Record, u64, Document) {
+    /// Returns the measurements, the number of posted edits, and the final document.
+    pub fn end(mut self) -> (EditMetrics, u64, SharedDocument) {
         let document = self.sharing.document(&mut self.main);
         (self.record, self.number, document)
     }
