@@ -11,7 +11,7 @@ use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly_kit::document::arm;
 use dragonfly_picture::gizmo::{Axis, GizmoView, Handle};
 use dragonfly_picture::scene::Scene;
-use dragonfly_picture::{Appearance, IkLook};
+use dragonfly_picture::{IkAppearance, IkLook};
 use glam::{Quat, Vec2, Vec3};
 use std::sync::Arc;
 
@@ -317,7 +317,7 @@ fn pins_and_the_chain_are_drawn_where_the_bones_are() {
     let hand = arm(2, Id::ToolMove);
     let mut scene = scene(&hand);
     let look = IkLook { pins: vec![2, 77], chain: Some((2, 9)), pole: Some(77) };
-    scene.controls.receive(Appearance::Ik(Some(look)));
+    scene.appearances.set(IkAppearance(Some(look)));
     scene.prepare(hand.state.now);
     let shape = scene.controls.shape();
     let lines: Vec<Vec3> = shape.lines().iter().map(|corner| corner.position).collect();
@@ -326,7 +326,7 @@ fn pins_and_the_chain_are_drawn_where_the_bones_are() {
     let middle = lines[4..].iter().sum::<Vec3>() / 8.0;
     assert!(middle.distance(place(&hand, 2)) < 1e-5);
     assert_eq!(shape.triangles().len(), 2 * 6, "a dot at the root, and in the frame");
-    scene.controls.receive(Appearance::Ik(None));
+    scene.appearances.set(IkAppearance(None));
     scene.prepare(hand.state.now);
     assert!(scene.controls.shape().lines().is_empty());
 }

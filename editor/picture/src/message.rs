@@ -1,13 +1,13 @@
 //! What other threads may tell the graphics thread, and what it answers.
 
+use super::appearance::AnyAppearance;
 use crate::camera::Camera;
-use crate::gizmo::{GizmoSettings, GizmoShape, Handle, Tool};
+use crate::gizmo::RoleColors;
 use crate::pick::OwnedRegion;
 use crate::playback::Playback;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;
 use dragonfly_document::bones::HiddenBones;
-use glam::Vec3;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -21,54 +21,6 @@ pub enum BoneLook {
     Sticks,
     /// One-pixel lines.
     Lines,
-}
-
-/// What the controls of the scene look like: the appearance of one [`GraphicComponent`](super::control::GraphicComponent).
-#[derive(Clone, Debug)]
-pub enum Appearance {
-    /// The gizmo at the selected bones, wherever they are; none: it is not shown.
-    Gizmo(Option<GizmoLook>),
-    /// The gizmo while it is dragged; none: it waits again.
-    Drag(Option<GizmoShape>),
-    /// Where the selected bone moves along, and the time of the key under the pointer; none: it is not shown.
-    Path(Option<Arc<PathLook>>, Option<f32>),
-    /// The skeleton at other times of the take that is shown: seconds, and how far from now, before now negative.
-    Ghosts(Vec<(f32, i32)>),
-    /// Are ghosts drawn as skins, and not as skeletons?
-    GhostSkins(bool),
-    /// Bones that are pinned, and the row that follows one that is moved; none: nothing of it is shown.
-    Ik(Option<IkLook>),
-}
-
-/// Pins and a row of bones that follows.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct IkLook {
-    /// Bones that stay.
-    pub pins: Vec<BoneIndex>,
-    /// The end of the row, which is moved, and how many bones above it follow.
-    pub chain: Option<(BoneIndex, u32)>,
-    /// The bone towards which the row bends.
-    pub pole: Option<BoneIndex>,
-}
-
-/// A motion path: seconds, and where the joint is then in scene space.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PathLook {
-    /// Frame by frame.
-    pub points: Vec<(f32, Vec3)>,
-    /// At keys.
-    pub keys: Vec<(f32, Vec3)>,
-}
-
-/// A gizmo that waits to be taken hold of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GizmoLook {
-    /// What it does.
-    pub tool: Tool,
-    /// How it works: whose axes it has, where it stands.
-    pub settings: GizmoSettings,
-    /// The handle under the pointer.
-    pub hovered: Option<Handle>,
 }
 
 /// How surfaces are drawn.
@@ -116,9 +68,8 @@ pub struct Look {
     pub accent: [f32; 3],
     /// Not drawn and not picked.
     pub hidden: Arc<HiddenBones>,
-    /// Linear RGB of handles: along x, y, z; in the plane of the picture; under the pointer; being dragged; and of what was
-    /// before and comes after.
-    pub handles: [[f32; 3]; 8],
+    /// Colors of handles and paths, linear RGB.
+    pub handles: RoleColors,
 }
 
 impl Default for Look {
@@ -140,16 +91,7 @@ impl Default for Look {
             bone_color: [0.62, 0.66, 0.72],
             accent: [0.95, 0.38, 0.06],
             hidden: Arc::default(),
-            handles: [
-                [0.81, 0.16, 0.15],
-                [0.26, 0.56, 0.12],
-                [0.12, 0.35, 0.84],
-                [0.70, 0.72, 0.74],
-                [1.0, 0.86, 0.35],
-                [1.0, 0.86, 0.35],
-                [0.85, 0.25, 0.16],
-                [0.12, 0.55, 0.60],
-            ],
+            handles: RoleColors::default(),
         }
     }
 }
@@ -212,8 +154,8 @@ pub enum GraphicsMessage {
         /// Comes back in the answer.
         ticket: u64,
     },
-    /// A control of the scene looks like this from now on.
-    Control(Box<Appearance>),
+    /// Sets the data of a control or a pass.
+    Appearance(AnyAppearance),
     /// Starts drawing the scene again after [`GraphicsReply::Paused`].
     Resume,
     /// Writes the next whole frame as a PNG, then answers [`GraphicsReply::Captured`].

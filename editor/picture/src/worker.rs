@@ -251,8 +251,8 @@ impl Graphics {
                 pick_region(&stage.scene, &region.region(), &hidden, &mut bones);
                 self.reply(GraphicsReply::PickedAll { bones, ticket });
             }
-            GraphicsMessage::Control(appearance) => {
-                stage.scene.controls.receive(*appearance);
+            GraphicsMessage::Appearance(appearance) => {
+                stage.scene.appearances.receive(appearance);
                 stage.touch_scene();
             }
             GraphicsMessage::Resume => stage.resume(),

@@ -12,7 +12,7 @@ pub use axes::{Axis, GizmoAxes, GizmoTarget, Pivot, Space, unit};
 pub use delta::GizmoDelta;
 pub use handle::{AXIS_FROM, AXIS_TO, CENTRE, GizmoLayout, Handle, OUTER, PLANE, REACH, RING, Tool};
 pub use select::{GizmoAnchor, GizmoPlacement, PosedSkeleton};
-pub use shape::{GizmoRole, GizmoShape, GizmoVertex};
+pub use shape::{GizmoRole, GizmoShape, GizmoVertex, RoleColors};
 pub use view::GizmoView;
 
 /// Settings of gizmos.

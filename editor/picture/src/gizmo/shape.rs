@@ -30,8 +30,45 @@ pub enum GizmoRole {
 }
 
 impl GizmoRole {
+    /// Number of roles.
+    pub const COUNT: usize = 8;
+    /// All roles, in the order of their numbers.
+    pub const ALL: [Self; Self::COUNT] =
+        [Self::X, Self::Y, Self::Z, Self::View, Self::Hover, Self::Active, Self::Past, Self::Future];
+
     fn of(axis: Axis) -> Self {
         [Self::X, Self::Y, Self::Z][axis as usize]
+    }
+}
+
+/// A color for each [`GizmoRole`], linear RGB.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoleColors([[f32; 3]; GizmoRole::COUNT]);
+
+impl RoleColors {
+    /// Asks `color` for the color of each role.
+    pub fn new(color: impl FnMut(GizmoRole) -> [f32; 3]) -> Self {
+        Self(GizmoRole::ALL.map(color))
+    }
+
+    /// The color of a role.
+    pub fn get(&self, role: GizmoRole) -> [f32; 3] {
+        self.0[role as usize]
+    }
+}
+
+impl Default for RoleColors {
+    /// The colors for images without a window.
+    fn default() -> Self {
+        Self::new(|role| match role {
+            GizmoRole::X => [0.81, 0.16, 0.15],
+            GizmoRole::Y => [0.26, 0.56, 0.12],
+            GizmoRole::Z => [0.12, 0.35, 0.84],
+            GizmoRole::View => [0.70, 0.72, 0.74],
+            GizmoRole::Hover | GizmoRole::Active => [1.0, 0.86, 0.35],
+            GizmoRole::Past => [0.85, 0.25, 0.16],
+            GizmoRole::Future => [0.12, 0.55, 0.60],
+        })
     }
 }
 
@@ -48,7 +85,7 @@ pub struct GizmoVertex {
 }
 
 /// Lines and triangles, in lists that keep their memory from frame to frame.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct GizmoShape {
     lines: Vec<GizmoVertex>,
     triangles: Vec<GizmoVertex>,

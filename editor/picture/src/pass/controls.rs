@@ -3,7 +3,7 @@
 
 use super::{Commands, Layer, Pass, Surroundings};
 use crate::device::DeviceListener;
-use crate::gizmo::GizmoVertex;
+use crate::gizmo::{GizmoRole, GizmoVertex};
 use crate::gpu::{DEPTH_FORMAT, Gpu, scene_samples, scene_target, uniform_binding};
 use crate::message::Look;
 use crate::shaders;
@@ -115,7 +115,7 @@ impl Pass for ControlRender {
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 struct Style {
     /// Colors by role, linear RGB.
-    colors: [[f32; 4]; 8],
+    colors: [[f32; 4]; GizmoRole::COUNT],
     /// Half the width of a line, pixels.
     half_width: f32,
     pad: [f32; 3],
@@ -123,7 +123,10 @@ struct Style {
 
 impl Style {
     fn of(look: &Look) -> Self {
-        let colors = look.handles.map(|[red, green, blue]| [red, green, blue, 1.0]);
+        let colors = GizmoRole::ALL.map(|role| {
+            let [red, green, blue] = look.handles.get(role);
+            [red, green, blue, 1.0]
+        });
         Self { colors, half_width: WIDTH * look.pixels_per_point.max(0.1) / 2.0, pad: [0.0; 3] }
     }
 }
