@@ -21,7 +21,7 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
-    /// Format of the window, or of the texture that stands in for it.
+    /// Format of the window, or of the texture that replaces it.
     pub window_format: wgpu::TextureFormat,
     /// Longest side of a texture.
     pub max_side: u32,

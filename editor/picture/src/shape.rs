@@ -1,4 +1,4 @@
-//! The shape of a skeleton: the bodies that stand for its bones, and their positions in a pose.
+//! The shape of a skeleton: the bodies that represent its bones, and their positions in a pose.
 //!
 //! A bone reaches from its joint to each of its children; a bone without children continues in the direction of its
 //! parent. Bones that move no surface (such as the nodes above a character) are drawn as thin lines.

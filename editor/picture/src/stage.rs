@@ -37,7 +37,7 @@ pub enum Event {
     Paused(String),
 }
 
-/// Which parts of the window are drawn.
+/// Parts of the window that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Mode {
     /// Everything.

@@ -118,7 +118,7 @@ impl GizmoShape {
         self.lines.extend([from, to].map(|position| GizmoVertex { position, role: role as u32, opacity }));
     }
 
-    /// Adds a square that stands on its corner, in the image plane: `right` and `up` reach to its corners.
+    /// Adds a diamond in the image plane: `right` and `up` reach to its corners.
     pub fn add_diamond(&mut self, at: Vec3, right: Vec3, up: Vec3, role: GizmoRole, opacity: f32) {
         let [a, b, c, d] = [at + up, at + right, at - up, at - right];
         let corner = |position| GizmoVertex { position, role: role as u32, opacity };

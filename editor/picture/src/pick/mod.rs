@@ -29,9 +29,9 @@ pub fn pick(scene: &Scene, position: [f32; 2]) -> Option<BoneIndex> {
     hit(shape, &ray).or_else(|| nearest(scene, shape, pixel))
 }
 
-/// All bones at a pixel of the window, each once, as [`pick`] finds the first: those that the line of sight meets, the nearest
-/// first; where it meets none, those that it just misses, the nearest on the screen first. Not the hidden ones. For clicks
-/// that go through what lies behind ([`ClickCycle`]).
+/// Writes all bones at a pixel of the window, each once: those that the line of sight intersects, nearest first; if there
+/// are none, those that it just misses, nearest on the screen first. Hidden bones are left out. For clicks that cycle
+/// through overlapping bones ([`ClickCycle`]).
 pub fn pick_all(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
     out.clear();
     let Some(((ray, pixel), model)) = scene.ray(position).zip(scene.model()) else { return };
