@@ -3,7 +3,7 @@
 use super::message::{GraphicsMessage, Look, PanelsFrame};
 use crate::camera::Camera;
 use crate::pick::OwnedRegion;
-use crate::playback::Playback;
+use crate::playback::PlaybackClock;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;
 use dragonfly_runtime::{Address, Thread, ThreadHandle};
@@ -71,7 +71,7 @@ impl GraphicsHandle {
     }
 
     /// Shows this time of this take.
-    pub fn play(&self, playback: Playback) {
+    pub fn play(&self, playback: PlaybackClock) {
         self.send(GraphicsMessage::Play(playback));
     }
 

@@ -4,7 +4,7 @@ use super::appearance::AnyAppearance;
 use crate::camera::Camera;
 use crate::gizmo::RoleColors;
 use crate::pick::OwnedRegion;
-use crate::playback::Playback;
+use crate::playback::PlaybackClock;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;
 use dragonfly_document::bones::HiddenBones;
@@ -121,7 +121,7 @@ pub enum GraphicsMessage {
     /// Shows this view from now on.
     Show(View),
     /// Sets the take and time.
-    Play(Playback),
+    Play(PlaybackClock),
     /// Sets the camera.
     Camera(Camera),
     /// Sets the look of the viewport.

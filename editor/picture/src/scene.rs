@@ -3,14 +3,14 @@
 //! Everything a frame needs is computed into memory allocated when the model is shown, so playing allocates nothing.
 
 use super::appearance::Appearances;
-use super::control::{ControlFrame, Controls};
+use super::control::{ControlFrame, SceneControls};
 use super::message::{BoneLook, Look, Shading};
 use super::pick::{pick_all, pick_met};
 use super::posed::PosedModel;
 use super::skin::SkinPicker;
 use super::uniform::FrameUniform;
-use crate::camera::{Camera, Projection, Ray};
-use crate::playback::Playback;
+use crate::camera::{Camera, CameraRay, Projection};
+use crate::playback::PlaybackClock;
 use dragonfly_anim::bounds::{Bounds, Sphere};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::{LoadedModel, View};
@@ -25,13 +25,13 @@ pub struct Scene {
     /// The look of the viewport.
     pub look: Look,
     /// Take and time.
-    pub playback: Playback,
+    pub playback: PlaybackClock,
     /// Alpha of the background; less than one only in images for other programs.
     pub background_alpha: f32,
     /// The data set for controls and passes.
     pub appearances: Appearances,
     /// The controls of the scene.
-    pub controls: Controls,
+    pub controls: SceneControls,
     model: Option<PosedModel>,
     skin: Option<SkinPicker>,
     /// The view that is shown.
@@ -47,10 +47,10 @@ impl Scene {
         Self {
             camera: Camera::default(),
             look: Look::default(),
-            playback: Playback::rest(now),
+            playback: PlaybackClock::rest(now),
             background_alpha: 1.0,
             appearances: Appearances::default(),
-            controls: Controls::default(),
+            controls: SceneControls::default(),
             model: None,
             skin: None,
             shown: None,
@@ -134,7 +134,7 @@ impl Scene {
     }
 
     /// The line of sight through a pixel of the window, and that pixel within the viewport; `None` outside of it.
-    pub fn ray(&self, position: [f32; 2]) -> Option<(Ray, Vec2)> {
+    pub fn ray(&self, position: [f32; 2]) -> Option<(CameraRay, Vec2)> {
         let [x, y, ..] = self.look.viewport;
         let size = self.size();
         let pixel = Vec2::from(position) - Vec2::new(x as f32, y as f32);

@@ -7,7 +7,7 @@ use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::HiddenBones;
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::gizmo::RoleColors;
-use dragonfly_picture::playback::Playback;
+use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{
     AppearanceSender, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, GraphicsHandle,
     IkAppearance, Look, PathAppearance,
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// The values that were sent last.
 #[derive(Default)]
 pub(super) struct GraphicsSync {
-    playback: Option<Playback>,
+    playback: Option<PlaybackClock>,
     camera: Option<Camera>,
     look: Option<Look>,
     hidden: Arc<HiddenBones>,

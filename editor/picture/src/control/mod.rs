@@ -2,7 +2,7 @@
 //! every frame, in the pose of that frame; one pass draws them all.
 //!
 //! A new control is a file here with its [`Appearance`](crate::Appearance) and its component, and a line in
-//! [`Controls::default`].
+//! [`SceneControls::default`].
 
 mod ghosts;
 mod gizmo;
@@ -43,12 +43,12 @@ pub trait GraphicComponent {
 }
 
 /// All components, and the shape that they draw together.
-pub struct Controls {
+pub struct SceneControls {
     list: Vec<Box<dyn GraphicComponent>>,
     shape: GizmoShape,
 }
 
-impl Default for Controls {
+impl Default for SceneControls {
     fn default() -> Self {
         // Later ones are drawn over earlier ones.
         let list: Vec<Box<dyn GraphicComponent>> = vec![
@@ -61,7 +61,7 @@ impl Default for Controls {
     }
 }
 
-impl Controls {
+impl SceneControls {
     /// Draws every component into the shape.
     pub(super) fn present(&mut self, frame: &ControlFrame<'_>) {
         self.shape.clear();

@@ -1,8 +1,8 @@
 //! The shape of a gizmo, as lists of lines and triangles for a pass to draw.
 
-use super::axes::Axis;
+use super::axes::GizmoAxis;
 use super::delta::GizmoDelta;
-use super::handle::{AXIS_FROM, AXIS_TO, CENTRE, GizmoLayout, Handle, OUTER, PIECES, RING, Tool};
+use super::handle::{AXIS_FROM, AXIS_TO, CENTER, GizmoLayout, Handle, OUTER, PIECES, RING, Tool};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::TAU;
@@ -36,7 +36,7 @@ impl GizmoRole {
     pub const ALL: [Self; Self::COUNT] =
         [Self::X, Self::Y, Self::Z, Self::View, Self::Hover, Self::Active, Self::Past, Self::Future];
 
-    fn of(axis: Axis) -> Self {
+    fn of(axis: GizmoAxis) -> Self {
         [Self::X, Self::Y, Self::Z][axis as usize]
     }
 }
@@ -135,14 +135,14 @@ impl GizmoShape {
     pub fn waiting(&mut self, layout: &GizmoLayout, tool: Tool, hovered: Option<Handle>) {
         let role =
             |handle: Handle, role: GizmoRole| if hovered == Some(handle) { GizmoRole::Hover } else { role };
-        for axis in Axis::ALL {
+        for axis in GizmoAxis::ALL {
             for handle in [Handle::Axis(axis), Handle::Plane(axis)] {
                 if layout.shows(tool, handle) {
                     self.handle(layout, tool, handle, role(handle, GizmoRole::of(axis)));
                 }
             }
         }
-        for handle in [Handle::Centre, Handle::Ring] {
+        for handle in [Handle::Center, Handle::Ring] {
             if layout.shows(tool, handle) {
                 self.handle(layout, tool, handle, role(handle, GizmoRole::View));
             }
@@ -161,7 +161,7 @@ impl GizmoShape {
         match handle {
             Handle::Axis(axis) => self.guide(layout, axis),
             Handle::Plane(normal) => normal.others().into_iter().for_each(|axis| self.guide(layout, axis)),
-            Handle::Centre | Handle::Ring => {}
+            Handle::Center | Handle::Ring => {}
         }
         if layout.shows(tool, handle) {
             self.handle(layout, tool, handle, GizmoRole::Active);
@@ -183,8 +183,8 @@ impl GizmoShape {
                     .into_iter()
                     .for_each(|(from, to)| self.line(from, to, role, 1.0));
             }
-            (Tool::Rotate, Handle::Centre) => self.disc(layout, RING, role, 0.06),
-            (_, Handle::Centre) => self.disc(layout, CENTRE, role, 0.8),
+            (Tool::Rotate, Handle::Center) => self.disc(layout, RING, role, 0.06),
+            (_, Handle::Center) => self.disc(layout, CENTER, role, 0.8),
             (_, Handle::Ring) => {
                 let around = |index: usize| facing(layout, OUTER, index as f64 / PIECES as f64);
                 (0..PIECES).for_each(|index| self.line(around(index), around(index + 1), role, 1.0));
@@ -193,9 +193,9 @@ impl GizmoShape {
     }
 
     /// Adds a line with a cone (moving) or a cube (scaling).
-    fn arrow(&mut self, layout: &GizmoLayout, axis: Axis, tool: Tool, role: GizmoRole) {
+    fn arrow(&mut self, layout: &GizmoLayout, axis: GizmoAxis, tool: Tool, role: GizmoRole) {
         let along = axis.unit();
-        let [a, b] = axis.others().map(Axis::unit);
+        let [a, b] = axis.others().map(GizmoAxis::unit);
         let neck = if tool == Tool::Move { AXIS_TO - 18.0 } else { AXIS_TO - 10.0 };
         self.line(layout.place(along * AXIS_FROM), layout.place(along * neck), role, 1.0);
         if tool == Tool::Move {
@@ -227,7 +227,7 @@ impl GizmoShape {
     }
 
     /// Adds the half of a ring towards the viewer; while it is dragged, the whole ring.
-    fn ring(&mut self, layout: &GizmoLayout, axis: Axis, role: GizmoRole) {
+    fn ring(&mut self, layout: &GizmoLayout, axis: GizmoAxis, role: GizmoRole) {
         for index in 0..PIECES {
             let [from, to] = [index, index + 1].map(|end| layout.on_ring(axis, end as f64 / PIECES as f64));
             let is_front = layout.in_front(from) && layout.in_front(to);
@@ -239,14 +239,14 @@ impl GizmoShape {
 
     fn disc(&mut self, layout: &GizmoLayout, radius: f64, role: GizmoRole, opacity: f32) {
         // A large disc is as round as the rings around it.
-        let sides = if radius > CENTRE { PIECES } else { SIDES * 2 };
+        let sides = if radius > CENTER { PIECES } else { SIDES * 2 };
         for index in 0..sides {
             let [from, to] = [index, index + 1].map(|end| facing(layout, radius, end as f64 / sides as f64));
             self.triangle([layout.pivot, from, to], role, opacity);
         }
     }
 
-    fn guide(&mut self, layout: &GizmoLayout, axis: Axis) {
+    fn guide(&mut self, layout: &GizmoLayout, axis: GizmoAxis) {
         let [from, to] = [-GUIDE, GUIDE].map(|along| layout.place(axis.unit() * along));
         self.line(from, to, GizmoRole::of(axis), 0.6);
     }

@@ -1,6 +1,6 @@
 //! Ghosts: the model at other times, drawn as transparent skins.
 
-use super::{Commands, Layer, Pass, Surroundings};
+use super::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::control::GhostAppearance;
 use crate::device::DeviceListener;
 use crate::ghosts::GhostSkins;
@@ -35,11 +35,11 @@ impl Pass for GhostsPass {
         "ghosts"
     }
 
-    fn layer(&self) -> Layer {
-        Layer::Scene
+    fn layer(&self) -> PassLayer {
+        PassLayer::Scene
     }
 
-    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut Commands) {
+    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
         let scene = around.scene;
         let ghosts = scene.appearances.get::<GhostAppearance>().filter(|ghosts| ghosts.skins);
         match (ghosts, scene.view()) {

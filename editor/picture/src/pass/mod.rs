@@ -22,7 +22,7 @@ use std::rc::Rc;
 
 /// Target of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Layer {
+pub enum PassLayer {
     /// The scene: multisampled, with depth, in linear light; as large as the viewport.
     Scene,
     /// The window, in the color encoding of the screen.
@@ -47,17 +47,17 @@ pub trait Pass: DeviceListener {
     fn name(&self) -> &'static str;
 
     /// Target of the pass. Passes of the scene come before those of the window.
-    fn layer(&self) -> Layer;
+    fn layer(&self) -> PassLayer;
 
     /// Writes this frame's data to the device, before anything is drawn.
-    fn prepare(&mut self, around: &Surroundings<'_>, commands: &mut Commands);
+    fn prepare(&mut self, around: &Surroundings<'_>, commands: &mut FrameCommands);
 
     /// Draws into the target.
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>);
 }
 
 /// Commands that preparing may add to a frame.
-pub struct Commands {
+pub struct FrameCommands {
     /// Encoder that runs before the first pass.
     pub encoder: wgpu::CommandEncoder,
     /// Command buffers that run before that encoder.
