@@ -149,7 +149,7 @@ const ABSENCES: &[Absence] = &[
 /// Files in which `unsafe` may be written, and why.
 const UNSAFE: &[(&str, &str)] = &[
     ("anim/src/fast/simd/avx2.rs", "instructions beyond the target's own can be had in no other way"),
-    ("editor/src/graphics/x11.rs", "a driver takes a connection and a window as pointer and number"),
+    ("editor/picture/src/x11.rs", "a driver takes a connection and a window as pointer and number"),
     ("tests/kit/src/counting.rs", "an allocator that counts is an unsafe trait by definition"),
     ("tests/runtime/models.rs", "the races planted there must be found, and safe code cannot have any"),
 ];
