@@ -1,4 +1,4 @@
-// A calm gradient behind everything.
+// The background gradient.
 
 struct Corner {
     @builtin(position) position: vec4f,
@@ -16,11 +16,11 @@ fn vs_background(@builtin(vertex_index) index: u32) -> Corner {
 
 @fragment
 fn fs_background(in: Corner) -> @location(0) vec4f {
-    // Mixed as the eye sees steps, not as light adds, so that the middle is not too bright.
+    // Mixed in a roughly perceptual space instead of linear light, so that the middle is not too bright.
     let top = sqrt(frame.background_top);
     let bottom = sqrt(frame.background_bottom);
     var color = mix(bottom, top, smoothstep(0.0, 1.0, in.place.y));
-    // The key light leaves a soft pool on the wall behind the model; a plain colour stays plain.
+    // The key light leaves a soft pool of light on the wall; a plain background stays plain.
     let aside = (in.place - vec2f(0.44, 0.6)) * vec2f(frame.size.x * frame.size.w, 1.0);
     let pool = 0.22 * f32(any(frame.background_top != frame.background_bottom));
     color = color * (1.0 + pool * exp(-3.2 * dot(aside, aside)));

@@ -1,4 +1,4 @@
-// Lays the finished scene into the window, exactly once encoded to sRGB.
+// Copies the finished scene into the window, encoding it to sRGB exactly once.
 
 @group(0) @binding(0) var scene: texture_2d<f32>;
 
@@ -8,7 +8,7 @@ fn vs_composite(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
 }
 
-// Rust twin: graphics::pass::composite::Place
+// Rust twin: picture::pass::composite, `prepare`
 struct Place {
     // Top left of the viewport in the window, pixels.
     origin: vec2f,
@@ -22,13 +22,13 @@ fn scene_at(position: vec4f) -> vec3f {
     return textureLoad(scene, pixel, 0).rgb;
 }
 
-// For a window texture that takes values as they are.
+// For a window format that stores values unchanged.
 @fragment
 fn fs_encode(@builtin(position) position: vec4f) -> @location(0) vec4f {
     return vec4f(srgb_encode(scene_at(position)), 1.0);
 }
 
-// For a window texture that encodes by itself.
+// For a window format that encodes to sRGB itself.
 @fragment
 fn fs_plain(@builtin(position) position: vec4f) -> @location(0) vec4f {
     return vec4f(scene_at(position), 1.0);

@@ -1,15 +1,15 @@
-// Controls of the scene: lines that keep their width on the screen, and faces, over everything.
+// Controls of the scene, over everything: lines of constant width on the screen, and faces.
 
-// Rust twin: graphics::pass::controls::Style
+// Rust twin: picture::pass::controls::ControlStyle
 struct Style {
     colors: array<vec4f, 8>,
-    // Pixels.
+    // Half the width of a line, pixels.
     half_width: f32,
 }
 
 @group(1) @binding(0) var<uniform> style: Style;
 
-// Rust twin: control::gizmo::GizmoVertex
+// Rust twin: picture::gizmo::GizmoVertex
 struct Corner {
     @location(0) position: vec3f,
     @location(1) role: u32,
@@ -26,7 +26,7 @@ fn color_of(role: u32) -> vec3f {
     return style.colors[min(role, 7u)].rgb;
 }
 
-// Where a place appears; never cut off by the near and far plane, because handles may be nearer than all there is.
+// Clip-space position; never clipped by the near and far plane, because handles may be nearer than the whole scene.
 fn seen(place: vec3f) -> vec4f {
     let clip = frame.clip_from_world * vec4f(place, 1.0);
     return vec4f(clip.xy, 0.5 * clip.w, clip.w);
@@ -53,7 +53,7 @@ struct Ends {
 
 struct Line {
     @builtin(position) position: vec4f,
-    // Pixels from the middle of the line.
+    // Distance from the center line, pixels.
     @location(0) across: f32,
     @location(1) opacity: f32,
     @location(2) @interpolate(flat) role: u32,
@@ -65,7 +65,7 @@ fn vs_line(@builtin(vertex_index) index: u32, ends: Ends) -> Line {
     let side = array(-1.0, -1.0, 1.0, -1.0, 1.0, 1.0)[index];
     var a = frame.clip_from_world * vec4f(ends.from_position, 1.0);
     var b = frame.clip_from_world * vec4f(ends.to_position, 1.0);
-    // What lies behind the eye is cut off in front of it.
+    // Clips the part behind the camera.
     let least = 1e-4;
     if a.w < least && b.w < least {
         return Line(vec4f(0.0, 0.0, 2.0, 1.0), 0.0, 0.0, ends.from_role);

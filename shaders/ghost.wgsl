@@ -1,10 +1,10 @@
-// The surface at another time: one colour, one looks through it, and its outline is brightest.
+// The surface at another time: transparent, in one color, brightest at its outline.
 
 struct Ghost {
     @builtin(position) position: vec4f,
     @location(0) world: vec3f,
     @location(1) normal: vec3f,
-    // Linear RGB and how much of it is seen.
+    // Linear RGB and opacity.
     @location(2) @interpolate(flat) tint: vec4f,
 }
 

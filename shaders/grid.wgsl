@@ -1,8 +1,8 @@
-// The ground: lines that keep about one pixel, two densities that change over into each other, fading into distance.
+// The ground grid: lines about one pixel wide, two densities that blend into each other, fading with distance.
 
 struct Ground {
     @builtin(position) position: vec4f,
-    // Scene units from the grid's centre.
+    // Offset from the grid's center, scene units.
     @location(0) offset: vec2f,
     @location(1) world: vec2f,
 }
@@ -15,11 +15,11 @@ fn vs_grid(@builtin(vertex_index) index: u32) -> Ground {
     return Ground(frame.clip_from_world * vec4f(world.x, 0.0, world.y, 1.0), offset, world);
 }
 
-// 0..1: is there a line every `step` units here? `width` in pixels.
+// Coverage by lines every `step` units, 0..1; `width` in pixels.
 fn lines(world: vec2f, footprint: vec2f, step: f32, width: f32) -> f32 {
     let cell = abs(fract(world / step - 0.5) - 0.5) * step;
     let covered = clamp(width * 0.5 + 0.5 - cell / footprint, vec2f(0.0), vec2f(1.0));
-    // Where lines come closer than some pixels they would flicker: let them go.
+    // Lines only a few pixels apart would flicker, so they fade out.
     let dense = clamp((step / footprint - 3.0) / 9.0, vec2f(0.0), vec2f(1.0));
     let strength = covered * dense;
     return max(strength.x, strength.y);
@@ -29,7 +29,7 @@ fn lines(world: vec2f, footprint: vec2f, step: f32, width: f32) -> f32 {
 fn fs_grid(in: Ground) -> @location(0) vec4f {
     let footprint = max(fwidth(in.world), vec2f(1e-9));
     let fine = frame.grid.w;
-    // 1 when the fine lines have just appeared, 0 when they are about to become the coarse ones.
+    // Fade-in of the fine lines: 1 when they have just appeared, 0 when they are about to become the coarse ones.
     let appearing = frame.grid_color.w;
     let edge = length(in.offset) / frame.grid.z;
     let fade = pow(clamp(1.0 - edge, 0.0, 1.0), 2.2);

@@ -1,4 +1,4 @@
-// Halves a picture: each texel of a mip level is the mean of the four above it.
+// Halves an image: each texel of a mip level is the mean of the four above it.
 
 @group(0) @binding(0) var above: texture_2d<f32>;
 @group(0) @binding(1) var smooth_sampler: sampler;

@@ -9,18 +9,18 @@ struct Surface {
     @location(4) color: vec4f,
 }
 
-// Where a texture's coordinates come from. Rust twin: graphics::uniform::TextureUse
+// Coordinates of a texture. Rust twin: picture::uniform::TextureUse
 struct TextureUse {
-    // First row of the transformation; w: which coordinate set.
+    // First row of the transformation; w: index of the coordinate set.
     u: vec4f,
     // Second row; w: 1 when there is a texture.
     v: vec4f,
 }
 
-// Rust twin: graphics::uniform::MaterialUniform
+// Rust twin: picture::uniform::MaterialUniform
 struct Material {
     base_color: vec4f,
-    // w: alpha below this is not drawn, for masked surfaces.
+    // w: alpha cutoff of masked surfaces.
     emissive: vec4f,
     metallic: f32,
     roughness: f32,
@@ -71,8 +71,8 @@ fn has_texture(use_of: TextureUse) -> bool {
     return use_of.v.w > 0.5;
 }
 
-// The surface's normal with its normal map. Without tangents in the file they follow from how position and texture
-// coordinates change from pixel to pixel.
+// The normal perturbed by the normal map. Without tangents in the file they are derived from the screen-space
+// derivatives of position and texture coordinates.
 fn mapped_normal(in: Surface, smooth_normal: vec3f) -> vec3f {
     let at = coordinates(material.normal_use, in.uv);
     var texel = textureSample(normal_texture, normal_sampler, at).xyz * 2.0 - 1.0;
@@ -86,10 +86,10 @@ fn mapped_normal(in: Surface, smooth_normal: vec3f) -> vec3f {
     if dot(tangent, tangent) < 1e-12 {
         let across = cross(dp_y, smooth_normal);
         let up = cross(smooth_normal, dp_x);
-        // Pixels run downwards, so on front faces both point the wrong way.
+        // The screen's y axis points down, so both derivatives are inverted on front faces.
         let turn = select(-1.0, 1.0, dot(across, dp_x) >= 0.0);
         tangent = turn * (across * dt_x.x + up * dt_y.x);
-        // Texture coordinates run downwards, the map's +Y upwards.
+        // Texture coordinates increase downwards, the map's +Y points up.
         bitangent = -turn * (across * dt_x.y + up * dt_y.y);
         let longest = max(dot(tangent, tangent), dot(bitangent, bitangent));
         if longest < 1e-24 {
@@ -108,7 +108,7 @@ fn mapped_normal(in: Surface, smooth_normal: vec3f) -> vec3f {
     return normalize(mapped);
 }
 
-// `thin` of the light that falls on the other side comes through: wings, leaves, cloth.
+// With `thin`, this share of the light on the far side passes through: wings, leaves, cloth.
 fn lit_metallic(
     base: vec3f, metallic: f32, roughness: f32, normal: vec3f, view: vec3f, occlusion: f32, thin: f32,
 ) -> vec3f {
@@ -127,12 +127,12 @@ fn lit_metallic(
     }
     let along = reflect(-studio_view, studio_normal);
     let share = mirrored_share(f0, roughness, n_dot_v);
-    // Hollows that see no light mirror none either.
+    // Occluded areas have no reflections either.
     let open = mix(1.0, occlusion, 0.8);
     return light + studio_reflection(along, roughness) * share * open;
 }
 
-// Phong lighting as in thesis §2.1.6.2: ambient, diffuse, and a highlight around the mirrored light.
+// Phong lighting as in thesis §2.1.6.2: ambient, diffuse, and a highlight around the reflected light direction.
 fn lit_phong(base: vec3f, normal: vec3f, view: vec3f, occlusion: f32) -> vec3f {
     let studio_normal = studio_from_world(normal);
     let studio_view = studio_from_world(view);
@@ -150,7 +150,7 @@ fn lit_phong(base: vec3f, normal: vec3f, view: vec3f, occlusion: f32) -> vec3f {
     return light;
 }
 
-// How much of the texel counts, with an edge one pixel wide at the cut of a masked surface.
+// Coverage of the texel, with an edge one pixel wide at the cutoff of a masked surface.
 fn mask_coverage(alpha: f32, cut: f32) -> f32 {
     return clamp((alpha - cut) / max(fwidth(alpha), 1e-4) + 0.5, 0.0, 1.0);
 }
@@ -178,7 +178,7 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
     if has_texture(material.normal_use) {
         normal = mapped_normal(in, smooth_normal);
     }
-    // Away from the viewer on back faces: both sides of a leaf are lit.
+    // Flipped on back faces, so that both sides of a leaf are lit.
     if !front {
         normal = -normal;
         smooth_normal = -smooth_normal;
@@ -214,14 +214,14 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
     if material.use_phong == 1u {
         light = lit_phong(base.rgb, normal, view, occlusion);
     } else {
-        // What lets the background through lets light through.
+        // Transparent surfaces also transmit light.
         let thin = select(0.0, 0.8, material.alpha_mode == 2u);
         light = lit_metallic(base.rgb, metallic, clamp(roughness, 0.045, 1.0), normal, view, occlusion, thin);
     }
     return shown(tone_map(light + emissive), alpha);
 }
 
-// Colours are stored multiplied by alpha where they blend; a mask's alpha only chooses samples.
+// Blended colors are premultiplied by alpha; a mask's alpha only discards samples.
 fn shown(color: vec3f, alpha: f32) -> vec4f {
     if material.alpha_mode == 2u {
         return vec4f(color * alpha, alpha);

@@ -1,4 +1,4 @@
-// Bones: one unit shape, placed once a bone.
+// Bones: one unit mesh, instanced once per bone.
 
 struct Corner {
     // x and z: across, in radii. y: along, in lengths. w: along, in radii.
@@ -8,16 +8,16 @@ struct Corner {
     @location(2) edges: vec3f,
 }
 
-// Rust twin: graphics::skeleton::BoneInstance
+// Rust twin: picture::shape::BoneInstance
 struct Bone {
     @location(3) head: vec3f,
     @location(4) radius: f32,
     @location(5) tail: vec3f,
     // 0 plain, 1 selected, 2 hovered, 3 both.
     @location(6) state: u32,
-    // Unit length, across the bone.
+    // Unit vector across the bone.
     @location(7) side: vec3f,
-    // 1 for a bone, less for what only links.
+    // Opacity: 1 for a bone, less for a mere link.
     @location(8) strength: f32,
 }
 
@@ -69,7 +69,7 @@ fn fs_bone(in: Surface) -> @location(0) vec4f {
     let key = max(dot(studio, studio_light(0u).direction), 0.0);
     var color = bone_color(in.state);
     color *= 0.34 + 0.62 * key + 0.26 * facing + 0.10 * max(normal.y, 0.0);
-    // A fine dark line along the edges of flat faces, where they are large enough for it. Round shapes have none.
+    // A fine dark line along the edges of flat faces, where they are large enough. Round shapes have none.
     let width = fwidth(in.edges);
     let near = in.edges / max(width, vec3f(1e-6));
     let distance_to_edge = min(near.x, min(near.y, near.z));
@@ -80,8 +80,8 @@ fn fs_bone(in: Surface) -> @location(0) vec4f {
     return vec4f(color, 1.0);
 }
 
-// A dark rim of fixed width around every bone, so that it stands out from light and dark surfaces alike: the same body, a
-// little larger on the screen, of which only the far side is drawn.
+// A dark rim of constant width around every bone, so that it contrasts with light and dark surfaces: the same mesh,
+// slightly larger on the screen, of which only the far side is drawn.
 @vertex
 fn vs_outline(corner: Corner, bone: Bone) -> Surface {
     var surface = placed(corner, bone);
@@ -110,14 +110,14 @@ struct Line {
     @location(3) @interpolate(flat) half_width: f32,
 }
 
-// A line of a fixed number of pixels from head to tail: six corners, no vertex buffer of its own.
+// A line of constant width in pixels from head to tail: six vertices without a vertex buffer of its own.
 @vertex
 fn vs_line(@builtin(vertex_index) index: u32, bone: Bone) -> Line {
     let end = array(0.0, 1.0, 1.0, 0.0, 1.0, 0.0)[index];
     let side = array(-1.0, -1.0, 1.0, -1.0, 1.0, 1.0)[index];
     var a = frame.clip_from_world * vec4f(bone.head, 1.0);
     var b = frame.clip_from_world * vec4f(bone.tail, 1.0);
-    // What lies behind the eye is cut off in front of it.
+    // Clips the part behind the camera.
     let least = 1e-4;
     if a.w < least { a = mix(a, b, clamp((least - a.w) / max(b.w - a.w, 1e-9), 0.0, 1.0)); }
     if b.w < least { b = mix(b, a, clamp((least - b.w) / max(a.w - b.w, 1e-9), 0.0, 1.0)); }

@@ -1,17 +1,17 @@
-// Colour: from light to the screen. All shaders work in linear light; a texture view or the composite pass encodes.
+// Color conversions. All shaders work in linear light; a texture view or the composite pass encodes.
 
 fn luminance(color: vec3f) -> f32 {
     return dot(color, vec3f(0.2126, 0.7152, 0.0722));
 }
 
-// Linear light to sRGB's curve.
+// Encodes linear light with the sRGB curve.
 fn srgb_encode(linear: vec3f) -> vec3f {
     let low = linear * 12.92;
     let high = 1.055 * pow(max(linear, vec3f(0.0)), vec3f(1.0 / 2.4)) - 0.055;
     return select(high, low, linear <= vec3f(0.0031308));
 }
 
-// Khronos' neutral tone mapping: colours below 0.8 stay as painted, highlights roll off to white.
+// Khronos' neutral tone mapping: colors below 0.8 are unchanged, highlights roll off to white.
 fn tone_map(light: vec3f) -> vec3f {
     let start = 0.8 - 0.04;
     let desaturation = 0.15;
@@ -29,7 +29,7 @@ fn tone_map(light: vec3f) -> vec3f {
     return mix(color, vec3f(new_peak), white);
 }
 
-// -0.5..0.5, different in every pixel, without a visible pattern: hides the steps of dark gradients.
+// Noise of -0.5..0.5 per pixel without a visible pattern: hides the steps of dark gradients.
 fn dither(pixel: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2f(0.06711056, 0.00583715)))) - 0.5;
 }

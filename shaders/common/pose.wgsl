@@ -1,23 +1,23 @@
-// Morphing and skinning: the shader's side of anim::skin.
+// Morphing and skinning on the device, equal to anim::skin.
 
-// Affine matrix by rows. Rust twin: graphics::uniform::Affine
+// Affine matrix by rows. Rust twin: picture::uniform::Affine
 struct Affine {
     x: vec4f,
     y: vec4f,
     z: vec4f,
 }
 
-// Rust twin: graphics::uniform::DrawUniform
+// Rust twin: picture::uniform::DrawUniform
 struct Draw {
     // First matrix of this instance in `palettes`.
     palette: u32,
-    // 0 for an instance that one matrix carries, else 4 or 8.
+    // Influences per vertex: 0 for an instance that one matrix moves, otherwise 4 or 8.
     influences: u32,
-    // Targets, and the first of their weights in `weights`.
+    // Number of morph targets, and the index of their first weight in `weights`.
     morph_targets: u32,
     morph_weights: u32,
     vertices: u32,
-    // Four bytes, linear RGB and opacity: of ghosts.
+    // Tint of a ghost: four bytes, linear RGB and opacity.
     tint: u32,
     pad1: u32,
     pad2: u32,
@@ -26,13 +26,13 @@ struct Draw {
 @group(1) @binding(0) var<uniform> draw: Draw;
 @group(1) @binding(1) var<storage, read> palettes: array<Affine>;
 @group(1) @binding(2) var<storage, read> weights: array<f32>;
-// Nine numbers a vertex and target: position, normal, tangent; target after target.
+// Nine values per vertex and target: position, normal, tangent; target after target.
 @group(1) @binding(3) var<storage, read> deltas: array<f32>;
 
 struct Posed {
     position: vec3f,
     normal: vec3f,
-    // w: the side of the bitangent.
+    // w: sign of the bitangent.
     tangent: vec4f,
 }
 
@@ -81,7 +81,7 @@ fn largest_of(v: vec3f) -> f32 {
     return max(abs(v.x), max(abs(v.y), abs(v.z)));
 }
 
-// Unit length, however short or long `v` is; `otherwise` where it has no direction.
+// Normalizes `v` whatever its length; returns `otherwise` for a vector without direction.
 fn unit_or(v: vec3f, otherwise: vec3f) -> vec3f {
     let largest = largest_of(v);
     if !(largest > 0.0) {
@@ -91,16 +91,16 @@ fn unit_or(v: vec3f, otherwise: vec3f) -> vec3f {
     return near_one * inverseSqrt(dot(near_one, near_one));
 }
 
-// Directions get unit length here, not between the vertices: else the longer one would pull the others its way.
+// Directions are normalized here and not after interpolation: otherwise longer ones would get more weight.
 fn moved(matrix: Affine, start: Posed) -> Posed {
     let p = vec4f(start.position, 1.0);
-    // Divided by its largest number, so that products of three neither vanish nor overflow.
+    // Divided by the largest component, so that products of three neither underflow nor overflow.
     let largest = max(largest_of(matrix.x.xyz), max(largest_of(matrix.y.xyz), largest_of(matrix.z.xyz)));
     let scale = select(1.0, 1.0 / largest, largest > 0.0);
     let linear_x = matrix.x.xyz * scale;
     let linear_y = matrix.y.xyz * scale;
     let linear_z = matrix.z.xyz * scale;
-    // Rows of the cofactor matrix: the inverse transpose times the determinant, whose sign must go.
+    // Rows of the cofactor matrix: the inverse transpose times the determinant, whose sign is removed.
     let cofactor_x = cross(linear_y, linear_z);
     let cofactor_y = cross(linear_z, linear_x);
     let cofactor_z = cross(linear_x, linear_y);
@@ -112,7 +112,7 @@ fn moved(matrix: Affine, start: Posed) -> Posed {
     let normal = unit_or(tilted, unit_or(along, unit_or(start.normal, vec3f(0.0, 1.0, 0.0))));
     let flat = start.tangent.xyz;
     let tangent = unit_or(vec3f(dot(linear_x, flat), dot(linear_y, flat), dot(linear_z, flat)), flat);
-    // Where the matrix mirrors, the bitangent lies on the other side.
+    // A mirroring matrix flips the bitangent.
     return Posed(
         vec3f(dot(matrix.x, p), dot(matrix.y, p), dot(matrix.z, p)),
         normal, vec4f(tangent, side * start.tangent.w));

@@ -1,10 +1,11 @@
-// The studio: a soft key light from the upper left of the viewer, a cool fill, a rim, and walls that even a mirror
-// has something of to show. Everything is a formula, so there is no environment image to load or to lose.
+// The studio lighting: a soft key light from the upper left of the viewer, a cool fill, a rim, and walls, so that
+// even a mirror has something to reflect. Everything is a formula, so there is no environment image to load or to
+// lose.
 
 const PI: f32 = 3.14159265;
 
 struct Light {
-    // Studio space, towards the light.
+    // Direction towards the light, studio space.
     direction: vec3f,
     color: vec3f,
 }
@@ -19,14 +20,14 @@ fn studio_light(index: u32) -> Light {
     }
 }
 
-// The studio turns about the vertical with the viewer.
+// The studio rotates about the vertical axis with the viewer.
 fn studio_from_world(direction: vec3f) -> vec3f {
     let c = frame.studio.x;
     let s = frame.studio.y;
     return vec3f(c * direction.x - s * direction.z, direction.y, s * direction.x + c * direction.z);
 }
 
-// Light from all around that a matt surface with this normal (studio space) gathers.
+// Ambient light on a matte surface with this normal (studio space).
 fn studio_ambient(normal: vec3f) -> vec3f {
     let above = vec3f(0.375, 0.395, 0.43);
     let below = vec3f(0.155, 0.148, 0.142);
@@ -34,14 +35,14 @@ fn studio_ambient(normal: vec3f) -> vec3f {
     return mix(below, above, smoothstep(-1.0, 1.0, normal.y)) + side;
 }
 
-// A soft box seen in the direction `along`, blurred by roughness.
+// Light of a soft box in direction `along`, blurred by roughness.
 fn soft_box(along: vec3f, towards: vec3f, sharpness: f32, roughness: f32) -> f32 {
     let blurred = mix(sharpness, 2.0, sqrt(roughness));
-    // Dividing by the width keeps the box's light the same while it spreads.
+    // Dividing by the width preserves the total light of the box.
     return exp(blurred * (dot(along, towards) - 1.0)) * (blurred + 2.0) / (sharpness + 2.0);
 }
 
-// What a surface sees in the mirrored direction (studio space).
+// Light that a surface reflects from direction `along` (studio space).
 fn studio_reflection(along: vec3f, roughness: f32) -> vec3f {
     let blur = mix(0.08, 1.0, roughness);
     let walls = mix(vec3f(0.10, 0.097, 0.094), vec3f(0.34, 0.36, 0.40), smoothstep(-blur, blur, along.y));
@@ -52,7 +53,7 @@ fn studio_reflection(along: vec3f, roughness: f32) -> vec3f {
     return walls + ceiling + key + fill + rim;
 }
 
-// How much of the surroundings a surface mirrors (Karis' fit to the split-sum tables).
+// Share of the surroundings that a surface reflects (Karis' fit to the split-sum tables).
 fn mirrored_share(f0: vec3f, roughness: f32, n_dot_v: f32) -> vec3f {
     let c0 = vec4f(-1.0, -0.0275, -0.572, 0.022);
     let c1 = vec4f(1.0, 0.0425, 1.04, -0.04);
@@ -62,14 +63,14 @@ fn mirrored_share(f0: vec3f, roughness: f32, n_dot_v: f32) -> vec3f {
     return f0 * ab.x + ab.y;
 }
 
-// GGX highlight of one light, cosine included, in the unit where a white matt surface reflects 1.
+// GGX specular highlight of one light, including the cosine, in units in which a white matte surface reflects 1.
 fn highlight(normal: vec3f, view: vec3f, light: vec3f, f0: vec3f, roughness: f32) -> vec3f {
     let middle = normalize(view + light);
     let n_dot_l = max(dot(normal, light), 0.0);
     let n_dot_v = max(dot(normal, view), 1e-3);
     let n_dot_h = max(dot(normal, middle), 0.0);
     let v_dot_h = max(dot(view, middle), 0.0);
-    // The lamps are boxes, not points: never sharper than this.
+    // The lights are soft boxes, not points, so highlights are never sharper than this.
     let alpha = max(roughness * roughness, 0.05);
     let a2 = alpha * alpha;
     let d = n_dot_h * n_dot_h * (a2 - 1.0) + 1.0;

@@ -1,4 +1,4 @@
-// A vertex of a model, and where it stands: morphed, then skinned.
+// A vertex of a model and its position: morphed, then skinned.
 
 struct VertexIn {
     @location(0) position: vec3f,

@@ -6,7 +6,7 @@ use dragonfly::control::{
     Area, BaseControl, Button, ControlFramework, ControlId, Controls, InputEvent, Key, Modifiers, Mouse, Pass,
 };
 use dragonfly_kit::random::{Random, seed};
-use dragonfly_picture::gizmo::{AXIS_TO, Space, Tool};
+use dragonfly_picture::gizmo::{AXIS_TO, GizmoSpace, Tool};
 use glam::{Mat3, Vec2, Vec3};
 
 const CORNER: Vec2 = Vec2::new(200.0, 50.0);
@@ -69,7 +69,7 @@ impl Window {
         let mut control = GizmoControl::default();
         control.corner = CORNER;
         control.gizmo.tool = Tool::Move;
-        control.gizmo.settings.space = Space::World;
+        control.gizmo.settings.space = GizmoSpace::World;
         rig.select(&mut control.gizmo, &[1]);
         control.gizmo.look(screen.view());
         let tip = screen.at(along(&screen, rig.joint(1), Mat3::IDENTITY, Vec3::Y * (AXIS_TO as f32 - 10.0)));

@@ -7,7 +7,7 @@ use dragonfly_anim::data::Transform;
 use dragonfly_kit::counting;
 use dragonfly_kit::random::{Random, seed};
 use dragonfly_picture::gizmo::{
-    AXIS_TO, Axis, GizmoDelta, GizmoSettings, GizmoView, Handle, OUTER, Pivot, RING, Space, Tool,
+    AXIS_TO, GizmoAxis, GizmoDelta, GizmoSettings, GizmoSpace, GizmoView, Handle, OUTER, Pivot, RING, Tool,
 };
 use glam::{DVec3, Mat3, Quat, Vec2, Vec3};
 
@@ -16,7 +16,7 @@ const NONE: Modifiers = Modifiers { shift: false, ctrl: false, alt: false };
 const SHIFT: Modifiers = Modifiers { shift: true, ..NONE };
 const CTRL: Modifiers = Modifiers { ctrl: true, ..NONE };
 
-fn gizmo(rig: &Rig, screen: &Screen, tool: Tool, space: Space) -> Gizmo {
+fn gizmo(rig: &Rig, screen: &Screen, tool: Tool, space: GizmoSpace) -> Gizmo {
     let mut gizmo = Gizmo::new(tool);
     gizmo.settings.space = space;
     rig.select(&mut gizmo, &[BONE as u32]);
@@ -25,12 +25,12 @@ fn gizmo(rig: &Rig, screen: &Screen, tool: Tool, space: Space) -> Gizmo {
 }
 
 /// What a rotation of a bone in a space makes of its own, where nothing is stretched.
-fn turned(rig: &Rig, space: Space, axes: Mat3, axis: Vec3, angle: f32) -> Quat {
+fn turned(rig: &Rig, space: GizmoSpace, axes: Mat3, axis: Vec3, angle: f32) -> Quat {
     let own = rig.poses[BONE].rotation;
     match space {
-        Space::Local => own * Quat::from_axis_angle(axis, angle),
-        Space::Parent => Quat::from_axis_angle(axis, angle) * own,
-        Space::World | Space::View => {
+        GizmoSpace::Local => own * Quat::from_axis_angle(axis, angle),
+        GizmoSpace::Parent => Quat::from_axis_angle(axis, angle) * own,
+        GizmoSpace::World | GizmoSpace::View => {
             let parent = Quat::from_mat4(&rig.to_root()[0]);
             parent.inverse() * Quat::from_axis_angle(axes * axis, angle) * parent * own
         }
@@ -44,7 +44,7 @@ fn a_ring_dragged_by_30_degrees_turns_by_30_degrees_about_its_axis() {
     for screen in Screen::all() {
         for space in SPACES {
             let axes = rig.axes(BONE, space, &screen.camera);
-            for axis in Axis::ALL {
+            for axis in GizmoAxis::ALL {
                 let joint = rig.joint(BONE);
                 let normal = axes * unit(axis);
                 if normal.dot(screen.towards(joint)).abs() < 0.2 {
@@ -83,7 +83,7 @@ fn turns_are_counted_beyond_the_first() {
         let (sin, cos) = degrees.to_radians().sin_cos();
         screen.at(joint) + Vec2::new(cos, -sin) * OUTER as f32
     };
-    let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, Space::World);
+    let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, GizmoSpace::World);
     gizmo.begin(Some(Handle::Ring), on_ring(0.0));
     for degrees in (0..=800).step_by(20) {
         gizmo.pointer(on_ring(degrees as f32), NONE);
@@ -92,8 +92,13 @@ fn turns_are_counted_beyond_the_first() {
         panic!()
     };
     assert!((angle.to_degrees() - 800.0).abs() < 1e-3, "{}", angle.to_degrees());
-    let expected =
-        turned(&rig, Space::View, rig.axes(BONE, Space::View, &screen.camera), Vec3::Z, 80f32.to_radians());
+    let expected = turned(
+        &rig,
+        GizmoSpace::View,
+        rig.axes(BONE, GizmoSpace::View, &screen.camera),
+        Vec3::Z,
+        80f32.to_radians(),
+    );
     assert!(between(gizmo.drag().bones[0].to_parent.rotation, expected) < 1e-4);
     // Over the middle there is no angle: it stays.
     gizmo.pointer(screen.at(joint), NONE);
@@ -110,13 +115,13 @@ fn a_ring_seen_edge_on_turns_like_a_wheel() {
         // The view's own x and y axes lie in the picture: their rings are seen edge on from the middle of it.
         let mut screen = screen;
         screen.camera.target = rig.joint(BONE);
-        for (axis, way) in [(Axis::X, Vec2::Y), (Axis::Y, Vec2::X)] {
-            let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, Space::View);
+        for (axis, way) in [(GizmoAxis::X, Vec2::Y), (GizmoAxis::Y, Vec2::X)] {
+            let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, GizmoSpace::View);
             let start = screen.at(rig.joint(BONE)) + Vec2::splat(5.0);
             gizmo.begin(Some(Handle::Axis(axis)), start);
             gizmo.pointer(start + way * (30f32.to_radians() * RING as f32), NONE);
-            let axes = rig.axes(BONE, Space::View, &screen.camera);
-            let expected = turned(&rig, Space::View, axes, unit(axis), 30f32.to_radians());
+            let axes = rig.axes(BONE, GizmoSpace::View, &screen.camera);
+            let expected = turned(&rig, GizmoSpace::View, axes, unit(axis), 30f32.to_radians());
             let off = between(gizmo.drag().bones[0].to_parent.rotation, expected);
             assert!(off < 1e-4, "{off} {axis:?} {screen:?}");
         }
@@ -126,15 +131,15 @@ fn a_ring_seen_edge_on_turns_like_a_wheel() {
 #[test]
 fn the_ball_turns_as_if_held_at_the_pointer() {
     let (rig, screen) = (Rig::new(), Screen::plain());
-    let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, Space::Local);
+    let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, GizmoSpace::Local);
     let start = screen.at(rig.joint(BONE));
-    gizmo.begin(Some(Handle::Centre), start);
+    gizmo.begin(Some(Handle::Center), start);
     gizmo.pointer(start + Vec2::X * (0.5 * RING as f32), NONE);
-    let axes = rig.axes(BONE, Space::View, &screen.camera);
-    let expected = turned(&rig, Space::View, axes, Vec3::Y, 0.5);
+    let axes = rig.axes(BONE, GizmoSpace::View, &screen.camera);
+    let expected = turned(&rig, GizmoSpace::View, axes, Vec3::Y, 0.5);
     assert!(between(gizmo.drag().bones[0].to_parent.rotation, expected) < 1e-4);
     gizmo.pointer(start + Vec2::Y * (0.5 * RING as f32), NONE);
-    let expected = turned(&rig, Space::View, axes, Vec3::X, 0.5);
+    let expected = turned(&rig, GizmoSpace::View, axes, Vec3::X, 0.5);
     assert!(between(gizmo.drag().bones[0].to_parent.rotation, expected) < 1e-4);
 }
 
@@ -146,7 +151,7 @@ fn an_arrow_and_a_square_move_by_what_they_are_dragged() {
         for space in SPACES {
             let axes = rig.axes(BONE, space, &screen.camera);
             let step = screen.unit(joint);
-            for axis in Axis::ALL {
+            for axis in GizmoAxis::ALL {
                 let facing = (axes * unit(axis)).dot(screen.towards(joint)).abs();
                 let [a, b] = axis.others().map(unit);
                 for (handle, from, way) in [
@@ -176,14 +181,14 @@ fn scaling_is_the_ratio_of_the_distances() {
     let rig = Rig::new();
     let joint = rig.joint(BONE);
     for screen in Screen::all() {
-        let axes = rig.axes(BONE, Space::Local, &screen.camera);
-        for axis in Axis::ALL {
+        let axes = rig.axes(BONE, GizmoSpace::Local, &screen.camera);
+        for axis in GizmoAxis::ALL {
             if (axes * unit(axis)).dot(screen.towards(joint)).abs() > 0.9 {
                 continue;
             }
             let at = |points: f32| screen.at(along(&screen, joint, axes, unit(axis) * points));
             for (to, factor) in [(60.0, 1.5), (20.0, 0.5), (-40.0, -1.0)] {
-                let mut gizmo = gizmo(&rig, &screen, Tool::Scale, Space::Local);
+                let mut gizmo = gizmo(&rig, &screen, Tool::Scale, GizmoSpace::Local);
                 gizmo.begin(Some(Handle::Axis(axis)), at(40.0 + 20.0));
                 gizmo.pointer(at(to * 1.5), NONE);
                 let expected = Vec3::ONE + unit(axis) * (factor - 1.0);
@@ -192,14 +197,14 @@ fn scaling_is_the_ratio_of_the_distances() {
             }
         }
         let middle = screen.at(joint);
-        let mut gizmo = gizmo(&rig, &screen, Tool::Scale, Space::World);
+        let mut gizmo = gizmo(&rig, &screen, Tool::Scale, GizmoSpace::World);
         gizmo.begin(Some(Handle::Ring), middle + Vec2::new(0.0, OUTER as f32));
         gizmo.pointer(middle + Vec2::new(OUTER as f32 * 2.5, 0.0), NONE);
         let found = gizmo.drag().bones[0].to_parent.scale;
         assert!(found.distance(Vec3::splat(2.5)) < 1e-4, "{found}");
         // At the middle nothing can be divided by: right and up enlarge.
         gizmo.cancel();
-        gizmo.begin(Some(Handle::Centre), middle);
+        gizmo.begin(Some(Handle::Center), middle);
         gizmo.pointer(middle + Vec2::new(AXIS_TO as f32 / 2.0, -AXIS_TO as f32 / 2.0), NONE);
         let found = gizmo.drag().bones[0].to_parent.scale;
         assert!(found.distance(Vec3::splat(2.0)) < 1e-4, "{found}");
@@ -212,9 +217,9 @@ fn an_axis_that_points_at_the_viewer_follows_the_way_up_and_never_jumps() {
     for mut screen in Screen::all() {
         screen.camera.target = rig.joint(BONE);
         let step = screen.unit(rig.joint(BONE));
-        let mut gizmo = gizmo(&rig, &screen, Tool::Move, Space::View);
+        let mut gizmo = gizmo(&rig, &screen, Tool::Move, GizmoSpace::View);
         let start = screen.size / 2.0;
-        gizmo.begin(Some(Handle::Axis(Axis::Z)), start);
+        gizmo.begin(Some(Handle::Axis(GizmoAxis::Z)), start);
         for up in [0.0, 1.0, 10.0, 300.0] {
             gizmo.pointer(start - Vec2::Y * up, NONE);
             let Some(GizmoDelta::Move(by)) = gizmo.readout().map(|readout| readout.delta) else { panic!() };
@@ -243,8 +248,8 @@ fn along_an_axis_the_bone_never_goes_back_while_the_pointer_goes_on() {
         if !is_line {
             continue;
         }
-        let mut gizmo = gizmo(&rig, &screen, Tool::Move, Space::World);
-        gizmo.begin(Some(Handle::Axis(Axis::X)), from + way * 60.0);
+        let mut gizmo = gizmo(&rig, &screen, Tool::Move, GizmoSpace::World);
+        gizmo.begin(Some(Handle::Axis(GizmoAxis::X)), from + way * 60.0);
         let aside = way.perp() * random.between(-200.0, 200.0);
         let mut last = f64::NEG_INFINITY;
         for step in -3000..3000 {
@@ -264,7 +269,7 @@ fn shift_slows_down_to_a_tenth_without_a_jump() {
         let (sin, cos) = degrees.to_radians().sin_cos();
         middle + Vec2::new(cos, -sin) * OUTER as f32
     };
-    let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, Space::World);
+    let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, GizmoSpace::World);
     gizmo.begin(Some(Handle::Ring), on_ring(0.0));
     let steps = [
         (on_ring(30.0), NONE, 30.0),
@@ -296,9 +301,9 @@ fn ctrl_snaps_to_the_steps_of_the_settings() {
         (GizmoSettings::default(), 0.1),
         (GizmoSettings { move_step: 0.25, ..GizmoSettings::default() }, 0.25),
     ] {
-        let mut gizmo = gizmo(&rig, &screen, Tool::Move, Space::World);
-        gizmo.settings = GizmoSettings { space: Space::World, ..settings };
-        gizmo.begin(Some(Handle::Axis(Axis::Y)), at(50.0));
+        let mut gizmo = gizmo(&rig, &screen, Tool::Move, GizmoSpace::World);
+        gizmo.settings = GizmoSettings { space: GizmoSpace::World, ..settings };
+        gizmo.begin(Some(Handle::Axis(GizmoAxis::Y)), at(50.0));
         let mut seen = 0.0_f64;
         for points in 50..400 {
             gizmo.pointer(at(points as f32), CTRL);
@@ -327,8 +332,8 @@ fn cancelling_gives_the_old_poses_bit_for_bit_and_coming_back_does_almost() {
             pose.scale = Vec3::new(number(), number(), number()) + 1.5;
         }
         let tool = random.choice(&[Tool::Move, Tool::Rotate, Tool::Scale]);
-        let axis = random.choice(&Axis::ALL);
-        let handle = random.choice(&[Handle::Axis(axis), Handle::Plane(axis), Handle::Centre, Handle::Ring]);
+        let axis = random.choice(&GizmoAxis::ALL);
+        let handle = random.choice(&[Handle::Axis(axis), Handle::Plane(axis), Handle::Center, Handle::Ring]);
         let mut gizmo = Gizmo::new(tool);
         gizmo.settings.space = random.choice(&SPACES);
         gizmo.settings.pivot = random.choice(&[Pivot::Individual, Pivot::Median, Pivot::Active]);
@@ -355,7 +360,7 @@ fn cancelling_gives_the_old_poses_bit_for_bit_and_coming_back_does_almost() {
         for share in 1..=20 {
             gizmo.pointer(at.lerp(start, share as f32 / 20.0), NONE);
         }
-        let is_ring = tool == Tool::Rotate && handle != Handle::Centre;
+        let is_ring = tool == Tool::Rotate && handle != Handle::Center;
         for (bone, (after, before)) in rig.after(&gizmo).iter().zip(&rig.poses).enumerate() {
             let near = |a: Vec3, b: Vec3| a.distance(b) <= 1e-5 * (1.0 + b.length());
             let same = near(after.translation, before.translation)
@@ -385,8 +390,8 @@ fn cancelling_gives_the_old_poses_bit_for_bit_and_coming_back_does_almost() {
 fn the_camera_may_move_during_a_drag_without_a_jump() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     for tool in [Tool::Move, Tool::Rotate, Tool::Scale] {
-        for handle in [Handle::Axis(Axis::Y), Handle::Centre] {
-            let mut gizmo = gizmo(&rig, &screen, tool, Space::World);
+        for handle in [Handle::Axis(GizmoAxis::Y), Handle::Center] {
+            let mut gizmo = gizmo(&rig, &screen, tool, GizmoSpace::World);
             let start = screen.at(along(&screen, rig.joint(BONE), Mat3::IDENTITY, Vec3::Y * 60.0));
             gizmo.begin(Some(handle), start);
             let at = start + Vec2::new(20.0, -30.0);
@@ -408,9 +413,9 @@ fn the_camera_may_move_during_a_drag_without_a_jump() {
 #[test]
 fn a_drag_allocates_nothing_per_move() {
     let (rig, screen) = (Rig::new(), Screen::plain());
-    let mut gizmo = gizmo(&rig, &screen, Tool::Move, Space::World);
+    let mut gizmo = gizmo(&rig, &screen, Tool::Move, GizmoSpace::World);
     let start = screen.at(rig.joint(BONE));
-    gizmo.begin(Some(Handle::Centre), start);
+    gizmo.begin(Some(Handle::Center), start);
     let (count, ()) = counting::count(|| {
         for step in 0..100 {
             gizmo.pointer(start + Vec2::splat(step as f32), if step % 7 == 0 { SHIFT } else { NONE });
@@ -482,7 +487,7 @@ fn whatever_comes_every_pose_stays_finite() {
                 1 => rig.select(&mut gizmo, &[random.below(6) as u32, random.below(4) as u32]),
                 2 => _ = gizmo.hover(Some(at)),
                 3 => {
-                    let handle = gizmo.hover(Some(at)).or(Some(Handle::Axis(random.choice(&Axis::ALL))));
+                    let handle = gizmo.hover(Some(at)).or(Some(Handle::Axis(random.choice(&GizmoAxis::ALL))));
                     gizmo.begin(handle.filter(|_| random.below(3) > 0), at);
                 }
                 4 => _ = gizmo.key_down(random.choice(&keys), modifiers),

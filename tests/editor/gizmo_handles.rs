@@ -5,14 +5,15 @@ use dragonfly::control::gizmo::Gizmo;
 use dragonfly::control::{Key, Modifiers};
 use dragonfly_kit::counting;
 use dragonfly_picture::gizmo::{
-    AXIS_TO, Axis, CENTRE, GizmoRole, GizmoShape, GizmoVertex, Handle, OUTER, PLANE, RING, Space, Tool,
+    AXIS_TO, CENTER, GizmoAxis, GizmoRole, GizmoShape, GizmoSpace, GizmoVertex, Handle, OUTER, PLANE, RING,
+    Tool,
 };
 use glam::{Vec2, Vec3};
 
 const BONE: usize = 1;
 const TOOLS: [Tool; 3] = [Tool::Move, Tool::Rotate, Tool::Scale];
 
-fn gizmo(rig: &Rig, screen: &Screen, tool: Tool, space: Space) -> Gizmo {
+fn gizmo(rig: &Rig, screen: &Screen, tool: Tool, space: GizmoSpace) -> Gizmo {
     let mut gizmo = Gizmo::new(tool);
     gizmo.settings.space = space;
     rig.select(&mut gizmo, &[BONE as u32]);
@@ -27,14 +28,14 @@ fn every_handle_is_met_where_it_is_drawn_on_every_screen() {
     for screen in Screen::all() {
         for space in SPACES {
             let axes = rig.axes(BONE, space, &screen.camera);
-            let facing = |axis: Axis| (axes * unit(axis)).dot(screen.towards(joint)).abs();
+            let facing = |axis: GizmoAxis| (axes * unit(axis)).dot(screen.towards(joint)).abs();
             for tool in [Tool::Move, Tool::Scale] {
                 let mut gizmo = gizmo(&rig, &screen, tool, space);
-                for axis in Axis::ALL {
+                for axis in GizmoAxis::ALL {
                     let [a, b] = axis.others().map(unit);
                     let tip = along(&screen, joint, axes, unit(axis) * (AXIS_TO as f32 - 2.0));
                     // Where other arrows or squares come close on the screen, either may be meant.
-                    if facing(axis) < 0.7 && Axis::ALL.into_iter().all(|other| facing(other) < 0.8) {
+                    if facing(axis) < 0.7 && GizmoAxis::ALL.into_iter().all(|other| facing(other) < 0.8) {
                         assert_eq!(gizmo.hover(Some(screen.at(tip))), Some(Handle::Axis(axis)), "{screen:?}");
                         let beyond = along(&screen, joint, axes, unit(axis) * (AXIS_TO as f32 * 2.0));
                         assert_eq!(gizmo.hover(Some(screen.at(beyond))), None);
@@ -45,14 +46,14 @@ fn every_handle_is_met_where_it_is_drawn_on_every_screen() {
                         assert_eq!(gizmo.hover(Some(screen.at(square))), Some(Handle::Plane(axis)));
                     }
                 }
-                assert_eq!(gizmo.hover(Some(screen.at(joint))), Some(Handle::Centre));
-                let beside = screen.at(joint) + Vec2::new(CENTRE as f32 + 200.0, 0.0);
+                assert_eq!(gizmo.hover(Some(screen.at(joint))), Some(Handle::Center));
+                let beside = screen.at(joint) + Vec2::new(CENTER as f32 + 200.0, 0.0);
                 assert_eq!(gizmo.hover(Some(beside)), None);
             }
             let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, space);
             let around = screen.at(joint) + Vec2::from_angle(1.0) * OUTER as f32;
             assert_eq!(gizmo.hover(Some(around)), Some(Handle::Ring));
-            for axis in Axis::ALL.into_iter().filter(|&axis| facing(axis) > 0.5) {
+            for axis in GizmoAxis::ALL.into_iter().filter(|&axis| facing(axis) > 0.5) {
                 let [a, _] = axis.others().map(unit);
                 let mut place =
                     along(&screen, joint, axes, (a * 0.6 + axis.others().map(unit)[1] * 0.8) * RING as f32);
@@ -74,7 +75,7 @@ fn a_gizmo_is_as_large_on_every_screen() {
         let mut screen = screen;
         // In the middle of the picture perspective tilts nothing.
         screen.camera.target = rig.joint(BONE);
-        let gizmo = gizmo(&rig, &screen, Tool::Rotate, Space::View);
+        let gizmo = gizmo(&rig, &screen, Tool::Rotate, GizmoSpace::View);
         gizmo.present(&mut shape);
         let middle = screen.at(rig.joint(BONE));
         let largest = shape.lines().iter().map(|vertex| screen.at(vertex.position).distance(middle));
@@ -89,18 +90,18 @@ fn lines_come_before_squares_and_squares_before_the_middle() {
     let joint = rig.joint(BONE);
     let mut screen = Screen::plain();
     screen.camera.target = joint;
-    let axes = rig.axes(BONE, Space::View, &screen.camera);
+    let axes = rig.axes(BONE, GizmoSpace::View, &screen.camera);
     let at = |points: Vec3| screen.at(along(&screen, joint, axes, points));
-    let mut gizmo = gizmo(&rig, &screen, Tool::Move, Space::View);
+    let mut gizmo = gizmo(&rig, &screen, Tool::Move, GizmoSpace::View);
     // The square's edge is 26 points from the axis; the arrow reaches 7 to either side of it.
-    assert_eq!(gizmo.hover(Some(at(Vec3::new(35.0, 6.0, 0.0)))), Some(Handle::Axis(Axis::X)));
+    assert_eq!(gizmo.hover(Some(at(Vec3::new(35.0, 6.0, 0.0)))), Some(Handle::Axis(GizmoAxis::X)));
     assert_eq!(gizmo.hover(Some(at(Vec3::new(35.0, 15.0, 0.0)))), None);
-    assert_eq!(gizmo.hover(Some(at(Vec3::new(35.0, 27.0, 0.0)))), Some(Handle::Plane(Axis::Z)));
-    assert_eq!(gizmo.hover(Some(at(Vec3::new(8.0, 0.0, 0.0)))), Some(Handle::Axis(Axis::X)));
-    assert_eq!(gizmo.hover(Some(at(Vec3::new(-8.0, 0.0, 0.0)))), Some(Handle::Centre));
+    assert_eq!(gizmo.hover(Some(at(Vec3::new(35.0, 27.0, 0.0)))), Some(Handle::Plane(GizmoAxis::Z)));
+    assert_eq!(gizmo.hover(Some(at(Vec3::new(8.0, 0.0, 0.0)))), Some(Handle::Axis(GizmoAxis::X)));
+    assert_eq!(gizmo.hover(Some(at(Vec3::new(-8.0, 0.0, 0.0)))), Some(Handle::Center));
     // Arrows and squares that are seen end on and edge on are not there.
-    assert_eq!(gizmo.hover(Some(at(Vec3::new(0.0, 0.0, 60.0)))), Some(Handle::Centre));
-    assert_eq!(gizmo.hovered(), Some(Handle::Centre));
+    assert_eq!(gizmo.hover(Some(at(Vec3::new(0.0, 0.0, 60.0)))), Some(Handle::Center));
+    assert_eq!(gizmo.hovered(), Some(Handle::Center));
     assert_eq!(gizmo.hover(None), None);
     assert_eq!(gizmo.hover(Some(Vec2::NAN)), None);
 }
@@ -111,7 +112,7 @@ fn behind_the_eye_there_is_nothing_to_take_hold_of() {
     screen.camera.target = rig.joint(BONE) + screen.camera.back() * -10.0;
     screen.camera.distance = 1.0;
     screen.camera.target = rig.joint(BONE) - screen.camera.back() * 5.0;
-    let mut gizmo = gizmo(&rig, &screen, Tool::Move, Space::World);
+    let mut gizmo = gizmo(&rig, &screen, Tool::Move, GizmoSpace::World);
     let mut shape = GizmoShape::default();
     gizmo.present(&mut shape);
     assert!(shape.lines().is_empty() && shape.triangles().is_empty());
@@ -128,7 +129,7 @@ fn what_is_drawn_shows_what_is_hovered_and_what_is_dragged() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let mut shape = GizmoShape::default();
     for tool in TOOLS {
-        let mut gizmo = gizmo(&rig, &screen, tool, Space::World);
+        let mut gizmo = gizmo(&rig, &screen, tool, GizmoSpace::World);
         gizmo.present(&mut shape);
         for role in [GizmoRole::X, GizmoRole::Y, GizmoRole::Z] {
             assert!(has(shape.lines(), role), "{tool:?} {role:?}");
@@ -139,7 +140,7 @@ fn what_is_drawn_shows_what_is_hovered_and_what_is_dragged() {
         gizmo.hover(Some(middle - Vec2::new(3.0, -3.0)));
         gizmo.present(&mut shape);
         assert!(has(shape.triangles(), GizmoRole::Hover), "{tool:?}");
-        gizmo.begin(Some(Handle::Axis(Axis::Y)), middle + Vec2::new(5.0, -60.0));
+        gizmo.begin(Some(Handle::Axis(GizmoAxis::Y)), middle + Vec2::new(5.0, -60.0));
         gizmo.pointer(middle + Vec2::new(40.0, -70.0), Modifiers::default());
         gizmo.present(&mut shape);
         assert!(has(shape.lines(), GizmoRole::Active) && !has(shape.lines(), GizmoRole::X));
@@ -157,7 +158,7 @@ fn drawing_again_allocates_nothing() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let mut shape = GizmoShape::default();
     for tool in TOOLS {
-        let mut gizmo = gizmo(&rig, &screen, tool, Space::Local);
+        let mut gizmo = gizmo(&rig, &screen, tool, GizmoSpace::Local);
         gizmo.present(&mut shape);
         let (poses, matrices) = (rig.poses.clone(), rig.to_root());
         let (count, ()) = counting::count(|| {

@@ -4,14 +4,14 @@ use crate::gizmo_rig::{Rig, Screen};
 use dragonfly::control::gizmo::{Gizmo, GizmoAnswer};
 use dragonfly::control::{Key, Modifiers};
 use dragonfly_kit::random::{Random, seed};
-use dragonfly_picture::gizmo::{Axis, GizmoDelta, Handle, Space, Tool};
+use dragonfly_picture::gizmo::{GizmoAxis, GizmoDelta, GizmoSpace, Handle, Tool};
 use glam::{DVec3, Vec2, Vec3};
 
 const NONE: Modifiers = Modifiers { shift: false, ctrl: false, alt: false };
 const SHIFT: Modifiers = Modifiers { shift: true, ..NONE };
 
 /// A drag of bone 0, whose parent is the scene, begun with a key.
-fn dragging(tool: Tool, space: Space) -> (Rig, Gizmo) {
+fn dragging(tool: Tool, space: GizmoSpace) -> (Rig, Gizmo) {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let mut gizmo = Gizmo::new(tool);
     gizmo.settings.space = space;
@@ -59,7 +59,7 @@ fn a_typed_number_is_moved_exactly() {
         ("1x2y", [0.0, 12.0, 0.0]),
     ];
     for (keys, by) in moves {
-        let (rig, mut gizmo) = dragging(Tool::Move, Space::World);
+        let (rig, mut gizmo) = dragging(Tool::Move, GizmoSpace::World);
         press(&mut gizmo, keys);
         assert_eq!(delta(&gizmo), GizmoDelta::Move(DVec3::from_array(by)), "{keys}");
         let expected = (rig.poses[0].translation.as_dvec3() + DVec3::from_array(by)).as_vec3();
@@ -75,12 +75,12 @@ fn a_typed_number_is_moved_exactly() {
 fn typed_angles_are_degrees_and_typed_factors_are_factors() {
     let turns = [("x45", 45.0), ("z45/2", 22.5), ("y-720", -720.0), ("x1*pi rad", 180.0)];
     for (keys, degrees) in turns {
-        let (_, mut gizmo) = dragging(Tool::Rotate, Space::Local);
+        let (_, mut gizmo) = dragging(Tool::Rotate, GizmoSpace::Local);
         press(&mut gizmo, keys);
         let GizmoDelta::Rotate { angle, .. } = delta(&gizmo) else { panic!("{keys}") };
         assert_eq!(angle, f64::to_radians(degrees), "{keys}");
     }
-    let (rig, mut gizmo) = dragging(Tool::Rotate, Space::Local);
+    let (rig, mut gizmo) = dragging(Tool::Rotate, GizmoSpace::Local);
     press(&mut gizmo, "z90");
     let expected = rig.poses[0].rotation * glam::Quat::from_rotation_z(90f32.to_radians());
     assert!(gizmo.drag().bones[0].to_parent.rotation.abs_diff_eq(expected, 1e-6));
@@ -91,7 +91,7 @@ fn typed_angles_are_degrees_and_typed_factors_are_factors() {
         ("150%", [1.5, 1.5, 1.5]),
     ];
     for (keys, by) in factors {
-        let (_, mut gizmo) = dragging(Tool::Scale, Space::Local);
+        let (_, mut gizmo) = dragging(Tool::Scale, GizmoSpace::Local);
         press(&mut gizmo, keys);
         assert_eq!(delta(&gizmo), GizmoDelta::Scale(DVec3::from_array(by)), "{keys}");
         let scale = gizmo.drag().bones[0].to_parent.scale;
@@ -106,7 +106,7 @@ fn random_numbers_are_taken_as_they_are_typed() {
     let mut random = Random::new(seed);
     for _ in 0..500 {
         let number = (random.between(-1000.0, 1000.0) * 100.0).round() / 100.0;
-        let (_, mut gizmo) = dragging(Tool::Move, Space::World);
+        let (_, mut gizmo) = dragging(Tool::Move, GizmoSpace::World);
         press(&mut gizmo, &format!("y{number}"));
         let typed: f64 = number.to_string().parse().unwrap();
         assert_eq!(delta(&gizmo), GizmoDelta::Move(DVec3::Y * typed));
@@ -116,10 +116,10 @@ fn random_numbers_are_taken_as_they_are_typed() {
 #[test]
 fn an_axis_key_binds_again_changes_the_space_and_again_sets_free() {
     for (space, other) in [
-        (Space::Local, Space::World),
-        (Space::Parent, Space::World),
-        (Space::World, Space::Local),
-        (Space::View, Space::Local),
+        (GizmoSpace::Local, GizmoSpace::World),
+        (GizmoSpace::Parent, GizmoSpace::World),
+        (GizmoSpace::World, GizmoSpace::Local),
+        (GizmoSpace::View, GizmoSpace::Local),
     ] {
         for tool in [Tool::Move, Tool::Rotate, Tool::Scale] {
             let (_, mut gizmo) = dragging(tool, space);
@@ -127,13 +127,14 @@ fn an_axis_key_binds_again_changes_the_space_and_again_sets_free() {
             let bound =
                 |gizmo: &Gizmo| gizmo.readout().map(|readout| (readout.handle, readout.space)).unwrap();
             press(&mut gizmo, "x");
-            assert_eq!(bound(&gizmo), (Handle::Axis(Axis::X), space));
+            assert_eq!(bound(&gizmo), (Handle::Axis(GizmoAxis::X), space));
             press(&mut gizmo, "x");
-            assert_eq!(bound(&gizmo), (Handle::Axis(Axis::X), other));
+            assert_eq!(bound(&gizmo), (Handle::Axis(GizmoAxis::X), other));
             press(&mut gizmo, "y");
-            assert_eq!(bound(&gizmo), (Handle::Axis(Axis::Y), space));
+            assert_eq!(bound(&gizmo), (Handle::Axis(GizmoAxis::Y), space));
             press(&mut gizmo, "Z");
-            let plane = if tool == Tool::Rotate { Handle::Axis(Axis::Z) } else { Handle::Plane(Axis::Z) };
+            let plane =
+                if tool == Tool::Rotate { Handle::Axis(GizmoAxis::Z) } else { Handle::Plane(GizmoAxis::Z) };
             assert_eq!(bound(&gizmo), (plane, space));
             press(&mut gizmo, "ZZ");
             assert_eq!(bound(&gizmo), (free, space));
@@ -143,12 +144,12 @@ fn an_axis_key_binds_again_changes_the_space_and_again_sets_free() {
 
 #[test]
 fn a_bound_drag_is_measured_from_where_it_began() {
-    let (_, mut gizmo) = dragging(Tool::Move, Space::World);
+    let (_, mut gizmo) = dragging(Tool::Move, GizmoSpace::World);
     gizmo.pointer(Vec2::new(300.0, 100.0), NONE);
     press(&mut gizmo, "y");
     let GizmoDelta::Move(by) = delta(&gizmo) else { panic!() };
     assert!(by.x == 0.0 && by.z == 0.0 && by.y > 0.0, "{by}");
-    let (_, mut other) = dragging(Tool::Move, Space::World);
+    let (_, mut other) = dragging(Tool::Move, GizmoSpace::World);
     press(&mut other, "y");
     other.pointer(Vec2::new(300.0, 100.0), NONE);
     assert_eq!(delta(&other), delta(&gizmo), "whichever came first");
@@ -156,7 +157,7 @@ fn a_bound_drag_is_measured_from_where_it_began() {
 
 #[test]
 fn what_is_no_number_yet_keeps_the_last_one_and_says_so() {
-    let (_, mut gizmo) = dragging(Tool::Move, Space::World);
+    let (_, mut gizmo) = dragging(Tool::Move, GizmoSpace::World);
     gizmo.pointer(Vec2::new(300.0, 100.0), NONE);
     let dragged = delta(&gizmo);
     press(&mut gizmo, "x4");

@@ -6,7 +6,7 @@ use dragonfly_anim::animation::to_root;
 use dragonfly_anim::bounds::Sphere;
 use dragonfly_anim::data::{Bone, BoneIndex, Skeleton, Transform};
 use dragonfly_picture::camera::{Camera, Projection};
-use dragonfly_picture::gizmo::{Axis, GizmoView, Space};
+use dragonfly_picture::gizmo::{GizmoAxis, GizmoSpace, GizmoView};
 use glam::{Mat3, Mat4, Quat, Vec2, Vec3};
 
 /// A skeleton in a pose.
@@ -77,16 +77,16 @@ impl Rig {
     }
 
     /// The axes of a bone in a space, of a rig where nothing is stretched.
-    pub(crate) fn axes(&self, bone: usize, space: Space, camera: &Camera) -> Mat3 {
+    pub(crate) fn axes(&self, bone: usize, space: GizmoSpace, camera: &Camera) -> Mat3 {
         let parent = self.skeleton.bones[bone].parent;
         let to_root = self.to_root();
         match space {
-            Space::Local => Mat3::from_mat4(to_root[bone]),
-            Space::Parent => {
+            GizmoSpace::Local => Mat3::from_mat4(to_root[bone]),
+            GizmoSpace::Parent => {
                 parent.map_or(Mat3::IDENTITY, |parent| Mat3::from_mat4(to_root[parent as usize]))
             }
-            Space::World => Mat3::IDENTITY,
-            Space::View => Mat3::from_cols(camera.right(), camera.up(), camera.back()),
+            GizmoSpace::World => Mat3::IDENTITY,
+            GizmoSpace::View => Mat3::from_cols(camera.right(), camera.up(), camera.back()),
         }
     }
 }
@@ -167,8 +167,9 @@ pub(crate) fn between(a: Quat, b: Quat) -> f32 {
     (2.0 * difference.xyz().length().atan2(difference.w.abs())) as f32
 }
 
-pub(crate) const SPACES: [Space; 4] = [Space::Local, Space::Parent, Space::World, Space::View];
+pub(crate) const SPACES: [GizmoSpace; 4] =
+    [GizmoSpace::Local, GizmoSpace::Parent, GizmoSpace::World, GizmoSpace::View];
 
-pub(crate) fn unit(axis: Axis) -> Vec3 {
+pub(crate) fn unit(axis: GizmoAxis) -> Vec3 {
     Vec3::AXES[axis as usize]
 }

@@ -4,7 +4,7 @@ use crate::gizmo_rig::{Rig, SPACES, Screen, between};
 use dragonfly::control::gizmo::Gizmo;
 use dragonfly::control::{Key, Modifiers};
 use dragonfly_anim::data::Transform;
-use dragonfly_picture::gizmo::{GizmoDelta, GizmoSettings, Pivot, Space, Tool};
+use dragonfly_picture::gizmo::{GizmoDelta, GizmoSettings, GizmoSpace, Pivot, Tool};
 use glam::{Mat3, Mat4, Quat, Vec2, Vec3};
 
 /// A drag by typed keys.
@@ -20,7 +20,7 @@ fn dragged(rig: &Rig, tool: Tool, settings: GizmoSettings, selected: &[u32], key
     gizmo
 }
 
-fn settings(space: Space, pivot: Pivot) -> GizmoSettings {
+fn settings(space: GizmoSpace, pivot: Pivot) -> GizmoSettings {
     GizmoSettings { space, pivot, ..GizmoSettings::default() }
 }
 
@@ -32,7 +32,7 @@ fn near(a: Vec3, b: Vec3) -> bool {
 fn what_hangs_on_a_selected_bone_is_not_moved_twice() {
     let rig = Rig::new();
     for pivot in [Pivot::Individual, Pivot::Median, Pivot::Active] {
-        let gizmo = dragged(&rig, Tool::Move, settings(Space::World, pivot), &[2, 1, 3], "y2");
+        let gizmo = dragged(&rig, Tool::Move, settings(GizmoSpace::World, pivot), &[2, 1, 3], "y2");
         let bones: Vec<u32> = gizmo.drag().bones.iter().map(|bone| bone.bone).collect();
         assert_eq!(bones, [1, 3], "2 hangs on 1");
         let (before, after) = (rig.to_root(), rig.to_root_of(&rig.after(&gizmo)));
@@ -42,7 +42,7 @@ fn what_hangs_on_a_selected_bone_is_not_moved_twice() {
         }
     }
     // Through bones that are not selected, too.
-    let gizmo = dragged(&rig, Tool::Rotate, settings(Space::World, Pivot::Median), &[2, 0], "z10");
+    let gizmo = dragged(&rig, Tool::Rotate, settings(GizmoSpace::World, Pivot::Median), &[2, 0], "z10");
     assert_eq!(gizmo.drag().bones.len(), 1);
 }
 
@@ -53,7 +53,7 @@ fn about_a_common_middle_the_selection_turns_and_grows_as_one() {
     let joints = [1, 3].map(|bone| rig.joint(bone));
     let middle = (joints[0] + joints[1]) / 2.0;
     for (pivot, center) in [(Pivot::Median, middle), (Pivot::Active, joints[1])] {
-        let gizmo = dragged(&rig, Tool::Rotate, settings(Space::World, pivot), &[1, 3], "z40");
+        let gizmo = dragged(&rig, Tool::Rotate, settings(GizmoSpace::World, pivot), &[1, 3], "z40");
         let after = rig.to_root_of(&rig.after(&gizmo));
         let turn = Mat4::from_translation(center)
             * Mat4::from_rotation_z(40f32.to_radians())
@@ -61,7 +61,7 @@ fn about_a_common_middle_the_selection_turns_and_grows_as_one() {
         for bone in [1, 2, 3] {
             assert!((turn * before[bone]).abs_diff_eq(after[bone], 1e-5), "{bone} {pivot:?}");
         }
-        let gizmo = dragged(&rig, Tool::Scale, settings(Space::World, pivot), &[1, 3], "2");
+        let gizmo = dragged(&rig, Tool::Scale, settings(GizmoSpace::World, pivot), &[1, 3], "2");
         let after = rig.to_root_of(&rig.after(&gizmo));
         for bone in [1, 3] {
             let expected = center + (before[bone].w_axis.truncate() - center) * 2.0;
@@ -79,7 +79,7 @@ fn each_about_its_own_joint_keeps_its_place() {
         for change in &gizmo.drag().bones {
             let start = rig.poses[change.bone as usize];
             assert_eq!(change.to_parent.translation, start.translation);
-            if space == Space::Local {
+            if space == GizmoSpace::Local {
                 let expected = start.rotation * Quat::from_rotation_x(30f32.to_radians());
                 assert!(between(change.to_parent.rotation, expected) < 1e-6, "each about its own axis");
             }
@@ -109,7 +109,7 @@ fn what_is_done_in_the_plane_of_the_picture_is_the_same_for_all() {
 #[test]
 fn a_chain_can_be_curled() {
     let rig = Rig::new();
-    let curl = GizmoSettings { curl: true, ..settings(Space::Local, Pivot::Individual) };
+    let curl = GizmoSettings { curl: true, ..settings(GizmoSpace::Local, Pivot::Individual) };
     let gizmo = dragged(&rig, Tool::Rotate, curl, &[0, 1, 2], "z30");
     assert_eq!(gizmo.drag().bones.len(), 3);
     for change in &gizmo.drag().bones {
@@ -133,12 +133,12 @@ fn under_a_mirrored_parent_the_world_is_the_world() {
         let rig = under(scale);
         let before = rig.to_root()[1];
         let center = before.w_axis.truncate();
-        let gizmo = dragged(&rig, Tool::Rotate, settings(Space::World, Pivot::Individual), &[1], "z40");
+        let gizmo = dragged(&rig, Tool::Rotate, settings(GizmoSpace::World, Pivot::Individual), &[1], "z40");
         let after = rig.to_root_of(&rig.after(&gizmo))[1];
         let turn = Mat3::from_rotation_z(40f32.to_radians()) * Mat3::from_mat4(before);
         assert!(Mat3::from_mat4(after).abs_diff_eq(turn, 1e-5), "{scale}");
         assert!(near(after.w_axis.truncate(), center));
-        let gizmo = dragged(&rig, Tool::Move, settings(Space::World, Pivot::Individual), &[1], "x3");
+        let gizmo = dragged(&rig, Tool::Move, settings(GizmoSpace::World, Pivot::Individual), &[1], "x3");
         let after = rig.to_root_of(&rig.after(&gizmo))[1];
         assert!(near(after.w_axis.truncate() - center, Vec3::X * 3.0), "{scale}");
     }
@@ -161,19 +161,19 @@ fn a_ball_and_a_ring_follow_the_pointer_under_a_mirrored_parent_too() {
                 gizmo.pointer(to, Modifiers::default());
                 Mat3::from_mat4(rig.to_root_of(&rig.after(gizmo))[1])
             };
-            use dragonfly_picture::gizmo::{Axis, Handle};
+            use dragonfly_picture::gizmo::{GizmoAxis, Handle};
             let at = middle + Vec2::X * 96.0;
             let to = middle + Vec2::new(0.0, -96.0);
             let found = begin(&mut gizmo, Handle::Ring, at, to);
             let quarter = Mat3::from_axis_angle(screen.camera.back(), 90f32.to_radians());
             assert!(found.abs_diff_eq(quarter * before, 1e-4), "{space:?} {scale}");
             gizmo.cancel();
-            let found = begin(&mut gizmo, Handle::Centre, middle, middle + Vec2::X * 39.0);
+            let found = begin(&mut gizmo, Handle::Center, middle, middle + Vec2::X * 39.0);
             let half = Mat3::from_axis_angle(screen.camera.up(), 0.5);
             assert!(found.abs_diff_eq(half * before, 1e-4), "{space:?} {scale}");
             gizmo.cancel();
             // Seen from the front, an axis ring turns the way the pointer goes round it.
-            gizmo.begin(Some(Handle::Axis(Axis::Z)), at);
+            gizmo.begin(Some(Handle::Axis(GizmoAxis::Z)), at);
             gizmo.pointer(middle + Vec2::new(95.0, -10.0), Modifiers::default());
             let found = Mat3::from_mat4(rig.to_root_of(&rig.after(&gizmo))[1]);
             let turn = Quat::from_mat3(&(found * before.inverse()));
@@ -189,19 +189,19 @@ fn under_an_uneven_parent_joints_go_where_they_should_and_own_axes_are_exact() {
         let rig = under(scale);
         let start = rig.poses[1];
         let joint = rig.joint(1);
-        let by = settings(Space::Local, Pivot::Individual);
+        let by = settings(GizmoSpace::Local, Pivot::Individual);
         let turned = dragged(&rig, Tool::Rotate, by, &[1], "y30").drag().bones[0].to_parent;
         let expected = start.rotation * Quat::from_rotation_y(30f32.to_radians());
         assert!(between(turned.rotation, expected) < 1e-6);
         let grown = dragged(&rig, Tool::Scale, by, &[1], "z3").drag().bones[0].to_parent;
         assert!(near(grown.scale, start.scale * Vec3::new(1.0, 1.0, 3.0)), "{}", grown.scale);
         // In parent space, about the parent's axis.
-        let by = settings(Space::Parent, Pivot::Individual);
+        let by = settings(GizmoSpace::Parent, Pivot::Individual);
         let turned = dragged(&rig, Tool::Rotate, by, &[1], "y30").drag().bones[0].to_parent;
         let expected = Quat::from_rotation_y(30f32.to_radians()) * start.rotation;
         assert!(between(turned.rotation, expected) < 1e-6);
         // The joint is where a world move and a turn about a common middle bring it, exactly.
-        let world = settings(Space::World, Pivot::Active);
+        let world = settings(GizmoSpace::World, Pivot::Active);
         let gizmo = dragged(&rig, Tool::Move, world, &[1], "y3");
         assert!(near(rig.to_root_of(&rig.after(&gizmo))[1].w_axis.truncate(), joint + Vec3::Y * 3.0));
         let active = rig.joint(3);
@@ -218,11 +218,11 @@ fn under_an_uneven_parent_joints_go_where_they_should_and_own_axes_are_exact() {
 fn scaling_along_the_world_gives_each_own_axis_its_share() {
     let mut rig = Rig::new();
     rig.poses[0] = Transform { rotation: Quat::from_rotation_z(45f32.to_radians()), ..Transform::IDENTITY };
-    let gizmo = dragged(&rig, Tool::Scale, settings(Space::World, Pivot::Individual), &[0], "x3");
+    let gizmo = dragged(&rig, Tool::Scale, settings(GizmoSpace::World, Pivot::Individual), &[0], "x3");
     assert_eq!(gizmo.readout().unwrap().delta, GizmoDelta::Scale(glam::DVec3::new(3.0, 1.0, 1.0)));
     assert!(near(gizmo.drag().bones[0].to_parent.scale, Vec3::new(2.0, 2.0, 1.0)), "half of it each");
     rig.poses[0].rotation = Quat::from_rotation_z(90f32.to_radians());
-    let gizmo = dragged(&rig, Tool::Scale, settings(Space::World, Pivot::Individual), &[0], "x3");
+    let gizmo = dragged(&rig, Tool::Scale, settings(GizmoSpace::World, Pivot::Individual), &[0], "x3");
     assert!(near(gizmo.drag().bones[0].to_parent.scale, Vec3::new(1.0, 3.0, 1.0)), "all of it to one");
 }
 
@@ -232,7 +232,7 @@ fn under_a_flat_parent_the_joint_stays_and_the_rest_is_finite() {
         let rig = under(scale);
         for (tool, keys) in [(Tool::Move, "x3"), (Tool::Rotate, "y30"), (Tool::Scale, "z2")] {
             for pivot in [Pivot::Individual, Pivot::Median] {
-                let gizmo = dragged(&rig, tool, settings(Space::World, pivot), &[1, 3], keys);
+                let gizmo = dragged(&rig, tool, settings(GizmoSpace::World, pivot), &[1, 3], keys);
                 for change in &gizmo.drag().bones {
                     assert!(change.to_parent.is_finite());
                     let start = rig.poses[change.bone as usize];

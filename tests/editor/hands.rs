@@ -9,7 +9,7 @@ use dragonfly_document::bones::Choice;
 use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly_kit::counting;
 use dragonfly_kit::document::arm;
-use dragonfly_picture::gizmo::{Axis, Handle, Tool};
+use dragonfly_picture::gizmo::{GizmoAxis, Handle, Tool};
 use glam::{Quat, Vec2};
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ fn assert_turned(hand: &Hand, before: Quat, by: Quat) {
 fn a_ring_is_dragged_a_number_typed_and_it_is_one_step() {
     let mut hand = arm();
     let before = hand.rotation();
-    let ring = hand.handle(Handle::Axis(Axis::X));
+    let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     hand.press(ring);
     assert!(hand.steps().is_empty(), "a press alone is no edit");
     hand.to(ring + Vec2::new(5.0, 9.0));
@@ -71,7 +71,7 @@ fn escape_and_the_right_button_leave_no_trace() {
     let mut hand = arm();
     let before = hand.rotation();
     for end in [InputEvent::KeyDown(Key::Escape), InputEvent::MouseDown(dragonfly::control::Button::Right)] {
-        let ring = hand.handle(Handle::Axis(Axis::Z));
+        let ring = hand.handle(Handle::Axis(GizmoAxis::Z));
         hand.press(ring);
         hand.to(ring + Vec2::new(20.0, 20.0));
         assert_eq!(hand.steps(), ["Rotate"]);
@@ -86,7 +86,7 @@ fn escape_and_the_right_button_leave_no_trace() {
 #[test]
 fn a_drag_that_comes_back_to_where_it_began_is_no_step() {
     let mut hand = arm();
-    let ring = hand.handle(Handle::Axis(Axis::Z));
+    let ring = hand.handle(Handle::Axis(GizmoAxis::Z));
     hand.hold(Modifiers { ctrl: true, ..Modifiers::default() });
     hand.press(ring);
     hand.to(ring + Vec2::new(60.0, 60.0));
@@ -99,7 +99,7 @@ fn a_drag_that_comes_back_to_where_it_began_is_no_step() {
 #[test]
 fn a_press_inside_the_rings_that_does_not_move_is_a_click_on_what_lies_behind() {
     let mut hand = arm();
-    let ball = hand.handle(Handle::Centre);
+    let ball = hand.handle(Handle::Center);
     hand.hold(Modifiers { shift: true, ..Modifiers::default() });
     hand.press(ball);
     hand.to(ball + Vec2::X);
@@ -120,7 +120,7 @@ fn moving_and_scaling_change_their_own_channel_alone() {
         let mut hand = arm();
         hand.command(id);
         assert_eq!(hand.state.hands.gizmo().gizmo.tool, tool);
-        let arrow = hand.handle(Handle::Axis(Axis::Y));
+        let arrow = hand.handle(Handle::Axis(GizmoAxis::Y));
         hand.press(arrow);
         hand.to(arrow - Vec2::Y * 20.0);
         hand.release();
@@ -130,7 +130,7 @@ fn moving_and_scaling_change_their_own_channel_alone() {
     hand.command(Id::ToolSelect);
     let gizmo = &hand.state.hands.gizmo().gizmo;
     assert_eq!(
-        crate::hands_rig::find(gizmo, hand.joint(), Handle::Centre),
+        crate::hands_rig::find(gizmo, hand.joint(), Handle::Center),
         None,
         "who only selects has none"
     );
@@ -141,7 +141,7 @@ fn the_rest_pose_is_not_edited_and_it_is_said_why() {
     let mut hand = arm();
     hand.state.execute(Request::ShowTake(None));
     hand.state.begin(hand.state.now);
-    let ring = hand.handle(Handle::Axis(Axis::X));
+    let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     hand.press(ring);
     hand.to(ring + Vec2::new(20.0, 30.0));
     hand.release();
@@ -166,7 +166,7 @@ fn of_several_bones_the_locked_ones_stay_and_one_that_is_locked_alone_is_not_dra
     hand.state.execute(Request::SelectBones(vec![0, 1], Choice::Replace));
     lock(&mut hand, 0, true);
     let before = turns(&hand);
-    let ring = hand.handle(Handle::Axis(Axis::X));
+    let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     hand.press(ring);
     hand.to(ring + Vec2::new(9.0, 20.0));
     hand.release();
@@ -177,7 +177,7 @@ fn of_several_bones_the_locked_ones_stay_and_one_that_is_locked_alone_is_not_dra
     // With all of them locked nothing turns, not even the gizmo.
     lock(&mut hand, 1, true);
     for by_key in [false, true] {
-        let ring = hand.handle(Handle::Axis(Axis::X));
+        let ring = hand.handle(Handle::Axis(GizmoAxis::X));
         if by_key {
             hand.command(Id::RotateNow);
         } else {
@@ -191,7 +191,7 @@ fn of_several_bones_the_locked_ones_stay_and_one_that_is_locked_alone_is_not_dra
         assert!(said.contains("is locked"), "{said}");
     }
     lock(&mut hand, 1, false);
-    let ring = hand.handle(Handle::Axis(Axis::X));
+    let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     hand.press(ring);
     assert!(hand.state.hands.edits(), "free again");
 }
@@ -201,7 +201,7 @@ fn taking_hold_of_the_gizmo_stops_time() {
     let mut hand = arm();
     hand.command(Id::PlayPause);
     assert!(hand.state.playback.playing);
-    let ring = hand.handle(Handle::Axis(Axis::X));
+    let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     hand.press(ring);
     assert!(!hand.state.playback.playing);
     hand.to(ring + Vec2::new(4.0, 30.0));
@@ -248,7 +248,7 @@ fn clicks_boxes_and_lassos_ask_for_bones_in_the_way_that_is_held() {
 fn a_box_may_begin_on_a_handle_when_it_was_asked_for() {
     let mut hand = arm();
     hand.command(Id::BoxSelect);
-    let ring = hand.handle(Handle::Axis(Axis::X));
+    let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     hand.press(ring);
     hand.to(ring + Vec2::splat(40.0));
     hand.release();
@@ -259,7 +259,7 @@ fn a_box_may_begin_on_a_handle_when_it_was_asked_for() {
 #[test]
 fn what_lies_over_the_picture_takes_precedence() {
     let mut hand = arm();
-    let ring = hand.handle(Handle::Axis(Axis::X));
+    let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     let over = egui::Rect::from_center_size(egui::pos2(ring.x, ring.y), egui::Vec2::splat(30.0));
     hand.state.execute(Request::Shields(vec![over]));
     hand.press(ring);

@@ -9,9 +9,9 @@ use dragonfly_anim::data::{BoneIndex, Transform};
 use dragonfly_document::edit::Property;
 use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
 use dragonfly_kit::document::arm;
-use dragonfly_picture::gizmo::{Axis, GizmoView, Handle};
+use dragonfly_picture::gizmo::{GizmoAxis, GizmoView, Handle};
 use dragonfly_picture::scene::Scene;
-use dragonfly_picture::{Appearance, IkLook};
+use dragonfly_picture::{IkAppearance, IkLook};
 use glam::{Quat, Vec2, Vec3};
 use std::sync::Arc;
 
@@ -65,7 +65,7 @@ fn the_tip_takes_its_chain_along_in_one_step_that_one_undo_takes_back() {
     hand.command(Id::ToggleIk);
     let (before, takes) = (poses(&hand), hand.state.view.clone().expect("open").takes);
     let (tip, direction) = (place(&hand, 2), facing(&hand, 2));
-    drag(&mut hand, Handle::Centre, Vec2::new(30.0, 40.0));
+    drag(&mut hand, Handle::Center, Vec2::new(30.0, 40.0));
     hand.release();
     assert!(hand.refused.is_empty(), "{:?}", hand.refused);
     assert_eq!(hand.steps().len(), 1, "{:?}", hand.steps());
@@ -85,7 +85,7 @@ fn the_tip_takes_its_chain_along_in_one_step_that_one_undo_takes_back() {
     assert!(hand.steps().is_empty());
     // Without IK the same drag moves the bone alone.
     hand.command(Id::ToggleIk);
-    drag(&mut hand, Handle::Centre, Vec2::new(30.0, 40.0));
+    drag(&mut hand, Handle::Center, Vec2::new(30.0, 40.0));
     hand.release();
     assert_eq!(keyed(&hand), [(2, Property::Translation)]);
 }
@@ -104,7 +104,7 @@ fn the_end_of_a_chain_comes_to_where_the_pointer_is() {
         root
     };
     let by = (root - from) * 0.3;
-    drag(&mut hand, Handle::Centre, by);
+    drag(&mut hand, Handle::Center, by);
     hand.release();
     assert!(hand.joint().distance(from + by) < 0.1, "{} is not {}", hand.joint(), from + by);
 }
@@ -155,9 +155,9 @@ fn what_cannot_hold_a_pin_is_said() {
 #[test]
 fn a_pinned_tip_stays_while_the_root_is_moved_and_turned() {
     for (tool, handle) in [
-        (Id::ToolMove, Handle::Centre),
-        (Id::ToolRotate, Handle::Axis(Axis::Z)),
-        (Id::ToolRotate, Handle::Axis(Axis::X)),
+        (Id::ToolMove, Handle::Center),
+        (Id::ToolRotate, Handle::Axis(GizmoAxis::Z)),
+        (Id::ToolRotate, Handle::Axis(GizmoAxis::X)),
     ] {
         let mut hand = arm(2, tool);
         hand.command(Id::Pin);
@@ -209,7 +209,7 @@ fn escape_gives_chain_and_pins_back_bit_for_bit() {
         for end in
             [InputEvent::KeyDown(Key::Escape), InputEvent::MouseDown(dragonfly::control::Button::Right)]
         {
-            drag(&mut hand, Handle::Centre, Vec2::new(8.0, 20.0));
+            drag(&mut hand, Handle::Center, Vec2::new(8.0, 20.0));
             assert_ne!(poses(&hand), before);
             assert_eq!(hand.steps().len(), 1);
             hand.send(end);
@@ -228,7 +228,7 @@ fn with_auto_key_off_the_whole_chain_is_pending() {
     hand.command(Id::ToggleIk);
     hand.command(Id::AutoKey);
     let before = poses(&hand);
-    drag(&mut hand, Handle::Centre, Vec2::new(30.0, 40.0));
+    drag(&mut hand, Handle::Center, Vec2::new(30.0, 40.0));
     hand.release();
     assert!(keyed(&hand).is_empty(), "{:?}", keyed(&hand));
     let pending = hand.state.pending_here().expect("pending");
@@ -243,7 +243,7 @@ fn with_auto_key_off_the_whole_chain_is_pending() {
 fn what_is_switched_while_dragging_is_for_the_next_drag() {
     let mut hand = arm(2, Id::ToolMove);
     hand.command(Id::ToggleIk);
-    let to = drag(&mut hand, Handle::Centre, Vec2::new(20.0, 20.0));
+    let to = drag(&mut hand, Handle::Center, Vec2::new(20.0, 20.0));
     hand.command(Id::ToggleIk);
     hand.to(to + Vec2::new(5.0, 5.0));
     hand.release();
@@ -317,7 +317,7 @@ fn pins_and_the_chain_are_drawn_where_the_bones_are() {
     let hand = arm(2, Id::ToolMove);
     let mut scene = scene(&hand);
     let look = IkLook { pins: vec![2, 77], chain: Some((2, 9)), pole: Some(77) };
-    scene.controls.receive(Appearance::Ik(Some(look)));
+    scene.appearances.set(IkAppearance(Some(look)));
     scene.prepare(hand.state.now);
     let shape = scene.controls.shape();
     let lines: Vec<Vec3> = shape.lines().iter().map(|corner| corner.position).collect();
@@ -326,7 +326,7 @@ fn pins_and_the_chain_are_drawn_where_the_bones_are() {
     let middle = lines[4..].iter().sum::<Vec3>() / 8.0;
     assert!(middle.distance(place(&hand, 2)) < 1e-5);
     assert_eq!(shape.triangles().len(), 2 * 6, "a dot at the root, and in the frame");
-    scene.controls.receive(Appearance::Ik(None));
+    scene.appearances.set(IkAppearance(None));
     scene.prepare(hand.state.now);
     assert!(scene.controls.shape().lines().is_empty());
 }
@@ -355,7 +355,7 @@ fn a_bone_that_is_locked_or_muted_is_a_stiff_joint_of_the_chain() {
         hand.state.begin(hand.state.now);
         hand.command(Id::ToggleIk);
         let (before, tip) = (poses(&hand), place(&hand, 2));
-        drag(&mut hand, Handle::Centre, Vec2::new(30.0, 40.0));
+        drag(&mut hand, Handle::Center, Vec2::new(30.0, 40.0));
         hand.release();
         assert!(hand.refused.is_empty(), "{:?}", hand.refused);
         assert_eq!(hand.steps().len(), 1, "{flag:?}: {:?}", hand.steps());
@@ -369,7 +369,7 @@ fn a_bone_that_is_locked_or_muted_is_a_stiff_joint_of_the_chain() {
     let mut hand = arm(2, Id::ToolMove);
     hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 2, true)));
     hand.command(Id::ToggleIk);
-    let from = hand.handle(Handle::Centre);
+    let from = hand.handle(Handle::Center);
     hand.press(from);
     hand.to(from + Vec2::new(20.0, 20.0));
     hand.release();

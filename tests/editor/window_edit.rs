@@ -7,7 +7,7 @@ use crate::window::alone;
 use crate::window_visit::Visit;
 use dragonfly_kit::folder::data;
 use dragonfly_kit::skip;
-use dragonfly_picture::gizmo::{Axis, Handle, Space};
+use dragonfly_picture::gizmo::{GizmoAxis, GizmoSpace, Handle};
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::Value;
 use std::path::Path;
@@ -60,8 +60,8 @@ fn a_head_that_is_turned_by_hand_is_the_same_to_the_reader_to_stdio_and_to_three
     // About the parent's axes, in which the panel tells the change.
     visit.screen.press(key::T);
     let mut inside = visit.inside();
-    inside.state.settings.hand.space = Space::Parent;
-    let ring = inside.handle("b_Head_05", Handle::Axis(Axis::X));
+    inside.state.settings.hand.space = GizmoSpace::Parent;
+    let ring = inside.handle("b_Head_05", Handle::Axis(GizmoAxis::X));
     visit.screen.point(ring.x as i16, ring.y as i16);
     visit.screen.hold();
     visit.screen.point(ring.x as i16 + 9, ring.y as i16 + 14);
@@ -157,7 +157,7 @@ fn with_auto_key_off_a_pose_is_pending_until_it_is_keyed() {
     visit.until("auto-key is off", |visit| (visit.control_now("Auto-key")?["on"] == false).then_some(()));
     let time = visit.go_on(5);
     visit.pick_head();
-    let ring = visit.inside().handle("b_Head_05", Handle::Axis(Axis::X));
+    let ring = visit.inside().handle("b_Head_05", Handle::Axis(GizmoAxis::X));
     visit.screen.point(ring.x as i16, ring.y as i16);
     visit.screen.hold();
     for by in 1..20 {

@@ -8,7 +8,7 @@ use dragonfly::control::gizmo::Gizmo;
 use dragonfly::panels::{Request, Settings, State};
 use dragonfly_document::{Cancel, Source, View, load_model};
 use dragonfly_kit::folder::data;
-use dragonfly_picture::gizmo::{Axis, GizmoView, Handle, Tool};
+use dragonfly_picture::gizmo::{GizmoAxis, GizmoView, Handle, Tool};
 use glam::{Quat, Vec2};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -143,7 +143,7 @@ fn a_bone_is_picked_and_turned_by_thirty_degrees_undone_and_done_again() {
     let turned = before * Quat::from_rotation_x(30f32.to_radians());
 
     // By the ring, with the number typed while it is held.
-    let ring = inside.handle("b_Head_05", Handle::Axis(Axis::X));
+    let ring = inside.handle("b_Head_05", Handle::Axis(GizmoAxis::X));
     screen.point(ring.x as i16, ring.y as i16);
     screen.hold();
     screen.point(ring.x as i16 + 9, ring.y as i16 + 14);

@@ -48,7 +48,7 @@ struct Switches {
     never_pauses: AtomicBool,
 }
 
-/// Counts `counter` down to 0 and returns whether it was above it.
+/// Subtracts 1 from `counter` and returns its value before; `None` when it is already 0.
 fn count_down(counter: &AtomicU32) -> Option<u32> {
     counter.fetch_update(Relaxed, Relaxed, |left| left.checked_sub(1)).ok()
 }

@@ -1,7 +1,7 @@
 //! The camera does what hands expect.
 
 use dragonfly_anim::bounds::Sphere;
-use dragonfly_picture::camera::{Camera, Projection, Side};
+use dragonfly_picture::camera::{Camera, Projection, ViewSide};
 use glam::{Vec2, Vec3};
 
 const SIZE: Vec2 = Vec2::new(800.0, 600.0);
@@ -133,12 +133,12 @@ fn a_ray_goes_through_its_pixel() {
 fn sides_look_from_where_they_say() {
     let mut camera = Camera::default();
     for (side, from) in [
-        (Side::Front, Vec3::Z),
-        (Side::Back, Vec3::NEG_Z),
-        (Side::Right, Vec3::X),
-        (Side::Left, Vec3::NEG_X),
-        (Side::Top, Vec3::Y),
-        (Side::Bottom, Vec3::NEG_Y),
+        (ViewSide::Front, Vec3::Z),
+        (ViewSide::Back, Vec3::NEG_Z),
+        (ViewSide::Right, Vec3::X),
+        (ViewSide::Left, Vec3::NEG_X),
+        (ViewSide::Top, Vec3::Y),
+        (ViewSide::Bottom, Vec3::NEG_Y),
     ] {
         camera.look_from(side);
         assert!(camera.back().abs_diff_eq(from, 1e-6), "{side:?}");

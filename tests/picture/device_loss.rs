@@ -5,7 +5,7 @@ use dragonfly_kit::picture::images::{difference, settings};
 use dragonfly_kit::picture::studio;
 use dragonfly_kit::process::{alone, resident_bytes};
 use dragonfly_picture::PictureSettings;
-use dragonfly_picture::fault::{LossRecord, MAX_LOSSES, PATIENCE, Patience};
+use dragonfly_picture::losses::{LossRecord, LossTolerance, MAX_LOSSES, PATIENCE};
 use std::time::{Duration, Instant};
 
 #[test]
@@ -55,7 +55,7 @@ fn losses_on_purpose_do_not_try_patience() {
     let now = Instant::now();
     for _ in 0..100 {
         record.expect_one();
-        assert_eq!(record.note(now), Patience::Left);
+        assert_eq!(record.note(now), LossTolerance::Left);
     }
     assert_eq!(record.total(), 100);
 }
@@ -66,19 +66,19 @@ fn three_losses_within_a_minute_are_too_many() {
     let after = |seconds| start + Duration::from_secs(seconds);
     let mut record = LossRecord::default();
     for loss in 1..MAX_LOSSES as u64 {
-        assert_eq!(record.note(after(loss)), Patience::Left);
+        assert_eq!(record.note(after(loss)), LossTolerance::Left);
     }
-    assert_eq!(record.note(after(30)), Patience::Gone);
+    assert_eq!(record.note(after(30)), LossTolerance::Gone);
     record.forgive();
-    assert_eq!(record.note(after(31)), Patience::Left);
-    assert_eq!(record.note(after(32)), Patience::Left);
+    assert_eq!(record.note(after(31)), LossTolerance::Left);
+    assert_eq!(record.note(after(32)), LossTolerance::Left);
     let late = 33 + PATIENCE.as_secs();
-    assert_eq!(record.note(after(late)), Patience::Left, "the others are long past");
+    assert_eq!(record.note(after(late)), LossTolerance::Left, "the others are long past");
 }
 
 #[test]
 fn a_device_lost_too_often_draws_no_scene_until_asked() {
-    use dragonfly_picture::stage::Event;
+    use dragonfly_picture::stage::DeviceEvent;
     let Some(mut studio) = studio::studio() else { return };
     let loaded = arm::loaded();
     studio.render(&loaded, &settings()).unwrap();
@@ -89,7 +89,7 @@ fn a_device_lost_too_often_draws_no_scene_until_asked() {
         stage.whole_frame(Instant::now());
     }
     let events = stage.take_events();
-    assert!(matches!(events.last(), Some(Event::Paused(_))), "{events:?}");
+    assert!(matches!(events.last(), Some(DeviceEvent::Paused(_))), "{events:?}");
     assert!(stage.read_scene().is_err(), "the scene stands still");
     stage.resume();
     stage.whole_frame(Instant::now());

@@ -7,7 +7,7 @@ use dragonfly_kit::folder::data;
 use dragonfly_kit::picture::images::difference;
 use dragonfly_kit::picture::studio;
 use dragonfly_picture::ghosts::GhostSkins;
-use dragonfly_picture::{Appearance, PictureSettings};
+use dragonfly_picture::{GhostAppearance, PictureSettings};
 use glam::Vec3;
 use image::RgbaImage;
 use std::sync::Arc;
@@ -38,9 +38,7 @@ fn the_skin_is_seen_before_and_after_and_the_skeleton_in_its_place() {
         ..PictureSettings::default()
     };
     let mut shown = |times: &[(f32, i32)], skins: bool| {
-        let controls = &mut studio.stage().scene.controls;
-        controls.receive(Appearance::Ghosts(times.to_vec()));
-        controls.receive(Appearance::GhostSkins(skins));
+        studio.stage().scene.appearances.set(GhostAppearance { times: times.to_vec(), skins });
         studio.render(&loaded, &settings).unwrap()
     };
     let many: Vec<(f32, i32)> =

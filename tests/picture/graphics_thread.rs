@@ -7,7 +7,7 @@ use dragonfly_kit::eventually;
 use dragonfly_kit::picture::complaints::NoComplaints;
 use dragonfly_kit::skip::{TestNeed, skip};
 use dragonfly_picture::camera::Camera;
-use dragonfly_picture::playback::Playback;
+use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::scene::Scene;
 use dragonfly_picture::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, Look, PanelsFrame};
 use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
@@ -163,7 +163,8 @@ fn a_frame_is_drawn_only_when_something_changes() {
     let Some(mut bench) = Bench::with_arm() else { return };
     assert_eq!(bench.turn(), Next::OnMessage, "nothing moves, so nothing wakes the thread");
     let now = Instant::now();
-    let playing = Playback { take: Some(0), length: arm::LENGTH, playing: true, ..Playback::rest(now) };
+    let playing =
+        PlaybackClock { take: Some(0), length: arm::LENGTH, playing: true, ..PlaybackClock::rest(now) };
     bench.graphics.play(playing);
     let end = now + Duration::from_millis(800);
     while Instant::now() < end {
@@ -178,11 +179,11 @@ fn a_frame_is_drawn_only_when_something_changes() {
 fn a_minimised_window_costs_nothing() {
     let Some(mut bench) = Bench::with_arm() else { return };
     bench.graphics.resize([0, 0]);
-    bench.graphics.play(Playback {
+    bench.graphics.play(PlaybackClock {
         take: Some(0),
         length: arm::LENGTH,
         playing: true,
-        ..Playback::rest(Instant::now())
+        ..PlaybackClock::rest(Instant::now())
     });
     bench.settle();
     bench.graphics.resize(SIZE);
@@ -302,7 +303,7 @@ fn a_changed_take_is_shown_as_if_it_had_been_opened_like_that() {
     model.animation.takes = vec![Arc::new(still)];
     let mut reopened = Arc::into_inner(arm::loaded()).unwrap();
     reopened.model = Arc::new(model);
-    let end = Playback { take: Some(0), length: arm::LENGTH, ..Playback::rest(Instant::now()) };
+    let end = PlaybackClock { take: Some(0), length: arm::LENGTH, ..PlaybackClock::rest(Instant::now()) };
     bench.graphics.play(end.seek(arm::LENGTH, end.anchor));
     let [bent, straight, like_that, again] =
         [opened.clone(), changed, View::opened(3, Arc::new(reopened)), opened].map(|view| {
@@ -320,7 +321,8 @@ fn a_changed_take_keeps_what_the_device_has_of_the_model() {
     let mut scene = Scene::new(Instant::now());
     let mut shown = |view: &View| {
         scene.show(view);
-        scene.playback = Playback { take: Some(0), length: arm::LENGTH, ..Playback::rest(Instant::now()) };
+        scene.playback =
+            PlaybackClock { take: Some(0), length: arm::LENGTH, ..PlaybackClock::rest(Instant::now()) };
         scene.playback = scene.playback.seek(arm::LENGTH, Instant::now());
         scene.prepare(Instant::now());
         let model = scene.model().unwrap();

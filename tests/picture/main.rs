@@ -6,6 +6,7 @@ mod device_loss;
 mod ghost_skins;
 mod graphics_thread;
 mod no_allocation;
+mod passes;
 mod picking;
 mod picking_many;
 mod picking_scene;

@@ -2,7 +2,7 @@
 
 use dragonfly_kit::counting;
 use dragonfly_kit::document::arm;
-use dragonfly_picture::playback::Playback;
+use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::scene::Scene;
 use dragonfly_picture::{BoneLook, Look};
 use std::time::{Duration, Instant};
@@ -13,7 +13,8 @@ fn preparing_a_frame_allocates_nothing() {
     let mut scene = Scene::new(start);
     scene.show_model(arm::loaded());
     scene.look = Look { viewport: [0, 0, 640, 480], skeleton: true, selected: vec![1], ..Look::default() };
-    scene.playback = Playback { take: Some(0), length: arm::LENGTH, playing: true, ..Playback::rest(start) };
+    scene.playback =
+        PlaybackClock { take: Some(0), length: arm::LENGTH, playing: true, ..PlaybackClock::rest(start) };
     for bone_look in [BoneLook::Octahedra, BoneLook::Sticks, BoneLook::Lines] {
         scene.look.bone_look = bone_look;
         let (count, ()) = counting::count(|| {

@@ -3,7 +3,7 @@
 use dragonfly_kit::document::arm;
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::pick;
-use dragonfly_picture::playback::Playback;
+use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::scene::Scene;
 use dragonfly_picture::{BoneLook, Look};
 use glam::Vec3;
@@ -18,7 +18,8 @@ fn scene(time: f32, bone_look: BoneLook) -> Scene {
     scene.show_model(arm::loaded());
     scene.camera = Camera { target: Vec3::Y * 1.5, distance: 8.0, yaw: 0.3, pitch: 0.2, ..Camera::default() };
     scene.look = Look { viewport: VIEWPORT, skeleton: true, bone_look, ..Look::default() };
-    scene.playback = Playback { take: Some(0), length: arm::LENGTH, ..Playback::rest(now) }.seek(time, now);
+    scene.playback =
+        PlaybackClock { take: Some(0), length: arm::LENGTH, ..PlaybackClock::rest(now) }.seek(time, now);
     scene.prepare(now);
     scene
 }

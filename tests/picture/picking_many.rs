@@ -7,7 +7,7 @@ use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::ClickCycle;
 use dragonfly_picture::pick::Region;
 use dragonfly_picture::pick::{pick, pick_all, pick_region};
-use dragonfly_picture::playback::Playback;
+use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::scene::Scene;
 use dragonfly_picture::{BoneLook, Look};
 use glam::{Vec2, Vec3};
@@ -21,7 +21,7 @@ fn scene(camera: Camera, bone_look: BoneLook) -> Scene {
     scene.show_model(arm::loaded());
     scene.camera = camera;
     scene.look = Look { viewport: VIEWPORT, skeleton: true, bone_look, ..Look::default() };
-    scene.playback = Playback { take: None, length: arm::LENGTH, ..Playback::rest(now) };
+    scene.playback = PlaybackClock { take: None, length: arm::LENGTH, ..PlaybackClock::rest(now) };
     scene.prepare(now);
     scene
 }

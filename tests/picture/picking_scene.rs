@@ -4,7 +4,7 @@ use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones};
 use dragonfly_kit::document::arm;
 use dragonfly_picture::Look;
 use dragonfly_picture::camera::Camera;
-use dragonfly_picture::playback::Playback;
+use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::scene::Scene;
 use dragonfly_picture::shape::Body;
 use glam::Vec3;
@@ -23,7 +23,7 @@ fn scene(skeleton: bool, hidden: &[u32]) -> Scene {
     let mut bones = HiddenBones::default();
     bones.hide(&mut selection);
     scene.look = Look { viewport: VIEWPORT, skeleton, hidden: Arc::new(bones), ..Look::default() };
-    scene.playback = Playback { take: Some(0), length: arm::LENGTH, ..Playback::rest(now) };
+    scene.playback = PlaybackClock { take: Some(0), length: arm::LENGTH, ..PlaybackClock::rest(now) };
     scene.prepare(now);
     scene
 }

@@ -4,7 +4,7 @@ use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::hit::{HitPose, HitTree};
 use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones};
 use dragonfly_kit::document::arm;
-use dragonfly_picture::camera::Ray;
+use dragonfly_picture::camera::CameraRay;
 use dragonfly_picture::pick::{SkinHit, pick_skin};
 use glam::Vec3;
 use std::sync::Arc;
@@ -25,15 +25,15 @@ impl Skin {
         Self { evaluator, pose }
     }
 
-    fn hits(&mut self, ray: &Ray, hidden: &HiddenBones) -> Vec<SkinHit> {
+    fn hits(&mut self, ray: &CameraRay, hidden: &HiddenBones) -> Vec<SkinHit> {
         let mut hits = Vec::new();
         pick_skin(&mut self.pose, &self.evaluator, ray, hidden, &mut hits);
         hits
     }
 }
 
-fn towards(point: Vec3) -> Ray {
-    Ray { origin: point + Vec3::Z * 10.0, direction: -Vec3::Z }
+fn towards(point: Vec3) -> CameraRay {
+    CameraRay { origin: point + Vec3::Z * 10.0, direction: -Vec3::Z }
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn bones_behind_follow_and_hidden_ones_are_looked_through() {
     // In at the tip's side, out at the other side near the root.
     let (enter, leave) = (Vec3::new(0.25, 2.8, 0.05), Vec3::new(-0.25, 0.2, 0.05));
     let direction = (leave - enter).normalize();
-    let ray = Ray { origin: enter - direction * 3.0, direction };
+    let ray = CameraRay { origin: enter - direction * 3.0, direction };
     let hits = skin.hits(&ray, &HiddenBones::default());
     let bones: Vec<u32> = hits.iter().map(|hit| hit.bone).collect();
     assert_eq!(bones, [2, 0], "{hits:?}");
@@ -81,9 +81,9 @@ fn a_line_of_sight_that_is_none_meets_nothing() {
     for (origin, direction) in
         [(Vec3::NAN, Vec3::Z), (Vec3::ZERO, Vec3::ZERO), (Vec3::ZERO, Vec3::NAN), (Vec3::INFINITY, Vec3::Z)]
     {
-        assert!(skin.hits(&Ray { origin, direction }, &HiddenBones::default()).is_empty());
+        assert!(skin.hits(&CameraRay { origin, direction }, &HiddenBones::default()).is_empty());
     }
     // From within, and from so far that numbers are coarse: an end all the same.
-    skin.hits(&Ray { origin: Vec3::Y, direction: Vec3::Y }, &HiddenBones::default());
-    skin.hits(&Ray { origin: Vec3::new(0.0, 1.0, 1e8), direction: -Vec3::Z }, &HiddenBones::default());
+    skin.hits(&CameraRay { origin: Vec3::Y, direction: Vec3::Y }, &HiddenBones::default());
+    skin.hits(&CameraRay { origin: Vec3::new(0.0, 1.0, 1e8), direction: -Vec3::Z }, &HiddenBones::default());
 }

@@ -1,20 +1,20 @@
 //! Which time is on screen, at any moment, whatever was pressed before.
 
 use dragonfly_kit::random::{Random, seed};
-use dragonfly_picture::playback::{Playback, Repeat};
+use dragonfly_picture::playback::{PlaybackClock, Repeat};
 use std::time::{Duration, Instant};
 
 const REPEATS: [Repeat; 3] = [Repeat::Once, Repeat::Loop, Repeat::PingPong];
 
-fn playback(now: Instant, length: f32, repeat: Repeat) -> Playback {
-    Playback {
+fn playback(now: Instant, length: f32, repeat: Repeat) -> PlaybackClock {
+    PlaybackClock {
         take: Some(0),
         start: 1.0,
         length,
         anchor_time: 1.0,
         playing: true,
         repeat,
-        ..Playback::rest(now)
+        ..PlaybackClock::rest(now)
     }
 }
 
@@ -28,7 +28,7 @@ fn the_time_stays_within_the_take() {
     for repeat in REPEATS {
         for length in [0.0, 1e-6, 0.5, 3.0, 1e5] {
             for speed in [-8.0, -1.0, 0.0, 0.3, 1.0, 8.0] {
-                let playback = Playback { speed, ..playback(now, length, repeat) };
+                let playback = PlaybackClock { speed, ..playback(now, length, repeat) };
                 for seconds in [0.0, 0.1, 1.0, 2.9, 100.0, 1e6] {
                     let time = playback.time_at(later(now, seconds));
                     let end = playback.start + length;
@@ -50,7 +50,7 @@ fn each_end_is_met_as_it_says() {
 #[test]
 fn the_last_frame_of_a_loop_can_be_looked_at() {
     let now = Instant::now();
-    let playback = Playback { playing: false, ..playback(now, 2.0, Repeat::Loop) }.seek(3.0, now);
+    let playback = PlaybackClock { playing: false, ..playback(now, 2.0, Repeat::Loop) }.seek(3.0, now);
     assert_eq!(playback.time_at(now), 3.0);
 }
 
@@ -58,7 +58,7 @@ fn the_last_frame_of_a_loop_can_be_looked_at() {
 fn what_stands_may_stand_beside_the_take_and_what_plays_may_not() {
     let now = Instant::now();
     let plays = playback(now, 2.0, Repeat::Loop);
-    let stands = Playback { playing: false, ..plays };
+    let stands = PlaybackClock { playing: false, ..plays };
     for (wanted, standing, playing) in
         [(7.5, 7.5, 3.0), (0.25, 0.25, 1.0), (-1.0, 0.0, 1.0), (1e9, 86_400.0, 3.0), (f32::NAN, 1.0, 1.0)]
     {
@@ -66,7 +66,7 @@ fn what_stands_may_stand_beside_the_take_and_what_plays_may_not() {
         assert_eq!(plays.seek(wanted, now).time_at(now), playing);
     }
     // The rest pose has no time.
-    assert_eq!(Playback { take: None, ..Playback::rest(now) }.seek(2.0, now).time_at(now), 0.0);
+    assert_eq!(PlaybackClock { take: None, ..PlaybackClock::rest(now) }.seek(2.0, now).time_at(now), 0.0);
 }
 
 #[test]
@@ -91,9 +91,9 @@ fn pressing_anything_never_makes_the_time_jump() {
 #[test]
 fn what_stands_does_not_move() {
     let now = Instant::now();
-    let stands = Playback { playing: false, ..playback(now, 2.0, Repeat::Loop) };
+    let stands = PlaybackClock { playing: false, ..playback(now, 2.0, Repeat::Loop) };
     assert!(!stands.moves(now));
-    assert!(!Playback { speed: 0.0, ..playback(now, 2.0, Repeat::Loop) }.moves(now));
+    assert!(!PlaybackClock { speed: 0.0, ..playback(now, 2.0, Repeat::Loop) }.moves(now));
     assert!(!playback(now, 0.0, Repeat::Loop).moves(now));
     assert!(playback(now, 2.0, Repeat::Once).moves(now));
     assert!(!playback(now, 2.0, Repeat::Once).moves(later(now, 2.5)), "it has arrived");

@@ -135,7 +135,7 @@ const ABSENCES: &[Absence] = &[
         within: &["tests/editor/", "tests/picture/"],
         // Two that watch their devices, and one whose layer makes errors on purpose.
         except: &["tests/picture/graphics_thread.rs", "tests/editor/faults.rs"],
-        words: &["Studio::new", "Studio::with", "Stage::new", "Device::new", "Graphics::start"],
+        words: &["Studio::new", "Studio::with", "RenderStage::new", "Device::new", "Graphics::start"],
         because: "a test gets its device where it is watched for errors of ours, from studio()",
     },
 ];

@@ -19,7 +19,7 @@ pub enum Projection {
 
 /// A standard view direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum ViewSide {
     /// From +Z.
     Front,
     /// From -Z.
@@ -36,7 +36,7 @@ pub enum Side {
 
 /// A half-line, scene space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ray {
+pub struct CameraRay {
     /// Start of the ray.
     pub origin: Vec3,
     /// Direction, unit length.
@@ -248,14 +248,14 @@ impl Camera {
     }
 
     /// Looks from `side` at the same target from the same distance.
-    pub fn look_from(&mut self, side: Side) {
+    pub fn look_from(&mut self, side: ViewSide) {
         (self.yaw, self.pitch) = match side {
-            Side::Front => (0.0, 0.0),
-            Side::Back => (PI, 0.0),
-            Side::Right => (FRAC_PI_2, 0.0),
-            Side::Left => (-FRAC_PI_2, 0.0),
-            Side::Top => (0.0, FRAC_PI_2),
-            Side::Bottom => (0.0, -FRAC_PI_2),
+            ViewSide::Front => (0.0, 0.0),
+            ViewSide::Back => (PI, 0.0),
+            ViewSide::Right => (FRAC_PI_2, 0.0),
+            ViewSide::Left => (-FRAC_PI_2, 0.0),
+            ViewSide::Top => (0.0, FRAC_PI_2),
+            ViewSide::Bottom => (0.0, -FRAC_PI_2),
         };
     }
 
@@ -269,7 +269,7 @@ impl Camera {
 
     /// Returns the line of sight through a pixel (thesis §2.2.2.3), counted from the top left of a viewport of `size`
     /// pixels.
-    pub fn ray(&self, pixel: Vec2, size: Vec2) -> Ray {
+    pub fn ray(&self, pixel: Vec2, size: Vec2) -> CameraRay {
         let from_middle = pixel - size / 2.0;
         let unit = self.units_per_pixel(size.y);
         let at_target = (self.right() * from_middle.x - self.up() * from_middle.y) * unit;
@@ -277,10 +277,10 @@ impl Camera {
             Projection::Perspective => {
                 let origin = self.eye();
                 let direction = (self.target + at_target - origin).normalize_or(-self.back());
-                Ray { origin, direction }
+                CameraRay { origin, direction }
             }
             // Starts far enough behind the camera to include everything between camera and target.
-            Projection::Orthographic => Ray {
+            Projection::Orthographic => CameraRay {
                 origin: self.target + at_target + self.back() * self.distance * 100.0,
                 direction: -self.back(),
             },

@@ -13,15 +13,15 @@ use std::sync::Arc;
 use wgpu::rwh::{DisplayHandle, HandleError, HasDisplayHandle, HasWindowHandle, WindowHandle};
 
 #[cfg(all(unix, not(target_vendor = "apple")))]
-use super::x11::Own;
+use super::x11::OwnConnection;
 
 /// Stands for the second connection on systems without X.
 #[cfg(not(all(unix, not(target_vendor = "apple"))))]
 #[derive(Clone)]
-enum Own {}
+enum OwnConnection {}
 
 #[cfg(not(all(unix, not(target_vendor = "apple"))))]
-impl Own {
+impl OwnConnection {
     fn beside(_: &MainDisplay) -> Option<Self> {
         None
     }
@@ -42,13 +42,13 @@ pub type MainDisplay = Arc<dyn HasDisplayHandle + Send + Sync>;
 #[derive(Clone)]
 pub struct Connection {
     shared: MainDisplay,
-    own: Option<Own>,
+    own: Option<OwnConnection>,
 }
 
 impl Connection {
     /// Opens a second connection to the same server as the main thread's, if that is needed and possible.
     pub fn beside(shared: MainDisplay) -> Self {
-        let own = Own::beside(&shared);
+        let own = OwnConnection::beside(&shared);
         Self { shared, own }
     }
 }

@@ -1,7 +1,7 @@
 //! The graphics device, and the listeners notified of its loss (thesis §3.2.8.1, `DirectDevice`, `DirectReceiver`).
 
-use super::fault::{Faults, LossRecord, Patience};
 use super::gpu::Gpu;
+use super::losses::{DeviceReports, LossRecord, LossTolerance};
 use super::surface::{SurfaceSource, WindowSurface};
 use dragonfly_document::FaultInjection;
 use std::cell::RefCell;
@@ -53,7 +53,7 @@ pub struct DeviceParameters {
     pub backends: wgpu::Backends,
     /// The window to draw into; `None` draws into textures only.
     pub source: Option<SurfaceSource>,
-    /// Faults that a test injects.
+    /// DeviceReports that a test injects.
     pub faults: FaultInjection,
 }
 
@@ -83,7 +83,7 @@ pub enum DeviceState {
         /// Message of the driver.
         reason: String,
         /// Whether the device is lost too often.
-        patience: Patience,
+        patience: LossTolerance,
     },
     /// The device could not be created again.
     Gone(GraphicsError),
@@ -97,14 +97,14 @@ pub struct Device {
     gpu: Gpu,
     surface: Option<WindowSurface>,
     listeners: Vec<Rc<RefCell<dyn DeviceListener>>>,
-    faults: Faults,
+    reports: DeviceReports,
     losses: LossRecord,
 }
 
 impl Device {
     /// Creates a device after checking `parameters` against the hardware.
     pub fn new(parameters: DeviceParameters) -> Result<Self, GraphicsError> {
-        let faults = Faults::default();
+        let reports = DeviceReports::default();
         let instance = instance(&parameters);
         let surface = parameters.source.as_ref().map(|source| source.surface(&instance)).transpose();
         // Without a driver there is no surface either, and the missing driver is what the user needs to know.
@@ -116,9 +116,9 @@ impl Device {
                 error
             }
         })?;
-        let (adapter, gpu) = make(&instance, &parameters, surface.as_mut(), &faults)?;
+        let (adapter, gpu) = make(&instance, &parameters, surface.as_mut(), &reports)?;
         let losses = LossRecord::default();
-        Ok(Self { parameters, instance, adapter, gpu, surface, listeners: Vec::new(), faults, losses })
+        Ok(Self { parameters, instance, adapter, gpu, surface, listeners: Vec::new(), reports, losses })
     }
 
     /// Registers `listener` for losses, after the existing listeners, and calls it with the present device.
@@ -164,7 +164,7 @@ impl Device {
 
     /// Number of unexpected errors since the start. More than zero is a bug in the program.
     pub fn errors(&self) -> u32 {
-        self.faults.errors()
+        self.reports.errors()
     }
 
     /// Number of losses since the start.
@@ -172,18 +172,18 @@ impl Device {
         self.losses.total()
     }
 
-    /// Loses the device deliberately, for tests; not counted in [`Patience`].
+    /// Loses the device deliberately, for tests; not counted in [`LossTolerance`].
     pub fn lose(&mut self) {
         self.losses.expect_one();
         self.gpu.device.destroy();
         // The driver reports the loss at some later poll; nothing can be drawn from now on, so it is reported here.
-        self.faults.report_loss("Destroyed: on purpose");
+        self.reports.report_loss("Destroyed: on purpose");
     }
 
     /// Reports that the device is unusable although the driver has not (a panic inside wgpu, a surface that answers
     /// "validation" twice): the next check creates it again.
     pub fn assume_lost(&mut self, reason: &str) {
-        self.faults.report_loss(reason);
+        self.reports.report_loss(reason);
     }
 
     /// Forgets earlier losses, because the user asked to try again.
@@ -196,9 +196,9 @@ impl Device {
     pub fn check_device_state(&mut self, now: Instant) -> DeviceState {
         // The callback of a lost device runs during a poll, and polling a lost device may panic.
         if let Err(panic) = super::guard::caught(|| drop(self.gpu.device.poll(wgpu::PollType::Poll))) {
-            self.faults.report_loss(&panic);
+            self.reports.report_loss(&panic);
         }
-        let Some(reason) = self.faults.take_loss() else { return DeviceState::Working };
+        let Some(reason) = self.reports.take_loss() else { return DeviceState::Working };
         let patience = self.losses.note(now);
         tracing::warn!(%reason, losses = self.losses.total(), "the graphics device was lost");
         for listener in &self.listeners {
@@ -215,16 +215,16 @@ impl Device {
 
     fn recreate(&mut self) -> Result<(), GraphicsError> {
         // Late reports of the old device must not be mistaken for reports of the new one.
-        self.faults = self.faults.successor();
+        self.reports = self.reports.successor();
         if let Some(surface) = &mut self.surface {
             surface.forget_configuration();
         }
-        if let Ok(gpu) = Gpu::new(&self.adapter, self.surface.as_ref(), &self.faults) {
+        if let Ok(gpu) = Gpu::new(&self.adapter, self.surface.as_ref(), &self.reports) {
             self.gpu = gpu;
             return Ok(());
         }
         if let Ok((adapter, gpu)) =
-            make(&self.instance, &self.parameters, self.surface.as_mut(), &self.faults)
+            make(&self.instance, &self.parameters, self.surface.as_mut(), &self.reports)
         {
             (self.adapter, self.gpu) = (adapter, gpu);
             return Ok(());
@@ -235,7 +235,7 @@ impl Device {
         self.surface =
             self.parameters.source.as_ref().map(|source| source.surface(&self.instance)).transpose()?;
         (self.adapter, self.gpu) =
-            make(&self.instance, &self.parameters, self.surface.as_mut(), &self.faults)?;
+            make(&self.instance, &self.parameters, self.surface.as_mut(), &self.reports)?;
         Ok(())
     }
 }
@@ -262,7 +262,7 @@ fn make(
     instance: &wgpu::Instance,
     parameters: &DeviceParameters,
     surface: Option<&mut WindowSurface>,
-    faults: &Faults,
+    reports: &DeviceReports,
 ) -> Result<(wgpu::Adapter, Gpu), GraphicsError> {
     let surface = surface.map(|surface| &*surface);
     let request = |force_fallback_adapter| {
@@ -277,7 +277,7 @@ fn make(
         tracing::debug!(backends = ?parameters.backends, %error, "no adapter");
         GraphicsError::NoAdapter(first_line(&error.to_string()))
     })?;
-    let gpu = Gpu::new(&adapter, surface, faults)?;
+    let gpu = Gpu::new(&adapter, surface, reports)?;
     Ok((adapter, gpu))
 }
 

@@ -1,7 +1,7 @@
 //! The objects that every creator and drawer of resources needs: device, queue, formats, and this frame's uniform.
 
 use super::device::GraphicsError;
-use super::fault::Faults;
+use super::losses::DeviceReports;
 use super::surface::WindowSurface;
 use super::uniform::FrameUniform;
 
@@ -21,7 +21,7 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
-    /// Format of the window, or of the texture that stands in for it.
+    /// Format of the window, or of the texture that replaces it.
     pub window_format: wgpu::TextureFormat,
     /// Longest side of a texture.
     pub max_side: u32,
@@ -39,7 +39,7 @@ impl Gpu {
     pub fn new(
         adapter: &wgpu::Adapter,
         surface: Option<&WindowSurface>,
-        faults: &Faults,
+        reports: &DeviceReports,
     ) -> Result<Self, GraphicsError> {
         check(adapter)?;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
@@ -48,7 +48,7 @@ impl Gpu {
             ..Default::default()
         }))
         .map_err(|error| GraphicsError::NoDevice(error.to_string()))?;
-        faults.watch(&device);
+        reports.watch(&device);
         let window_format = match surface {
             Some(surface) => surface.format(adapter)?,
             None => OFFSCREEN_FORMAT,

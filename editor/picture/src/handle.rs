@@ -1,9 +1,9 @@
 //! The handle of the graphics thread for other threads: each method of [`Graphics`](super::Graphics) sends a message.
 
-use super::message::{Appearance, GraphicsMessage, Look, PanelsFrame};
+use super::message::{GraphicsMessage, Look, PanelsFrame};
 use crate::camera::Camera;
 use crate::pick::OwnedRegion;
-use crate::playback::Playback;
+use crate::playback::PlaybackClock;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;
 use dragonfly_runtime::{Address, Thread, ThreadHandle};
@@ -71,7 +71,7 @@ impl GraphicsHandle {
     }
 
     /// Shows this time of this take.
-    pub fn play(&self, playback: Playback) {
+    pub fn play(&self, playback: PlaybackClock) {
         self.send(GraphicsMessage::Play(playback));
     }
 
@@ -114,11 +114,6 @@ impl GraphicsHandle {
     /// Requests the bones in a region of the viewport, points from its top left.
     pub fn catch(&self, region: OwnedRegion, ticket: u64) {
         self.send(GraphicsMessage::Catch { region, ticket });
-    }
-
-    /// Sets the appearance of a control of the scene.
-    pub fn show_control(&self, appearance: Appearance) {
-        self.send(GraphicsMessage::Control(Box::new(appearance)));
     }
 
     /// Resumes drawing the scene after a pause.

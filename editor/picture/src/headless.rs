@@ -2,9 +2,9 @@
 
 use super::device::{DeviceParameters, GraphicsError};
 use super::message::{Look, Shading};
-use super::stage::{Opened, Stage};
+use super::stage::{FrameOpening, RenderStage};
 use crate::camera::Camera;
-use crate::playback::Playback;
+use crate::playback::PlaybackClock;
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_document::LoadedModel;
 use image::RgbaImage;
@@ -65,7 +65,7 @@ pub fn render_picture(
 
 /// Renders images one after another with one device.
 pub struct Studio {
-    stage: Stage,
+    stage: RenderStage,
     shown: Option<Arc<LoadedModel>>,
 }
 
@@ -77,11 +77,11 @@ impl Studio {
 
     /// Creates a device with `parameters`.
     pub fn with(parameters: DeviceParameters) -> Result<Self, GraphicsError> {
-        Ok(Self { stage: Stage::new(parameters, Instant::now())?, shown: None })
+        Ok(Self { stage: RenderStage::new(parameters, Instant::now())?, shown: None })
     }
 
     /// The stage, for tests that manipulate it.
-    pub fn stage(&mut self) -> &mut Stage {
+    pub fn stage(&mut self) -> &mut RenderStage {
         &mut self.stage
     }
 
@@ -110,15 +110,15 @@ impl Studio {
         for _ in 0..3 {
             self.stage.touch_scene();
             match self.stage.whole_frame(now) {
-                Opened::Frame => match self.stage.read_scene() {
+                FrameOpening::Frame => match self.stage.read_scene() {
                     Ok(picture) => {
                         let new = self.stage.device().errors() - errors;
                         return if new == 0 { Ok(finish(picture)) } else { Err(GraphicsError::Refused(new)) };
                     }
                     Err(error) => trouble = error,
                 },
-                Opened::Nothing => trouble = "nothing could be drawn".to_owned(),
-                Opened::Gone(error) => return Err(error),
+                FrameOpening::Nothing => trouble = "nothing could be drawn".to_owned(),
+                FrameOpening::Gone(error) => return Err(error),
             }
         }
         Err(GraphicsError::Lost(trouble))
@@ -147,7 +147,7 @@ impl Studio {
             scene.look.background = [color; 2];
             scene.background_alpha = f32::from(alpha) / 255.0;
         }
-        let mut playback = Playback { take: settings.take, ..Playback::rest(now) };
+        let mut playback = PlaybackClock { take: settings.take, ..PlaybackClock::rest(now) };
         let takes = self.shown.as_ref().map_or(&[][..], |shown| &shown.model.animation.takes);
         if let Some(take) = settings.take.and_then(|take| takes.get(take)) {
             (playback.start, playback.length) = (take.start, take.length);

@@ -12,18 +12,19 @@
 //!   └ pass/: the passes of the scene, then those of the window; the list is `pass::all`
 //! ```
 
+mod appearance;
 pub mod body;
 pub mod camera;
 pub mod connection;
 pub mod control;
 pub mod device;
-pub mod fault;
 pub mod ghosts;
 pub mod gizmo;
 pub mod gpu;
 pub mod guard;
 mod handle;
 pub mod headless;
+pub mod losses;
 mod message;
 mod model;
 pub mod pass;
@@ -43,13 +44,15 @@ mod worker;
 #[cfg(all(unix, not(target_vendor = "apple")))]
 mod x11;
 
+pub use appearance::{AnyAppearance, Appearance, AppearanceSender, Appearances};
 pub use connection::Connection;
+pub use control::{
+    GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance, IkLook, PathAppearance,
+    PathLook,
+};
 pub use device::{Device, DeviceListener, DeviceParameters, DeviceState, GraphicsError};
 pub use handle::GraphicsHandle;
 pub use headless::{PictureSettings, Studio, render_picture};
-pub use message::{
-    Appearance, BoneLook, GizmoLook, GraphicsMessage, GraphicsReply, IkLook, Look, PanelsFrame, PathLook,
-    Shading,
-};
+pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading};
 pub use surface::{SurfaceSource, TargetWindow};
 pub use worker::{Drawer, Graphics, Present};

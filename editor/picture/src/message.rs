@@ -1,17 +1,17 @@
-//! What other threads may tell the graphics thread, and what it answers.
+//! Messages to the graphics thread, and its replies.
 
+use super::appearance::AnyAppearance;
 use crate::camera::Camera;
-use crate::gizmo::{GizmoSettings, GizmoShape, Handle, Tool};
+use crate::gizmo::RoleColors;
 use crate::pick::OwnedRegion;
-use crate::playback::Playback;
+use crate::playback::PlaybackClock;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;
 use dragonfly_document::bones::HiddenBones;
-use glam::Vec3;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// How bones are drawn.
+/// Shape in which bones are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum BoneLook {
     /// Slim octahedra from joint to joint.
@@ -23,106 +23,57 @@ pub enum BoneLook {
     Lines,
 }
 
-/// What the controls of the scene look like: the appearance of one [`GraphicComponent`](super::control::GraphicComponent).
-#[derive(Clone, Debug)]
-pub enum Appearance {
-    /// The gizmo at the selected bones, wherever they are; none: it is not shown.
-    Gizmo(Option<GizmoLook>),
-    /// The gizmo while it is dragged; none: it waits again.
-    Drag(Option<GizmoShape>),
-    /// Where the selected bone moves along, and the time of the key under the pointer; none: it is not shown.
-    Path(Option<Arc<PathLook>>, Option<f32>),
-    /// The skeleton at other times of the take that is shown: seconds, and how far from now, before now negative.
-    Ghosts(Vec<(f32, i32)>),
-    /// Are ghosts drawn as skins, and not as skeletons?
-    GhostSkins(bool),
-    /// Bones that are pinned, and the row that follows one that is moved; none: nothing of it is shown.
-    Ik(Option<IkLook>),
-}
-
-/// Pins and a row of bones that follows.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct IkLook {
-    /// Bones that stay.
-    pub pins: Vec<BoneIndex>,
-    /// The end of the row, which is moved, and how many bones above it follow.
-    pub chain: Option<(BoneIndex, u32)>,
-    /// The bone towards which the row bends.
-    pub pole: Option<BoneIndex>,
-}
-
-/// A motion path: seconds, and where the joint is then in scene space.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PathLook {
-    /// Frame by frame.
-    pub points: Vec<(f32, Vec3)>,
-    /// At keys.
-    pub keys: Vec<(f32, Vec3)>,
-}
-
-/// A gizmo that waits to be taken hold of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GizmoLook {
-    /// What it does.
-    pub tool: Tool,
-    /// How it works: whose axes it has, where it stands.
-    pub settings: GizmoSettings,
-    /// The handle under the pointer.
-    pub hovered: Option<Handle>,
-}
-
-/// How surfaces are drawn.
+/// Shading of surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Shading {
-    /// As the materials say.
+    /// As the materials define.
     #[default]
     Material,
-    /// Grey clay, to judge the form.
+    /// Gray clay, to judge the form.
     Clay,
-    /// Base colour without light.
+    /// Base color without lighting.
     Unlit,
 }
 
-/// Everything about the viewport that is neither the camera nor the time.
+/// Look of the viewport: everything but the camera, the time and the controls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
-    /// Where the scene goes, in physical pixels of the window: x, y, width, height.
+    /// Position and size of the viewport, physical pixels of the window: x, y, width, height.
     pub viewport: [u32; 4],
-    /// Physical pixels a point: how large a hand is on this screen.
+    /// Physical pixels per point, which determines the size of handles on this screen.
     pub pixels_per_point: f32,
-    /// Linear RGB, top and bottom of the background.
+    /// Top and bottom color of the background, linear RGB.
     pub background: [[f32; 3]; 2],
-    /// Ground grid.
+    /// Whether the ground grid is drawn.
     pub grid: bool,
-    /// Linear RGB of the grid's lines.
+    /// Color of the grid's lines, linear RGB.
     pub grid_color: [f32; 3],
-    /// Skeleton over the model.
+    /// Whether the skeleton is drawn over the model.
     pub skeleton: bool,
-    /// How bones are drawn.
+    /// Shape in which bones are drawn.
     pub bone_look: BoneLook,
-    /// Are bones visible through the surface?
+    /// Whether bones are visible through the surface.
     pub bones_in_front: bool,
-    /// Drawn in the accent colour.
+    /// Selected bones, drawn in the accent color.
     pub selected: Vec<BoneIndex>,
-    /// Drawn brighter: the bone under the pointer, in the viewport or the tree.
+    /// The bone under the pointer, in the viewport or the hierarchy; drawn brighter.
     pub hovered: Option<BoneIndex>,
-    /// How surfaces are drawn.
+    /// Shading of surfaces.
     pub shading: Shading,
-    /// Is the surface drawn at all?
+    /// Whether the surface is drawn.
     pub surface: bool,
-    /// Linear RGB of bones that are neither selected nor hovered.
+    /// Color of bones that are neither selected nor hovered, linear RGB.
     pub bone_color: [f32; 3],
-    /// Linear RGB of selected bones: the program's accent.
+    /// Color of selected bones (the accent of the program), linear RGB.
     pub accent: [f32; 3],
-    /// Not drawn and not picked.
+    /// Bones that are neither drawn nor picked.
     pub hidden: Arc<HiddenBones>,
-    /// Linear RGB of handles: along x, y, z; in the plane of the picture; under the pointer; being dragged; and of what was
-    /// before and comes after.
-    pub handles: [[f32; 3]; 8],
+    /// Colors of handles and paths, linear RGB.
+    pub handles: RoleColors,
 }
 
 impl Default for Look {
-    /// The dark theme in a viewport of no size: fill in the viewport, then what differs.
+    /// A look for images without a window, with an empty viewport: set the viewport and what differs.
     fn default() -> Self {
         Self {
             viewport: [0; 4],
@@ -140,25 +91,16 @@ impl Default for Look {
             bone_color: [0.62, 0.66, 0.72],
             accent: [0.95, 0.38, 0.06],
             hidden: Arc::default(),
-            handles: [
-                [0.81, 0.16, 0.15],
-                [0.26, 0.56, 0.12],
-                [0.12, 0.35, 0.84],
-                [0.70, 0.72, 0.74],
-                [1.0, 0.86, 0.35],
-                [1.0, 0.86, 0.35],
-                [0.85, 0.25, 0.16],
-                [0.12, 0.55, 0.60],
-            ],
+            handles: RoleColors::default(),
         }
     }
 }
 
-/// One drawing of the panels.
+/// One frame of the panels.
 pub struct PanelsFrame {
-    /// Physical size of the window for which this was laid out.
+    /// Size of the window that this was laid out for, physical pixels.
     pub size: [u32; 2],
-    /// Physical pixels a point.
+    /// Physical pixels per point.
     pub pixels_per_point: f32,
     /// Triangles, ready to draw.
     pub jobs: Vec<egui::ClippedPrimitive>,
@@ -167,105 +109,105 @@ pub struct PanelsFrame {
 }
 
 impl Drop for PanelsFrame {
-    /// egui panics where textures are forgotten, which it takes for a mistake. A drawing that nobody will show, as there is
-    /// no device or no thread any more, is dropped wherever it happens to be, and is none.
+    /// Clears the textures, because egui panics when they are dropped, which it assumes is a bug. A frame that is
+    /// never shown, because the device or the thread is gone, may be dropped anywhere.
     fn drop(&mut self) {
         self.textures.clear();
     }
 }
 
-/// Messages of the graphics thread.
+/// Messages to the graphics thread.
 pub enum GraphicsMessage {
-    /// Shows this instead of what is shown.
+    /// Shows this view from now on.
     Show(View),
-    /// Which time of which take.
-    Play(Playback),
-    /// From where.
+    /// Sets the take and time.
+    Play(PlaybackClock),
+    /// Sets the camera.
     Camera(Camera),
-    /// How.
+    /// Sets the look of the viewport.
     Look(Box<Look>),
-    /// Shows these bones at rest, and all others as they move.
+    /// Shows these bones at rest, and all others animated.
     Still(Vec<BoneIndex>),
-    /// The panels over it.
+    /// Shows these panels.
     Panels(Box<PanelsFrame>),
-    /// The window has this many physical pixels; zero when minimised.
+    /// Sets the size of the window, physical pixels; zero when minimized.
     Resized([u32; 2]),
-    /// Which bone lies under this physical pixel of the window?
+    /// Requests the bone at this pixel of the window.
     Pick {
-        /// Physical pixels from the window's top left.
+        /// Physical pixels from the top left of the window.
         position: [f32; 2],
-        /// Comes back in the answer, so that the asker knows which question it belongs to.
+        /// Returned in the reply, to identify the request.
         ticket: u64,
     },
-    /// Which bones lie under this physical pixel of the window, the nearest first? Where no bone is hit, or none is shown:
-    /// those with most influence on the skin there.
+    /// Requests all bones at this pixel of the window, nearest first. If no bone is hit, or none is shown: those with
+    /// the most influence on the skin there.
     PickAll {
-        /// Physical pixels from the window's top left.
+        /// Physical pixels from the top left of the window.
         position: [f32; 2],
-        /// Comes back in the answer.
+        /// Returned in the reply.
         ticket: u64,
     },
-    /// Which bones lie in there?
+    /// Requests the bones in a region of the viewport.
     Catch {
-        /// Points from the top left of the viewport.
+        /// The region, points from the top left of the viewport.
         region: OwnedRegion,
-        /// Comes back in the answer.
+        /// Returned in the reply.
         ticket: u64,
     },
-    /// A control of the scene looks like this from now on.
-    Control(Box<Appearance>),
-    /// Starts drawing the scene again after [`GraphicsReply::Paused`].
+    /// Sets the data of a control or a pass.
+    Appearance(AnyAppearance),
+    /// Resumes drawing the scene after [`GraphicsReply::Paused`].
     Resume,
-    /// Writes the next whole frame as a PNG, then answers [`GraphicsReply::Captured`].
+    /// Writes the next whole frame as a PNG file, then replies [`GraphicsReply::Captured`].
     Capture(PathBuf),
 }
 
-/// What the graphics thread tells the main thread.
+/// Replies and reports of the graphics thread to the main thread.
 #[derive(Debug)]
 pub enum GraphicsReply {
-    /// The device works.
+    /// The device is ready.
     Ready {
-        /// Name of the adapter, its backend and driver.
+        /// Name of the adapter, its API and driver.
         adapter: String,
-        /// Longest side of a texture.
+        /// Longest side of a texture, pixels.
         max_texture_side: u32,
     },
-    /// Answer to a pick.
+    /// Reply to [`GraphicsMessage::Pick`].
     Picked {
-        /// The bone, or nothing.
+        /// The bone; `None` if there is none.
         bone: Option<BoneIndex>,
-        /// As asked.
+        /// Ticket of the request.
         ticket: u64,
     },
-    /// Answer to [`GraphicsMessage::PickAll`] and [`GraphicsMessage::Catch`].
+    /// Reply to [`GraphicsMessage::PickAll`] and [`GraphicsMessage::Catch`].
     PickedAll {
-        /// The nearest first, or in the order of the skeleton.
+        /// The bones, nearest first, or in the order of the skeleton.
         bones: Vec<BoneIndex>,
-        /// As asked.
+        /// Ticket of the request.
         ticket: u64,
     },
-    /// Frames drawn so far, and how long the last one took in milliseconds; at most a few times a second.
+    /// Statistics of frames; sent at most a few times per second.
     Statistics {
-        /// Since the start.
+        /// Number of frames since the start.
         frames: u64,
-        /// Of the last frame.
+        /// Duration of the last frame, milliseconds.
         milliseconds: f32,
     },
-    /// The device was lost and made anew; everything is shown again.
+    /// The device was lost and created again; everything is shown again.
     Recovered {
-        /// What the driver said.
+        /// Message of the driver.
         reason: String,
-        /// Losses since the start.
+        /// Number of losses since the start.
         losses: u32,
     },
-    /// Lost too often: the viewport stands still until [`GraphicsMessage::Resume`]; everything else works, the panels
-    /// are still drawn.
+    /// The device is lost too often: the viewport is not drawn until [`GraphicsMessage::Resume`]; everything else
+    /// works, and the panels are still drawn.
     Paused {
-        /// What the driver said.
+        /// Message of the driver.
         reason: String,
     },
-    /// A frame was written, or why not.
+    /// A frame was written, or could not be, for this reason.
     Captured(Result<PathBuf, String>),
-    /// There is no way to draw; said once.
+    /// Nothing can be drawn; sent once.
     Fatal(String),
 }

@@ -19,7 +19,7 @@ pub const LATEST: f32 = 86_400.0;
 
 /// Playback state: the take was at `anchor_time` at the instant `anchor`, and time advances at `speed` from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Playback {
+pub struct PlaybackClock {
     /// Position in the model's takes; `None` shows the rest pose.
     pub take: Option<usize>,
     /// Start of the take, seconds.
@@ -38,7 +38,7 @@ pub struct Playback {
     pub repeat: Repeat,
 }
 
-impl Playback {
+impl PlaybackClock {
     /// Paused at the start of the rest pose.
     pub fn rest(now: Instant) -> Self {
         Self {

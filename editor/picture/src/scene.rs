@@ -2,16 +2,15 @@
 //!
 //! Everything a frame needs is computed into memory allocated when the model is shown, so playing allocates nothing.
 
-use super::control::Controls;
-use super::ghosts::GhostSkins;
+use super::appearance::Appearances;
+use super::control::{ControlFrame, SceneControls};
 use super::message::{BoneLook, Look, Shading};
 use super::pick::{pick_all, pick_met};
 use super::posed::PosedModel;
 use super::skin::SkinPicker;
 use super::uniform::FrameUniform;
-use crate::camera::{Camera, Projection, Ray};
-use crate::gizmo::GizmoRole;
-use crate::playback::Playback;
+use crate::camera::{Camera, CameraRay, Projection};
+use crate::playback::PlaybackClock;
 use dragonfly_anim::bounds::{Bounds, Sphere};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::{LoadedModel, View};
@@ -26,14 +25,15 @@ pub struct Scene {
     /// The look of the viewport.
     pub look: Look,
     /// Take and time.
-    pub playback: Playback,
+    pub playback: PlaybackClock,
     /// Alpha of the background; less than one only in images for other programs.
     pub background_alpha: f32,
+    /// The data set for controls and passes.
+    pub appearances: Appearances,
     /// The controls of the scene.
-    pub controls: Controls,
+    pub controls: SceneControls,
     model: Option<PosedModel>,
     skin: Option<SkinPicker>,
-    ghosts: GhostSkins,
     /// The view that is shown.
     shown: Option<View>,
     /// Bones that are shown at rest.
@@ -47,12 +47,12 @@ impl Scene {
         Self {
             camera: Camera::default(),
             look: Look::default(),
-            playback: Playback::rest(now),
+            playback: PlaybackClock::rest(now),
             background_alpha: 1.0,
-            controls: Controls::default(),
+            appearances: Appearances::default(),
+            controls: SceneControls::default(),
             model: None,
             skin: None,
-            ghosts: GhostSkins::default(),
             shown: None,
             still: Vec::new(),
             uniform: bytemuck::Zeroable::zeroed(),
@@ -66,7 +66,6 @@ impl Scene {
             _ => {
                 let mut model = PosedModel::new(Arc::clone(&view.loaded));
                 self.skin = None;
-                self.ghosts = GhostSkins::default();
                 model.show_takes(view, &self.still);
                 self.model = Some(model);
             }
@@ -92,18 +91,14 @@ impl Scene {
         self.model.as_ref()
     }
 
-    /// The poses of the ghosts, as prepared last.
-    pub fn ghosts(&self) -> &GhostSkins {
-        &self.ghosts
+    /// The view that is shown.
+    pub fn view(&self) -> Option<&View> {
+        self.shown.as_ref()
     }
 
-    fn pose_ghosts(&mut self) {
-        let times = self.controls.ghost_skins();
-        let Some(view) = self.shown.as_ref().filter(|_| !times.is_empty()) else {
-            return self.ghosts.clear();
-        };
-        let colors = [GizmoRole::Past, GizmoRole::Future].map(|role| self.look.handles[role as usize]);
-        self.ghosts.pose(view, &self.still, self.playback.take, times, colors);
+    /// Bones that are shown at rest.
+    pub fn still(&self) -> &[BoneIndex] {
+        &self.still
     }
 
     /// This frame's uniform, as prepared last.
@@ -126,8 +121,8 @@ impl Scene {
             model.pose(self.playback.take, time, !self.playback.moves(now));
             model.sort(eye, self.camera.back());
             model.place_bones(&self.look);
-            self.controls.present(model, &self.camera, &self.look);
-            self.pose_ghosts();
+            let (camera, look, appearances) = (&self.camera, &self.look, &self.appearances);
+            self.controls.present(&ControlFrame { model, camera, look, appearances });
         }
         self.uniform = self.frame_uniform(&bounds);
     }
@@ -139,7 +134,7 @@ impl Scene {
     }
 
     /// The line of sight through a pixel of the window, and that pixel within the viewport; `None` outside of it.
-    pub fn ray(&self, position: [f32; 2]) -> Option<(Ray, Vec2)> {
+    pub fn ray(&self, position: [f32; 2]) -> Option<(CameraRay, Vec2)> {
         let [x, y, ..] = self.look.viewport;
         let size = self.size();
         let pixel = Vec2::from(position) - Vec2::new(x as f32, y as f32);

@@ -2,14 +2,14 @@
 
 /// A shader module.
 pub struct Shader {
-    /// File name in `shaders/` without its ending.
+    /// File name in `shaders/` without its extension.
     pub name: &'static str,
     /// Common parts, in order, then the file itself.
-    parts: &'static [Part],
+    parts: &'static [ShaderFile],
 }
 
 /// Name of a file in `shaders/`, and its content when the program was built.
-type Part = (&'static str, &'static str);
+type ShaderFile = (&'static str, &'static str);
 
 macro_rules! part {
     ($path:literal) => {
@@ -17,11 +17,11 @@ macro_rules! part {
     };
 }
 
-const FRAME: Part = part!("common/frame.wgsl");
-const COLOR: Part = part!("common/color.wgsl");
-const STUDIO: Part = part!("common/studio.wgsl");
-const POSE: Part = part!("common/pose.wgsl");
-const VERTEX: Part = part!("common/vertex.wgsl");
+const FRAME: ShaderFile = part!("common/frame.wgsl");
+const COLOR: ShaderFile = part!("common/color.wgsl");
+const STUDIO: ShaderFile = part!("common/studio.wgsl");
+const POSE: ShaderFile = part!("common/pose.wgsl");
+const VERTEX: ShaderFile = part!("common/vertex.wgsl");
 
 /// The background gradient.
 pub const BACKGROUND: Shader =
@@ -29,7 +29,7 @@ pub const BACKGROUND: Shader =
 /// Skinned and lit surfaces.
 pub const MODEL: Shader =
     Shader { name: "model", parts: &[FRAME, COLOR, STUDIO, POSE, VERTEX, part!("model.wgsl")] };
-/// Surfaces at other times.
+/// Surfaces of ghosts.
 pub const GHOST: Shader = Shader { name: "ghost", parts: &[FRAME, POSE, VERTEX, part!("ghost.wgsl")] };
 /// The ground grid.
 pub const GRID: Shader = Shader { name: "grid", parts: &[FRAME, part!("grid.wgsl")] };
@@ -52,7 +52,7 @@ impl Shader {
     /// edited without rebuilding.
     pub fn source(&self) -> String {
         let folder = std::env::var_os("DRAGONFLY_SHADERS").filter(|_| cfg!(debug_assertions));
-        let text = |&(path, built): &Part| {
+        let text = |&(path, built): &ShaderFile| {
             let newer = folder.as_ref().map(|folder| std::path::Path::new(folder).join(path));
             newer.and_then(|path| std::fs::read_to_string(path).ok()).unwrap_or_else(|| built.to_owned())
         };

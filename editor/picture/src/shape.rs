@@ -1,4 +1,4 @@
-//! The shape of a skeleton: the bodies that stand for its bones, and their positions in a pose.
+//! The shape of a skeleton: the bodies that represent its bones, and their positions in a pose.
 //!
 //! A bone reaches from its joint to each of its children; a bone without children continues in the direction of its
 //! parent. Bones that move no surface (such as the nodes above a character) are drawn as thin lines.
@@ -54,15 +54,15 @@ impl Body {
 
 /// A bone's link from one position to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Link {
+struct BoneLink {
     bone: BoneIndex,
-    tail: Tail,
-    /// Moves a surface, or is one of a skeleton without any.
+    tail: LinkTail,
+    /// Whether the bone moves a surface, or the skeleton has no surface at all.
     is_joint: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Tail {
+enum LinkTail {
     /// The joint of a child.
     Child(BoneIndex),
     /// A point in the bone's own space.
@@ -72,7 +72,7 @@ enum Tail {
 /// The bodies of a skeleton, with memory for their positions in a pose.
 #[derive(Debug, Default)]
 pub struct SkeletonShape {
-    links: Vec<Link>,
+    links: Vec<BoneLink>,
     joints: Vec<bool>,
     /// Diagonal of the joints at rest, scene units.
     size: f32,
@@ -100,11 +100,11 @@ impl SkeletonShape {
             let Some(parent) = bone.parent else { continue };
             has_child[parent as usize] = true;
             let is_joint = joints[parent as usize];
-            links.push(Link { bone: parent, tail: Tail::Child(index as BoneIndex), is_joint });
+            links.push(BoneLink { bone: parent, tail: LinkTail::Child(index as BoneIndex), is_joint });
         }
         for index in (0..skeleton.len()).filter(|&index| !has_child[index]) {
-            let tail = Tail::Own(last_tail(model, &rest, index, size));
-            links.push(Link { bone: index as BoneIndex, tail, is_joint: joints[index] });
+            let tail = LinkTail::Own(last_tail(model, &rest, index, size));
+            links.push(BoneLink { bone: index as BoneIndex, tail, is_joint: joints[index] });
         }
         let room = links.len() + skeleton.len();
         let thickness = vec![0.0; skeleton.len()];
@@ -135,8 +135,8 @@ impl SkeletonShape {
             let Some(matrix) = to_root.get(link.bone as usize) else { continue };
             let head = matrix.w_axis.truncate();
             let tail = match link.tail {
-                Tail::Child(child) => to_root.get(child as usize).map_or(head, |to| to.w_axis.truncate()),
-                Tail::Own(point) => matrix.transform_point3(point),
+                LinkTail::Child(child) => to_root.get(child as usize).map_or(head, |to| to.w_axis.truncate()),
+                LinkTail::Own(point) => matrix.transform_point3(point),
             };
             let length = head.distance(tail);
             // Too short to be visible, or not finite: only the joint's ball is shown.

@@ -1,7 +1,7 @@
 //! Picking a bone by the skin that it moves.
 
 use super::posed::PosedModel;
-use crate::camera::Ray;
+use crate::camera::CameraRay;
 use crate::pick::{SkinHit, pick_skin};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::evaluator::Evaluator;
@@ -30,7 +30,7 @@ impl SkinPicker {
     pub(super) fn pick(
         &mut self,
         model: &PosedModel,
-        ray: &Ray,
+        ray: &CameraRay,
         hidden: &HiddenBones,
         out: &mut Vec<BoneIndex>,
     ) {

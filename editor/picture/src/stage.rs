@@ -1,13 +1,13 @@
 //! One frame after another: opened once, drawn by every pass in order, presented once (T-089).
 //!
-//! The workers of the graphics thread call [`Stage::open`], [`Stage::draw`] and [`Stage::present`] in turn; rendering
+//! The workers of the graphics thread call [`RenderStage::open`], [`RenderStage::draw`] and [`RenderStage::present`] in turn; rendering
 //! without a window does the same. Everything that touches the device is guarded: a panic there means that the device
 //! is lost.
 
 use super::device::{Device, DeviceParameters, DeviceState, GraphicsError};
-use super::fault::Patience;
 use super::guard::caught;
-use super::pass::{self, Commands, Layer, Pass, Passes, SharedPass, Surroundings};
+use super::losses::LossTolerance;
+use super::pass::{self, FrameCommands, Pass, PassLayer, Passes, SharedPass, Surroundings};
 use super::readback;
 use super::scene::Scene;
 use super::surface::Acquired;
@@ -19,7 +19,7 @@ use std::time::Instant;
 
 /// Result of opening a frame.
 #[derive(Debug)]
-pub enum Opened {
+pub enum FrameOpening {
     /// The frame is open for drawing.
     Frame,
     /// There is nothing to draw into at the moment.
@@ -30,16 +30,16 @@ pub enum Opened {
 
 /// An event of the device that the main thread needs to know.
 #[derive(Debug)]
-pub enum Event {
+pub enum DeviceEvent {
     /// The device was lost and created again.
     Recovered(String),
     /// The device is lost too often; the scene is no longer drawn.
     Paused(String),
 }
 
-/// Which parts of the window are drawn.
+/// Parts of the window that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Mode {
+enum DrawMode {
     /// Everything.
     All,
     /// The panels only, because drawing the scene seems to cause the losses.
@@ -49,9 +49,9 @@ enum Mode {
 }
 
 /// A frame between opening and presenting.
-struct Frame {
-    commands: Commands,
-    pass: Option<(Layer, wgpu::RenderPass<'static>)>,
+struct OpenFrame {
+    commands: FrameCommands,
+    pass: Option<(PassLayer, wgpu::RenderPass<'static>)>,
     window: Option<wgpu::TextureView>,
     surface_texture: Option<wgpu::SurfaceTexture>,
     /// Whether the scene changed since it was drawn last.
@@ -59,10 +59,10 @@ struct Frame {
 }
 
 /// The frames of one device.
-pub struct Stage {
+pub struct RenderStage {
     /// The first field, because fields are dropped in order: a frame that was opened and never presented is returned
     /// to a surface that still exists.
-    frame: Option<Frame>,
+    frame: Option<OpenFrame>,
     device: Device,
     /// The scene; code that changes it calls [`Self::touch_scene`].
     pub scene: Scene,
@@ -73,12 +73,12 @@ pub struct Stage {
     window_changed: bool,
     /// A texture that replaces the window in the next frame.
     stand_in: Option<wgpu::Texture>,
-    mode: Mode,
-    events: Vec<Event>,
+    mode: DrawMode,
+    events: Vec<DeviceEvent>,
     frames: u64,
 }
 
-impl Stage {
+impl RenderStage {
     /// Creates a device and an empty scene.
     pub fn new(parameters: DeviceParameters, now: Instant) -> Result<Self, GraphicsError> {
         let mut device = Device::new(parameters)?;
@@ -98,7 +98,7 @@ impl Stage {
             scene_changed: true,
             window_changed: true,
             stand_in: None,
-            mode: Mode::All,
+            mode: DrawMode::All,
             events: Vec::new(),
             frames: 0,
         })
@@ -144,14 +144,14 @@ impl Stage {
 
     /// Returns whether there is anything new to draw at `now`.
     pub fn wants_frame(&self, now: Instant) -> bool {
-        let visible = !self.window_size.contains(&0) && self.mode != Mode::Nothing;
-        let scene_wants = self.mode == Mode::All && (self.scene_changed || self.moves(now));
+        let visible = !self.window_size.contains(&0) && self.mode != DrawMode::Nothing;
+        let scene_wants = self.mode == DrawMode::All && (self.scene_changed || self.moves(now));
         visible && (scene_wants || self.window_changed)
     }
 
     /// Returns whether the scene changes by itself.
     pub fn moves(&self, now: Instant) -> bool {
-        self.mode == Mode::All && self.scene.playback.moves(now) && self.scene.model().is_some()
+        self.mode == DrawMode::All && self.scene.playback.moves(now) && self.scene.model().is_some()
     }
 
     /// Number of frames presented so far.
@@ -160,38 +160,38 @@ impl Stage {
     }
 
     /// Returns the events of the device since the last call.
-    pub fn take_events(&mut self) -> Vec<Event> {
+    pub fn take_events(&mut self) -> Vec<DeviceEvent> {
         std::mem::take(&mut self.events)
     }
 
-    /// Draws everything again after [`Event::Paused`].
+    /// Draws everything again after [`DeviceEvent::Paused`].
     pub fn resume(&mut self) {
         self.device.forgive();
-        self.mode = Mode::All;
+        self.mode = DrawMode::All;
         self.scene_changed = true;
     }
 
     /// Checks the device, computes the scene for `now` and opens a frame.
-    pub fn open(&mut self, now: Instant) -> Opened {
+    pub fn open(&mut self, now: Instant) -> FrameOpening {
         self.frame = None;
         match self.device.check_device_state(now) {
             DeviceState::Working => {}
             DeviceState::Reset { reason, patience } => self.after_reset(reason, patience),
-            DeviceState::Gone(error) => return Opened::Gone(error),
+            DeviceState::Gone(error) => return FrameOpening::Gone(error),
         }
-        if self.mode == Mode::Nothing || self.window_size.contains(&0) {
-            return Opened::Nothing;
+        if self.mode == DrawMode::Nothing || self.window_size.contains(&0) {
+            return FrameOpening::Nothing;
         }
-        let draws_scene = self.mode == Mode::All && (self.scene_changed || self.moves(now));
+        let draws_scene = self.mode == DrawMode::All && (self.scene_changed || self.moves(now));
         if draws_scene {
             self.scene.prepare(now);
         }
         match caught(|| self.open_frame(draws_scene)) {
-            Ok(true) => Opened::Frame,
-            Ok(false) => Opened::Nothing,
+            Ok(true) => FrameOpening::Frame,
+            Ok(false) => FrameOpening::Nothing,
             Err(panic) => {
                 self.device.assume_lost(&panic);
-                Opened::Nothing
+                FrameOpening::Nothing
             }
         }
     }
@@ -211,7 +211,7 @@ impl Stage {
         let Some(frame) = self.frame.take() else { return false };
         let draws_scene = frame.draws_scene;
         let presented = caught(|| {
-            let Frame { commands, pass, surface_texture, .. } = frame;
+            let OpenFrame { commands, pass, surface_texture, .. } = frame;
             drop(pass);
             let gpu = self.device.gpu();
             gpu.queue.submit(commands.before.into_iter().chain([commands.encoder.finish()]));
@@ -232,16 +232,16 @@ impl Stage {
     }
 
     /// Opens a frame, draws every pass and presents it, as the workers do in turn.
-    pub fn whole_frame(&mut self, now: Instant) -> Opened {
+    pub fn whole_frame(&mut self, now: Instant) -> FrameOpening {
         let opened = self.open(now);
-        if matches!(opened, Opened::Frame) {
+        if matches!(opened, FrameOpening::Frame) {
             for pass in self.passes.list.clone() {
                 if !self.draw(&mut *pass.borrow_mut()) {
-                    return Opened::Nothing;
+                    return FrameOpening::Nothing;
                 }
             }
             if !self.present() {
-                return Opened::Nothing;
+                return FrameOpening::Nothing;
             }
         }
         opened
@@ -271,24 +271,26 @@ impl Stage {
         self.stand_in = None;
         self.window_changed = true;
         match opened {
-            Opened::Frame => caught(|| readback::read(self.device.gpu(), &texture)).and_then(|read| read),
-            Opened::Nothing => Err("nothing could be drawn".to_owned()),
-            Opened::Gone(error) => Err(error.to_string()),
+            FrameOpening::Frame => {
+                caught(|| readback::read(self.device.gpu(), &texture)).and_then(|read| read)
+            }
+            FrameOpening::Nothing => Err("nothing could be drawn".to_owned()),
+            FrameOpening::Gone(error) => Err(error.to_string()),
         }
     }
 
-    fn after_reset(&mut self, reason: String, patience: Patience) {
+    fn after_reset(&mut self, reason: String, patience: LossTolerance) {
         self.target = None;
         self.stand_in = None;
         (self.scene_changed, self.window_changed) = (true, true);
-        if patience == Patience::Left || !self.device.parameters().faults.pauses() {
-            self.events.push(Event::Recovered(reason));
+        if patience == LossTolerance::Left || !self.device.parameters().faults.pauses() {
+            self.events.push(DeviceEvent::Recovered(reason));
             return;
         }
         // First without the scene; if that does not help, without anything.
         self.device.forgive();
-        self.mode = if self.mode == Mode::All { Mode::PanelsOnly } else { Mode::Nothing };
-        self.events.push(Event::Paused(reason));
+        self.mode = if self.mode == DrawMode::All { DrawMode::PanelsOnly } else { DrawMode::Nothing };
+        self.events.push(DeviceEvent::Paused(reason));
     }
 
     fn open_frame(&mut self, draws_scene: bool) -> bool {
@@ -323,23 +325,23 @@ impl Stage {
             gpu.write_frame(self.scene.uniform());
         }
         let encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut commands = Commands { encoder, before: Vec::new() };
+        let mut commands = FrameCommands { encoder, before: Vec::new() };
         let around = self.surroundings(window_extent(surface_texture.as_ref(), self.window_size));
         for pass in &self.passes.list {
             let mut pass = pass.borrow_mut();
             let wanted = match pass.layer() {
-                Layer::Scene => draws_scene,
-                Layer::Window => window.is_some(),
+                PassLayer::Scene => draws_scene,
+                PassLayer::Window => window.is_some(),
             };
             if wanted {
                 pass.prepare(&around, &mut commands);
             }
         }
-        self.frame = Some(Frame { commands, pass: None, window, surface_texture, draws_scene });
+        self.frame = Some(OpenFrame { commands, pass: None, window, surface_texture, draws_scene });
         true
     }
 
-    fn draw_pass(&self, frame: &mut Frame, pass: &mut dyn Pass) {
+    fn draw_pass(&self, frame: &mut OpenFrame, pass: &mut dyn Pass) {
         let layer = pass.layer();
         let begun = frame.pass.as_ref().is_some_and(|(begun, _)| *begun == layer);
         if !begun {
@@ -347,8 +349,8 @@ impl Stage {
             frame.pass = None;
             let encoder = &mut frame.commands.encoder;
             let next = match (layer, &self.target, &frame.window) {
-                (Layer::Scene, Some(target), _) if frame.draws_scene => target.begin(encoder),
-                (Layer::Window, _, Some(window)) => begin_window(encoder, window),
+                (PassLayer::Scene, Some(target), _) if frame.draws_scene => target.begin(encoder),
+                (PassLayer::Window, _, Some(window)) => begin_window(encoder, window),
                 _ => return,
             };
             frame.pass = Some((layer, next));
@@ -384,7 +386,7 @@ impl Stage {
     }
 
     /// Keeps the frame after a successful step; after a panic the frame is dropped and the device counts as lost.
-    fn keep(&mut self, step: Result<Option<Frame>, String>) -> bool {
+    fn keep(&mut self, step: Result<Option<OpenFrame>, String>) -> bool {
         match step {
             Ok(frame) => {
                 self.frame = frame;

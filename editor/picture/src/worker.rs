@@ -7,10 +7,10 @@ use super::guard::caught;
 use super::message::{GraphicsMessage, GraphicsReply};
 use super::pass::SharedPass;
 use super::pick::{pick, pick_region};
-use super::stage::{Event, Opened, Stage};
+use super::stage::{DeviceEvent, FrameOpening, RenderStage};
 use super::{GraphicsHandle, Look};
 use crate::camera::Camera;
-use crate::playback::Playback;
+use crate::playback::PlaybackClock;
 use dragonfly_document::{FaultInjection, FaultPoint, View};
 use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
 use std::cell::RefCell;
@@ -32,7 +32,7 @@ const RETRY: Duration = Duration::from_millis(100);
 pub struct Graphics {
     parameters: Option<DeviceParameters>,
     replies: Address<GraphicsReply>,
-    stage: Option<Rc<RefCell<Stage>>>,
+    stage: Option<Rc<RefCell<RenderStage>>>,
     /// Messages that arrived before the device was ready.
     waiting: Vec<GraphicsMessage>,
     captures: Vec<PathBuf>,
@@ -110,7 +110,7 @@ impl Graphics {
     fn initialize(&mut self, thread: &mut Context) -> bool {
         let Some(parameters) = self.parameters.take() else { return false };
         let now = thread.now();
-        let mut stage = match caught(|| Stage::new(parameters, now)) {
+        let mut stage = match caught(|| RenderStage::new(parameters, now)) {
             Ok(Ok(stage)) => stage,
             Ok(Err(error)) => return self.fail(&error.to_string()),
             Err(panic) => return self.fail(&panic),
@@ -158,36 +158,36 @@ impl Graphics {
         let _ = self.replies.send(reply);
     }
 
-    fn show(stage: &mut Stage, view: &View) {
+    fn show(stage: &mut RenderStage, view: &View) {
         stage.scene.show(view);
         stage.touch_scene();
     }
 
-    fn play(stage: &mut Stage, playback: Playback) {
+    fn play(stage: &mut RenderStage, playback: PlaybackClock) {
         stage.scene.playback = playback;
         stage.touch_scene();
     }
 
-    fn set_camera(stage: &mut Stage, camera: Camera) {
+    fn set_camera(stage: &mut RenderStage, camera: Camera) {
         if stage.scene.camera != camera {
             stage.scene.camera = camera;
             stage.touch_scene();
         }
     }
 
-    fn set_look(stage: &mut Stage, look: Look) {
+    fn set_look(stage: &mut RenderStage, look: Look) {
         if stage.scene.look != look {
             stage.scene.look = look;
             stage.touch_scene();
         }
     }
 
-    fn tell_events(&self, stage: &mut Stage) {
+    fn tell_events(&self, stage: &mut RenderStage) {
         for event in stage.take_events() {
             let losses = stage.device().losses();
             self.reply(match event {
-                Event::Recovered(reason) => GraphicsReply::Recovered { reason, losses },
-                Event::Paused(reason) => GraphicsReply::Paused { reason },
+                DeviceEvent::Recovered(reason) => GraphicsReply::Recovered { reason, losses },
+                DeviceEvent::Paused(reason) => GraphicsReply::Paused { reason },
             });
         }
     }
@@ -251,8 +251,8 @@ impl Graphics {
                 pick_region(&stage.scene, &region.region(), &hidden, &mut bones);
                 self.reply(GraphicsReply::PickedAll { bones, ticket });
             }
-            GraphicsMessage::Control(appearance) => {
-                stage.scene.controls.receive(*appearance);
+            GraphicsMessage::Appearance(appearance) => {
+                stage.scene.appearances.receive(appearance);
                 stage.touch_scene();
             }
             GraphicsMessage::Resume => stage.resume(),
@@ -302,26 +302,26 @@ impl Worker for Graphics {
         let opened = stage.open(now);
         self.tell_events(stage);
         match opened {
-            Opened::Frame => {
+            FrameOpening::Frame => {
                 self.statistics.borrow_mut().opened = Some(now);
                 if stage.moves(now) {
                     thread.iterate_again();
                 }
                 true
             }
-            Opened::Nothing => {
+            FrameOpening::Nothing => {
                 if stage.wants_frame(now) {
                     thread.wake_at(now + RETRY);
                 }
                 false
             }
-            Opened::Gone(error) => self.gone(&error),
+            FrameOpening::Gone(error) => self.gone(&error),
         }
     }
 }
 
 /// Returns the time to wait for the next frame if the surface itself does not limit the frame rate.
-fn too_soon(opened: Option<Instant>, now: Instant, stage: &mut Stage) -> Option<Duration> {
+fn too_soon(opened: Option<Instant>, now: Instant, stage: &mut RenderStage) -> Option<Duration> {
     let since = now.saturating_duration_since(opened?);
     let shortest = if stage.device().is_software() { PACE } else { FASTEST };
     (since < shortest).then(|| shortest - since)
@@ -336,7 +336,7 @@ fn write(picture: &image::RgbaImage, path: &Path) -> Result<(), String> {
 /// Draws one pass.
 #[derive(Clone)]
 pub struct Drawer {
-    stage: Rc<RefCell<Stage>>,
+    stage: Rc<RefCell<RenderStage>>,
     pass: SharedPass,
 }
 
@@ -353,7 +353,7 @@ impl Worker for Drawer {
 
 /// Presents the frame that the passes drew.
 pub struct Present {
-    stage: Rc<RefCell<Stage>>,
+    stage: Rc<RefCell<RenderStage>>,
     replies: Address<GraphicsReply>,
     statistics: Rc<RefCell<Statistics>>,
 }

@@ -15,12 +15,12 @@ use x11rb::xcb_ffi::XCBConnection;
 
 /// A connection unknown to the main thread; clones share it.
 #[derive(Clone)]
-pub(super) struct Own {
+pub(super) struct OwnConnection {
     connection: Arc<XCBConnection>,
     screen: c_int,
 }
 
-impl Own {
+impl OwnConnection {
     /// Connects to the server that the environment names, as the main thread did. `None` on another window system, or
     /// when the server accepts no more connections.
     pub(super) fn beside(shared: &MainDisplay) -> Option<Self> {

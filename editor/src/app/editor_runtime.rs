@@ -3,10 +3,10 @@
 use super::answers::{Answers, Replies};
 use super::base_runtime::{BaseRuntime, Parts};
 use super::file_dialog::{self, Answer, Purpose};
+use super::graphics_sync::GraphicsSync;
 use super::hover::{Hover, Place};
 use super::interface::Interface;
 use super::options::Options;
-use super::sent::Sent;
 use super::shown;
 use crate::panels::saving::Deed;
 use crate::panels::state::Device;
@@ -40,7 +40,7 @@ pub(super) struct Running {
     pub(super) leaving: bool,
     replies: Address<DocumentReply>,
     pub(super) answers: Address<Answer>,
-    sent: Sent,
+    graphics_sync: GraphicsSync,
     /// Questions asked so far.
     tickets: u64,
     /// The newest question of a click or a box.
@@ -91,7 +91,7 @@ impl EditorRuntime {
             self.effect(effect);
         }
         if let Some(running) = &mut self.running {
-            running.sent.update(&running.parts.graphics, &running.parts.interface.borrow());
+            running.graphics_sync.update(&running.parts.graphics, &running.parts.interface.borrow());
         }
     }
 
@@ -199,7 +199,7 @@ impl BaseRuntime for EditorRuntime {
             replies,
             answers,
             leaving: false,
-            sent: Sent::default(),
+            graphics_sync: GraphicsSync::default(),
             tickets: 0,
             asked: None,
             hover: Hover::default(),

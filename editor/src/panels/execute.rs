@@ -11,7 +11,7 @@ use super::status::Level;
 use dragonfly_document::edit::{Between, Edit, TrimTake};
 use dragonfly_document::edit::{Property, ResetTo};
 use dragonfly_document::{Change, Source};
-use dragonfly_picture::camera::Side;
+use dragonfly_picture::camera::ViewSide;
 use dragonfly_picture::playback::Repeat;
 use dragonfly_picture::{BoneLook, Shading};
 
@@ -252,12 +252,12 @@ impl State {
 
             Id::FrameSelected => self.frame_selected(),
             Id::FrameAll => self.frame_shown(),
-            Id::ViewFront => self.camera.look_from(Side::Front),
-            Id::ViewBack => self.camera.look_from(Side::Back),
-            Id::ViewRight => self.camera.look_from(Side::Right),
-            Id::ViewLeft => self.camera.look_from(Side::Left),
-            Id::ViewTop => self.camera.look_from(Side::Top),
-            Id::ViewBottom => self.camera.look_from(Side::Bottom),
+            Id::ViewFront => self.camera.look_from(ViewSide::Front),
+            Id::ViewBack => self.camera.look_from(ViewSide::Back),
+            Id::ViewRight => self.camera.look_from(ViewSide::Right),
+            Id::ViewLeft => self.camera.look_from(ViewSide::Left),
+            Id::ViewTop => self.camera.look_from(ViewSide::Top),
+            Id::ViewBottom => self.camera.look_from(ViewSide::Bottom),
             Id::ToggleProjection => self.camera.toggle_projection(),
 
             Id::ToggleGrid => look.grid = !look.grid,

@@ -3,7 +3,7 @@
 use super::commands::KeySettings;
 use super::properties::PropertiesLook;
 use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
-use dragonfly_picture::gizmo::{Pivot, Space, Tool};
+use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
 use dragonfly_picture::playback::Repeat;
 use dragonfly_picture::{BoneLook, Shading};
 use serde::{Deserialize, Serialize};
@@ -60,7 +60,7 @@ pub struct HandSettings {
     /// What the gizmo does; none: the mouse only selects.
     pub tool: Option<Tool>,
     /// Whose axes.
-    pub space: Space,
+    pub space: GizmoSpace,
     /// What several bones turn and grow about.
     pub pivot: Pivot,
     /// Does every bone of a selected chain turn by the whole amount?
@@ -144,7 +144,7 @@ impl Default for HandSettings {
     fn default() -> Self {
         Self {
             tool: Some(Tool::Rotate),
-            space: Space::default(),
+            space: GizmoSpace::default(),
             pivot: Pivot::default(),
             curl: false,
             ghosts: GhostSettings::default(),

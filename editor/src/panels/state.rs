@@ -17,7 +17,7 @@ use dragonfly_document::posing::IkMode;
 use dragonfly_document::{LoadedModel, Progress, View};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::ClickCycle;
-use dragonfly_picture::playback::Playback;
+use dragonfly_picture::playback::PlaybackClock;
 use std::cell::Cell;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -88,7 +88,7 @@ pub struct State {
     /// The bone there, as far as the answer is known.
     pub pointed: Option<BoneIndex>,
     /// Which time of which take.
-    pub playback: Playback,
+    pub playback: PlaybackClock,
     /// What the timeline and the curves share.
     pub keys: Keys,
     /// From where.
@@ -150,7 +150,7 @@ pub struct State {
 impl State {
     /// Nothing open.
     pub fn new(settings: Settings, now: Instant) -> Self {
-        let playback = Playback::rest(now).with(false, settings.speed, settings.repeat, now);
+        let playback = PlaybackClock::rest(now).with(false, settings.speed, settings.repeat, now);
         Self {
             view: None,
             digest: Digest::default(),

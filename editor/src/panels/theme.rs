@@ -1,5 +1,6 @@
 //! Every colour of the program, light and dark. Nowhere else is a colour written down.
 
+use dragonfly_picture::gizmo::GizmoRole;
 use egui::Color32;
 
 /// The colours of one theme. One accent: the green of a dragonfly's thorax.
@@ -134,17 +135,21 @@ impl Theme {
         if self.dark { Color32::from_rgb(20, 24, 25) } else { Color32::from_rgb(255, 255, 255) }
     }
 
-    /// Handles of a gizmo: along x, y, z; in the plane of the picture; under the pointer; being dragged; and what was before
-    /// and comes after.
-    pub fn handles(&self) -> [Color32; 8] {
-        let [x, y, z] = self.axes;
-        let hot = if self.dark { Color32::from_rgb(255, 226, 138) } else { Color32::from_rgb(214, 132, 0) };
-        let (past, future) = if self.dark {
-            (Color32::from_rgb(236, 138, 112), Color32::from_rgb(104, 196, 204))
-        } else {
-            (Color32::from_rgb(186, 78, 52), Color32::from_rgb(20, 120, 134))
+    /// Color of a part of a gizmo or path.
+    pub fn role(&self, role: GizmoRole) -> Color32 {
+        let by_theme = |dark: [u8; 3], light: [u8; 3]| {
+            let [red, green, blue] = if self.dark { dark } else { light };
+            Color32::from_rgb(red, green, blue)
         };
-        [x, y, z, self.key, hot, hot, past, future]
+        match role {
+            GizmoRole::X => self.axes[0],
+            GizmoRole::Y => self.axes[1],
+            GizmoRole::Z => self.axes[2],
+            GizmoRole::View => self.key,
+            GizmoRole::Hover | GizmoRole::Active => by_theme([255, 226, 138], [214, 132, 0]),
+            GizmoRole::Past => by_theme([236, 138, 112], [186, 78, 52]),
+            GizmoRole::Future => by_theme([104, 196, 204], [20, 120, 134]),
+        }
     }
 
     /// The dark or the light one.

@@ -1,24 +1,32 @@
-//! Ghosts: the skeleton some frames or keys before and after, fainter the further away.
+//! Ghosts: the skeleton some frames or keys before and after the present time, fainter with distance.
 
-use super::{Frame, GraphicComponent};
+use super::{ControlFrame, GraphicComponent};
+use crate::appearance::Appearance;
 use crate::gizmo::{GizmoRole, GizmoShape};
-use crate::message::Appearance;
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::data::AnimationData;
 use std::sync::Arc;
 
-/// See the module.
+/// The ghosts that are shown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GhostAppearance {
+    /// Times in the take, seconds, and the distance of each from the present; negative before it.
+    pub times: Vec<(f32, i32)>,
+    /// Whether ghosts are drawn as skins instead of skeletons.
+    pub skins: bool,
+}
+
+impl Appearance for GhostAppearance {}
+
+/// Draws ghosts as skeletons.
 #[derive(Default)]
 pub(super) struct GhostsGraphic {
-    times: Vec<(f32, i32)>,
-    /// Are skins shown in their place?
-    skins: bool,
-    /// Of the model that is shown.
+    /// The takes of the model that is shown.
     animation: Option<Animation>,
 }
 
-/// The takes as they are shown now.
-fn follow<'a>(animation: &'a mut Option<Animation>, frame: &Frame<'_>) -> &'a mut Animation {
+/// Updates `animation` to the takes that are shown now.
+fn follow<'a>(animation: &'a mut Option<Animation>, frame: &ControlFrame<'_>) -> &'a mut Animation {
     let skeleton = &frame.model.loaded().model.animation.skeleton;
     let takes = frame.model.takes();
     let fits = |animation: &Animation| {
@@ -38,25 +46,17 @@ fn follow<'a>(animation: &'a mut Option<Animation>, frame: &Frame<'_>) -> &'a mu
 }
 
 impl GraphicComponent for GhostsGraphic {
-    fn receive(&mut self, appearance: &Appearance) -> bool {
-        match appearance {
-            Appearance::Ghosts(times) => self.times.clone_from(times),
-            Appearance::GhostSkins(on) => self.skins = *on,
-            _ => return false,
-        }
-        true
-    }
-
-    fn present(&mut self, frame: &Frame<'_>, shape: &mut GizmoShape) {
-        // A model without a skin has its skeleton to show.
-        if self.times.is_empty() || (self.skins && !frame.model.items().is_empty()) {
+    fn present(&mut self, frame: &ControlFrame<'_>, shape: &mut GizmoShape) {
+        let Some(ghosts) = frame.appearances.get::<GhostAppearance>() else { return };
+        // A model without a skin shows its skeleton in any case.
+        if ghosts.times.is_empty() || (ghosts.skins && !frame.model.items().is_empty()) {
             return;
         }
         let take = frame.model.at().0;
-        let most = self.times.iter().map(|(_, place)| place.unsigned_abs()).max().unwrap_or(1) as f32;
+        let most = ghosts.times.iter().map(|(_, place)| place.unsigned_abs()).max().unwrap_or(1) as f32;
         let animation = follow(&mut self.animation, frame);
         let skeleton = &frame.model.loaded().model.animation.skeleton;
-        for &(time, place) in &self.times {
+        for &(time, place) in &ghosts.times {
             let to_root = animation.to_root_bone_poses(take, time);
             let role = if place < 0 { GizmoRole::Past } else { GizmoRole::Future };
             let opacity = 0.6 - 0.45 * (place.unsigned_abs() as f32 - 1.0) / most;

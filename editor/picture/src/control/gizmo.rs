@@ -1,35 +1,48 @@
-//! Draws the gizmo at the selected bones in the pose of the frame, so that it never lags behind them. During a drag it
-//! draws the shape computed by the tool, which knows where the drag began.
+//! Draws the gizmo at the selected bones in the pose of the frame, so that it moves with them without delay. During a
+//! drag it draws the shape computed by the tool, which has the start of the drag.
 
-use super::{Frame, GraphicComponent};
-use crate::gizmo::{GizmoPlacement, GizmoShape, GizmoView, PosedSkeleton};
-use crate::message::{Appearance, GizmoLook};
+use super::{ControlFrame, GraphicComponent};
+use crate::appearance::Appearance;
+use crate::gizmo::{GizmoPlacement, GizmoSettings, GizmoShape, GizmoView, Handle, PosedSkeleton, Tool};
 use glam::Vec2;
 
-/// See the module.
+/// A gizmo that is not being dragged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GizmoLook {
+    /// Transformation that it makes.
+    pub tool: Tool,
+    /// Its axes, pivot and snapping.
+    pub settings: GizmoSettings,
+    /// The handle under the pointer.
+    pub hovered: Option<Handle>,
+}
+
+/// The gizmo at the selected bones; `None` hides it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GizmoAppearance(pub Option<GizmoLook>);
+
+/// The shape of the gizmo while it is dragged; `None` when it is not.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GizmoDragAppearance(pub Option<GizmoShape>);
+
+impl Appearance for GizmoAppearance {}
+
+impl Appearance for GizmoDragAppearance {}
+
+/// Draws the gizmo.
 #[derive(Default)]
 pub(super) struct GizmoGraphic {
-    look: Option<GizmoLook>,
-    drag: Option<GizmoShape>,
     placement: GizmoPlacement,
 }
 
 impl GraphicComponent for GizmoGraphic {
-    fn receive(&mut self, appearance: &Appearance) -> bool {
-        match appearance {
-            Appearance::Gizmo(look) => self.look = *look,
-            Appearance::Drag(drag) => self.drag.clone_from(drag),
-            _ => return false,
-        }
-        true
-    }
-
-    fn present(&mut self, frame: &Frame<'_>, shape: &mut GizmoShape) {
-        if let Some(drag) = &self.drag {
+    fn present(&mut self, frame: &ControlFrame<'_>, shape: &mut GizmoShape) {
+        if let Some(GizmoDragAppearance(Some(drag))) = frame.appearances.get() {
             shape.extend(drag);
             return;
         }
-        let Some(GizmoLook { tool, settings, hovered }) = self.look else { return };
+        let Some(&GizmoAppearance(Some(gizmo))) = frame.appearances.get() else { return };
+        let GizmoLook { tool, settings, hovered } = gizmo;
         let (model, look) = (frame.model, frame.look);
         let [_, _, width, height] = look.viewport;
         let pixels = Vec2::new(width as f32, height as f32);

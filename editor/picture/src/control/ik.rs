@@ -1,32 +1,41 @@
-//! Pins and rows of bones that follow, as they are drawn: a small frame around a joint that stays, a line along the bones
-//! that turn when its end is moved, with a dot where it is fixed.
+//! Drawing inverse kinematics: a small frame around a pinned joint, and a line along the chain of bones that rotate when
+//! its end is moved, with a dot at its fixed root.
 
-use super::{Frame, GraphicComponent};
+use super::{ControlFrame, GraphicComponent};
+use crate::appearance::Appearance;
 use crate::gizmo::{GizmoRole, GizmoShape, GizmoView};
-use crate::message::{Appearance, IkLook};
 use dragonfly_anim::data::BoneIndex;
 use glam::{Vec2, Vec3};
 
-/// Half of the frame of a pin, of the dot in it, and of the dot at the root of a row; points.
+/// Half the size of the frame of a pin, of the dot in it, and of the dot at the root of a chain; points.
 const PIN: f32 = 7.0;
 const DOT: f32 = 2.2;
 const ROOT: f32 = 3.6;
 
-/// See the module.
-#[derive(Default)]
-pub(super) struct IkGraphic {
-    look: Option<IkLook>,
+/// Pins and a chain of inverse kinematics.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IkLook {
+    /// Pinned bones.
+    pub pins: Vec<BoneIndex>,
+    /// The end of the chain, which is moved, and the number of bones above it that follow.
+    pub chain: Option<(BoneIndex, u32)>,
+    /// The bone that the chain bends towards.
+    pub pole: Option<BoneIndex>,
 }
 
-impl GraphicComponent for IkGraphic {
-    fn receive(&mut self, appearance: &Appearance) -> bool {
-        let Appearance::Ik(look) = appearance else { return false };
-        self.look.clone_from(look);
-        true
-    }
+/// The pins and the chain that are shown; `None` for neither.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IkAppearance(pub Option<IkLook>);
 
-    fn present(&mut self, frame: &Frame<'_>, shape: &mut GizmoShape) {
-        let Some(look) = &self.look else { return };
+impl Appearance for IkAppearance {}
+
+/// Draws pins and a chain.
+#[derive(Default)]
+pub(super) struct IkGraphic;
+
+impl GraphicComponent for IkGraphic {
+    fn present(&mut self, frame: &ControlFrame<'_>, shape: &mut GizmoShape) {
+        let Some(IkAppearance(Some(look))) = frame.appearances.get() else { return };
         let [_, _, width, height] = frame.look.viewport;
         let pixels = Vec2::new(width as f32, height as f32);
         let view = GizmoView::of_pixels(frame.camera, pixels, frame.look.pixels_per_point);
@@ -38,7 +47,7 @@ impl GraphicComponent for IkGraphic {
         };
         if let Some((end, length)) = look.chain {
             let bones = &frame.model.loaded().model.animation.skeleton.bones;
-            // A parent that does not come before its child counts as none, so there is an end.
+            // A parent that does not precede its child is ignored, so the chain ends.
             let parent = |bone: &BoneIndex| bones.get(*bone as usize)?.parent.filter(|parent| parent < bone);
             let mut below = joint(end);
             let mut middle = None;

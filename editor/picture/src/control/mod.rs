@@ -1,12 +1,21 @@
-//! What controls of the scene look like (thesis §3.2.9.2, §3.2.9.4): each is a component that hears of its appearance and
-//! presents itself with every frame, in the pose of that frame; one pass draws them all.
+//! The controls of the scene as they are drawn (thesis §3.2.9.2, §3.2.9.4): each is a component that draws itself in
+//! every frame, in the pose of that frame; one pass draws them all.
+//!
+//! A new control is a file here with its [`Appearance`](crate::Appearance) and its component, and a line in
+//! [`SceneControls::default`].
 
 mod ghosts;
 mod gizmo;
 mod ik;
 mod path;
 
-use super::message::{Appearance, Look};
+pub use ghosts::GhostAppearance;
+pub use gizmo::{GizmoAppearance, GizmoDragAppearance, GizmoLook};
+pub use ik::{IkAppearance, IkLook};
+pub use path::{PathAppearance, PathLook};
+
+use super::appearance::Appearances;
+use super::message::Look;
 use super::posed::PosedModel;
 use crate::camera::Camera;
 use crate::gizmo::GizmoShape;
@@ -15,72 +24,53 @@ use gizmo::GizmoGraphic;
 use ik::IkGraphic;
 use path::PathGraphic;
 
-/// What a component may look at when it presents itself.
-pub struct Frame<'a> {
-    /// In the pose of this frame.
+/// The frame that a component draws itself in.
+pub struct ControlFrame<'a> {
+    /// The model in the pose of this frame.
     pub model: &'a PosedModel,
-    /// From where it is seen.
+    /// The camera.
     pub camera: &'a Camera,
-    /// How, and what is selected.
+    /// The look of the viewport, with the selection.
     pub look: &'a Look,
+    /// The data set for controls.
+    pub appearances: &'a Appearances,
 }
 
-/// A control, as the graphics thread sees it.
+/// A control in the graphics thread.
 pub trait GraphicComponent {
-    /// It looks like this from now on. Tells whether that was for this component.
-    fn receive(&mut self, appearance: &Appearance) -> bool;
-
-    /// Adds what is to be drawn in this frame. Allocates only as it grows.
-    fn present(&mut self, frame: &Frame<'_>, shape: &mut GizmoShape);
+    /// Adds the shape of the control in this frame. Allocates only as the shape grows.
+    fn present(&mut self, frame: &ControlFrame<'_>, shape: &mut GizmoShape);
 }
 
-/// All components, and what they want drawn.
-pub struct Controls {
+/// All components, and the shape that they draw together.
+pub struct SceneControls {
     list: Vec<Box<dyn GraphicComponent>>,
     shape: GizmoShape,
-    /// When the model is shown as a ghost, and whether it is as a skin.
-    ghosts: (Vec<(f32, i32)>, bool),
 }
 
-impl Default for Controls {
+impl Default for SceneControls {
     fn default() -> Self {
-        // The later over the earlier.
+        // Later ones are drawn over earlier ones.
         let list: Vec<Box<dyn GraphicComponent>> = vec![
             Box::<GhostsGraphic>::default(),
             Box::<PathGraphic>::default(),
             Box::<IkGraphic>::default(),
             Box::<GizmoGraphic>::default(),
         ];
-        Self { list, shape: GizmoShape::default(), ghosts: (Vec::new(), false) }
+        Self { list, shape: GizmoShape::default() }
     }
 }
 
-impl Controls {
-    /// Hands an appearance to whom it is for.
-    pub fn receive(&mut self, appearance: Appearance) {
-        match &appearance {
-            Appearance::Ghosts(times) => self.ghosts.0.clone_from(times),
-            Appearance::GhostSkins(on) => self.ghosts.1 = *on,
-            _ => {}
-        }
-        let _ = self.list.iter_mut().any(|component| component.receive(&appearance));
-    }
-
-    /// Lets every component present itself.
-    pub(super) fn present(&mut self, model: &PosedModel, camera: &Camera, look: &Look) {
+impl SceneControls {
+    /// Draws every component into the shape.
+    pub(super) fn present(&mut self, frame: &ControlFrame<'_>) {
         self.shape.clear();
-        let frame = Frame { model, camera, look };
         for component in &mut self.list {
-            component.present(&frame, &mut self.shape);
+            component.present(frame, &mut self.shape);
         }
     }
 
-    /// When the model is shown as a ghost with its skin: seconds, and how far from now.
-    pub fn ghost_skins(&self) -> &[(f32, i32)] {
-        if self.ghosts.1 { &self.ghosts.0 } else { &[] }
-    }
-
-    /// What is to be drawn.
+    /// The shape of all controls in the frame prepared last.
     pub fn shape(&self) -> &GizmoShape {
         &self.shape
     }

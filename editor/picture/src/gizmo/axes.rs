@@ -6,7 +6,7 @@ use glam::{DMat3, DMat4, DQuat, DVec3, Mat4};
 
 /// One of the three axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Axis {
+pub enum GizmoAxis {
     /// X, conventionally red.
     X,
     /// Y, conventionally green.
@@ -15,7 +15,7 @@ pub enum Axis {
     Z,
 }
 
-impl Axis {
+impl GizmoAxis {
     /// All axes, in order.
     pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
@@ -36,7 +36,7 @@ impl Axis {
 
 /// Coordinate space that gives a gizmo its axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-pub enum Space {
+pub enum GizmoSpace {
     /// The bone's own axes.
     #[default]
     Local,
@@ -48,7 +48,7 @@ pub enum Space {
     View,
 }
 
-impl Space {
+impl GizmoSpace {
     /// The space that pressing the axis key again during a drag switches to: local or world.
     pub fn other(self) -> Self {
         match self {
@@ -111,16 +111,18 @@ impl GizmoTarget {
     }
 
     /// The axes of the bone in `space`, scene space.
-    pub fn frame(&self, space: Space, view: &GizmoView) -> GizmoAxes {
+    pub fn frame(&self, space: GizmoSpace, view: &GizmoView) -> GizmoAxes {
         match space {
-            Space::Local => {
+            GizmoSpace::Local => {
                 let parent = self.parent_frame();
                 let own = DMat3::from_quat(unit(self.to_parent.rotation.as_dquat()));
                 GizmoAxes { axes: parent.axes * own, ..parent }
             }
-            Space::Parent => self.parent_frame(),
-            Space::World => GizmoAxes { axes: DMat3::IDENTITY, sign: 1.0 },
-            Space::View => GizmoAxes { axes: DMat3::from_cols(view.right, view.up, view.back), sign: 1.0 },
+            GizmoSpace::Parent => self.parent_frame(),
+            GizmoSpace::World => GizmoAxes { axes: DMat3::IDENTITY, sign: 1.0 },
+            GizmoSpace::View => {
+                GizmoAxes { axes: DMat3::from_cols(view.right, view.up, view.back), sign: 1.0 }
+            }
         }
     }
 }
@@ -159,7 +161,7 @@ impl GizmoAxes {
     }
 
     /// Returns one axis, scene space, unit length.
-    pub fn axis(&self, axis: Axis) -> DVec3 {
+    pub fn axis(&self, axis: GizmoAxis) -> DVec3 {
         self.axes.col(axis as usize)
     }
 

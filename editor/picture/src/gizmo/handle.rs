@@ -1,6 +1,6 @@
 //! Handles of a gizmo: sizes, visibility and hit testing.
 
-use super::axes::{Axis, GizmoAxes};
+use super::axes::{GizmoAxes, GizmoAxis};
 use super::view::GizmoView;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -21,11 +21,11 @@ pub enum Tool {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Handle {
     /// Along an axis, or about it.
-    Axis(Axis),
+    Axis(GizmoAxis),
     /// Along both axes other than this one.
-    Plane(Axis),
+    Plane(GizmoAxis),
     /// In the image plane; for rotating, freely like a trackball; for scaling, uniformly.
-    Centre,
+    Center,
     /// The outer ring: about the line of sight; for scaling, uniformly.
     Ring,
 }
@@ -38,7 +38,7 @@ pub const AXIS_TO: f64 = 90.0;
 /// Nearer and farther edge of the square between two axes, points from the center.
 pub const PLANE: [f64; 2] = [26.0, 44.0];
 /// Radius of the center, points.
-pub const CENTRE: f64 = 9.0;
+pub const CENTER: f64 = 9.0;
 /// Radius of the rings about the axes, points.
 pub const RING: f64 = 78.0;
 /// Radius of the outer ring, points.
@@ -83,22 +83,22 @@ impl GizmoLayout {
         let towards = self.view.towards(self.pivot);
         match (tool, handle) {
             (Tool::Rotate, Handle::Plane(_)) | (Tool::Move, Handle::Ring) => false,
-            (Tool::Rotate, _) | (_, Handle::Centre | Handle::Ring) => true,
+            (Tool::Rotate, _) | (_, Handle::Center | Handle::Ring) => true,
             (_, Handle::Axis(axis)) => self.axes.axis(axis).dot(towards).abs() < AXIS_HIDDEN,
             (_, Handle::Plane(axis)) => self.axes.axis(axis).dot(towards).abs() > PLANE_HIDDEN,
         }
     }
 
     /// Returns the corners of the square between the two axes other than `normal`.
-    pub fn square(&self, normal: Axis) -> [DVec3; 4] {
-        let [a, b] = normal.others().map(Axis::unit);
+    pub fn square(&self, normal: GizmoAxis) -> [DVec3; 4] {
+        let [a, b] = normal.others().map(GizmoAxis::unit);
         let [near, far] = PLANE;
         [(near, near), (far, near), (far, far), (near, far)].map(|(x, y)| self.place(a * x + b * y))
     }
 
     /// Returns a point of the ring about an axis, at `share` of a turn from the first of the two other axes.
-    pub fn on_ring(&self, axis: Axis, share: f64) -> DVec3 {
-        let [a, b] = axis.others().map(Axis::unit);
+    pub fn on_ring(&self, axis: GizmoAxis, share: f64) -> DVec3 {
+        let [a, b] = axis.others().map(GizmoAxis::unit);
         let (sin, cos) = (share * TAU).sin_cos();
         self.place((a * cos + b * sin) * RING)
     }
@@ -119,7 +119,7 @@ impl GizmoLayout {
                 nearest = Some((distance, handle));
             }
         };
-        for axis in Axis::ALL {
+        for axis in GizmoAxis::ALL {
             let handle = Handle::Axis(axis);
             if self.shows(tool, handle) {
                 let distance = match tool {
@@ -135,19 +135,19 @@ impl GizmoLayout {
         if let Some((_, handle)) = nearest {
             return Some(handle);
         }
-        let on_square = |axis: &Axis| {
+        let on_square = |axis: &GizmoAxis| {
             self.shows(tool, Handle::Plane(*axis))
                 && is_inside(self.square(*axis).map(|corner| self.view.to_screen(corner)), pointer)
         };
-        if let Some(axis) = Axis::ALL.into_iter().find(on_square) {
+        if let Some(axis) = GizmoAxis::ALL.into_iter().find(on_square) {
             return Some(Handle::Plane(axis));
         }
-        let radius = if tool == Tool::Rotate { RING } else { CENTRE };
-        (pointer.distance(middle) <= radius).then_some(Handle::Centre)
+        let radius = if tool == Tool::Rotate { RING } else { CENTER };
+        (pointer.distance(middle) <= radius).then_some(Handle::Center)
     }
 
     /// Distance to the part of an arrow outside the center, so that the center can always be hit.
-    fn distance_to_arrow(&self, axis: Axis, middle: DVec2, pointer: DVec2) -> f64 {
+    fn distance_to_arrow(&self, axis: GizmoAxis, middle: DVec2, pointer: DVec2) -> f64 {
         let Some(tip) = self.view.to_screen(self.place(axis.unit() * AXIS_TO)) else { return f64::INFINITY };
         let along = tip - middle;
         let length = along.length();
@@ -164,7 +164,7 @@ impl GizmoLayout {
         }
     }
 
-    fn distance_to_ring(&self, axis: Axis, pointer: DVec2) -> f64 {
+    fn distance_to_ring(&self, axis: GizmoAxis, pointer: DVec2) -> f64 {
         let piece = |index: usize| {
             let [from, to] = [index, index + 1].map(|end| self.on_ring(axis, end as f64 / PIECES as f64));
             let seen = self.in_front(from) && self.in_front(to);

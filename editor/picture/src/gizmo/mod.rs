@@ -8,18 +8,18 @@ mod select;
 mod shape;
 mod view;
 
-pub use axes::{Axis, GizmoAxes, GizmoTarget, Pivot, Space, unit};
+pub use axes::{GizmoAxes, GizmoAxis, GizmoSpace, GizmoTarget, Pivot, unit};
 pub use delta::GizmoDelta;
-pub use handle::{AXIS_FROM, AXIS_TO, CENTRE, GizmoLayout, Handle, OUTER, PLANE, REACH, RING, Tool};
+pub use handle::{AXIS_FROM, AXIS_TO, CENTER, GizmoLayout, Handle, OUTER, PLANE, REACH, RING, Tool};
 pub use select::{GizmoAnchor, GizmoPlacement, PosedSkeleton};
-pub use shape::{GizmoRole, GizmoShape, GizmoVertex};
+pub use shape::{GizmoRole, GizmoShape, GizmoVertex, RoleColors};
 pub use view::GizmoView;
 
 /// Settings of gizmos.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GizmoSettings {
     /// Space that gives the axes.
-    pub space: Space,
+    pub space: GizmoSpace,
     /// Point about which several bones rotate and scale.
     pub pivot: Pivot,
     /// Whether every bone of a selected chain rotates and scales by the full amount, as when curling a finger.
@@ -39,7 +39,7 @@ pub struct GizmoSettings {
 impl Default for GizmoSettings {
     fn default() -> Self {
         Self {
-            space: Space::default(),
+            space: GizmoSpace::default(),
             pivot: Pivot::default(),
             curl: false,
             move_step: 0.1,

@@ -1,6 +1,6 @@
 //! The position of a selection's gizmo, and the bones that a drag of it changes.
 
-use super::{GizmoAxes, GizmoLayout, GizmoSettings, GizmoTarget, GizmoView, Pivot, Space, Tool};
+use super::{GizmoAxes, GizmoLayout, GizmoSettings, GizmoSpace, GizmoTarget, GizmoView, Pivot, Tool};
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use glam::{DVec3, Mat4};
 
@@ -32,7 +32,7 @@ pub struct GizmoAnchor {
 
 impl GizmoAnchor {
     /// The axes of the gizmo in `space`, as seen from `view`.
-    pub fn axes(&self, space: Space, view: &GizmoView) -> GizmoAxes {
+    pub fn axes(&self, space: GizmoSpace, view: &GizmoView) -> GizmoAxes {
         self.active.frame(space, view)
     }
 }
@@ -80,7 +80,7 @@ impl GizmoPlacement {
     }
 
     /// The gizmo as laid out in `view`; `None` where nothing is selected or the pivot is behind the camera.
-    pub fn layout(&self, space: Space, view: GizmoView) -> Option<GizmoLayout> {
+    pub fn layout(&self, space: GizmoSpace, view: GizmoView) -> Option<GizmoLayout> {
         let anchor = self.anchor?;
         GizmoLayout::new(view, anchor.pivot, anchor.axes(space, &view))
     }

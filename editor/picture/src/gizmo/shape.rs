@@ -1,8 +1,8 @@
 //! The shape of a gizmo, as lists of lines and triangles for a pass to draw.
 
-use super::axes::Axis;
+use super::axes::GizmoAxis;
 use super::delta::GizmoDelta;
-use super::handle::{AXIS_FROM, AXIS_TO, CENTRE, GizmoLayout, Handle, OUTER, PIECES, RING, Tool};
+use super::handle::{AXIS_FROM, AXIS_TO, CENTER, GizmoLayout, Handle, OUTER, PIECES, RING, Tool};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::TAU;
@@ -30,8 +30,45 @@ pub enum GizmoRole {
 }
 
 impl GizmoRole {
-    fn of(axis: Axis) -> Self {
+    /// Number of roles.
+    pub const COUNT: usize = 8;
+    /// All roles, in the order of their numbers.
+    pub const ALL: [Self; Self::COUNT] =
+        [Self::X, Self::Y, Self::Z, Self::View, Self::Hover, Self::Active, Self::Past, Self::Future];
+
+    fn of(axis: GizmoAxis) -> Self {
         [Self::X, Self::Y, Self::Z][axis as usize]
+    }
+}
+
+/// A color for each [`GizmoRole`], linear RGB.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoleColors([[f32; 3]; GizmoRole::COUNT]);
+
+impl RoleColors {
+    /// Asks `color` for the color of each role.
+    pub fn new(color: impl FnMut(GizmoRole) -> [f32; 3]) -> Self {
+        Self(GizmoRole::ALL.map(color))
+    }
+
+    /// The color of a role.
+    pub fn get(&self, role: GizmoRole) -> [f32; 3] {
+        self.0[role as usize]
+    }
+}
+
+impl Default for RoleColors {
+    /// The colors for images without a window.
+    fn default() -> Self {
+        Self::new(|role| match role {
+            GizmoRole::X => [0.81, 0.16, 0.15],
+            GizmoRole::Y => [0.26, 0.56, 0.12],
+            GizmoRole::Z => [0.12, 0.35, 0.84],
+            GizmoRole::View => [0.70, 0.72, 0.74],
+            GizmoRole::Hover | GizmoRole::Active => [1.0, 0.86, 0.35],
+            GizmoRole::Past => [0.85, 0.25, 0.16],
+            GizmoRole::Future => [0.12, 0.55, 0.60],
+        })
     }
 }
 
@@ -48,7 +85,7 @@ pub struct GizmoVertex {
 }
 
 /// Lines and triangles, in lists that keep their memory from frame to frame.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct GizmoShape {
     lines: Vec<GizmoVertex>,
     triangles: Vec<GizmoVertex>,
@@ -81,7 +118,7 @@ impl GizmoShape {
         self.lines.extend([from, to].map(|position| GizmoVertex { position, role: role as u32, opacity }));
     }
 
-    /// Adds a square that stands on its corner, in the image plane: `right` and `up` reach to its corners.
+    /// Adds a diamond in the image plane: `right` and `up` reach to its corners.
     pub fn add_diamond(&mut self, at: Vec3, right: Vec3, up: Vec3, role: GizmoRole, opacity: f32) {
         let [a, b, c, d] = [at + up, at + right, at - up, at - right];
         let corner = |position| GizmoVertex { position, role: role as u32, opacity };
@@ -98,14 +135,14 @@ impl GizmoShape {
     pub fn waiting(&mut self, layout: &GizmoLayout, tool: Tool, hovered: Option<Handle>) {
         let role =
             |handle: Handle, role: GizmoRole| if hovered == Some(handle) { GizmoRole::Hover } else { role };
-        for axis in Axis::ALL {
+        for axis in GizmoAxis::ALL {
             for handle in [Handle::Axis(axis), Handle::Plane(axis)] {
                 if layout.shows(tool, handle) {
                     self.handle(layout, tool, handle, role(handle, GizmoRole::of(axis)));
                 }
             }
         }
-        for handle in [Handle::Centre, Handle::Ring] {
+        for handle in [Handle::Center, Handle::Ring] {
             if layout.shows(tool, handle) {
                 self.handle(layout, tool, handle, role(handle, GizmoRole::View));
             }
@@ -124,7 +161,7 @@ impl GizmoShape {
         match handle {
             Handle::Axis(axis) => self.guide(layout, axis),
             Handle::Plane(normal) => normal.others().into_iter().for_each(|axis| self.guide(layout, axis)),
-            Handle::Centre | Handle::Ring => {}
+            Handle::Center | Handle::Ring => {}
         }
         if layout.shows(tool, handle) {
             self.handle(layout, tool, handle, GizmoRole::Active);
@@ -146,8 +183,8 @@ impl GizmoShape {
                     .into_iter()
                     .for_each(|(from, to)| self.line(from, to, role, 1.0));
             }
-            (Tool::Rotate, Handle::Centre) => self.disc(layout, RING, role, 0.06),
-            (_, Handle::Centre) => self.disc(layout, CENTRE, role, 0.8),
+            (Tool::Rotate, Handle::Center) => self.disc(layout, RING, role, 0.06),
+            (_, Handle::Center) => self.disc(layout, CENTER, role, 0.8),
             (_, Handle::Ring) => {
                 let around = |index: usize| facing(layout, OUTER, index as f64 / PIECES as f64);
                 (0..PIECES).for_each(|index| self.line(around(index), around(index + 1), role, 1.0));
@@ -156,9 +193,9 @@ impl GizmoShape {
     }
 
     /// Adds a line with a cone (moving) or a cube (scaling).
-    fn arrow(&mut self, layout: &GizmoLayout, axis: Axis, tool: Tool, role: GizmoRole) {
+    fn arrow(&mut self, layout: &GizmoLayout, axis: GizmoAxis, tool: Tool, role: GizmoRole) {
         let along = axis.unit();
-        let [a, b] = axis.others().map(Axis::unit);
+        let [a, b] = axis.others().map(GizmoAxis::unit);
         let neck = if tool == Tool::Move { AXIS_TO - 18.0 } else { AXIS_TO - 10.0 };
         self.line(layout.place(along * AXIS_FROM), layout.place(along * neck), role, 1.0);
         if tool == Tool::Move {
@@ -190,7 +227,7 @@ impl GizmoShape {
     }
 
     /// Adds the half of a ring towards the viewer; while it is dragged, the whole ring.
-    fn ring(&mut self, layout: &GizmoLayout, axis: Axis, role: GizmoRole) {
+    fn ring(&mut self, layout: &GizmoLayout, axis: GizmoAxis, role: GizmoRole) {
         for index in 0..PIECES {
             let [from, to] = [index, index + 1].map(|end| layout.on_ring(axis, end as f64 / PIECES as f64));
             let is_front = layout.in_front(from) && layout.in_front(to);
@@ -202,14 +239,14 @@ impl GizmoShape {
 
     fn disc(&mut self, layout: &GizmoLayout, radius: f64, role: GizmoRole, opacity: f32) {
         // A large disc is as round as the rings around it.
-        let sides = if radius > CENTRE { PIECES } else { SIDES * 2 };
+        let sides = if radius > CENTER { PIECES } else { SIDES * 2 };
         for index in 0..sides {
             let [from, to] = [index, index + 1].map(|end| facing(layout, radius, end as f64 / sides as f64));
             self.triangle([layout.pivot, from, to], role, opacity);
         }
     }
 
-    fn guide(&mut self, layout: &GizmoLayout, axis: Axis) {
+    fn guide(&mut self, layout: &GizmoLayout, axis: GizmoAxis) {
         let [from, to] = [-GUIDE, GUIDE].map(|along| layout.place(axis.unit() * along));
         self.line(from, to, GizmoRole::of(axis), 0.6);
     }

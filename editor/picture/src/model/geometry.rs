@@ -87,7 +87,7 @@ fn vertex(primitive: &Primitive, index: usize) -> GpuVertex {
     GpuVertex {
         position: columns.positions[index].into(),
         normal: columns.normals.get(index).copied().unwrap_or(Vec3::Y).into(),
-        // A tangent of length zero stands for none: the shader derives one.
+        // A tangent of length zero means that there is none: the shader derives one.
         tangent: columns.tangents.get(index).copied().unwrap_or(Vec4::W).into(),
         texture_coordinates: [first.x, first.y, second.x, second.y],
         color: columns.colors.get(index).copied().unwrap_or(Vec4::ONE).into(),

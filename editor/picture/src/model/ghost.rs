@@ -16,13 +16,13 @@ use std::sync::Arc;
 pub(super) struct Ghosts {
     /// Pipelines for front faces of either winding; the second is for mirrored poses.
     pipelines: Option<[wgpu::RenderPipeline; 2]>,
-    room: Option<Room>,
+    room: Option<GhostBuffers>,
     /// Number of ghosts drawn.
     count: usize,
 }
 
 /// Buffers for a number of ghosts of one model.
-struct Room {
+struct GhostBuffers {
     loaded: Arc<LoadedModel>,
     ghosts: usize,
     uniforms: wgpu::Buffer,
@@ -60,9 +60,9 @@ impl Ghosts {
         if count == 0 {
             return;
         }
-        let fits = |room: &Room| Arc::ptr_eq(&room.loaded, posed.loaded()) && room.ghosts >= count;
+        let fits = |room: &GhostBuffers| Arc::ptr_eq(&room.loaded, posed.loaded()) && room.ghosts >= count;
         if !self.room.as_ref().is_some_and(fits) {
-            let Some(room) = Room::new(gpu, ghosts, count, pipelines, geometries) else { return };
+            let Some(room) = GhostBuffers::new(gpu, ghosts, count, pipelines, geometries) else { return };
             self.room = Some(room);
         }
         self.pipelines.get_or_insert_with(|| {
@@ -123,7 +123,7 @@ impl Ghosts {
     }
 }
 
-impl Room {
+impl GhostBuffers {
     fn new(
         gpu: &Gpu,
         ghosts: &GhostSkins,

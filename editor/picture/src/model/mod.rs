@@ -25,20 +25,20 @@ use texture::TextureMaker;
 pub struct GpuModel {
     /// Kept for loading the model again on another device.
     loaded: Option<Arc<LoadedModel>>,
-    resources: Option<Resources>,
+    resources: Option<ModelResources>,
 }
 
 /// Device resources for any model.
-struct Resources {
+struct ModelResources {
     pipelines: ModelPipelines,
     maker: TextureMaker,
     materials: GpuMaterials,
-    content: Option<Content>,
+    content: Option<ModelContent>,
     ghosts: ghost::Ghosts,
 }
 
 /// Device resources of this model.
-struct Content {
+struct ModelContent {
     loaded: Arc<LoadedModel>,
     palettes: wgpu::Buffer,
     weights: wgpu::Buffer,
@@ -60,7 +60,7 @@ impl DeviceListener for GpuModel {
         let pipelines = ModelPipelines::new(gpu, &materials.layout);
         let maker = TextureMaker::new(gpu);
         self.resources =
-            Some(Resources { pipelines, maker, materials, content: None, ghosts: Default::default() });
+            Some(ModelResources { pipelines, maker, materials, content: None, ghosts: Default::default() });
     }
 }
 
@@ -87,7 +87,7 @@ impl GpuModel {
 
     /// Writes the poses of ghosts to the device, after [`Self::prepare`].
     pub fn prepare_ghosts(&mut self, gpu: &Gpu, ghosts: &GhostSkins) {
-        let Some(Resources { pipelines, content: Some(content), ghosts: own, .. }) = &mut self.resources
+        let Some(ModelResources { pipelines, content: Some(content), ghosts: own, .. }) = &mut self.resources
         else {
             return;
         };
@@ -96,7 +96,7 @@ impl GpuModel {
 
     /// Draws the ghosts.
     pub fn draw_ghosts(&self, ghosts: &GhostSkins, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
-        if let Some(Resources { content: Some(content), ghosts: own, .. }) = &self.resources {
+        if let Some(ModelResources { content: Some(content), ghosts: own, .. }) = &self.resources {
             own.draw(gpu, ghosts, &content.geometries, pass);
         }
     }
@@ -141,7 +141,7 @@ impl GpuModel {
     }
 }
 
-impl Resources {
+impl ModelResources {
     fn load(&mut self, gpu: &Gpu, posed: &PosedModel) {
         let loaded = posed.loaded();
         self.materials.load(gpu, &mut self.maker, loaded);
@@ -168,7 +168,7 @@ impl Resources {
             groups.push(self.pipelines.draw_group(gpu, &uniforms, &palettes, &weights, deltas));
         }
         self.content =
-            Some(Content { loaded: Arc::clone(loaded), palettes, weights, stride, geometries, groups });
+            Some(ModelContent { loaded: Arc::clone(loaded), palettes, weights, stride, geometries, groups });
     }
 }
 

@@ -1,6 +1,6 @@
 //! The background gradient.
 
-use super::{Commands, Layer, Pass, Surroundings, scene_pipeline};
+use super::{FrameCommands, Pass, PassLayer, Surroundings, scene_pipeline};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::shaders;
@@ -29,11 +29,11 @@ impl Pass for BackgroundPass {
         "background"
     }
 
-    fn layer(&self) -> Layer {
-        Layer::Scene
+    fn layer(&self) -> PassLayer {
+        PassLayer::Scene
     }
 
-    fn prepare(&mut self, _: &Surroundings<'_>, _: &mut Commands) {}
+    fn prepare(&mut self, _: &Surroundings<'_>, _: &mut FrameCommands) {}
 
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
         let Some(pipeline) = &self.pipeline else { return };

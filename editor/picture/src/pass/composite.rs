@@ -1,6 +1,6 @@
 //! Copies the finished scene into the window: encoded for the screen exactly once, and only within the viewport.
 
-use super::{Commands, Layer, Pass, Surroundings};
+use super::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::shaders;
@@ -8,10 +8,10 @@ use crate::shaders;
 /// Copies the scene into the window.
 #[derive(Default)]
 pub(super) struct CompositePass {
-    resources: Option<Resources>,
+    resources: Option<CompositeResources>,
 }
 
-struct Resources {
+struct CompositeResources {
     pipeline: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     place: wgpu::Buffer,
@@ -32,7 +32,8 @@ impl DeviceListener for CompositePass {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        self.resources = Some(Resources { pipeline: pipeline(gpu, &layout), layout, place, group: None });
+        self.resources =
+            Some(CompositeResources { pipeline: pipeline(gpu, &layout), layout, place, group: None });
     }
 }
 
@@ -41,11 +42,11 @@ impl Pass for CompositePass {
         "composite"
     }
 
-    fn layer(&self) -> Layer {
-        Layer::Window
+    fn layer(&self) -> PassLayer {
+        PassLayer::Window
     }
 
-    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut Commands) {
+    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
         let (Some(resources), Some(view)) = (&mut self.resources, around.scene_view) else { return };
         let [x, y, ..] = around.scene.look.viewport;
         // WGSL twin: `Place` in `shaders/composite.wgsl`.

@@ -1,9 +1,9 @@
 //! The controls of the scene, drawn over everything (the thesis's ControlRender, §3.2.9.2): lines with a width in
 //! points, and triangles, in the colors of the theme.
 
-use super::{Commands, Layer, Pass, Surroundings};
+use super::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
-use crate::gizmo::GizmoVertex;
+use crate::gizmo::{GizmoRole, GizmoVertex};
 use crate::gpu::{DEPTH_FORMAT, Gpu, scene_samples, scene_target, uniform_binding};
 use crate::message::Look;
 use crate::shaders;
@@ -14,10 +14,10 @@ const WIDTH: f32 = 2.4;
 /// Draws the controls.
 #[derive(Default)]
 pub(super) struct ControlRender {
-    resources: Option<Resources>,
+    resources: Option<ControlResources>,
 }
 
-struct Resources {
+struct ControlResources {
     line: wgpu::RenderPipeline,
     fill: wgpu::RenderPipeline,
     style: wgpu::Buffer,
@@ -60,10 +60,10 @@ impl DeviceListener for ControlRender {
     }
 
     fn on_reset(&mut self, gpu: &Gpu) {
-        let (layout, group, style) = uniform_binding::<Style>(&gpu.device, "controls");
-        self.resources = Some(Resources {
-            line: pipeline(gpu, &layout, Shape::Line),
-            fill: pipeline(gpu, &layout, Shape::Triangle),
+        let (layout, group, style) = uniform_binding::<ControlStyle>(&gpu.device, "controls");
+        self.resources = Some(ControlResources {
+            line: pipeline(gpu, &layout, ControlPrimitive::Line),
+            fill: pipeline(gpu, &layout, ControlPrimitive::Triangle),
             style,
             group,
             lines: Corners::default(),
@@ -77,16 +77,16 @@ impl Pass for ControlRender {
         "controls"
     }
 
-    fn layer(&self) -> Layer {
-        Layer::Scene
+    fn layer(&self) -> PassLayer {
+        PassLayer::Scene
     }
 
-    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut Commands) {
+    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
         let Some(resources) = &mut self.resources else { return };
         let shape = around.scene.controls.shape();
         resources.lines.write(around.gpu, shape.lines());
         resources.triangles.write(around.gpu, shape.triangles());
-        let style = Style::of(&around.scene.look);
+        let style = ControlStyle::of(&around.scene.look);
         around.gpu.queue.write_buffer(&resources.style, 0, bytemuck::bytes_of(&style));
     }
 
@@ -110,32 +110,35 @@ impl Pass for ControlRender {
     }
 }
 
-/// The uniform of the pass. WGSL twin: `Style` in `shaders/controls.wgsl`.
+/// The uniform of the pass. WGSL twin: `ControlStyle` in `shaders/controls.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-struct Style {
+struct ControlStyle {
     /// Colors by role, linear RGB.
-    colors: [[f32; 4]; 8],
+    colors: [[f32; 4]; GizmoRole::COUNT],
     /// Half the width of a line, pixels.
     half_width: f32,
     pad: [f32; 3],
 }
 
-impl Style {
+impl ControlStyle {
     fn of(look: &Look) -> Self {
-        let colors = look.handles.map(|[red, green, blue]| [red, green, blue, 1.0]);
+        let colors = GizmoRole::ALL.map(|role| {
+            let [red, green, blue] = look.handles.get(role);
+            [red, green, blue, 1.0]
+        });
         Self { colors, half_width: WIDTH * look.pixels_per_point.max(0.1) / 2.0, pad: [0.0; 3] }
     }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Shape {
+enum ControlPrimitive {
     Line,
     Triangle,
 }
 
 /// Creates a pipeline without a depth test: handles must be reachable whatever is in front of them.
-fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, shape: Shape) -> wgpu::RenderPipeline {
+fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, shape: ControlPrimitive) -> wgpu::RenderPipeline {
     let module = shaders::CONTROLS.module(&gpu.device);
     let size = size_of::<GizmoVertex>() as u64;
     let corner = wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Float32];
@@ -143,8 +146,8 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, shape: Shape) -> wgpu::Re
         0 => Float32x3, 1 => Uint32, 2 => Float32, 3 => Float32x3, 4 => Uint32, 5 => Float32
     ];
     let (entry, stride, step_mode, attributes) = match shape {
-        Shape::Triangle => ("vs_fill", size, wgpu::VertexStepMode::Vertex, &corner[..]),
-        Shape::Line => ("vs_line", 2 * size, wgpu::VertexStepMode::Instance, &ends[..]),
+        ControlPrimitive::Triangle => ("vs_fill", size, wgpu::VertexStepMode::Vertex, &corner[..]),
+        ControlPrimitive::Line => ("vs_line", 2 * size, wgpu::VertexStepMode::Instance, &ends[..]),
     };
     let buffer = wgpu::VertexBufferLayout { array_stride: stride, step_mode, attributes };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -167,7 +170,7 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, shape: Shape) -> wgpu::Re
         multisample: scene_samples(false),
         fragment: Some(wgpu::FragmentState {
             module: &module,
-            entry_point: Some(if shape == Shape::Line { "fs_line" } else { "fs_fill" }),
+            entry_point: Some(if shape == ControlPrimitive::Line { "fs_line" } else { "fs_fill" }),
             compilation_options: Default::default(),
             targets: &scene_target(true),
         }),

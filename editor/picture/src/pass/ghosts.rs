@@ -1,7 +1,10 @@
 //! Ghosts: the model at other times, drawn as transparent skins.
 
-use super::{Commands, Layer, Pass, Surroundings};
+use super::{FrameCommands, Pass, PassLayer, Surroundings};
+use crate::control::GhostAppearance;
 use crate::device::DeviceListener;
+use crate::ghosts::GhostSkins;
+use crate::gizmo::GizmoRole;
 use crate::gpu::Gpu;
 use crate::model::GpuModel;
 use std::cell::RefCell;
@@ -10,12 +13,13 @@ use std::rc::Rc;
 /// Draws the ghosts.
 pub(super) struct GhostsPass {
     model: Rc<RefCell<GpuModel>>,
+    skins: GhostSkins,
 }
 
 impl GhostsPass {
     /// Draws ghosts of this model, which the pass of solid surfaces prepares.
     pub(super) fn new(model: Rc<RefCell<GpuModel>>) -> Self {
-        Self { model }
+        Self { model, skins: GhostSkins::default() }
     }
 }
 
@@ -31,15 +35,24 @@ impl Pass for GhostsPass {
         "ghosts"
     }
 
-    fn layer(&self) -> Layer {
-        Layer::Scene
+    fn layer(&self) -> PassLayer {
+        PassLayer::Scene
     }
 
-    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut Commands) {
-        self.model.borrow_mut().prepare_ghosts(around.gpu, around.scene.ghosts());
+    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
+        let scene = around.scene;
+        let ghosts = scene.appearances.get::<GhostAppearance>().filter(|ghosts| ghosts.skins);
+        match (ghosts, scene.view()) {
+            (Some(ghosts), Some(view)) if !ghosts.times.is_empty() => {
+                let colors = [GizmoRole::Past, GizmoRole::Future].map(|role| scene.look.handles.get(role));
+                self.skins.pose(view, scene.still(), scene.playback.take, &ghosts.times, colors);
+            }
+            _ => self.skins.clear(),
+        }
+        self.model.borrow_mut().prepare_ghosts(around.gpu, &self.skins);
     }
 
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
-        self.model.borrow().draw_ghosts(around.scene.ghosts(), around.gpu, pass);
+        self.model.borrow().draw_ghosts(&self.skins, around.gpu, pass);
     }
 }

@@ -1,6 +1,6 @@
 //! The transparent surfaces of the model, drawn after the solid ones and the ground.
 
-use super::{Commands, Layer, Pass, Surroundings};
+use super::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::model::GpuModel;
@@ -31,11 +31,11 @@ impl Pass for GlassPass {
         "glass"
     }
 
-    fn layer(&self) -> Layer {
-        Layer::Scene
+    fn layer(&self) -> PassLayer {
+        PassLayer::Scene
     }
 
-    fn prepare(&mut self, _: &Surroundings<'_>, _: &mut Commands) {}
+    fn prepare(&mut self, _: &Surroundings<'_>, _: &mut FrameCommands) {}
 
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
         if let Some(posed) = around.scene.model().filter(|_| around.scene.look.surface) {

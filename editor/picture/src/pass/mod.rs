@@ -1,4 +1,5 @@
-//! The render passes and their order. A new pass is a file here, a shader, and a line in [`all`].
+//! The render passes and their order. A new pass is a file here, a shader, and a line in [`all`]; data that another thread
+//! sets for it is an [`Appearance`](crate::Appearance) declared in its file.
 
 mod background;
 mod composite;
@@ -21,7 +22,7 @@ use std::rc::Rc;
 
 /// Target of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Layer {
+pub enum PassLayer {
     /// The scene: multisampled, with depth, in linear light; as large as the viewport.
     Scene,
     /// The window, in the color encoding of the screen.
@@ -46,17 +47,17 @@ pub trait Pass: DeviceListener {
     fn name(&self) -> &'static str;
 
     /// Target of the pass. Passes of the scene come before those of the window.
-    fn layer(&self) -> Layer;
+    fn layer(&self) -> PassLayer;
 
     /// Writes this frame's data to the device, before anything is drawn.
-    fn prepare(&mut self, around: &Surroundings<'_>, commands: &mut Commands);
+    fn prepare(&mut self, around: &Surroundings<'_>, commands: &mut FrameCommands);
 
     /// Draws into the target.
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>);
 }
 
 /// Commands that preparing may add to a frame.
-pub struct Commands {
+pub struct FrameCommands {
     /// Encoder that runs before the first pass.
     pub encoder: wgpu::CommandEncoder,
     /// Command buffers that run before that encoder.

@@ -3,7 +3,7 @@
 //! egui sends each of its textures once. A copy is kept here, so that the textures can be loaded on a new device; the
 //! textures of frames that were never drawn are applied too.
 
-use super::{Commands, Layer, Pass, Surroundings};
+use super::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::message::PanelsFrame;
@@ -91,11 +91,11 @@ impl Pass for PanelsPass {
         "panels"
     }
 
-    fn layer(&self) -> Layer {
-        Layer::Window
+    fn layer(&self) -> PassLayer {
+        PassLayer::Window
     }
 
-    fn prepare(&mut self, around: &Surroundings<'_>, commands: &mut Commands) {
+    fn prepare(&mut self, around: &Surroundings<'_>, commands: &mut FrameCommands) {
         let (Some(renderer), Some(frame)) = (&mut self.renderer, &self.frame) else { return };
         for id in self.outdated.drain(..) {
             renderer.free_texture(&id);

@@ -1,6 +1,6 @@
 //! The bones in their pose, in front of the surface or hidden by it.
 
-use super::{Commands, Layer, Pass, Surroundings, scene_pipeline};
+use super::{FrameCommands, Pass, PassLayer, Surroundings, scene_pipeline};
 use crate::body::{BodyVertex, triangles};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
@@ -14,10 +14,10 @@ const IN_FRONT: std::ops::Range<f32> = 0.9..1.0;
 /// Draws the bones.
 #[derive(Default)]
 pub(super) struct SkeletonPass {
-    resources: Option<Resources>,
+    resources: Option<SkeletonResources>,
 }
 
-struct Resources {
+struct SkeletonResources {
     outline: wgpu::RenderPipeline,
     solid: wgpu::RenderPipeline,
     line: wgpu::RenderPipeline,
@@ -62,7 +62,8 @@ impl DeviceListener for SkeletonPass {
             });
             (buffer, corners.len() as u32)
         });
-        self.resources = Some(Resources { outline, solid, line, bodies, instances: [const { None }; 4] });
+        self.resources =
+            Some(SkeletonResources { outline, solid, line, bodies, instances: [const { None }; 4] });
     }
 }
 
@@ -71,11 +72,11 @@ impl Pass for SkeletonPass {
         "skeleton"
     }
 
-    fn layer(&self) -> Layer {
-        Layer::Scene
+    fn layer(&self) -> PassLayer {
+        PassLayer::Scene
     }
 
-    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut Commands) {
+    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
         let model = around.scene.model().filter(|_| around.scene.look.skeleton);
         let (Some(resources), Some(model)) = (&mut self.resources, model) else { return };
         for (body, buffer) in Body::ALL.into_iter().zip(&mut resources.instances) {

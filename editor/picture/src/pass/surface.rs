@@ -1,6 +1,6 @@
 //! The solid surfaces of the model.
 
-use super::{Commands, Layer, Pass, Surroundings};
+use super::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::model::GpuModel;
@@ -31,11 +31,11 @@ impl Pass for SurfacePass {
         "surface"
     }
 
-    fn layer(&self) -> Layer {
-        Layer::Scene
+    fn layer(&self) -> PassLayer {
+        PassLayer::Scene
     }
 
-    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut Commands) {
+    fn prepare(&mut self, around: &Surroundings<'_>, _: &mut FrameCommands) {
         self.model.borrow_mut().prepare(around.gpu, around.scene.model());
     }
 

@@ -2,7 +2,7 @@
 //! drawn in the present pose; a pointer that just misses picks the nearest bone.
 
 use crate::body::{placed, triangles};
-use crate::camera::Ray;
+use crate::camera::CameraRay;
 use crate::scene::Scene;
 use crate::shape::{Body, BoneInstance, SkeletonShape};
 use dragonfly_anim::data::BoneIndex;
@@ -29,9 +29,9 @@ pub fn pick(scene: &Scene, position: [f32; 2]) -> Option<BoneIndex> {
     hit(shape, &ray).or_else(|| nearest(scene, shape, pixel))
 }
 
-/// All bones at a pixel of the window, each once, as [`pick`] finds the first: those that the line of sight meets, the nearest
-/// first; where it meets none, those that it just misses, the nearest on the screen first. Not the hidden ones. For clicks
-/// that go through what lies behind ([`ClickCycle`]).
+/// Writes all bones at a pixel of the window, each once: those that the line of sight intersects, nearest first; if there
+/// are none, those that it just misses, nearest on the screen first. Hidden bones are left out. For clicks that cycle
+/// through overlapping bones ([`ClickCycle`]).
 pub fn pick_all(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &mut Vec<BoneIndex>) {
     out.clear();
     let Some(((ray, pixel), model)) = scene.ray(position).zip(scene.model()) else { return };
@@ -88,7 +88,7 @@ pub fn pick_region(scene: &Scene, region: &Region<'_>, hidden: &HiddenBones, out
 }
 
 /// Returns the first bone that the ray intersects.
-fn hit(shape: &SkeletonShape, ray: &Ray) -> Option<BoneIndex> {
+fn hit(shape: &SkeletonShape, ray: &CameraRay) -> Option<BoneIndex> {
     let mut first: Option<(f32, BoneIndex)> = None;
     for_each_hit(shape, ray, |distance, bone| {
         if first.is_none_or(|(nearest, _)| distance < nearest) {
@@ -99,7 +99,7 @@ fn hit(shape: &SkeletonShape, ray: &Ray) -> Option<BoneIndex> {
 }
 
 /// Calls `found` with every triangle of a bone that the ray intersects, and its distance.
-fn for_each_hit(shape: &SkeletonShape, ray: &Ray, mut found: impl FnMut(f32, BoneIndex)) {
+fn for_each_hit(shape: &SkeletonShape, ray: &CameraRay, mut found: impl FnMut(f32, BoneIndex)) {
     for body in Body::ALL {
         let corners = triangles(body);
         for (instance, &bone) in shape.instances(body).iter().zip(shape.owners(body)) {
@@ -117,7 +117,7 @@ fn for_each_hit(shape: &SkeletonShape, ray: &Ray, mut found: impl FnMut(f32, Bon
 }
 
 /// Returns whether the ray intersects the bounding sphere of a bone.
-fn passes_near(ray: &Ray, bone: &BoneInstance) -> bool {
+fn passes_near(ray: &CameraRay, bone: &BoneInstance) -> bool {
     let center = (bone.head + bone.tail) / 2.0;
     let radius = bone.head.distance(bone.tail) / 2.0 + bone.radius * 1.5;
     let towards = center - ray.origin;
@@ -126,7 +126,7 @@ fn passes_near(ray: &Ray, bone: &BoneInstance) -> bool {
 }
 
 /// Distance along the ray at which it intersects a triangle, from either side.
-fn meets(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<f32> {
+fn meets(ray: &CameraRay, [a, b, c]: [Vec3; 3]) -> Option<f32> {
     let (ab, ac) = (b - a, c - a);
     let across = ray.direction.cross(ac);
     let determinant = ab.dot(across);

@@ -31,7 +31,7 @@ pub struct SkinHit {
 pub fn pick_skin(
     pose: &mut HitPose,
     evaluator: &Evaluator,
-    ray: &camera::Ray,
+    ray: &camera::CameraRay,
     hidden: &HiddenBones,
     out: &mut Vec<SkinHit>,
 ) {

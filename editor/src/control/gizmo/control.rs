@@ -147,7 +147,7 @@ impl BaseControl for GizmoControl {
                     return Pass::Stop;
                 }
                 // The ball is large: it hides more bones than it turns.
-                let ball = handle == Some(Handle::Centre) && self.gizmo.tool == Tool::Rotate;
+                let ball = handle == Some(Handle::Center) && self.gizmo.tool == Tool::Rotate;
                 let slack = if ball { CLICK } else { STEADY };
                 self.pressed = handle.is_some().then_some(Pressed { mouse, slack, waits: ball });
                 let begins = handle.is_some() && self.gizmo.begin(handle, at);

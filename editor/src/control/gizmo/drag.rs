@@ -7,8 +7,8 @@ use crate::control::expression::Quantity;
 use crate::control::key::{Key, Modifiers};
 use dragonfly_anim::data::{BoneIndex, Transform};
 use dragonfly_picture::gizmo::{
-    Axis, GizmoAnchor, GizmoAxes, GizmoDelta, GizmoLayout, GizmoSettings, GizmoTarget, GizmoView, Handle,
-    Pivot, Space, Tool,
+    GizmoAnchor, GizmoAxes, GizmoAxis, GizmoDelta, GizmoLayout, GizmoSettings, GizmoSpace, GizmoTarget,
+    GizmoView, Handle, Pivot, Tool,
 };
 use glam::{DVec2, DVec3};
 
@@ -68,7 +68,7 @@ impl Drag {
         view: GizmoView,
         pointer: DVec2,
     ) -> Option<Self> {
-        let by_key = if tool == Tool::Rotate { Handle::Ring } else { Handle::Centre };
+        let by_key = if tool == Tool::Rotate { Handle::Ring } else { Handle::Center };
         let grabbed = handle.unwrap_or(by_key);
         let layout = GizmoLayout::new(view, placement.pivot, placement.axes(settings.space, &view))?;
         let measure = Measure::new(tool, grabbed, layout, pointer, handle.is_some());
@@ -96,7 +96,7 @@ impl Drag {
     }
 
     /// Whose axes it follows now.
-    pub(super) fn space(&self) -> Space {
+    pub(super) fn space(&self) -> GizmoSpace {
         match self.lock {
             Some(Lock { presses: 2, .. }) => self.settings.space.other(),
             _ => self.settings.space,
@@ -143,9 +143,9 @@ impl Drag {
     /// A key: an axis or a part of a number. `false` for others.
     pub(super) fn key(&mut self, key: Key, modifiers: Modifiers, typed: &mut Typed) -> bool {
         let axis = match key {
-            Key::Letter('x') => Some(Axis::X),
-            Key::Letter('y') => Some(Axis::Y),
-            Key::Letter('z') => Some(Axis::Z),
+            Key::Letter('x') => Some(GizmoAxis::X),
+            Key::Letter('y') => Some(GizmoAxis::Y),
+            Key::Letter('z') => Some(GizmoAxis::Z),
             _ => None,
         };
         match axis {
@@ -159,7 +159,7 @@ impl Drag {
     }
 
     /// Binds to an axis or to the plane across it; again, in the other space; again, not at all.
-    fn press(&mut self, axis: Axis, plane: bool) {
+    fn press(&mut self, axis: GizmoAxis, plane: bool) {
         let plane = plane && self.tool != Tool::Rotate;
         let handle = if plane { Handle::Plane(axis) } else { Handle::Axis(axis) };
         self.lock = match self.lock {
@@ -189,8 +189,8 @@ impl Drag {
     /// How many numbers can be typed.
     pub(super) fn fields(&self) -> usize {
         match (self.tool, self.handle()) {
-            (Tool::Move, Handle::Centre | Handle::Ring) => 3,
-            (Tool::Move, Handle::Plane(_)) | (Tool::Rotate, Handle::Centre) => 2,
+            (Tool::Move, Handle::Center | Handle::Ring) => 3,
+            (Tool::Move, Handle::Plane(_)) | (Tool::Rotate, Handle::Center) => 2,
             _ => 1,
         }
     }
@@ -236,7 +236,7 @@ impl Drag {
                 axes.sort_by_key(|axis| *axis as usize);
                 axes[0].unit() * typed.x + axes[1].unit() * typed.y
             }
-            Handle::Centre | Handle::Ring => typed,
+            Handle::Center | Handle::Ring => typed,
         }
     }
 
@@ -245,7 +245,7 @@ impl Drag {
         match self.handle() {
             Handle::Axis(axis) => axis.unit() * amount.x,
             Handle::Plane(normal) => amount * (DVec3::ONE - normal.unit()),
-            Handle::Centre | Handle::Ring => amount,
+            Handle::Center | Handle::Ring => amount,
         }
     }
 
@@ -260,7 +260,7 @@ impl Drag {
                     Handle::Plane(normal) => {
                         DVec3::splat(factor) * (DVec3::ONE - normal.unit()) + normal.unit()
                     }
-                    Handle::Centre | Handle::Ring => DVec3::splat(factor),
+                    Handle::Center | Handle::Ring => DVec3::splat(factor),
                 })
             }
         }
@@ -275,7 +275,7 @@ impl Drag {
                 GizmoDelta::Rotate { axis: axis.unit(), angle: amount.x }
             }
             Handle::Ring => GizmoDelta::Rotate { axis: inside(self.first.back), angle: amount.x },
-            Handle::Centre => {
+            Handle::Center => {
                 let about = self.first.up * amount.x + self.first.right * amount.y;
                 let angle = about.length();
                 let axis = inside(about / angle);
@@ -301,8 +301,8 @@ impl Drag {
 
     /// Each along its own axes, but what is done in the plane or along the line of the picture: that is one for all.
     fn own_frame(&self, target: &GizmoTarget, common: GizmoAxes) -> GizmoAxes {
-        let in_view = matches!((self.tool, self.handle()), (Tool::Move, Handle::Centre))
-            || (self.tool == Tool::Rotate && matches!(self.handle(), Handle::Centre | Handle::Ring));
+        let in_view = matches!((self.tool, self.handle()), (Tool::Move, Handle::Center))
+            || (self.tool == Tool::Rotate && matches!(self.handle(), Handle::Center | Handle::Ring));
         if in_view { common } else { target.frame(self.space(), &self.first) }
     }
 }

@@ -12,7 +12,7 @@
 //! * *Scaling*: the ratio of the distances from the middle; along an axis the signed one, so it can mirror. Too near to the
 //!   middle to divide by, right and up enlarge.
 
-use dragonfly_picture::gizmo::{AXIS_TO, Axis, GizmoLayout, Handle, RING, Tool};
+use dragonfly_picture::gizmo::{AXIS_TO, GizmoAxis, GizmoLayout, Handle, RING, Tool};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
@@ -129,7 +129,7 @@ impl Measure {
 
 /// Along an axis. Where the pointer began away from it, taken hold of by a key, that place counts as the joint's: the pointer
 /// may be past the point where the axis vanishes, and nothing would follow it there.
-fn axis_line(axis: Axis, layout: &GizmoLayout, start: DVec2, grabbed: bool) -> Kind {
+fn axis_line(axis: GizmoAxis, layout: &GizmoLayout, start: DVec2, grabbed: bool) -> Kind {
     let GizmoLayout { view, pivot, unit, axes: frame } = layout;
     let along = frame.axis(axis);
     if let (Some((g, b)), Some(joint)) = (view.run(*pivot, along), view.to_screen(*pivot)) {
@@ -159,7 +159,7 @@ fn translation(handle: Handle, layout: &GizmoLayout, start: DVec2, grabbed: bool
                 Kind::Edge { normal, unit: layout.unit }
             }
         }
-        Handle::Centre | Handle::Ring => Kind::Plane { normal: layout.view.back, shift: DVec2::ZERO },
+        Handle::Center | Handle::Ring => Kind::Plane { normal: layout.view.back, shift: DVec2::ZERO },
     }
 }
 
@@ -170,7 +170,7 @@ fn rotation(handle: Handle, layout: &GizmoLayout) -> Kind {
     let (normal, sign) = match handle {
         Handle::Axis(axis) | Handle::Plane(axis) => (layout.axes.axis(axis), layout.axes.sign),
         Handle::Ring => (view.back, 1.0),
-        Handle::Centre => return Kind::Ball,
+        Handle::Center => return Kind::Ball,
     };
     let towards = view.towards(layout.pivot);
     if normal.dot(towards).abs() > RING_FLAT {

@@ -24,8 +24,8 @@ use super::key::{Key, Modifiers};
 use drag::Drag;
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use dragonfly_picture::gizmo::{
-    GizmoDelta, GizmoLayout, GizmoPlacement, GizmoSettings, GizmoShape, GizmoTarget, GizmoView, Handle,
-    PosedSkeleton, Space, Tool,
+    GizmoDelta, GizmoLayout, GizmoPlacement, GizmoSettings, GizmoShape, GizmoSpace, GizmoTarget, GizmoView,
+    Handle, PosedSkeleton, Tool,
 };
 use glam::{Mat4, Vec2};
 use typed::Typed;
@@ -51,7 +51,7 @@ pub struct GizmoReadout<'a> {
     /// How it is bound.
     pub handle: Handle,
     /// Whose axes it follows.
-    pub space: Space,
+    pub space: GizmoSpace,
     /// How much.
     pub delta: GizmoDelta,
     /// What is typed, for each of the numbers that can be; empty where nothing is.

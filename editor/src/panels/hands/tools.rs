@@ -3,7 +3,7 @@
 use crate::control::Catch;
 use crate::panels::commands::Id;
 use crate::panels::state::{Effect, State};
-use dragonfly_picture::gizmo::{Pivot, Space, Tool};
+use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
 use std::time::Instant;
 
 impl State {
@@ -20,16 +20,16 @@ impl State {
             Id::ScaleNow => self.drag_now(Tool::Scale),
             Id::NextSpace => {
                 hand.space = match hand.space {
-                    Space::Local => Space::Parent,
-                    Space::Parent => Space::World,
-                    Space::World => Space::View,
-                    Space::View => Space::Local,
+                    GizmoSpace::Local => GizmoSpace::Parent,
+                    GizmoSpace::Parent => GizmoSpace::World,
+                    GizmoSpace::World => GizmoSpace::View,
+                    GizmoSpace::View => GizmoSpace::Local,
                 }
             }
-            Id::SpaceLocal => hand.space = Space::Local,
-            Id::SpaceParent => hand.space = Space::Parent,
-            Id::SpaceWorld => hand.space = Space::World,
-            Id::SpaceView => hand.space = Space::View,
+            Id::SpaceLocal => hand.space = GizmoSpace::Local,
+            Id::SpaceParent => hand.space = GizmoSpace::Parent,
+            Id::SpaceWorld => hand.space = GizmoSpace::World,
+            Id::SpaceView => hand.space = GizmoSpace::View,
             Id::PivotIndividual => hand.pivot = Pivot::Individual,
             Id::PivotMedian => hand.pivot = Pivot::Median,
             Id::PivotActive => hand.pivot = Pivot::Active,

@@ -6,7 +6,7 @@ use crate::panels::icons::Icon;
 use crate::panels::style::GRID;
 use crate::panels::widgets::{column_button, hint_beside, icon_button};
 use crate::panels::{Request, State, menu};
-use dragonfly_picture::gizmo::{Pivot, Space, Tool};
+use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
 /// Draws them; tells where they are. In a low picture they stand in two columns, in a narrow one some are left out, and in a
@@ -67,14 +67,14 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
     Some(at)
 }
 
-const SPACES: [(Id, Option<Space>, Option<Pivot>); 4] = [
-    (Id::SpaceLocal, Some(Space::Local), None),
-    (Id::SpaceParent, Some(Space::Parent), None),
-    (Id::SpaceWorld, Some(Space::World), None),
-    (Id::SpaceView, Some(Space::View), None),
+const SPACES: [(Id, Option<GizmoSpace>, Option<Pivot>); 4] = [
+    (Id::SpaceLocal, Some(GizmoSpace::Local), None),
+    (Id::SpaceParent, Some(GizmoSpace::Parent), None),
+    (Id::SpaceWorld, Some(GizmoSpace::World), None),
+    (Id::SpaceView, Some(GizmoSpace::View), None),
 ];
 
-const PIVOTS: [(Id, Option<Space>, Option<Pivot>); 3] = [
+const PIVOTS: [(Id, Option<GizmoSpace>, Option<Pivot>); 3] = [
     (Id::PivotIndividual, None, Some(Pivot::Individual)),
     (Id::PivotMedian, None, Some(Pivot::Median)),
     (Id::PivotActive, None, Some(Pivot::Active)),
@@ -86,7 +86,7 @@ fn choice(
     state: &State,
     icon: Icon,
     name: &str,
-    list: &[(Id, Option<Space>, Option<Pivot>)],
+    list: &[(Id, Option<GizmoSpace>, Option<Pivot>)],
     requests: &mut Vec<Request>,
 ) {
     let hand = &state.settings.hand;
@@ -108,21 +108,21 @@ fn choice(
     hint_beside(&response, name);
 }
 
-fn space_icon(space: Space) -> Icon {
+fn space_icon(space: GizmoSpace) -> Icon {
     match space {
-        Space::Local => Icon::AxesLocal,
-        Space::Parent => Icon::AxesParent,
-        Space::World => Icon::AxesWorld,
-        Space::View => Icon::AxesView,
+        GizmoSpace::Local => Icon::AxesLocal,
+        GizmoSpace::Parent => Icon::AxesParent,
+        GizmoSpace::World => Icon::AxesWorld,
+        GizmoSpace::View => Icon::AxesView,
     }
 }
 
-fn space_name(space: Space) -> &'static str {
+fn space_name(space: GizmoSpace) -> &'static str {
     match space {
-        Space::Local => "Axes: the bone's own",
-        Space::Parent => "Axes: the parent's",
-        Space::World => "Axes: the world's",
-        Space::View => "Axes: the picture's",
+        GizmoSpace::Local => "Axes: the bone's own",
+        GizmoSpace::Parent => "Axes: the parent's",
+        GizmoSpace::World => "Axes: the world's",
+        GizmoSpace::View => "Axes: the picture's",
     }
 }
 

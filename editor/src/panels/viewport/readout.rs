@@ -6,7 +6,7 @@ use crate::control::Catch;
 use crate::control::gizmo::GizmoReadout;
 use crate::panels::State;
 use crate::panels::theme::Theme;
-use dragonfly_picture::gizmo::{Axis, GizmoDelta, Handle, Space, Tool};
+use dragonfly_picture::gizmo::{GizmoAxis, GizmoDelta, GizmoSpace, Handle, Tool};
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
@@ -73,22 +73,22 @@ fn how(readout: &GizmoReadout<'_>) -> String {
             axes.sort_by_key(|axis| *axis as usize);
             format!("{}{}", letter(axes[0]), letter(axes[1]))
         }
-        Handle::Centre if readout.tool == Tool::Rotate => return "freely".to_owned(),
-        Handle::Centre if readout.tool == Tool::Scale => return "evenly".to_owned(),
-        Handle::Centre => return "in the picture".to_owned(),
+        Handle::Center if readout.tool == Tool::Rotate => return "freely".to_owned(),
+        Handle::Center if readout.tool == Tool::Scale => return "evenly".to_owned(),
+        Handle::Center => return "in the picture".to_owned(),
         Handle::Ring if readout.tool == Tool::Scale => return "evenly".to_owned(),
         Handle::Ring => return "in the picture".to_owned(),
     };
     let space = match readout.space {
-        Space::Local => "local",
-        Space::Parent => "parent",
-        Space::World => "world",
-        Space::View => "view",
+        GizmoSpace::Local => "local",
+        GizmoSpace::Parent => "parent",
+        GizmoSpace::World => "world",
+        GizmoSpace::View => "view",
     };
     format!("{axes} {space}")
 }
 
-fn letter(axis: Axis) -> &'static str {
+fn letter(axis: GizmoAxis) -> &'static str {
     ["X", "Y", "Z"][axis as usize]
 }
 

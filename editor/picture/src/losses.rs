@@ -12,7 +12,7 @@ pub const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Whether the device is lost too often.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Patience {
+pub enum LossTolerance {
     /// Not too often: drawing continues.
     Left,
     /// Too often: what probably causes it is no longer drawn.
@@ -21,20 +21,20 @@ pub enum Patience {
 
 /// Channel from the callbacks of a device, which run in any thread, to the graphics thread.
 #[derive(Clone, Debug)]
-pub struct Faults {
+pub struct DeviceReports {
     sender: flume::Sender<String>,
     losses: flume::Receiver<String>,
     errors: Arc<AtomicU32>,
 }
 
-impl Default for Faults {
+impl Default for DeviceReports {
     fn default() -> Self {
         let (sender, losses) = flume::unbounded();
         Self { sender, losses, errors: Arc::default() }
     }
 }
 
-impl Faults {
+impl DeviceReports {
     /// Returns a channel for the next device: the same error count, without reports of losses of the old device.
     pub fn successor(&self) -> Self {
         Self { errors: Arc::clone(&self.errors), ..Self::default() }
@@ -84,16 +84,16 @@ impl LossRecord {
     }
 
     /// Counts a loss.
-    pub fn note(&mut self, now: Instant) -> Patience {
+    pub fn note(&mut self, now: Instant) -> LossTolerance {
         self.total = self.total.saturating_add(1);
         if std::mem::take(&mut self.expected) > 0 {
-            return Patience::Left;
+            return LossTolerance::Left;
         }
         while self.recent.front().is_some_and(|&then| now.saturating_duration_since(then) > PATIENCE) {
             self.recent.pop_front();
         }
         self.recent.push_back(now);
-        if self.recent.len() >= MAX_LOSSES { Patience::Gone } else { Patience::Left }
+        if self.recent.len() >= MAX_LOSSES { LossTolerance::Gone } else { LossTolerance::Left }
     }
 
     /// Restarts the count.

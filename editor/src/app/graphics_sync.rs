@@ -1,0 +1,139 @@
+//! Keeping the graphics thread up to date: sends the state that it needs when that has changed.
+
+use super::interface::Interface;
+use crate::panels::State;
+use crate::panels::theme::{Theme, linear};
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::bones::HiddenBones;
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::gizmo::RoleColors;
+use dragonfly_picture::playback::PlaybackClock;
+use dragonfly_picture::{
+    AppearanceSender, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, GraphicsHandle,
+    IkAppearance, Look, PathAppearance,
+};
+use std::sync::Arc;
+
+/// The values that were sent last.
+#[derive(Default)]
+pub(super) struct GraphicsSync {
+    playback: Option<PlaybackClock>,
+    camera: Option<Camera>,
+    look: Option<Look>,
+    hidden: Arc<HiddenBones>,
+    /// Version of the flags of bones.
+    flags: u64,
+    appearances: AppearanceSender,
+    /// Memory for the list of selected bones.
+    spare: Vec<BoneIndex>,
+}
+
+impl GraphicsSync {
+    /// Sends the values that differ from those sent last. The view that these times and bones refer to comes from the
+    /// document itself, which sent it before.
+    pub(super) fn update(&mut self, graphics: &GraphicsHandle, interface: &Interface) {
+        let state = &interface.state;
+        if self.playback != Some(state.playback) {
+            self.playback = Some(state.playback);
+            graphics.play(state.playback);
+        }
+        if self.camera != Some(state.camera) {
+            self.camera = Some(state.camera);
+            graphics.set_camera(state.camera);
+        }
+        let flags = &state.keys.flags;
+        if self.flags != flags.version() {
+            self.flags = flags.version();
+            let bones = state.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());
+            graphics.hold_still(flags.still(bones));
+        }
+        let mut selected = std::mem::take(&mut self.spare);
+        selected.clear();
+        selected.extend_from_slice(state.selection.bones());
+        if *self.hidden != state.hidden {
+            self.hidden = Arc::new(state.hidden.clone());
+        }
+        let hidden = Arc::clone(&self.hidden);
+        let look = look(state, selected, hidden, interface.pixels_per_point(), interface.is_dark());
+        if self.look.as_ref() == Some(&look) {
+            self.spare = look.selected;
+        } else {
+            graphics.set_look(look.clone());
+            self.look = Some(look);
+        }
+        self.send_appearances(graphics, state);
+    }
+
+    /// Sends the data of controls and passes that has changed: one call per type.
+    fn send_appearances(&mut self, graphics: &GraphicsHandle, state: &State) {
+        let gizmo = &state.hands.gizmo().gizmo;
+        let sender = &mut self.appearances;
+        sender.update(graphics, |GizmoAppearance(look)| {
+            *look = state.settings.hand.tool.map(|tool| GizmoLook {
+                tool,
+                settings: gizmo.settings,
+                hovered: gizmo.hovered(),
+            });
+        });
+        sender.update(graphics, |GizmoDragAppearance(drag)| {
+            if gizmo.is_dragging() {
+                let shape = drag.get_or_insert_default();
+                shape.clear();
+                gizmo.present(shape);
+            } else {
+                *drag = None;
+            }
+        });
+        sender.update(graphics, |path: &mut PathAppearance| {
+            path.path = state.trail.look().cloned();
+            path.hovered = state.hands.path().hovered();
+        });
+        sender.update(graphics, |ghosts: &mut GhostAppearance| {
+            ghosts.skins = state.settings.hand.ghosts.skin;
+            state.ghost_times(&mut ghosts.times);
+        });
+        sender.update(graphics, |IkAppearance(ik)| {
+            if !state.shows_ik(ik.as_ref()) {
+                *ik = state.ik_look();
+            }
+        });
+    }
+}
+
+/// The look of the viewport in this state.
+fn look(
+    state: &State,
+    selected: Vec<BoneIndex>,
+    hidden: Arc<HiddenBones>,
+    pixels_per_point: f32,
+    dark: bool,
+) -> Look {
+    let theme = Theme::get(dark);
+    let settings = &state.settings.look;
+    let pixels = |points: f32| (points * pixels_per_point).round().max(0.0) as u32;
+    let rect = state.viewport;
+    let (left, top) = (pixels(rect.left()), pixels(rect.top()));
+    Look {
+        viewport: [
+            left,
+            top,
+            pixels(rect.right()).saturating_sub(left),
+            pixels(rect.bottom()).saturating_sub(top),
+        ],
+        pixels_per_point,
+        background: theme.sky.map(linear),
+        grid: settings.grid,
+        grid_color: linear(theme.grid),
+        skeleton: state.shows_skeleton(),
+        bone_look: settings.bone_look,
+        bones_in_front: settings.bones_in_front,
+        selected,
+        hovered: state.bright(),
+        shading: settings.shading,
+        surface: settings.surface,
+        bone_color: linear(theme.bone),
+        accent: linear(theme.accent),
+        hidden,
+        handles: RoleColors::new(|role| linear(theme.role(role))),
+    }
+}
