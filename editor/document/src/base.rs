@@ -1,14 +1,14 @@
-//! Takes as bytes, bit for bit, for the journal: after a save the file does not hold any more what the history began
-//! with.
+//! Takes as bytes, exact to the bit, for the journal: after a save the file no longer has the takes with which the
+//! history started.
 //!
-//! Numbers are little-endian; a list is its length (4 bytes) and its elements. What is read is checked as far as the
-//! rest of the program relies on it.
+//! Numbers are little-endian; a list is its length (4 bytes) and its elements. Data that is read is validated as far
+//! as the rest of the program relies on it.
 
 use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Take, Track};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// All takes, one after another.
+/// Writes all takes.
 pub(super) fn write(takes: &[Arc<Take>]) -> Vec<u8> {
     let mut out = Vec::new();
     length(&mut out, takes.len());
@@ -36,7 +36,7 @@ pub(super) fn write(takes: &[Arc<Take>]) -> Vec<u8> {
     out
 }
 
-/// The takes again; `None` when these are not the bytes of takes of `bones` bones.
+/// Reads takes; `None` where these are not the bytes of takes of `bones` bones.
 pub(super) fn read(bytes: &[u8], bones: usize) -> Option<Vec<Arc<Take>>> {
     let mut from = Reader(bytes);
     let takes = (0..from.length()?).map(|_| take(&mut from, bones).map(Arc::new)).collect::<Option<_>>()?;
@@ -64,7 +64,7 @@ fn take(from: &mut Reader<'_>, bones: usize) -> Option<Take> {
 }
 
 fn length(out: &mut Vec<u8>, length: usize) {
-    // A journal's record is never so long that this could be cut off.
+    // A record of a journal is never long enough to be truncated here.
     out.extend(u32::try_from(length).unwrap_or(u32::MAX).to_le_bytes());
 }
 
@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
         Some(u32::from_le_bytes(*self.bytes(4)?.first_chunk()?))
     }
 
-    /// Every element takes a byte at least, so a longer list is none.
+    /// An element has at least one byte, so a longer list is an error.
     fn length(&mut self) -> Option<usize> {
         let length = self.number()? as usize;
         (length <= self.0.len()).then_some(length)
@@ -122,7 +122,7 @@ impl<'a> Reader<'a> {
         KINDS.get(usize::from(*self.bytes(1)?.first()?)).copied()
     }
 
-    /// Strictly ascending.
+    /// Returns whether numbers ascend strictly.
     fn times(&mut self, count: usize) -> Option<Arc<[f32]>> {
         let times: Arc<[f32]> = self.floats::<1>(count)?.map(|[time]| time).collect();
         let rising =
@@ -177,7 +177,7 @@ mod tests {
         first.morphs.push(morph(Interpolation::CubicSpline, &weights));
         first.morphs.push(morph(Interpolation::Closest, &Arc::from([1.0, 2.0])));
         let back = read(&write(&takes), bones).unwrap();
-        // Tells -0 from 0.
+        // Distinguishes -0 from 0.
         assert!(format!("{takes:?}") == format!("{back:?}"));
         assert!(read(&write(&[]), bones).unwrap().is_empty());
     }
@@ -194,7 +194,7 @@ mod tests {
         for at in 0..bytes.len().min(2000) {
             let mut damaged = bytes.clone();
             damaged[at] ^= 0x80;
-            // Whatever comes of it, it is no panic and no flood.
+            // It may fail, but must not panic or allocate too much.
             let _ = read(&damaged, bones);
         }
     }

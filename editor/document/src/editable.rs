@@ -162,12 +162,12 @@ impl Editable {
         Ok(files)
     }
 
-    /// Does it need files beside it, once `plan` is done?
+    /// Returns whether the model needs other files next to it after the save of `plan`.
     pub fn needs_others(&self, plan: &SavePlan) -> bool {
         plan.files.len() > 1 || !self.needs().is_empty()
     }
 
-    /// Files beside the one that was opened that it needs, as it names them.
+    /// Returns the names of the other files that the model needs, as the model refers to them.
     fn needs(&self) -> Vec<String> {
         match &self.kind {
             Kind::Gltf(source) => source.files_beside(),

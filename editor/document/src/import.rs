@@ -1,4 +1,4 @@
-//! Bytes to data, by the library's importers.
+//! Imports the bytes of a model with the importers of the library.
 
 use super::load::{LoadError, file_name};
 use super::{Cancel, Folder};
@@ -7,22 +7,22 @@ use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{self, AssetFs, ImportError, NoFiles, ReadOptions};
 use std::path::Path;
 
-/// What an importer made.
+/// An imported model.
 pub(super) struct Imported {
     /// The data.
     pub(super) model: ModelData,
     /// "glb", "gltf", "dfm".
     pub(super) format: String,
-    /// What is not shown or was mended.
+    /// Contents that are not shown or were sanitized.
     pub(super) warnings: Vec<String>,
 }
 
-/// The model that is part of the program.
+/// Imports the built-in model.
 pub(super) fn built_in(progress: &dyn Fn(f32), cancel: &Cancel) -> Result<Imported, LoadError> {
     read("dragonfly.glb", DRAGONFLY_GLB, &NoFiles, progress, cancel)
 }
 
-/// The contents of the file at `path`; what it refers to is read from its folder.
+/// Imports the file at `path`. Files that it refers to are read from its folder.
 pub(super) fn file(
     path: &Path,
     bytes: &[u8],
@@ -35,7 +35,7 @@ pub(super) fn file(
     read(&title, bytes, &folder, progress, cancel)
 }
 
-/// `bytes` of a file called `title`; what they refer to is asked of `door`.
+/// Imports `bytes` of a file called `title`. Files that it refers to are read through `door`.
 pub(super) fn read(
     title: &str,
     bytes: &[u8],

@@ -1,31 +1,31 @@
-//! What a save will write, before it is written.
+//! The plan of a save: the files that it will write.
 
 use dragonfly_anim::format::dfm;
 use dragonfly_anim::format::gltf::save::{self, Changes, OutputFile, Plan};
 use std::fmt;
 use thiserror::Error;
 
-/// What a save will write.
+/// The files that a save will write.
 pub struct SavePlan {
-    /// The files, in the order in which to write them; names relative to the folder of the file that was opened.
+    /// The files in the order of writing; names relative to the folder of the opened file.
     pub files: Vec<OutputFile>,
-    /// What changes in a file that is patched; none where the whole file is written.
+    /// The changes of a file that is patched; `None` where the whole file is written.
     pub changes: Option<Changes>,
 }
 
-/// Why something cannot be saved; nothing was written.
+/// The reason why a document cannot be saved. Nothing was written.
 #[derive(Debug, Error)]
 pub enum SaveError {
-    /// The takes do not fit into the file.
+    /// The takes cannot be stored in the file.
     #[error(transparent)]
     Gltf(#[from] save::SaveError),
-    /// The same for our own format.
+    /// The model cannot be stored in our own format.
     #[error(transparent)]
     Dfm(#[from] dfm::WriteError),
 }
 
 impl fmt::Display for SavePlan {
-    /// What will change, a line each.
+    /// Writes the changes, one line each.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.changes, self.files.last()) {
             (Some(changes), _) => write!(out, "{changes}"),

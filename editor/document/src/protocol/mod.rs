@@ -18,5 +18,5 @@ mod request;
 mod session;
 
 pub use query::Query;
-pub use request::{Deed, Request};
+pub use request::{ProtocolCommand, ProtocolRequest};
 pub use session::Session;

@@ -1,4 +1,4 @@
-//! What can be read of a document.
+//! Queries: what a client can read of a document.
 
 use crate::adapter::{ModelAdapter, Slot};
 use crate::edit::{BoneRef, Property, TakeRef};

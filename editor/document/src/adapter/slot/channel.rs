@@ -1,4 +1,4 @@
-//! The channels of a slot: their columns, the changes beside them, and the result of both.
+//! The channels of a take: their columns, their changes, and the results.
 
 use super::{ChannelChanges, ChannelContent, KeyContent, Slot};
 use crate::adapter::change::{KeyChange, put, triple};
@@ -26,7 +26,7 @@ pub(super) fn exchange(
     }
 }
 
-/// Makes the result of a channel anew: of the keys in `touched`, or of all.
+/// Calculates the result of a channel again: of the keys in `touched`, or of all.
 pub(super) fn refresh<K: ChannelKind>(
     slot: &mut Slot,
     property: Property,
@@ -47,7 +47,7 @@ pub(super) fn refresh<K: ChannelKind>(
     // Only the keys that were touched differ from the last result, if there is one of its own.
     let (mut values, keys): (Arc<[K::Value]>, Vec<u32>) = match touched {
         Some(touched) if !Arc::ptr_eq(&result.values, &original.values) => {
-            // A column that nobody else has is written over.
+            // A column that is not shared is overwritten.
             (std::mem::take(&mut result.values), touched.iter().map(|(key, _)| *key).collect())
         }
         _ => (Arc::from(&*original.values), changes.iter().map(|(key, _)| *key).collect()),
@@ -83,7 +83,7 @@ pub(super) fn spliced<K: ChannelKind>(
     let mut changes = ChannelChanges::new();
     let mut old_changes = slot.changes(bone, property).iter().peekable();
     let mut inserted = insert.iter().peekable();
-    // What stays stays in runs, and a run is copied as a whole.
+    // Unchanged keys are copied in runs.
     for (mut from, end) in runs(old.len(), remove) {
         while from < end {
             put_in::<K>(&mut inserted, &mut times, &mut values, &mut changes, old.interpolation);
