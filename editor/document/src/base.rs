@@ -38,12 +38,12 @@ pub(super) fn write(takes: &[Arc<Take>]) -> Vec<u8> {
 
 /// Reads takes; `None` where these are not the bytes of takes of `bones` bones.
 pub(super) fn read(bytes: &[u8], bones: usize) -> Option<Vec<Arc<Take>>> {
-    let mut from = Reader(bytes);
+    let mut from = TakesReader(bytes);
     let takes = (0..from.length()?).map(|_| take(&mut from, bones).map(Arc::new)).collect::<Option<_>>()?;
     from.0.is_empty().then_some(takes)
 }
 
-fn take(from: &mut Reader<'_>, bones: usize) -> Option<Take> {
+fn take(from: &mut TakesReader<'_>, bones: usize) -> Option<Take> {
     let count = from.length()?;
     let name = std::str::from_utf8(from.bytes(count)?).ok()?.to_owned();
     let [start, length] = [from.float()?, from.float()?];
@@ -86,9 +86,9 @@ fn kind(interpolation: Interpolation) -> u8 {
     KINDS.iter().position(|kind| *kind == interpolation).unwrap_or(0) as u8
 }
 
-struct Reader<'a>(&'a [u8]);
+struct TakesReader<'a>(&'a [u8]);
 
-impl<'a> Reader<'a> {
+impl<'a> TakesReader<'a> {
     fn bytes(&mut self, count: usize) -> Option<&'a [u8]> {
         let (taken, rest) = self.0.split_at_checked(count)?;
         self.0 = rest;

@@ -21,7 +21,7 @@ impl Cancel {
 
 /// A stage of loading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
+pub enum LoadStage {
     /// Reading the file.
     Reading,
     /// Parsing the bytes.
@@ -30,7 +30,7 @@ pub enum Stage {
     Decoding,
 }
 
-impl Stage {
+impl LoadStage {
     /// Returns the text for the status line.
     pub fn title(self) -> &'static str {
         match self {
@@ -45,7 +45,7 @@ impl Stage {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// The present stage.
-    pub stage: Stage,
+    pub stage: LoadStage,
     /// Fraction of the whole work, 0 to 1; never decreases.
     pub done: f32,
 }

@@ -1,8 +1,8 @@
 //! A file that is edited: its data, and everything needed to save it without changing the rest.
 
-use super::adapter::{ModelAdapter, Slot, TakeId};
+use super::adapter::{EditedTake, ModelAdapter, TakeId};
 use super::load::{LoadError, Source, file_name};
-use super::save_plan::{SaveError, SavePlan};
+use super::save_plan::{SavePlan, SavePlanError};
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use super::{Cancel, Folder, LoadedModel, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
@@ -28,7 +28,7 @@ pub struct Editable {
     pub model: Arc<ModelData>,
     /// Contents that are not shown or were sanitized, one sentence each.
     pub warnings: Vec<String>,
-    kind: Kind,
+    kind: SaveFormat,
     /// State of the file when it was last read or saved.
     stamp: Option<FileStamp>,
     /// The model with the takes that are in the file now.
@@ -38,10 +38,10 @@ pub struct Editable {
 }
 
 /// Path and contents of a file to write.
-pub type Written = (PathBuf, Vec<u8>);
+pub type WrittenFile = (PathBuf, Vec<u8>);
 
 /// How the format of the file is saved.
-enum Kind {
+enum SaveFormat {
     /// By replacing the few bytes that edits affect.
     Gltf(Box<SourceFile>),
     /// As a whole: the format is our own and has no contents that are unknown to this program.
@@ -71,10 +71,10 @@ impl Editable {
             return Err(wrong("the file changed while it was read; open it again".to_owned()));
         }
         let kind = if imported.format == "dfm" {
-            Kind::Dfm
+            SaveFormat::Dfm
         } else {
             let source = SourceFile::open(&name, bytes, door, &ReadOptions::default());
-            Kind::Gltf(Box::new(source.map_err(|error| wrong(error.to_string()))?))
+            SaveFormat::Gltf(Box::new(source.map_err(|error| wrong(error.to_string()))?))
         };
         let (model, warnings) = (Arc::new(imported.model), imported.warnings);
         let on_disk = Arc::clone(&model);
@@ -89,13 +89,13 @@ impl Editable {
         loaded: &LoadedModel,
     ) -> Result<Self, String> {
         let kind = if loaded.format == "dfm" {
-            Kind::Dfm
+            SaveFormat::Dfm
         } else {
             let name = loaded.path.as_deref().map_or_else(|| "dragonfly.glb".to_owned(), file_name);
             let source = with_door(loaded.path.as_deref(), |door| {
                 SourceFile::open(&name, bytes, door, &ReadOptions::default())
             });
-            Kind::Gltf(Box::new(source.map_err(|error| error.to_string())?))
+            SaveFormat::Gltf(Box::new(source.map_err(|error| error.to_string())?))
         };
         Ok(Self {
             title: source.title(),
@@ -110,9 +110,9 @@ impl Editable {
     }
 
     /// Returns what saving the takes of `adapter` would write.
-    pub fn plan(&self, adapter: &ModelAdapter) -> Result<SavePlan, SaveError> {
+    pub fn plan(&self, adapter: &ModelAdapter) -> Result<SavePlan, SavePlanError> {
         match &self.kind {
-            Kind::Gltf(source) => {
+            SaveFormat::Gltf(source) => {
                 let now: Vec<TakeNow> = adapter
                     .slots()
                     .iter()
@@ -120,7 +120,7 @@ impl Editable {
                     .collect();
                 Ok(SavePlan::of(&save::plan(source, &self.on_disk, &now)?))
             }
-            Kind::Dfm => {
+            SaveFormat::Dfm => {
                 let skeleton = Arc::clone(&self.model.animation.skeleton);
                 let animation = AnimationData { skeleton, takes: adapter.results().cloned().collect() };
                 let bytes = dfm::write(&ModelData { animation, ..ModelData::clone(&self.model) })?;
@@ -130,16 +130,16 @@ impl Editable {
     }
 
     /// Returns what removing the unused data of earlier saves would write.
-    pub fn compact(&self) -> Result<SavePlan, SaveError> {
+    pub fn compact(&self) -> Result<SavePlan, SavePlanError> {
         match &self.kind {
-            Kind::Gltf(source) => Ok(SavePlan::of(&save::compact(source)?)),
+            SaveFormat::Gltf(source) => Ok(SavePlan::of(&save::compact(source)?)),
             // Nothing is ever appended to such a file.
-            Kind::Dfm => self.plan(&ModelAdapter::new(&self.model.animation)),
+            SaveFormat::Dfm => self.plan(&ModelAdapter::new(&self.model.animation)),
         }
     }
 
     /// Returns the index of a take among the animations of the file.
-    fn place(&self, slot: &Slot) -> Option<usize> {
+    fn place(&self, slot: &EditedTake) -> Option<usize> {
         match &self.places {
             None => slot.origin,
             Some(places) => places.get(&slot.id).copied(),
@@ -152,10 +152,10 @@ impl Editable {
     /// # Errors
     ///
     /// The path and the reason why it is impossible.
-    pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, String> {
+    pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<WrittenFile>, String> {
         let Some((main, beside)) = plan.files.split_last() else { return Ok(Vec::new()) };
         let folder = folder_of(output);
-        let mut files: Vec<Written> =
+        let mut files: Vec<WrittenFile> =
             beside.iter().map(|file| (folder.join(&file.name), file.bytes.clone())).collect();
         files.extend(self.taken_along(folder)?);
         files.push((output.to_path_buf(), main.bytes.clone()));
@@ -170,13 +170,13 @@ impl Editable {
     /// Returns the names of the other files that the model needs, as the model refers to them.
     fn needs(&self) -> Vec<String> {
         match &self.kind {
-            Kind::Gltf(source) => source.files_beside(),
-            Kind::Dfm => Vec::new(),
+            SaveFormat::Gltf(source) => source.files_beside(),
+            SaveFormat::Dfm => Vec::new(),
         }
     }
 
     /// Returns the files that the model needs and that are missing in `folder`.
-    fn taken_along(&self, folder: &Path) -> Result<Vec<Written>, String> {
+    fn taken_along(&self, folder: &Path) -> Result<Vec<WrittenFile>, String> {
         let Some(from) = self.path.as_deref().map(folder_of) else { return Ok(Vec::new()) };
         if std::fs::canonicalize(from).ok() == std::fs::canonicalize(folder).ok() {
             return Ok(Vec::new());
@@ -229,8 +229,8 @@ impl Editable {
     pub fn ending(&self) -> String {
         let ending = self.path.as_deref().and_then(|path| path.extension()?.to_str().map(str::to_owned));
         let usual = match &self.kind {
-            Kind::Gltf(_) => "glb",
-            Kind::Dfm => "dfm",
+            SaveFormat::Gltf(_) => "glb",
+            SaveFormat::Dfm => "dfm",
         };
         ending.unwrap_or_else(|| usual.to_owned())
     }
@@ -301,11 +301,11 @@ impl Editable {
 
     /// Makes later saves relative to `bytes`, which have the takes of `adapter`.
     fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
-        let Kind::Gltf(_) = &self.kind else { return Ok(()) };
+        let SaveFormat::Gltf(_) = &self.kind else { return Ok(()) };
         let source = with_door(self.path.as_deref(), |door| {
             SourceFile::open(&self.title, bytes, door, &ReadOptions::default())
         });
-        self.kind = Kind::Gltf(Box::new(source.map_err(|error| error.to_string())?));
+        self.kind = SaveFormat::Gltf(Box::new(source.map_err(|error| error.to_string())?));
         let skeleton = Arc::clone(&self.model.animation.skeleton);
         let animation = AnimationData { skeleton, takes: adapter.results().cloned().collect() };
         self.on_disk = Arc::new(ModelData { animation, ..ModelData::clone(&self.model) });

@@ -8,7 +8,7 @@ use dragonfly_anim::format::{self, AssetFs, ImportError, NoFiles, ReadOptions};
 use std::path::Path;
 
 /// An imported model.
-pub(super) struct Imported {
+pub(super) struct ImportedModel {
     /// The data.
     pub(super) model: ModelData,
     /// "glb", "gltf", "dfm".
@@ -18,7 +18,7 @@ pub(super) struct Imported {
 }
 
 /// Imports the built-in model.
-pub(super) fn built_in(progress: &dyn Fn(f32), cancel: &Cancel) -> Result<Imported, LoadError> {
+pub(super) fn built_in(progress: &dyn Fn(f32), cancel: &Cancel) -> Result<ImportedModel, LoadError> {
     read("dragonfly.glb", DRAGONFLY_GLB, &NoFiles, progress, cancel)
 }
 
@@ -28,7 +28,7 @@ pub(super) fn file(
     bytes: &[u8],
     progress: &dyn Fn(f32),
     cancel: &Cancel,
-) -> Result<Imported, LoadError> {
+) -> Result<ImportedModel, LoadError> {
     let title = file_name(path);
     let folder = Folder::of(path)
         .map_err(|error| LoadError::Format { title: title.clone(), reason: error.to_string() })?;
@@ -42,10 +42,10 @@ pub(super) fn read(
     door: &dyn AssetFs,
     progress: &dyn Fn(f32),
     cancel: &Cancel,
-) -> Result<Imported, LoadError> {
+) -> Result<ImportedModel, LoadError> {
     let options = ReadOptions { is_cancelled: &|| cancel.is_cancelled(), progress, ..ReadOptions::default() };
     match format::read(title, bytes, door, &options) {
-        Ok(imported) => Ok(Imported {
+        Ok(imported) => Ok(ImportedModel {
             model: imported.model,
             format: imported.format.to_owned(),
             warnings: imported.warnings.iter().map(ToString::to_string).collect(),

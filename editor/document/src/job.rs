@@ -1,7 +1,7 @@
 //! Loading on a separate thread: the document continues to work while a file is read, and survives an importer that
 //! panics.
 
-use super::{Cancel, LoadError, Loader, Opened, Progress, Source};
+use super::{Cancel, LoadError, Loader, OpenedModel, Progress, Source};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::JoinHandle;
 
@@ -11,7 +11,7 @@ pub(super) enum JobNews {
     /// The progress so far.
     Progress(Progress),
     /// The result.
-    Done(Result<Box<Opened>, LoadError>),
+    Done(Result<Box<OpenedModel>, LoadError>),
 }
 
 /// A model that is loading. Dropping it cancels the job without waiting for its end.

@@ -86,7 +86,8 @@ pub enum DocumentReply {
     Saved(SavedFile),
     /// The document was not saved; with the order that failed.
     NotSaved(SaveOrder, NotSaved),
-    /// What a save would change, one line each, or why it is impossible; and the save that follows once the user has seen it.
+    /// The changes that a save would write, one line each, or why it is impossible; and the save that follows once the
+    /// user has seen them.
     Plan(Result<String, String>, Option<SaveOrder>),
     /// Something was not done because the open model has unsaved work: the user decides.
     Unsaved(Then),

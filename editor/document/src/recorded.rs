@@ -12,7 +12,7 @@ use std::borrow::Cow;
 #[serde(tag = "do", rename_all = "snake_case")]
 pub(super) enum Recorded<'a> {
     /// A program starts or resumes the journal: later gestures are different from earlier ones.
-    Begin(About),
+    Begin(EditsOrigin),
     /// An edit. Each edit of a gesture replaces the one before.
     Edit {
         edit: Cow<'a, Edit>,
@@ -27,7 +27,7 @@ pub(super) enum Recorded<'a> {
 
 /// The model to which the edits belong.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct About {
+pub(super) struct EditsOrigin {
     /// Version of the vocabulary of edits.
     pub(super) version: u32,
     /// Checksum of the built-in model, where that one is edited.
@@ -38,7 +38,7 @@ pub(super) struct About {
     pub(super) source: Option<String>,
 }
 
-impl About {
+impl EditsOrigin {
     /// Describes a model that was read from `source` and is not saved yet, or the document of the journal where
     /// `None`.
     pub(super) fn new(source: Option<&Source>) -> Self {
@@ -68,20 +68,24 @@ pub(super) fn built_in_hash() -> u64 {
 /// A snapshot of the whole history.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Snapshot {
-    pub(super) about: About,
+    pub(super) about: EditsOrigin,
     /// The edits of the steps; of a gesture, its last one.
     pub(super) steps: Vec<Edit>,
     /// Number of steps that are applied.
     pub(super) done: usize,
     /// Number of steps that were applied at the last save, where that state can be reached.
     pub(super) saved: Option<usize>,
-    /// Whether the takes with which the history starts follow; else they are those of the file.
+    /// Whether the first takes of the history follow; else they are those of the file.
     pub(super) has_base: bool,
 }
 
 impl Snapshot {
     /// Writes a snapshot of `edited`, whose history started with the takes `base`, or else with those of the file.
-    pub(super) fn bytes(about: About, edited: &Edited, base: Option<&[u8]>) -> serde_json::Result<Vec<u8>> {
+    pub(super) fn bytes(
+        about: EditsOrigin,
+        edited: &Edited,
+        base: Option<&[u8]>,
+    ) -> serde_json::Result<Vec<u8>> {
         let (steps, done) = edited.steps();
         let steps = steps.iter().map(|step| step.edit.clone()).collect();
         let snapshot = Self { about, steps, done, saved: edited.saved(), has_base: base.is_some() };

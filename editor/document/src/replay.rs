@@ -5,7 +5,7 @@ use super::alike::alike;
 use super::base;
 use super::edit::VERSION;
 use super::history::Edited;
-use super::recorded::{About, Recorded, Snapshot, built_in_hash};
+use super::recorded::{EditsOrigin, Recorded, Snapshot, built_in_hash};
 use dragonfly_anim::data::{AnimationData, ModelData, Take};
 use dragonfly_store::Entry;
 use std::collections::HashMap;
@@ -83,7 +83,7 @@ struct Replay<'a> {
 }
 
 impl Replay<'_> {
-    fn about(&self, about: &About) -> Result<(), String> {
+    fn about(&self, about: &EditsOrigin) -> Result<(), String> {
         if about.version > VERSION {
             return Err(format!(
                 "its edits are of version {}, made by a newer version of this program",

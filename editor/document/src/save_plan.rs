@@ -15,7 +15,7 @@ pub struct SavePlan {
 
 /// The reason why a document cannot be saved. Nothing was written.
 #[derive(Debug, Error)]
-pub enum SaveError {
+pub enum SavePlanError {
     /// The takes cannot be stored in the file.
     #[error(transparent)]
     Gltf(#[from] save::SaveError),

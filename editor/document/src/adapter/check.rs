@@ -4,7 +4,7 @@ use super::ModelAdapter;
 use super::change::{KeyChange, triple};
 use super::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use super::pending::PendingPose;
-use super::slot::{Slot, extent};
+use super::slot::{EditedTake, extent};
 use crate::edit::{Property, SAME_TIME};
 use dragonfly_anim::data::Take;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ fn ensure(holds: bool, what: impl FnOnce() -> String) -> CheckResult {
     if holds { Ok(()) } else { Err(what()) }
 }
 
-fn slot_is_right(slot: &Slot) -> CheckResult {
+fn slot_is_right(slot: &EditedTake) -> CheckResult {
     let (original, result) = (&slot.original, &slot.result);
     let unchanged = slot.changed().next().is_none();
     ensure(unchanged == Arc::ptr_eq(original, result), || "an unchanged take is its original".to_owned())?;
@@ -70,7 +70,7 @@ fn slot_is_right(slot: &Slot) -> CheckResult {
     Ok(())
 }
 
-fn pending_is_right(slot: &Slot) -> CheckResult {
+fn pending_is_right(slot: &EditedTake) -> CheckResult {
     let pending = slot.pending();
     let apart = pending.windows(2).all(|pair| pair[1].time - pair[0].time > SAME_TIME);
     ensure(apart, || "pending poses do not ascend in time".to_owned())?;
@@ -92,7 +92,7 @@ fn pending_is_right(slot: &Slot) -> CheckResult {
 }
 
 fn channel_is_right<K: ChannelKind>(
-    slot: &Slot,
+    slot: &EditedTake,
     result: &Take,
     bone: u32,
     property: Property,

@@ -10,7 +10,7 @@ use super::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel
 use super::op::{ChannelAddress, Op};
 use super::plan::PoseMode;
 use super::plan::pose::{changed, rotation, vector};
-use super::slot::Slot;
+use super::slot::EditedTake;
 use super::{EditError, Inverse, ModelAdapter};
 use crate::edit::{BonePose, Edit, Property, TakeRef};
 use std::sync::Arc;
@@ -20,10 +20,10 @@ const KEPT: usize = 4;
 
 /// See the module.
 #[derive(Clone, Debug)]
-pub(crate) struct PoseDrag {
+pub(crate) struct ValueDrag {
     time: u32,
     channels: Vec<HeldKey>,
-    kept: Vec<Arc<Slot>>,
+    kept: Vec<Arc<EditedTake>>,
 }
 
 /// A key whose value is dragged.
@@ -35,7 +35,7 @@ struct HeldKey {
     before: Option<KeyChange>,
 }
 
-impl PoseDrag {
+impl ValueDrag {
     /// Starts after `edit`, which `inverse` undoes; `None` where later edits may do more than set values.
     pub(crate) fn of(adapter: &ModelAdapter, edit: &Edit, inverse: &Inverse) -> Option<Self> {
         let (time, poses, _) = edit.values()?;
@@ -101,7 +101,7 @@ impl PoseDrag {
             Ok(changes) => changes,
             Err(error) => return Some(Err(error)),
         };
-        let mut next = self.free().unwrap_or_else(|| Arc::new(Slot::clone(now)));
+        let mut next = self.free().unwrap_or_else(|| Arc::new(EditedTake::clone(now)));
         let slot = Arc::make_mut(&mut next);
         for (held, change) in self.channels.iter().zip(changes) {
             slot.set_changes(held.address.bone, held.address.property, &[(held.key, change)]);
@@ -115,8 +115,9 @@ impl PoseDrag {
     }
 
     /// Returns a state that is no longer shown. It differs from the newest one only in the dragged values.
-    fn free(&mut self) -> Option<Arc<Slot>> {
-        let is_free = |slot: &Arc<Slot>| Arc::strong_count(slot) == 1 && Arc::strong_count(&slot.result) == 1;
+    fn free(&mut self) -> Option<Arc<EditedTake>> {
+        let is_free =
+            |slot: &Arc<EditedTake>| Arc::strong_count(slot) == 1 && Arc::strong_count(&slot.result) == 1;
         let at = self.kept.iter().position(is_free)?;
         Some(self.kept.remove(at))
     }
@@ -124,7 +125,7 @@ impl PoseDrag {
     /// Returns the change of each channel, relative to the key at the start of the gesture.
     fn changes(
         &self,
-        slot: &Slot,
+        slot: &EditedTake,
         poses: &[BonePose],
         mode: PoseMode,
     ) -> Result<Vec<Option<KeyChange>>, EditError> {
@@ -147,7 +148,7 @@ impl PoseDrag {
 }
 
 fn one<K: ChannelKind>(
-    slot: &Slot,
+    slot: &EditedTake,
     held: &HeldKey,
     wanted: K::Value,
     mode: PoseMode,

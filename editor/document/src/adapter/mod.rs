@@ -1,6 +1,6 @@
 //! original + changes = result: a model's takes as the user edits them (thesis §2.2.2, §3.2.10.1).
 //!
-//! A [`ModelAdapter`] has each take three times ([`Slot`]). The *original* is what was read and is never altered; the
+//! A [`ModelAdapter`] has each take three times ([`EditedTake`]). The *original* is what was read and is never altered; the
 //! *changes* are relative to keys of the original; the *result* is shown and saved. Per channel:
 //!
 //! ```text
@@ -30,12 +30,12 @@ mod times;
 
 pub use change::KeyChange;
 pub use check::BrokenInvariant;
-pub(crate) use drag::PoseDrag;
+pub(crate) use drag::ValueDrag;
 pub use error::EditError;
 pub use kind::ChannelNumbers;
 pub use name::take_name;
 pub use pending::{Pending, PendingAt, PendingPose};
-pub use slot::{ChannelChanges, Slot, TakeId};
+pub use slot::{ChannelChanges, EditedTake, TakeId};
 
 use super::edit::{BoneRef, Edit, TakeRef};
 use dragonfly_anim::data::{AnimationData, Skeleton, Take};
@@ -47,7 +47,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct ModelAdapter {
     skeleton: Arc<Skeleton>,
-    slots: Vec<Arc<Slot>>,
+    slots: Vec<Arc<EditedTake>>,
     /// Number of the next created take.
     next: u32,
 }
@@ -78,7 +78,7 @@ impl ModelAdapter {
             .iter()
             .enumerate()
             .map(|(index, take)| {
-                Arc::new(Slot::unchanged(TakeId(index as u32), Some(index), Arc::clone(take)))
+                Arc::new(EditedTake::unchanged(TakeId(index as u32), Some(index), Arc::clone(take)))
             })
             .collect();
         Self { skeleton: Arc::clone(&animation.skeleton), next: slots.len() as u32, slots }
@@ -90,7 +90,7 @@ impl ModelAdapter {
     }
 
     /// Returns the takes in their order.
-    pub fn slots(&self) -> &[Arc<Slot>] {
+    pub fn slots(&self) -> &[Arc<EditedTake>] {
         &self.slots
     }
 
@@ -109,7 +109,7 @@ impl ModelAdapter {
     /// # Errors
     ///
     /// [`EditError::NoTake`].
-    pub fn take(&self, take: &TakeRef) -> Result<&Arc<Slot>, EditError> {
+    pub fn take(&self, take: &TakeRef) -> Result<&Arc<EditedTake>, EditError> {
         let found = match take {
             TakeRef::Index(index) => self.slots.get(*index),
             TakeRef::Name(name) => self.slots.iter().find(|slot| slot.original.name == *name),

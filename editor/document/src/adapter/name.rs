@@ -4,7 +4,7 @@
 //! without the check: earlier versions of the program allowed any name.
 
 use super::super::edit::Edit;
-use super::{EditError, ModelAdapter, Slot, TakeId};
+use super::{EditError, EditedTake, ModelAdapter, TakeId};
 use std::sync::Arc;
 
 /// Checks that a take can have the name `name`; `own` is the take to rename.
@@ -13,7 +13,7 @@ use std::sync::Arc;
 ///
 /// [`EditError::NoName`], or [`EditError::NameTaken`] where another of `takes` has the name: a reference by that name
 /// would be ambiguous.
-pub fn take_name(takes: &[Arc<Slot>], name: &str, own: Option<TakeId>) -> Result<(), EditError> {
+pub fn take_name(takes: &[Arc<EditedTake>], name: &str, own: Option<TakeId>) -> Result<(), EditError> {
     if name.trim().is_empty() {
         return Err(EditError::NoName);
     }

@@ -4,7 +4,7 @@ use super::ModelAdapter;
 use super::change::KeyChange;
 use super::kind::AnyChannel;
 use super::pending::PendingAt;
-use super::slot::{ChannelContent, KeyContent, Slot, TakeId};
+use super::slot::{ChannelContent, EditedTake, KeyContent, TakeId};
 use super::times::SharedTimes;
 use crate::edit::Property;
 use dragonfly_anim::data::MorphTrack;
@@ -36,7 +36,7 @@ pub(crate) enum Op {
     /// Renames a take.
     Name(TakeId, String),
     /// Inserts a take at an index of the list.
-    Insert(usize, Arc<Slot>),
+    Insert(usize, Arc<EditedTake>),
     /// Removes a take.
     Remove(TakeId),
     /// Moves a take in the list.
@@ -150,7 +150,7 @@ impl ModelAdapter {
         }
     }
 
-    fn slot_mut(&mut self, take: TakeId) -> &mut Slot {
+    fn slot_mut(&mut self, take: TakeId) -> &mut EditedTake {
         let index = self.index_of(take);
         Arc::make_mut(&mut self.slots[index])
     }

@@ -1,6 +1,6 @@
 //! The channels of a take: their columns, their changes, and the results.
 
-use super::{ChannelChanges, ChannelContent, KeyContent, Slot};
+use super::{ChannelChanges, ChannelContent, EditedTake, KeyContent};
 use crate::adapter::change::{KeyChange, put, triple};
 use crate::adapter::kind::{ChannelKind, ChannelValue};
 use crate::adapter::times::SharedTimes;
@@ -28,7 +28,7 @@ pub(super) fn exchange(
 
 /// Calculates the result of a channel again: of the keys in `touched`, or of all.
 pub(super) fn refresh<K: ChannelKind>(
-    slot: &mut Slot,
+    slot: &mut EditedTake,
     property: Property,
     bone: u32,
     touched: Option<&[(u32, Option<KeyChange>)]>,
@@ -67,7 +67,7 @@ pub(super) fn refresh<K: ChannelKind>(
 }
 
 pub(super) fn spliced<K: ChannelKind>(
-    slot: &mut Slot,
+    slot: &mut EditedTake,
     property: Property,
     bone: u32,
     remove: &[u32],
@@ -131,7 +131,7 @@ fn put_in<K: ChannelKind>(
 }
 
 /// Other times for some keys, which stay in their order; the times from before.
-pub(super) fn retimed<K: ChannelKind>(slot: &mut Slot, bone: u32, times: &Arc<[f32]>) {
+pub(super) fn retimed<K: ChannelKind>(slot: &mut EditedTake, bone: u32, times: &Arc<[f32]>) {
     let original = Arc::make_mut(&mut slot.original);
     K::channel_mut(&mut original.tracks[bone as usize]).times = Arc::clone(times);
     if slot.changes.is_empty() {
@@ -143,7 +143,7 @@ pub(super) fn retimed<K: ChannelKind>(slot: &mut Slot, bone: u32, times: &Arc<[f
 }
 
 pub(super) fn replaced<K: ChannelKind>(
-    slot: &mut Slot,
+    slot: &mut EditedTake,
     property: Property,
     bone: u32,
     content: ChannelContent,
@@ -160,7 +160,7 @@ pub(super) fn replaced<K: ChannelKind>(
 
 /// Puts an original channel and its changes in, and makes the result.
 fn put_channel<K: ChannelKind>(
-    slot: &mut Slot,
+    slot: &mut EditedTake,
     property: Property,
     bone: u32,
     original: Channel<K::Value>,

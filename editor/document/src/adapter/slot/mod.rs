@@ -37,7 +37,7 @@ pub(crate) struct ChannelContent {
 
 /// One take in its three forms. Without changes, original and result are shared.
 #[derive(Clone, Debug)]
-pub struct Slot {
+pub struct EditedTake {
     /// Its identifier.
     pub id: TakeId,
     /// Its index among the takes of the file; `None` for a created one.
@@ -50,7 +50,7 @@ pub struct Slot {
     pending: Pending,
 }
 
-impl Slot {
+impl EditedTake {
     pub(crate) fn unchanged(id: TakeId, origin: Option<usize>, take: Arc<Take>) -> Self {
         Self {
             id,
