@@ -173,13 +173,13 @@ fn a_take_is_given_a_name_that_no_other_has() {
     let folder = Folder::new("edit-names");
     let output = folder.join("out.glb");
     for (edit, reason) in [
-        (r#"{"edit":"rename_take","take":"Run","name":"Walk"}"#, "another take is called \"Walk\""),
+        (r#"{"edit":"rename_take","take":"Run","name":"Walk"}"#, "another take has the name \"Walk\""),
         (r#"{"edit":"rename_take","take":"Run","name":" "}"#, "a take needs a name"),
         (r#"{"edit":"create_take","name":""}"#, "a take needs a name"),
-        (r#"{"edit":"create_take","name":"Run","copy":"Walk"}"#, "another take is called \"Run\""),
+        (r#"{"edit":"create_take","name":"Run","copy":"Walk"}"#, "another take has the name \"Run\""),
         (
             r#"{"edit":"split_take","take":"Run","time":0.5,"name":"Survey"}"#,
-            "another take is called \"Survey\"",
+            "another take has the name \"Survey\"",
         ),
     ] {
         let lines = edits(&folder, &format!("{edit}\n"));

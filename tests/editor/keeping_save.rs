@@ -284,7 +284,10 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
     assert_eq!(after.history, before.history);
     same_takes(&before, &after);
     let said = desk.said();
-    assert!(!said.iter().any(|said| said.contains("Offers") || said.contains("begins anew")), "{said:?}");
+    assert!(
+        !said.iter().any(|said| said.contains("Offers") || said.contains("a new history was started")),
+        "{said:?}"
+    );
     desk.change(Change::GoTo(0));
     assert!(!desk.view().history.saved);
     // And the other way round: something was done after the save, and is offered with what was before.

@@ -20,7 +20,7 @@ const MAX_DEPTH: usize = 64;
 
 /// The reason why a file was not opened.
 #[derive(Debug, thiserror::Error)]
-pub enum DoorError {
+pub enum FileAccessError {
     /// The name cannot be that of a file in the folder.
     #[error("is no name of a file in the model's folder: {0}")]
     Name(&'static str),
@@ -52,7 +52,7 @@ pub struct Folder {
 
 impl Folder {
     /// Returns the folder of `file`.
-    pub fn of(file: &Path) -> Result<Self, DoorError> {
+    pub fn of(file: &Path) -> Result<Self, FileAccessError> {
         let folder = match file.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
@@ -61,17 +61,17 @@ impl Folder {
     }
 
     /// Returns this folder.
-    pub fn new(folder: &Path) -> Result<Self, DoorError> {
+    pub fn new(folder: &Path) -> Result<Self, FileAccessError> {
         Ok(Self { root: folder.canonicalize()? })
     }
 
     /// Returns the bytes of the file `name`: a relative path with `/` between its parts, percent-decoded.
     ///
     /// Links that stay inside the folder are followed.
-    pub fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, DoorError> {
+    pub fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, FileAccessError> {
         let relative = checked(name)?;
         let resolved = self.root.join(relative).canonicalize()?;
-        let inside = resolved.strip_prefix(&self.root).map_err(|_| DoorError::Outside)?;
+        let inside = resolved.strip_prefix(&self.root).map_err(|_| FileAccessError::Outside)?;
         read_regular(system::open_below(&self.root, inside)?, limit)
     }
 }
@@ -82,27 +82,27 @@ impl AssetFs for Folder {
     }
 }
 
-impl From<DoorError> for AssetError {
-    fn from(error: DoorError) -> Self {
+impl From<FileAccessError> for AssetError {
+    fn from(error: FileAccessError) -> Self {
         match error {
-            DoorError::Io(error) if error.kind() == io::ErrorKind::NotFound => Self::Missing,
-            DoorError::Io(error) => Self::Failed(error.to_string()),
-            DoorError::TooLarge { size, limit } => Self::TooLarge { size, limit },
+            FileAccessError::Io(error) if error.kind() == io::ErrorKind::NotFound => Self::Missing,
+            FileAccessError::Io(error) => Self::Failed(error.to_string()),
+            FileAccessError::TooLarge { size, limit } => Self::TooLarge { size, limit },
             other => Self::Refused(other.to_string()),
         }
     }
 }
 
 /// Returns the bytes of a file that the user named. Links are followed, but only to a regular file.
-pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, DoorError> {
+pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, FileAccessError> {
     let metadata = std::fs::metadata(path)?;
     regular(&metadata)?;
     read_regular(system::open(path)?, limit)
 }
 
 /// Splits `name` into parts that lead only downwards.
-fn checked(name: &str) -> Result<PathBuf, DoorError> {
-    let refuse = |reason| Err(DoorError::Name(reason));
+fn checked(name: &str) -> Result<PathBuf, FileAccessError> {
+    let refuse = |reason| Err(FileAccessError::Name(reason));
     if name.is_empty() {
         return refuse("it is empty");
     }
@@ -157,26 +157,26 @@ fn is_device_name(part: &str) -> bool {
 }
 
 /// Checks that it is a regular file; else returns what it is.
-fn regular(metadata: &std::fs::Metadata) -> Result<(), DoorError> {
-    if metadata.is_file() { Ok(()) } else { Err(DoorError::NotRegular(system::kind(metadata))) }
+fn regular(metadata: &std::fs::Metadata) -> Result<(), FileAccessError> {
+    if metadata.is_file() { Ok(()) } else { Err(FileAccessError::NotRegular(system::kind(metadata))) }
 }
 
 /// Reads a whole open file if it is regular and not larger than `limit`. Memory is allocated fallibly.
-fn read_regular(file: File, limit: u64) -> Result<Vec<u8>, DoorError> {
+fn read_regular(file: File, limit: u64) -> Result<Vec<u8>, FileAccessError> {
     // Checked again with the open file: the name may refer to another file by now.
     let metadata = file.metadata()?;
     regular(&metadata)?;
     let size = metadata.len();
     if size > limit {
-        return Err(DoorError::TooLarge { size, limit });
+        return Err(FileAccessError::TooLarge { size, limit });
     }
     let mut bytes = Vec::new();
-    let wanted = usize::try_from(size).map_err(|_| DoorError::TooLarge { size, limit })?;
+    let wanted = usize::try_from(size).map_err(|_| FileAccessError::TooLarge { size, limit })?;
     bytes.try_reserve_exact(wanted).map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))?;
     // One byte more than allowed detects a file that grows while it is read.
     file.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
     let size = bytes.len() as u64;
-    if size > limit { Err(DoorError::TooLarge { size, limit }) } else { Ok(bytes) }
+    if size > limit { Err(FileAccessError::TooLarge { size, limit }) } else { Ok(bytes) }
 }
 
 /// Returns the system's message without its number.
@@ -191,7 +191,7 @@ fn reason(error: &io::Error) -> String {
 
 #[cfg(unix)]
 mod system {
-    use super::DoorError;
+    use super::FileAccessError;
     use rustix::fs::{Mode, OFlags, open as open_path, openat};
     use std::fs::File;
     use std::os::unix::fs::FileTypeExt;
@@ -201,18 +201,18 @@ mod system {
     const READ: OFlags = OFlags::RDONLY.union(OFlags::NONBLOCK).union(OFlags::NOCTTY).union(OFlags::CLOEXEC);
 
     /// Opens a path that the user named.
-    pub(super) fn open(path: &Path) -> Result<File, DoorError> {
+    pub(super) fn open(path: &Path) -> Result<File, FileAccessError> {
         Ok(open_path(path, READ, Mode::empty()).map_err(std::io::Error::from)?.into())
     }
 
     /// Opens `inside`, a path without links, folder by folder. A folder that has become a link since then is refused.
-    pub(super) fn open_below(root: &Path, inside: &Path) -> Result<File, DoorError> {
+    pub(super) fn open_below(root: &Path, inside: &Path) -> Result<File, FileAccessError> {
         let step = OFlags::DIRECTORY.union(OFlags::NOFOLLOW).union(OFlags::CLOEXEC);
         let mut folder = open_path(root, OFlags::DIRECTORY.union(OFlags::CLOEXEC), Mode::empty())
             .map_err(std::io::Error::from)?;
         let mut parts = inside.components().peekable();
         while let Some(part) = parts.next() {
-            let Component::Normal(part) = part else { return Err(DoorError::Outside) };
+            let Component::Normal(part) = part else { return Err(FileAccessError::Outside) };
             if parts.peek().is_some() {
                 folder = openat(&folder, part, step, Mode::empty()).map_err(link)?;
                 continue;
@@ -222,19 +222,19 @@ mod system {
                 .map_err(std::io::Error::from)?;
             let kind = rustix::fs::FileType::from_raw_mode(status.st_mode);
             if kind != rustix::fs::FileType::RegularFile {
-                return Err(DoorError::NotRegular(name_of(kind)));
+                return Err(FileAccessError::NotRegular(name_of(kind)));
             }
             let file = openat(&folder, part, READ.union(OFlags::NOFOLLOW), Mode::empty()).map_err(link)?;
             return Ok(file.into());
         }
-        Err(DoorError::NotRegular("a folder"))
+        Err(FileAccessError::NotRegular("a folder"))
     }
 
     /// A new link here is an attempt to lead out of the folder.
-    fn link(error: rustix::io::Errno) -> DoorError {
+    fn link(error: rustix::io::Errno) -> FileAccessError {
         match error {
-            rustix::io::Errno::LOOP | rustix::io::Errno::NOTDIR => DoorError::Outside,
-            other => DoorError::Io(other.into()),
+            rustix::io::Errno::LOOP | rustix::io::Errno::NOTDIR => FileAccessError::Outside,
+            other => FileAccessError::Io(other.into()),
         }
     }
 
@@ -268,17 +268,17 @@ mod system {
 
 #[cfg(not(unix))]
 mod system {
-    use super::DoorError;
+    use super::FileAccessError;
     use std::fs::File;
     use std::path::Path;
 
     /// Opens a path that the user named.
-    pub(super) fn open(path: &Path) -> Result<File, DoorError> {
+    pub(super) fn open(path: &Path) -> Result<File, FileAccessError> {
         Ok(File::open(path)?)
     }
 
     /// Opens a path that was found to be inside the folder. Without `openat` the check cannot be stricter.
-    pub(super) fn open_below(root: &Path, inside: &Path) -> Result<File, DoorError> {
+    pub(super) fn open_below(root: &Path, inside: &Path) -> Result<File, FileAccessError> {
         let path = root.join(inside);
         super::regular(&std::fs::symlink_metadata(&path)?)?;
         Ok(File::open(path)?)

@@ -43,7 +43,7 @@ mod writing;
 
 pub use cancel::{Cancel, LoadStage, Progress};
 pub use editable::{Editable, WrittenFile, make_folder};
-pub use folder::{DoorError, Folder, read_file};
+pub use folder::{FileAccessError, Folder, read_file};
 pub use handle::DocumentHandle;
 pub use load::{LoadError, Loader, OpenedModel, Source, load_model, open_model};
 pub use message::{DocumentMessage, DocumentReply};
@@ -51,6 +51,6 @@ pub use offer::Offer;
 pub use open::Change;
 pub use owner::{Document, Setup};
 pub use save_plan::{SavePlan, SavePlanError};
-pub use saving::{NotSaved, SaveOrder, SaveTo, SavedFile, Then, fits};
+pub use saving::{NotSaved, SaveOrder, SaveTo, SavedFile, Then, check_extension};
 pub use scan::Decision;
 pub use view::{DecodedImage, FileView, HistoryView, LoadedModel, View};

@@ -1,6 +1,6 @@
 //! Opening a model: bytes, data, pixels; with progress, cancelable, for window and command line.
 
-use super::{Cancel, DoorError, Editable, LoadStage, LoadedModel, Progress, read_file};
+use super::{Cancel, Editable, FileAccessError, LoadStage, LoadedModel, Progress, read_file};
 use super::{images, import};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::bounds::bounds_of_pose;
@@ -39,7 +39,7 @@ pub enum LoadError {
         /// The path.
         path: PathBuf,
         /// The reason.
-        reason: DoorError,
+        reason: FileAccessError,
     },
     /// Its contents are wrong.
     #[error("{title}: {reason}")]

@@ -102,9 +102,9 @@ pub enum DocumentReply {
     /// The user searched for unsaved work, and there is none.
     NothingToOffer,
     /// A message for the status line.
-    Told(String),
+    Notice(String),
     /// A warning for the status line.
-    Warned(String),
+    Warning(String),
     /// An internal error closed the document. Recorded work is offered.
     Lost,
 }

@@ -193,7 +193,7 @@ const FORMATS: [&str; 10] = ["glb", "gltf", "dfm", "fbx", "obj", "dae", "bvh", "
 /// # Errors
 ///
 /// The reason why the name is wrong.
-pub fn fits(path: &Path, ending: &str) -> Result<(), String> {
+pub fn check_extension(path: &Path, ending: &str) -> Result<(), String> {
     let is = |format: &&str| path.extension().is_some_and(|other| other.eq_ignore_ascii_case(format));
     if is(&ending) || !FORMATS.iter().any(is) {
         return Ok(());
@@ -209,7 +209,7 @@ fn with_ending(path: &Path, ending: &str) -> Result<PathBuf, String> {
     if path.file_name().is_none() {
         return Err(format!("{}: this is not a file name", path.display()));
     }
-    fits(path, ending)?;
+    check_extension(path, ending)?;
     match path.extension() {
         Some(other) if other.eq_ignore_ascii_case(ending) => Ok(path.to_path_buf()),
         _ => {
