@@ -189,7 +189,7 @@ fn a_take_is_given_a_name_that_no_other_has() {
     }
     let lines = edits(&folder, r#"{"edit":"rename_take","take":"Run","name":"Run"}"#);
     let told = run(["edit", &fox(), "--edits", &lines, "-o", &text(&output)]).expect(2);
-    assert!(told.stderr.contains("called that already"), "{}", told.stderr);
+    assert!(told.stderr.contains("has that name already"), "{}", told.stderr);
 }
 
 #[test]
@@ -204,7 +204,7 @@ fn the_list_of_edits_and_their_schema_can_be_read_by_programs() {
     assert!(names.len() == 26 && names.contains(&"split_take"), "{names:?}");
     assert_eq!(list["version"], 1);
     let people = run(["edit", "--list"]).expect(0);
-    assert!(people.text().contains("# Turns the head 30°"));
+    assert!(people.text().contains("# Rotates the head 30°"));
     let schema = run(["edit", "--schema"]).expect(0).json();
     assert_eq!(schema["oneOf"].as_array().map(Vec::len), Some(26));
 }

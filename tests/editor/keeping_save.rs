@@ -163,7 +163,7 @@ fn another_file_is_replaced_only_when_asked_for_and_another_format_is_refused() 
     }
     assert_eq!(fs::read(&other).unwrap(), b"precious");
     let NotSaved::Failed(reason) = refused(&mut desk, SaveTo::As(folder.join("fox.gltf"))) else { panic!() };
-    assert!(reason.contains("fox.gltf: the file is a .glb"), "{reason}");
+    assert!(reason.contains("fox.gltf: the format of the file stays .glb"), "{reason}");
     let NotSaved::Failed(reason) = refused(&mut desk, SaveTo::As("/proc/nothing/fox.glb".into())) else {
         panic!()
     };
