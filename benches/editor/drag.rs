@@ -12,7 +12,7 @@ use dragonfly_anim::data::{
     AnimationData, Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
 };
 use dragonfly_document::{
-    Cancel, Document, DocumentReply, LoadError, LoadedModel, Opened, Progress, Setup, Source, View,
+    Cancel, Document, DocumentReply, LoadError, LoadedModel, OpenedModel, Progress, Setup, Source, View,
     open_model,
 };
 use dragonfly_picture::Look;
@@ -48,15 +48,15 @@ fn main() -> ExitCode {
     if late { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-type LoadFn = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
+type LoadFn = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<OpenedModel, LoadError>;
 
-fn fox(_: &Source, tell: &mut dyn FnMut(Progress), cancel: &Cancel) -> Result<Opened, LoadError> {
+fn fox(_: &Source, tell: &mut dyn FnMut(Progress), cancel: &Cancel) -> Result<OpenedModel, LoadError> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/gltf/Fox.glb");
     open_model(&Source::File(path), tell, cancel)
 }
 
 /// Returns a tree of a thousand bones, each with two keys per frame for two seconds.
-fn thousand(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
+fn thousand(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {
     let bone = |index: u32| Bone {
         name: format!("bone {index}"),
         parent: index.checked_sub(1).map(|before| before / 2),

@@ -3,8 +3,8 @@
 use dragonfly_anim::data::Image;
 use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
 use dragonfly_document::{
-    Cancel, Change, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, Opened, Progress, Setup,
-    Source, View, images, load_model,
+    Cancel, Change, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, OpenedModel, Progress,
+    Setup, Source, View, images, load_model,
 };
 use dragonfly_kit::document::arm;
 use dragonfly_kit::eventually;
@@ -141,9 +141,9 @@ fn panics_on_files(
     source: &Source,
     progress: &mut dyn FnMut(Progress),
     cancel: &Cancel,
-) -> Result<Opened, LoadError> {
+) -> Result<OpenedModel, LoadError> {
     match source {
-        Source::BuiltIn => load_model(source, progress, cancel).map(Opened::from),
+        Source::BuiltIn => load_model(source, progress, cancel).map(OpenedModel::from),
         Source::File(path) => match path.as_os_str().len() % 3 {
             0 => panic!("a text without numbers"),
             1 => panic!("a text about {}", path.display()),
@@ -186,7 +186,11 @@ fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays
 }
 
 /// Opens every file at once, as the same small model with the file's name.
-fn opens_anything(source: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
+fn opens_anything(
+    source: &Source,
+    _: &mut dyn FnMut(Progress),
+    _: &Cancel,
+) -> Result<OpenedModel, LoadError> {
     let loaded = std::sync::Arc::into_inner(arm::loaded()).unwrap();
     Ok(LoadedModel { title: source.title(), ..loaded }.into())
 }

@@ -150,7 +150,7 @@ fn a_history_of_another_state_of_the_file_begins_anew_and_says_so() {
     fs::copy(dragonfly_kit::folder::data("gltf/Fox.glb"), &path).unwrap();
     let mut desk = Desk::new(&autosave);
     let view = desk.open(&path);
-    desk.warned("begins anew");
+    desk.warned("a new history was started");
     assert!(view.history.steps.is_empty() && view.history.saved);
     desk.edit(turn(0.1));
     assert_eq!(desk.view().history.done, 1);
@@ -475,7 +475,7 @@ fn work_on_a_file_that_was_moved_goes_on_where_it_is_now() {
     let mut desk = Desk::new(&second);
     let offer = desk.offered().remove(0);
     assert!(offer.is_missing() && !offer.can_be_kept());
-    assert!(offer.warnings()[0].contains("not where it was"), "{:?}", offer.warnings());
+    assert!(offer.warnings()[0].contains("The file is missing"), "{:?}", offer.warnings());
     let found_at =
         |path: &std::path::Path| DocumentMessage::FoundAt(Box::new(offer.clone()), path.to_owned());
     // Another file is noticed, and one that is not there.

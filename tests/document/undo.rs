@@ -1,7 +1,7 @@
 //! Undo and redo: to the bit, whatever was done, and by the gesture.
 
 use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
-use dragonfly_document::adapter::{ModelAdapter, Slot};
+use dragonfly_document::adapter::{ModelAdapter, TakeVersions};
 use dragonfly_document::edit::{
     Arbitrary, BonePose, BoneRef, Edit, OffsetPose, Property, RenameTake, SetPose, TakeRef,
 };
@@ -23,8 +23,8 @@ fn same(a: &ModelAdapter, b: &ModelAdapter) -> bool {
     slots && a.slots().iter().zip(b.slots()).all(|(a, b)| Arc::ptr_eq(a, b) || same_slot(a, b))
 }
 
-fn same_slot(a: &Slot, b: &Slot) -> bool {
-    let changes = |slot: &Slot| -> Vec<_> {
+fn same_slot(a: &TakeVersions, b: &TakeVersions) -> bool {
+    let changes = |slot: &TakeVersions| -> Vec<_> {
         slot.changed()
             .map(|(bone, property)| (bone, property, slot.changes(bone, property).to_vec()))
             .collect()
@@ -179,7 +179,7 @@ fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
             drop((before, alone));
             // What is still shown stays as it was.
             let now = edited.adapter().slots().to_vec();
-            let looks: Vec<Slot> = now.iter().map(|slot| Slot::clone(slot)).collect();
+            let looks: Vec<TakeVersions> = now.iter().map(|slot| TakeVersions::clone(slot)).collect();
             shown.push((now, looks));
             if random.below(3) == 0 {
                 shown.clear();

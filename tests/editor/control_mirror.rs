@@ -1,7 +1,7 @@
 //! Bones are paired by their names, however those are written, and every guess is told.
 
 use dragonfly_anim::format::{AssetError, AssetFs, ReadOptions, read};
-use dragonfly_document::bones::{MirrorGuess, MirrorPairs, Side};
+use dragonfly_document::bones::{BodySide, MirrorGuess, MirrorPairs};
 use dragonfly_kit::random::{Random, seed};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -93,7 +93,7 @@ fn a_surer_guess_comes_first_and_doubtful_counts_pair_nothing() {
 fn what_is_left_over_is_told_with_its_side() {
     let found = MirrorPairs::of_names(&["Hips", "Arm.L", "Arm.R", "Horn.L", "Wing_Right"]);
     let left: Vec<_> = found.unpaired.iter().map(|alone| (alone.bone, alone.side)).collect();
-    assert_eq!(left, [(0, None), (3, Some(Side::Left)), (4, Some(Side::Right))]);
+    assert_eq!(left, [(0, None), (3, Some(BodySide::Left)), (4, Some(BodySide::Right))]);
     assert_eq!(found.partner(1), Some(2));
     assert_eq!(found.mirror_of(0), Some(0), "a bone of the middle mirrors itself");
     assert_eq!(found.mirror_of(2), Some(1));

@@ -173,13 +173,13 @@ fn a_take_is_given_a_name_that_no_other_has() {
     let folder = Folder::new("edit-names");
     let output = folder.join("out.glb");
     for (edit, reason) in [
-        (r#"{"edit":"rename_take","take":"Run","name":"Walk"}"#, "another take is called \"Walk\""),
+        (r#"{"edit":"rename_take","take":"Run","name":"Walk"}"#, "another take has the name \"Walk\""),
         (r#"{"edit":"rename_take","take":"Run","name":" "}"#, "a take needs a name"),
         (r#"{"edit":"create_take","name":""}"#, "a take needs a name"),
-        (r#"{"edit":"create_take","name":"Run","copy":"Walk"}"#, "another take is called \"Run\""),
+        (r#"{"edit":"create_take","name":"Run","copy":"Walk"}"#, "another take has the name \"Run\""),
         (
             r#"{"edit":"split_take","take":"Run","time":0.5,"name":"Survey"}"#,
-            "another take is called \"Survey\"",
+            "another take has the name \"Survey\"",
         ),
     ] {
         let lines = edits(&folder, &format!("{edit}\n"));
@@ -189,7 +189,7 @@ fn a_take_is_given_a_name_that_no_other_has() {
     }
     let lines = edits(&folder, r#"{"edit":"rename_take","take":"Run","name":"Run"}"#);
     let told = run(["edit", &fox(), "--edits", &lines, "-o", &text(&output)]).expect(2);
-    assert!(told.stderr.contains("called that already"), "{}", told.stderr);
+    assert!(told.stderr.contains("has that name already"), "{}", told.stderr);
 }
 
 #[test]
@@ -204,7 +204,7 @@ fn the_list_of_edits_and_their_schema_can_be_read_by_programs() {
     assert!(names.len() == 26 && names.contains(&"split_take"), "{names:?}");
     assert_eq!(list["version"], 1);
     let people = run(["edit", "--list"]).expect(0);
-    assert!(people.text().contains("# Turns the head 30°"));
+    assert!(people.text().contains("# Rotates the head 30°"));
     let schema = run(["edit", "--schema"]).expect(0).json();
     assert_eq!(schema["oneOf"].as_array().map(Vec::len), Some(26));
 }

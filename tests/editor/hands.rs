@@ -6,14 +6,14 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
+use dragonfly_document::{Cancel, LoadError, OpenedModel, Progress, Source};
 use dragonfly_kit::counting;
 use dragonfly_kit::document::arm;
 use dragonfly_picture::gizmo::{GizmoAxis, Handle, Tool};
 use glam::{Quat, Vec2};
 use std::sync::Arc;
 
-fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
+fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {
     Ok(Arc::into_inner(arm::loaded()).expect("the only one").into())
 }
 
@@ -309,7 +309,7 @@ fn allocations_of_a_move(load: crate::hands_rig::Load, bone: u32) -> (u64, u64) 
 
 #[test]
 fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
-    fn few(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
+    fn few(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {
         Ok(Arc::into_inner(
             dragonfly_kit::document::fixture::view(
                 "few",
@@ -321,7 +321,7 @@ fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
         .expect("one")
         .into())
     }
-    fn many(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
+    fn many(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {
         Ok(Arc::into_inner(
             dragonfly_kit::document::fixture::view(
                 "many",

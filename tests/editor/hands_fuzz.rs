@@ -4,7 +4,7 @@ use crate::hands_rig::{Hand, PICTURE};
 use crate::panels::{Bench, harness_of};
 use dragonfly::panels::commands;
 use dragonfly::panels::{Request, hands};
-use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
+use dragonfly_document::{Cancel, LoadError, OpenedModel, Progress, Source};
 use dragonfly_kit::document::arm;
 use dragonfly_kit::document::fixture;
 use dragonfly_kit::folder::takes_long;
@@ -12,7 +12,7 @@ use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, pos2};
 use std::sync::Arc;
 
-fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
+fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {
     Ok(Arc::into_inner(arm::loaded()).expect("the only one").into())
 }
 

@@ -7,7 +7,7 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly_anim::data::{BoneIndex, Transform};
 use dragonfly_document::edit::Property;
-use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
+use dragonfly_document::{Cancel, LoadError, OpenedModel, Progress, Source};
 use dragonfly_kit::document::arm;
 use dragonfly_picture::gizmo::{GizmoAxis, GizmoView, Handle};
 use dragonfly_picture::scene::Scene;
@@ -15,7 +15,7 @@ use dragonfly_picture::{IkAppearance, IkLook};
 use glam::{Quat, Vec2, Vec3};
 use std::sync::Arc;
 
-fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
+fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {
     Ok(Arc::into_inner(arm::loaded()).expect("the only one").into())
 }
 

@@ -7,13 +7,13 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::settings::GhostSettings;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{Cancel, LoadError, Opened, Progress, Source};
+use dragonfly_document::{Cancel, LoadError, OpenedModel, Progress, Source};
 use dragonfly_kit::document::arm;
 use dragonfly_picture::gizmo::GizmoView;
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
 
-fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opened, LoadError> {
+fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {
     Ok(Arc::into_inner(arm::loaded()).expect("the only one").into())
 }
 

@@ -5,7 +5,7 @@ use dragonfly::control::{Button, InputEvent, Key, Modifiers};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Effect, Request, Settings, State};
 use dragonfly_document::{
-    Cancel, Document, DocumentHandle, DocumentReply, LoadError, Opened, Progress, Setup, Source, View,
+    Cancel, Document, DocumentHandle, DocumentReply, LoadError, OpenedModel, Progress, Setup, Source, View,
 };
 use dragonfly_kit::eventually;
 use dragonfly_picture::gizmo::{GizmoView, Handle};
@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 /// Where the picture is in the window.
 pub(crate) const PICTURE: [f32; 4] = [200.0, 50.0, 800.0, 600.0];
 
-pub(crate) type Load = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
+pub(crate) type Load = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<OpenedModel, LoadError>;
 
 #[derive(Clone, Default)]
 struct Heard(Rc<RefCell<Vec<DocumentReply>>>);

@@ -5,7 +5,7 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::state::{Device, Loading, Overlay};
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, TakeRef};
-use dragonfly_document::{Change, FileView, Progress, Stage, View};
+use dragonfly_document::{Change, FileView, LoadStage, Progress, View};
 use dragonfly_kit::document::fixture;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -114,7 +114,7 @@ fn the_panels_are_drawn_empty_full_and_loading() {
     let mut bench = Bench::new(None);
     bench.state.loading = Some(Loading {
         title: "Fox.glb".to_owned(),
-        progress: Progress { stage: Stage::Decoding, done: 0.6 },
+        progress: Progress { stage: LoadStage::Decoding, done: 0.6 },
     });
     shoot("loading", bench, egui::Theme::Dark, 1.0);
 }

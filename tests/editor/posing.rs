@@ -9,7 +9,7 @@ use dragonfly_anim::joint::{Hinge, JointLimits};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, SetPose};
-use dragonfly_document::posing::{Goal, Hold, IkMode, look_at, poses_of_drag};
+use dragonfly_document::posing::{Goal, IkMode, PoseDragState, look_at, poses_of_drag};
 use dragonfly_kit::counting;
 use dragonfly_kit::document::fixture;
 use dragonfly_kit::random::{Random, seed};
@@ -38,9 +38,9 @@ fn figure(random: &mut Random) -> Rig {
     Rig::of(&PARENTS, poses)
 }
 
-fn hold(rig: &Rig, pins: &[BoneIndex], length: u32) -> Hold {
+fn hold(rig: &Rig, pins: &[BoneIndex], length: u32) -> PoseDragState {
     let mode = IkMode { on: true, length, pole: None };
-    Hold::new(Arc::new(rig.skeleton.clone()), &rig.poses, pins, mode, None)
+    PoseDragState::new(Arc::new(rig.skeleton.clone()), &rig.poses, pins, mode, None)
 }
 
 /// The poses with what came out put over them.
@@ -162,7 +162,7 @@ fn elbows_bend_towards_the_pole() {
         for length in [2, 3] {
             let pole = 4;
             let mode = IkMode { on: true, length, pole: Some(pole) };
-            let mut hold = Hold::new(Arc::new(rig.skeleton.clone()), &rig.poses, &[], mode, None);
+            let mut hold = PoseDragState::new(Arc::new(rig.skeleton.clone()), &rig.poses, &[], mode, None);
             let root = if length == 2 { 7 } else { 6 };
             let from = place(&rig, &rig.poses, root);
             let goal = from + any(&mut random).normalize() * 0.3;
@@ -189,7 +189,7 @@ fn joint_limits_are_kept() {
     let hinge = Hinge { axis: Vec3::X, range: dragonfly_anim::joint::AngleRange { min: -0.2, max: 0.2 } };
     limits.set(8, dragonfly_anim::joint::JointLimit::Hinge(hinge));
     let mode = IkMode { on: true, length: 2, pole: None };
-    let mut hold = Hold::new(Arc::new(rig.skeleton.clone()), &rig.poses, &[], mode, Some(limits));
+    let mut hold = PoseDragState::new(Arc::new(rig.skeleton.clone()), &rig.poses, &[], mode, Some(limits));
     let from = place(&rig, &rig.poses, 7);
     for way in [Vec3::X, Vec3::Y, -Vec3::X, Vec3::Z] {
         let goal = from + way * 0.25;
@@ -222,7 +222,7 @@ fn whatever_comes_in_only_numbers_come_out() {
         let pins: Vec<BoneIndex> = (0..random.below(4)).map(|_| random.below(12) as BoneIndex).collect();
         let mode =
             IkMode { on: true, length: random.below(6) as u32, pole: Some(random.below(12) as BoneIndex) };
-        let mut hold = Hold::new(Arc::new(rig.skeleton.clone()), &rig.poses, &pins, mode, None);
+        let mut hold = PoseDragState::new(Arc::new(rig.skeleton.clone()), &rig.poses, &pins, mode, None);
         let bone = random.below(12) as BoneIndex;
         let to = Vec3::new(number_of(&mut random), number_of(&mut random), number_of(&mut random));
         let turn = Quat::from_array([0; 4].map(|_| number_of(&mut random)));

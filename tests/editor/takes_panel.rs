@@ -160,7 +160,7 @@ fn a_take_is_renamed_where_it_stands() {
     window.key_press(Key::Enter);
     window.run_steps(3);
     assert!(
-        window.query_by_label("Another take is called \"Run\"").is_some(),
+        window.query_by_label("Another take has the name \"Run\"").is_some(),
         "and so is one that another has"
     );
     window.key_press(Key::Escape);

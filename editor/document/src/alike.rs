@@ -1,13 +1,13 @@
-//! Is a take that was read the one that was written? To the bit it need not be: whoever reads a rotation makes it unit and
-//! gives it the sign that its neighbour has, which means the same.
+//! Compares a take with the same take after saving and reading. They may differ in the last bit: importers normalize
+//! rotations and give them the sign of their neighbors, which is the same rotation.
 
 use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
 use glam::{Quat, Vec3};
 
-/// Parts of a number by which reading may change it.
+/// Relative difference that reading may cause.
 const GRAIN: f32 = 1e-5;
 
-/// Do both mean the same? Names, times and what lies between keys are to the bit.
+/// Returns whether two takes are equivalent. Names, times and interpolations must be equal to the bit.
 pub(super) fn alike(one: &Take, other: &Take) -> bool {
     (&one.name, one.start, one.length) == (&other.name, other.start, other.length)
         && one.tracks.len() == other.tracks.len()
@@ -44,7 +44,7 @@ fn near(one: Vec3, other: Vec3) -> bool {
     (one - other).abs().max_element() <= GRAIN * one.abs().max_element().max(1e-20)
 }
 
-/// Tangents of a spline as well, which are as long as they like.
+/// Compares the tangents of a spline, too, which need not be of unit length.
 fn same_turn(one: Quat, other: Quat) -> bool {
     let grain = GRAIN * one.length().max(1e-20);
     (one - other).length().min((one + other).length()) <= grain

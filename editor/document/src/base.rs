@@ -1,14 +1,14 @@
-//! Takes as bytes, bit for bit, for the journal: after a save the file does not hold any more what the history began
-//! with.
+//! Takes as bytes, exact to the bit, for the journal: after a save the file no longer has the takes with which the
+//! history started.
 //!
-//! Numbers are little-endian; a list is its length (4 bytes) and its elements. What is read is checked as far as the
-//! rest of the program relies on it.
+//! Numbers are little-endian; a list is its length (4 bytes) and its elements. Data that is read is validated as far
+//! as the rest of the program relies on it.
 
 use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Take, Track};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// All takes, one after another.
+/// Writes all takes.
 pub(super) fn write(takes: &[Arc<Take>]) -> Vec<u8> {
     let mut out = Vec::new();
     length(&mut out, takes.len());
@@ -36,14 +36,14 @@ pub(super) fn write(takes: &[Arc<Take>]) -> Vec<u8> {
     out
 }
 
-/// The takes again; `None` when these are not the bytes of takes of `bones` bones.
+/// Reads takes; `None` where these are not the bytes of takes of `bones` bones.
 pub(super) fn read(bytes: &[u8], bones: usize) -> Option<Vec<Arc<Take>>> {
-    let mut from = Reader(bytes);
+    let mut from = TakesReader(bytes);
     let takes = (0..from.length()?).map(|_| take(&mut from, bones).map(Arc::new)).collect::<Option<_>>()?;
     from.0.is_empty().then_some(takes)
 }
 
-fn take(from: &mut Reader<'_>, bones: usize) -> Option<Take> {
+fn take(from: &mut TakesReader<'_>, bones: usize) -> Option<Take> {
     let count = from.length()?;
     let name = std::str::from_utf8(from.bytes(count)?).ok()?.to_owned();
     let [start, length] = [from.float()?, from.float()?];
@@ -64,7 +64,7 @@ fn take(from: &mut Reader<'_>, bones: usize) -> Option<Take> {
 }
 
 fn length(out: &mut Vec<u8>, length: usize) {
-    // A journal's record is never so long that this could be cut off.
+    // A record of a journal is never long enough to be truncated here.
     out.extend(u32::try_from(length).unwrap_or(u32::MAX).to_le_bytes());
 }
 
@@ -86,9 +86,9 @@ fn kind(interpolation: Interpolation) -> u8 {
     KINDS.iter().position(|kind| *kind == interpolation).unwrap_or(0) as u8
 }
 
-struct Reader<'a>(&'a [u8]);
+struct TakesReader<'a>(&'a [u8]);
 
-impl<'a> Reader<'a> {
+impl<'a> TakesReader<'a> {
     fn bytes(&mut self, count: usize) -> Option<&'a [u8]> {
         let (taken, rest) = self.0.split_at_checked(count)?;
         self.0 = rest;
@@ -99,7 +99,7 @@ impl<'a> Reader<'a> {
         Some(u32::from_le_bytes(*self.bytes(4)?.first_chunk()?))
     }
 
-    /// Every element takes a byte at least, so a longer list is none.
+    /// An element has at least one byte, so a longer list is an error.
     fn length(&mut self) -> Option<usize> {
         let length = self.number()? as usize;
         (length <= self.0.len()).then_some(length)
@@ -122,7 +122,7 @@ impl<'a> Reader<'a> {
         KINDS.get(usize::from(*self.bytes(1)?.first()?)).copied()
     }
 
-    /// Strictly ascending.
+    /// Returns whether numbers ascend strictly.
     fn times(&mut self, count: usize) -> Option<Arc<[f32]>> {
         let times: Arc<[f32]> = self.floats::<1>(count)?.map(|[time]| time).collect();
         let rising =
@@ -177,7 +177,7 @@ mod tests {
         first.morphs.push(morph(Interpolation::CubicSpline, &weights));
         first.morphs.push(morph(Interpolation::Closest, &Arc::from([1.0, 2.0])));
         let back = read(&write(&takes), bones).unwrap();
-        // Tells -0 from 0.
+        // Distinguishes -0 from 0.
         assert!(format!("{takes:?}") == format!("{back:?}"));
         assert!(read(&write(&[]), bones).unwrap().is_empty());
     }
@@ -194,7 +194,7 @@ mod tests {
         for at in 0..bytes.len().min(2000) {
             let mut damaged = bytes.clone();
             damaged[at] ^= 0x80;
-            // Whatever comes of it, it is no panic and no flood.
+            // It may fail, but must not panic or allocate too much.
             let _ = read(&damaged, bones);
         }
     }

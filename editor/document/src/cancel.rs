@@ -1,37 +1,37 @@
-//! Stopping long work from another thread, and hearing how far it is.
+//! Cancellation and progress of long work on another thread.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A flag that the asker raises and the work looks at between its steps; clones share it.
+/// A flag that the caller raises and that the work checks between its steps. Clones share it.
 #[derive(Clone, Debug, Default)]
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// Asks the work to end soon.
+    /// Requests the work to stop soon.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Was the work asked to end?
+    /// Returns whether the work was cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// What loading is doing.
+/// A stage of loading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// Bytes from the disk.
+pub enum LoadStage {
+    /// Reading the file.
     Reading,
-    /// Bytes to data.
+    /// Parsing the bytes.
     Understanding,
-    /// Textures to pixels.
+    /// Decoding textures.
     Decoding,
 }
 
-impl Stage {
-    /// For the status line.
+impl LoadStage {
+    /// Returns the text for the status line.
     pub fn title(self) -> &'static str {
         match self {
             Self::Reading => "Reading",
@@ -41,11 +41,11 @@ impl Stage {
     }
 }
 
-/// How far the work is.
+/// The progress of loading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// What is being done.
-    pub stage: Stage,
-    /// 0..1 of the whole work, never smaller than said before.
+    /// The present stage.
+    pub stage: LoadStage,
+    /// Fraction of the whole work, 0 to 1; never decreases.
     pub done: f32,
 }

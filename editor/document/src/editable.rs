@@ -1,6 +1,6 @@
 //! A file that is edited: its data, and everything needed to save it without changing the rest.
 
-use super::adapter::{ModelAdapter, Slot, TakeId};
+use super::adapter::{ModelAdapter, TakeId, TakeVersions};
 use super::load::{LoadError, Source, file_name};
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use super::{Cancel, Folder, LoadedModel, import, read_file};
@@ -39,7 +39,7 @@ pub struct Editable {
 }
 
 /// Path and contents of a file to write.
-pub type Written = (PathBuf, Vec<u8>);
+pub type WrittenFile = (PathBuf, Vec<u8>);
 
 impl Editable {
     /// Opens `source` to edit it without decoding textures.
@@ -108,7 +108,7 @@ impl Editable {
     }
 
     /// Returns the index of a take among the animations of the file.
-    fn place(&self, slot: &Slot) -> Option<usize> {
+    fn place(&self, slot: &TakeVersions) -> Option<usize> {
         match &self.places {
             None => slot.origin,
             Some(places) => places.get(&slot.id).copied(),
@@ -121,23 +121,23 @@ impl Editable {
     /// # Errors
     ///
     /// The path and the reason why it is impossible.
-    pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, String> {
+    pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<WrittenFile>, String> {
         let Some((main, beside)) = plan.files.split_last() else { return Ok(Vec::new()) };
         let folder = folder_of(output);
-        let mut files: Vec<Written> =
+        let mut files: Vec<WrittenFile> =
             beside.iter().map(|file| (folder.join(&file.name), file.bytes.clone())).collect();
         files.extend(self.taken_along(folder)?);
         files.push((output.to_path_buf(), main.bytes.clone()));
         Ok(files)
     }
 
-    /// Does it need files beside it, once `plan` is done?
+    /// Returns whether the model needs other files next to it after the save of `plan`.
     pub fn needs_others(&self, plan: &SavePlan) -> bool {
         plan.files.len() > 1 || !self.file.neighbors().is_empty()
     }
 
     /// Returns the files that the model needs and that are missing in `folder`.
-    fn taken_along(&self, folder: &Path) -> Result<Vec<Written>, String> {
+    fn taken_along(&self, folder: &Path) -> Result<Vec<WrittenFile>, String> {
         let Some(from) = self.path.as_deref().map(folder_of) else { return Ok(Vec::new()) };
         if std::fs::canonicalize(from).ok() == std::fs::canonicalize(folder).ok() {
             return Ok(Vec::new());

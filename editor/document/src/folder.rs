@@ -1,59 +1,58 @@
-//! The guarded door on a real folder.
+//! Guarded access to the files of a model.
 //!
-//! A model may name other files: buffers, images. Whoever made it may have meant harm, so a name is followed only to
-//! a regular file inside the model's own folder tree. Everything else is refused, and refused at once: a pipe is
-//! never waited for, a device never read, a link out of the tree never followed, not even when it is put there
-//! while we look.
+//! A model may refer to other files: buffers, images. It may also be malicious, so a name leads only to a regular file
+//! inside the folder of the model. Everything else is refused immediately: a pipe never blocks, a device is never
+//! read, and a link out of the folder is never followed, even if it is created while the file is opened.
 
 use dragonfly_anim::format::{AssetError, AssetFs};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Longest name of one part of a path; what file systems allow.
+/// Maximum length of one part of a path: the limit of file systems.
 const MAX_NAME: usize = 255;
 
-/// Longest path inside the folder.
+/// Maximum length of a path inside the folder.
 const MAX_PATH: usize = 4096;
 
-/// Deepest nesting below the folder.
+/// Maximum depth below the folder.
 const MAX_DEPTH: usize = 64;
 
-/// Why a file was not opened.
+/// The reason why a file was not opened.
 #[derive(Debug, thiserror::Error)]
-pub enum DoorError {
-    /// The name itself can never be a file of the folder.
+pub enum FileAccessError {
+    /// The name cannot be that of a file in the folder.
     #[error("is no name of a file in the model's folder: {0}")]
     Name(&'static str),
-    /// The name leads, by links, out of the folder.
+    /// The name leads out of the folder through links.
     #[error("leads out of the model's folder")]
     Outside,
     /// A folder, pipe, device or socket.
     #[error("is {0}, not a regular file")]
     NotRegular(&'static str),
-    /// Larger than asked for.
+    /// The file is too large.
     #[error("holds {size} bytes, more than the {limit} that may be read")]
     TooLarge {
-        /// Bytes in the file.
+        /// Size of the file in bytes.
         size: u64,
-        /// Bytes allowed.
+        /// Maximum size in bytes.
         limit: u64,
     },
-    /// The system said no.
+    /// The system reported an error.
     #[error("{}", reason(.0))]
     Io(#[from] io::Error),
 }
 
-/// The folder of a model and all below it.
+/// The folder of a model, with all folders below.
 #[derive(Clone, Debug)]
 pub struct Folder {
-    /// Free of links, so that a prefix of a path is a folder above it.
+    /// Without links, so that a prefix of a path is a parent folder.
     root: PathBuf,
 }
 
 impl Folder {
-    /// The folder that holds `file`.
-    pub fn of(file: &Path) -> Result<Self, DoorError> {
+    /// Returns the folder of `file`.
+    pub fn of(file: &Path) -> Result<Self, FileAccessError> {
         let folder = match file.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
@@ -61,18 +60,18 @@ impl Folder {
         Self::new(folder)
     }
 
-    /// `folder` itself.
-    pub fn new(folder: &Path) -> Result<Self, DoorError> {
+    /// Returns this folder.
+    pub fn new(folder: &Path) -> Result<Self, FileAccessError> {
         Ok(Self { root: folder.canonicalize()? })
     }
 
-    /// Bytes of the file called `name`: a relative path with `/` between its parts, already percent-decoded.
+    /// Returns the bytes of the file `name`: a relative path with `/` between its parts, percent-decoded.
     ///
     /// Links that stay inside the folder are followed.
-    pub fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, DoorError> {
+    pub fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, FileAccessError> {
         let relative = checked(name)?;
         let resolved = self.root.join(relative).canonicalize()?;
-        let inside = resolved.strip_prefix(&self.root).map_err(|_| DoorError::Outside)?;
+        let inside = resolved.strip_prefix(&self.root).map_err(|_| FileAccessError::Outside)?;
         read_regular(system::open_below(&self.root, inside)?, limit)
     }
 }
@@ -83,27 +82,27 @@ impl AssetFs for Folder {
     }
 }
 
-impl From<DoorError> for AssetError {
-    fn from(error: DoorError) -> Self {
+impl From<FileAccessError> for AssetError {
+    fn from(error: FileAccessError) -> Self {
         match error {
-            DoorError::Io(error) if error.kind() == io::ErrorKind::NotFound => Self::Missing,
-            DoorError::Io(error) => Self::Failed(error.to_string()),
-            DoorError::TooLarge { size, limit } => Self::TooLarge { size, limit },
+            FileAccessError::Io(error) if error.kind() == io::ErrorKind::NotFound => Self::Missing,
+            FileAccessError::Io(error) => Self::Failed(error.to_string()),
+            FileAccessError::TooLarge { size, limit } => Self::TooLarge { size, limit },
             other => Self::Refused(other.to_string()),
         }
     }
 }
 
-/// Bytes of the one file a person named; links are followed, but only to a regular file.
-pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, DoorError> {
+/// Returns the bytes of a file that the user named. Links are followed, but only to a regular file.
+pub fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, FileAccessError> {
     let metadata = std::fs::metadata(path)?;
     regular(&metadata)?;
     read_regular(system::open(path)?, limit)
 }
 
-/// Splits `name` into parts that can only lead downwards.
-fn checked(name: &str) -> Result<PathBuf, DoorError> {
-    let refuse = |reason| Err(DoorError::Name(reason));
+/// Splits `name` into parts that lead only downwards.
+fn checked(name: &str) -> Result<PathBuf, FileAccessError> {
+    let refuse = |reason| Err(FileAccessError::Name(reason));
     if name.is_empty() {
         return refuse("it is empty");
     }
@@ -131,7 +130,7 @@ fn checked(name: &str) -> Result<PathBuf, DoorError> {
             ".." => return refuse("it leads upwards"),
             "" => return refuse("a part of it is empty"),
             _ if part.len() > MAX_NAME => return refuse("a part of it is too long"),
-            // Some systems drop these and would open another file than the one named.
+            // Some systems ignore these characters and would open a different file.
             _ if part.ends_with('.') || part.ends_with(' ') => {
                 return refuse("a part of it ends with a dot or a blank");
             }
@@ -148,7 +147,7 @@ fn checked(name: &str) -> Result<PathBuf, DoorError> {
     if depth == 0 { refuse("it names the folder itself") } else { Ok(path) }
 }
 
-/// Names that Windows keeps for devices, whatever comes after a dot.
+/// Names that Windows reserves for devices, with any extension.
 fn is_device_name(part: &str) -> bool {
     let stem = part.split('.').next().unwrap_or(part).trim_end().to_ascii_uppercase();
     matches!(stem.as_str(), "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$")
@@ -157,30 +156,30 @@ fn is_device_name(part: &str) -> bool {
             && stem.as_bytes()[3].is_ascii_digit())
 }
 
-/// Is it a plain file? If not, what is it?
-fn regular(metadata: &std::fs::Metadata) -> Result<(), DoorError> {
-    if metadata.is_file() { Ok(()) } else { Err(DoorError::NotRegular(system::kind(metadata))) }
+/// Checks that it is a regular file; else returns what it is.
+fn regular(metadata: &std::fs::Metadata) -> Result<(), FileAccessError> {
+    if metadata.is_file() { Ok(()) } else { Err(FileAccessError::NotRegular(system::kind(metadata))) }
 }
 
-/// Reads an open file whole, if it is regular and within `limit`; the memory is asked for, not assumed.
-fn read_regular(file: File, limit: u64) -> Result<Vec<u8>, DoorError> {
-    // Asked again of the open file: what had the name a moment ago may be gone.
+/// Reads a whole open file if it is regular and not larger than `limit`. Memory is allocated fallibly.
+fn read_regular(file: File, limit: u64) -> Result<Vec<u8>, FileAccessError> {
+    // Checked again with the open file: the name may refer to another file by now.
     let metadata = file.metadata()?;
     regular(&metadata)?;
     let size = metadata.len();
     if size > limit {
-        return Err(DoorError::TooLarge { size, limit });
+        return Err(FileAccessError::TooLarge { size, limit });
     }
     let mut bytes = Vec::new();
-    let wanted = usize::try_from(size).map_err(|_| DoorError::TooLarge { size, limit })?;
+    let wanted = usize::try_from(size).map_err(|_| FileAccessError::TooLarge { size, limit })?;
     bytes.try_reserve_exact(wanted).map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))?;
-    // One more than allowed shows a file that grows while it is read.
+    // One byte more than allowed detects a file that grows while it is read.
     file.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
     let size = bytes.len() as u64;
-    if size > limit { Err(DoorError::TooLarge { size, limit }) } else { Ok(bytes) }
+    if size > limit { Err(FileAccessError::TooLarge { size, limit }) } else { Ok(bytes) }
 }
 
-/// The system's reason without its number, for a sentence.
+/// Returns the system's message without its number.
 fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "does not exist".to_owned(),
@@ -192,50 +191,50 @@ fn reason(error: &io::Error) -> String {
 
 #[cfg(unix)]
 mod system {
-    use super::DoorError;
+    use super::FileAccessError;
     use rustix::fs::{Mode, OFlags, open as open_path, openat};
     use std::fs::File;
     use std::os::unix::fs::FileTypeExt;
     use std::path::{Component, Path};
 
-    /// Not blocking, so that a pipe opens at once and can be refused; never the controlling terminal.
+    /// Non-blocking, so that a pipe opens immediately and can be refused; never as the controlling terminal.
     const READ: OFlags = OFlags::RDONLY.union(OFlags::NONBLOCK).union(OFlags::NOCTTY).union(OFlags::CLOEXEC);
 
-    /// Opens a path that a person named.
-    pub(super) fn open(path: &Path) -> Result<File, DoorError> {
+    /// Opens a path that the user named.
+    pub(super) fn open(path: &Path) -> Result<File, FileAccessError> {
         Ok(open_path(path, READ, Mode::empty()).map_err(std::io::Error::from)?.into())
     }
 
-    /// Opens `inside`, a path without links, from folder to folder: one that became a link meanwhile is refused.
-    pub(super) fn open_below(root: &Path, inside: &Path) -> Result<File, DoorError> {
+    /// Opens `inside`, a path without links, folder by folder. A folder that has become a link since then is refused.
+    pub(super) fn open_below(root: &Path, inside: &Path) -> Result<File, FileAccessError> {
         let step = OFlags::DIRECTORY.union(OFlags::NOFOLLOW).union(OFlags::CLOEXEC);
         let mut folder = open_path(root, OFlags::DIRECTORY.union(OFlags::CLOEXEC), Mode::empty())
             .map_err(std::io::Error::from)?;
         let mut parts = inside.components().peekable();
         while let Some(part) = parts.next() {
-            let Component::Normal(part) = part else { return Err(DoorError::Outside) };
+            let Component::Normal(part) = part else { return Err(FileAccessError::Outside) };
             if parts.peek().is_some() {
                 folder = openat(&folder, part, step, Mode::empty()).map_err(link)?;
                 continue;
             }
-            // Opening a device can already do something, so look before.
+            // Opening a device can have side effects, so its type is checked before.
             let status = rustix::fs::statat(&folder, part, rustix::fs::AtFlags::SYMLINK_NOFOLLOW)
                 .map_err(std::io::Error::from)?;
             let kind = rustix::fs::FileType::from_raw_mode(status.st_mode);
             if kind != rustix::fs::FileType::RegularFile {
-                return Err(DoorError::NotRegular(name_of(kind)));
+                return Err(FileAccessError::NotRegular(name_of(kind)));
             }
             let file = openat(&folder, part, READ.union(OFlags::NOFOLLOW), Mode::empty()).map_err(link)?;
             return Ok(file.into());
         }
-        Err(DoorError::NotRegular("a folder"))
+        Err(FileAccessError::NotRegular("a folder"))
     }
 
-    /// A link where none was a moment ago is an attempt to lead us out.
-    fn link(error: rustix::io::Errno) -> DoorError {
+    /// A new link here is an attempt to lead out of the folder.
+    fn link(error: rustix::io::Errno) -> FileAccessError {
         match error {
-            rustix::io::Errno::LOOP | rustix::io::Errno::NOTDIR => DoorError::Outside,
-            other => DoorError::Io(other.into()),
+            rustix::io::Errno::LOOP | rustix::io::Errno::NOTDIR => FileAccessError::Outside,
+            other => FileAccessError::Io(other.into()),
         }
     }
 
@@ -250,7 +249,7 @@ mod system {
         }
     }
 
-    /// What a thing that is no regular file is called.
+    /// Returns the name of a file type that is not regular.
     pub(super) fn kind(metadata: &std::fs::Metadata) -> &'static str {
         let kind = metadata.file_type();
         if kind.is_dir() {
@@ -269,23 +268,23 @@ mod system {
 
 #[cfg(not(unix))]
 mod system {
-    use super::DoorError;
+    use super::FileAccessError;
     use std::fs::File;
     use std::path::Path;
 
-    /// Opens a path that a person named.
-    pub(super) fn open(path: &Path) -> Result<File, DoorError> {
+    /// Opens a path that the user named.
+    pub(super) fn open(path: &Path) -> Result<File, FileAccessError> {
         Ok(File::open(path)?)
     }
 
-    /// Opens a path already found to lie inside the folder; without `openat` the check cannot be made tighter.
-    pub(super) fn open_below(root: &Path, inside: &Path) -> Result<File, DoorError> {
+    /// Opens a path that was found to be inside the folder. Without `openat` the check cannot be stricter.
+    pub(super) fn open_below(root: &Path, inside: &Path) -> Result<File, FileAccessError> {
         let path = root.join(inside);
         super::regular(&std::fs::symlink_metadata(&path)?)?;
         Ok(File::open(path)?)
     }
 
-    /// What a thing that is no regular file is called.
+    /// Returns the name of a file type that is not regular.
     pub(super) fn kind(metadata: &std::fs::Metadata) -> &'static str {
         if metadata.is_dir() { "a folder" } else { "something else" }
     }

@@ -1,7 +1,7 @@
 //! Undo and redo of every edit, as a list of steps.
 
 use super::about::about;
-use super::adapter::{EditError, Inverse, ModelAdapter, PoseDrag};
+use super::adapter::{EditError, Inverse, ModelAdapter, ValueDrag};
 use super::edit::Edit;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ pub const MAX_BYTES: usize = 256 << 20;
 
 /// One step of the history.
 #[derive(Clone, Debug)]
-pub struct Step {
+pub struct HistoryStep {
     /// The edit; of a gesture, its last one.
     pub edit: Edit,
     /// The gesture that made it.
@@ -34,7 +34,7 @@ pub struct Step {
 #[derive(Clone, Debug)]
 pub struct Edited {
     adapter: ModelAdapter,
-    steps: VecDeque<Step>,
+    steps: VecDeque<HistoryStep>,
     /// Number of steps that are applied; those after are undone.
     done: usize,
     /// Number of steps that were applied at the last save; `None` where neither undo nor redo leads there.
@@ -44,7 +44,7 @@ pub struct Edited {
     /// Whether the oldest steps were removed because there were too many.
     cut: bool,
     /// State of the drag, where the last step is a pose that is being dragged.
-    drag: Option<PoseDrag>,
+    drag: Option<ValueDrag>,
 }
 
 impl Edited {
@@ -59,7 +59,7 @@ impl Edited {
     }
 
     /// Returns all steps, the first one first, and how many of them are applied.
-    pub fn steps(&self) -> (&VecDeque<Step>, usize) {
+    pub fn steps(&self) -> (&VecDeque<HistoryStep>, usize) {
         (&self.steps, self.done)
     }
 
@@ -112,10 +112,10 @@ impl Edited {
         if self.saved.is_some_and(|saved| saved > self.steps.len()) {
             self.saved = None;
         }
-        self.drag = gesture.and_then(|_| PoseDrag::of(&self.adapter, &edit, &inverse));
+        self.drag = gesture.and_then(|_| ValueDrag::of(&self.adapter, &edit, &inverse));
         let bytes = inverse.bytes();
         self.bytes += bytes;
-        self.steps.push_back(Step { edit, gesture, about, inverse, bytes });
+        self.steps.push_back(HistoryStep { edit, gesture, about, inverse, bytes });
         self.done = self.steps.len();
         self.forget_oldest();
         Ok(())

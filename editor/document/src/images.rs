@@ -1,4 +1,4 @@
-//! Textures to pixels, within limits: a file of one kilobyte must not ask for all memory.
+//! Decodes textures within limits: a file of one kilobyte must not allocate all memory.
 
 use super::{Cancel, DecodedImage};
 use dragonfly_anim::data::Image;
@@ -6,25 +6,25 @@ use image::{ImageReader, Limits};
 use std::io::Cursor;
 use std::sync::Arc;
 
-/// Longest side that is decoded; no device of today takes more.
+/// Maximum width and height of an image; the limit of current GPUs.
 pub const MAX_SIDE: u32 = 16_384;
-/// Pixels of one image.
+/// Maximum number of pixels of one image.
 pub const MAX_PIXELS: u64 = 64 << 20;
-/// Pixels of all images of a model together.
+/// Maximum number of pixels of all images of a model.
 pub const MAX_PIXELS_TOTAL: u64 = 256 << 20;
 
-/// What came out of a model's images.
+/// The decoded images of a model.
 #[derive(Debug, Default)]
 pub struct Decoded {
-    /// One an image; `None` where it failed.
+    /// One per image; `None` where it failed.
     pub images: Vec<Option<Arc<DecodedImage>>>,
-    /// Why, one sentence a failure.
+    /// The reasons, one sentence per failure.
     pub warnings: Vec<String>,
 }
 
-/// Decodes every image once per source, in order; says after each how many are done.
+/// Decodes every image once per source, in order. Calls `progress` with the number of decoded images after each.
 ///
-/// A failure costs that image and is a warning. Stops early, with the rest `None`, when `cancel` is raised.
+/// An image that fails is a warning and `None`. Stops early, with `None` for the rest, when `cancel` is raised.
 pub fn decode_all(images: &[Image], cancel: &Cancel, mut done: impl FnMut(usize)) -> Decoded {
     let mut decoded = Decoded::default();
     let mut budget = MAX_PIXELS_TOTAL;
@@ -52,7 +52,7 @@ pub fn decode_all(images: &[Image], cancel: &Cancel, mut done: impl FnMut(usize)
     decoded
 }
 
-/// The last line: a decoder that panics costs its image, like one that fails.
+/// Decodes an image. A decoder that panics loses only its image, like one that fails.
 fn decode_guarded(image: &Image, budget: u64) -> Result<DecodedImage, String> {
     std::panic::catch_unwind(|| decode(image, budget))
         .unwrap_or_else(|_| Err("the decoder failed on it".to_owned()))
@@ -87,7 +87,7 @@ pub fn decode(image: &Image, budget: u64) -> Result<DecodedImage, String> {
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
-    // Sixteen bits a channel is the widest format there is; twice that, for what a decoder needs besides.
+    // The widest format has sixteen bits per channel; decoders need up to twice that memory.
     limits.max_alloc = Some((pixels * 16).max(1 << 20));
     let mut reader = reader()?;
     reader.limits(limits);
@@ -95,7 +95,7 @@ pub fn decode(image: &Image, budget: u64) -> Result<DecodedImage, String> {
     Ok(DecodedImage { width: rgba.width(), height: rgba.height(), pixels: rgba.into_raw() })
 }
 
-/// Do both show the same bytes? Compares addresses, not contents: importers share what is the same.
+/// Returns whether both have the same bytes. Compares addresses, not contents: importers share equal data.
 fn same_source(one: &Image, other: &Image) -> bool {
     !one.bytes.is_empty() && Arc::ptr_eq(&one.bytes, &other.bytes)
 }

@@ -1,4 +1,4 @@
-//! Bytes to data, by the library's importers.
+//! Imports the bytes of a model with the importers of the library.
 
 use super::load::{LoadError, file_name};
 use super::{Cancel, Folder};
@@ -12,45 +12,45 @@ pub fn formats() -> Formats {
     Formats::builtin()
 }
 
-/// What an importer made.
-pub(super) struct Imported {
+/// An imported model.
+pub(super) struct ImportedModel {
     /// The data.
     pub(super) model: ModelData,
     /// The format of the file.
     pub(super) format: Format,
-    /// What is not shown or was mended.
+    /// Contents that are not shown or were sanitized.
     pub(super) warnings: Vec<String>,
 }
 
-/// The model that is part of the program.
-pub(super) fn built_in(progress: &dyn Fn(f32), cancel: &Cancel) -> Result<Imported, LoadError> {
+/// Imports the built-in model.
+pub(super) fn built_in(progress: &dyn Fn(f32), cancel: &Cancel) -> Result<ImportedModel, LoadError> {
     read("dragonfly.glb", DRAGONFLY_GLB, &NoFiles, progress, cancel)
 }
 
-/// The contents of the file at `path`; what it refers to is read from its folder.
+/// Imports the file at `path`. Files that it refers to are read from its folder.
 pub(super) fn file(
     path: &Path,
     bytes: &[u8],
     progress: &dyn Fn(f32),
     cancel: &Cancel,
-) -> Result<Imported, LoadError> {
+) -> Result<ImportedModel, LoadError> {
     let title = file_name(path);
     let folder = Folder::of(path)
         .map_err(|error| LoadError::Format { title: title.clone(), reason: error.to_string() })?;
     read(&title, bytes, &folder, progress, cancel)
 }
 
-/// `bytes` of a file called `title`; what they refer to is asked of `door`.
+/// Imports `bytes` of a file called `title`. Files that it refers to are read through `door`.
 pub(super) fn read(
     title: &str,
     bytes: &[u8],
     door: &dyn AssetFs,
     progress: &dyn Fn(f32),
     cancel: &Cancel,
-) -> Result<Imported, LoadError> {
+) -> Result<ImportedModel, LoadError> {
     let options = ReadOptions { is_cancelled: &|| cancel.is_cancelled(), progress, ..ReadOptions::default() };
     match formats().read(title, bytes, door, &options) {
-        Ok(imported) => Ok(Imported {
+        Ok(imported) => Ok(ImportedModel {
             model: imported.model,
             format: imported.format,
             warnings: imported.warnings.iter().map(ToString::to_string).collect(),

@@ -1,26 +1,27 @@
-//! Loading in a thread of its own: the document goes on while a file is read, and outlives an importer that panics.
+//! Loading on a separate thread: the document continues to work while a file is read, and survives an importer that
+//! panics.
 
-use super::{Cancel, LoadError, Loader, Opened, Progress, Source};
+use super::{Cancel, LoadError, Loader, OpenedModel, Progress, Source};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::JoinHandle;
 
-/// What a job tells its owner.
+/// News of a loading job.
 #[derive(Debug)]
 pub(super) enum JobNews {
-    /// It goes on.
+    /// The progress so far.
     Progress(Progress),
-    /// It is over.
-    Done(Result<Box<Opened>, LoadError>),
+    /// The result.
+    Done(Result<Box<OpenedModel>, LoadError>),
 }
 
-/// A model being loaded. Dropping it cancels the job and lets it end by itself.
+/// A model that is loading. Dropping it cancels the job without waiting for its end.
 pub(super) struct LoadJob {
     cancel: Cancel,
     thread: Option<JoinHandle<()>>,
 }
 
 impl LoadJob {
-    /// Starts loading; `load` and `tell` are called in the job's thread.
+    /// Starts loading. `load` and `tell` are called on the thread of the job.
     pub(super) fn start(
         source: Source,
         load: Loader,
@@ -32,13 +33,13 @@ impl LoadJob {
             let title = source.title();
             let mut last = -1.0;
             let mut progress = |progress: Progress| {
-                // A hundred steps are enough for any bar.
+                // A progress bar needs no more than a hundred steps.
                 if progress.done - last >= 0.01 {
                     last = progress.done;
                     tell(JobNews::Progress(progress));
                 }
             };
-            // Nothing of a failed job is kept, so nothing half done can be seen.
+            // Nothing of a failed job is used, so no partial state is visible.
             let loaded = catch_unwind(AssertUnwindSafe(|| load(&source, &mut progress, &seen)));
             tell(JobNews::Done(loaded.map(|loaded| loaded.map(Box::new)).unwrap_or_else(|panic| {
                 let reason = format!("the importer failed: {}", panic_text(&*panic));
@@ -48,7 +49,7 @@ impl LoadJob {
         Ok(Self { cancel, thread: Some(thread) })
     }
 
-    /// Has it ended?
+    /// Returns whether the job has ended.
     pub(super) fn is_finished(&self) -> bool {
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)
     }
@@ -57,7 +58,7 @@ impl LoadJob {
 impl Drop for LoadJob {
     fn drop(&mut self) {
         self.cancel.cancel();
-        // A job that reads from a slow disk cannot be interrupted; nobody waits for it.
+        // A job that reads from a slow disk cannot be interrupted, and is not waited for.
         if self.is_finished()
             && let Some(thread) = self.thread.take()
             && thread.join().is_err()

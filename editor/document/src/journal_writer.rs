@@ -4,7 +4,7 @@
 //! edits since the failure would be missing otherwise.
 
 use super::history::Gesture;
-use super::recorded::{About, Recorded};
+use super::recorded::{EditsOrigin, Recorded};
 use dragonfly_store::{Autosave, FileStamp, Journal, JournalError};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -78,7 +78,7 @@ impl JournalWriter {
     }
 
     /// Appends an entry. When this returns, the system has it, or there is a warning that it has not.
-    pub(super) fn record(&mut self, about: &About, recorded: &Recorded<'_>, now: Instant) {
+    pub(super) fn record(&mut self, about: &EditsOrigin, recorded: &Recorded<'_>, now: Instant) {
         self.begin();
         if self.journal.is_none() || self.gap.is_some() {
             return;
@@ -122,7 +122,7 @@ impl JournalWriter {
         }
     }
 
-    fn begun(&mut self, about: &About, now: Instant) -> Result<(), JournalError> {
+    fn begun(&mut self, about: &EditsOrigin, now: Instant) -> Result<(), JournalError> {
         if !self.begun {
             self.append(&Recorded::Begin(about.clone()), now)?;
             self.begun = true;

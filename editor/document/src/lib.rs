@@ -1,4 +1,12 @@
-//! The document: what is open, and what everybody may read of it.
+//! The document that Dragonfly edits.
+//!
+//! This crate owns the open model and every change of it: the vocabulary of edits ([`edit`]), the takes in their three forms
+//! ([`adapter`]), undo and redo ([`history`]), loading, saving, the journal of unsaved work and its recovery, the thread that owns all of
+//! this ([`Document`]), the protocol of `--stdio` ([`protocol`]), sets of bones ([`bones`]), posing by hand ([`posing`]), and the built-in
+//! model ([`demo`]). Other threads send a [`DocumentMessage`] and read the published [`View`].
+//!
+//! It must not know windows, panels or graphics: it depends on no crate of a user interface or of a GPU, so that the command line, tests
+//! and other front ends can use it alone.
 
 mod about;
 pub mod adapter;
@@ -33,17 +41,17 @@ pub mod text;
 mod view;
 mod writing;
 
-pub use cancel::{Cancel, Progress, Stage};
-pub use editable::{Editable, Written, make_folder};
+pub use cancel::{Cancel, LoadStage, Progress};
+pub use editable::{Editable, WrittenFile, make_folder};
 pub use fault::{FaultInjection, FaultPlan, FaultPoint};
-pub use folder::{DoorError, Folder, read_file};
+pub use folder::{FileAccessError, Folder, read_file};
 pub use handle::DocumentHandle;
 pub use import::formats;
-pub use load::{LoadError, Loader, Opened, Source, load_model, open_model};
+pub use load::{LoadError, Loader, OpenedModel, Source, load_model, open_model};
 pub use message::{DocumentMessage, DocumentReply};
 pub use offer::Offer;
 pub use open::Change;
 pub use owner::{Document, Setup};
-pub use saving::{NotSaved, SaveOrder, SaveTo, SavedFile, Then, fits};
+pub use saving::{NotSaved, SaveOrder, SaveTo, SavedFile, Then, check_extension};
 pub use scan::Decision;
 pub use view::{DecodedImage, FileView, HistoryView, LoadedModel, View};

@@ -1,6 +1,6 @@
 //! Opening a model: bytes, data, pixels; with progress, cancelable, for window and command line.
 
-use super::{Cancel, DoorError, Editable, LoadedModel, Progress, Stage, read_file};
+use super::{Cancel, Editable, FileAccessError, LoadStage, LoadedModel, Progress, read_file};
 use super::{images, import};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::bounds::bounds_of_pose;
@@ -39,7 +39,7 @@ pub enum LoadError {
         /// The path.
         path: PathBuf,
         /// The reason.
-        reason: DoorError,
+        reason: FileAccessError,
     },
     /// Its contents are wrong.
     #[error("{title}: {reason}")]
@@ -56,14 +56,14 @@ pub enum LoadError {
 
 /// An open model: the data to show, and everything needed to save it.
 #[derive(Debug)]
-pub struct Opened {
+pub struct OpenedModel {
     /// The data to show.
     pub loaded: LoadedModel,
     /// Its file, from the same bytes; or the reason why it cannot be saved.
     pub editable: Result<Editable, String>,
 }
 
-impl From<LoadedModel> for Opened {
+impl From<LoadedModel> for OpenedModel {
     /// A model without a file.
     fn from(loaded: LoadedModel) -> Self {
         Self { loaded, editable: Err("it was not read from a file".to_owned()) }
@@ -71,7 +71,7 @@ impl From<LoadedModel> for Opened {
 }
 
 /// A function that opens a model, such as [`open_model`].
-pub type Loader = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<Opened, LoadError>;
+pub type Loader = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<OpenedModel, LoadError>;
 
 /// Opens `source` to show it. `progress` is called with the progress; raising `cancel` stops it at the next step.
 ///
@@ -96,13 +96,13 @@ pub fn open_model(
     source: &Source,
     progress: &mut dyn FnMut(Progress),
     cancel: &Cancel,
-) -> Result<Opened, LoadError> {
-    progress(Progress { stage: Stage::Reading, done: 0.0 });
+) -> Result<OpenedModel, LoadError> {
+    progress(Progress { stage: LoadStage::Reading, done: 0.0 });
     let read = Read::file(source)?;
     let loaded = read.load(progress, cancel)?;
     let stamp = read.stamp()?;
     let editable = Editable::of(source, read.bytes, stamp, &loaded);
-    Ok(Opened { loaded, editable })
+    Ok(OpenedModel { loaded, editable })
 }
 
 /// The bytes of a model.
@@ -141,14 +141,14 @@ impl<'a> Read<'a> {
     }
 
     fn load(&self, progress: &mut dyn FnMut(Progress), cancel: &Cancel) -> Result<LoadedModel, LoadError> {
-        progress(Progress { stage: Stage::Reading, done: 0.0 });
+        progress(Progress { stage: LoadStage::Reading, done: 0.0 });
         check(cancel)?;
         let imported = {
             // The importer takes its listener by shared reference, so the listener is in a cell.
             let progress = RefCell::new(&mut *progress);
             let understanding = |done: f32| {
                 let done = 0.1 + 0.4 * done.clamp(0.0, 1.0);
-                (progress.borrow_mut())(Progress { stage: Stage::Understanding, done });
+                (progress.borrow_mut())(Progress { stage: LoadStage::Understanding, done });
             };
             match self.source {
                 Source::BuiltIn => import::built_in(&understanding, cancel)?,
@@ -156,11 +156,11 @@ impl<'a> Read<'a> {
             }
         };
         check(cancel)?;
-        let import::Imported { model, format, mut warnings } = imported;
+        let import::ImportedModel { model, format, mut warnings } = imported;
         let count = model.images.len().max(1) as f32;
-        progress(Progress { stage: Stage::Decoding, done: 0.5 });
+        progress(Progress { stage: LoadStage::Decoding, done: 0.5 });
         let decoded = images::decode_all(&model.images, cancel, |done| {
-            progress(Progress { stage: Stage::Decoding, done: 0.5 + 0.5 * done as f32 / count });
+            progress(Progress { stage: LoadStage::Decoding, done: 0.5 + 0.5 * done as f32 / count });
         });
         check(cancel)?;
         warnings.extend(decoded.warnings);

@@ -86,7 +86,8 @@ pub enum DocumentReply {
     Saved(SavedFile),
     /// The document was not saved; with the order that failed.
     NotSaved(SaveOrder, NotSaved),
-    /// What a save would change, one line each, or why it is impossible; and the save that follows once the user has seen it.
+    /// The changes that a save would write, one line each, or why it is impossible; and the save that follows once the
+    /// user has seen them.
     Plan(Result<String, String>, Option<SaveOrder>),
     /// Something was not done because the open model has unsaved work: the user decides.
     Unsaved(Then),
@@ -101,9 +102,9 @@ pub enum DocumentReply {
     /// The user searched for unsaved work, and there is none.
     NothingToOffer,
     /// A message for the status line.
-    Told(String),
+    Notice(String),
     /// A warning for the status line.
-    Warned(String),
+    Warning(String),
     /// An internal error closed the document. Recorded work is offered.
     Lost,
 }

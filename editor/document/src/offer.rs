@@ -2,7 +2,7 @@
 
 use super::Source;
 use super::history::Gesture;
-use super::recorded::{About, Recorded, Snapshot};
+use super::recorded::{EditsOrigin, Recorded, Snapshot};
 use dragonfly_store::{
     Autosave, DocumentFileState, FileStamp, JournalEntry, OwnerStatus, Readability, RealFiles, Recoverable,
 };
@@ -42,7 +42,7 @@ impl Offer {
         entries.iter().for_each(|entry| outline.add(entry));
         let source = match &found.document {
             Some(path) => Some(Source::File(path.clone())),
-            None => outline.about.as_ref().and_then(About::source),
+            None => outline.about.as_ref().and_then(EditsOrigin::source),
         };
         let title = match (&found.document, &source) {
             (None, Some(source)) => recovered(&source.title()),
@@ -124,7 +124,7 @@ pub(super) fn recovered(title: &str) -> String {
 /// A history without its data: enough to count and name its steps.
 #[derive(Debug, Default)]
 struct HistoryOutline {
-    about: Option<About>,
+    about: Option<EditsOrigin>,
     steps: Vec<(&'static str, Option<Gesture>)>,
     done: usize,
     saved: Option<usize>,

@@ -6,9 +6,9 @@ use super::editable::Editable;
 use super::history::{Edited, Gesture};
 use super::journal_writer::JournalWriter;
 use super::offer::recovered;
-use super::recorded::{About, Recorded, Snapshot};
+use super::recorded::{EditsOrigin, Recorded, Snapshot};
 use super::replay::Replayed;
-use super::{FileView, HistoryView, LoadedModel, Opened, Source, View, base};
+use super::{FileView, HistoryView, LoadedModel, OpenedModel, Source, View, base};
 use dragonfly_anim::data::Take;
 use dragonfly_store::{Autosave, FileStamp};
 use std::sync::Arc;
@@ -45,15 +45,15 @@ pub(super) struct Open {
     /// The takes with which the history starts; those of the file where `None`.
     pub(super) base: Option<Arc<[Arc<Take>]>>,
     /// The header of its journal.
-    pub(super) about: About,
+    pub(super) about: EditsOrigin,
     pub(super) journal_writer: JournalWriter,
     /// Whether the user discarded the unsaved work.
     pub(super) unwanted: bool,
 }
 
 impl Open {
-    pub(super) fn new(opened: Opened, autosave: Option<Autosave>) -> Self {
-        let Opened { loaded, editable } = opened;
+    pub(super) fn new(opened: OpenedModel, autosave: Option<Autosave>) -> Self {
+        let OpenedModel { loaded, editable } = opened;
         let file = FileView { title: loaded.title.clone(), path: loaded.path.clone() };
         let source = loaded.path.is_none().then_some(Source::BuiltIn);
         let mut open = Self {
@@ -63,7 +63,7 @@ impl Open {
             editable,
             file: Arc::new(file),
             base: None,
-            about: About::new(source.as_ref()),
+            about: EditsOrigin::new(source.as_ref()),
             journal_writer: JournalWriter::new(autosave),
             unwanted: false,
         };
@@ -88,7 +88,7 @@ impl Open {
     /// Detaches the document from its file: the next save asks for a path.
     pub(super) fn leave_file(&mut self) {
         let source = self.loaded.path.clone().map_or(Source::BuiltIn, Source::File);
-        self.about = About::new(Some(&source));
+        self.about = EditsOrigin::new(Some(&source));
         self.file = Arc::new(FileView { title: recovered(&self.loaded.title), path: None });
         if let Ok(editable) = &mut self.editable {
             editable.forget_file();

@@ -230,10 +230,10 @@ impl Document {
                 "The unsaved work of {} can be restored when the file is opened again",
                 open.file.title
             );
-            self.reply(DocumentReply::Told(text));
+            self.reply(DocumentReply::Notice(text));
         }
         if let Err(reason) = open.close(self.autosave.as_ref()) {
-            self.reply(DocumentReply::Warned(reason));
+            self.reply(DocumentReply::Warning(reason));
         }
     }
 
@@ -308,7 +308,7 @@ impl Document {
 
     pub(super) fn report_trouble(&mut self) {
         let trouble = self.open.as_mut().map(|open| open.journal_writer.trouble()).unwrap_or_default();
-        trouble.into_iter().for_each(|text| self.reply(DocumentReply::Warned(text)));
+        trouble.into_iter().for_each(|text| self.reply(DocumentReply::Warning(text)));
     }
 
     pub(super) fn reply(&self, reply: DocumentReply) {

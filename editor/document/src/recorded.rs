@@ -1,4 +1,4 @@
-//! What the journal holds of a document, as JSON: each change that was done, and now and then all of them at once.
+//! Entries of a journal as JSON: each change, and from time to time a snapshot of all.
 
 use super::Source;
 use super::edit::{Edit, VERSION};
@@ -7,39 +7,40 @@ use crate::demo::DRAGONFLY_GLB;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// One record. What went wrong is not recorded, so each of them can be done again.
+/// One entry. Failed changes are not recorded, so each of them can be applied again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "do", rename_all = "snake_case")]
 pub(super) enum Recorded<'a> {
-    /// A program begins, or goes on: gestures from here on are none of those before.
-    Begin(About),
-    /// An edit; of a gesture, its newest form.
+    /// A program starts or resumes the journal: later gestures are different from earlier ones.
+    Begin(EditsOrigin),
+    /// An edit. Each edit of a gesture replaces the one before.
     Edit {
         edit: Cow<'a, Edit>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         gesture: Option<Gesture>,
     },
-    /// The gesture as if it had never begun.
+    /// A gesture was cancelled.
     Cancel { gesture: Gesture },
-    /// As many steps are done as this.
+    /// Undo or redo until exactly this many steps are applied.
     GoTo { steps: usize },
 }
 
-/// For whom the edits are meant.
+/// The model to which the edits belong.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct About {
-    /// Of the vocabulary of edits.
+pub(super) struct EditsOrigin {
+    /// Version of the vocabulary of edits.
     pub(super) version: u32,
-    /// The checksum of the model that is part of the program, where that one is edited.
+    /// Checksum of the built-in model, where that one is edited.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) built_in: Option<u64>,
-    /// The file that was read for what is a document without a file now.
+    /// The file that was read for a document that has no file now.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) source: Option<String>,
 }
 
-impl About {
-    /// For what was read from `source` and is saved nowhere yet, or for the document of the journal.
+impl EditsOrigin {
+    /// Describes a model that was read from `source` and is not saved yet, or the document of the journal where
+    /// `None`.
     pub(super) fn new(source: Option<&Source>) -> Self {
         let (built_in, source) = match source {
             None => (None, None),
@@ -49,7 +50,7 @@ impl About {
         Self { version: VERSION, built_in, source }
     }
 
-    /// What was read, where the journal does not say it.
+    /// The model that was read, where the journal has no path of it.
     pub(super) fn source(&self) -> Option<Source> {
         match (&self.source, self.built_in) {
             (Some(path), _) => Some(Source::File(path.into())),
@@ -59,28 +60,32 @@ impl About {
     }
 }
 
-/// Tells the built-in model of this program from that of another version.
+/// Returns the checksum by which versions of the built-in model are distinguished.
 pub(super) fn built_in_hash() -> u64 {
     dragonfly_store::hash(DRAGONFLY_GLB)
 }
 
-/// The whole history at once.
+/// A snapshot of the whole history.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Snapshot {
-    pub(super) about: About,
-    /// The steps; of a gesture, what it came to.
+    pub(super) about: EditsOrigin,
+    /// The edits of the steps; of a gesture, its last one.
     pub(super) steps: Vec<Edit>,
-    /// How many of them are done.
+    /// Number of steps that are applied.
     pub(super) done: usize,
-    /// How many were done when the file was saved, where that can be reached.
+    /// Number of steps that were applied at the last save, where that state can be reached.
     pub(super) saved: Option<usize>,
-    /// Do the takes with which the steps began follow? Else they are those of the file.
+    /// Whether the first takes of the history follow; else they are those of the file.
     pub(super) has_base: bool,
 }
 
 impl Snapshot {
-    /// `edited`, which began with the takes in `base` or else with those of the file.
-    pub(super) fn bytes(about: About, edited: &Edited, base: Option<&[u8]>) -> serde_json::Result<Vec<u8>> {
+    /// Writes a snapshot of `edited`, whose history started with the takes `base`, or else with those of the file.
+    pub(super) fn bytes(
+        about: EditsOrigin,
+        edited: &Edited,
+        base: Option<&[u8]>,
+    ) -> serde_json::Result<Vec<u8>> {
         let (steps, done) = edited.steps();
         let steps = steps.iter().map(|step| step.edit.clone()).collect();
         let snapshot = Self { about, steps, done, saved: edited.saved(), has_base: base.is_some() };
@@ -92,7 +97,7 @@ impl Snapshot {
         Ok(bytes)
     }
 
-    /// The snapshot in `bytes`, and its base.
+    /// Reads a snapshot and its base from `bytes`.
     pub(super) fn read(bytes: &[u8]) -> Option<(Self, Option<&[u8]>)> {
         let (length, rest) = bytes.split_first_chunk::<4>()?;
         let (text, base) = rest.split_at_checked(u32::from_le_bytes(*length) as usize)?;

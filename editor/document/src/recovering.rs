@@ -17,7 +17,7 @@ impl Document {
             self.scan = Some(scan);
             return;
         }
-        scan.unreadable.into_iter().for_each(|text| self.reply(DocumentReply::Warned(text)));
+        scan.unreadable.into_iter().for_each(|text| self.reply(DocumentReply::Warning(text)));
         let waiting = self.waiting.as_ref().map(|waiting| &waiting.journal);
         let own = self.open.as_ref().and_then(|open| open.journal_writer.path());
         let taken =
@@ -57,7 +57,7 @@ impl Document {
                     open.file.title
                 );
                 self.begin_beside();
-                self.reply(DocumentReply::Warned(text));
+                self.reply(DocumentReply::Warning(text));
             }
             Err(error) => open.journal_writer.never(&error),
         }
@@ -81,7 +81,7 @@ impl Document {
         let offer = match Offer::of(autosave, &found) {
             Ok(offer) => offer,
             Err(reason) => {
-                self.reply(DocumentReply::Warned(reason));
+                self.reply(DocumentReply::Warning(reason));
                 return self.begin_beside();
             }
         };
@@ -104,7 +104,7 @@ impl Document {
                 if let Some(Err(error)) =
                     self.autosave.as_ref().map(|autosave| autosave.discard(&offer.found))
                 {
-                    self.reply(DocumentReply::Warned(error.to_string()));
+                    self.reply(DocumentReply::Warning(error.to_string()));
                 }
                 if own {
                     self.begin_journal();
@@ -118,7 +118,7 @@ impl Document {
             }
             Decision::Keep | Decision::Beside => match offer.source.clone() {
                 Some(source) => self.open(source, Some((offer, decision))),
-                None => self.reply(DocumentReply::Warned(format!(
+                None => self.reply(DocumentReply::Warning(format!(
                     "{}: the model of this unsaved work is unknown",
                     offer.title
                 ))),
@@ -136,7 +136,7 @@ impl Document {
             }
             Ok(false) => self.reply(DocumentReply::OtherFile(Box::new(offer), path)),
             Err(reason) => {
-                self.reply(DocumentReply::Warned(reason));
+                self.reply(DocumentReply::Warning(reason));
                 // The path may be mistyped, so the work is offered again.
                 self.reply(DocumentReply::Offers(vec![offer]));
             }
@@ -165,7 +165,9 @@ impl Document {
         match resumed {
             Ok(resumed) => self.go_on(resumed, &offer.found, true),
             Err(error) => {
-                self.reply(DocumentReply::Warned(format!("The unsaved work could not be restored: {error}")));
+                self.reply(DocumentReply::Warning(format!(
+                    "The unsaved work could not be restored: {error}"
+                )));
                 self.begin_beside();
             }
         }
@@ -185,7 +187,7 @@ impl Document {
             );
             self.put_away(journal, "");
             self.begin_journal_anew();
-            return self.reply(DocumentReply::Told(text));
+            return self.reply(DocumentReply::Notice(text));
         }
         let steps = replayed.edited.unsaved_steps();
         let stopped = replayed.stopped.clone();
@@ -193,7 +195,7 @@ impl Document {
         if wanted {
             let what = if steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") };
             let title = open.file.title.clone();
-            self.reply(DocumentReply::Told(format!("Restored the unsaved work of {title}: {what}")));
+            self.reply(DocumentReply::Notice(format!("Restored the unsaved work of {title}: {what}")));
         }
         match stopped {
             None => self.go_on_in(journal),
@@ -201,7 +203,7 @@ impl Document {
                 let kept = self.put_away(journal, "the journal is kept in ");
                 let text = format!("Not all of the unsaved work could be restored: {reason}; {kept}");
                 self.begin_beside();
-                self.reply(DocumentReply::Warned(text));
+                self.reply(DocumentReply::Warning(text));
                 self.snapshot_now();
             }
         }

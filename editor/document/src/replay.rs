@@ -1,31 +1,31 @@
-//! What a journal holds, done again.
+//! Applies the edits of a journal again.
 
 use super::adapter::{ModelAdapter, TakeId};
 use super::alike::alike;
 use super::base;
 use super::edit::VERSION;
 use super::history::Edited;
-use super::recorded::{About, Recorded, Snapshot, built_in_hash};
+use super::recorded::{EditsOrigin, Recorded, Snapshot, built_in_hash};
 use dragonfly_anim::data::{AnimationData, ModelData, Take};
 use dragonfly_store::JournalEntry;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// A document with its history, as a journal tells it.
+/// A document with its history, restored from a journal.
 #[derive(Debug)]
 pub(super) struct Replayed {
-    /// The takes, and what was done to them.
+    /// The takes with their history.
     pub(super) edited: Edited,
-    /// The takes with which the history begins; those of the file where the journal has none.
+    /// The takes with which the history starts; those of the file where the journal has none.
     pub(super) base: Option<Arc<[Arc<Take>]>>,
-    /// The takes when they were saved last, where the journal says so.
+    /// The takes at the last save, where the journal recorded one.
     at_save: Option<Vec<(TakeId, Arc<Take>)>>,
-    /// Why what follows could not be done again; `None` when everything was.
+    /// The reason why later edits could not be applied; `None` where all were.
     pub(super) stopped: Option<String>,
 }
 
 impl Replayed {
-    /// Were the takes, when they were saved last, those of the file `model`?
+    /// Returns whether the takes of the last save are those of the file `model`.
     pub(super) fn is_of(&self, model: &ModelData) -> bool {
         let takes = &model.animation.takes;
         match &self.at_save {
@@ -40,8 +40,7 @@ impl Replayed {
         }
     }
 
-    /// Which take of the file each one is, if the file is what was saved last; `None` where all are still as they were
-    /// in it.
+    /// Returns the index of each take in the file, if the file is the last save; `None` where the history has no save.
     pub(super) fn places(&self) -> Option<HashMap<TakeId, usize>> {
         let saved = self.at_save.as_deref();
         let saved = saved.or(self.base.as_ref().map(|_| &[][..]))?;
@@ -49,7 +48,7 @@ impl Replayed {
     }
 }
 
-/// Does everything again, on the takes in the journal or on those of `model`.
+/// Applies all entries again, to the takes in the journal or to those of `model`.
 pub(super) fn replay(model: &ModelData, entries: &[JournalEntry]) -> Replayed {
     let mut replay = Replay {
         model,
@@ -84,9 +83,12 @@ struct Replay<'a> {
 }
 
 impl Replay<'_> {
-    fn about(&self, about: &About) -> Result<(), String> {
+    fn about(&self, about: &EditsOrigin) -> Result<(), String> {
         if about.version > VERSION {
-            return Err(format!("its edits are of version {}, which a newer program made", about.version));
+            return Err(format!(
+                "its edits are of version {}, made by a newer version of this program",
+                about.version
+            ));
         }
         if about.built_in.is_some_and(|hash| hash != built_in_hash()) {
             return Err("it was made with the built-in model of another version".to_owned());

@@ -19,7 +19,7 @@ pub enum SaveTo {
     Copy(PathBuf),
 }
 
-/// What follows once nothing is unsaved.
+/// The action that follows once nothing is unsaved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Then {
     /// End the program.
@@ -35,7 +35,7 @@ pub struct SaveOrder {
     pub to: SaveTo,
     /// Overwrites another file, or changes of another program: the user has decided.
     pub anyway: bool,
-    /// What follows.
+    /// The action that follows.
     pub then: Option<Then>,
 }
 
@@ -59,7 +59,7 @@ pub struct SavedFile {
     pub copy: bool,
     /// Attributes of the old file that were lost, one sentence each.
     pub notices: Vec<String>,
-    /// What follows.
+    /// The action that follows.
     pub then: Option<Then>,
 }
 
@@ -128,7 +128,8 @@ impl Open {
         let overwrite = match &order.to {
             SaveTo::Own if order.anyway => Overwrite::Anything,
             SaveTo::Own => Overwrite::AsRead,
-            // A user who chose the same name in a dialog was not told that another program changed it.
+            // The dialog does not report that another program changed the file, so a user who chose the same name is
+            // still asked.
             _ if own => Overwrite::AsRead,
             _ if order.anyway => Overwrite::Anything,
             _ => Overwrite::Nothing,
@@ -156,7 +157,7 @@ impl Open {
     fn move_to(&mut self, path: &Path, autosave: Option<&Autosave>, now: Instant) {
         let title = super::load::file_name(path);
         self.file = Arc::new(FileView { title, path: Some(path.to_path_buf()) });
-        self.about = super::recorded::About::new(None);
+        self.about = super::recorded::EditsOrigin::new(None);
         let Some(autosave) = autosave else { return };
         let stamp = self.stamp();
         match autosave.begin_another(Some(path), stamp.as_ref()) {
@@ -189,7 +190,7 @@ impl Open {
 /// # Errors
 ///
 /// The reason why the name is wrong.
-pub fn fits(path: &Path, ending: &str) -> Result<(), String> {
+pub fn check_extension(path: &Path, ending: &str) -> Result<(), String> {
     let own = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if own.eq_ignore_ascii_case(ending) || !formats().is_model_extension(own) {
         return Ok(());
@@ -205,7 +206,7 @@ fn with_ending(path: &Path, ending: &str) -> Result<PathBuf, String> {
     if path.file_name().is_none() {
         return Err(format!("{}: this is not a file name", path.display()));
     }
-    fits(path, ending)?;
+    check_extension(path, ending)?;
     match path.extension() {
         Some(other) if other.eq_ignore_ascii_case(ending) => Ok(path.to_path_buf()),
         _ => {

@@ -3,7 +3,7 @@
 use super::offer::Offer;
 use dragonfly_store::{Autosave, FolderLimits, Readability};
 
-/// What to do with unsaved work of an earlier session.
+/// A decision of the user about unsaved work of an earlier session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Decision {
     /// Restore it, with its history.

@@ -1,6 +1,6 @@
-//! Words as they stand alone on the screen.
+//! Texts of the user interface.
 
-/// With a capital letter: the errors of libraries and of ours begin with a small one, so that they can follow a colon.
+/// Returns a message with a capital first letter: errors start with a small one, so that they can follow a colon.
 pub fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

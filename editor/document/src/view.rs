@@ -1,6 +1,6 @@
 //! The published state of the document: immutable, shared, without locks.
 
-use super::adapter::{ModelAdapter, PendingAt, Slot};
+use super::adapter::{ModelAdapter, PendingAt, TakeVersions};
 use super::history::Edited;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Take, Track};
@@ -111,7 +111,7 @@ pub struct View {
     /// two views of one model have the same `loaded`.
     pub takes: Arc<[Arc<Take>]>,
     /// The same takes with their originals and changes.
-    pub slots: Arc<[Arc<Slot>]>,
+    pub slots: Arc<[Arc<TakeVersions>]>,
     /// The history.
     pub history: Arc<HistoryView>,
     /// The file of the document.

@@ -20,7 +20,7 @@ pub(super) struct Writing<'a> {
     pub(super) overwrite: Overwrite,
     /// The journal of the file, which records the save before and after.
     pub(super) journal: Option<&'a mut Journal>,
-    /// Where the old version of the file is kept.
+    /// The folder for old versions of the file.
     pub(super) versions: Option<&'a Versions>,
     /// Whether the written file becomes the file of the document.
     pub(super) becomes: bool,

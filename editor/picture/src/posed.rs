@@ -8,7 +8,7 @@ use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AlphaMode, AnimationData, BoneIndex, ModelData, Primitive, Take, Transform};
 use dragonfly_anim::sample::sample_morph_weights;
 use dragonfly_anim::skin::rigid;
-use dragonfly_document::adapter::Slot;
+use dragonfly_document::adapter::TakeVersions;
 use dragonfly_document::{LoadedModel, View};
 use glam::{Mat4, Vec3};
 use std::sync::Arc;
@@ -37,7 +37,7 @@ pub struct PosedModel {
     loaded: Arc<LoadedModel>,
     animation: Animation,
     /// The pending poses of the takes, from the view.
-    slots: Arc<[Arc<Slot>]>,
+    slots: Arc<[Arc<TakeVersions>]>,
     /// Matrices for the device: all skins, then one matrix per instance.
     palettes: Vec<Affine>,
     /// First matrix of each skin.

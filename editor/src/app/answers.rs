@@ -77,8 +77,8 @@ impl Receiver for Replies {
             | DocumentReply::Offers(_)
             | DocumentReply::OtherFile(..)
             | DocumentReply::NothingToOffer
-            | DocumentReply::Told(_)
-            | DocumentReply::Warned(_)
+            | DocumentReply::Notice(_)
+            | DocumentReply::Warning(_)
             | DocumentReply::Lost => {}
         }
         interface.redraw();

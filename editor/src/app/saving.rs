@@ -195,8 +195,8 @@ pub(super) fn heard(interface: &mut Interface, reply: DocumentReply) -> Option<D
         DocumentReply::NothingToOffer => {
             state.status.say(Level::Info, "There is no unsaved work of an earlier time")
         }
-        DocumentReply::Told(text) => state.status.say(Level::Info, text),
-        DocumentReply::Warned(text) => state.status.say(Level::Warning, text),
+        DocumentReply::Notice(text) => state.status.say(Level::Info, text),
+        DocumentReply::Warning(text) => state.status.say(Level::Warning, text),
         DocumentReply::Lost => {
             state.lost = true;
             state.status.say(Level::Error, "A mistake in the program closed the document");

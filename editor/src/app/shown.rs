@@ -3,7 +3,7 @@
 use crate::panels::State;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::Change;
-use dragonfly_document::protocol::Deed;
+use dragonfly_document::protocol::ProtocolCommand;
 use glam::{Quat, Vec3};
 use tracing::{debug, enabled};
 
@@ -19,7 +19,7 @@ pub(super) fn asked(change: &Change) {
     if !enabled!(target: ASKED, tracing::Level::DEBUG) {
         return;
     }
-    let line = Deed::of(change).and_then(|deed| serde_json::to_string(&deed).ok());
+    let line = ProtocolCommand::of(change).and_then(|command| serde_json::to_string(&command).ok());
     if let Some(line) = line {
         debug!(target: ASKED, "{line}");
     }

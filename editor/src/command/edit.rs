@@ -6,7 +6,7 @@ use super::{Command, Failure, tell};
 use dragonfly_anim::format::SavePlan;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{EDITS, Edit, VERSION, parse_lines};
-use dragonfly_document::{Cancel, Editable, fits, make_folder, read_file};
+use dragonfly_document::{Cancel, Editable, check_extension, make_folder, read_file};
 use serde::Serialize;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -177,7 +177,7 @@ fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Writt
     if output == Path::new("-") && editable.needs_others(plan) {
         return Err(Failure::input("-", "the model needs files beside it; give it a name"));
     }
-    fits(output, &editable.ending()).map_err(Failure::Input)?;
+    check_extension(output, &editable.ending()).map_err(Failure::Input)?;
     let mut written = Vec::new();
     let files = editable.files(plan, output).map_err(Failure::Input)?;
     for (at, (path, bytes)) in files.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Says on stderr how far long work is; silent about work that is done before one would wonder.
 
-use dragonfly_document::{Progress, Stage};
+use dragonfly_document::{LoadStage, Progress};
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
@@ -13,7 +13,7 @@ pub(super) struct Teller {
     began: Instant,
     terminal: bool,
     /// What was said last, so that a log file gets a line a stage and not a line a percent.
-    said: Option<Stage>,
+    said: Option<LoadStage>,
 }
 
 impl Teller {

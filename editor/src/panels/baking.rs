@@ -7,7 +7,7 @@ use dragonfly_anim::data::{BoneIndex, Take, Transform};
 use dragonfly_anim::sample::sample_take;
 use dragonfly_document::Change;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, SAME_TIME, SetPoses};
-use dragonfly_document::posing::{Hold, poses_of_pins};
+use dragonfly_document::posing::{PoseDragState, poses_of_pins};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ impl State {
         let mut poses = vec![Transform::IDENTITY; skeleton.len()];
         let mut at_time = |time: f32| {
             sample_take(Some(&take), &skeleton, time, &mut poses);
-            let hold = Hold::new(Arc::clone(&skeleton), &poses, &[], mode, None);
+            let hold = PoseDragState::new(Arc::clone(&skeleton), &poses, &[], mode, None);
             poses_of_pins(&mut hold.with_fixed(&fixed).with_pins_of(&here))
         };
         let rows: BTreeSet<BoneIndex> = at_time(take.start).iter().filter_map(bone_of).collect();

@@ -4,26 +4,26 @@ use super::state::{Effect, State};
 use super::status::Level;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::Change;
-use dragonfly_document::posing::{Hold, LONGEST_CHAIN, look_at};
+use dragonfly_document::posing::{LONGEST_CHAIN, PoseDragState, look_at};
 use dragonfly_picture::IkLook;
 use dragonfly_picture::gizmo::Tool;
 use std::sync::Arc;
 
 impl State {
     /// What a drag at the time shown begins with: the poses as they are seen, the pins, whether rows of bones follow.
-    pub fn hold(&mut self) -> Option<Hold> {
+    pub fn hold(&mut self) -> Option<PoseDragState> {
         let (view, fixed) = (self.view.clone()?, self.fixed_bones());
         let (take, time) = (self.playback.take, self.time());
         let poses = self.posed.update(&view, take, time).poses();
         let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
-        Some(Hold::new(skeleton, poses, &self.pins, self.ik, None).with_fixed(&fixed))
+        Some(PoseDragState::new(skeleton, poses, &self.pins, self.ik, None).with_fixed(&fixed))
     }
 
     /// The same with the poses that were computed last, for numbers that are typed; none where no bone is pinned.
-    pub(super) fn hold_of_pins(&self) -> Option<Hold> {
+    pub(super) fn hold_of_pins(&self) -> Option<PoseDragState> {
         let animation = self.posed.animation().filter(|_| !self.pins.is_empty())?;
         let skeleton = Arc::clone(&self.loaded()?.model.animation.skeleton);
-        let hold = Hold::new(skeleton, animation.poses(), &self.pins, self.ik, None);
+        let hold = PoseDragState::new(skeleton, animation.poses(), &self.pins, self.ik, None);
         Some(hold.with_fixed(&self.fixed_bones()))
     }
 

@@ -2,9 +2,9 @@
 
 use super::state::State;
 use dragonfly_anim::data::BoneIndex;
-use dragonfly_document::adapter::{PendingAt, Slot};
+use dragonfly_document::adapter::{PendingAt, TakeVersions};
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, SetPending, SetPose, TakeRef};
-use dragonfly_document::posing::{Hold, poses_of_drag};
+use dragonfly_document::posing::{PoseDragState, poses_of_drag};
 
 impl State {
     /// The take that is shown, as edits name it.
@@ -29,7 +29,7 @@ impl State {
     }
 
     /// The poses with those of all that keeps pinned bones in place, where `hold` is of some.
-    pub(super) fn with_pins(hold: &mut Option<Hold>, poses: Vec<BonePose>) -> Vec<BonePose> {
+    pub(super) fn with_pins(hold: &mut Option<PoseDragState>, poses: Vec<BonePose>) -> Vec<BonePose> {
         match hold {
             Some(hold) => poses_of_drag(hold, &poses, &[]),
             None => poses,
@@ -37,13 +37,13 @@ impl State {
     }
 
     /// The take that is shown, in its three forms.
-    pub fn slot(&self) -> Option<&Slot> {
+    pub fn slot(&self) -> Option<&TakeVersions> {
         self.view.as_ref()?.slots.get(self.playback.take?).map(|slot| &**slot)
     }
 
     /// The times of the take shown at which poses are pending, seconds, ascending.
     pub fn pending_times(&self) -> impl Iterator<Item = f32> + '_ {
-        self.slot().map_or(&[][..], Slot::pending).iter().map(|at| at.time)
+        self.slot().map_or(&[][..], TakeVersions::pending).iter().map(|at| at.time)
     }
 
     /// What is pending at the time shown.
@@ -55,7 +55,7 @@ impl State {
     pub fn pending_poses(&self) -> (usize, usize) {
         let slots = self.view.as_ref().map_or(&[][..], |view| &view.slots);
         let all = slots.iter().map(|slot| slot.pending_poses()).sum();
-        (self.slot().map_or(0, Slot::pending_poses), all)
+        (self.slot().map_or(0, TakeVersions::pending_poses), all)
     }
 
     /// The selected bones that a change is for: those that are free. Where all of them are locked, all: then the change is

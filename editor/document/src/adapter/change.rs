@@ -1,42 +1,42 @@
-//! What was changed of one key, and what comes of it.
+//! The change of one key, and its result.
 
 use super::kind::{ChannelKind, ChannelNumbers};
 use dragonfly_anim::data::{Channel, Interpolation};
 use serde::{Deserialize, Serialize};
 
-/// The change of one key of one channel. A channel holds only those that change something.
+/// The change of one key of one channel. Channels keep only changes that differ from the identity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct KeyChange {
-    /// Added, multiplied from the left, or multiplied: the rule of the channel.
+    /// Change of the value: added, multiplied from the left, or multiplied, as the channel defines.
     pub value: ChannelNumbers,
-    /// Added to the in-tangent, a second; only splines have any.
+    /// Added to the in-tangent, per second; only for splines.
     pub arrive: ChannelNumbers,
     /// Added to the out-tangent.
     pub leave: ChannelNumbers,
 }
 
-/// In-tangent, value, out-tangent; without a spline only the value counts, and the others are zero.
+/// In-tangent, value, out-tangent; without a spline the tangents are zero.
 pub(crate) type Triple = [ChannelNumbers; 3];
 
 const NONE: ChannelNumbers = [0.0; 4];
 
 impl KeyChange {
-    /// A change of the value alone.
+    /// Returns a change of the value alone.
     pub(crate) fn of_value(value: ChannelNumbers) -> Self {
         Self { value, arrive: NONE, leave: NONE }
     }
 
-    /// Changes nothing.
+    /// Returns the change that changes nothing.
     pub(crate) fn identity<K: ChannelKind>() -> Self {
         Self::of_value(K::IDENTITY)
     }
 
-    /// Itself where it changes something.
+    /// Returns the change where it changes anything.
     pub(crate) fn some<K: ChannelKind>(self) -> Option<Self> {
         (self != Self::identity::<K>()).then_some(self)
     }
 
-    /// What an original key becomes; what is not changed stays bit for bit.
+    /// Returns the result of the change for an original key. Unchanged numbers stay exact to the bit.
     pub(crate) fn result<K: ChannelKind>(&self, original: &Triple) -> Triple {
         let moved = self.value != K::IDENTITY;
         let tangent = |original: ChannelNumbers, more: ChannelNumbers| {
@@ -49,8 +49,8 @@ impl KeyChange {
         [tangent(original[0], self.arrive), value, tangent(original[2], self.leave)]
     }
 
-    /// The change that makes `result` of `original`, `None` inside where they are the same; nothing at all where no
-    /// change does.
+    /// Returns the change from `original` to `result`: `Some(None)` where they are the same, `None` where no change
+    /// leads there.
     pub(crate) fn between<K: ChannelKind>(original: &Triple, result: &Triple) -> Option<Option<Self>> {
         let value = if K::value(original[1]) == K::value(result[1]) {
             K::IDENTITY
@@ -64,7 +64,7 @@ impl KeyChange {
         Some(change.some::<K>())
     }
 
-    /// Tangents become steeper by `factor`: time runs faster by it.
+    /// Returns the change with tangents scaled by `factor`, by which time runs faster.
     pub(crate) fn with_tangents(self, factor: f32) -> Self {
         let scaled = |tangent: ChannelNumbers| tangent.map(|number| number * factor);
         Self { arrive: scaled(self.arrive), leave: scaled(self.leave), ..self }
@@ -79,7 +79,7 @@ pub(crate) fn subtract(a: ChannelNumbers, b: ChannelNumbers) -> ChannelNumbers {
     std::array::from_fn(|at| a[at] - b[at])
 }
 
-/// Key number `key` of a channel, tangents included.
+/// Returns key number `key` of a channel, with its tangents.
 pub(crate) fn triple<K: ChannelKind>(channel: &Channel<K::Value>, key: usize) -> Triple {
     let at = |index: usize| channel.values.get(index).map_or(NONE, |&value| K::numbers(value));
     match channel.interpolation {
@@ -88,7 +88,7 @@ pub(crate) fn triple<K: ChannelKind>(channel: &Channel<K::Value>, key: usize) ->
     }
 }
 
-/// Puts a key into a column of values that has room for it.
+/// Writes a key to a column of values.
 pub(crate) fn put<K: ChannelKind>(
     values: &mut [K::Value],
     interpolation: Interpolation,

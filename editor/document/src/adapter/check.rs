@@ -1,28 +1,28 @@
-//! What holds for every document at every time.
+//! Invariants of every document.
 
 use super::ModelAdapter;
 use super::change::{KeyChange, triple};
 use super::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use super::pending::PendingPose;
-use super::slot::{Slot, extent};
+use super::slot::{TakeVersions, extent};
 use crate::edit::{Property, SAME_TIME};
 use dragonfly_anim::data::Take;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// A promise that does not hold: a mistake in this program.
+/// A broken invariant: a bug in this program.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("take {take}: {what}")]
 pub struct BrokenInvariant {
-    /// Place of the take in the list.
+    /// Index of the take in the list.
     pub take: usize,
-    /// What does not hold.
+    /// The invariant.
     pub what: String,
 }
 
 impl ModelAdapter {
-    /// Looks whether everything holds that must: original, changes and result correspond, untouched channels are
-    /// shared, keys ascend, numbers are finite, start and length are those of the keys, no take is there twice.
+    /// Checks all invariants: original, changes and result correspond, untouched channels are shared, keys ascend,
+    /// numbers are finite, start and length are those of the keys, takes are unique.
     pub fn check(&self) -> Result<(), BrokenInvariant> {
         for (take, slot) in self.slots.iter().enumerate() {
             let found = slot_is_right(slot).and_then(|()| {
@@ -41,7 +41,7 @@ fn ensure(holds: bool, what: impl FnOnce() -> String) -> CheckResult {
     if holds { Ok(()) } else { Err(what()) }
 }
 
-fn slot_is_right(slot: &Slot) -> CheckResult {
+fn slot_is_right(slot: &TakeVersions) -> CheckResult {
     let (original, result) = (&slot.original, &slot.result);
     let unchanged = slot.changed().next().is_none();
     ensure(unchanged == Arc::ptr_eq(original, result), || "an unchanged take is its original".to_owned())?;
@@ -70,7 +70,7 @@ fn slot_is_right(slot: &Slot) -> CheckResult {
     Ok(())
 }
 
-fn pending_is_right(slot: &Slot) -> CheckResult {
+fn pending_is_right(slot: &TakeVersions) -> CheckResult {
     let pending = slot.pending();
     let apart = pending.windows(2).all(|pair| pair[1].time - pair[0].time > SAME_TIME);
     ensure(apart, || "pending poses do not ascend in time".to_owned())?;
@@ -92,7 +92,7 @@ fn pending_is_right(slot: &Slot) -> CheckResult {
 }
 
 fn channel_is_right<K: ChannelKind>(
-    slot: &Slot,
+    slot: &TakeVersions,
     result: &Take,
     bone: u32,
     property: Property,
@@ -127,7 +127,7 @@ fn channel_is_right<K: ChannelKind>(
         })?;
         let wanted = change.map_or(as_read, |change| change.result::<K>(&as_read));
         let now = triple::<K>(result, key);
-        // Without a spline there are no tangents to compare.
+        // Only splines have tangents to compare.
         let stored = if result.values_per_key() == 3 { 0..3 } else { 1..2 };
         let bits = |at: usize| wanted[at].map(f32::to_bits) == now[at].map(f32::to_bits);
         ensure(stored.into_iter().all(bits), || format!("{}: key {key} is not original + change", at()))?;

@@ -1,41 +1,42 @@
-//! A pose that is being dragged: the same channels at the same time get ever newer values.
+//! A pose that is being dragged: the same channels at the same time get new values again and again.
 //!
-//! The edits of a gesture each begin where the gesture began. Taking back the one before and doing the next would copy
-//! the columns of their channels with every move of the mouse. So where only values differ the next one is written over
-//! the one before, in memory that nobody shows any more. The result is the same to the bit.
+//! Each edit of a gesture applies to the document as it was when the gesture started. Undoing the edit before and
+//! applying the next one would copy the columns of their channels with every move of the mouse. So where only values
+//! differ, the next edit overwrites the one before, in memory that is no longer shown. The result is the same to the
+//! bit.
 
 use super::change::KeyChange;
 use super::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use super::op::{ChannelAddress, Op};
 use super::plan::PoseMode;
 use super::plan::pose::{changed, rotation, vector};
-use super::slot::Slot;
+use super::slot::TakeVersions;
 use super::{EditError, Inverse, ModelAdapter};
 use crate::edit::{BonePose, Edit, Property, TakeRef};
 use std::sync::Arc;
 
-/// States of a take that are kept to be written over: what the panels and the picture show, and one that is free.
+/// Number of states of a take that are kept to be overwritten: those that panels and graphics show, and a free one.
 const KEPT: usize = 4;
 
 /// See the module.
 #[derive(Clone, Debug)]
-pub(crate) struct PoseDrag {
+pub(crate) struct ValueDrag {
     time: u32,
     channels: Vec<HeldKey>,
-    kept: Vec<Arc<Slot>>,
+    kept: Vec<Arc<TakeVersions>>,
 }
 
-/// A key whose value the hand holds.
+/// A key whose value is dragged.
 #[derive(Clone, Copy, Debug)]
 struct HeldKey {
     address: ChannelAddress,
     key: u32,
-    /// Its change when the gesture began.
+    /// Its change when the gesture started.
     before: Option<KeyChange>,
 }
 
-impl PoseDrag {
-    /// After `edit`, which `inverse` leads back from; `None` where the edits to come may do more than give values.
+impl ValueDrag {
+    /// Starts after `edit`, which `inverse` undoes; `None` where later edits may do more than set values.
     pub(crate) fn of(adapter: &ModelAdapter, edit: &Edit, inverse: &Inverse) -> Option<Self> {
         let (time, poses, _) = edit.values()?;
         let mut held: Vec<HeldKey> = Vec::new();
@@ -45,9 +46,9 @@ impl PoseDrag {
                     [(key, before)] => held.push(HeldKey { address: *address, key, before }),
                     _ => return None,
                 },
-                // A key that was added for it.
+                // A key that the edit added.
                 Op::Splice(_, gone, back) if gone.len() == 1 && back.is_empty() => {}
-                // A channel in steps that became linear for it; once is enough.
+                // A step channel that the edit made linear; once is enough.
                 Op::Replace(..) => {}
                 _ => return None,
             }
@@ -57,7 +58,7 @@ impl PoseDrag {
         drag.fits(adapter, edit.take()?, poses).then_some(drag)
     }
 
-    /// Are these the channels that are held, each once and in their order?
+    /// Returns whether these are the dragged channels, each once and in order.
     fn fits(&self, adapter: &ModelAdapter, take: &TakeRef, poses: &[BonePose]) -> bool {
         let Ok(take) = adapter.take(take).map(|slot| slot.id) else { return false };
         let mut held = self.channels.iter().map(|held| held.address);
@@ -77,17 +78,17 @@ impl PoseDrag {
         let twice = |(at, held): (usize, &HeldKey)| {
             self.channels[..at].iter().any(|other| other.address == held.address)
         };
-        // More than a few hundred channels are looked through no faster than they are done anew.
+        // Comparing more than a few hundred channels is no faster than applying the edit again.
         held.next().is_none()
             && (1..=512).contains(&self.channels.len())
             && !self.channels.iter().enumerate().any(twice)
     }
 
-    /// Does the next edit of the gesture in place of the one before; `None` where it does something else.
+    /// Applies the next edit of the gesture in place of the one before; `None` where it does something else.
     ///
     /// # Errors
     ///
-    /// Why it cannot be done; nothing has changed then.
+    /// The reason why it cannot be applied; nothing has changed then.
     pub(crate) fn amend(&mut self, adapter: &mut ModelAdapter, edit: &Edit) -> Option<Result<(), EditError>> {
         let (time, poses, mode) = edit.values()?;
         if time.to_bits() != self.time || !self.fits(adapter, edit.take()?, poses) {
@@ -100,7 +101,7 @@ impl PoseDrag {
             Ok(changes) => changes,
             Err(error) => return Some(Err(error)),
         };
-        let mut next = self.free().unwrap_or_else(|| Arc::new(Slot::clone(now)));
+        let mut next = self.free().unwrap_or_else(|| Arc::new(TakeVersions::clone(now)));
         let slot = Arc::make_mut(&mut next);
         for (held, change) in self.channels.iter().zip(changes) {
             slot.set_changes(held.address.bone, held.address.property, &[(held.key, change)]);
@@ -113,17 +114,18 @@ impl PoseDrag {
         Some(Ok(()))
     }
 
-    /// A state that nobody shows any more. It differs from the newest one in nothing but what is written next.
-    fn free(&mut self) -> Option<Arc<Slot>> {
-        let is_free = |slot: &Arc<Slot>| Arc::strong_count(slot) == 1 && Arc::strong_count(&slot.result) == 1;
+    /// Returns a state that is no longer shown. It differs from the newest one only in the dragged values.
+    fn free(&mut self) -> Option<Arc<TakeVersions>> {
+        let is_free =
+            |slot: &Arc<TakeVersions>| Arc::strong_count(slot) == 1 && Arc::strong_count(&slot.result) == 1;
         let at = self.kept.iter().position(is_free)?;
         Some(self.kept.remove(at))
     }
 
-    /// The change of each channel, as if its key were as it was when the gesture began.
+    /// Returns the change of each channel, relative to the key at the start of the gesture.
     fn changes(
         &self,
-        slot: &Slot,
+        slot: &TakeVersions,
         poses: &[BonePose],
         mode: PoseMode,
     ) -> Result<Vec<Option<KeyChange>>, EditError> {
@@ -146,7 +148,7 @@ impl PoseDrag {
 }
 
 fn one<K: ChannelKind>(
-    slot: &Slot,
+    slot: &TakeVersions,
     held: &HeldKey,
     wanted: K::Value,
     mode: PoseMode,

@@ -1,22 +1,22 @@
-//! Why an edit cannot be done; nothing has changed then.
+//! The reason why an edit cannot be applied.
 
 use super::super::edit::{BoneRef, Property, TakeRef};
 use std::fmt;
 use thiserror::Error;
 
-/// Why an edit cannot be done.
+/// The reason why an edit cannot be applied. Nothing has changed then.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum EditError {
-    /// The take is not there.
+    /// The take does not exist.
     #[error("there is no take {}", Quoted(.0))]
     NoTake(TakeRef),
-    /// The bone is not there.
+    /// The bone does not exist.
     #[error("there is no bone {}", Quoted(.0))]
     NoBone(BoneRef),
     /// The take has no track for the bone.
     #[error("the take has no track for bone {0}")]
     NoTrack(u32),
-    /// No key is where one is needed.
+    /// There is no key at that time.
     #[error("bone {bone} has no {} key at {time} s", property.name())]
     NoKey {
         /// Index of the bone.
@@ -26,52 +26,52 @@ pub enum EditError {
         /// Seconds.
         time: f32,
     },
-    /// A number that cannot be used.
+    /// A number is out of range.
     #[error("{what} cannot be {value}")]
     Number {
-        /// Which number.
+        /// Name of the number.
         what: &'static str,
-        /// What it is.
+        /// The given value.
         value: f32,
     },
-    /// A column of numbers of another length.
+    /// A list has a wrong number of numbers.
     #[error("{what} takes {wanted} numbers, not {given}")]
     Count {
-        /// Which numbers.
+        /// Name of the numbers.
         what: &'static str,
-        /// How many are needed.
+        /// Number of numbers needed.
         wanted: usize,
-        /// How many are there.
+        /// Number of numbers given.
         given: usize,
     },
-    /// A rotation without length.
-    #[error("a rotation of length zero turns nowhere")]
+    /// A rotation has length zero.
+    #[error("a rotation must not have length zero")]
     NoRotation,
-    /// Original × change cannot give this.
-    #[error("bone {bone}: the original scale has a zero, and no factor makes anything else of it")]
+    /// No scale change leads from the original to this.
+    #[error("bone {bone}: the original scale has a zero, which no factor can change")]
     ZeroScale {
         /// Index of the bone.
         bone: u32,
     },
-    /// A key would lie before the begin of time.
-    #[error("a key would come to lie at {0} s; files have no times before 0 s")]
+    /// A key would have a time before 0 s.
+    #[error("a key would be at {0} s; times before 0 s cannot be saved")]
     BeforeZero(f32),
-    /// Keys would fall together.
-    #[error("keys would come to lie on each other")]
+    /// Keys would have the same time.
+    #[error("keys would be at the same time; use a larger length")]
     TooShort,
-    /// A take keeps a key.
-    #[error("a take keeps at least one key")]
+    /// The last key of a take would be deleted.
+    #[error("a take must keep at least one key")]
     LastKey,
-    /// A name of nothing but spaces.
+    /// A name is empty or blank.
     #[error("a take needs a name")]
     NoName,
-    /// The name of another take.
-    #[error("another take is called {0:?}")]
+    /// Another take has the name.
+    #[error("another take has the name {0:?}")]
     NameTaken(String),
-    /// A document keeps a take.
-    #[error("a model keeps at least one take")]
+    /// The last take would be deleted.
+    #[error("a model must keep at least one take")]
     LastTake,
-    /// The time is not inside.
+    /// The time is outside of the take.
     #[error("{time} s is not between the first key ({start} s) and the last ({end} s)")]
     Outside {
         /// Seconds.
@@ -81,20 +81,20 @@ pub enum EditError {
         /// Seconds.
         end: f32,
     },
-    /// The channel is no spline.
-    #[error("bone {bone}: the {} channel is no spline and has no tangents", property.name())]
+    /// The channel is not a spline.
+    #[error("bone {bone}: the {} channel is not a cubic spline and has no tangents", property.name())]
     NoSpline {
         /// Index of the bone.
         bone: u32,
         /// Which channel.
         property: Property,
     },
-    /// Nothing would be done.
+    /// The edit would change nothing.
     #[error("{0}")]
     Nothing(&'static str),
 }
 
-/// A name in quotes, a number without.
+/// Writes a name in quotes and a number without.
 struct Quoted<'a, T>(&'a T);
 
 impl fmt::Display for Quoted<'_, TakeRef> {

@@ -1,16 +1,16 @@
-//! The three channels of a bone, each with its own rule of how original and change make the result.
+//! The three channels of a bone, each with its rule of how original and change make the result.
 
 use super::super::edit::Property;
 use dragonfly_anim::data::{Channel, Track, Transform};
 use dragonfly_anim::sample::Value;
 use glam::{Quat, Vec3};
 
-/// A number a component; a vector's fourth is 0.
+/// One number per component; the fourth of a vector is 0.
 pub type ChannelNumbers = [f32; 4];
 
 /// One of [`Property`], as a type, so that columns keep the type of their values.
 pub(crate) trait ChannelKind {
-    /// What a key holds.
+    /// The value of a key.
     type Value: PartialEq + ChannelValue;
     /// The change that changes nothing.
     const IDENTITY: ChannelNumbers;
@@ -21,17 +21,17 @@ pub(crate) trait ChannelKind {
     fn numbers(value: Self::Value) -> ChannelNumbers;
     fn value(numbers: ChannelNumbers) -> Self::Value;
 
-    /// original + change = result (the design's rule for this channel).
+    /// Returns the result of an original and a change.
     fn result(original: Self::Value, change: ChannelNumbers) -> Self::Value;
-    /// The same for a tangent of the original: what the rule does to a small difference.
+    /// Returns the tangent of the result, to which the rule applies as to a small difference.
     fn tangent(original: Self::Value, change: ChannelNumbers) -> Self::Value;
-    /// The change that leads from one to the other; `None` where there is none.
+    /// Returns the change from one to the other; `None` where there is none.
     fn change(original: Self::Value, result: Self::Value) -> Option<ChannelNumbers>;
-    /// A value between keys as a key may hold it.
+    /// Returns an interpolated value as a key can have it.
     fn as_key(value: Self::Value) -> Self::Value {
         value
     }
-    /// `on_top` applied to `value` (an offset of the person's).
+    /// Returns `value` with the offset `on_top` of the user.
     fn offset(value: Self::Value, on_top: Self::Value) -> Self::Value;
 }
 
@@ -108,19 +108,19 @@ impl ChannelKind for TranslationChannel {
     }
 }
 
-/// What added to `from` gives `to`, to the last bit where any number does.
+/// Returns the number that added to `from` gives `to`, to the last bit where one exists.
 fn addend(from: f32, to: f32) -> f32 {
     let guess = to - from;
     let exact = |addend: &f32| from + addend == to;
     [guess, guess.next_up(), guess.next_down()].into_iter().find(exact).unwrap_or(guess)
 }
 
-/// With length one as exactly as single precision can say it, so that reading a saved file finds nothing to mend.
+/// Normalizes a rotation as exactly as single precision allows, so that a saved file needs no sanitizing.
 fn unit(rotation: Quat) -> Quat {
     rotation.as_dquat().normalize().as_quat()
 }
 
-/// Rotation: change * original, in the space of the parent, normalised.
+/// Rotation: change * original, in parent space, normalized.
 impl ChannelKind for RotationChannel {
     type Value = Quat;
     const IDENTITY: ChannelNumbers = [0.0, 0.0, 0.0, 1.0];
@@ -214,7 +214,7 @@ impl ChannelKind for ScaleChannel {
     }
 }
 
-/// What `from` must be multiplied with to give `to`, to the last bit where any number does.
+/// Returns the factor from `from` to `to`, to the last bit where one exists.
 fn factor(from: f32, to: f32) -> Option<f32> {
     if from == to {
         return Some(1.0);
@@ -222,11 +222,11 @@ fn factor(from: f32, to: f32) -> Option<f32> {
     let guess = to / from;
     let exact = |factor: &f32| from * factor == to;
     let best = [guess, guess.next_up(), guess.next_down()].into_iter().find(exact).unwrap_or(guess);
-    // From nothing no factor leads anywhere.
+    // No factor leads from zero.
     (best.is_finite() && from != 0.0).then_some(best)
 }
 
-/// A channel of any of the three.
+/// A channel of any of the three kinds.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum AnyChannel {
     /// Translation or scale.
@@ -235,7 +235,7 @@ pub(crate) enum AnyChannel {
     Turn(Channel<Quat>),
 }
 
-/// A value type that [`AnyChannel`] knows.
+/// A value type of [`AnyChannel`].
 pub(crate) trait ChannelValue: Value {
     fn wrap(channel: Channel<Self>) -> AnyChannel;
     fn unwrap(channel: &AnyChannel) -> Option<&Channel<Self>>;

@@ -1,7 +1,7 @@
-//! original + changes = result: a model's takes as a person edits them (thesis §2.2.2, §3.2.10.1).
+//! original + changes = result: a model's takes as the user edits them (thesis §2.2.2, §3.2.10.1).
 //!
-//! A [`ModelAdapter`] has each take three times ([`Slot`]). The *original* is what was read and is never altered; the
-//! *changes* say what was changed of which key; the *result* is what is shown and saved. Per channel:
+//! A [`ModelAdapter`] has each take three times ([`TakeVersions`]). The *original* is what was read and is never altered; the
+//! *changes* are relative to keys of the original; the *result* is shown and saved. Per channel:
 //!
 //! ```text
 //! translation   result = original + change
@@ -9,12 +9,12 @@
 //! scale         result = original * change                  per component
 //! ```
 //!
-//! A key without a change is the original bit for bit, and a channel without one shares its columns with the original.
-//! What alters the structure (keys and takes made, moved, deleted) is done in all three alike.
+//! A key without a change is the original exact to the bit, and a channel without changes shares its columns with the
+//! original. An edit of the structure (keys and takes created, moved, deleted) applies to all three.
 //!
-//! [`ModelAdapter::apply`] turns an [`Edit`] into a few operations (`op`), each of which knows its inverse; `plan` has
-//! a file a family of edits. What an edit costs, in time and in what its inverse keeps, is in proportion to what it
-//! touches: a change of a key touches the column of its channel.
+//! [`ModelAdapter::apply`] turns an edit into a few operations (`op`), each of which has an inverse; `plan` has the
+//! algorithms that edits share. The cost of an edit, in time and in the size of its inverse, is in proportion to what
+//! it touches: a change of a key touches the column of its channel.
 
 pub(crate) mod change;
 mod check;
@@ -30,12 +30,12 @@ mod times;
 
 pub use change::KeyChange;
 pub use check::BrokenInvariant;
-pub(crate) use drag::PoseDrag;
+pub(crate) use drag::ValueDrag;
 pub use error::EditError;
 pub use kind::ChannelNumbers;
 pub use name::take_name;
 pub use pending::{Pending, PendingAt, PendingPose};
-pub use slot::{ChannelChanges, Slot, TakeId};
+pub use slot::{ChannelChanges, TakeId, TakeVersions};
 
 use super::edit::{BoneRef, Edit, TakeRef};
 use dragonfly_anim::data::{AnimationData, Skeleton, Take};
@@ -43,73 +43,73 @@ use op::Op;
 use plan::Transaction;
 use std::sync::Arc;
 
-/// The takes of a model in their three forms. A copy is cheap: everything large is shared.
+/// The takes of a model in their three forms. A clone is cheap: large data is shared.
 #[derive(Clone, Debug)]
 pub struct ModelAdapter {
     skeleton: Arc<Skeleton>,
-    slots: Vec<Arc<Slot>>,
-    /// The number of the next take that is made.
+    slots: Vec<Arc<TakeVersions>>,
+    /// Number of the next created take.
     next: u32,
 }
 
-/// What leads back from an edit, or forth again.
+/// The operations that undo or redo an edit.
 #[derive(Clone)]
 pub struct Inverse(Vec<Op>);
 
 impl std::fmt::Debug for Inverse {
-    /// How many; what they hold would fill pages.
+    /// Writes only their number: the data would fill pages.
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(out, "Inverse({} operations)", self.0.len())
     }
 }
 
 impl Inverse {
-    /// Bytes that it keeps, about.
+    /// Returns its size in bytes, about.
     pub fn bytes(&self) -> usize {
         self.0.iter().map(Op::bytes).sum()
     }
 }
 
 impl ModelAdapter {
-    /// The takes of a model as it was read.
+    /// Returns the unchanged takes of a model.
     pub fn new(animation: &AnimationData) -> Self {
         let slots: Vec<_> = animation
             .takes
             .iter()
             .enumerate()
             .map(|(index, take)| {
-                Arc::new(Slot::unchanged(TakeId(index as u32), Some(index), Arc::clone(take)))
+                Arc::new(TakeVersions::unchanged(TakeId(index as u32), Some(index), Arc::clone(take)))
             })
             .collect();
         Self { skeleton: Arc::clone(&animation.skeleton), next: slots.len() as u32, slots }
     }
 
-    /// The skeleton, which no edit alters.
+    /// Returns the skeleton, which no edit changes.
     pub fn skeleton(&self) -> &Arc<Skeleton> {
         &self.skeleton
     }
 
-    /// The takes in their order.
-    pub fn slots(&self) -> &[Arc<Slot>] {
+    /// Returns the takes in their order.
+    pub fn slots(&self) -> &[Arc<TakeVersions>] {
         &self.slots
     }
 
-    /// The results in their order: what is shown and saved.
+    /// Returns the results in their order: the takes that are shown and saved.
     pub fn results(&self) -> impl Iterator<Item = &Arc<Take>> {
         self.slots.iter().map(|slot| &slot.result)
     }
 
-    /// How many poses are pending in all takes: in no key, and in no file that is saved.
+    /// Returns the number of pending poses of all takes, which are in no key and in no saved file.
     pub fn pending_poses(&self) -> usize {
         self.slots.iter().map(|slot| slot.pending_poses()).sum()
     }
 
-    /// The take that is meant; a name wins over a number.
+    /// Returns the take of a reference. A name that several takes share means the first of them.
     ///
     /// # Errors
     ///
     /// [`EditError::NoTake`].
-    pub fn take(&self, take: &TakeRef) -> Result<&Arc<Slot>, EditError> {
+    pub fn take(&self, take: &TakeRef) -> Result<&Arc<TakeVersions>, EditError> {
         let found = match take {
             TakeRef::Index(index) => self.slots.get(*index),
             TakeRef::Name(name) => self.slots.iter().find(|slot| slot.original.name == *name),
@@ -117,7 +117,7 @@ impl ModelAdapter {
         found.ok_or_else(|| EditError::NoTake(take.clone()))
     }
 
-    /// The bone that is meant.
+    /// Returns the index of the bone of a reference.
     ///
     /// # Errors
     ///
@@ -126,11 +126,11 @@ impl ModelAdapter {
         bone.find_in(&self.skeleton).ok_or_else(|| EditError::NoBone(bone.clone()))
     }
 
-    /// Does an edit; what undoes it.
+    /// Applies an edit and returns what undoes it.
     ///
     /// # Errors
     ///
-    /// Why it cannot be done; nothing has changed then.
+    /// The reason why it cannot be applied; nothing has changed then.
     pub fn apply(&mut self, edit: &Edit) -> Result<Inverse, EditError> {
         let mut work = Transaction::on(self.clone());
         edit.plan(&mut work)?;
@@ -140,7 +140,8 @@ impl ModelAdapter {
         Ok(Inverse(undo))
     }
 
-    /// Undoes what `inverse` stands for; what does it again. Inverses are used in the opposite order of their edits.
+    /// Undoes the edit of `inverse`, and returns the inverse that redoes it. Inverses are used in the opposite order
+    /// of their edits.
     pub fn revert(&mut self, inverse: Inverse) -> Inverse {
         let mut work = Transaction::on(self.clone());
         for op in inverse.0 {
@@ -152,7 +153,7 @@ impl ModelAdapter {
         Inverse(redo)
     }
 
-    /// A number that no take had.
+    /// Returns an identifier that no take has had.
     pub(super) fn new_id(&mut self) -> TakeId {
         self.next += 1;
         TakeId(self.next - 1)

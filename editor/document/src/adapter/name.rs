@@ -1,19 +1,19 @@
-//! What a take may be called from now on.
+//! Names that takes may have.
 //!
-//! Asked where people and programs ask for edits. What is in a file may be called anything, and a journal is done again
-//! as it was done: earlier versions let takes have any name.
+//! The check applies to edits of users and programs. Takes of a file may have any name, and journals are replayed
+//! without the check: earlier versions of the program allowed any name.
 
 use super::super::edit::Edit;
-use super::{EditError, ModelAdapter, Slot, TakeId};
+use super::{EditError, ModelAdapter, TakeId, TakeVersions};
 use std::sync::Arc;
 
-/// Can a take be called `name`, where `own` is the one that is to be?
+/// Checks that a take can have the name `name`; `own` is the take to rename.
 ///
 /// # Errors
 ///
-/// [`EditError::NoName`], or [`EditError::NameTaken`] where another of `takes` is called so: an edit that names it could
-/// mean either.
-pub fn take_name(takes: &[Arc<Slot>], name: &str, own: Option<TakeId>) -> Result<(), EditError> {
+/// [`EditError::NoName`], or [`EditError::NameTaken`] where another of `takes` has the name: a reference by that name
+/// would be ambiguous.
+pub fn take_name(takes: &[Arc<TakeVersions>], name: &str, own: Option<TakeId>) -> Result<(), EditError> {
     if name.trim().is_empty() {
         return Err(EditError::NoName);
     }
@@ -22,11 +22,11 @@ pub fn take_name(takes: &[Arc<Slot>], name: &str, own: Option<TakeId>) -> Result
 }
 
 impl ModelAdapter {
-    /// Can this be asked for? Not all that [`Self::apply`] can do is.
+    /// Checks that an edit of the user or of a program is allowed. Not every edit that [`Self::apply`] can apply is.
     ///
     /// # Errors
     ///
-    /// Why not.
+    /// The reason why not.
     pub fn allows(&self, edit: &Edit) -> Result<(), EditError> {
         edit.allowed(self)
     }

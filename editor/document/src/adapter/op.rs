@@ -1,16 +1,16 @@
-//! The few operations that every edit is made of. Doing one gives the one that undoes it.
+//! The operations of which every edit consists. Performing one returns the one that undoes it.
 
 use super::ModelAdapter;
 use super::change::KeyChange;
 use super::kind::AnyChannel;
 use super::pending::PendingAt;
-use super::slot::{ChannelContent, KeyContent, Slot, TakeId};
+use super::slot::{ChannelContent, KeyContent, TakeId, TakeVersions};
 use super::times::SharedTimes;
 use crate::edit::Property;
 use dragonfly_anim::data::MorphTrack;
 use std::sync::Arc;
 
-/// One channel of one take.
+/// The address of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ChannelAddress {
     pub(crate) take: TakeId,
@@ -18,33 +18,33 @@ pub(crate) struct ChannelAddress {
     pub(crate) property: Property,
 }
 
-/// One operation; as large as what it touches.
+/// One operation. Its size is in proportion to what it touches.
 #[derive(Clone, Debug)]
 pub(crate) enum Op {
-    /// Other changes for some keys.
+    /// Replaces the changes of some keys.
     Changes(ChannelAddress, Vec<(u32, Option<KeyChange>)>),
-    /// Keys out (positions before) and keys in (positions after).
+    /// Removes keys (positions before) and inserts keys (positions after).
     Splice(ChannelAddress, Vec<u32>, Vec<(u32, KeyContent)>),
-    /// Other times for some keys, ascending, whose order stays.
+    /// Replaces the times of some keys, ascending, whose order stays.
     Times(ChannelAddress, Vec<(u32, f32)>),
-    /// Another channel in place of the one that is there.
+    /// Replaces a channel.
     Replace(ChannelAddress, Box<ChannelContent>),
-    /// Other morph tracks.
+    /// Replaces the morph tracks.
     Morphs(TakeId, Vec<MorphTrack>),
-    /// Other pending poses at a time, `None` for none.
+    /// Replaces the pending poses at a time; `None` for none.
     Pending(TakeId, f32, Option<Arc<PendingAt>>),
-    /// Another name.
+    /// Renames a take.
     Name(TakeId, String),
-    /// A take more, at a place in the list.
-    Insert(usize, Arc<Slot>),
-    /// A take less.
+    /// Inserts a take at an index of the list.
+    Insert(usize, Arc<TakeVersions>),
+    /// Removes a take.
     Remove(TakeId),
-    /// A take elsewhere in the list.
+    /// Moves a take in the list.
     Move(TakeId, usize),
 }
 
 impl ChannelContent {
-    /// Bytes of its columns.
+    /// Returns the size of its columns in bytes.
     fn bytes(&self) -> usize {
         let columns = match &self.original {
             AnyChannel::Vector(channel) => channel.times.len() * 4 + channel.values.len() * 12,
@@ -55,7 +55,7 @@ impl ChannelContent {
 }
 
 impl Op {
-    /// Bytes that it keeps, about.
+    /// Returns its size in bytes, about.
     pub(crate) fn bytes(&self) -> usize {
         size_of::<Self>()
             + match self {
@@ -76,7 +76,7 @@ impl Op {
 }
 
 impl Op {
-    /// The take whose keys it makes, moves or takes away.
+    /// Returns the take whose keys it creates, moves or deletes.
     pub(crate) fn keys_of(&self) -> Option<TakeId> {
         match self {
             Self::Splice(place, ..) | Self::Times(place, _) | Self::Replace(place, _) => Some(place.take),
@@ -92,7 +92,7 @@ impl Op {
 }
 
 impl ModelAdapter {
-    /// Does one operation; the one that undoes it.
+    /// Performs an operation and returns the one that undoes it.
     pub(crate) fn perform(&mut self, op: Op, shared: &mut SharedTimes) -> Op {
         match op {
             Op::Changes(place, changes) => {
@@ -136,7 +136,7 @@ impl ModelAdapter {
         }
     }
 
-    /// Looks for the begin and the end of takes whose keys lie elsewhere now, if they are still there.
+    /// Measures start and length of takes whose keys have changed, if they still exist.
     pub(crate) fn measure(&mut self, takes: &[TakeId]) {
         for slot in self.slots.iter_mut().filter(|slot| takes.contains(&slot.id)) {
             Arc::make_mut(slot).measure();
@@ -150,7 +150,7 @@ impl ModelAdapter {
         }
     }
 
-    fn slot_mut(&mut self, take: TakeId) -> &mut Slot {
+    fn slot_mut(&mut self, take: TakeId) -> &mut TakeVersions {
         let index = self.index_of(take);
         Arc::make_mut(&mut self.slots[index])
     }

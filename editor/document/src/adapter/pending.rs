@@ -1,7 +1,7 @@
-//! Poses that are shown but held by no key yet.
+//! Pending poses: shown, but in no key yet.
 //!
-//! With auto-key off a changed pose is *pending*: it is part of the document and of undo, it is seen at its time, and it
-//! is not in the keys nor in a saved file until somebody keys it.
+//! With auto-key off, a changed pose is *pending*: it is part of the document and of undo and is shown at its time,
+//! and it is in no key and in no saved file until the user keys it.
 
 use super::super::edit::{Property, SAME_TIME};
 use super::kind::ChannelNumbers;
@@ -9,21 +9,21 @@ use dragonfly_anim::data::Transform;
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// The pending pose of one bone: absolute, parent space; `None` for what is not pending.
+/// The pending pose of one bone, absolute, parent space. Each channel may be pending or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PendingPose {
-    /// Which bone.
+    /// The bone.
     pub bone: u32,
     values: [Option<ChannelNumbers>; 3],
 }
 
 impl PendingPose {
-    /// Nothing of this bone.
+    /// Returns a pose of this bone with no pending channel.
     pub(crate) fn none(bone: u32) -> Self {
         Self { bone, values: [None; 3] }
     }
 
-    /// What is pending of a channel; a vector's fourth number is 0.
+    /// Returns the pending value of a channel; the fourth number of a vector is 0.
     pub fn get(&self, property: Property) -> Option<ChannelNumbers> {
         self.values[property as usize]
     }
@@ -32,12 +32,12 @@ impl PendingPose {
         self.values[property as usize] = value;
     }
 
-    /// Is nothing pending?
+    /// Returns whether no channel is pending.
     pub(crate) fn is_empty(&self) -> bool {
         self.values == [None; 3]
     }
 
-    /// Puts it over the pose of its bone.
+    /// Replaces the pending channels in the pose of its bone.
     pub fn put_on(&self, pose: &mut Transform) {
         let [translation, rotation, scale] = self.values;
         let three = |numbers: ChannelNumbers| Vec3::new(numbers[0], numbers[1], numbers[2]);
@@ -52,17 +52,17 @@ impl PendingPose {
 pub struct PendingAt {
     /// Seconds.
     pub time: f32,
-    /// Ascending bones, none without anything.
+    /// In ascending order of bones, each with a pending channel.
     pub poses: Vec<PendingPose>,
 }
 
 impl PendingAt {
-    /// What is pending of a bone.
+    /// Returns the pending pose of a bone.
     pub fn of(&self, bone: u32) -> Option<&PendingPose> {
         self.poses.binary_search_by_key(&bone, |pose| pose.bone).ok().map(|at| &self.poses[at])
     }
 
-    /// Puts all of it over poses in bone order.
+    /// Applies all of them to poses in bone order.
     pub fn put_on(&self, poses: &mut [Transform]) {
         for pending in &self.poses {
             if let Some(pose) = poses.get_mut(pending.bone as usize) {
@@ -71,7 +71,7 @@ impl PendingAt {
         }
     }
 
-    /// The entry of a bone, made where there is none.
+    /// Returns the entry of a bone, inserted where there is none.
     pub(crate) fn entry(&mut self, bone: u32) -> &mut PendingPose {
         let at = match self.poses.binary_search_by_key(&bone, |pose| pose.bone) {
             Ok(at) => at,
@@ -83,7 +83,7 @@ impl PendingAt {
         &mut self.poses[at]
     }
 
-    /// Takes over what another one has; where both have something, the other's counts.
+    /// Merges the poses of another; where both have a value, the other's counts.
     fn merge(&mut self, other: &Self) {
         for pose in &other.poses {
             let entry = self.entry(pose.bone);
@@ -94,10 +94,10 @@ impl PendingAt {
     }
 }
 
-/// All pending poses of a take, ascending in time, no two at the same one.
+/// All pending poses of a take, ascending in time.
 pub type Pending = Vec<Arc<PendingAt>>;
 
-/// Where in the list the poses at `time` are; else where they would come.
+/// Returns the index of the poses at `time`, or the index at which to insert them.
 pub(crate) fn place_of(pending: &[Arc<PendingAt>], time: f32) -> Result<usize, usize> {
     let after = pending.partition_point(|at| at.time < time - SAME_TIME);
     match pending.get(after) {
@@ -106,7 +106,7 @@ pub(crate) fn place_of(pending: &[Arc<PendingAt>], time: f32) -> Result<usize, u
     }
 }
 
-/// The same poses at other times, `None` for those that go; what comes to lie at one time is put together.
+/// Returns the poses at other times, without those for which `to` returns `None`. Poses at the same time are merged.
 pub(crate) fn remapped(pending: &[Arc<PendingAt>], to: impl Fn(f32) -> Option<f32>) -> Pending {
     let mut moved: Vec<PendingAt> = pending
         .iter()

@@ -1,25 +1,25 @@
-//! Channels that had one column of times keep one.
+//! Columns of times that channels share.
 
 use std::sync::Arc;
 
-/// The columns of times that one edit made, by the columns they were made of.
+/// The columns of times that one edit has made, by the columns from which they were made.
 ///
-/// A file often has one column for all channels of a take. Where an edit does the same to all of them, they have one
-/// afterwards, too: in memory, and in the file that is saved.
+/// A file often has one column for all channels of a take. Where an edit does the same to all of them, they still
+/// share one: in memory, and in the saved file.
 #[derive(Debug, Default)]
 pub(crate) struct SharedTimes(Vec<(TimeColumn, TimeColumn)>, Vec<MovedTimes>);
 
-/// A column, what was moved in it, and what came of it.
+/// A column, the moved keys, and the result.
 type MovedTimes = (TimeColumn, Vec<(u32, f32)>, TimeColumn);
 
 /// Seconds, ascending; shared by channels.
 type TimeColumn = Arc<[f32]>;
 
-/// More columns than this are not compared: an edit that makes that many makes different ones.
+/// Number of columns that are compared: an edit that makes more makes different ones.
 const REMEMBERED: usize = 8;
 
 impl SharedTimes {
-    /// `new` as a column; the one that another channel got for the same, if any did.
+    /// Returns `new` as a column, or the column that another channel got for the same.
     pub(crate) fn times(&mut self, old: &TimeColumn, new: Vec<f32>) -> TimeColumn {
         let same = |(from, to): &&(TimeColumn, TimeColumn)| Arc::ptr_eq(from, old) && **to == *new;
         if let Some((_, to)) = self.0.iter().find(same) {
@@ -33,7 +33,7 @@ impl SharedTimes {
         new
     }
 
-    /// `old` with other times for some keys; the same column again for another channel that has it.
+    /// Returns `old` with other times for some keys, or the column that another channel got for the same.
     pub(crate) fn moved(&mut self, old: &TimeColumn, wanted: &[(u32, f32)]) -> TimeColumn {
         let same = |(from, moved, _): &&MovedTimes| Arc::ptr_eq(from, old) && moved == wanted;
         if let Some((.., to)) = self.1.iter().find(same) {

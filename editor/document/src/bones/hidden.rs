@@ -1,26 +1,26 @@
-//! Bones that are put out of sight: they are not picked, not boxed, and no neighbour of what is seen.
+//! Hidden bones: they cannot be picked, and commands that select neighbors skip them.
 
 use super::{BoneSelection, Choice};
 use dragonfly_anim::data::BoneIndex;
 
-/// Which bones are hidden. A bone below a hidden one is shown all the same.
+/// The set of hidden bones. A bone below a hidden one is shown nevertheless.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HiddenBones {
     hidden: Vec<bool>,
 }
 
 impl HiddenBones {
-    /// Is this bone hidden?
+    /// Returns whether this bone is hidden.
     pub fn is_hidden(&self, bone: BoneIndex) -> bool {
         self.hidden.get(bone as usize) == Some(&true)
     }
 
-    /// Is any?
+    /// Returns whether no bone is hidden.
     pub fn is_empty(&self) -> bool {
         !self.hidden.contains(&true)
     }
 
-    /// Hides what is selected, which is selected no more.
+    /// Hides the selected bones and deselects them.
     pub fn hide(&mut self, selection: &mut BoneSelection) {
         self.hidden.resize(selection.bone_count(), false);
         for &bone in selection.bones() {
@@ -29,14 +29,14 @@ impl HiddenBones {
         selection.clear();
     }
 
-    /// Hides everything but what is selected.
+    /// Hides all bones that are not selected.
     pub fn hide_others(&mut self, selection: &BoneSelection) {
         self.hidden.clear();
         let others = (0..selection.bone_count()).map(|bone| !selection.contains(bone as BoneIndex));
         self.hidden.extend(others);
     }
 
-    /// Hides these bones, which are selected no more then, or shows them.
+    /// Hides these bones and deselects them, or shows them.
     pub fn set(&mut self, bones: &[BoneIndex], hide: bool, selection: &mut BoneSelection) {
         self.hidden.resize(selection.bone_count(), false);
         for &bone in bones {
@@ -49,7 +49,7 @@ impl HiddenBones {
         }
     }
 
-    /// Shows all again and selects what was hidden, so that one sees what came.
+    /// Shows all bones and selects those that were hidden, so that the user sees them.
     pub fn show_all(&mut self, selection: &mut BoneSelection) {
         if self.is_empty() {
             return;
@@ -60,7 +60,7 @@ impl HiddenBones {
         was_hidden.for_each(|(bone, _)| selection.add(bone as BoneIndex));
     }
 
-    /// Takes hidden bones out of a list of hits.
+    /// Removes hidden bones from a list of hits.
     pub fn retain_shown(&self, bones: &mut Vec<BoneIndex>) {
         bones.retain(|&bone| !self.is_hidden(bone));
     }

@@ -1,13 +1,12 @@
-//! Which bone is the other side of which, guessed from names.
+//! Mirror pairs: left and right bones, guessed from names.
 //!
-//! Every guess is a pair that can be shown, with how sure it is. Guesses are made in this order, and what is paired is
-//! paired: the same name with one word for a side exchanged (`Arm.L`, `mixamorig:LeftArm`, `Bip01 L Arm`, `左腕`); the same
-//! but for capitals; the same words written otherwise (`LeftArm` and `arm_r`); the same but for a number that ends the name,
+//! Each guess is a pair with its reason. Guesses are made in this order, and a paired bone stays paired: the same name with one word for a side exchanged (`Arm.L`, `mixamorig:LeftArm`, `Bip01 L Arm`, `左腕`); the same
+//! but for capitals; the same words in another spelling (`LeftArm` and `arm_r`); the same but for a number that ends the name,
 //! as some exporters count all bones (`b_LeftArm_09` and `b_RightArm_06`); a side glued to another word (`leftarm`,
 //! `rfoot`). A name that belongs to several bones pairs the first with the first, where there are as many on either side.
 //!
-//! Names can be wrong: some count the bones of one arm from the shoulder and those of the other from the hand. So where the
-//! bones stand has the last word: a pair that plainly does not lie opposite to each other is parted where others do.
+//! Names can be wrong: some models count the bones of one arm from the shoulder and those of the other from the hand. So the
+//! positions of bones decide: a pair that is clearly not symmetric is split if other bones are its mirror images.
 
 use super::mirror_names::{SideWord, glued_side_words, side_words};
 use super::mirror_place::Stance;
@@ -15,40 +14,40 @@ use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_anim::retarget::normalized_name;
 use std::collections::HashMap;
 
-/// Most pairs of bones whose places are compared.
+/// Maximum number of pairs of bones whose positions are compared.
 const MOST_COMPARED: usize = 1 << 20;
 
-/// Which side a name speaks of.
+/// A side of the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Side {
-    /// Of the character, as a rule.
+pub enum BodySide {
+    /// Left, usually of the character.
     Left,
-    /// The other.
+    /// Right.
     Right,
 }
 
-/// What speaks for a pair, the surest first.
+/// The reason for a pair, the most reliable first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum MirrorGuess {
     /// The same name with the side exchanged.
     Name,
     /// The same but for capitals.
     Capitals,
-    /// The same words, written otherwise.
+    /// The same words in another spelling.
     Words,
     /// The same but for a number at the end.
     Numbers,
-    /// A side without anything between it and another word.
+    /// The side without a separator from another word.
     Glued,
-    /// They lie opposite to each other; the names say otherwise, or nothing but the side.
+    /// Their positions are symmetric; their names disagree or name only the side.
     Place,
 }
 
 impl MirrorGuess {
-    /// Those from names, the surest first.
+    /// The reasons from names, the most reliable first.
     pub const NAMES: [Self; 5] = [Self::Name, Self::Capitals, Self::Words, Self::Numbers, Self::Glued];
 
-    /// What speaks for the pair, for lists.
+    /// Returns the text for lists.
     pub fn title(self) -> &'static str {
         match self {
             Self::Name => "same name",
@@ -64,49 +63,49 @@ impl MirrorGuess {
 /// Two bones that mirror each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MirrorPair {
-    /// The one whose name says left.
+    /// The left bone.
     pub left: BoneIndex,
-    /// The one whose name says right.
+    /// The right bone.
     pub right: BoneIndex,
-    /// What speaks for it.
+    /// The reason for the pair.
     pub guess: MirrorGuess,
 }
 
-/// A bone without partner.
+/// A bone without a mirror bone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unpaired {
-    /// Which.
+    /// The bone.
     pub bone: BoneIndex,
-    /// `None` for a bone of the middle, which mirrors itself; a side where the name speaks of one and no bone is the other.
-    pub side: Option<Side>,
+    /// `None` for a bone on the mirror plane, which is its own mirror bone; the side of its name where its mirror bone is missing.
+    pub side: Option<BodySide>,
 }
 
-/// All guesses for a skeleton.
+/// All mirror pairs of a skeleton.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MirrorPairs {
-    /// In the order of their left bones.
+    /// The pairs, in the order of their left bones.
     pub pairs: Vec<MirrorPair>,
-    /// All others, in the order of the skeleton.
+    /// All other bones, in the order of the skeleton.
     pub unpaired: Vec<Unpaired>,
     partners: Vec<Option<BoneIndex>>,
     middle: Vec<bool>,
 }
 
 impl MirrorPairs {
-    /// Guesses for `skeleton`.
+    /// Guesses the pairs of a skeleton.
     pub fn of(skeleton: &Skeleton) -> Self {
         let names: Vec<&str> = skeleton.bones.iter().map(|bone| bone.name.as_str()).collect();
         let mut found = Self::of_names(&names);
         if !found.pairs.is_empty() {
             let stance = Stance::of(skeleton, &found.pairs);
             if stance.is_sure(found.pairs.len()) {
-                found.mend(&stance);
+                found.split_asymmetric(&stance);
             }
         }
         found
     }
 
-    /// Guesses for bones of these names. Takes time in proportion to their number.
+    /// Guesses the pairs of bones with these names. Takes time in proportion to their number.
     pub fn of_names(names: &[&str]) -> Self {
         let mut pairs = Vec::new();
         let mut partners = vec![None; names.len()];
@@ -126,24 +125,25 @@ impl MirrorPairs {
         Self { pairs, unpaired, partners, middle }
     }
 
-    /// Parts pairs that do not lie opposite to each other, where bones of the same sides do.
-    fn mend(&mut self, stance: &Stance) {
+    /// Splits pairs that are not symmetric, where other bones of the same sides are.
+    fn split_asymmetric(&mut self, stance: &Stance) {
         let wrong: Vec<MirrorPair> =
             self.pairs.iter().filter(|pair| stance.contradicts(pair.left, pair.right)).copied().collect();
-        let alone = |side: Side| {
+        let alone = |side: BodySide| {
             let of_side = self.unpaired.iter().filter(move |alone| alone.side == Some(side));
             of_side.map(|alone| alone.bone)
         };
-        let mut lefts: Vec<BoneIndex> = wrong.iter().map(|pair| pair.left).chain(alone(Side::Left)).collect();
+        let mut lefts: Vec<BoneIndex> =
+            wrong.iter().map(|pair| pair.left).chain(alone(BodySide::Left)).collect();
         let mut rights: Vec<BoneIndex> =
-            wrong.iter().map(|pair| pair.right).chain(alone(Side::Right)).collect();
+            wrong.iter().map(|pair| pair.right).chain(alone(BodySide::Right)).collect();
         lefts.sort_unstable();
         rights.sort_unstable();
         let opposite = |&left: &BoneIndex| {
             let right = stance.opposite(left, &rights)?;
             (stance.opposite(right, &lefts) == Some(left)).then_some((left, right))
         };
-        // Those are many only in a file made to be slow, and then names are all there is.
+        // There are many of them only in a file that is made to be slow; names have to do then.
         if lefts.len().saturating_mul(rights.len()) > MOST_COMPARED {
             return;
         }
@@ -165,28 +165,29 @@ impl MirrorPairs {
         self.pairs.retain(|pair| partners[pair.left as usize] == Some(pair.right));
         self.pairs.sort_unstable_by_key(|pair| pair.left);
         self.unpaired.retain(|alone| partners[alone.bone as usize].is_none());
-        // Who lost a partner and found none is alone, and of a side.
-        let sided = wrong.iter().flat_map(|pair| [(pair.left, Side::Left), (pair.right, Side::Right)]);
+        // A bone that lost its partner and got no other one is unpaired, and of a side.
+        let sided =
+            wrong.iter().flat_map(|pair| [(pair.left, BodySide::Left), (pair.right, BodySide::Right)]);
         let lost = sided.filter(|(bone, _)| partners[*bone as usize].is_none());
         self.unpaired.extend(lost.map(|(bone, side)| Unpaired { bone, side: Some(side) }));
         self.unpaired.sort_unstable_by_key(|alone| alone.bone);
     }
 
-    /// The bone that mirrors this one, of a pair.
+    /// Returns the other bone of its pair.
     pub fn partner(&self, bone: BoneIndex) -> Option<BoneIndex> {
         self.partners.get(bone as usize).copied().flatten()
     }
 
-    /// Where the mirrored pose of this bone belongs: to its partner; a bone of the middle to itself; nowhere for one whose
-    /// other side is missing.
+    /// Returns the bone that gets the mirrored pose of this one: its partner, or itself on the mirror plane; `None` where the other side is
+    /// missing.
     pub fn mirror_of(&self, bone: BoneIndex) -> Option<BoneIndex> {
         let is_middle = self.middle.get(bone as usize) == Some(&true);
         self.partner(bone).or(is_middle.then_some(bone))
     }
 }
 
-/// The name without its side, and which that was. Bones with the same key and opposite sides are a pair.
-fn keys(name: &str, words: &[SideWord], guess: MirrorGuess) -> Vec<(String, Side)> {
+/// Returns the name without its side, and the side. Bones with the same key and opposite sides are a pair.
+fn keys(name: &str, words: &[SideWord], guess: MirrorGuess) -> Vec<(String, BodySide)> {
     let without = |word: &SideWord, lower: bool| {
         let (before, after) = (&name[..word.range.start], &name[word.range.end..]);
         let (pair, case) = word.spelling;
@@ -211,7 +212,7 @@ fn keys(name: &str, words: &[SideWord], guess: MirrorGuess) -> Vec<(String, Side
             let inside = |word: &&SideWord| word.range.end <= counted.len();
             let words = words.iter().filter(inside);
             let keys = words.map(|word| (without(word, true), word));
-            // The key without what follows the name proper.
+            // The key without the number and what follows.
             let cut = |(key, word): (String, &SideWord)| {
                 let rest = name[counted.len()..].to_lowercase();
                 (key.strip_suffix(&rest).unwrap_or(&key).to_owned(), word.side)
@@ -226,7 +227,7 @@ fn keys(name: &str, words: &[SideWord], guess: MirrorGuess) -> Vec<(String, Side
     }
 }
 
-/// The name without a number at its end that is set off from the rest.
+/// Returns the name without a number at its end that a separator precedes.
 fn uncounted(name: &str) -> &str {
     let separator = |letter: char| !letter.is_alphanumeric();
     let end = name.trim_end_matches(separator);
@@ -236,9 +237,13 @@ fn uncounted(name: &str) -> &str {
     if is_counted { stem } else { name }
 }
 
-/// One key for each word; and where all speak of one side, first of all one without any of them (`L_eye_L`).
-fn with_all(name: &str, words: &[SideWord], without: impl Fn(&SideWord) -> String) -> Vec<(String, Side)> {
-    let mut keys: Vec<(String, Side)> = Vec::new();
+/// Returns one key per word. Where all words are of one side, the first key is without any of them (`L_eye_L`).
+fn with_all(
+    name: &str,
+    words: &[SideWord],
+    without: impl Fn(&SideWord) -> String,
+) -> Vec<(String, BodySide)> {
+    let mut keys: Vec<(String, BodySide)> = Vec::new();
     if let [first, _, ..] = words
         && words.iter().all(|word| word.side == first.side)
     {
@@ -256,11 +261,11 @@ fn with_all(name: &str, words: &[SideWord], without: impl Fn(&SideWord) -> Strin
     keys
 }
 
-/// Pairs what is not paired yet and has the same key.
+/// Pairs unpaired bones with the same key.
 fn pair_up(
     count: usize,
     guess: MirrorGuess,
-    keys: impl Fn(usize) -> Vec<(String, Side)>,
+    keys: impl Fn(usize) -> Vec<(String, BodySide)>,
     partners: &mut [Option<BoneIndex>],
     pairs: &mut Vec<MirrorPair>,
 ) {

@@ -1,9 +1,9 @@
-//! Words for sides in names.
+//! Words for left and right in names of bones.
 
-use super::mirror::Side;
+use super::mirror::BodySide;
 use std::ops::Range;
 
-/// Left and right, as programs and people write them, in lower case.
+/// Words for left and right in lower case, as programs and users write them.
 const WORDS: &[(&str, &str)] = &[
     ("left", "right"),
     ("l", "r"),
@@ -16,10 +16,10 @@ const WORDS: &[(&str, &str)] = &[
     ("izquierda", "derecha"),
 ];
 
-/// Words that stand at the beginning or end of another without anything between them: `leftarm`, `footr`.
+/// Number of pairs in `WORDS` that may also be part of another word, at its start or end: `leftarm`, `footr`.
 const GLUED: usize = 2;
 
-/// Longest name that is looked at, bytes, and most words for sides in it.
+/// Maximum length of a name in bytes, and maximum number of side words in it.
 const LONGEST: usize = 256;
 const MOST: usize = 6;
 
@@ -27,12 +27,12 @@ const MOST: usize = 6;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SideWord {
     pub(super) range: Range<usize>,
-    pub(super) side: Side,
-    /// Which pair of [`WORDS`], and how it is written: small, capital, capitals.
+    pub(super) side: BodySide,
+    /// Index in [`WORDS`] and case: lower case, first letter, upper case.
     pub(super) spelling: (usize, u8),
 }
 
-/// The words for sides in `name`, that stand alone, in their order.
+/// Returns the separate words for sides in `name`, in their order.
 pub(super) fn side_words(name: &str) -> Vec<SideWord> {
     if name.len() > LONGEST {
         return Vec::new();
@@ -40,7 +40,7 @@ pub(super) fn side_words(name: &str) -> Vec<SideWord> {
     words(name).into_iter().filter_map(|range| side_word(name, range)).take(MOST).collect()
 }
 
-/// The ones that are glued to another word.
+/// Returns the words for sides that are part of another word.
 pub(super) fn glued_side_words(name: &str) -> Vec<SideWord> {
     if name.len() > LONGEST {
         return Vec::new();
@@ -49,7 +49,7 @@ pub(super) fn glued_side_words(name: &str) -> Vec<SideWord> {
     for word in words(name) {
         let text = &name[word.clone()];
         for spelled in WORDS[..GLUED].iter().flat_map(|pair| [pair.0, pair.1]) {
-            // Words for sides are of ASCII letters, and so is what is compared with them.
+            // These words consist of ASCII letters, so only ASCII is compared.
             let (long, short) = (text.len(), spelled.len());
             if long > short && text.is_ascii() {
                 let ends = [word.start..word.start + short, word.end - short..word.end];
@@ -66,58 +66,59 @@ fn side_word(name: &str, range: Range<usize>) -> Option<SideWord> {
     let text = &name[range.clone()];
     let lower = text.to_lowercase();
     let (index, side) = WORDS.iter().enumerate().find_map(|(index, pair)| {
-        let is = |spelled: &str, side: Side| (lower == spelled).then_some((index, side));
-        is(pair.0, Side::Left).or_else(|| is(pair.1, Side::Right))
+        let is = |spelled: &str, side: BodySide| (lower == spelled).then_some((index, side));
+        is(pair.0, BodySide::Left).or_else(|| is(pair.1, BodySide::Right))
     })?;
     let mut letters = text.chars();
     let begins = letters.next().is_some_and(char::is_uppercase);
     let case = match (begins, letters.next().map(char::is_uppercase)) {
         (false, _) => 0,
         (true, Some(false)) => 1,
-        // A single capital letter is as good as a word of capitals.
+        // A single capital letter counts as upper case.
         (true, _) => 2,
     };
     Some(SideWord { range, side, spelling: (index, case) })
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum LetterKind {
     Capital,
     Small,
     Digit,
-    /// A letter that is a word by itself.
+    /// A character that is a word by itself.
     Word,
     Separator,
 }
 
-fn kind(letter: char) -> Kind {
+fn kind(letter: char) -> LetterKind {
     match letter {
-        '左' | '右' => Kind::Word,
-        _ if letter.is_numeric() => Kind::Digit,
-        _ if letter.is_uppercase() => Kind::Capital,
-        _ if letter.is_alphabetic() => Kind::Small,
-        _ => Kind::Separator,
+        '左' | '右' => LetterKind::Word,
+        _ if letter.is_numeric() => LetterKind::Digit,
+        _ if letter.is_uppercase() => LetterKind::Capital,
+        _ if letter.is_alphabetic() => LetterKind::Small,
+        _ => LetterKind::Separator,
     }
 }
 
-/// The words of a name: between separators, at capitals (`LeftArm`, `LArm`), between letters and digits.
+/// Returns the words of a name: between separators, at capitals (`LeftArm`, `LArm`), between letters and digits.
 pub(super) fn words(name: &str) -> Vec<Range<usize>> {
-    let letters: Vec<(usize, Kind)> = name.char_indices().map(|(at, letter)| (at, kind(letter))).collect();
+    let letters: Vec<(usize, LetterKind)> =
+        name.char_indices().map(|(at, letter)| (at, kind(letter))).collect();
     let mut words: Vec<Range<usize>> = Vec::new();
     for (index, &(at, now)) in letters.iter().enumerate() {
-        let last = if index == 0 { Kind::Separator } else { letters[index - 1].1 };
+        let last = if index == 0 { LetterKind::Separator } else { letters[index - 1].1 };
         let next = letters.get(index + 1);
         let end = next.map_or(name.len(), |next| next.0);
-        // `LArm`: the second capital begins the word.
-        let begins_next = now == Kind::Capital && next.is_some_and(|next| next.1 == Kind::Small);
+        // `LArm`: the second capital starts the word.
+        let begins_next = now == LetterKind::Capital && next.is_some_and(|next| next.1 == LetterKind::Small);
         let goes_on = match (last, now) {
-            (Kind::Capital, Kind::Small) => true,
-            (Kind::Capital, Kind::Capital) => !begins_next,
-            (Kind::Word, Kind::Word) => false,
+            (LetterKind::Capital, LetterKind::Small) => true,
+            (LetterKind::Capital, LetterKind::Capital) => !begins_next,
+            (LetterKind::Word, LetterKind::Word) => false,
             (last, now) => last == now,
         };
         match words.last_mut() {
-            _ if now == Kind::Separator => {}
+            _ if now == LetterKind::Separator => {}
             Some(word) if goes_on && word.end == at => word.end = end,
             _ => words.push(at..end),
         }

@@ -1,4 +1,4 @@
-//! Where bones lie to each other before anything moves, and which plane mirrors them.
+//! Symmetry of the rest pose, and the plane that mirrors it.
 
 use super::mirror::MirrorPair;
 use dragonfly_anim::animation::to_root;
@@ -6,48 +6,48 @@ use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use dragonfly_anim::sample::rest_pose;
 use glam::{Mat4, Vec3};
 
-/// Bones lie opposite to each other when they miss by less than this share of the model's size.
+/// Maximum distance of a bone from the mirror image of its partner, relative to the size of the model.
 const NEAR: f32 = 0.03;
-/// Names are wrong only where bones miss by more than this share.
+/// Distance beyond which a pair counts as wrong, relative to the size of the model.
 const FAR: f32 = 0.06;
 
-/// The plane between the two sides of a model.
+/// The mirror plane of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MirrorPlane {
-    /// Unit.
+    /// Unit vector.
     pub normal: Vec3,
-    /// Scene units from the origin along the normal.
+    /// Distance of the plane from the origin along the normal, scene units.
     pub distance: f32,
 }
 
 impl MirrorPlane {
-    /// The other side of a place.
+    /// Returns the mirror image of a position.
     pub fn place(&self, place: Vec3) -> Vec3 {
         place - 2.0 * (self.normal.dot(place) - self.distance) * self.normal
     }
 
-    /// The other side of a direction.
+    /// Returns the mirror image of a direction.
     pub fn direction(&self, direction: Vec3) -> Vec3 {
         direction - 2.0 * self.normal.dot(direction) * self.normal
     }
 }
 
-/// A skeleton as it stands before anything moves it, and how its sides lie.
+/// A skeleton in the pose in which it is symmetric.
 #[derive(Clone, Debug)]
 pub struct Stance {
-    /// Bone space → scene space.
+    /// Matrices from bone space to scene space.
     pub to_root: Vec<Mat4>,
-    /// What lies between the sides; the plane through the origin across x where nothing is known.
+    /// The mirror plane; x = 0 where it is unknown.
     pub plane: MirrorPlane,
-    /// Pairs that agree with the plane.
+    /// Number of pairs that agree with the plane.
     agree: usize,
-    /// Largest extent.
+    /// The largest extent of the model.
     size: f32,
 }
 
 impl Stance {
-    /// The more symmetric one of two: as the bones rest, or as the skin was bound to them, which is often the better
-    /// one, as files keep some frame of an animation as the rest pose.
+    /// Returns the more symmetric one of two poses: the rest pose or the bind pose. The bind pose is often better,
+    /// because some files have a frame of an animation as rest pose.
     pub fn of(skeleton: &Skeleton, pairs: &[MirrorPair]) -> Self {
         let rest: Vec<Transform> = skeleton.bones.iter().map(rest_pose).collect();
         let mut rest_to_root = vec![Mat4::IDENTITY; skeleton.len()];
@@ -76,7 +76,7 @@ impl Stance {
         stance
     }
 
-    /// Half way between most pairs.
+    /// Returns the median of the middles of all pairs along the normal.
     fn middle(&self, normal: Vec3, pairs: &[MirrorPair]) -> f32 {
         let middle = |pair: &MirrorPair| {
             let (left, right) = (self.place(pair.left)?, self.place(pair.right)?);
@@ -88,7 +88,7 @@ impl Stance {
     }
 
     fn agrees(&self, plane: &MirrorPlane, pair: &MirrorPair) -> bool {
-        // Two bones in the plane agree with any.
+        // Two bones in the plane agree with any plane.
         let apart = self
             .place(pair.left)
             .is_some_and(|place| (plane.normal.dot(place) - plane.distance).abs() > self.size * 1e-3);
@@ -102,7 +102,7 @@ impl Stance {
             .filter(|place| place.is_finite())
     }
 
-    /// By which share of the model's size one bone misses the other side of the other.
+    /// Returns the distance of one bone from the mirror image of the other, relative to the size of the model.
     fn miss(&self, plane: &MirrorPlane, one: BoneIndex, other: BoneIndex) -> f32 {
         match (self.place(one), self.place(other)) {
             (Some(one), Some(other)) => plane.place(one).distance(other) / self.size,
@@ -110,17 +110,17 @@ impl Stance {
         }
     }
 
-    /// Does the plane stand on more than a guess?
+    /// Returns whether enough pairs agree with the plane.
     pub(super) fn is_sure(&self, pairs: usize) -> bool {
         self.agree > 0 && self.agree * 2 >= pairs
     }
 
-    /// Do these two plainly not lie opposite to each other?
+    /// Returns whether two bones are clearly not symmetric.
     pub(super) fn contradicts(&self, left: BoneIndex, right: BoneIndex) -> bool {
         self.miss(&self.plane, left, right) > FAR
     }
 
-    /// Of `others` the one that lies opposite; none where none does.
+    /// Returns the bone of `others` that is the mirror image; `None` where there is none.
     pub(super) fn opposite(&self, bone: BoneIndex, others: &[BoneIndex]) -> Option<BoneIndex> {
         let misses = others.iter().map(|&other| (self.miss(&self.plane, bone, other), other));
         misses
@@ -130,8 +130,8 @@ impl Stance {
     }
 }
 
-/// Bones as the skin was bound to them. A bone of no skin, and one whose parent is of none, stands to its parent as it
-/// rests: the space in which skins are bound may be another one than the scene.
+/// Returns the bind pose. A bone without a skin, or with a parent without one, has its rest pose relative to its
+/// parent: the space of bind poses may differ from the scene.
 fn bound(skeleton: &Skeleton, rest_to_root: &[Mat4]) -> Vec<Mat4> {
     let differs = |bone: usize| {
         let offset = skeleton.bones[bone].offset;

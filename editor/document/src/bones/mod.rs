@@ -1,4 +1,4 @@
-//! Sets and pairs of bones: which are selected, which are hidden, and which are the left and right of the same limb.
+//! Sets and pairs of bones: selected bones, hidden bones, mirror pairs.
 
 mod hidden;
 mod mirror;
@@ -7,6 +7,6 @@ mod mirror_place;
 mod selection;
 
 pub use hidden::HiddenBones;
-pub use mirror::{MirrorGuess, MirrorPair, MirrorPairs, Side, Unpaired};
+pub use mirror::{BodySide, MirrorGuess, MirrorPair, MirrorPairs, Unpaired};
 pub use mirror_place::{MirrorPlane, Stance};
 pub use selection::{BoneSelection, Choice};

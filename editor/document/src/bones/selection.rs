@@ -1,21 +1,21 @@
-//! Which bones are selected, in the order in which they were; the last is the active one.
+//! The selected bones in the order of selection; the last one is the active bone.
 
 use super::{HiddenBones, MirrorPairs};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 
-/// What a click or a region does with what is selected.
+/// How a click or a region changes the selection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
-    /// This, and nothing else.
+    /// Selects only these bones.
     #[default]
     Replace,
-    /// This too; what is selected already becomes the active one.
+    /// Adds these bones; a bone that is already selected becomes the active one.
     Add,
-    /// This, if it is not selected; else not this any more.
+    /// Toggles these bones.
     Toggle,
 }
 
-/// See the module. Made for one skeleton; bones that it does not have are left out.
+/// The selected bones of one skeleton. Bones that it does not have are ignored.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BoneSelection {
     bones: Vec<BoneIndex>,
@@ -23,37 +23,37 @@ pub struct BoneSelection {
 }
 
 impl BoneSelection {
-    /// Nothing, of so many bones.
+    /// An empty selection of a skeleton with `bone_count` bones.
     pub fn new(bone_count: usize) -> Self {
         Self { bones: Vec::new(), selected: vec![false; bone_count] }
     }
 
-    /// In the order of selection.
+    /// Returns the selected bones in the order of selection.
     pub fn bones(&self) -> &[BoneIndex] {
         &self.bones
     }
 
-    /// The one selected last.
+    /// Returns the active bone: the one selected last.
     pub fn active(&self) -> Option<BoneIndex> {
         self.bones.last().copied()
     }
 
-    /// How many bones there are to select.
+    /// Returns the number of bones of the skeleton.
     pub fn bone_count(&self) -> usize {
         self.selected.len()
     }
 
-    /// Is this bone selected?
+    /// Returns whether this bone is selected.
     pub fn contains(&self, bone: BoneIndex) -> bool {
         self.selected.get(bone as usize) == Some(&true)
     }
 
-    /// Nothing.
+    /// Deselects all bones.
     pub fn clear(&mut self) {
         self.bones.drain(..).for_each(|bone| self.selected[bone as usize] = false);
     }
 
-    /// This one too.
+    /// Adds a bone.
     pub fn add(&mut self, bone: BoneIndex) {
         if let Some(selected @ false) = self.selected.get_mut(bone as usize) {
             *selected = true;
@@ -61,7 +61,7 @@ impl BoneSelection {
         }
     }
 
-    /// A click on a bone, or beside all of them: that clears, unless it would add or toggle.
+    /// Applies a click on a bone, or on no bone: that clears the selection, unless it would add or toggle.
     pub fn click(&mut self, bone: Option<BoneIndex>, choice: Choice) {
         match bone {
             Some(bone) if choice == Choice::Add && self.contains(bone) => {
@@ -72,7 +72,7 @@ impl BoneSelection {
         }
     }
 
-    /// What a box or lasso holds.
+    /// Applies a box or lasso selection.
     pub fn choose(&mut self, bones: &[BoneIndex], choice: Choice) {
         if choice == Choice::Replace {
             self.clear();
@@ -87,26 +87,27 @@ impl BoneSelection {
         self.sweep();
     }
 
-    /// All that are shown; the active one stays that.
+    /// Selects all visible bones; the active bone stays active.
     pub fn all(&mut self, hidden: &HiddenBones) {
         let active = self.active().filter(|&active| !hidden.is_hidden(active));
         self.set(|_, bone| !hidden.is_hidden(bone));
         self.click(active, Choice::Add);
     }
 
-    /// Those that are shown and were not selected.
+    /// Inverts the selection of visible bones.
     pub fn invert(&mut self, hidden: &HiddenBones) {
         self.set(|selected, bone| !selected[bone as usize] && !hidden.is_hidden(bone));
     }
 
-    /// The nearest shown bone above each; with `extend` besides what is selected. Bones with nothing above stay.
+    /// Selects the nearest visible bone above each; with `extend` in addition to the selection. Bones without one stay
+    /// selected.
     pub fn parents(&mut self, skeleton: &Skeleton, hidden: &HiddenBones, extend: bool) {
         let above = |bone: BoneIndex| shown_parent(skeleton, hidden, bone).unwrap_or(bone);
         self.replace_each(extend, |bone, add| add(above(bone)));
     }
 
-    /// The shown bones directly below each, all of them; with `extend` besides what is selected. Bones with nothing below
-    /// stay.
+    /// Selects all visible children of each; with `extend` in addition to the selection. Bones without children stay
+    /// selected.
     pub fn children(&mut self, skeleton: &Skeleton, hidden: &HiddenBones, extend: bool) {
         let before = self.selected.clone();
         let mut has_child = vec![false; before.len()];
@@ -125,7 +126,7 @@ impl BoneSelection {
         found.into_iter().for_each(|bone| self.add(bone));
     }
 
-    /// All shown bones below what is selected, at any depth, besides it.
+    /// Adds all visible descendants.
     pub fn descendants(&mut self, skeleton: &Skeleton, hidden: &HiddenBones) {
         let mut below = self.selected.clone();
         // Parents come before children.
@@ -138,7 +139,7 @@ impl BoneSelection {
         }
     }
 
-    /// The bones next to what is selected, above and below, besides it.
+    /// Adds the visible parents and children.
     pub fn grow(&mut self, skeleton: &Skeleton, hidden: &HiddenBones) {
         let before = self.selected.clone();
         self.for_each_joint(skeleton, hidden, |selection, bone, parent| {
@@ -151,7 +152,7 @@ impl BoneSelection {
         });
     }
 
-    /// Without the bones that are next to one that is not selected.
+    /// Deselects bones that are next to an unselected one.
     pub fn shrink(&mut self, skeleton: &Skeleton, hidden: &HiddenBones) {
         let before = self.selected.clone();
         self.for_each_joint(skeleton, hidden, |selection, bone, parent| {
@@ -163,19 +164,19 @@ impl BoneSelection {
         self.sweep();
     }
 
-    /// The other side of each; with `extend` besides what is selected. Bones without another side, or with a hidden one,
-    /// stay.
+    /// Selects the mirror bone of each; with `extend` in addition to the selection. Bones without a visible mirror
+    /// bone stay selected.
     pub fn mirror(&mut self, pairs: &MirrorPairs, hidden: &HiddenBones, extend: bool) {
         let other = |bone: BoneIndex| pairs.partner(bone).filter(|&other| !hidden.is_hidden(other));
         self.replace_each(extend, |bone, add| add(other(bone).unwrap_or(bone)));
     }
 
-    /// Without bones that are hidden.
+    /// Deselects hidden bones.
     pub fn retain_shown(&mut self, hidden: &HiddenBones) {
         self.set_off(|bone| hidden.is_hidden(bone));
     }
 
-    /// Every shown bone that has a shown bone above it.
+    /// Calls `act` with each visible bone that has a visible bone above it, and that bone.
     fn for_each_joint(
         &mut self,
         skeleton: &Skeleton,
@@ -190,7 +191,8 @@ impl BoneSelection {
         }
     }
 
-    /// What each leads to, in the same order, so that the active one leads to the active one.
+    /// Replaces each bone by the bones to which `each` leads, in the same order, so that the active bone leads to the
+    /// active bone.
     fn replace_each(&mut self, extend: bool, each: impl Fn(BoneIndex, &mut dyn FnMut(BoneIndex))) {
         let before = std::mem::take(&mut self.bones);
         if extend {
@@ -207,7 +209,7 @@ impl BoneSelection {
         }
     }
 
-    /// Exactly those, in the order of the skeleton.
+    /// Selects exactly these bones, in the order of the skeleton.
     fn set(&mut self, keep: impl Fn(&[bool], BoneIndex) -> bool) {
         let before = self.selected.clone();
         self.clear();
@@ -221,7 +223,7 @@ impl BoneSelection {
         self.sweep();
     }
 
-    /// Takes those out of the list that are not marked any more, and what is there twice.
+    /// Removes bones from the list that are no longer marked, and duplicates.
     fn sweep(&mut self) {
         let selected = &mut self.selected;
         self.bones.retain(|&bone| std::mem::take(&mut selected[bone as usize]));
@@ -229,11 +231,11 @@ impl BoneSelection {
     }
 }
 
-/// The next bone above that is shown.
+/// Returns the next visible bone above.
 fn shown_parent(skeleton: &Skeleton, hidden: &HiddenBones, bone: BoneIndex) -> Option<BoneIndex> {
     let parent = |bone: BoneIndex| {
         let parent = skeleton.bones.get(bone as usize)?.parent;
-        // Above means before: so there is an end, whatever the numbers say.
+        // Parents have smaller indices, so this ends for any data.
         parent.filter(|&parent| parent < bone)
     };
     std::iter::successors(parent(bone), |&bone| parent(bone)).find(|&bone| !hidden.is_hidden(bone))

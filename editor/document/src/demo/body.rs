@@ -2,7 +2,7 @@
 //! measured sections.
 
 use super::legs::{Limb, add_limb};
-use super::mesh::{Bind, Mesh, Patch, even};
+use super::mesh::{Bind, DemoMesh, MeshPatch, even};
 use super::num::{bump, cos, curve, sin, smooth};
 use super::skeleton::{
     ABDOMEN, ABDOMEN_LENGTH, HEAD, HINGES, NECK, RINGS, THORAX, abdomen_axis, abdomen_joints, wing,
@@ -57,7 +57,7 @@ fn thorax(u: f32, v: f32) -> Vec3 {
     let square = 1.0 + 0.34 * s.abs() * c.abs();
     let (mid, half) = ((top + bottom) * 0.5, (top - bottom) * 0.5);
     let ridge = 0.006 * bump(0.0, 0.22, v) * bump(0.45, 0.35, u);
-    // The whole thorax leans back: the legs are bunched forward, the wings sit behind.
+    // The whole thorax is tilted back: the legs are close together in front, the wings at the back.
     let y = mid + half * c * square + ridge;
     let lean = 0.16 * smooth(0.0, 0.3, u) * (1.0 - smooth(0.8, 1.0, u)) * (y - 0.18);
     Vec3::new(curve(&WIDTH, u) * s * square, y, THORAX_Z.0 + (THORAX_Z.1 - THORAX_Z.0) * u - lean)
@@ -80,7 +80,7 @@ const GIRTH: [(f32, f32); 12] = [
     (0.682, 0.0105),
 ];
 
-/// Which ring lies at `along`, and how far through it, 0..1.
+/// Returns the ring at `along`, and the fraction of it, 0 to 1.
 pub(super) fn ring_at(along: f32) -> (usize, f32) {
     let mut start = 0.0;
     for (i, length) in RINGS.iter().enumerate() {
@@ -95,7 +95,7 @@ pub(super) fn ring_at(along: f32) -> (usize, f32) {
 fn abdomen(u: f32, v: f32) -> Vec3 {
     let along = u * ABDOMEN_LENGTH;
     let (ring, part) = ring_at(along);
-    // Each ring slips into the one before: narrow in front, a rim behind.
+    // Each ring fits into the one before: narrow in front, a rim at its end.
     let step =
         if ring < 9 { 0.055 * smooth(0.75, 0.95, part) - 0.05 * (1.0 - smooth(0.0, 0.1, part)) } else { 0.0 };
     let rim = 1.0 + step - 0.06 * smooth(0.97, 1.0, part) * f32::from(ring < 9);
@@ -110,7 +110,7 @@ fn abdomen(u: f32, v: f32) -> Vec3 {
 }
 
 /// Adds the left half of thorax and abdomen, the wing sockets and the tail's clasper.
-pub(super) fn add(mesh: &mut Mesh) {
+pub(super) fn add(mesh: &mut DemoMesh) {
     let joints = abdomen_joints();
     let thorax_bind = |_: f32, p: Vec3| {
         Bind::chain(
@@ -119,7 +119,7 @@ pub(super) fn add(mesh: &mut Mesh) {
         )
     };
     let chart = texture::THORAX;
-    let patch = Patch { surface: &thorax, us: &even(25), vs: &even(13), chart, flip: true };
+    let patch = MeshPatch { surface: &thorax, us: &even(25), vs: &even(13), chart, flip: true };
     mesh.grid(&patch, &thorax_bind);
 
     let mut rows = Vec::new();
@@ -142,7 +142,8 @@ pub(super) fn add(mesh: &mut Mesh) {
         }));
         Bind::chain(&chain, u * ABDOMEN_LENGTH)
     };
-    let patch = Patch { surface: &abdomen, us: &rows, vs: &even(10), chart: texture::ABDOMEN, flip: true };
+    let patch =
+        MeshPatch { surface: &abdomen, us: &rows, vs: &even(10), chart: texture::ABDOMEN, flip: true };
     mesh.grid(&patch, &abdomen_bind);
 
     for (pair, hinge) in HINGES.into_iter().enumerate() {

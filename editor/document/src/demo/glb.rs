@@ -1,8 +1,8 @@
 //! Writes the model as a binary glTF 2.0 file.
 
-use super::mesh::{Mesh, Vertex};
-use super::skeleton::{Bone, ROOT};
-use super::takes::{Path, Take};
+use super::mesh::{DemoMesh, DemoVertex};
+use super::skeleton::{DemoBone, ROOT};
+use super::takes::{DemoPath, DemoTake};
 use super::texture::Picture;
 use serde_json::{Value, json};
 
@@ -14,21 +14,21 @@ const INDICES: u32 = 34963;
 
 /// Everything the file holds.
 pub(super) struct Model {
-    pub(super) bones: Vec<Bone>,
+    pub(super) bones: Vec<DemoBone>,
     /// One mesh to a material: body, eyes, wings.
-    pub(super) meshes: [Mesh; 3],
+    pub(super) meshes: [DemoMesh; 3],
     pub(super) pictures: [Picture; 7],
-    pub(super) takes: Vec<Take>,
+    pub(super) takes: Vec<DemoTake>,
 }
 
 #[derive(Default)]
-struct Writer {
+struct GlbWriter {
     bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
 }
 
-impl Writer {
+impl GlbWriter {
     fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
         let mut view = json!({"buffer": 0, "byteLength": bytes.len(), "byteOffset": self.bytes.len()});
         if let Some(target) = target {
@@ -62,8 +62,8 @@ impl Writer {
         self.accessors[accessor]["max"] = json!(fold(f32::MIN, f32::max));
     }
 
-    fn primitive(&mut self, mesh: &Mesh, material: usize, tangents: bool) -> Value {
-        let floats = |pick: &dyn Fn(&Vertex) -> Vec<f32>| -> Vec<f32> {
+    fn primitive(&mut self, mesh: &DemoMesh, material: usize, tangents: bool) -> Value {
+        let floats = |pick: &dyn Fn(&DemoVertex) -> Vec<f32>| -> Vec<f32> {
             mesh.vertices.iter().flat_map(pick).collect()
         };
         let count = mesh.vertices.len();
@@ -114,7 +114,7 @@ impl Writer {
         index
     }
 
-    fn animation(&mut self, take: &Take, all: &mut Vec<f32>, at: usize) -> Value {
+    fn animation(&mut self, take: &DemoTake, all: &mut Vec<f32>, at: usize) -> Value {
         // Tracks that share their key times share one accessor for them.
         let mut inputs: Vec<(&[f32], usize)> = Vec::new();
         let (mut channels, mut samplers) = (Vec::new(), Vec::new());
@@ -130,8 +130,8 @@ impl Writer {
                 }
             };
             let (path, kind) = match track.path {
-                Path::Rotation => ("rotation", "VEC4"),
-                Path::Translation => ("translation", "VEC3"),
+                DemoPath::Rotation => ("rotation", "VEC4"),
+                DemoPath::Translation => ("translation", "VEC3"),
             };
             let output = self.keys(all, at, &track.values, kind);
             channels.push(json!({
@@ -163,7 +163,7 @@ fn little_endian(data: &[f32]) -> Vec<u8> {
 
 /// The bytes of the file.
 pub(super) fn write(model: &Model) -> Vec<u8> {
-    let mut out = Writer::default();
+    let mut out = GlbWriter::default();
     let primitives: Vec<Value> = (0..3).map(|i| out.primitive(&model.meshes[i], i, i < 2)).collect();
     let inverse: Vec<f32> =
         model.bones.iter().flat_map(|b| glam::Mat4::from_translation(-b.head).to_cols_array()).collect();

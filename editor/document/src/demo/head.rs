@@ -1,7 +1,7 @@
 //! The left half of the head: its capsule and face, the feeler, and the great compound eye.
 
 use super::legs::{Limb, add_limb};
-use super::mesh::{Bind, Mesh, Patch, even};
+use super::mesh::{Bind, DemoMesh, MeshPatch, even};
 use super::num::{cos, curve, sin};
 use super::skeleton::{ANTENNA, ANTENNA_ENDS, HEAD};
 use super::texture;
@@ -42,8 +42,8 @@ fn capsule(u: f32, v: f32) -> Vec3 {
 }
 
 /// Adds the left half of everything on the head that wears the body's texture.
-pub(super) fn add(mesh: &mut Mesh) {
-    let patch = Patch {
+pub(super) fn add(mesh: &mut DemoMesh) {
+    let patch = MeshPatch {
         surface: &capsule,
         us: &even(29),
         vs: &[0.0, 0.09, 0.2, 0.32, 0.45, 0.6, 0.78, 0.98],
@@ -66,11 +66,11 @@ pub(super) fn add(mesh: &mut Mesh) {
     add_limb(mesh, &feeler, &|_, _| Bind::to(ANTENNA));
 }
 
-/// How far from its middle the eye's chart reaches, in radians.
+/// Angle from its center to its rim that the chart of the eye covers, in radians.
 const REACH: f32 = 1.95;
 
-/// The direction from the eye's centre that the point (`u`, `v`) of its chart shows. The chart
-/// is centred on the way the eye looks, and keeps distances from there true, so that the facets
+/// The direction from the eye's center that the point (`u`, `v`) of its chart shows. The chart
+/// is centered on the way the eye looks, and keeps distances from there true, so that the facets
 /// stay even.
 pub(super) fn eye_direction(u: f32, v: f32) -> Vec3 {
     let out = Vec3::new(0.78, 0.42, 0.46).normalize();
@@ -83,7 +83,7 @@ pub(super) fn eye_direction(u: f32, v: f32) -> Vec3 {
 }
 
 /// Adds the left eye.
-pub(super) fn add_eye(mesh: &mut Mesh) {
+pub(super) fn add_eye(mesh: &mut DemoMesh) {
     const MIDDLE: Vec3 = Vec3::new(0.0285, 0.1935, 0.3455);
     const RADII: Vec3 = Vec3::new(0.0465, 0.0485, 0.0510);
     let surface = |u: f32, v: f32| {
@@ -100,6 +100,6 @@ pub(super) fn add_eye(mesh: &mut Mesh) {
         at
     };
     let (us, vs) = (even(19), even(19));
-    let patch = Patch { surface: &surface, us: &us, vs: &vs, chart: texture::EYE, flip: false };
+    let patch = MeshPatch { surface: &surface, us: &us, vs: &vs, chart: texture::EYE, flip: false };
     mesh.grid(&patch, &|_, _| Bind::to(HEAD));
 }

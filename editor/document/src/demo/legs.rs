@@ -1,6 +1,6 @@
 //! Limbs: slender rounded pieces between two points, and the left legs made of them.
 
-use super::mesh::{Bind, Chart, Mesh, Patch, even};
+use super::mesh::{Bind, Chart, DemoMesh, MeshPatch, even};
 use super::num::{cos, curve, sin};
 use super::skeleton::{LEG_JOINTS, THORAX, leg};
 use super::texture;
@@ -17,7 +17,7 @@ pub(super) struct Limb {
     pub(super) flat: f32,
     /// The part of the length, at either end, over which the ends round off.
     pub(super) cap: f32,
-    /// How far its middle stands off the straight line.
+    /// Distance of its middle from the straight line.
     pub(super) bow: Vec3,
     pub(super) rows: usize,
     pub(super) sides: usize,
@@ -25,7 +25,7 @@ pub(super) struct Limb {
 }
 
 /// Adds a limb; `bind` gives a vertex's bones from its part of the length and its position.
-pub(super) fn add_limb(mesh: &mut Mesh, limb: &Limb, bind: &dyn Fn(f32, Vec3) -> Bind) {
+pub(super) fn add_limb(mesh: &mut DemoMesh, limb: &Limb, bind: &dyn Fn(f32, Vec3) -> Bind) {
     let along = (limb.to - limb.from).normalize();
     let up = (Vec3::Y - along * along.y).normalize();
     let side = along.cross(up);
@@ -44,7 +44,7 @@ pub(super) fn add_limb(mesh: &mut Mesh, limb: &Limb, bind: &dyn Fn(f32, Vec3) ->
         .map(|t| 0.35 * t + 0.65 * 0.5 * (1.0 - cos(t * std::f32::consts::PI)))
         .collect();
     let patch =
-        Patch { surface: &surface, us: &rows, vs: &even(limb.sides + 1), chart: limb.chart, flip: true };
+        MeshPatch { surface: &surface, us: &rows, vs: &even(limb.sides + 1), chart: limb.chart, flip: true };
     mesh.grid(&patch, bind);
 }
 
@@ -56,7 +56,7 @@ const TARSUS: &[(f32, f32)] =
     &[(0.0, 0.0032), (0.3, 0.0026), (0.34, 0.0030), (0.6, 0.0024), (0.64, 0.0029), (1.0, 0.0020)];
 
 /// Adds the three left legs, with the rows of spines that make them a catching basket.
-pub(super) fn add(mesh: &mut Mesh) {
+pub(super) fn add(mesh: &mut DemoMesh) {
     for (pair, joints) in LEG_JOINTS.iter().enumerate() {
         for part in 0..4 {
             let (from, to) = (joints[part], joints[part + 1]);
@@ -98,7 +98,7 @@ pub(super) fn add(mesh: &mut Mesh) {
 }
 
 /// Spines along the underside of a femur or tibia, in two rows.
-fn spines(mesh: &mut Mesh, pair: usize, part: usize) {
+fn spines(mesh: &mut DemoMesh, pair: usize, part: usize) {
     let joints = &LEG_JOINTS[pair];
     let (from, to) = (joints[part], joints[part + 1]);
     let along = (to - from).normalize();
@@ -122,7 +122,7 @@ fn spines(mesh: &mut Mesh, pair: usize, part: usize) {
 }
 
 /// The pair of claws at a toe's end.
-fn claws(mesh: &mut Mesh, toe: Vec3, along: Vec3, bind: Bind) {
+fn claws(mesh: &mut DemoMesh, toe: Vec3, along: Vec3, bind: Bind) {
     let side = along.cross(Vec3::Y).normalize();
     for row in [-1.0, 1.0_f32] {
         let tip = toe + along * 0.007 + side * row * 0.005 - Vec3::Y * 0.001;

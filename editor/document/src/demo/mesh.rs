@@ -18,7 +18,7 @@ pub(super) struct Chart {
 
 impl Chart {
     /// Texture coordinates of the point (`a`, `b`) of the chart, each 0..1. A small margin is
-    /// left at the rim so that filtering does not reach the neighbouring chart.
+    /// left at the rim so that filtering does not reach the neighboring chart.
     pub(super) fn uv(&self, a: f32, b: f32) -> Vec2 {
         const MARGIN: f32 = 2.0;
         Vec2::new(
@@ -28,7 +28,7 @@ impl Chart {
     }
 }
 
-/// Which bones carry a vertex, in 255ths that sum to 255.
+/// Bones and weights of a vertex, in 255ths that sum to 255.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Bind {
     pub(super) joints: [u8; 4],
@@ -75,10 +75,10 @@ impl Bind {
 
 /// One vertex as it goes into the file.
 #[derive(Clone, Copy)]
-pub(super) struct Vertex {
+pub(super) struct DemoVertex {
     pub(super) position: Vec3,
     pub(super) normal: Vec3,
-    /// Direction of growing U; `w` says on which side the bitangent lies.
+    /// Direction of increasing U; `w` is the sign of the bitangent.
     pub(super) tangent: Vec4,
     pub(super) uv: Vec2,
     pub(super) bind: Bind,
@@ -86,13 +86,13 @@ pub(super) struct Vertex {
 
 /// Triangles that share one material.
 #[derive(Default)]
-pub(super) struct Mesh {
-    pub(super) vertices: Vec<Vertex>,
+pub(super) struct DemoMesh {
+    pub(super) vertices: Vec<DemoVertex>,
     pub(super) indices: Vec<u16>,
 }
 
 /// A surface to sample: `surface(u, v)` over the rows `us` and columns `vs`.
-pub(super) struct Patch<'a> {
+pub(super) struct MeshPatch<'a> {
     pub(super) surface: &'a dyn Fn(f32, f32) -> Vec3,
     pub(super) us: &'a [f32],
     pub(super) vs: &'a [f32],
@@ -101,15 +101,15 @@ pub(super) struct Patch<'a> {
     pub(super) flip: bool,
 }
 
-impl Mesh {
+impl DemoMesh {
     /// Samples a patch; `bind` gives a vertex's bones from its `u` and position.
-    pub(super) fn grid(&mut self, patch: &Patch, bind: &dyn Fn(f32, Vec3) -> Bind) {
+    pub(super) fn grid(&mut self, patch: &MeshPatch, bind: &dyn Fn(f32, Vec3) -> Bind) {
         let base = self.vertices.len();
         for &u in patch.us {
             for &v in patch.vs {
                 let (normal, tangent) = frame(patch, u, v);
                 let position = (patch.surface)(u, v);
-                self.vertices.push(Vertex {
+                self.vertices.push(DemoVertex {
                     position,
                     normal,
                     tangent,
@@ -184,10 +184,10 @@ impl Mesh {
             let angle = k * std::f32::consts::TAU / 3.0;
             let normal = side * super::num::cos(angle) + other * super::num::sin(angle);
             let position = foot + normal * radius;
-            self.vertices.push(Vertex { position, normal, tangent, uv, bind });
+            self.vertices.push(DemoVertex { position, normal, tangent, uv, bind });
         }
         // The tip leans on any one side: it is far smaller than a pixel.
-        self.vertices.push(Vertex { position: tip, normal: side, tangent, uv, bind });
+        self.vertices.push(DemoVertex { position: tip, normal: side, tangent, uv, bind });
         for k in 0..3 {
             self.triangle(base + k, base + (k + 1) % 3, base + 3, false);
         }
@@ -195,7 +195,7 @@ impl Mesh {
 }
 
 /// The unit normal and the tangent of a patch at (`u`, `v`).
-fn frame(patch: &Patch, u: f32, v: f32) -> (Vec3, Vec4) {
+fn frame(patch: &MeshPatch, u: f32, v: f32) -> (Vec3, Vec4) {
     const STEP: f32 = 2e-3;
     let f = patch.surface;
     let slopes = |u: f32, v: f32| (f(u + STEP, v) - f(u - STEP, v), f(u, v + STEP) - f(u, v - STEP));

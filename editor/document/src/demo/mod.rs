@@ -1,4 +1,4 @@
-//! The built-in model: a dragonfly, about one unit long, made wholly by code.
+//! The built-in model: a dragonfly, about one unit long, made entirely by code.
 //!
 //! [`build`] makes the file from nothing: skeleton, skinned surfaces, painted textures and three
 //! takes. The program itself carries the finished file, [`DRAGONFLY_GLB`], so that opening it
@@ -24,7 +24,7 @@ mod wings;
 /// `cruise` (1.5 s, loops) and `land` (3.2 s, ends standing on `y = 0`).
 pub const DRAGONFLY_GLB: &[u8] = include_bytes!("../../assets/dragonfly.glb");
 
-/// Makes the bytes of [`DRAGONFLY_GLB`] anew; every call gives the same.
+/// Builds the bytes of [`DRAGONFLY_GLB`] again; every call returns the same.
 ///
 /// It paints and packs every texture, which takes about a second.
 pub fn build() -> Vec<u8> {
@@ -32,22 +32,22 @@ pub fn build() -> Vec<u8> {
 }
 
 fn model() -> glb::Model {
-    let mut trunk = mesh::Mesh::default();
+    let mut trunk = mesh::DemoMesh::default();
     body::add(&mut trunk);
     head::add(&mut trunk);
     legs::add(&mut trunk);
-    let mut eyes = mesh::Mesh::default();
+    let mut eyes = mesh::DemoMesh::default();
     head::add_eye(&mut eyes);
-    let mut sheets = mesh::Mesh::default();
+    let mut sheets = mesh::DemoMesh::default();
     wings::add(&mut sheets);
     let mut meshes = [trunk, eyes, sheets];
-    meshes.iter_mut().for_each(mesh::Mesh::mirror);
+    meshes.iter_mut().for_each(mesh::DemoMesh::mirror);
     glb::Model { bones: skeleton::bones(), meshes, pictures: texture::pictures(), takes: takes::takes() }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::takes::{Path, Track};
+    use super::takes::{DemoPath, DemoTrack};
     use super::*;
     use glam::{Mat4, Quat, Vec3};
     use serde_json::Value;
@@ -58,8 +58,8 @@ mod tests {
         (json, &file[28 + length..])
     }
 
-    fn last(track: &Track) -> &[f32] {
-        let width = if track.path == Path::Rotation { 4 } else { 3 };
+    fn last(track: &DemoTrack) -> &[f32] {
+        let width = if track.path == DemoPath::Rotation { 4 } else { 3 };
         let end = track.values.len() - if track.cubic { width } else { 0 };
         &track.values[end - width..end]
     }
@@ -76,7 +76,7 @@ mod tests {
             let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/dragonfly.glb");
             std::fs::write(path, &built).unwrap();
         }
-        // What is embedded is what stood there when this was compiled: a second run agrees.
+        // The embedded file is the one at compile time: a second build agrees.
         assert!(built == DRAGONFLY_GLB, "DRAGONFLY_REWRITE=1 cargo test -p dragonfly embedded");
     }
 
@@ -138,7 +138,7 @@ mod tests {
                 assert!(track.values.iter().all(|x| x.is_finite()));
                 assert!(track.times.windows(2).all(|w| w[0] < w[1]));
                 assert_eq!(track.times[0], 0.0);
-                let width = if track.path == Path::Rotation { 4 } else { 3 };
+                let width = if track.path == DemoPath::Rotation { 4 } else { 3 };
                 let rows = if track.cubic { 3 } else { 1 };
                 assert_eq!(track.values.len(), track.times.len() * width * rows);
                 if take.name != "land" {
@@ -160,8 +160,8 @@ mod tests {
             let (mut place, mut turn) = (bone.head - above, Quat::IDENTITY);
             for track in takes[2].tracks.iter().filter(|t| t.bone == i) {
                 match track.path {
-                    Path::Rotation => turn = Quat::from_slice(last(track)),
-                    Path::Translation => place = Vec3::from_slice(last(track)),
+                    DemoPath::Rotation => turn = Quat::from_slice(last(track)),
+                    DemoPath::Translation => place = Vec3::from_slice(last(track)),
                 }
             }
             let local = Mat4::from_rotation_translation(turn, place);

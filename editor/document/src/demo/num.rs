@@ -39,9 +39,9 @@ pub(super) fn smooth(from: f32, to: f32, x: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// A soft hump: 1 at `centre`, 0 from `half` away on.
-pub(super) fn bump(centre: f32, half: f32, x: f32) -> f32 {
-    1.0 - smooth(0.0, half, (x - centre).abs())
+/// A soft hump: 1 at `center`, 0 from `half` away on.
+pub(super) fn bump(center: f32, half: f32, x: f32) -> f32 {
+    1.0 - smooth(0.0, half, (x - center).abs())
 }
 
 /// A smooth curve through `points` (x ascending) that never overshoots them.
@@ -55,7 +55,7 @@ pub(super) fn curve(points: &[(f32, f32)], x: f32) -> f32 {
     }
     let i = (0..last).rfind(|&i| points[i].0 <= x).unwrap_or(0);
     let secant = |k: usize| (points[k + 1].1 - points[k].1) / (points[k + 1].0 - points[k].0);
-    // The harmonic mean of neighbouring secants keeps each piece monotone.
+    // The harmonic mean of neighboring secants keeps each piece monotone.
     let slope = |k: usize| {
         if k == 0 {
             return secant(0);

@@ -1,19 +1,19 @@
-//! The bones: where each joint lies at rest, in the model's own units and axes.
+//! The bones: the rest position of each joint, in the units and axes of the model.
 //!
-//! Y is up, the animal faces +Z, its left side is +X, and it is about one unit long from face
-//! to tail. At rest it stands: feet on `y = 0`, wings spread. Every joint's rest rotation is
-//! the identity, so a pose reads as plain turns about the model's axes.
+//! Y is up, the animal faces +Z, its left side is +X, and it is about one unit long from face to tail. In the rest
+//! pose it stands: feet on `y = 0`, wings spread. The rest rotation of every joint is the identity, so a pose consists
+//! of rotations about the axes of the model.
 
 use super::num::curve;
 use glam::Vec3;
 
 /// One joint of the skeleton.
-pub(super) struct Bone {
+pub(super) struct DemoBone {
     /// Its name in the file.
     pub(super) name: String,
     /// The index of its parent; always smaller than its own.
     pub(super) parent: Option<usize>,
-    /// Where the joint turns, at rest, in model space.
+    /// Position of the joint in the rest pose, in model space.
     pub(super) head: Vec3,
 }
 
@@ -54,22 +54,22 @@ pub(super) fn mirrored(bone: usize) -> usize {
     }
 }
 
-/// Where the abdomen begins, along Z.
+/// Z of the front end of the abdomen.
 pub(super) const ABDOMEN_Z: f32 = 0.100;
 /// The lengths of the ten rings of the abdomen, front to back.
 pub(super) const RINGS: [f32; 10] = [0.026, 0.058, 0.104, 0.102, 0.100, 0.096, 0.086, 0.054, 0.034, 0.022];
 /// The abdomen's length, the sum of [`RINGS`].
 pub(super) const ABDOMEN_LENGTH: f32 = 0.682;
 
-/// The middle line of the abdomen, `along` units behind its front end.
+/// The middle line of the abdomen, `along` units from its front end.
 pub(super) fn abdomen_axis(along: f32) -> Vec3 {
     const ARCH: [(f32, f32); 5] =
         [(-0.02, 0.177), (0.10, 0.184), (0.28, 0.186), (0.48, 0.178), (0.70, 0.160)];
     Vec3::new(0.0, curve(&ARCH, along), ABDOMEN_Z - along)
 }
 
-/// Where each of the eight abdomen bones begins, along the abdomen; the first carries rings
-/// one and two, the last rings nine and ten.
+/// Starts of the eight abdomen bones along the abdomen; the first bone carries rings one and two, the last one rings
+/// nine and ten.
 pub(super) fn abdomen_joints() -> [f32; 8] {
     let mut joints = [0.0; 8];
     let mut along = RINGS[0];
@@ -82,7 +82,7 @@ pub(super) fn abdomen_joints() -> [f32; 8] {
 
 /// The left wings' hinges, fore and hind.
 pub(super) const HINGES: [Vec3; 2] = [Vec3::new(0.040, 0.243, 0.214), Vec3::new(0.041, 0.238, 0.146)];
-/// Where the second and third wing bones begin, as parts of the span.
+/// Starts of the second and third wing bones, as fractions of the span.
 pub(super) const WING_JOINTS: [f32; 2] = [0.36, 0.68];
 
 /// The joints of the left legs: coxa, femur, tibia, tarsus, then the toe's end.
@@ -119,10 +119,10 @@ pub(super) fn on_side(side: usize, p: Vec3) -> Vec3 {
 }
 
 /// Every bone, parents before children.
-pub(super) fn bones() -> Vec<Bone> {
+pub(super) fn bones() -> Vec<DemoBone> {
     let mut bones = Vec::with_capacity(COUNT);
     let mut add = |name: String, parent: Option<usize>, head: Vec3| {
-        bones.push(Bone { name, parent, head });
+        bones.push(DemoBone { name, parent, head });
     };
     add("root".into(), None, Vec3::ZERO);
     add("thorax".into(), Some(ROOT), Vec3::new(0.0, 0.185, 0.200));

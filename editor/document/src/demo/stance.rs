@@ -1,20 +1,20 @@
-//! Where the legs are: folded in flight, or reaching for a place on the ground.
+//! Poses of the legs: folded in flight, or reaching for a position on the ground.
 
 use super::num::blend;
 use super::skeleton::{LEG_JOINTS, leg, on_side};
 use glam::{Mat3, Quat, Vec3};
 
-/// How the trunk stands in space: its turn about the thorax joint, and that joint's place.
+/// Rotation of the trunk about the thorax joint, and position of that joint.
 #[derive(Clone, Copy)]
 pub(super) struct Trunk {
     pub(super) turn: Quat,
     pub(super) place: Vec3,
-    /// Where the joint lies at rest.
+    /// Position of the joint in the rest pose.
     pub(super) rest: Vec3,
 }
 
 impl Trunk {
-    /// Where a point fixed to the thorax has gone.
+    /// Returns the position of a point that is fixed to the thorax.
     fn carry(&self, p: Vec3) -> Vec3 {
         self.place + self.turn * (p - self.rest)
     }
@@ -60,7 +60,7 @@ fn folded(side: usize, pair: usize) -> [Quat; 4] {
     local(side, pair, Quat::IDENTITY, now)
 }
 
-/// The leg whose foot stands at its rest place moved by `shift`, whatever the trunk does.
+/// Returns the leg with its foot at its rest position plus `shift`, for any pose of the trunk.
 fn standing(side: usize, pair: usize, trunk: Trunk, shift: Vec3) -> [Quat; 4] {
     let joints = LEG_JOINTS[pair].map(|p| on_side(side, p));
     let upper = (joints[2] - joints[1]).length();
@@ -82,8 +82,7 @@ fn standing(side: usize, pair: usize, trunk: Trunk, shift: Vec3) -> [Quat; 4] {
     local(side, pair, trunk.turn, [(knee - hip).normalize(), (end - knee).normalize(), rest[3]])
 }
 
-/// Sets one leg in a pose: `down` 0 is folded, 1 stands with its foot moved by `shift` from
-/// its rest place.
+/// Sets one leg in a pose: `down` 0 is folded; 1 has its foot on the ground, at its rest position plus `shift`.
 pub(super) fn set(turns: &mut [Quat], side: usize, pair: usize, trunk: Trunk, shift: Vec3, down: f32) {
     let fold = folded(side, pair);
     let stand = standing(side, pair, trunk, shift);

@@ -8,15 +8,15 @@ use std::f32::consts::TAU;
 
 /// What a track moves.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Path {
+pub(super) enum DemoPath {
     Rotation,
     Translation,
 }
 
 /// The keys of one bone.
-pub(super) struct Track {
+pub(super) struct DemoTrack {
     pub(super) bone: usize,
-    pub(super) path: Path,
+    pub(super) path: DemoPath,
     /// Cubic splines hold three rows to a key (slope in, value, slope out), others one.
     pub(super) cubic: bool,
     pub(super) times: Vec<f32>,
@@ -24,13 +24,13 @@ pub(super) struct Track {
 }
 
 /// A named animation.
-pub(super) struct Take {
+pub(super) struct DemoTake {
     pub(super) name: &'static str,
-    pub(super) tracks: Vec<Track>,
+    pub(super) tracks: Vec<DemoTrack>,
 }
 
 /// One moment: a turn for every bone, and where the thorax joint is.
-struct Pose {
+struct DemoPose {
     turns: Vec<Quat>,
     place: Vec3,
 }
@@ -45,13 +45,13 @@ fn sided(side: usize, q: Quat) -> Quat {
 struct Stroke {
     /// Half the arc, in degrees.
     arc: f32,
-    /// Where the middle of the arc lies above the rest plane, in degrees.
+    /// Angle of the middle of the arc above the rest plane, in degrees.
     middle: f32,
-    /// How far the wing turns about its length, in degrees.
+    /// Rotation of the wing about its length, in degrees.
     twist: f32,
-    /// How far forward it goes as it comes down, as a part of the arc.
+    /// Forward movement during the downstroke, as a fraction of the arc.
     forward: f32,
-    /// Where it is in its beat, in radians.
+    /// Phase of the beat, in radians.
     phase: f32,
 }
 
@@ -80,19 +80,19 @@ fn abdomen(turns: &mut [Quat], bend: impl Fn(f32) -> (f32, f32)) {
     }
 }
 
-fn trunk(pose: &Pose) -> Trunk {
+fn trunk(pose: &DemoPose) -> Trunk {
     Trunk { turn: pose.turns[THORAX], place: pose.place, rest: rest_place() }
 }
 
-fn still() -> Pose {
-    Pose { turns: vec![Quat::IDENTITY; COUNT], place: rest_place() }
+fn still() -> DemoPose {
+    DemoPose { turns: vec![Quat::IDENTITY; COUNT], place: rest_place() }
 }
 
 /// How long the hover is before it repeats, in seconds.
 const HOVER: f32 = 2.0;
 
 /// Standing in the air: fore and hind wings beat against each other, five times a second.
-fn hover(t: f32) -> Pose {
+fn hover(t: f32) -> DemoPose {
     let mut pose = still();
     let slow = TAU * t / HOVER;
     let wings = TAU * 5.0 * t;
@@ -142,7 +142,7 @@ fn hover(t: f32) -> Pose {
 const CRUISE: f32 = 1.5;
 
 /// Going somewhere: nose down, quick shallow strokes, a wave running down the tail.
-fn cruise(t: f32) -> Pose {
+fn cruise(t: f32) -> DemoPose {
     let mut pose = still();
     let slow = TAU * t / CRUISE;
     let wings = TAU * 8.0 * t;
@@ -193,7 +193,7 @@ const LAND: f32 = 3.2;
 const TOUCH: f32 = 1.45;
 
 /// Coming down, catching the ground, and settling with wings spread.
-fn land(t: f32) -> Pose {
+fn land(t: f32) -> DemoPose {
     let t = t.clamp(0.0, LAND);
     let mut pose = still();
     let down = smooth(0.0, TOUCH + 0.05, t);
@@ -274,23 +274,23 @@ fn rests(busy: &[f32], count: usize) -> Vec<f32> {
 }
 
 /// Reads tracks off a pose function.
-struct Reader<'a> {
-    pose: &'a dyn Fn(f32) -> Pose,
+struct TakeReader<'a> {
+    pose: &'a dyn Fn(f32) -> DemoPose,
     closed: bool,
-    tracks: Vec<Track>,
+    tracks: Vec<DemoTrack>,
 }
 
-impl Reader<'_> {
-    fn value(&self, bone: usize, path: Path, t: f32) -> Vec<f32> {
+impl TakeReader<'_> {
+    fn value(&self, bone: usize, path: DemoPath, t: f32) -> Vec<f32> {
         let pose = (self.pose)(t);
         match path {
-            Path::Rotation => pose.turns[bone].normalize().to_array().to_vec(),
-            Path::Translation => pose.place.to_array().to_vec(),
+            DemoPath::Rotation => pose.turns[bone].normalize().to_array().to_vec(),
+            DemoPath::Translation => pose.place.to_array().to_vec(),
         }
     }
 
     /// Adds a track; nothing is added for a bone that never leaves its rest.
-    fn add(&mut self, bone: usize, path: Path, cubic: bool, times: &[f32]) {
+    fn add(&mut self, bone: usize, path: DemoPath, cubic: bool, times: &[f32]) {
         const NEAR: f32 = 1.0 / 512.0;
         let mut keys: Vec<[Vec<f32>; 3]> = Vec::new();
         for &t in times {
@@ -306,9 +306,9 @@ impl Reader<'_> {
         let mut values = Vec::new();
         for mut key in keys {
             for row in &mut key {
-                // Neighbouring keys must lie on the same side of the sphere of rotations.
+                // Neighboring keys must be in the same hemisphere of quaternions.
                 let dot: f32 = before.iter().flatten().zip(row.iter()).map(|(a, b)| a * b).sum();
-                if path == Path::Rotation && dot < 0.0 {
+                if path == DemoPath::Rotation && dot < 0.0 {
                     row.iter_mut().for_each(|x| *x = -*x);
                 }
                 before = Some(row.clone());
@@ -322,7 +322,7 @@ impl Reader<'_> {
                 values.extend(&slope);
             }
         }
-        self.tracks.push(Track { bone, path, cubic, times: times.to_vec(), values });
+        self.tracks.push(DemoTrack { bone, path, cubic, times: times.to_vec(), values });
     }
 }
 
@@ -333,32 +333,32 @@ struct Rhythm {
     legs: Vec<f32>,
 }
 
-fn take(name: &'static str, closed: bool, pose: &dyn Fn(f32) -> Pose, rhythm: &Rhythm) -> Take {
-    let mut reader = Reader { pose, closed, tracks: Vec::new() };
-    reader.add(THORAX, Path::Translation, true, &rhythm.wings);
+fn take(name: &'static str, closed: bool, pose: &dyn Fn(f32) -> DemoPose, rhythm: &Rhythm) -> DemoTake {
+    let mut reader = TakeReader { pose, closed, tracks: Vec::new() };
+    reader.add(THORAX, DemoPath::Translation, true, &rhythm.wings);
     for bone in [THORAX, NECK, HEAD, ANTENNA, ANTENNA + 1] {
-        reader.add(bone, Path::Rotation, true, &rhythm.trunk);
+        reader.add(bone, DemoPath::Rotation, true, &rhythm.trunk);
     }
     for i in 0..8 {
-        reader.add(ABDOMEN + i, Path::Rotation, true, &rhythm.trunk);
+        reader.add(ABDOMEN + i, DemoPath::Rotation, true, &rhythm.trunk);
     }
     for side in SIDES {
         for pair in 0..2 {
             for part in 0..3 {
-                reader.add(wing(side, pair, part), Path::Rotation, true, &rhythm.wings);
+                reader.add(wing(side, pair, part), DemoPath::Rotation, true, &rhythm.wings);
             }
         }
         for pair in 0..3 {
             for part in 1..4 {
-                reader.add(leg(side, pair, part), Path::Rotation, false, &rhythm.legs);
+                reader.add(leg(side, pair, part), DemoPath::Rotation, false, &rhythm.legs);
             }
         }
     }
-    Take { name, tracks: reader.tracks }
+    DemoTake { name, tracks: reader.tracks }
 }
 
 /// The three takes: hover and cruise, which repeat, and land, which ends standing.
-pub(super) fn takes() -> Vec<Take> {
+pub(super) fn takes() -> Vec<DemoTake> {
     let hovering = Rhythm { wings: steps(HOVER, 40), trunk: steps(HOVER, 14), legs: steps(HOVER, 12) };
     let cruising = Rhythm { wings: steps(CRUISE, 48), trunk: steps(CRUISE, 14), legs: steps(CRUISE, 10) };
     // Dense while the wings beat and the feet find the ground, sparse once it rests.

@@ -1,4 +1,4 @@
-//! The pictures: where each part lies on them, and how painted points become images.
+//! The textures: the area of each part, and how painted points become images.
 
 use super::mesh::Chart;
 use super::num::cos;
@@ -32,11 +32,11 @@ pub(super) const HIND_WING: Chart = chart(4.0, 216.0, 920.0, 292.0, WINGS);
 /// Texels of a wing picture to one unit of the model.
 pub(super) const WING_SCALE: f32 = 1410.0;
 
-/// What a painter says of one point of a surface.
+/// The paint at one point of a surface.
 #[derive(Clone, Copy)]
 pub(super) struct Paint {
-    /// Colour as it is stored, 0..1 (sRGB).
-    pub(super) colour: Vec3,
+    /// Color as it is stored, 0..1 (sRGB).
+    pub(super) color: Vec3,
     /// Height above the smooth surface, in texels.
     pub(super) height: f32,
     pub(super) roughness: f32,
@@ -52,20 +52,20 @@ pub(super) struct Picture {
     pub(super) bytes: Vec<u8>,
 }
 
-/// Every picture of the model: skin colour, normals and surface, eye colour and normals, wings.
+/// Every picture of the model: skin color, normals and surface, eye color and normals, wings.
 pub(super) fn pictures() -> [Picture; 7] {
     let skin = skin();
     let eyes = eyes();
     let (w, h) = (WINGS.0 as u32, WINGS.1 as u32);
     let wings = veins::paint(w as usize, h as usize);
     [
-        jpeg("body_colour", &colours(&skin), SKIN, 84),
+        jpeg("body_color", &colors(&skin), SKIN, 84),
         jpeg("body_normal", &normals(&skin, SKIN), SKIN, 74),
         jpeg("body_surface", &halved(&skin, SKIN, gloss), half(SKIN), 82),
-        jpeg("eye_colour", &halved(&eyes, EYES, |p| p.colour), half(EYES), 90),
+        jpeg("eye_color", &halved(&eyes, EYES, |p| p.color), half(EYES), 90),
         png("eye_normal", &normals(&eyes, EYES), EYES, ExtendedColorType::Rgb8),
         png("eye_surface", &glosses(&eyes), EYES, ExtendedColorType::Rgb8),
-        png("wing_colour", &wings, WINGS, ExtendedColorType::Rgba8),
+        png("wing_color", &wings, WINGS, ExtendedColorType::Rgba8),
     ]
 }
 
@@ -112,8 +112,8 @@ fn byte(x: f32) -> u8 {
     (x.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
 }
 
-fn colours(image: &[Paint]) -> Vec<u8> {
-    image.iter().flat_map(|p| p.colour.to_array().map(byte)).collect()
+fn colors(image: &[Paint]) -> Vec<u8> {
+    image.iter().flat_map(|p| p.color.to_array().map(byte)).collect()
 }
 
 /// Tangent-space normals of the painted heights: red along U, green up the image.
@@ -145,7 +145,7 @@ fn half(size: (f32, f32)) -> (f32, f32) {
     (size.0 / 2.0, size.1 / 2.0)
 }
 
-/// What `pick` takes from each texel, at half the size.
+/// Returns the values that `pick` selects from each texel, at half the size.
 fn halved(image: &[Paint], size: (f32, f32), pick: fn(&Paint) -> Vec3) -> Vec<u8> {
     let (w, h) = (size.0 as usize, size.1 as usize);
     let mut bytes = Vec::with_capacity(w * h * 3 / 4);
@@ -180,7 +180,7 @@ fn png(name: &'static str, data: &[u8], size: (f32, f32), kind: ExtendedColorTyp
     Picture { name, mime: "image/png", bytes }
 }
 
-/// A colour that drifts through green, teal and violet as `turn` (0..1) goes round once: the
+/// A color that drifts through green, teal and violet as `turn` (0..1) goes round once: the
 /// sheen of thin layers, baked in because it must show without reflections.
 pub(super) fn sheen(turn: f32) -> Vec3 {
     let wave = |shift: f32| 0.5 + 0.5 * cos(std::f32::consts::TAU * (turn + shift));

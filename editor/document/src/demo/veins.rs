@@ -1,14 +1,14 @@
-//! The wing picture: a clear, faintly tinted membrane, the net of veins, the amber cell near
-//! each tip. Veins follow the plan of a real wing: strong ones along the leading edge, rungs
-//! between them, a field of small many-sided cells behind.
+//! The wing texture: a clear, faintly tinted membrane, the net of veins, the amber cell near each tip. The veins are
+//! those of a real wing: strong ones along the leading edge, rungs between them, a field of small polygonal cells
+//! after them.
 
 use super::num::{curve, fractal, hash, mix, smooth};
 use super::texture::{WING_SCALE, sheen};
-use super::wings::{PICTURE, PLANS, Plan};
+use super::wings::{PICTURE, PLANS, WingPlan};
 use glam::{Vec2, Vec3};
 
-/// Lengthwise veins: (part of the span, part of the chord from the leading edge) and width in
-/// texels. The last point may lie on the trailing edge.
+/// Lengthwise veins: (fraction of the span, fraction of the chord from the leading edge) and width in texels. The last
+/// point may be on the trailing edge.
 const LONG: [(&[(f32, f32)], f32); 9] = [
     (&[(0.0, 0.25), (0.03, 0.12), (0.25, 0.075), (0.42, 0.06), (0.50, 0.0)], 2.0),
     (
@@ -35,7 +35,7 @@ const LONG: [(&[(f32, f32)], f32); 9] = [
     (&[(0.03, 0.30), (0.08, 0.46), (0.18, 0.64), (0.28, 0.84), (0.33, 1.0)], 1.7),
     (&[(0.02, 0.34), (0.045, 0.56), (0.09, 0.78), (0.13, 1.0)], 1.6),
 ];
-/// Where the amber cell begins and ends, as parts of the span.
+/// Start and end of the amber cell, as fractions of the span.
 const AMBER: (f32, f32) = (0.815, 0.895);
 /// The mean width of a cell of the field, in units.
 const CELL: f32 = 0.0125;
@@ -70,9 +70,9 @@ impl Ink {
 /// A texel with nothing on it.
 const CLEAR: [u8; 4] = [90, 64, 28, 0];
 
-/// Paints both wings; four bytes a texel, colour then coverage.
+/// Paints both wings; four bytes a texel, color then coverage.
 pub(super) fn paint(width: usize, height: usize) -> Vec<u8> {
-    // Clear texels keep the veins' colour, or filtering would bring a pale fringe.
+    // Clear texels keep the veins' color, or filtering would bring a pale fringe.
     let mut bytes: Vec<u8> = CLEAR.repeat(width * height);
     for (pair, plan) in PLANS.iter().enumerate() {
         let mut ink = Ink { width, height, vein: vec![0.0; width * height] };
@@ -91,7 +91,7 @@ pub(super) fn paint(width: usize, height: usize) -> Vec<u8> {
     bytes
 }
 
-fn draw_veins(plan: &Plan, seed: u32, ink: &mut Ink) {
+fn draw_veins(plan: &WingPlan, seed: u32, ink: &mut Ink) {
     let texel = |span: f32, chord: f32| {
         Vec2::new(
             plan.chart.x + (span - PICTURE.0) * WING_SCALE,
@@ -109,7 +109,7 @@ fn draw_veins(plan: &Plan, seed: u32, ink: &mut Ink) {
             ink.line(point(s(k), at(s(k))), point(s(k + 1), at(s(k + 1))), wide);
         }
     };
-    // The rim: a strong costa in front, a fine hem behind.
+    // The rim: a strong costa in front, a thin one at the back.
     stroke(-0.01, 0.93, 3.4, &|_| 0.02);
     stroke(0.93, 1.0, 2.4, &|_| 0.02);
     stroke(-0.01, 1.0, 1.5, &|_| 0.99);
@@ -166,7 +166,7 @@ fn wall(span: f32, chord: f32, edge: f32, seed: u32) -> f32 {
     (middle - Vec2::new(gx, gy)).dot(between.normalize()) * size
 }
 
-fn texel(plan: &Plan, seed: u32, span: f32, chord: f32, mut vein: f32) -> [u8; 4] {
+fn texel(plan: &WingPlan, seed: u32, span: f32, chord: f32, mut vein: f32) -> [u8; 4] {
     let (lead, trail) = (plan.lead(span), plan.trail(span));
     let s = span / plan.length;
     let f = (lead - chord) / (lead - trail).max(1e-4);
@@ -174,7 +174,7 @@ fn texel(plan: &Plan, seed: u32, span: f32, chord: f32, mut vein: f32) -> [u8; 4
     let inside = ((lead - chord).min(chord - trail) * WING_SCALE + 0.5).clamp(0.0, 1.0);
     let inside = if s > 1.0 || span < PICTURE.0 + 0.002 { 0.0 } else { inside };
     let strong = vein > 0.0;
-    // The field begins behind the third lengthwise vein; nearer the base, behind the second.
+    // The field starts after the third lengthwise vein; nearer the base, after the second.
     let field = curve(LONG[3].0, s).min(if s < 0.16 { 0.22 } else { 1.0 });
     if f > field && s > 0.02 {
         let d = wall(span, chord, chord - trail, seed + 40) * WING_SCALE;
@@ -185,7 +185,7 @@ fn texel(plan: &Plan, seed: u32, span: f32, chord: f32, mut vein: f32) -> [u8; 4
     } else {
         0.0
     };
-    // The membrane's colour is kept not much lighter than the veins', or veins would turn pale where
+    // The membrane's color is kept not much lighter than the veins', or veins would turn pale where
     // filtering blends the two. It is warm at the root and along the front, elsewhere a breath of
     // green and rose.
     let warm = (0.9 * (1.0 - smooth(0.0, 0.20, s)) + 0.4 * (1.0 - smooth(0.04, 0.2, f))).min(1.0);
@@ -201,15 +201,15 @@ fn texel(plan: &Plan, seed: u32, span: f32, chord: f32, mut vein: f32) -> [u8; 4
     let dark = if strong { Vec3::new(0.52, 0.38, 0.17) } else { net };
     let costa = (lead - chord) * WING_SCALE < 3.0 && s < 0.93;
     let dark = if costa { Vec3::new(0.72, 0.56, 0.22) } else { dark };
-    // Where a vein touches a texel only its coverage changes, not its colour: that packs far
-    // better, and filtering blends them all the same.
+    // A texel that a vein touches keeps its color, and only its coverage changes: that compresses far better, and
+    // filtering blends them anyway.
     let cover = vein * 0.97 + thin * (1.0 - vein * 0.97);
-    let colour = if vein > 0.0 { dark } else { clear };
+    let color = if vein > 0.0 { dark } else { clear };
     if inside <= 0.0 && vein <= 0.0 {
         return CLEAR;
     }
     let cover = cover * inside.max(if s <= 1.0 { vein } else { 0.0 });
     let level =
         |x: f32, step: f32| (((x.clamp(0.0, 1.0) * 255.0) / step + 0.5).floor() * step).min(255.0) as u8;
-    [level(colour.x, 10.0), level(colour.y, 10.0), level(colour.z, 10.0), level(cover, 17.0)]
+    [level(color.x, 10.0), level(color.y, 10.0), level(color.z, 10.0), level(cover, 17.0)]
 }

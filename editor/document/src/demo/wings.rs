@@ -1,6 +1,6 @@
 //! The four wings: their outline, which the vein texture shares, and their thin pleated sheets.
 
-use super::mesh::{Bind, Chart, Mesh, Patch};
+use super::mesh::{Bind, Chart, DemoMesh, MeshPatch};
 use super::num::{cos, curve, sin, smooth};
 use super::skeleton::{HINGES, WING_JOINTS, wing};
 use super::texture;
@@ -8,23 +8,23 @@ use glam::Vec3;
 
 /// The shape of a left wing in its own plane: `span` runs from the hinge to the tip, `chord`
 /// from the trailing edge (negative) to the leading one.
-pub(super) struct Plan {
+pub(super) struct WingPlan {
     /// Hinge to tip, in units.
     pub(super) length: f32,
     hinge: Vec3,
-    /// How far the wing leans forward of square to the body, in degrees.
+    /// Angle by which the wing is tilted forward, in degrees from a right angle to the body.
     sweep: f32,
-    /// How far its tip is raised, in degrees.
+    /// Angle by which its tip is raised, in degrees.
     dihedral: f32,
     lead: &'static [(f32, f32)],
     trail: &'static [(f32, f32)],
-    /// Where its picture lies in the wing texture.
+    /// Area of the wing in the wing texture.
     pub(super) chart: Chart,
 }
 
 /// Fore wing, then hind wing.
-pub(super) static PLANS: [Plan; 2] = [
-    Plan {
+pub(super) static PLANS: [WingPlan; 2] = [
+    WingPlan {
         length: 0.66,
         hinge: HINGES[0],
         sweep: 9.0,
@@ -60,7 +60,7 @@ pub(super) static PLANS: [Plan; 2] = [
         ],
         chart: texture::FORE_WING,
     },
-    Plan {
+    WingPlan {
         length: 0.63,
         hinge: HINGES[1],
         sweep: -7.0,
@@ -99,10 +99,10 @@ pub(super) static PLANS: [Plan; 2] = [
     },
 ];
 
-/// Where the picture of either wing begins, along its span, and its upper rim, along its chord.
+/// Start of the texture of either wing along its span, and its upper edge along its chord.
 pub(super) const PICTURE: (f32, f32) = (-0.012, 0.024);
 
-impl Plan {
+impl WingPlan {
     /// The chord of the leading edge at a place of the span.
     pub(super) fn lead(&self, span: f32) -> f32 {
         curve(self.lead, span)
@@ -128,7 +128,7 @@ impl Plan {
 }
 
 /// Adds both left wings.
-pub(super) fn add(mesh: &mut Mesh) {
+pub(super) fn add(mesh: &mut DemoMesh) {
     // Close rows where the outline turns: at the hinge and round the tip.
     const SPANS: [f32; 25] = [
         0.0, 0.014, 0.024, 0.034, 0.05, 0.08, 0.12, 0.17, 0.22, 0.28, 0.34, 0.40, 0.46, 0.52, 0.58, 0.64,
@@ -171,7 +171,7 @@ pub(super) fn add(mesh: &mut Mesh) {
             )
         };
         let first = mesh.vertices.len();
-        let patch = Patch { surface: &surface, us: &SPANS, vs: &CHORDS, chart: plan.chart, flip: false };
+        let patch = MeshPatch { surface: &surface, us: &SPANS, vs: &CHORDS, chart: plan.chart, flip: false };
         mesh.grid(&patch, &bind);
         // The picture is a flat map of the wing, not of the grid.
         for (i, vertex) in mesh.vertices[first..].iter_mut().enumerate() {

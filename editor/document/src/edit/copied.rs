@@ -1,19 +1,19 @@
-//! Keys as they were copied: by what they hold, not by where they lay.
+//! Copied keys: their values, independent of where they were.
 
 use super::{Between, BoneRef, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Keys of one channel.
+/// The copied keys of one channel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CopiedChannel {
-    /// Which bone.
+    /// The bone.
     pub bone: BoneRef,
-    /// Which channel.
+    /// The channel.
     pub property: Property,
-    /// How the channel found what lay between them. Counts where the channel they come into has no keys; one with keys
-    /// keeps its own way.
+    /// The interpolation of the copied channel. It is used only for a channel without keys; other channels keep
+    /// theirs.
     pub interpolation: Between,
     /// The keys.
     pub keys: Vec<CopiedKey>,
@@ -23,15 +23,16 @@ pub struct CopiedChannel {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CopiedKey {
-    /// Seconds after the time at which all are put in; in double precision, so that keys put back where they were lie
-    /// there to the bit.
+    /// Seconds after the time at which they are pasted. In double precision, so that keys pasted at their old time are
+    /// there exactly.
     pub after: f64,
-    /// Three numbers, for rotations four.
+    /// The value: three numbers, for rotations four.
     pub value: Vec<f32>,
-    /// Tangent arriving, in units a second; none: chosen so that a spline runs smoothly. Without a spline it says nothing.
+    /// In-tangent in units per second; chosen so that a spline is smooth where absent. Ignored for other
+    /// interpolations.
     #[serde(default, rename = "in", skip_serializing_if = "Option::is_none")]
     pub arrive: Option<Vec<f32>>,
-    /// Tangent leaving.
+    /// Out-tangent.
     #[serde(default, rename = "out", skip_serializing_if = "Option::is_none")]
     pub leave: Option<Vec<f32>>,
 }

@@ -4,7 +4,7 @@ use super::kind::EditKind;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::Transaction;
-use crate::adapter::slot::{Slot, extent};
+use crate::adapter::slot::{TakeVersions, extent};
 use crate::adapter::{EditError, ModelAdapter, take_name};
 use dragonfly_anim::data::Skeleton;
 use dragonfly_anim::data::{Channel, Interpolation, Take, Track};
@@ -60,7 +60,7 @@ impl EditKind for CreateTake {
                 if take.keys() == 0 {
                     return Err(EditError::Nothing("a model without bones has no rest pose"));
                 }
-                (Slot::unchanged(id, None, take), work.takes())
+                (TakeVersions::unchanged(id, None, take), work.takes())
             }
         };
         work.perform(Op::Insert(self.at.unwrap_or(next), Arc::new(slot)));

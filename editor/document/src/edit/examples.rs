@@ -1,10 +1,10 @@
 //! Examples of edits: for the help of the command line, and for the tests, which apply each.
 
-/// An edit as JSON, and what it does.
+/// An edit as JSON, with a description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Example {
     /// One line of JSON.
     pub json: &'static str,
-    /// What the edit does, in one sentence.
+    /// The effect of the edit, in one sentence.
     pub description: &'static str,
 }

@@ -1,4 +1,4 @@
-//! What every kind of edit provides, and the one list of all kinds.
+//! The trait of all kinds of edits, and the macro that makes the list of them.
 
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::plan::{PoseMode, Transaction};
@@ -50,7 +50,7 @@ pub(crate) trait EditKind: Sized {
     }
 
     /// Returns the time and the poses of an edit that does nothing but give values. Repeated ones of one drag are then applied
-    /// in place, see [`crate::adapter::PoseDrag`].
+    /// in place, see [`crate::adapter::ValueDrag`].
     fn values(&self) -> Option<(f32, &[BonePose], PoseMode)> {
         None
     }

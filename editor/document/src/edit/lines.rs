@@ -1,26 +1,26 @@
-//! Edits in a text, one JSON object a line.
+//! Edits as text, one JSON object per line.
 
 use super::Edit;
 use thiserror::Error;
 
-/// A line that is no edit.
+/// A line that is not an edit.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("line {line}: {reason}")]
 pub struct LineError {
-    /// From 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// What is wrong with it, with its column.
+    /// The reason, with the column.
     pub reason: String,
 }
 
-/// Longest line that is read, in bytes: 100,000 keys chosen one by one fit in.
+/// Maximum length of a line in bytes: enough for 100,000 keys selected one by one.
 pub const LONGEST_LINE: usize = 16 << 20;
 
-/// The edits of a text with the numbers of their lines, from 1; empty lines are passed over.
+/// Returns the edits of a text with their line numbers, from 1. Empty lines are skipped.
 ///
 /// # Errors
 ///
-/// The first line that is no edit, and why.
+/// The first line that is not an edit, and the reason.
 pub fn parse_lines(text: &str) -> Result<Vec<(usize, Edit)>, LineError> {
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     lines.map(|(at, line)| Ok((at + 1, parse_line(line, at + 1)?))).collect()
@@ -30,7 +30,7 @@ fn parse_line(text: &str, line: usize) -> Result<Edit, LineError> {
     if text.len() > LONGEST_LINE {
         return Err(LineError { line, reason: format!("it is longer than {LONGEST_LINE} bytes") });
     }
-    // The reader counts lines of its own; only its column is of use.
+    // The parser sees one line, so only its column is of use.
     serde_json::from_str(text).map_err(|error| {
         let reason = error.to_string();
         let bare = reason.split(" at line ").next().unwrap_or(&reason);

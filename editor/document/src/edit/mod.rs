@@ -130,7 +130,7 @@ edits! {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::adapter::Slot;
+    use crate::adapter::TakeVersions;
     use dragonfly_anim::data::{AnimationData, Bone, Transform};
     use dragonfly_kit::random::{Random, seed};
     use glam::Mat4;
@@ -170,7 +170,7 @@ mod tests {
 
     /// Asserts that two models are the same in everything that an edit can change.
     fn assert_same(a: &ModelAdapter, b: &ModelAdapter, context: &str) {
-        let changes = |slot: &Slot| -> Vec<_> {
+        let changes = |slot: &TakeVersions| -> Vec<_> {
             let changed = slot.changed();
             changed.map(|(bone, property)| (bone, property, slot.changes(bone, property).to_vec())).collect()
         };
@@ -250,7 +250,7 @@ mod tests {
                     continue;
                 }
                 for (before, after) in before.slots().iter().zip(after.slots()) {
-                    let pending = |slot: &Slot, bone: u32| -> Vec<_> {
+                    let pending = |slot: &TakeVersions, bone: u32| -> Vec<_> {
                         let poses = slot.pending().iter().filter_map(|at| Some((at.time, *at.of(bone)?)));
                         poses.collect()
                     };

@@ -1,39 +1,39 @@
-//! What an edit can choose between.
+//! Options of edits.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a reset leads back to.
+/// The pose to which a reset returns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ResetTo {
-    /// The pose as it was read: the change is taken away, bit for bit.
+    /// The original pose: the change is removed, exact to the bit.
     #[default]
     Original,
-    /// The pose of the bone when nothing animates it.
+    /// The rest pose of the bone.
     Rest,
 }
 
-/// What a new key holds.
+/// The value of a new key.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum NewKey {
-    /// What the key before it holds, exactly (thesis §2.2.2.4); before the first key: what the first one holds.
+    /// The value of the key before, exactly (thesis §2.2.2.4); before the first key, the value of that one.
     #[default]
     Predecessor,
-    /// What the take shows at that time, so that the motion stays as it is.
+    /// The present value at that time, so that the motion stays as it is.
     Current,
 }
 
-/// How a channel finds what lies between its keys.
+/// The interpolation of a channel between its keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Between {
-    /// The key before.
+    /// The value of the key before.
     Step,
-    /// Mixed by distance.
+    /// Linear interpolation.
     Linear,
-    /// A spline with tangents; those of a channel that had none are chosen so that it runs smoothly through its keys.
+    /// A cubic spline with tangents. A channel without tangents gets ones that make it smooth.
     CubicSpline,
 }
 

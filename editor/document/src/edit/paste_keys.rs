@@ -93,13 +93,13 @@ impl EditKind for PasteKeys {
     }
 }
 
-/// A key to be, and which of its tangents were given.
+/// A key to paste, and which of its tangents were given.
 struct PastedKey {
     key: KeyContent,
     tangents: [bool; 2],
 }
 
-/// Puts keys into a channel; how many.
+/// Pastes keys into a channel. Returns their number.
 fn paste<K: ChannelKind>(
     work: &mut Transaction,
     address: ChannelAddress,
@@ -112,7 +112,7 @@ fn paste<K: ChannelKind>(
         .map(|key| read(work, address, time, key))
         .collect::<Result<Vec<_>, EditError>>()?;
     given.sort_by(|a, b| a.key.time.total_cmp(&b.key.time));
-    // Of neighbours at one time the last counts.
+    // Of neighbors at one time the last counts.
     given.reverse();
     given.dedup_by(|next, kept| (kept.key.time - next.key.time).abs() <= SAME_TIME);
     given.reverse();
@@ -120,7 +120,7 @@ fn paste<K: ChannelKind>(
         return Ok(0);
     }
     if work.slot(address.take).times(address.bone, address.property).is_empty() {
-        begin::<K>(work, address, channel.interpolation);
+        set_interpolation::<K>(work, address, channel.interpolation);
     }
     let spline = is_spline::<K>(work, address);
     if spline {
@@ -157,8 +157,8 @@ fn read(
     })
 }
 
-/// A channel without keys gets the way of the keys that come.
-fn begin<K: ChannelKind>(work: &mut Transaction, address: ChannelAddress, between: Between) {
+/// Gives a channel without keys the interpolation of the pasted keys.
+fn set_interpolation<K: ChannelKind>(work: &mut Transaction, address: ChannelAddress, between: Between) {
     let interpolation = Interpolation::from(between);
     let Some(old) = work.slot(address.take).original_of::<K>(address.bone).cloned() else { return };
     if old.interpolation != interpolation {
@@ -173,8 +173,8 @@ fn is_spline<K: ChannelKind>(work: &Transaction, address: ChannelAddress) -> boo
     channel.is_some_and(|channel| channel.interpolation == Interpolation::CubicSpline)
 }
 
-/// q and -q are one rotation, but a spline from one to the other turns the long way: all of the keys on the side of the
-/// key before them, or behind.
+/// q and -q are the same rotation, but a spline between them takes the long way: gives all keys the sign of the key
+/// before them, or after.
 fn on_one_side<K: ChannelKind>(work: &Transaction, address: ChannelAddress, given: &mut [PastedKey]) {
     let slot = work.slot(address.take);
     let (Some(first), Some(last)) = (given.first(), given.last()) else { return };
@@ -197,7 +197,7 @@ fn on_one_side<K: ChannelKind>(work: &Transaction, address: ChannelAddress, give
     }
 }
 
-/// Gives the keys of a spline that came without tangents some along their way.
+/// Gives keys of a spline that have no tangents smooth ones.
 fn smooth<K: ChannelKind>(work: &mut Transaction, address: ChannelAddress, given: &[PastedKey]) {
     let slot = work.slot(address.take);
     let Some(channel) = slot.result.tracks.get(address.bone as usize).map(K::channel) else { return };
@@ -218,7 +218,7 @@ fn smooth<K: ChannelKind>(work: &mut Transaction, address: ChannelAddress, given
     }
 }
 
-/// Where a key comes, nothing is pending of its channel any more.
+/// Removes pending values of the channel at the times of pasted keys.
 fn forget_pending(work: &mut Transaction, address: ChannelAddress, given: &[PastedKey]) {
     let waiting: Vec<f32> = work.slot(address.take).pending().iter().map(|at| at.time).collect();
     let times: Vec<f32> = given.iter().map(|given| given.key.time).collect();

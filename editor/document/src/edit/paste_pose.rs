@@ -34,8 +34,8 @@ pub struct PastePose {
     /// As pending poses instead of keys.
     #[serde(default)]
     pub pending: bool,
-    /// Channels that stand still in steps (two equal keys, as exporters write a channel that does not move) become linear first,
-    /// so that the bone moves to the pose instead of jumping to it.
+    /// Makes channels linear first that do not move and have step interpolation: two equal keys, as exporters write
+    /// such channels. The bone then moves to the pose instead of jumping to it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unstep: bool,
 }

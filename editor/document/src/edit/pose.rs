@@ -1,19 +1,19 @@
-//! Parts of poses, as edits name them.
+//! Poses of single bones.
 
 use super::BoneRef;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Parts of a bone's pose; what is left out stays as it is.
+/// Parts of the pose of a bone; absent parts stay as they are.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BonePose {
-    /// Which bone.
+    /// The bone.
     pub bone: BoneRef,
-    /// Metres, parent space.
+    /// Meters, parent space.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub translation: Option<[f32; 3]>,
-    /// Quaternion x, y, z, w, parent space; made unit.
+    /// Quaternion x, y, z, w, parent space; it is normalized.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<[f32; 4]>,
     /// Factors per axis.
@@ -27,6 +27,6 @@ pub struct BonePose {
 pub struct PoseAt {
     /// Seconds.
     pub time: f32,
-    /// The poses wanted; one for each bone.
+    /// The wanted poses; one for each bone.
     pub poses: Vec<BonePose>,
 }

@@ -93,7 +93,7 @@ fn channel<K: ChannelKind>(work: &mut Transaction, address: ChannelAddress, want
     true
 }
 
-/// The same keys with tangents along the way from the key before to the key after (Catmull and Rom, for uneven times).
+/// Returns the same keys with tangents from the key before to the key after.
 fn smooth<K: ChannelKind>(channel: &Channel<K::Value>) -> Channel<K::Value> {
     let mut values = vec![K::Value::ZERO; channel.len() * 3];
     for key in 0..channel.len() {
@@ -107,7 +107,7 @@ fn smooth<K: ChannelKind>(channel: &Channel<K::Value>) -> Channel<K::Value> {
     }
 }
 
-/// Changes of a channel that becomes a spline: the result gets the tangents of its own way.
+/// Returns the changes of a channel that becomes a spline: the result gets the tangents of its own curve.
 fn tangent_changes<K: ChannelKind>(
     original: &Channel<K::Value>,
     result: &Channel<K::Value>,
@@ -129,7 +129,7 @@ fn tangent_changes<K: ChannelKind>(
         };
         Some((key as u32, change.some::<K>()?))
     };
-    // A changed key bends the way through its neighbours, too.
+    // A changed key changes the curve at its neighbors, too.
     let near = |key: &usize| {
         let around = key.saturating_sub(1)..=(key + 1);
         around.into_iter().any(|key| changed(key).is_some())

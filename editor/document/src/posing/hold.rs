@@ -1,6 +1,7 @@
-//! What a hand holds while it drags: how everything stood, which bones are pinned, whether rows of bones follow.
+//! The state of a drag: the pose at its start, the pinned bones, and whether chains of bones follow (inverse
+//! kinematics).
 
-use super::reach::{Reaching, Work, parent_of, row};
+use super::reach::{ChainSolver, Reaching, parent_of, row};
 use crate::edit::{BonePose, BoneRef};
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use dragonfly_anim::ik::ChainScratch;
@@ -9,17 +10,17 @@ use glam::{Mat4, Quat, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Most bones that follow a hand.
+/// Maximum length of a chain of bones.
 pub const LONGEST_CHAIN: u32 = 255;
 
-/// Do the bones above follow when one is moved?
+/// Inverse kinematics: whether the bones above follow when a bone is moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IkMode {
-    /// Else the bone alone moves.
+    /// Whether it is on; else only the bone itself moves.
     pub on: bool,
-    /// How many bones above the one that is moved turn; 1 to [`LONGEST_CHAIN`]. Two are an arm or a leg.
+    /// Number of bones above the moved one that rotate; 1 to [`LONGEST_CHAIN`]. Two are an arm or a leg.
     pub length: u32,
-    /// The bone towards which elbows and knees bend; none: as they are bent.
+    /// The bone towards which elbows and knees bend; without one they bend as they are.
     pub pole: Option<BoneIndex>,
 }
 
@@ -29,42 +30,42 @@ impl Default for IkMode {
     }
 }
 
-/// Where a bone is to come by the bones above it.
+/// A target position of a bone, reached by rotating the bones above it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
-    /// Which bone.
+    /// The bone.
     pub bone: BoneIndex,
-    /// Scene space.
+    /// Position in scene space.
     pub place: Vec3,
 }
 
-/// How a bone stood in the scene.
+/// Position and rotation of a bone in the scene at the start of the drag.
 #[derive(Clone, Copy, Debug)]
-struct Stood {
+struct PinnedPose {
     bone: BoneIndex,
     place: Vec3,
     rotation: Quat,
 }
 
-/// What is kept from the begin of a drag to its end; nothing is allocated for the bones of the model while it lasts.
+/// The state of a drag from its start to its end. It allocates nothing per bone during the drag.
 #[derive(Debug)]
-pub struct Hold {
+pub struct PoseDragState {
     skeleton: Arc<Skeleton>,
     limits: Option<JointLimits>,
     mode: IkMode,
     begun: Vec<Transform>,
     begun_to_root: Vec<Mat4>,
-    pins: Vec<Stood>,
-    /// Bones that no row turns, with the rotations that they keep.
+    pins: Vec<PinnedPose>,
+    /// Bones that no chain rotates, with the rotations that they keep.
     fixed: BTreeMap<BoneIndex, Quat>,
     poses: Vec<Transform>,
     to_root: Vec<Mat4>,
     scratch: ChainScratch,
 }
 
-impl Hold {
-    /// Everything as it stands: `poses` relative to the parents, one a bone (what is missing or not finite rests), and
-    /// the bones that are pinned there. Limits are honoured by the rows of bones that have any.
+impl PoseDragState {
+    /// Captures the start of a drag: `poses` relative to the parents, one per bone (missing or non-finite ones are
+    /// replaced by the rest pose), and the pinned bones. Chains respect the joint limits.
     pub fn new(
         skeleton: Arc<Skeleton>,
         poses: &[Transform],
@@ -84,10 +85,10 @@ impl Hold {
         let mode = IkMode { length: mode.length.clamp(1, LONGEST_CHAIN), ..mode };
         let stood = |&bone: &BoneIndex| {
             let (_, rotation, place) = to_root.get(bone as usize)?.to_scale_rotation_translation();
-            (place.is_finite() && rotation.is_finite()).then_some(Stood { bone, place, rotation })
+            (place.is_finite() && rotation.is_finite()).then_some(PinnedPose { bone, place, rotation })
         };
         let pins: BTreeSet<BoneIndex> = pins.iter().copied().collect();
-        // Those nearer to the root first: the others hang on them.
+        // Bones nearer to the root first: the others depend on them.
         let pins = pins.iter().filter_map(stood).collect();
         Self {
             skeleton,
@@ -103,8 +104,8 @@ impl Hold {
         }
     }
 
-    /// The same with bones that stay as they are relative to their parents, whatever follows: those that are locked or seen
-    /// at rest. The others of a row go on to reach, with these as stiff joints.
+    /// Adds bones that keep their pose relative to their parents: locked bones, and bones that are shown at rest. The
+    /// other bones of a chain still reach, with these as stiff joints.
     #[must_use]
     pub fn with_fixed(mut self, bones: &[BoneIndex]) -> Self {
         let rotation = |&bone: &BoneIndex| Some((bone, self.begun.get(bone as usize)?.rotation));
@@ -112,15 +113,16 @@ impl Hold {
         self
     }
 
-    /// The same with the pins of `other`, where and how they stood there: to hold them in other poses of the same skeleton.
+    /// Replaces the pins by those of `other`, with their positions and rotations: to hold them in other poses of the
+    /// same skeleton.
     #[must_use]
     pub fn with_pins_of(mut self, other: &Self) -> Self {
         self.pins.clone_from(&other.pins);
         self
     }
 
-    /// Where a place of the scene lies in the space of a bone's parent, as that stood when the drag began; `None` where it
-    /// has no volume.
+    /// Returns a position of the scene in the space of a bone's parent at the start of the drag; `None` where that
+    /// space has no volume.
     pub fn in_parent(&self, bone: BoneIndex, place: Vec3) -> Option<Vec3> {
         let parent =
             parent_of(&self.skeleton, bone).and_then(|parent| self.begun_to_root.get(parent as usize));
@@ -129,12 +131,12 @@ impl Hold {
         place.is_finite().then_some(place)
     }
 
-    /// Does this bone, when it is moved, take those above it along?
+    /// Returns whether moving this bone rotates those above it.
     pub fn moves_by_chain(&self, bone: BoneIndex) -> bool {
         self.mode.on && parent_of(&self.skeleton, bone).is_some()
     }
 
-    /// Where a bone stood when the drag began, scene space.
+    /// Returns the position of a bone at the start of the drag, scene space.
     pub fn place(&self, bone: BoneIndex) -> Option<Vec3> {
         self.begun_to_root.get(bone as usize).map(|matrix| matrix.w_axis.truncate())
     }
@@ -144,23 +146,23 @@ impl Hold {
         std::iter::successors(Some(bone), parent).any(|bone| above.contains(&bone))
     }
 
-    /// How far it bends: a row by itself, or the pole bone where it stood.
+    /// Returns the position of the pole bone at the start of the drag, towards which the chain bends.
     fn pole(&self, end: BoneIndex) -> Option<Vec3> {
         let pole = self.mode.pole.filter(|&pole| pole != end)?;
-        // A bone of the row, or one below it, says nothing: it moves along.
+        // A pole that is part of the chain, or below it, is ignored: it moves with the chain.
         let above: BTreeSet<BoneIndex> = row(&self.skeleton, end, self.mode.length).collect();
         let place = self.place(pole).filter(|place| place.is_finite());
         place.filter(|_| !self.is_below(pole, &above))
     }
 }
 
-/// The poses (relative to the parents) of all bones that change when a hand gives bones `poses` and brings others to
-/// `goals` by the bones above them, and pinned bones stay where and how they were.
+/// Returns the poses (relative to the parents) of all bones that change when a drag sets `poses` and moves other bones
+/// to `goals` by the bones above them, while pinned bones keep their positions and rotations.
 ///
-/// The same bones come out in every call with the same bones named, so that a drag is one edit in ever newer form; of the
-/// channels those that the hand gave, and the rotations of all that followed. What cannot be reached is come near to, with
-/// the row stretched towards it. Numbers that are not finite are as if they were not given; none comes out.
-pub fn poses_of_drag(hold: &mut Hold, poses: &[BonePose], goals: &[Goal]) -> Vec<BonePose> {
+/// Calls with the same bones return the same bones, so that each edit of a drag replaces the one before. They have the
+/// given channels, and the rotations of all bones that follow. A goal out of reach is approached with the chain
+/// stretched towards it. Non-finite numbers are ignored, and none is returned.
+pub fn poses_of_drag(hold: &mut PoseDragState, poses: &[BonePose], goals: &[Goal]) -> Vec<BonePose> {
     let bones = hold.skeleton.len();
     hold.poses.copy_from_slice(&hold.begun);
     hold.to_root.copy_from_slice(&hold.begun_to_root);
@@ -176,7 +178,7 @@ pub fn poses_of_drag(hold: &mut Hold, poses: &[BonePose], goals: &[Goal]) -> Vec
             BoneRef::Name(name) => hold.skeleton.find(name),
         };
         let Some(bone) = bone.filter(|&bone| (bone as usize) < bones) else { continue };
-        give(&mut hold.poses[bone as usize], pose);
+        apply_given(&mut hold.poses[bone as usize], pose);
         if let Some(rotation) = hold.fixed.get_mut(&bone) {
             *rotation = hold.poses[bone as usize].rotation;
         }
@@ -201,11 +203,11 @@ pub fn poses_of_drag(hold: &mut Hold, poses: &[BonePose], goals: &[Goal]) -> Vec
             rows.push(Reaching { end: goal.bone, length, place: goal.place, rotation, pole });
         }
     }
-    let held: Vec<Stood> = hold
+    let held: Vec<PinnedPose> = hold
         .pins
         .iter()
         .filter(|pin| {
-            // What the hand itself moves is not held; what nothing above moves need not be.
+            // Bones that are dragged are not held, and bones with nothing moved above them need not be.
             let parent = parent_of(&hold.skeleton, pin.bone);
             let is_goal = goals.iter().any(|goal| goal.bone == pin.bone);
             let is_given = given.iter().any(|(bone, _)| *bone == pin.bone);
@@ -222,13 +224,14 @@ pub fn poses_of_drag(hold: &mut Hold, poses: &[BonePose], goals: &[Goal]) -> Vec
     results(hold, &given, &turned)
 }
 
-/// The poses (relative to the parents) of the rows of bones that bring all pins to where and how they stood, though nothing
-/// is moved: for pins of another time. What hangs on nothing cannot be held. What cannot be reached is come near to.
-pub fn poses_of_pins(hold: &mut Hold) -> Vec<BonePose> {
+/// Returns the poses (relative to the parents) of the chains that bring all pins back to their positions and
+/// rotations, although nothing is dragged: for pins of another time. A bone without a parent cannot be held. A pin out
+/// of reach is approached.
+pub fn poses_of_pins(hold: &mut PoseDragState) -> Vec<BonePose> {
     hold.poses.copy_from_slice(&hold.begun);
     hold.to_root.copy_from_slice(&hold.begun_to_root);
-    let hangs = |pin: &&Stood| parent_of(&hold.skeleton, pin.bone).is_some();
-    let held: Vec<Stood> = hold.pins.iter().filter(hangs).copied().collect();
+    let hangs = |pin: &&PinnedPose| parent_of(&hold.skeleton, pin.bone).is_some();
+    let held: Vec<PinnedPose> = hold.pins.iter().filter(hangs).copied().collect();
     let mut turned: BTreeSet<BoneIndex> = BTreeSet::new();
     for pin in &held {
         let bones = row(&hold.skeleton, pin.bone, hold.mode.length).chain([pin.bone]);
@@ -238,10 +241,10 @@ pub fn poses_of_pins(hold: &mut Hold) -> Vec<BonePose> {
     results(hold, &[], &turned)
 }
 
-/// The rows that reach, then those that hold: twice, as one may move what another stands on.
-fn solve(hold: &mut Hold, rows: &[Reaching], held: &[Stood]) {
+/// Solves the chains of goals, then those of pins: twice, because one may move the base of another.
+fn solve(hold: &mut PoseDragState, rows: &[Reaching], held: &[PinnedPose]) {
     let poles: Vec<Option<Vec3>> = held.iter().map(|pin| hold.pole(pin.bone)).collect();
-    let mut work = Work {
+    let mut work = ChainSolver {
         skeleton: &hold.skeleton,
         limits: hold.limits.as_ref(),
         fixed: &hold.fixed,
@@ -267,7 +270,11 @@ fn solve(hold: &mut Hold, rows: &[Reaching], held: &[Stood]) {
     }
 }
 
-fn results(hold: &Hold, given: &[(BoneIndex, &BonePose)], turned: &BTreeSet<BoneIndex>) -> Vec<BonePose> {
+fn results(
+    hold: &PoseDragState,
+    given: &[(BoneIndex, &BonePose)],
+    turned: &BTreeSet<BoneIndex>,
+) -> Vec<BonePose> {
     let finite = |bone: BoneIndex| {
         let pose = &hold.poses[bone as usize];
         if is_finite(pose) { *pose } else { hold.begun[bone as usize] }
@@ -290,8 +297,8 @@ fn results(hold: &Hold, given: &[(BoneIndex, &BonePose)], turned: &BTreeSet<Bone
     found
 }
 
-/// Puts what the hand gives over a pose, where it is finite.
-fn give(pose: &mut Transform, given: &BonePose) {
+/// Applies the finite parts of a given pose.
+fn apply_given(pose: &mut Transform, given: &BonePose) {
     if let Some(translation) = given.translation.map(Vec3::from).filter(|given| given.is_finite()) {
         pose.translation = translation;
     }

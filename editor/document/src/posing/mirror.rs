@@ -4,13 +4,13 @@ use crate::bones::{MirrorPairs, MirrorPlane, Stance};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use glam::{Mat3, Mat4, Quat, Vec3};
 
-/// How to mirror poses of one skeleton. Every pose is compared with the stance in which the skeleton is symmetric, so the
-/// axes of the two sides may lie as they like.
+/// Mirrors poses of one skeleton. Each pose is compared with the pose in which the skeleton is symmetric, so the bones
+/// of the two sides may have any axes.
 #[derive(Clone, Debug)]
 pub struct Mirror {
-    /// Which bone is the other side of which.
+    /// The pairs of bones.
     pub pairs: MirrorPairs,
-    /// What lies between the sides.
+    /// The mirror plane.
     pub plane: MirrorPlane,
     stances: Vec<BoneStance>,
 }
@@ -49,7 +49,7 @@ impl Mirror {
         Self { pairs, plane, stances }
     }
 
-    /// Where the mirrored pose of a bone belongs; `None` where its other side is missing.
+    /// Returns the bone that gets the mirrored pose of a bone; `None` where the other side is missing.
     pub fn target(&self, bone: BoneIndex) -> Option<BoneIndex> {
         self.pairs.mirror_of(bone)
     }

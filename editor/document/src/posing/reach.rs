@@ -7,7 +7,7 @@ use dragonfly_anim::joint::JointLimits;
 use glam::{Mat4, Quat, Vec3};
 use std::collections::BTreeMap;
 
-/// What is to be reached, and by which bones.
+/// A goal of a chain.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reaching {
     /// Comes to the place; does not count to the length.
@@ -23,7 +23,7 @@ pub(super) struct Reaching {
 }
 
 /// Poses that are worked on.
-pub(super) struct Work<'a> {
+pub(super) struct ChainSolver<'a> {
     pub(super) skeleton: &'a Skeleton,
     pub(super) limits: Option<&'a JointLimits>,
     /// Bones that keep these rotations.
@@ -38,13 +38,13 @@ pub(super) fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneInde
     skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
 }
 
-/// The bones above `end` that turn, the nearest first: `length` of them, or as many as there are.
+/// Returns the bones above `end` that rotate, the nearest first: at most `length` of them.
 pub(super) fn row(skeleton: &Skeleton, end: BoneIndex, length: u32) -> impl Iterator<Item = BoneIndex> + '_ {
     let parent = |bone: &BoneIndex| parent_of(skeleton, *bone);
     std::iter::successors(parent_of(skeleton, end), parent).take(length.max(1) as usize)
 }
 
-impl Work<'_> {
+impl ChainSolver<'_> {
     /// The matrices from the poses.
     pub(super) fn chain_poses(&mut self) {
         to_root(self.skeleton, self.poses, self.to_root);

@@ -1,6 +1,6 @@
-//! What can be read of a document.
+//! Queries: what a client can read of a document.
 
-use crate::adapter::{ModelAdapter, Slot};
+use crate::adapter::{ModelAdapter, TakeVersions};
 use crate::edit::{BoneRef, Property, TakeRef};
 use crate::history::Edited;
 use dragonfly_anim::sample::sample_track;
@@ -76,12 +76,16 @@ impl Query {
     }
 }
 
-fn found<'a>(adapter: &'a ModelAdapter, take: &TakeRef, bone: &BoneRef) -> Result<(&'a Slot, u32), String> {
+fn found<'a>(
+    adapter: &'a ModelAdapter,
+    take: &TakeRef,
+    bone: &BoneRef,
+) -> Result<(&'a TakeVersions, u32), String> {
     let slot = adapter.take(take).map_err(|error| error.to_string())?;
     Ok((slot, adapter.bone(bone).map_err(|error| error.to_string())?))
 }
 
-fn take(slot: &Slot) -> Value {
+fn take(slot: &TakeVersions) -> Value {
     let take = &slot.result;
     let changed = slot.changed().next().is_some();
     json!({"name": take.name, "start": take.start, "end": take.end(), "keys": take.keys(), "changed": changed,
@@ -93,7 +97,7 @@ fn bones(adapter: &ModelAdapter) -> Value {
     bones.iter().map(|bone| json!({"name": bone.name, "parent": bone.parent, "node": bone.node})).collect()
 }
 
-fn pose(adapter: &ModelAdapter, slot: &Slot, time: f32, bone: u32) -> Value {
+fn pose(adapter: &ModelAdapter, slot: &TakeVersions, time: f32, bone: u32) -> Value {
     let rules = &adapter.skeleton().bones[bone as usize];
     let [original, result] = [&slot.original, &slot.result].map(|take| {
         let pose =

@@ -1,4 +1,4 @@
-//! What a line asks for.
+//! Requests of a client, one per line.
 
 use super::Query;
 use crate::Change;
@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
 
-/// Something that is done.
+/// A command of a client.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "do", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Deed {
-    /// An edit; with a gesture, its newest form.
+pub enum ProtocolCommand {
+    /// Apply an edit. Each edit of a gesture replaces the one before.
     Edit {
         /// Which.
         edit: Edit,
@@ -20,32 +20,32 @@ pub enum Deed {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         gesture: Option<Gesture>,
     },
-    /// The gesture as if it had never begun.
+    /// Cancel a gesture, as if it had never started.
     Cancel {
         /// Which.
         gesture: Gesture,
     },
-    /// The last step undone.
+    /// Undo the last step.
     Undo,
-    /// The next step done again.
+    /// Redo the next step.
     Redo,
-    /// As many steps done as this.
+    /// Undo or redo until exactly this many steps are applied.
     GoTo {
-        /// From 0.
+        /// Number of steps.
         steps: usize,
     },
-    /// What a save would change.
+    /// Return what a save would change.
     Plan,
-    /// Saves.
+    /// Save.
     Save {
-        /// Where to; the file that was opened when left out.
+        /// The path; the opened file where absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         to: Option<PathBuf>,
     },
 }
 
-impl Deed {
-    /// What a change of the window is in a conversation; nothing where a conversation need not say it.
+impl ProtocolCommand {
+    /// Returns the command for a change made in the window; `None` where none is needed.
     pub fn of(change: &Change) -> Option<Self> {
         Some(match change {
             Change::Edit(edit, gesture) => Self::Edit { edit: edit.clone(), gesture: *gesture },
@@ -58,35 +58,35 @@ impl Deed {
     }
 }
 
-/// What a line asks for.
+/// Requests of a client.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Request {
-    /// Something is done.
-    Deed(Deed),
-    /// Something is read.
+pub enum ProtocolRequest {
+    /// A command.
+    Command(ProtocolCommand),
+    /// A query.
     Query(Query),
 }
 
-impl Request {
-    /// The request in a JSON object without its id.
+impl ProtocolRequest {
+    /// Parses the request in a JSON object without its id.
     ///
     /// # Errors
     ///
-    /// What is wrong with it.
+    /// The reason why it is not a request.
     pub fn read(mut object: Map<String, Value>) -> Result<Self, String> {
         let said = |error: serde_json::Error| error.to_string();
-        // An edit by itself stands for doing it.
+        // An edit alone is short for the command that applies it.
         if object.get("edit").is_some_and(Value::is_string) && !object.contains_key("do") {
             let edit = serde_json::from_value(Value::Object(object)).map_err(said)?;
-            return Ok(Self::Deed(Deed::Edit { edit, gesture: None }));
+            return Ok(Self::Command(ProtocolCommand::Edit { edit, gesture: None }));
         }
         if object.contains_key("do") {
-            // Inside it the edit is read by itself, so that its own mistakes are named.
+            // The edit is parsed separately, so that errors name its fields.
             if let Some(edit) = object.remove("edit") {
                 let edit: Edit = serde_json::from_value(edit).map_err(said)?;
                 object.insert("edit".to_owned(), serde_json::to_value(edit).map_err(said)?);
             }
-            return serde_json::from_value(Value::Object(object)).map(Self::Deed).map_err(said);
+            return serde_json::from_value(Value::Object(object)).map(Self::Command).map_err(said);
         }
         if object.contains_key("query") {
             return serde_json::from_value(Value::Object(object)).map(Self::Query).map_err(said);

@@ -15,7 +15,7 @@ pub(super) enum Following {
     /// Bones move alone: what is sent is what the gizmo made, to the bit.
     Nothing,
     /// How everything stood when the drag began.
-    From(Box<posing::Hold>),
+    From(Box<posing::PoseDragState>),
 }
 
 impl State {

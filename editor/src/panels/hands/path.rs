@@ -145,7 +145,7 @@ impl State {
         let (take, fixed) = (self.playback.take, self.fixed_bones());
         let poses = self.trail.posed.update(&view, take, time).poses();
         let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
-        let hold = posing::Hold::new(skeleton, poses, &self.pins, self.ik, None).with_fixed(&fixed);
+        let hold = posing::PoseDragState::new(skeleton, poses, &self.pins, self.ik, None).with_fixed(&fixed);
         self.hold.following = Following::From(Box::new(hold));
     }
 }

@@ -1,7 +1,7 @@
 //! Markers: times with names, kept beside the program's settings and never in the model's file.
 
 use dragonfly_anim::data::{Take, Track};
-use dragonfly_document::adapter::{Slot, TakeId};
+use dragonfly_document::adapter::{TakeId, TakeVersions};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -76,7 +76,7 @@ impl Markers {
     }
 
     /// Takes the text of the file; a damaged one holds no markers.
-    pub fn read(&mut self, text: &str, slots: &[Arc<Slot>]) {
+    pub fn read(&mut self, text: &str, slots: &[Arc<TakeVersions>]) {
         self.names = slots.iter().map(|slot| (slot.id, slot.result.name.clone())).collect();
         let stored: Stored = serde_json::from_str(text).unwrap_or_default();
         if stored.path != self.path {
@@ -96,7 +96,7 @@ impl Markers {
     }
 
     /// The file and its text, when they changed since the last call.
-    pub fn unsaved(&mut self, slots: &[Arc<Slot>]) -> Option<(String, String)> {
+    pub fn unsaved(&mut self, slots: &[Arc<TakeVersions>]) -> Option<(String, String)> {
         if !std::mem::take(&mut self.unsaved) {
             return None;
         }
@@ -110,7 +110,7 @@ impl Markers {
 
     /// Gives takes that are new the markers of those they were made of: copies all, the second part of a take that was
     /// cut in two those behind the cut. Where the markers come from they stay, so nothing is lost when that is undone.
-    pub(super) fn take_along(&mut self, before: &[Arc<Slot>], now: &[Arc<Slot>]) {
+    pub(super) fn take_along(&mut self, before: &[Arc<TakeVersions>], now: &[Arc<TakeVersions>]) {
         for (at, slot) in now.iter().enumerate() {
             let known = self.takes.contains_key(&slot.id) || before.iter().any(|old| old.id == slot.id);
             let Some((from, cut)) = made_of(before, now, at).filter(|_| !known) else { continue };
@@ -157,9 +157,9 @@ impl Markers {
 }
 
 /// Of which take the new one at a place of the list was made, and where its begin lies in that.
-fn made_of(before: &[Arc<Slot>], now: &[Arc<Slot>], at: usize) -> Option<(TakeId, f32)> {
+fn made_of(before: &[Arc<TakeVersions>], now: &[Arc<TakeVersions>], at: usize) -> Option<(TakeId, f32)> {
     let new = now.get(at)?;
-    let is_copied = |other: &&Arc<Slot>| same_keys(&other.result, &new.result);
+    let is_copied = |other: &&Arc<TakeVersions>| same_keys(&other.result, &new.result);
     // It stands behind the one that it was made of, if nobody wanted it elsewhere.
     let first = at.checked_sub(1).and_then(|at| now.get(at));
     if let Some(copied) = first.filter(is_copied).or_else(|| before.iter().find(is_copied)) {

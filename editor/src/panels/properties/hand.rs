@@ -68,7 +68,7 @@ struct Moment {
 struct Begun {
     starts: Vec<Start>,
     /// Of pinned bones, which stay.
-    hold: Option<posing::Hold>,
+    hold: Option<posing::PoseDragState>,
 }
 
 /// A bone as it was when the drag began.

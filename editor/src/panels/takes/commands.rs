@@ -4,7 +4,7 @@ use super::super::commands::Id;
 use super::super::state::{Effect, State};
 use super::super::status::Level;
 use dragonfly_document::Change;
-use dragonfly_document::adapter::{Slot, TakeId};
+use dragonfly_document::adapter::{TakeId, TakeVersions};
 use dragonfly_document::edit::{
     CreateTake, DeleteTake, Edit, MoveTake, ReverseTake, SplitTake, TakeRef, TrimTake,
 };
@@ -91,14 +91,14 @@ impl State {
     }
 
     /// The take that was shown stays shown, wherever it stands in the list now; where it is gone, its neighbour.
-    pub(in super::super) fn follow_take(&mut self, before: &[Arc<Slot>]) {
+    pub(in super::super) fn follow_take(&mut self, before: &[Arc<TakeVersions>]) {
         let Some(view) = &self.view else { return };
         let slots = Arc::clone(&view.slots);
         let place = |id: TakeId| slots.iter().position(|slot| slot.id == id);
         if self.takes.renaming.is_some_and(|id| place(id).is_none()) {
             self.takes.renaming = None;
         }
-        let is_new = |slot: &Arc<Slot>| !before.iter().any(|old| old.id == slot.id);
+        let is_new = |slot: &Arc<TakeVersions>| !before.iter().any(|old| old.id == slot.id);
         if self.takes.show_new
             && let Some(index) = slots.iter().position(is_new)
         {

@@ -240,7 +240,7 @@ impl Desk {
     #[track_caller]
     pub fn warned(&mut self, word: &str) -> String {
         self.hears(|reply| match reply {
-            DocumentReply::Warned(text) | DocumentReply::Told(text) if text.contains(word) => {
+            DocumentReply::Warning(text) | DocumentReply::Notice(text) if text.contains(word) => {
                 Some(text.clone())
             }
             _ => None,

@@ -1,4 +1,4 @@
-//! Which keys are meant: many sets of keys, each looked up once.
+//! Keys of a selection: many sets of keys, each looked up once.
 
 use super::super::op::ChannelAddress;
 use super::super::slot::TakeId;
@@ -6,19 +6,19 @@ use super::{EditError, Transaction, finite};
 use crate::edit::{BoneRef, KeySet, Property, SAME_TIME};
 use std::collections::HashMap;
 
-/// Sets that name the same channels; the times of all of them together.
+/// Sets of the same channels, with the times of all of them.
 struct KeyGroup<'a> {
     bones: &'a [BoneRef],
     properties: &'a [Property],
-    /// Seconds, ascending once all are there.
+    /// Seconds, sorted at the end.
     at: Vec<f32>,
-    /// Sets that say more than times.
+    /// Sets with a range.
     ranges: Vec<&'a KeySet>,
 }
 
 impl Transaction {
-    /// The keys that are meant: the channels with any, and which of theirs, ascending. Takes time in proportion to the
-    /// sets and to the keys that they hold, whatever else there is.
+    /// Returns the selected keys: each channel with any, and their positions, ascending. Takes time in proportion to
+    /// the sets and to the selected keys.
     pub(crate) fn keys(
         &self,
         take: TakeId,
@@ -51,8 +51,7 @@ impl Transaction {
     }
 }
 
-/// Sets one after the other that name the same channels are one group, so that a key named by itself costs no more than
-/// one in a list.
+/// Groups consecutive sets of the same channels, so that a key in a set of its own costs no more than one in a list.
 fn groups(sets: &[KeySet]) -> Result<Vec<KeyGroup<'_>>, EditError> {
     let mut groups: Vec<KeyGroup<'_>> = Vec::new();
     for set in sets {
@@ -82,7 +81,7 @@ fn groups(sets: &[KeySet]) -> Result<Vec<KeyGroup<'_>>, EditError> {
     Ok(groups)
 }
 
-/// Keys at any of ascending `wanted` times.
+/// Adds the keys at ascending `wanted` times.
 fn held_at(times: &[f32], wanted: &[f32], keys: &mut Vec<u32>) {
     let mut from = 0;
     for &wanted in wanted {
@@ -98,7 +97,7 @@ fn held_at(times: &[f32], wanted: &[f32], keys: &mut Vec<u32>) {
     }
 }
 
-/// Keys that a set with begin and end holds.
+/// Adds the keys of a set with a range.
 fn held_between(times: &[f32], set: &KeySet, keys: &mut Vec<u32>) {
     let begin = set.from.map_or(0, |from| times.partition_point(|&time| time < from - SAME_TIME));
     let end = set.to.map_or(times.len(), |to| times.partition_point(|&time| time <= to + SAME_TIME));
@@ -114,7 +113,7 @@ fn held_between(times: &[f32], set: &KeySet, keys: &mut Vec<u32>) {
     }
 }
 
-/// How many of ascending times come before; near the begin, as a rule, so it looks there first.
+/// Returns how many of ascending times come before. The number is usually small, so the search starts at the front.
 fn first(times: &[f32], is_before: impl Fn(f32) -> bool) -> usize {
     let mut reach = 1;
     while reach < times.len() && is_before(times[reach]) {

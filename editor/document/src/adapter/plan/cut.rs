@@ -22,8 +22,8 @@ pub(crate) fn cut(work: &mut Transaction, take: TakeId, from: f32, to: f32) -> R
     Ok(())
 }
 
-/// Deletes keys outside. Where the channel goes on outside, a key at the cut keeps its value there. A channel without a key inside gets
-/// one.
+/// Deletes the keys outside of a range. A channel that continues outside gets keys at the ends of the range with its
+/// values there. A channel without a key inside gets one.
 fn channel<K: ChannelKind>(work: &mut Transaction, address: ChannelAddress, from: f32, to: f32) {
     let slot = work.slot(address.take);
     let times = slot.times(address.bone, address.property);
@@ -36,7 +36,7 @@ fn channel<K: ChannelKind>(work: &mut Transaction, address: ChannelAddress, from
     if !on(from) && (first < from || kept == 0) {
         insert.push((0, current::<K>(work, slot, address, from)));
     }
-    // Where both cuts are at one time, one key is enough.
+    // A range of length zero needs only one key.
     if !on(to) && first < to && last > to && to - from > SAME_TIME {
         insert.push(((kept + insert.len()) as u32, current::<K>(work, slot, address, to)));
     }

@@ -3,7 +3,7 @@
 use super::super::change::{KeyChange, Triple};
 use super::super::kind::{ChannelKind, ChannelNumbers};
 use super::super::op::{ChannelAddress, Op};
-use super::super::slot::{KeyContent, Slot};
+use super::super::slot::{KeyContent, TakeVersions};
 use super::{Transaction, rest};
 use crate::edit::NewKey;
 use dragonfly_anim::data::{Channel, Interpolation};
@@ -31,7 +31,7 @@ pub(crate) fn insert<K: ChannelKind>(
 /// Returns a key with the values of original and result at `time`, so that both curves stay as they are.
 pub(crate) fn current<K: ChannelKind>(
     work: &Transaction,
-    slot: &Slot,
+    slot: &TakeVersions,
     address: ChannelAddress,
     time: f32,
 ) -> KeyContent {

@@ -20,7 +20,7 @@ pub(crate) use pose::PoseMode;
 
 use super::kind::{ChannelKind, ChannelValue};
 use super::op::{ChannelAddress, Op};
-use super::slot::{ChannelContent, Slot, TakeId};
+use super::slot::{ChannelContent, TakeId, TakeVersions};
 use super::times::SharedTimes;
 use super::{EditError, ModelAdapter};
 use crate::edit::{BoneRef, Property, TakeRef};
@@ -84,7 +84,7 @@ impl Transaction {
     }
 
     /// Returns the take as it is so far.
-    pub(crate) fn slot(&self, take: TakeId) -> &Arc<Slot> {
+    pub(crate) fn slot(&self, take: TakeId) -> &Arc<TakeVersions> {
         &self.adapter.slots[self.index(take)]
     }
 
@@ -149,7 +149,7 @@ pub(crate) fn finite(what: &'static str, value: f32) -> Result<f32, EditError> {
 }
 
 /// Returns the time if a key may have it.
-pub(crate) fn key_time(time: f32, slot: &Slot) -> Result<f32, EditError> {
+pub(crate) fn key_time(time: f32, slot: &TakeVersions) -> Result<f32, EditError> {
     finite("a time", time)?;
     // A take that was read with keys before 0 s may keep them.
     if time < slot.original.start.min(0.0) { Err(EditError::BeforeZero(time)) } else { Ok(time) }

@@ -1,11 +1,11 @@
-//! Morph weights go along with what is done to a whole take.
+//! Changes of morph weights with a whole take.
 
 use crate::edit::SAME_TIME;
 use dragonfly_anim::data::{Interpolation, MorphTrack, Take};
 use dragonfly_anim::sample::mix::hermite_slope;
 use dragonfly_anim::sample::{find_keys, sample_morph_weights};
 
-/// Floats that belong to one key.
+/// Returns the number of floats per key.
 fn per_key(track: &MorphTrack) -> usize {
     track.targets as usize * if track.interpolation == Interpolation::CubicSpline { 3 } else { 1 }
 }
@@ -42,7 +42,8 @@ fn put(weights: &mut Vec<f32>, values: &[f32], track: &MorphTrack, stretch: f32)
     weights.extend(leave.iter().map(|tangent| tangent / stretch));
 }
 
-/// What lies between two times, with keys at both where the track goes on there; one key where it has none inside.
+/// Returns the keys between two times, with keys at both where the track continues outside; a single key where there
+/// is none inside.
 pub(crate) fn between(track: &MorphTrack, from: f32, to: f32) -> MorphTrack {
     let (Some(&first), Some(&last)) = (track.times.first(), track.times.last()) else { return track.clone() };
     let width = per_key(track);

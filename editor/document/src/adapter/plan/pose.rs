@@ -10,7 +10,7 @@ use super::{EditError, Transaction, finite, key_at, key_time, unstep};
 use crate::edit::{BonePose, NewKey, Property, TakeRef};
 use glam::{Quat, Vec3};
 
-/// What a given pose does with the value of a channel.
+/// How a given pose changes the value of a channel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum PoseMode {
     /// Replaces it.

@@ -1,7 +1,8 @@
-//! Channels that stand still in steps, before they get a pose.
+//! Step channels that do not move, before they get a pose.
 //!
-//! Exporters write a channel that does not move as two equal keys with step interpolation, because that is the cheapest to play. That
-//! interpolation is not meant for a channel that moves: the bone would jump to a pose that is keyed there.
+//! Exporters write a channel that does not move as two equal keys with step interpolation, because that is the
+//! cheapest to play. That interpolation is not meant for a channel that moves: the bone would jump to a pose that is
+//! keyed there.
 
 use super::super::kind::{ChannelKind, ChannelValue, RotationChannel};
 use super::super::op::ChannelAddress;
@@ -10,10 +11,10 @@ use super::Transaction;
 use dragonfly_anim::data::{Channel, Interpolation};
 use std::sync::Arc;
 
-/// Relative difference of two keys up to which a channel stands still.
+/// Relative difference below which two keys are equal.
 const STILL: f32 = 1e-5;
 
-/// Makes a channel linear that stands still in steps. No pose changes by that.
+/// Makes a step channel linear if it does not move. No pose changes by that.
 pub(crate) fn channel<K: ChannelKind>(work: &mut Transaction, address: ChannelAddress) {
     let slot = work.slot(address.take);
     let Some(old) = slot.original_of::<K>(address.bone).cloned() else { return };

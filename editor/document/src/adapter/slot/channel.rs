@@ -1,6 +1,6 @@
-//! The channels of a slot: their columns, the changes beside them, and the result of both.
+//! The channels of a take: their columns, their changes, and the results.
 
-use super::{ChannelChanges, ChannelContent, KeyContent, Slot};
+use super::{ChannelChanges, ChannelContent, KeyContent, TakeVersions};
 use crate::adapter::change::{KeyChange, put, triple};
 use crate::adapter::kind::{ChannelKind, ChannelValue};
 use crate::adapter::times::SharedTimes;
@@ -26,9 +26,9 @@ pub(super) fn exchange(
     }
 }
 
-/// Makes the result of a channel anew: of the keys in `touched`, or of all.
+/// Calculates the result of a channel again: of the keys in `touched`, or of all.
 pub(super) fn refresh<K: ChannelKind>(
-    slot: &mut Slot,
+    slot: &mut TakeVersions,
     property: Property,
     bone: u32,
     touched: Option<&[(u32, Option<KeyChange>)]>,
@@ -47,7 +47,7 @@ pub(super) fn refresh<K: ChannelKind>(
     // Only the keys that were touched differ from the last result, if there is one of its own.
     let (mut values, keys): (Arc<[K::Value]>, Vec<u32>) = match touched {
         Some(touched) if !Arc::ptr_eq(&result.values, &original.values) => {
-            // A column that nobody else has is written over.
+            // A column that is not shared is overwritten.
             (std::mem::take(&mut result.values), touched.iter().map(|(key, _)| *key).collect())
         }
         _ => (Arc::from(&*original.values), changes.iter().map(|(key, _)| *key).collect()),
@@ -67,7 +67,7 @@ pub(super) fn refresh<K: ChannelKind>(
 }
 
 pub(super) fn spliced<K: ChannelKind>(
-    slot: &mut Slot,
+    slot: &mut TakeVersions,
     property: Property,
     bone: u32,
     remove: &[u32],
@@ -83,7 +83,7 @@ pub(super) fn spliced<K: ChannelKind>(
     let mut changes = ChannelChanges::new();
     let mut old_changes = slot.changes(bone, property).iter().peekable();
     let mut inserted = insert.iter().peekable();
-    // What stays stays in runs, and a run is copied as a whole.
+    // Unchanged keys are copied in runs.
     for (mut from, end) in runs(old.len(), remove) {
         while from < end {
             put_in::<K>(&mut inserted, &mut times, &mut values, &mut changes, old.interpolation);
@@ -131,7 +131,7 @@ fn put_in<K: ChannelKind>(
 }
 
 /// Other times for some keys, which stay in their order; the times from before.
-pub(super) fn retimed<K: ChannelKind>(slot: &mut Slot, bone: u32, times: &Arc<[f32]>) {
+pub(super) fn retimed<K: ChannelKind>(slot: &mut TakeVersions, bone: u32, times: &Arc<[f32]>) {
     let original = Arc::make_mut(&mut slot.original);
     K::channel_mut(&mut original.tracks[bone as usize]).times = Arc::clone(times);
     if slot.changes.is_empty() {
@@ -143,7 +143,7 @@ pub(super) fn retimed<K: ChannelKind>(slot: &mut Slot, bone: u32, times: &Arc<[f
 }
 
 pub(super) fn replaced<K: ChannelKind>(
-    slot: &mut Slot,
+    slot: &mut TakeVersions,
     property: Property,
     bone: u32,
     content: ChannelContent,
@@ -160,7 +160,7 @@ pub(super) fn replaced<K: ChannelKind>(
 
 /// Puts an original channel and its changes in, and makes the result.
 fn put_channel<K: ChannelKind>(
-    slot: &mut Slot,
+    slot: &mut TakeVersions,
     property: Property,
     bone: u32,
     original: Channel<K::Value>,

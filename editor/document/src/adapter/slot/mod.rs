@@ -1,4 +1,4 @@
-//! One take in its three forms: as it was read, what was changed, and what comes of both.
+//! One take in its three forms: original, changes, result.
 
 mod channel;
 
@@ -12,14 +12,14 @@ use dragonfly_anim::data::{Channel, MorphTrack, Take};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Tells a take from all others of its document, also from those that are gone.
+/// Identifies a take among all of its document, including deleted ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
 pub struct TakeId(pub u32);
 
-/// The changes of one channel: which key, and what of it; ascending, none that changes nothing.
+/// The changes of one channel by key, ascending, without identities.
 pub type ChannelChanges = Vec<(u32, KeyChange)>;
 
-/// A key with everything that belongs to it.
+/// A key with its original and its change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct KeyContent {
     /// Seconds.
@@ -35,22 +35,22 @@ pub(crate) struct ChannelContent {
     pub(crate) changes: ChannelChanges,
 }
 
-/// One take in its three forms. Where nothing was changed, all of it is shared: original and result are one.
+/// One take in its three forms. Without changes, original and result are shared.
 #[derive(Clone, Debug)]
-pub struct Slot {
-    /// Which take.
+pub struct TakeVersions {
+    /// Its identifier.
     pub id: TakeId,
-    /// Its place among the takes of the file; `None` for one made here.
+    /// Its index among the takes of the file; `None` for a created one.
     pub origin: Option<usize>,
-    /// As it was read; keys and takes made or deleted since are made and deleted in it, too.
+    /// The take as it was read. Keys that are created or deleted are created or deleted in it, too.
     pub original: Arc<Take>,
-    /// Original + changes: what is shown and saved.
+    /// Original + changes: the take that is shown and saved.
     pub result: Arc<Take>,
     changes: BTreeMap<(u32, Property), Arc<ChannelChanges>>,
     pending: Pending,
 }
 
-impl Slot {
+impl TakeVersions {
     pub(crate) fn unchanged(id: TakeId, origin: Option<usize>, take: Arc<Take>) -> Self {
         Self {
             id,
@@ -67,12 +67,12 @@ impl Slot {
         Self { id, origin: None, ..self.clone() }
     }
 
-    /// What was changed of a channel.
+    /// Returns the changes of a channel.
     pub fn changes(&self, bone: u32, property: Property) -> &[(u32, KeyChange)] {
         self.changes.get(&(bone, property)).map_or(&[], |changes| changes.as_slice())
     }
 
-    /// What was changed of the value of one key; the change that changes nothing where nothing was.
+    /// Returns the change of the value of one key, or the identity.
     pub fn change(&self, bone: u32, property: Property, key: usize) -> ChannelNumbers {
         self.key_change(bone, property, key).map_or(property.identity(), |change| change.value)
     }
@@ -248,7 +248,7 @@ impl Slot {
     }
 }
 
-/// Where the key at `time` is; else where one would come.
+/// Returns the position of the key at `time`, or the position at which to insert one.
 pub(crate) fn key_at(times: &[f32], time: f32) -> Result<usize, usize> {
     let after = times.partition_point(|&key| key < time - SAME_TIME);
     match times.get(after) {
