@@ -274,13 +274,13 @@ fn rests(busy: &[f32], count: usize) -> Vec<f32> {
 }
 
 /// Reads tracks off a pose function.
-struct TakeReader<'a> {
+struct PoseRecorder<'a> {
     pose: &'a dyn Fn(f32) -> DemoPose,
     closed: bool,
     tracks: Vec<DemoTrack>,
 }
 
-impl TakeReader<'_> {
+impl PoseRecorder<'_> {
     fn value(&self, bone: usize, path: DemoPath, t: f32) -> Vec<f32> {
         let pose = (self.pose)(t);
         match path {
@@ -334,7 +334,7 @@ struct Rhythm {
 }
 
 fn take(name: &'static str, closed: bool, pose: &dyn Fn(f32) -> DemoPose, rhythm: &Rhythm) -> DemoTake {
-    let mut reader = TakeReader { pose, closed, tracks: Vec::new() };
+    let mut reader = PoseRecorder { pose, closed, tracks: Vec::new() };
     reader.add(THORAX, DemoPath::Translation, true, &rhythm.wings);
     for bone in [THORAX, NECK, HEAD, ANTENNA, ANTENNA + 1] {
         reader.add(bone, DemoPath::Rotation, true, &rhythm.trunk);
