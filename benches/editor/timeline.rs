@@ -5,7 +5,7 @@
 //! `DRAGONFLY_BENCH_KEYS` takes a part of the ten minutes, 0..1, for a machine with little memory.
 
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::keys::{ChannelId, Deed, KeysRequest, TimeWindow};
+use dragonfly::panels::keys::{ChannelId, KeyDragOp, KeysRequest, TimeWindow};
 use dragonfly::panels::{Desk, Effect, Request, Settings, State, style};
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{
@@ -102,7 +102,7 @@ fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, ans
             shown.push((cpu() - begin).as_secs_f64() * 1e3);
         }
         let by = (at as f32 * 0.05).sin() * (zoom.length as f32 * 0.1) + at as f32 * 0.01;
-        Some(Request::Timeline(KeysRequest::Drag(Deed::Move(by))))
+        Some(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(by))))
     });
     drop(ask);
     let worst = shown.iter().copied().fold(0.0, f64::max);

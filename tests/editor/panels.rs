@@ -191,7 +191,7 @@ fn keys_that_give_way_to_others_are_counted() {
     );
     // Moved beside all others.
     select(&mut animator, 0, 0);
-    animator.request(Request::Timeline(KeysRequest::Drag(dragonfly::panels::keys::Deed::Move(0.03))));
+    animator.request(Request::Timeline(KeysRequest::Drag(dragonfly::panels::keys::KeyDragOp::Move(0.03))));
     animator.request(Request::Timeline(KeysRequest::Release));
     animator.steps(2);
     assert!(

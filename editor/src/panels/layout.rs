@@ -108,9 +108,9 @@ impl Layout {
         requests: &mut Vec<Request>,
     ) {
         let viewport = self.find(VIEWPORT);
-        let mut hand = Hand { panels, state, requests, viewport, changed: false };
-        self.tree.ui(&mut hand, ui);
-        self.changed |= hand.changed;
+        let mut drag = LayoutDrag { panels, state, requests, viewport, changed: false };
+        self.tree.ui(&mut drag, ui);
+        self.changed |= drag.changed;
     }
 }
 
@@ -136,7 +136,7 @@ fn sound(tree: &Tree<Pane>, panels: &[Box<dyn Panel>]) -> bool {
 }
 
 /// Draws the tiles for egui_tiles.
-struct Hand<'a> {
+struct LayoutDrag<'a> {
     panels: &'a mut [Box<dyn Panel>],
     state: &'a State,
     requests: &'a mut Vec<Request>,
@@ -144,7 +144,7 @@ struct Hand<'a> {
     changed: bool,
 }
 
-impl Behavior<Pane> for Hand<'_> {
+impl Behavior<Pane> for LayoutDrag<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
         let Some(panel) = self.panels.iter_mut().find(|panel| panel.id() == pane.0) else {
             return UiResponse::None;

@@ -9,6 +9,7 @@ pub mod curves;
 mod dialogs;
 pub mod digest;
 mod dope;
+mod drag;
 pub mod dragging;
 mod execute;
 mod frame_rate;

@@ -2,15 +2,15 @@
 
 use super::axis::ValueWindow;
 use super::curve::Curve;
+use super::drag::component_name;
 use super::form::Form;
-use super::hand::component_name;
 use super::paint::color;
 use super::toolbar::Chosen;
 use super::values::{ValueKey, value_edit};
 use crate::control::expression::Quantity;
 use crate::panels::dope::to_frame;
-use crate::panels::keys::{Deed, Drawn, KeysRequest};
-use crate::panels::number_field::{Heard, NumberField};
+use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest};
+use crate::panels::number_field::{FieldEvent, NumberField};
 use crate::panels::number_text::Digits;
 use crate::panels::state::{Request, State};
 use crate::panels::style::{CONTROL, GRID};
@@ -94,20 +94,20 @@ impl Fields {
             range: 0.0..=f64::from(LATEST),
             ..field(Part::Time)
         };
-        let (heard, _) = field.show(ui, rect);
+        let (event, _) = field.show(ui, rect);
         let snap = about.state.keys.snap != ui.input(|input| input.modifiers.command);
-        let heard = match heard {
-            Heard::Dragged(by) if snap => {
-                Heard::Dragged(f64::from(to_frame(key.time + by as f32, about.state) - key.time))
+        let event = match event {
+            FieldEvent::Dragged(by) if snap => {
+                FieldEvent::Dragged(f64::from(to_frame(key.time + by as f32, about.state) - key.time))
             }
-            heard => heard,
+            event => event,
         };
-        match heard {
-            Heard::Typed(value) => {
-                requests.push(Request::Timeline(KeysRequest::Drag(Deed::Move(value as f32 - key.time))));
+        match event {
+            FieldEvent::Typed(value) => {
+                requests.push(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(value as f32 - key.time))));
                 requests.push(Request::Timeline(KeysRequest::Release));
             }
-            heard => self.drag(heard, Part::Time, key, |by| Some(Deed::Move(by)), requests),
+            event => self.drag(event, Part::Time, key, |by| Some(KeyDragOp::Move(by)), requests),
         }
     }
 
@@ -139,14 +139,16 @@ impl Fields {
             digits: if angle { Digits::Fixed(2) } else { Digits::Fitting },
             ..field(Part::Value(component))
         };
-        let (heard, _) = field.show(ui, rect);
+        let (event, _) = field.show(ui, rect);
         let edit = |by: f32| value_edit(about.state.take_ref()?, &[*key], component, by);
-        match heard {
-            Heard::Typed(value) => {
+        match event {
+            FieldEvent::Typed(value) => {
                 let edit = edit(value as f32 - number);
                 requests.extend(edit.map(|edit| Request::Change(Change::Edit(edit, None))));
             }
-            heard => self.drag(heard, Part::Value(component), key, |by| edit(by).map(Deed::Edit), requests),
+            event => {
+                self.drag(event, Part::Value(component), key, |by| edit(by).map(KeyDragOp::Edit), requests)
+            }
         }
     }
 
@@ -157,21 +159,21 @@ impl Fields {
 
     fn drag(
         &mut self,
-        heard: Heard,
+        event: FieldEvent,
         part: Part,
         key: &ValueKey,
-        deed: impl Fn(f32) -> Option<Deed>,
+        op: impl Fn(f32) -> Option<KeyDragOp>,
         requests: &mut Vec<Request>,
     ) {
-        let request = match heard {
-            Heard::Dragged(by) => {
+        let request = match event {
+            FieldEvent::Dragged(by) => {
                 let by = by as f32;
                 self.held = Some(Held { part, key: *key, by });
-                deed(by).map(KeysRequest::Drag)
+                op(by).map(KeysRequest::Drag)
             }
-            Heard::Released => self.held.take().map(|_| KeysRequest::Release),
-            Heard::Cancelled => self.held.take().map(|_| KeysRequest::Cancel),
-            Heard::Nothing | Heard::Touched | Heard::Typed(_) => None,
+            FieldEvent::Released => self.held.take().map(|_| KeysRequest::Release),
+            FieldEvent::Cancelled => self.held.take().map(|_| KeysRequest::Cancel),
+            FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Typed(_) => None,
         };
         requests.extend(request.map(Request::Timeline));
     }

@@ -2,9 +2,9 @@
 
 mod axis;
 mod curve;
+mod drag;
 mod fields;
 mod form;
-mod hand;
 mod paint;
 mod shown;
 mod tangents;
@@ -17,12 +17,12 @@ use super::state::{Request, State};
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
 use axis::{ValueScale, ValueWindow};
+use drag::{CurveCanvas, CurveDrag};
 use egui::{
     Align2, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2,
 };
 use fields::{About, Fields};
-use hand::{Hand, Within};
-use paint::CurveMesh;
+use paint::{CurveLook, CurveMesh};
 use shown::Shown;
 use tangents::Tangents;
 use toolbar::Chosen;
@@ -34,7 +34,7 @@ pub struct Curves {
     shown: Shown,
     mesh: CurveMesh,
     tangents: Tangents,
-    hand: Hand,
+    drag: CurveDrag,
     fields: Fields,
     scrub: Scrub,
     /// Which values are shown; none until there are curves to fit.
@@ -77,7 +77,7 @@ impl Panel for Curves {
         if let Some(drawn) = &drawn {
             self.follow(ui, state, drawn);
         }
-        let (fields, curves, component) = (&mut self.fields, &self.mesh.drawn, self.hand.component());
+        let (fields, curves, component) = (&mut self.fields, &self.mesh.drawn, self.drag.component());
         let window = self.window.unwrap_or_default();
         let fit = toolbar::show(ui, &mut self.chosen, curves, state, requests, |ui, chosen, requests| {
             let Some(drawn) = &drawn else { return };
@@ -117,7 +117,7 @@ impl Curves {
             ids,
             chosen: (self.chosen.properties, self.chosen.components, self.chosen.form),
         };
-        if more || self.hand.is_busy() {
+        if more || self.drag.is_busy() {
             return;
         }
         let Some([low, high]) = self.shown.extent(self.chosen.components, None) else { return };
@@ -163,7 +163,9 @@ impl Curves {
         let response = ui.interact(canvas, ui.scope_id().with("curves"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Curves of keys"));
         let inside = painter.with_clip_rect(canvas.intersect(painter.clip_rect()));
-        self.mesh.paint(&inside, &self.shown, drawn, &time, &value, self.chosen.components, theme);
+        let components = self.chosen.components;
+        let look = CurveLook { shown: &self.shown, drawn, time: &time, value: &value, components, theme };
+        self.mesh.paint(&inside, &look);
         self.tangents.update(&self.mesh.drawn, drawn, &time, &value, self.chosen.components);
         self.tangents.paint(&inside, theme);
         self.legend(&inside, canvas, state, drawn, theme);
@@ -175,7 +177,7 @@ impl Curves {
         if panned != 0.0 {
             self.look_at(value.window.panned(f64::from(panned) / value.per_unit()));
         }
-        let within = Within {
+        let curve_canvas = CurveCanvas {
             curves: &self.mesh.drawn,
             drawn,
             time: &time,
@@ -184,8 +186,8 @@ impl Curves {
             tangents: &self.tangents,
             state,
         };
-        self.hand.update(ui, &response, &within, requests);
-        if !self.hand.is_busy() {
+        self.drag.update(ui, &response, &curve_canvas, requests);
+        if !self.drag.is_busy() {
             response.context_menu(|ui| dope::key_menu(ui, state, requests));
         }
         dope::time_bar(ui, canvas, &time, &drawn.take, requests);

@@ -39,6 +39,18 @@ const SAMPLE: f32 = 3.0;
 /// Points from the middle of a key to its corner.
 const RADIUS: f32 = 4.0;
 
+/// Everything that the triangles of the curves depend on.
+#[derive(Clone, Copy)]
+pub(super) struct CurveLook<'a> {
+    pub(super) shown: &'a Shown,
+    pub(super) drawn: &'a Drawn,
+    pub(super) time: &'a TimeScale,
+    pub(super) value: &'a ValueScale,
+    /// A bit for each component that is shown.
+    pub(super) components: u8,
+    pub(super) theme: &'a Theme,
+}
+
 /// Everything that a curve is drawn into.
 struct Canvas<'a> {
     time: &'a TimeScale,
@@ -54,17 +66,9 @@ pub(super) fn color(theme: &Theme, component: usize) -> Color32 {
 }
 
 impl CurveMesh {
-    #[allow(clippy::too_many_arguments, reason = "what is drawn follows from all of it")]
-    pub(super) fn paint(
-        &mut self,
-        painter: &Painter,
-        shown: &Shown,
-        drawn: &Drawn,
-        time: &TimeScale,
-        value: &ValueScale,
-        components: u8,
-        theme: &Theme,
-    ) {
+    /// Draws the curves.
+    pub(super) fn paint(&mut self, painter: &Painter, look: &CurveLook<'_>) {
+        let CurveLook { shown, drawn, time, value, components, theme } = *look;
         let made_of = MadeOf {
             drawn: drawn.clone(),
             version: shown.version(),
@@ -75,22 +79,13 @@ impl CurveMesh {
         };
         if !self.made_of.as_ref().is_some_and(|old| old.same(&made_of)) {
             self.made_of = Some(made_of);
-            self.make(shown, drawn, time, value, components, theme, painter.pixels_per_point());
+            self.rebuild(look, painter.pixels_per_point());
         }
         painter.add(Shape::Mesh(Arc::clone(&self.mesh)));
     }
 
-    #[allow(clippy::too_many_arguments, reason = "as above")]
-    fn make(
-        &mut self,
-        shown: &Shown,
-        drawn: &Drawn,
-        time: &TimeScale,
-        value: &ValueScale,
-        components: u8,
-        theme: &Theme,
-        pixels_per_point: f32,
-    ) {
+    fn rebuild(&mut self, look: &CurveLook<'_>, pixels_per_point: f32) {
+        let CurveLook { shown, drawn, time, value, components, theme } = *look;
         let moves = drawn.shift != crate::panels::keys::Shift::NONE;
         self.drawn.clear();
         let options = TessellationOptions::default();

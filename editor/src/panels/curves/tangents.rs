@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// One end of a tangent.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Handle {
+pub(super) struct TangentHandle {
     pub(super) id: ChannelId,
     pub(super) key: usize,
     pub(super) component: usize,
@@ -28,7 +28,7 @@ pub(super) struct Handle {
 /// The ends in sight.
 #[derive(Debug, Default)]
 pub(super) struct Tangents {
-    handles: Vec<Handle>,
+    handles: Vec<TangentHandle>,
 }
 
 /// Points from a key to an end.
@@ -71,7 +71,7 @@ impl Tangents {
                         let slope = if arrive { slopes.arrive } else { slopes.leave }[component];
                         let way = direction(slope, time, value) * if arrive { -LENGTH } else { LENGTH };
                         let end = center + way;
-                        self.handles.push(Handle {
+                        self.handles.push(TangentHandle {
                             id: curve.id,
                             key,
                             component,
@@ -95,7 +95,7 @@ impl Tangents {
     }
 
     /// The end under the pointer.
-    pub(super) fn under(&self, pointer: Pos2, reach: f32) -> Option<Handle> {
+    pub(super) fn under(&self, pointer: Pos2, reach: f32) -> Option<TangentHandle> {
         let near = self.handles.iter().filter(|handle| handle.end.distance(pointer) <= reach);
         near.min_by(|a, b| a.end.distance(pointer).total_cmp(&b.end.distance(pointer))).copied()
     }
@@ -117,7 +117,7 @@ fn direction(slope: f32, time: &TimeScale, value: &ValueScale) -> Vec2 {
     if length.is_finite() && length > 0.0 { way / length } else { vec2(0.0, -slope.signum()) }
 }
 
-impl Handle {
+impl TangentHandle {
     /// The slope that brings the end under the pointer, units a second.
     pub(super) fn slope_at(&self, pointer: Pos2, time: &TimeScale, value: &ValueScale) -> f32 {
         let way = if self.arrive { self.center - pointer } else { pointer - self.center };

@@ -1,8 +1,8 @@
 //! Over the curves: which of them, how rotations are read, what lies between keys.
 
 use super::curve::Curve;
+use super::drag::component_name;
 use super::form::Form;
-use super::hand::component_name;
 use super::paint::color;
 use super::shown::bit;
 use crate::panels::commands::{self, Id};

@@ -1,8 +1,10 @@
 //! The ruler: time is dragged here, the range that plays is set, and the selected keys are scaled by the bar below.
 
-use super::place::Places;
+use super::Sheet;
+use super::areas::DopeAreas;
 use crate::panels::commands::Id;
-use crate::panels::keys::{Deed, Drawn, KeysRequest, TimeScale};
+use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
+use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest, TimeScale};
 use crate::panels::state::{Request, State};
 use crate::panels::theme::Theme;
 use egui::{
@@ -21,8 +23,9 @@ pub(in crate::panels) struct Scrub {
 #[derive(Debug, Default)]
 pub(super) struct Head {
     scrub: Scrub,
-    /// Scaling: what stays, and where the end was that is held.
-    scaling: Option<Scaling>,
+    scaling: DragMachine<(), Scaling>,
+    /// Name of the end of the bar that is dragged.
+    grip: Option<&'static str>,
     /// The first and the last selected key, found when the selection changed.
     extent: Option<(Drawn, Option<[f32; 2]>)>,
 }
@@ -30,22 +33,25 @@ pub(super) struct Head {
 /// Points: how near a key must be to be under the pointer.
 const NEAR: f32 = 4.0;
 
+/// The bar over the selected keys, while one of its ends is dragged.
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
-    /// The end that is not held, seconds.
+    /// Time of the end that is not dragged, seconds.
     other: f32,
+    /// Time of the dragged end when the drag began, seconds.
     grabbed: f32,
-    begun: bool,
+    /// Whether the drag was requested, so that it must exist from now on.
+    requested: bool,
 }
 
 /// Lines and numbers, behind everything.
-pub(super) fn back(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
-    let top = Rect::from_min_max(places.all.min, pos2(places.all.right(), places.bar.bottom()));
+pub(super) fn back(painter: &Painter, areas: &DopeAreas, scale: &TimeScale, state: &State, theme: &Theme) {
+    let top = Rect::from_min_max(areas.all.min, pos2(areas.all.right(), areas.bar.bottom()));
     painter.rect_filled(top, CornerRadius::ZERO, theme.bar);
     painter.hline(top.x_range(), top.bottom(), Stroke::new(1.0, theme.line));
     let right = painter
-        .with_clip_rect(Rect::from_min_max(places.head.min, places.all.max).intersect(painter.clip_rect()));
-    ticks(&right, places.head, places.all.bottom(), scale, state, theme);
+        .with_clip_rect(Rect::from_min_max(areas.head.min, areas.all.max).intersect(painter.clip_rect()));
+    ticks(&right, areas.head, areas.all.bottom(), scale, state, theme);
 }
 
 /// The lines of a ruler; also for the curves.
@@ -132,32 +138,17 @@ impl Scrub {
 }
 
 impl Head {
-    pub(super) fn show(
-        &mut self,
-        ui: &mut Ui,
-        places: &Places,
-        scale: &TimeScale,
-        drawn: &Drawn,
-        state: &State,
-        requests: &mut Vec<Request>,
-    ) {
-        self.scrub.show(ui, places.head, "Time track", scale, state, requests);
-        range_ends(ui, places, scale, state, requests);
-        self.bar(ui, places, scale, drawn, state, requests);
+    pub(super) fn show(&mut self, ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
+        let Sheet { areas, scale, state, .. } = *sheet;
+        self.scrub.show(ui, areas.head, "Time track", scale, state, requests);
+        range_ends(ui, areas, scale, state, requests);
+        self.bar(ui, sheet, requests);
     }
 
-    /// The bar over the selected keys: its ends scale them about each other, with Alt about the playhead.
-    fn bar(
-        &mut self,
-        ui: &Ui,
-        places: &Places,
-        scale: &TimeScale,
-        drawn: &Drawn,
-        state: &State,
-        requests: &mut Vec<Request>,
-    ) {
-        let theme = Theme::of(ui);
-        let painter = ui.painter().with_clip_rect(places.bar);
+    /// Draws the bar over the selected keys. Its ends scale the keys about each other, with Alt about the playhead.
+    fn bar(&mut self, ui: &Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
+        let Sheet { areas, scale, drawn, theme, .. } = *sheet;
+        let painter = ui.painter().with_clip_rect(areas.bar);
         let known = self.extent.as_ref().filter(|(of, _)| {
             of.selection.same(&drawn.selection) && std::sync::Arc::ptr_eq(&of.take, &drawn.take)
         });
@@ -167,19 +158,18 @@ impl Head {
         };
         let extent = extent.map(|extent| drawn.shift.stretch(extent));
         let Some([from, to]) = extent.filter(|[from, to]| to - from > scale.seconds(6.0)) else {
-            self.scaling = None;
+            self.scaling = DragMachine::default();
             return;
         };
         let (left, right) = (scale.x_of(from), scale.x_of(to));
         let bar =
-            Rect::from_min_max(pos2(left, places.bar.top() + 2.0), pos2(right, places.bar.bottom() - 2.0));
+            Rect::from_min_max(pos2(left, areas.bar.top() + 2.0), pos2(right, areas.bar.bottom() - 2.0));
         painter.rect_filled(bar, CornerRadius::same(2), theme.accent_soft);
         for (end, x, name) in
             [(from, left, "Scale keys by their begin"), (to, right, "Scale keys by their end")]
         {
-            let grip =
-                Rect::from_center_size(pos2(x, places.bar.center().y), vec2(12.0, places.bar.height()));
-            if !places.bar.expand(6.0).contains_rect(grip.shrink(4.0)) {
+            let grip = Rect::from_center_size(pos2(x, areas.bar.center().y), vec2(12.0, areas.bar.height()));
+            if !areas.bar.expand(6.0).contains_rect(grip.shrink(4.0)) {
                 continue;
             }
             let response = ui.interact(grip, ui.scope_id().with(name), Sense::drag());
@@ -194,56 +184,56 @@ impl Head {
                 CornerRadius::same(2),
                 color,
             );
-            self.scale_by(ui, &response, end, [from, to], scale, state, requests);
+            if response.drag_started_by(PointerButton::Primary) {
+                let other = if end == from { to } else { from };
+                self.scaling = DragMachine::dragging(Scaling { other, grabbed: end, requested: false });
+                self.grip = Some(name);
+            }
+            if self.grip == Some(name) {
+                self.scale_by(ui, &response, sheet, requests);
+            }
         }
     }
 
-    #[allow(clippy::too_many_arguments, reason = "a drag follows from all of it")]
-    fn scale_by(
-        &mut self,
-        ui: &Ui,
-        response: &Response,
-        end: f32,
-        [from, to]: [f32; 2],
-        scale: &TimeScale,
-        state: &State,
-        requests: &mut Vec<Request>,
-    ) {
-        if response.drag_started_by(PointerButton::Primary) {
-            let other = if end == from { to } else { from };
-            self.scaling = Some(Scaling { other, grabbed: end, begun: false });
-        }
-        let Some(scaling) = &mut self.scaling else { return };
-        let cancelled = ui.input(|input| input.pointer.secondary_down() || input.key_down(egui::Key::Escape));
-        // By Escape egui ends the drag itself.
-        if cancelled || response.dragged_by(PointerButton::Primary) {
-            let gone = scaling.begun && !state.keys.drag().is_some_and(|drag| drag.held());
-            if cancelled || gone {
-                requests.push(Request::Timeline(KeysRequest::Cancel));
-                self.scaling = None;
-                return;
+    fn scale_by(&mut self, ui: &Ui, response: &Response, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
+        let state = sheet.state;
+        let input = PointerInput::of_widget(ui, response);
+        match self.scaling.step(&input, input.primary_down, |_| ()) {
+            DragEvent::Moved(pointer) => {
+                let Some(scaling) = self.scaling.drag_mut() else { return };
+                if scaling.requested && !state.keys.is_dragging() {
+                    return self.scaling.spend();
+                }
+                if let Some(op) = scaling.op(pointer.x, &input, sheet) {
+                    scaling.requested = true;
+                    requests.push(Request::Timeline(KeysRequest::Drag(op)));
+                }
             }
-            let Some(pointer) = response.interact_pointer_pos() else { return };
-            let snap = state.keys.snap != ui.input(|input| input.modifiers.command);
-            let time = scale.time_at(pointer.x);
-            let time = if snap { to_frame(time, state) } else { time };
-            // Asked anew each time: a hand may think of it in the midst of the drag.
-            let now = state.time();
-            let by_playhead = ui.input(|input| input.modifiers.alt)
-                && (now - scaling.grabbed).abs() > state.frame_seconds() * 0.5;
-            let about = if by_playhead { now } else { scaling.other };
-            let factor = (time - about) / (scaling.grabbed - about);
-            // Zero would bring all keys to one time; a thousandth is as near as it gets.
-            let factor =
-                if factor.abs() < 1e-3 { 1e-3_f32.copysign(factor) } else { factor.clamp(-1e3, 1e3) };
-            if factor.is_finite() {
-                scaling.begun = true;
-                requests.push(Request::Timeline(KeysRequest::Drag(Deed::Scale { about, factor })));
-            }
+            DragEvent::Dropped(_) => requests.push(Request::Timeline(KeysRequest::Release)),
+            DragEvent::Cancelled(_) => requests.push(Request::Timeline(KeysRequest::Cancel)),
+            DragEvent::Nothing | DragEvent::Pressed | DragEvent::Started(_) | DragEvent::Clicked(_) => {}
         }
-        if response.drag_stopped() && self.scaling.take().is_some() {
-            requests.push(Request::Timeline(KeysRequest::Release));
+        if !self.scaling.is_busy() {
+            self.grip = None;
         }
+    }
+}
+
+impl Scaling {
+    /// The operation that brings the dragged end to `x`; `None` where no factor does.
+    fn op(&self, x: f32, input: &PointerInput, sheet: &Sheet<'_>) -> Option<KeyDragOp> {
+        let state = sheet.state;
+        let snap = state.keys.snap != input.modifiers.command;
+        let time = sheet.scale.time_at(x);
+        let time = if snap { to_frame(time, state) } else { time };
+        // Read in every frame: Alt may be pressed in the middle of the drag.
+        let now = state.time();
+        let by_playhead = input.modifiers.alt && (now - self.grabbed).abs() > state.frame_seconds() * 0.5;
+        let about = if by_playhead { now } else { self.other };
+        let factor = (time - about) / (self.grabbed - about);
+        // Zero would bring all keys to one time; a thousandth is as near as it gets.
+        let factor = if factor.abs() < 1e-3 { 1e-3_f32.copysign(factor) } else { factor.clamp(-1e3, 1e3) };
+        factor.is_finite().then_some(KeyDragOp::Scale { about, factor })
     }
 }
 
@@ -264,22 +254,22 @@ pub(in crate::panels) fn to_frame(time: f32, state: &State) -> f32 {
 }
 
 /// The ends of the range that plays, to be dragged.
-fn range_ends(ui: &Ui, places: &Places, scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
+fn range_ends(ui: &Ui, areas: &DopeAreas, scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
     let Some([from, to]) = state.keys.range() else { return };
     let theme = Theme::of(ui);
-    let painter = ui.painter().with_clip_rect(places.head);
+    let painter = ui.painter().with_clip_rect(areas.head);
     let band = Rect::from_min_max(
-        pos2(scale.x_of(from), places.head.bottom() - 3.0),
-        pos2(scale.x_of(to), places.head.bottom()),
+        pos2(scale.x_of(from), areas.head.bottom() - 3.0),
+        pos2(scale.x_of(to), areas.head.bottom()),
     );
     painter.rect_filled(band, CornerRadius::ZERO, theme.warning.gamma_multiply(0.5));
     for (time, first) in [(from, true), (to, false)] {
         let x = scale.x_of(time);
         let inward = if first { 1.0 } else { -1.0 };
         let name = if first { "Begin of the play range" } else { "End of the play range" };
-        let middle = pos2(x + inward * 4.0, places.head.bottom() - 6.0);
+        let middle = pos2(x + inward * 4.0, areas.head.bottom() - 6.0);
         let grip = Rect::from_center_size(middle, vec2(10.0, 12.0));
-        if !places.head.contains(grip.center()) {
+        if !areas.head.contains(grip.center()) {
             continue;
         }
         let response = ui.interact(grip, ui.scope_id().with(name), Sense::drag());
@@ -288,9 +278,9 @@ fn range_ends(ui: &Ui, places: &Places, scale: &TimeScale, state: &State, reques
         let lit = response.hovered() || response.dragged();
         let color = if lit { theme.warning } else { theme.warning.gamma_multiply(0.8) };
         let corners = vec![
-            pos2(x, places.head.bottom()),
-            pos2(x, places.head.bottom() - 9.0),
-            pos2(x + inward * 6.0, places.head.bottom()),
+            pos2(x, areas.head.bottom()),
+            pos2(x, areas.head.bottom() - 9.0),
+            pos2(x + inward * 6.0, areas.head.bottom()),
         ];
         painter.add(egui::Shape::convex_polygon(corners, color, Stroke::NONE));
         if response.dragged_by(PointerButton::Primary)

@@ -1,7 +1,7 @@
 //! The lane of markers below the ruler.
 
+use super::Sheet;
 use super::head::to_frame;
-use super::place::Places;
 use crate::panels::keys::{KeysRequest, MarkerDeed, TimeScale};
 use crate::panels::state::{Request, State};
 use crate::panels::theme::Theme;
@@ -29,15 +29,9 @@ enum Stage {
 }
 
 impl MarkerLane {
-    pub(super) fn show(
-        &mut self,
-        ui: &mut Ui,
-        places: &Places,
-        scale: &TimeScale,
-        state: &State,
-        requests: &mut Vec<Request>,
-    ) {
-        let lane = places.markers;
+    pub(super) fn show(&mut self, ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
+        let Sheet { areas, scale, state, .. } = *sheet;
+        let lane = areas.markers;
         if lane.height() < 4.0 {
             (self.renaming, self.held) = (None, None);
             return;

@@ -1,13 +1,10 @@
 //! Keys as triangles: made once for what is seen, and used again until something of it changes.
 
-use super::ROW;
-use super::place::Places;
-use super::rows::{Row, RowKind, Rows};
+use super::rows::{Row, RowKind};
+use super::{ROW, Sheet};
 use crate::panels::keys::columns::Columns;
 use crate::panels::keys::intervals::Intervals;
 use crate::panels::keys::{Drawn, KeySelection, Shift, TimeScale, channel};
-use crate::panels::state::State;
-use crate::panels::theme::Theme;
 use dragonfly_anim::data::Take;
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
 use std::sync::Arc;
@@ -57,18 +54,9 @@ impl KeysMesh {
         self.count.as_ref().map_or(0, |(_, _, count)| *count)
     }
 
-    #[allow(clippy::too_many_arguments, reason = "what is drawn follows from all of it")]
-    pub(super) fn paint(
-        &mut self,
-        painter: &Painter,
-        places: &Places,
-        scroll: f32,
-        rows: &Rows,
-        scale: &TimeScale,
-        drawn: &Drawn,
-        state: &State,
-        theme: &Theme,
-    ) {
+    /// Draws the keys in sight.
+    pub(super) fn paint(&mut self, painter: &Painter, sheet: &Sheet<'_>) {
+        let Sheet { areas, rows, scroll, scale, drawn, state, theme } = *sheet;
         let live = &state.keys.selection;
         if let Some(take) = state.shared_take()
             && !self
@@ -82,7 +70,7 @@ impl KeysMesh {
             drawn: drawn.clone(),
             rows: Arc::clone(rows.list()),
             scale: *scale,
-            canvas: places.canvas,
+            canvas: areas.canvas,
             scroll,
             pixels_per_point: painter.pixels_per_point(),
             dark: theme.dark,
@@ -91,27 +79,17 @@ impl KeysMesh {
         let same = self.made_of.as_ref().is_some_and(|old| old.same(&made_of));
         if !same {
             self.made_of = Some(made_of);
-            self.make(places, scroll, rows, scale, drawn, state, theme, painter.pixels_per_point());
+            self.rebuild(sheet, painter.pixels_per_point());
         }
         painter
-            .with_clip_rect(places.canvas.intersect(painter.clip_rect()))
+            .with_clip_rect(areas.canvas.intersect(painter.clip_rect()))
             .add(Shape::Mesh(Arc::clone(&self.mesh)));
     }
 
-    #[allow(clippy::too_many_arguments, reason = "as above")]
-    fn make(
-        &mut self,
-        places: &Places,
-        scroll: f32,
-        rows: &Rows,
-        scale: &TimeScale,
-        drawn: &Drawn,
-        state: &State,
-        theme: &Theme,
-        pixels_per_point: f32,
-    ) {
+    fn rebuild(&mut self, sheet: &Sheet<'_>, pixels_per_point: f32) {
+        let Sheet { areas, rows, scroll, scale, drawn, state, theme } = *sheet;
         let mut mesh = Mesh::default();
-        let canvas = places.canvas;
+        let canvas = areas.canvas;
         let pen = Pen { feather: 1.0 / pixels_per_point };
         let first = (scroll / ROW).floor().max(0.0) as usize;
         let last = ((scroll + canvas.height()) / ROW).ceil().max(0.0) as usize;

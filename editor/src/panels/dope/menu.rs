@@ -1,6 +1,6 @@
 //! The menu of keys, at the right button.
 
-use super::hand::Hand;
+use super::drag::DopeDrag;
 use crate::panels::commands::Id;
 use crate::panels::menu::item;
 use crate::panels::state::{Request, State};
@@ -12,9 +12,15 @@ use egui::{Button, Response, Ui};
 pub(super) struct KeyMenu;
 
 impl KeyMenu {
-    pub(super) fn show(&self, canvas: &Response, hand: &Hand, state: &State, requests: &mut Vec<Request>) {
+    pub(super) fn show(
+        &self,
+        canvas: &Response,
+        drag: &DopeDrag,
+        state: &State,
+        requests: &mut Vec<Request>,
+    ) {
         // The right button that takes a drag back opens nothing.
-        if hand.is_busy() {
+        if drag.is_busy() {
             return;
         }
         canvas.context_menu(|ui| show(ui, state, requests));

@@ -1,23 +1,16 @@
 //! What lies behind and over the keys: rows, the part that does not play, the playhead.
 
-use super::ROW;
-use super::place::Places;
-use super::rows::{RowKind, Rows};
+use super::rows::RowKind;
+use super::{ROW, Sheet};
 use crate::panels::keys::TimeScale;
 use crate::panels::state::State;
 use crate::panels::theme::Theme;
 use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, pos2, vec2};
 
 /// Selected bones are lit, summaries are a little apart, fine lines in between.
-pub(super) fn rows(
-    painter: &Painter,
-    places: &Places,
-    scroll: f32,
-    rows: &Rows,
-    state: &State,
-    theme: &Theme,
-) {
-    let body = Rect::from_min_max(places.names.min, places.canvas.max);
+pub(super) fn rows(painter: &Painter, sheet: &Sheet<'_>) {
+    let Sheet { areas, rows, scroll, state, theme, .. } = *sheet;
+    let body = Rect::from_min_max(areas.names.min, areas.canvas.max);
     let painter = painter.with_clip_rect(body.intersect(painter.clip_rect()));
     let first = (scroll / ROW).floor().max(0.0) as usize;
     let last = ((scroll + body.height()) / ROW).ceil().max(0.0) as usize;
@@ -61,18 +54,13 @@ pub(in crate::panels) fn shade(
     }
 }
 
-pub(super) fn outside_range(
-    painter: &Painter,
-    places: &Places,
-    scale: &TimeScale,
-    state: &State,
-    theme: &Theme,
-) {
-    shade(painter, places.canvas, scale, state, theme);
+pub(super) fn outside_range(painter: &Painter, sheet: &Sheet<'_>) {
+    shade(painter, sheet.areas.canvas, sheet.scale, sheet.state, sheet.theme);
 }
 
-pub(super) fn playhead(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
-    line(painter, places.head, places.all.bottom(), scale, state, theme);
+pub(super) fn playhead(painter: &Painter, sheet: &Sheet<'_>) {
+    let Sheet { areas, scale, state, theme, .. } = *sheet;
+    line(painter, areas.head, areas.all.bottom(), scale, state, theme);
 }
 
 /// The line of the playhead with its flag in a ruler.
@@ -100,10 +88,11 @@ pub(in crate::panels) fn line(
 }
 
 /// A small hollow diamond in the ruler where poses wait to be keyed.
-pub(super) fn pending(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
-    let painter = painter.with_clip_rect(places.head.intersect(painter.clip_rect()));
+pub(super) fn pending(painter: &Painter, sheet: &Sheet<'_>) {
+    let Sheet { areas, scale, state, theme, .. } = *sheet;
+    let painter = painter.with_clip_rect(areas.head.intersect(painter.clip_rect()));
     for time in state.pending_times() {
-        let center = pos2(scale.x_of(time), places.head.bottom() - 5.0);
+        let center = pos2(scale.x_of(time), areas.head.bottom() - 5.0);
         let points = [vec2(0.0, -4.0), vec2(4.0, 0.0), vec2(0.0, 4.0), vec2(-4.0, 0.0)];
         let points = points.into_iter().map(|offset| center + offset).collect();
         painter.add(Shape::convex_polygon(points, theme.bar, Stroke::new(1.3, theme.warning)));
@@ -111,7 +100,8 @@ pub(super) fn pending(painter: &Painter, places: &Places, scale: &TimeScale, sta
 }
 
 /// Why no row is there.
-pub(super) fn nothing(painter: &Painter, places: &Places, state: &State, theme: &Theme) {
+pub(super) fn nothing(painter: &Painter, sheet: &Sheet<'_>) {
+    let Sheet { areas, state, theme, .. } = *sheet;
     let text = if !state.keys.filter.is_empty() {
         "No bone with keys is called that"
     } else if state.lists_only_selected() {
@@ -119,11 +109,5 @@ pub(super) fn nothing(painter: &Painter, places: &Places, state: &State, theme: 
     } else {
         "This take has no keys"
     };
-    painter.text(
-        places.canvas.center(),
-        Align2::CENTER_CENTER,
-        text,
-        FontId::proportional(12.0),
-        theme.faint,
-    );
+    painter.text(areas.canvas.center(), Align2::CENTER_CENTER, text, FontId::proportional(12.0), theme.faint);
 }

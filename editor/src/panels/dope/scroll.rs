@@ -1,6 +1,6 @@
 //! Zooming and panning: wheel, middle button, bars.
 
-use super::place::{Places, SCROLL};
+use super::areas::{DopeAreas, SCROLL};
 use crate::panels::commands::Id;
 use crate::panels::keys::{KeysRequest, TimeScale};
 use crate::panels::state::Request;
@@ -60,20 +60,20 @@ pub(in crate::panels) fn pan(
 /// Both bars, where something is out of sight.
 pub(super) fn show(
     ui: &Ui,
-    places: &Places,
+    areas: &DopeAreas,
     scroll: &mut f32,
     content: f32,
     scale: &TimeScale,
     take: &Take,
     requests: &mut Vec<Request>,
 ) {
-    let canvas = places.canvas;
+    let canvas = areas.canvas;
     if content > canvas.height() + 0.5 && canvas.height() > 24.0 {
         let track = Rect::from_min_max(pos2(canvas.right() - SCROLL, canvas.top()), canvas.max);
         let part = canvas.height() / content;
         let moved = bar(ui, track, true, *scroll / content, part, "Scroll through bones");
         *scroll = (*scroll + moved * content).clamp(0.0, content - canvas.height());
-        let over = ui.rect_contains_pointer(places.names);
+        let over = ui.rect_contains_pointer(areas.names);
         if over {
             *scroll -= ui.input(|input| input.smooth_scroll_delta().y);
             *scroll = scroll.clamp(0.0, content - canvas.height());

@@ -18,7 +18,7 @@ mod step;
 pub mod window;
 
 pub use channel::ChannelId;
-pub use drag::Deed;
+pub use drag::KeyDragOp;
 pub use flags::{BoneFlag, BoneFlags};
 pub use markers::{Marker, MarkerDeed, Markers};
 pub use request::KeysRequest;
@@ -142,11 +142,11 @@ impl State {
     /// The keys as they are to be drawn now; none where no take is shown.
     pub fn drawn_keys(&self) -> Option<Drawn> {
         match &self.keys.drag {
-            Some(drag) if !matches!(drag.deed, Deed::Edit(_)) => Some(Drawn {
+            Some(drag) if !matches!(drag.op, KeyDragOp::Edit(_)) => Some(Drawn {
                 take: Arc::clone(&drag.base),
                 selection: drag.moving.clone(),
-                shift: drag.deed.shift(),
-                copies: matches!(drag.deed, Deed::Duplicate(_)),
+                shift: drag.op.shift(),
+                copies: matches!(drag.op, KeyDragOp::Duplicate(_)),
             }),
             _ => Some(Drawn {
                 take: Arc::clone(self.shared_take()?),
@@ -213,11 +213,15 @@ impl State {
         let (generation, now) = (view.generation, self.now);
         self.select_pasted(generation);
         if let Some(drag) = self.keys.drag.take_if(|drag| drag.settled(generation, now)) {
-            self.keys.selection = match (self.shared_take(), &drag.deed) {
-                (Some(take), Deed::Move(_) | Deed::Scale { .. } | Deed::Duplicate(_) | Deed::Snap(_)) => {
-                    drag.moved(take)
-                }
-                (Some(take), Deed::Ripple { from, by }) => self.keys.selection.rippled(take, *from, *by),
+            self.keys.selection = match (self.shared_take(), &drag.op) {
+                (
+                    Some(take),
+                    KeyDragOp::Move(_)
+                    | KeyDragOp::Scale { .. }
+                    | KeyDragOp::Duplicate(_)
+                    | KeyDragOp::Snap(_),
+                ) => drag.moved(take),
+                (Some(take), KeyDragOp::Ripple { from, by }) => self.keys.selection.rippled(take, *from, *by),
                 _ => self.keys.selection.clone(),
             };
             if let Some(brought) = drag.brings() {

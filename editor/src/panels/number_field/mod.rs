@@ -1,6 +1,6 @@
 //! A field that holds a number: dragged, typed as an expression, stepped by a screen reader.
 //!
-//! The field knows nothing of what its number is about. It says what a person does to it ([`Heard`]), and its owner
+//! The field knows nothing of what its number is about. It says what a person does to it ([`FieldEvent`]), and its owner
 //! makes edits of that. While it has the focus it is a text field; a text that is no number stays in it with a red edge
 //! and the reason, until it is mended or taken back with Escape.
 
@@ -52,7 +52,7 @@ pub struct NumberField<'a> {
 
 /// What a person does to a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Heard {
+pub enum FieldEvent {
     /// Nothing.
     Nothing,
     /// Takes hold of it, or puts the cursor into it: what it shows should stand still.
@@ -77,14 +77,15 @@ struct Typing {
     refused: Option<String>,
 }
 
-/// A drag.
+/// A number field that is dragged.
 #[derive(Clone, Copy, Debug)]
-struct Drag {
+struct DraggedNumber {
+    /// Number when the drag began.
     start: f64,
-    /// What the hand has added, before it is snapped.
+    /// What the drag has added, before limits and snapping.
     raw: f64,
-    /// What was told last.
-    told: f64,
+    /// What was reported last: the number minus `start`.
+    reported: f64,
 }
 
 /// Seconds for which a field says that a number was refused, once the cursor has left it: nothing is wrong any more, since
@@ -130,7 +131,7 @@ pub fn refuse(ui: &Ui, id: Id, value: Option<f64>, reason: &str) {
 
 impl NumberField<'_> {
     /// Draws the field into `rect`.
-    pub fn show(self, ui: &mut Ui, rect: Rect) -> (Heard, Response) {
+    pub fn show(self, ui: &mut Ui, rect: Rect) -> (FieldEvent, Response) {
         let id = self.id;
         if self.locked.is_some() || !ui.is_enabled() {
             let response = ui.interact(rect, id, Sense::hover());
@@ -140,7 +141,7 @@ impl NumberField<'_> {
                 Some(why) => response.on_hover_text(format!("{}{}\n{why}", self.title(), self.full())),
                 None => response,
             };
-            return (Heard::Nothing, response);
+            return (FieldEvent::Nothing, response);
         }
         let early = self.keys(ui);
         let has_focus = ui.memory_mut(|memory| {

@@ -1,12 +1,12 @@
 //! A number field as a screen reader has it.
 
-use super::{Heard, NumberField, Typing};
+use super::{FieldEvent, NumberField, Typing};
 use egui::accesskit::{Action, ActionData, Role};
 use egui::{Response, Ui, WidgetInfo};
 
 impl NumberField<'_> {
     /// What a screen reader asks for.
-    pub(super) fn asked_by_reader(&self, ui: &Ui) -> Option<Heard> {
+    pub(super) fn asked_by_reader(&self, ui: &Ui) -> Option<FieldEvent> {
         let (steps, wanted) = ui.input(|input| {
             let steps = input.num_accesskit_action_requests(self.id, Action::Increment) as f64
                 - input.num_accesskit_action_requests(self.id, Action::Decrement) as f64;
@@ -20,7 +20,7 @@ impl NumberField<'_> {
         };
         value.map(|value| {
             ui.data_mut(|data| data.remove::<Typing>(self.id));
-            Heard::Typed(value)
+            FieldEvent::Typed(value)
         })
     }
 

@@ -1,6 +1,6 @@
 //! A number field that has the focus: a text field.
 
-use super::{Heard, LONGEST, NumberField, Refused, Typing};
+use super::{FieldEvent, LONGEST, NumberField, Refused, Typing};
 use crate::panels::number_text::exact;
 use crate::panels::style::{self, RADIUS};
 use crate::panels::theme::Theme;
@@ -16,7 +16,7 @@ const MARGIN: i8 = 5;
 impl NumberField<'_> {
     /// Enter accepts and gives the keys back to the commands, Tab goes on to the next field; where there is no number they
     /// stay and say why.
-    pub(super) fn keys(&self, ui: &Ui) -> Option<Heard> {
+    pub(super) fn keys(&self, ui: &Ui) -> Option<FieldEvent> {
         if !ui.memory(|memory| memory.has_focus(self.id)) {
             return None;
         }
@@ -39,11 +39,11 @@ impl NumberField<'_> {
             ui.memory_mut(|memory| memory.surrender_focus(self.id));
         }
         ui.data_mut(|data| data.remove::<Typing>(self.id));
-        read.ok().filter(|_| typing.text != typing.first).map(Heard::Typed)
+        read.ok().filter(|_| typing.text != typing.first).map(FieldEvent::Typed)
     }
 
     /// While it has the focus: a text field.
-    pub(super) fn edit(&self, ui: &mut Ui, rect: Rect) -> (Heard, Response) {
+    pub(super) fn edit(&self, ui: &mut Ui, rect: Rect) -> (FieldEvent, Response) {
         let known = ui.data_mut(|data| data.remove_temp::<Typing>(self.id));
         ui.data_mut(|data| data.remove::<Refused>(self.id));
         let fresh = known.is_none();
@@ -51,7 +51,7 @@ impl NumberField<'_> {
             let text = self.value.map_or(String::new(), |value| exact(value, self.grain));
             Typing { first: text.clone(), text, refused: None }
         });
-        let mut heard = if fresh { Heard::Touched } else { Heard::Nothing };
+        let mut event = if fresh { FieldEvent::Touched } else { FieldEvent::Nothing };
         if fresh {
             select_all(ui.ctx(), self.id, &typing.text);
         }
@@ -65,13 +65,13 @@ impl NumberField<'_> {
             let value = self.clamp(value + steps * self.snap);
             let text = exact(value, self.grain);
             typing = Typing { first: text.clone(), text, refused: None };
-            heard = Heard::Typed(value);
+            event = FieldEvent::Typed(value);
         }
         let theme = Theme::of(ui);
         ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.sunken);
         let field = TextEdit::singleline(&mut typing.text)
             .id(self.id)
-            // A margin beside a frame is not heard of.
+            // A margin beside a frame is not event of.
             .frame(Frame::NONE.inner_margin(Margin::symmetric(MARGIN, 0)))
             .font(FontId::monospace(style::NUMBER))
             .align(Align2::RIGHT_CENTER)
@@ -91,7 +91,7 @@ impl NumberField<'_> {
         self.hint(ui, &response, &typing);
         self.describe(ui, &response, typing.refused.as_deref());
         ui.data_mut(|data| data.insert_temp(self.id, typing));
-        (heard, response)
+        (event, response)
     }
 
     /// Why the text is not taken, or what an expression comes to.

@@ -1,12 +1,12 @@
 //! One channel of a bone as a table: a row an axis, a column each for original, change and result.
 
-use super::super::number_field::{self, Heard, NumberField};
-use super::super::number_slider::{NumberSlider, Scale};
+use super::super::number_field::{self, FieldEvent, NumberField};
+use super::super::number_slider::{NumberSlider, SliderScale};
 use super::super::number_text::{Digits, exact};
 use super::super::state::{Request, State};
 use super::super::style::{GRID, NUMBER, RADIUS};
 use super::super::theme::Theme;
-use super::hand::{Hand, Spot};
+use super::drag::{FieldDrag, Spot};
 use super::parts::{Column, Form, Pair};
 use crate::control::expression::Quantity;
 use dragonfly_anim::data::BoneIndex;
@@ -22,7 +22,7 @@ const FIELD: f32 = 22.0;
 const SLIDER: f32 = 14.0;
 
 /// What a table is about.
-pub(super) struct Table<'a> {
+pub(super) struct ChannelTable<'a> {
     pub(super) state: &'a State,
     pub(super) bone: BoneIndex,
     pub(super) pair: Pair,
@@ -66,14 +66,26 @@ pub(super) fn heads(ui: &mut Ui) {
 
 /// The place of a channel's rows.
 #[derive(Clone, Copy)]
-pub(super) struct Rows {
+pub(super) struct ChannelRows {
     rect: Rect,
     property: Property,
     form: Form,
     sliders: bool,
 }
 
-impl Rows {
+/// One number of the table.
+#[derive(Clone, Copy)]
+struct Cell {
+    spot: Spot,
+    /// Component, 0 for X.
+    index: usize,
+    /// Number that all selected bones share; `None` where they differ.
+    value: Option<f64>,
+    /// Position, points.
+    rect: Rect,
+}
+
+impl ChannelRows {
     /// Points from row to row.
     fn step(&self) -> f32 {
         FIELD + 2.0 + if self.sliders { SLIDER } else { 0.0 }
@@ -84,14 +96,14 @@ impl Rows {
     }
 }
 
-impl Table<'_> {
+impl ChannelTable<'_> {
     /// Room for the rows of a channel, with the letters of its axes. Its fields come later, with those of all channels.
-    pub(super) fn room(&self, ui: &mut Ui, property: Property, form: Form, sliders: bool) -> Rows {
+    pub(super) fn room(&self, ui: &mut Ui, property: Property, form: Form, sliders: bool) -> ChannelRows {
         let count = form.count();
         let step = FIELD + 2.0 + if sliders { SLIDER } else { 0.0 };
         let size = vec2(ui.available_width(), step * count as f32 - 2.0);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-        let rows = Rows { rect, property, form, sliders };
+        let rows = ChannelRows { rect, property, form, sliders };
         let theme = Theme::of(ui);
         let letters =
             ["X", "Y", "Z", "W"].into_iter().zip([theme.axes[0], theme.axes[1], theme.axes[2], theme.weak]);
@@ -106,18 +118,18 @@ impl Table<'_> {
     pub(super) fn fields(
         &self,
         ui: &mut Ui,
-        hand: &mut Hand,
-        channels: &[Rows],
+        drag: &mut FieldDrag,
+        channels: &[ChannelRows],
         requests: &mut Vec<Request>,
     ) -> bool {
         let mut in_use = false;
         for column in Column::ALL.into_iter().rev() {
             for rows in channels {
-                in_use |= self.column(ui, hand, rows, column, requests);
+                in_use |= self.column(ui, drag, rows, column, requests);
             }
         }
         for rows in channels.iter().filter(|rows| rows.sliders) {
-            in_use |= self.sliders(ui, hand, rows, requests);
+            in_use |= self.sliders(ui, drag, rows, requests);
         }
         in_use
     }
@@ -125,34 +137,41 @@ impl Table<'_> {
     fn column(
         &self,
         ui: &mut Ui,
-        hand: &mut Hand,
-        rows: &Rows,
+        drag: &mut FieldDrag,
+        rows: &ChannelRows,
         column: Column,
         requests: &mut Vec<Request>,
     ) -> bool {
-        let Rows { rect, property, form, .. } = *rows;
+        let ChannelRows { rect, property, form, .. } = *rows;
         let columns = columns(rect.left(), rect.width());
         let Some(&(_, x)) = columns.iter().find(|(other, _)| *other == column) else { return false };
         let spot = Spot { property, column, form };
-        let shared = hand.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
+        let shared = drag.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
         let mut in_use = false;
         for (index, value) in shared.into_iter().enumerate().take(form.count()) {
             let place = Rect::from_x_y_ranges(x, rows.top(index)..=rows.top(index) + FIELD);
+            let cell = Cell { spot, index, value, rect: place };
             in_use |= match column {
                 Column::Original => {
-                    self.original(ui, place, hand, spot, index, value, requests);
+                    self.original(ui, &cell, drag, requests);
                     false
                 }
-                _ => self.field(ui, place, hand, spot, index, value, requests),
+                Column::Change | Column::Result => self.field(ui, &cell, drag, requests),
             };
         }
         in_use
     }
 
-    fn sliders(&self, ui: &mut Ui, hand: &mut Hand, rows: &Rows, requests: &mut Vec<Request>) -> bool {
-        let Rows { rect, property, form, .. } = *rows;
+    fn sliders(
+        &self,
+        ui: &mut Ui,
+        drag: &mut FieldDrag,
+        rows: &ChannelRows,
+        requests: &mut Vec<Request>,
+    ) -> bool {
+        let ChannelRows { rect, property, form, .. } = *rows;
         let spot = Spot { property, column: Column::Change, form };
-        let shared = hand.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
+        let shared = drag.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
         let mut in_use = false;
         for (index, value) in shared.into_iter().enumerate().take(form.count()) {
             let top = rows.top(index) + FIELD;
@@ -160,23 +179,14 @@ impl Table<'_> {
                 pos2(rect.left() + LETTER + 6.0, top),
                 pos2(rect.right() - 6.0, top + SLIDER - 1.0),
             );
-            in_use |= self.slider(ui, place, hand, spot, index, value, requests);
+            in_use |= self.slider(ui, &Cell { spot, index, value, rect: place }, drag, requests);
         }
         in_use
     }
 
     /// As it was read; a click gives it to the result.
-    #[expect(clippy::too_many_arguments, reason = "place, number, and what comes of it")]
-    fn original(
-        &self,
-        ui: &Ui,
-        rect: Rect,
-        hand: &mut Hand,
-        spot: Spot,
-        index: usize,
-        value: Option<f64>,
-        requests: &mut Vec<Request>,
-    ) {
+    fn original(&self, ui: &Ui, cell: &Cell, drag: &mut FieldDrag, requests: &mut Vec<Request>) {
+        let Cell { spot, index, value, rect } = *cell;
         let theme = Theme::of(ui);
         let enabled = self.locked.is_none() && value.is_some();
         let sense = if enabled { Sense::click() } else { Sense::hover() };
@@ -200,22 +210,13 @@ impl Table<'_> {
         if response.clicked() {
             let result = Spot { column: Column::Result, ..spot };
             // What is already there leaves nothing to do.
-            let _ = hand.hear(self.state, result, index, Heard::Typed(value), requests);
+            let _ = drag.apply(self.state, result, index, FieldEvent::Typed(value), requests);
         }
         response.on_hover_text(format!("{name}: {full}\nClick to give the result this number"));
     }
 
-    #[expect(clippy::too_many_arguments, reason = "place, number, and what comes of it")]
-    fn field(
-        &self,
-        ui: &mut Ui,
-        rect: Rect,
-        hand: &mut Hand,
-        spot: Spot,
-        index: usize,
-        value: Option<f64>,
-        requests: &mut Vec<Request>,
-    ) -> bool {
+    fn field(&self, ui: &mut Ui, cell: &Cell, drag: &mut FieldDrag, requests: &mut Vec<Request>) -> bool {
+        let Cell { spot, index, value, rect } = *cell;
         let id = self.id(spot, index);
         let quantity = match (spot.property, spot.form) {
             (Property::Translation, _) => Quantity::Length,
@@ -245,30 +246,21 @@ impl Table<'_> {
             help: &help,
             quiet: spot.column == Column::Change && value == Some(unchanged(spot, index)),
         };
-        let (heard, response) = field.show(ui, rect);
-        if let Err(reason) = hand.hear(self.state, spot, index, heard, requests) {
+        let (event, response) = field.show(ui, rect);
+        if let Err(reason) = drag.apply(self.state, spot, index, event, requests) {
             number_field::refuse(ui, id, value, reason);
         }
         response.has_focus() || response.dragged()
     }
 
-    #[expect(clippy::too_many_arguments, reason = "place, number, and what comes of it")]
-    fn slider(
-        &self,
-        ui: &mut Ui,
-        rect: Rect,
-        hand: &mut Hand,
-        spot: Spot,
-        index: usize,
-        value: Option<f64>,
-        requests: &mut Vec<Request>,
-    ) -> bool {
+    fn slider(&self, ui: &mut Ui, cell: &Cell, drag: &mut FieldDrag, requests: &mut Vec<Request>) -> bool {
+        let Cell { spot, index, value, rect } = *cell;
         let theme = Theme::of(ui);
         let scale = match (spot.property, spot.form) {
-            (Property::Translation, _) => Scale::Linear(self.size),
-            (Property::Rotation, Form::Quaternion) => Scale::Linear(1.0),
-            (Property::Rotation, _) => Scale::Linear(180.0),
-            (Property::Scale, _) => Scale::Factor(10.0),
+            (Property::Translation, _) => SliderScale::Linear(self.size),
+            (Property::Rotation, Form::Quaternion) => SliderScale::Linear(1.0),
+            (Property::Rotation, _) => SliderScale::Linear(180.0),
+            (Property::Scale, _) => SliderScale::Factor(10.0),
         };
         let id = self.id(spot, index).with("slider");
         let slider = NumberSlider {
@@ -280,10 +272,10 @@ impl Table<'_> {
             color: theme.axes.get(index).copied().unwrap_or(theme.weak),
             enabled: self.locked.is_none(),
         };
-        let heard = slider.show(ui, rect);
-        let in_use = heard != Heard::Nothing;
+        let event = slider.show(ui, rect);
+        let in_use = event != FieldEvent::Nothing;
         // A number that cannot be is left out on the way.
-        let _ = hand.hear(self.state, spot, index, heard, requests);
+        let _ = drag.apply(self.state, spot, index, event, requests);
         in_use
     }
 

@@ -4,7 +4,7 @@ use super::super::icons::Icon;
 use super::super::state::{Request, State};
 use super::super::theme::Theme;
 use super::super::widgets;
-use super::hand::Hand;
+use super::drag::FieldDrag;
 use super::parts::Part;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::rest_pose;
@@ -119,7 +119,7 @@ fn toggled(state: &State, property: Property, keyed: Keyed) -> Option<Edit> {
 /// Takes a channel of all selected bones back to the original or to the rest pose.
 pub(super) fn reset(
     state: &State,
-    hand: &mut Hand,
+    drag: &mut FieldDrag,
     property: Property,
     to: ResetTo,
     has_key: bool,
@@ -139,5 +139,5 @@ pub(super) fn reset(
         ResetTo::Original => Some(Part::of(&pair.original, property)),
         ResetTo::Rest => Some(Part::of(&rest_pose(bones.get(bone as usize)?), property)),
     };
-    hand.set(state, property, part, requests);
+    drag.set(state, property, part, requests);
 }

@@ -1,7 +1,7 @@
 //! Numbers of the selected bones at the time shown, to be changed; without selection, what the model consists of.
 
 mod channel;
-mod hand;
+mod drag;
 mod keys;
 mod model;
 pub mod parts;
@@ -14,12 +14,12 @@ use super::state::{Request, State};
 use super::style::GRID;
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
-use channel::Table;
+use channel::ChannelTable;
+use drag::FieldDrag;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::joint::EulerOrder;
 use dragonfly_document::edit::{Property, ResetTo};
 use egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
-use hand::Hand;
 use keys::Keyed;
 use model::fact;
 use parts::Form;
@@ -47,7 +47,7 @@ impl Default for PropertiesLook {
 /// Numbers of the selection.
 #[derive(Debug, Default)]
 pub struct Properties {
-    hand: Hand,
+    drag: FieldDrag,
     /// Had a field the focus when it was drawn last, or was it dragged?
     in_use: bool,
 }
@@ -69,7 +69,7 @@ impl Panel for Properties {
         if state.view.is_none() {
             return widgets::empty(ui, "", "Numbers appear here");
         }
-        self.hand.begin(state, self.in_use);
+        self.drag.begin(state, self.in_use);
         self.in_use = false;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::NONE.inner_margin(egui::Margin::symmetric(12, 8)).show(ui, |ui| {
@@ -85,7 +85,7 @@ impl Panel for Properties {
 
 impl Properties {
     fn bone(&mut self, ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
-        let (Some(loaded), Some(pair)) = (state.loaded(), self.hand.pair(state, bone)) else { return };
+        let (Some(loaded), Some(pair)) = (state.loaded(), self.drag.pair(state, bone)) else { return };
         head(ui, state, bone, requests);
         let locked = match state.take_ref() {
             None => Some("The rest pose cannot be changed: show a take"),
@@ -101,7 +101,7 @@ impl Properties {
         let size = f64::from(loaded.bounds.sphere.radius);
         let size = if size.is_finite() && size > 1e-9 { size } else { 1.0 };
         let metres = metres(state, bone);
-        let table = Table { state, bone, pair, locked, size: size / metres, metres };
+        let table = ChannelTable { state, bone, pair, locked, size: size / metres, metres };
         ui.add_space(GRID);
         channel::heads(ui);
         let look = state.settings.properties;
@@ -119,7 +119,7 @@ impl Properties {
             }
             ui.add_space(GRID);
         }
-        self.in_use |= table.fields(ui, &mut self.hand, &channels, requests);
+        self.in_use |= table.fields(ui, &mut self.drag, &channels, requests);
         ui.spacing_mut().item_spacing.y = GRID;
         place(ui, state, bone, size);
     }
@@ -128,7 +128,7 @@ impl Properties {
     fn channel_head(
         &mut self,
         ui: &mut Ui,
-        table: &Table<'_>,
+        table: &ChannelTable<'_>,
         property: Property,
         requests: &mut Vec<Request>,
     ) {
@@ -166,7 +166,7 @@ impl Properties {
                         widgets::icon_button(ui, icon, &label, false)
                     });
                     if response.inner.on_hover_text(&label).clicked() {
-                        keys::reset(state, &mut self.hand, property, to, keyed == Keyed::Here, requests);
+                        keys::reset(state, &mut self.drag, property, to, keyed == Keyed::Here, requests);
                     }
                 }
                 let mut look = state.settings.properties;

@@ -20,12 +20,12 @@ use egui::{
     TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 use rename::Rename;
-use time::Times;
+use time::TimeSheet;
 
 /// The list of takes.
 #[derive(Debug, Default)]
 pub struct Takes {
-    times: Times,
+    times: TimeSheet,
     /// How often start and length were asked for when they were shown last.
     times_shown: u64,
     rename: Option<(dragonfly_document::adapter::TakeId, Rename)>,

@@ -2,11 +2,11 @@
 
 mod axes;
 mod cards;
-mod hand;
 mod ik;
 mod overlay;
 mod readout;
 mod toolbar;
+mod tools;
 
 use super::state::{Request, State};
 use super::style;
@@ -48,7 +48,7 @@ impl Panel for Viewport {
             overlay::drawn(ui, rect, state);
             let tools = toolbar::toolbar(ui, rect, state, requests);
             shields.push(tools);
-            shields.extend(hand::toolbar(ui, rect, state, requests));
+            shields.extend(tools::toolbar(ui, rect, state, requests));
             shields.extend(axes::axes(ui, rect, state, requests));
             caption(ui, rect, tools.left(), state);
             readout::show(ui, rect, state);

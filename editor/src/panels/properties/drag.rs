@@ -5,7 +5,7 @@
 //! those angles as long as the rotation is the one that they say: many angles say the same rotation.
 
 use super::super::commands::Id;
-use super::super::number_field::Heard;
+use super::super::number_field::FieldEvent;
 use super::super::state::{Request, State};
 use super::parts::{Column, Form, Numbers, Pair, Part, is_same_turn, numbers, part, turn_of};
 use dragonfly_anim::data::BoneIndex;
@@ -34,7 +34,7 @@ pub(super) struct Spot {
 
 /// What the panel remembers of the person's hand.
 #[derive(Debug, Default)]
-pub(super) struct Hand {
+pub(super) struct FieldDrag {
     held: Option<Held>,
     sent: Option<Sent>,
     /// Of the active bone.
@@ -99,14 +99,22 @@ struct Typed {
     rotation: DQuat,
 }
 
-/// What becomes of a number.
+/// A change of one number of all selected bones.
 #[derive(Clone, Copy)]
-enum Way {
+struct NumberChange {
+    spot: Spot,
+    component: usize,
+    to: NewNumber,
+}
+
+/// What a number becomes.
+#[derive(Clone, Copy)]
+enum NewNumber {
     Set(f64),
     Add(f64),
 }
 
-impl Hand {
+impl FieldDrag {
     /// Begins a frame: forgets what is over. `in_use`: has a field of the panel the focus, or is it dragged?
     pub(super) fn begin(&mut self, state: &State, in_use: bool) {
         if self
@@ -169,18 +177,18 @@ impl Hand {
     }
 
     /// Does what a person did to one number. An error is why it cannot be so.
-    pub(super) fn hear(
+    pub(super) fn apply(
         &mut self,
         state: &State,
         spot: Spot,
         component: usize,
-        heard: Heard,
+        event: FieldEvent,
         requests: &mut Vec<Request>,
     ) -> Result<(), &'static str> {
-        match heard {
-            Heard::Nothing => {}
-            Heard::Touched => stop(state, requests),
-            Heard::Dragged(by) => {
+        match event {
+            FieldEvent::Nothing => {}
+            FieldEvent::Touched => stop(state, requests),
+            FieldEvent::Dragged(by) => {
                 if self.held.is_none() && !state.playback.playing && by != 0.0 {
                     self.held = Some(Held {
                         gesture: state.new_gesture(),
@@ -194,23 +202,24 @@ impl Hand {
                 }
                 self.drag(state, spot, component, by, requests);
             }
-            Heard::Released => {
+            FieldEvent::Released => {
                 if let Some(held) = self.held.take() {
                     let came_back = held.by == 0.0 && !held.over;
                     let end = if came_back { Change::Cancel } else { Change::Release };
                     requests.push(Request::Change(end(held.gesture)));
                 }
             }
-            Heard::Cancelled => {
+            FieldEvent::Cancelled => {
                 if let Some(held) = self.held.take() {
                     requests.push(Request::Change(Change::Cancel(held.gesture)));
                     self.sent = None;
                 }
             }
-            Heard::Typed(value) => {
+            FieldEvent::Typed(value) => {
                 stop(state, requests);
                 let mut begun = self.begun(state, spot);
-                self.send(state, spot, component, &mut begun, Way::Set(value), None, requests)?;
+                let change = NumberChange { spot, component, to: NewNumber::Set(value) };
+                self.send(state, change, &mut begun, None, requests)?;
             }
         }
         Ok(())
@@ -223,7 +232,8 @@ impl Hand {
             held.by = by;
             let (begun, gesture) = (&mut held.begun, Some(held.gesture));
             // A number that cannot be is left out on the way.
-            let _ = self.send(state, spot, component, begun, Way::Add(by), gesture, requests);
+            let change = NumberChange { spot, component, to: NewNumber::Add(by) };
+            let _ = self.send(state, change, begun, gesture, requests);
         }
         self.held = Some(held);
     }
@@ -239,24 +249,22 @@ impl Hand {
         Begun { starts, hold: state.hold_of_pins() }
     }
 
-    #[expect(clippy::too_many_arguments, reason = "all of them say what is edited")]
     fn send(
         &mut self,
         state: &State,
-        spot: Spot,
-        component: usize,
+        change: NumberChange,
         begun: &mut Begun,
-        way: Way,
         gesture: Option<Gesture>,
         requests: &mut Vec<Request>,
     ) -> Result<(), &'static str> {
+        let NumberChange { spot, component, to } = change;
         let mut parts = HashMap::new();
         let mut poses: Vec<BonePose> = Vec::new();
         for start in &begun.starts {
             let mut numbers = start.numbers;
-            numbers[component] = match way {
-                Way::Set(value) => value,
-                Way::Add(by) => numbers[component] + by,
+            numbers[component] = match to {
+                NewNumber::Set(value) => value,
+                NewNumber::Add(by) => numbers[component] + by,
             };
             let Some(part) = part(&start.pair.original, spot.property, spot.column, spot.form, numbers)
             else {

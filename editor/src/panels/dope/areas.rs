@@ -5,7 +5,7 @@ use egui::{Rect, pos2};
 
 /// See the module, in points.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Places {
+pub(super) struct DopeAreas {
     /// Everything.
     pub(super) all: Rect,
     /// Over the names: search field and switches.
@@ -34,7 +34,7 @@ pub(super) const ROOM_RIGHT: f32 = 20.0;
 /// Height and width of scroll bars.
 pub(super) const SCROLL: f32 = 8.0;
 
-impl Places {
+impl DopeAreas {
     pub(super) fn of(all: Rect, state: &State) -> Self {
         // A narrow panel keeps at least half of itself for keys.
         let gutter = if all.width() < 480.0 { (all.width() * 0.3).clamp(64.0, 120.0) } else { 192.0 };
