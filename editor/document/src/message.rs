@@ -18,6 +18,9 @@ pub enum DocumentMessage {
     CancelLoading,
     /// Edits what is open, undoes, does again.
     Change(Change),
+    /// [`Self::Change`] whose sender waits for the outcome: the first view with [`View::answered`] at or above the number
+    /// contains the change, or was made after it was refused. Numbers ascend and begin at 1.
+    NumberedChange(u64, Change),
     /// Saves.
     Save(SaveOrder),
     /// What would a save write? And what is to come once a person has seen it?

@@ -38,6 +38,10 @@ pub struct Document {
     generation: u64,
     /// Has it changed since the last view?
     changed: bool,
+    /// Number of the last numbered change that was carried out or refused.
+    answered: u64,
+    /// Whether a view has to tell the sender that a change was answered, though nothing changed.
+    answers: bool,
     pub(super) job: Option<Running>,
     tickets: u64,
     load: Loader,
@@ -109,6 +113,8 @@ impl Document {
                 open: None,
                 generation: 0,
                 changed: false,
+                answered: 0,
+                answers: false,
                 job: None,
                 tickets: 0,
                 load: setup.load,
@@ -133,6 +139,7 @@ impl Document {
                     drop(lost.open.take());
                     let mut document = document.borrow_mut();
                     (document.generation, document.tickets) = (lost.generation, lost.tickets);
+                    document.answered = lost.answered;
                     document.reply(DocumentReply::Lost);
                     document.search();
                 }
@@ -288,9 +295,14 @@ impl Document {
 
     /// Shows the newest state to everybody.
     fn publish(&mut self) {
+        let changed = std::mem::take(&mut self.changed);
+        self.answers = false;
         let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
+        let view = View { answered: self.answered, ..view };
         // As in `reply`; the picture first, because nobody has to be quick for it.
-        let _ = self.picture.send(view.clone());
+        if changed {
+            let _ = self.picture.send(view.clone());
+        }
         let _ = self.views.send(DocumentReply::View(view));
     }
 
@@ -325,6 +337,11 @@ impl Receiver for Shared {
             DocumentMessage::Open(source) => document.open(source, None),
             DocumentMessage::CancelLoading => document.cancel(),
             DocumentMessage::Change(change) => document.change(change, now),
+            DocumentMessage::NumberedChange(number, change) => {
+                document.change(change, now);
+                document.answered = number;
+                document.answers = true;
+            }
             DocumentMessage::Save(order) => document.save(order, now),
             DocumentMessage::Plan(order) => document.plan(order),
             DocumentMessage::Revert => document.revert(now),
@@ -355,7 +372,7 @@ impl Worker for Shared {
     /// may have to wait for the disk.
     fn update(&mut self, thread: &mut Context) -> bool {
         let document = &mut *self.0.borrow_mut();
-        if std::mem::take(&mut document.changed) {
+        if document.changed || document.answers {
             document.publish();
         }
         let now = thread.now();
