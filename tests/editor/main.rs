@@ -18,6 +18,7 @@ mod document_ended;
 mod document_writer;
 mod documents;
 mod drag;
+mod echo;
 mod edit_command;
 mod edit_cost;
 mod edits;

@@ -31,7 +31,7 @@ pub enum InputEvent {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PlaceError {
     /// It must lie inside of a control, and does not.
-    #[error("the area is not inside of its parent")]
+    #[error("the area is not inside its parent")]
     NotInside,
     /// There is no such control.
     #[error("the parent is not registered")]

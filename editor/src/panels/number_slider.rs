@@ -1,4 +1,4 @@
-//! A slider beside a number field: the same number as a place on a line, from its middle outwards.
+//! A slider for the number of a field: a position on a line, starting from the middle.
 
 use super::drag::{DragEvent, DragMachine, PointerInput};
 use super::number_field::FieldEvent;
@@ -9,36 +9,36 @@ use egui::{
     Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Sense, Stroke, Ui, WidgetInfo, pos2,
 };
 
-/// What a slider is and shows.
+/// What a slider edits and shows.
 #[derive(Clone, Debug)]
 pub struct NumberSlider<'a> {
-    /// Stays the same as long as the slider is about the same thing.
+    /// Identifies the slider between frames.
     pub id: Id,
-    /// What a screen reader says.
+    /// Accessible name.
     pub name: &'a str,
-    /// `None` where there are several, or none.
+    /// Number that is shown; `None` if several bones differ, or there is none.
     pub value: Option<f64>,
-    /// Which line it is on.
+    /// Mapping between numbers and positions.
     pub scale: SliderScale,
-    /// With Ctrl, it stops at whole multiples of this.
+    /// With Ctrl, a drag snaps to multiples of this.
     pub snap: f64,
-    /// Of the line from the middle to the value.
+    /// Color of the line from the middle to the number.
     pub color: Color32,
-    /// Can it be moved?
+    /// Whether it can be moved.
     pub enabled: bool,
 }
 
-/// How numbers lie on the line.
+/// The mapping between numbers and positions on the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SliderScale {
-    /// From minus this to this, 0 in the middle.
+    /// From minus this to this, with 0 in the middle.
     Linear(f64),
-    /// From 1 over this to this, 1 in the middle: each step a factor.
+    /// From 1 over this to this, with 1 in the middle: equal distances are equal factors.
     Factor(f64),
 }
 
 impl SliderScale {
-    /// −1 to 1.
+    /// Returns the position of a number, −1 to 1.
     fn place(self, value: f64) -> f64 {
         let place = match self {
             Self::Linear(end) => value / end,
@@ -74,7 +74,7 @@ struct Grip {
 type GripDrag = DragMachine<(), Grip>;
 
 impl NumberSlider<'_> {
-    /// Draws the slider into `rect`; the line is as long as it is wide.
+    /// Draws the slider into `rect`; the line is as long as `rect` is wide.
     pub fn show(self, ui: &mut Ui, rect: Rect) -> FieldEvent {
         let enabled = self.enabled && ui.is_enabled();
         let sense = if enabled { Sense::click_and_drag() } else { Sense::hover() };
@@ -100,7 +100,7 @@ impl NumberSlider<'_> {
                 ui.label(format!("{}: {value}", self.name));
                 ui.colored_label(
                     Theme::of(ui).faint,
-                    "Drag. Shift is finer, Ctrl snaps. Double click for none.",
+                    "Drag. Shift is finer, Ctrl snaps. Double-click to reset.",
                 );
             });
         }
@@ -165,7 +165,7 @@ impl NumberSlider<'_> {
         event
     }
 
-    /// Arrows, and what a screen reader asks for.
+    /// Handles arrow keys and the requests of a screen reader.
     fn keys(&self, ui: &Ui, response: &egui::Response) -> Option<FieldEvent> {
         let value = self.value?;
         let has_focus = response.has_focus();

@@ -227,6 +227,7 @@ impl State {
 
     /// Shows another document: its first take that moves, playing from the start.
     pub fn show(&mut self, view: View) {
+        let view = self.dragging.echo.receive(view, &mut self.view);
         let fresh = self.view.as_ref().is_none_or(|old| !Arc::ptr_eq(&old.loaded, &view.loaded));
         if fresh {
             self.note_marks();
@@ -265,8 +266,9 @@ impl State {
 
     /// Says what was done since `before`.
     fn tell(&mut self, before: Option<&View>) {
-        if let Some(done) =
-            before.zip(self.view.as_ref()).and_then(|(old, new)| super::told::between(old, new))
+        if let Some(done) = before
+            .zip(self.view.as_ref())
+            .and_then(|(old, new)| super::change_summary::describe_change(old, new))
         {
             self.status.remark(done);
         }

@@ -57,25 +57,25 @@ pub enum ExpressionFault {
     #[error("the text is too long for a number")]
     TooLong,
     /// More than [`DEEPEST`] brackets or signs inside each other.
-    #[error("too many brackets inside each other")]
+    #[error("brackets are nested too deeply")]
     TooDeep,
     /// A letter or sign that has no meaning.
     #[error("`{0}` has no meaning here")]
     Unexpected(char),
     /// The text ends where something must follow.
-    #[error("something is missing at the end")]
+    #[error("the expression is incomplete")]
     Unfinished,
     /// Digits that make no number, such as `1.2.3`.
-    #[error("this is no number")]
+    #[error("this is not a number")]
     Number,
     /// Such as `1,234`: a decimal comma or thousands?
-    #[error("a comma before three digits can be read in two ways; write a point, or no comma")]
+    #[error("a comma before three digits is ambiguous; write a point, or leave the comma out")]
     Comma,
     /// No constant, function or unit has this name.
-    #[error("no constant, function or unit of this name is known here")]
+    #[error("unknown constant, function or unit")]
     Name,
     /// A function with too few or too many parts.
-    #[error("this function takes {0} number(s)")]
+    #[error("this function takes {0} argument(s)")]
     Parts(usize),
     /// The result, or something on the way to it, is infinite or undefined.
     #[error("the result is not a finite number")]

@@ -1,5 +1,5 @@
-//! A channel as numbers over time, ready to be drawn: each key's numbers, and the least and greatest of every block of
-//! keys, so that a column of pixels costs the same whether it holds one key or a thousand.
+//! A channel as numbers over time, ready to be drawn: the numbers of each key, and the extents of every block of keys,
+//! so that a column of pixels costs the same whether it contains one key or a thousand.
 
 use super::form::Form;
 use crate::panels::keys::intervals::Intervals;
@@ -11,7 +11,7 @@ use glam::{Quat, Vec3};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Numbers of a key; a vector's fourth is 0.
+/// Numbers of a key; the fourth of a vector is 0.
 pub(super) type Numbers = [f32; 4];
 
 /// The columns of a channel.
@@ -21,21 +21,21 @@ enum Columns {
     Turn(Channel<Quat>),
 }
 
-/// See the module.
+/// The curve of a channel.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     pub(super) id: ChannelId,
     columns: Columns,
     form: Form,
     numbers: Vec<Numbers>,
-    /// Least and greatest of blocks of keys; each level's blocks are [`BLOCK`] of the one before.
+    /// Extents of blocks of keys; a block of each level is [`BLOCK`] blocks of the one before.
     levels: Vec<Vec<Extent>>,
     whole: bool,
-    /// Of a curve whose keys are shifted: which ones are.
+    /// Of a curve with shifted keys: whether each key was shifted.
     moved: Option<Vec<bool>>,
 }
 
-/// The least and the greatest of some keys.
+/// Least and greatest numbers of some keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Extent {
     pub(super) low: Numbers,
@@ -60,7 +60,7 @@ impl Extent {
     }
 }
 
-/// A key of a spline: its numbers, and how fast they change before and behind it.
+/// A key of a spline: its numbers, and their rates of change before and after it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes {
     pub(super) arrive: Numbers,
@@ -68,7 +68,7 @@ pub(super) struct Slopes {
 }
 
 impl Curve {
-    /// A channel of a take, not yet computed; `None` where it has no keys.
+    /// Returns the curve of a channel, not yet computed; `None` if the channel has no keys.
     pub(super) fn new(take: &Take, id: ChannelId, form: Form) -> Option<Self> {
         let track = channel::track(take, id.0)?;
         let columns = match id.1 {
@@ -81,7 +81,7 @@ impl Curve {
         (!curve.times().is_empty()).then_some(curve)
     }
 
-    /// Is it of just these columns, shown just so?
+    /// Whether the curve was made from these columns and in this form.
     pub(super) fn is_of(&self, take: &Take, form: Form) -> bool {
         let Some(track) = channel::track(take, self.id.0) else { return false };
         let same = |channel: &Channel<Vec3>, other: &Channel<Vec3>| {
@@ -117,17 +117,17 @@ impl Curve {
         }
     }
 
-    /// How many numbers a key has.
+    /// Returns the number of numbers of a key.
     pub(super) fn width(&self) -> usize {
         if self.id.1 == Property::Rotation { self.form.numbers() } else { 3 }
     }
 
-    /// Is everything computed?
+    /// Whether everything is computed.
     pub(super) fn is_whole(&self) -> bool {
         self.whole
     }
 
-    /// Computes some more keys, as many as `budget` still has.
+    /// Computes more keys, at most as many as are left in `budget`.
     pub(super) fn compute(&mut self, budget: &mut usize) {
         if self.whole {
             return;
@@ -149,17 +149,17 @@ impl Curve {
         }
     }
 
-    /// The numbers of a key; zeros where there is none.
+    /// Returns the numbers of a key; zeros if there is none.
     pub(super) fn key(&self, key: usize) -> Numbers {
         self.numbers.get(key).copied().unwrap_or_default()
     }
 
-    /// The least and the greatest of some keys.
+    /// Returns the extent of some keys.
     pub(super) fn extent(&self, keys: Range<usize>) -> Extent {
         let (mut from, mut to) = (keys.start, keys.end.min(self.numbers.len()));
         let mut found = Extent::NONE;
         let mut below: Option<&[Extent]> = None;
-        // Single keys up to whole blocks, then blocks up to whole blocks of blocks.
+        // Single keys up to whole blocks, then blocks up to whole blocks of the next level.
         for level in 0..=self.levels.len() {
             let at =
                 |index: usize| below.map_or_else(|| Extent::of(&self.numbers[index]), |below| below[index]);
@@ -186,7 +186,7 @@ impl Curve {
         found
     }
 
-    /// The numbers at a time; angles near to `near`.
+    /// Returns the numbers at a time, with those angles that are nearest to `near`.
     pub(super) fn at(&self, time: f32, near: Numbers) -> Numbers {
         match &self.columns {
             Columns::Vector(channel) => vector(sample_channel(channel, Vec3::ZERO, time)),
@@ -194,12 +194,12 @@ impl Curve {
         }
     }
 
-    /// Does it run straight between keys as it is drawn?
+    /// Whether the curve is drawn as straight lines between keys.
     pub(super) fn is_straight(&self) -> bool {
         matches!((&self.columns, self.interpolation()), (Columns::Vector(_), Interpolation::Linear))
     }
 
-    /// How fast the numbers of a key of a spline change.
+    /// Returns the rates of change of the numbers at a key of a spline.
     pub(super) fn slopes(&self, key: usize) -> Option<Slopes> {
         if self.interpolation() != Interpolation::CubicSpline {
             return None;
@@ -220,7 +220,7 @@ impl Curve {
         }
     }
 
-    /// The tangent, as edits name it, at which the numbers of a key change by `slopes` a second.
+    /// Returns the tangent, as edits contain it, at which the numbers of a key change by `slopes` per second.
     pub(super) fn tangent(&self, key: usize, arrive: bool, slopes: Numbers) -> Option<Vec<f32>> {
         match &self.columns {
             Columns::Vector(_) => Some(slopes[..3].to_vec()),
@@ -232,7 +232,7 @@ impl Curve {
         }
     }
 
-    /// Is this key selected, where those in `chosen` are?
+    /// Whether the key is selected, if `chosen` are the selected ones.
     pub(super) fn is_chosen(&self, key: usize, chosen: &Intervals) -> bool {
         match &self.moved {
             Some(moved) => moved.get(key) == Some(&true),
@@ -240,18 +240,18 @@ impl Curve {
         }
     }
 
-    /// How its rotations are shown.
+    /// Returns the form in which its rotations are shown.
     pub(super) fn form(&self) -> Form {
         self.form
     }
 
-    /// The curve as it is when the keys in `chosen` are shifted, as long as it is short enough to be made every frame.
+    /// Returns the curve with the keys in `chosen` shifted, if it is short enough to be computed in every frame.
     pub(super) fn shifted(&self, chosen: &Intervals, shift: Shift, copies: bool) -> Option<Self> {
         let times = self.times();
         if chosen.is_empty() || times.len() > SHORT || !self.whole {
             return None;
         }
-        // Time, key, and whether it was moved: a moved key takes the place of one that stays.
+        // Time, key, and whether it was moved: a moved key overwrites one that stays.
         let mut keys: Vec<(f32, usize, bool)> = Vec::with_capacity(times.len());
         for (key, &time) in times.iter().enumerate() {
             let moves = chosen.holds(time);
@@ -279,7 +279,7 @@ impl Curve {
     }
 }
 
-/// Keys of a curve that is made anew for every frame of a drag.
+/// Largest number of keys of a curve that is recomputed in every frame of a drag.
 const SHORT: usize = 4096;
 
 fn rearranged<T: Copy + std::ops::Mul<f32, Output = T>>(

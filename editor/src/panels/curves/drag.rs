@@ -93,7 +93,7 @@ impl CurveDrag {
         self.component
     }
 
-    /// Whether a press on the curves goes on.
+    /// Whether a press on the curves is in progress.
     pub(super) fn is_busy(&self) -> bool {
         self.machine.is_busy()
     }
@@ -261,7 +261,7 @@ impl CurveCanvas<'_> {
         }
     }
 
-    /// What a press becomes when the pointer has moved far enough, to `pointer`.
+    /// Returns what a press becomes when the pointer has moved far enough, to `pointer`.
     fn start(
         &self,
         press: Press<CurveTarget>,
@@ -333,7 +333,7 @@ impl CurveCanvas<'_> {
         best.map_or(CurveTarget::Nothing, |(_, on)| CurveTarget::Key(on))
     }
 
-    /// Bone, channel, value and time of a key.
+    /// Returns bone, channel, value and time of a key as text.
     fn description(&self, on: &CurveKey) -> String {
         let (bone, property) = on.curve.id;
         let number = on.curve.key(on.key)[on.component];
@@ -346,7 +346,8 @@ impl CurveCanvas<'_> {
         )
     }
 
-    /// The keys whose values a drag of `on` changes: those selected keys of the same property whose curves are shown.
+    /// Returns the keys whose values a drag of `on` changes: those selected keys of the same property whose curves are
+    /// shown.
     fn value_keys(&self, on: &CurveKey) -> Vec<ValueKey> {
         if !on.selected {
             return ValueKey::of(&on.curve, on.key).into_iter().collect();
@@ -359,7 +360,7 @@ impl CurveCanvas<'_> {
         keys.take(MOST + 1).collect()
     }
 
-    /// The keys in a box of times and values.
+    /// Returns the keys in a box of times and values.
     fn boxed(&self, [times, values]: [[f32; 2]; 2]) -> Vec<(ChannelId, Vec<[f32; 2]>)> {
         /// Number of keys of a curve above which only their times count.
         const LOOKED_AT: usize = 50_000;
@@ -388,7 +389,7 @@ fn select(on: &CurveKey, choice: Choice) -> Request {
     Request::Timeline(KeysRequest::Select { channels: Arc::new([on.curve.id]), stretch, choice })
 }
 
-/// The letter of a component: X, Y, Z, W.
+/// Returns the letter of a component: X, Y, Z, W.
 pub(super) fn component_name(component: usize) -> &'static str {
     ["X", "Y", "Z", "W"].get(component).copied().unwrap_or("?")
 }

@@ -1,4 +1,4 @@
-//! The numbers of the one key that is selected: its values and its time, to be dragged or typed.
+//! Number fields for the values and the time of the selected key.
 
 use super::axis::ValueWindow;
 use super::curve::Curve;
@@ -26,20 +26,20 @@ const WIDTH: f32 = 80.0;
 /// Width of the letter before a value.
 const LETTER: f32 = 12.0;
 
-/// See the module.
+/// The fields, with the one that is dragged.
 #[derive(Debug, Default)]
 pub(super) struct Fields {
     held: Option<Held>,
 }
 
-/// What a field is about.
+/// The number that a field edits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Part {
     Value(usize),
     Time,
 }
 
-/// A field that is dragged: its key as it was when the drag began, and how far it is from there.
+/// A dragged field: its key as it was when the drag began, and the distance from there.
 #[derive(Clone, Copy, Debug)]
 struct Held {
     part: Part,
@@ -47,19 +47,19 @@ struct Held {
     by: f32,
 }
 
-/// What the fields are about.
+/// What the fields edit.
 pub(super) struct About<'a> {
     pub(super) chosen: &'a Chosen,
     pub(super) curves: &'a [Arc<Curve>],
     pub(super) drawn: &'a Drawn,
     pub(super) window: ValueWindow,
-    /// The component that was taken hold of last: shown where there is no room for all.
+    /// Component of the key that was pressed on last: shown where there is no space for all.
     pub(super) component: usize,
     pub(super) state: &'a State,
 }
 
 impl Fields {
-    /// From right to left: time, then as many values as there is room for.
+    /// Draws the fields from right to left: time, then as many values as fit.
     pub(super) fn show(&mut self, ui: &mut Ui, about: &About<'_>, requests: &mut Vec<Request>) {
         self.held.take_if(|held| held.by != 0.0 && !about.state.keys.drag().is_some_and(|drag| drag.held()));
         let key = self.held.map(|held| held.key).or_else(|| only_key(about.curves, about.drawn));
@@ -132,7 +132,7 @@ impl Fields {
             value: Some(f64::from(number + self.by(Part::Value(component)))),
             quantity: if angle { Quantity::Angle } else { Quantity::Number },
             unit: if angle { "°" } else { "" },
-            // As far as the curve goes on the screen, about.
+            // About as far as the curve moves on the screen.
             speed: about.window.span / 300.0,
             snap: if angle { 15.0 } else { 0.1 },
             grain: f64::from(number.abs()) * 1e-6 + 1e-7,
@@ -152,7 +152,7 @@ impl Fields {
         }
     }
 
-    /// How far a field is dragged.
+    /// Returns the distance by which a field is dragged.
     fn by(&self, part: Part) -> f32 {
         self.held.filter(|held| held.part == part).map_or(0.0, |held| held.by)
     }
@@ -179,7 +179,7 @@ impl Fields {
     }
 }
 
-/// What all the fields share.
+/// Returns the settings that all fields share.
 fn field<'a>(part: Part) -> NumberField<'a> {
     NumberField {
         id: Id::unique(("number of the selected key", part)),
@@ -198,7 +198,7 @@ fn field<'a>(part: Part) -> NumberField<'a> {
     }
 }
 
-/// The key that is selected, where it is one alone among the curves shown.
+/// Returns the selected key, if exactly one key of the shown curves is selected.
 fn only_key(curves: &[Arc<Curve>], drawn: &Drawn) -> Option<ValueKey> {
     let mut found = None;
     for curve in curves {

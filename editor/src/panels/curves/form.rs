@@ -1,13 +1,13 @@
-//! Rotations as numbers that can be read: angles in degrees in an order, or the four numbers of the quaternion.
+//! Rotations as readable numbers: angles in degrees in some order, or the four numbers of the quaternion.
 
 use crate::panels::properties::turn;
 use dragonfly_anim::joint::EulerOrder;
 use glam::{DQuat, EulerRot, Quat};
 
-/// How rotations are shown.
+/// The form in which rotations are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
-    /// Three angles, degrees, turned in this order.
+    /// Three angles, degrees, applied in this order.
     Euler(EulerOrder),
     /// x, y, z, w.
     Quaternion,
@@ -20,12 +20,12 @@ impl Default for Form {
 }
 
 impl Form {
-    /// Every form, in the order in which they are offered.
+    /// Returns all forms, in the order in which they are offered.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         EulerOrder::ALL.into_iter().map(Self::Euler).chain([Self::Quaternion])
     }
 
-    /// Its name.
+    /// Returns the name of the form.
     pub(super) fn name(self) -> String {
         match self {
             Self::Euler(order) => format!("Euler {}", turn::name(order)),
@@ -33,7 +33,7 @@ impl Form {
         }
     }
 
-    /// The order and which axis each of its angles turns; `None` for quaternions.
+    /// Returns the order and the axis of each of its angles; `None` for quaternions.
     fn order(self) -> Option<(EulerRot, [usize; 3])> {
         match self {
             Self::Euler(order) => Some((order.of_glam(), order.axes())),
@@ -41,12 +41,12 @@ impl Form {
         }
     }
 
-    /// How many numbers a rotation has.
+    /// Returns the number of numbers that a rotation has in this form.
     pub(super) fn numbers(self) -> usize {
         if self == Self::Quaternion { 4 } else { 3 }
     }
 
-    /// The numbers of a rotation, by axis; of all angles that mean the same, those nearest to `near`.
+    /// Returns the numbers of a rotation, by axis. Of all equivalent angles, those nearest to `near`.
     pub(super) fn of(self, rotation: Quat, near: [f32; 4]) -> [f32; 4] {
         let Some((order, axes)) = self.order() else { return rotation.to_array() };
         let unit = rotation.as_dquat().normalize();
@@ -55,7 +55,7 @@ impl Form {
         }
         let near = near.map(f64::from);
         let (a, b, c) = unit.to_euler(order);
-        // The other set of angles that means the same: the middle one beyond a right angle.
+        // The other equivalent set of angles, with the middle one beyond a right angle.
         let half = std::f64::consts::PI;
         let sets = [[a, b, c], [a + half, half - b, c + half]];
         let best = sets.map(|angles| {
@@ -71,7 +71,7 @@ impl Form {
         [x as f32, y as f32, z as f32, 0.0]
     }
 
-    /// The rotation that numbers mean.
+    /// Returns the rotation that the numbers stand for.
     pub(super) fn rotation(self, numbers: [f32; 4]) -> Quat {
         self.exact(numbers.map(f64::from)).as_quat()
     }
@@ -89,7 +89,7 @@ impl Form {
         }
     }
 
-    /// How fast the numbers change where the quaternion changes by `rate` a second.
+    /// Returns the rate of change of the numbers, per second, where the quaternion changes by `rate` per second.
     pub(super) fn slopes(self, rotation: Quat, rate: Quat, numbers: [f32; 4]) -> [f32; 4] {
         if self == Self::Quaternion {
             return rate.to_array();
@@ -107,8 +107,8 @@ impl Form {
         std::array::from_fn(|axis| ((after[axis] - before[axis]) / (2.0 * step)) as f32)
     }
 
-    /// The rate of the quaternion at which `numbers` change by `slopes` a second; what `rate` had along the quaternion
-    /// itself, which turns nothing, stays.
+    /// Returns the rate of the quaternion at which `numbers` change by `slopes` per second. The component of `rate`
+    /// along the quaternion itself, which rotates nothing, stays.
     pub(super) fn rate(self, rotation: Quat, rate: Quat, numbers: [f32; 4], slopes: [f32; 4]) -> Quat {
         if self == Self::Quaternion {
             return Quat::from_array(slopes);

@@ -27,7 +27,7 @@ use shown::Shown;
 use tangents::Tangents;
 use toolbar::Chosen;
 
-/// See the module.
+/// The curve editor with its view state.
 #[derive(Debug, Default)]
 pub struct Curves {
     chosen: Chosen,
@@ -37,11 +37,11 @@ pub struct Curves {
     drag: CurveDrag,
     fields: Fields,
     scrub: Scrub,
-    /// Which values are shown; none until there are curves to fit.
+    /// Range of values that is shown; none until there are curves to fit.
     window: Option<ValueWindow>,
-    /// What the values were fitted to.
+    /// What the range of values was fitted to.
     fitted: Option<Fitted>,
-    /// Did somebody choose other values since?
+    /// Whether the user chose another range of values since.
     chosen_by_hand: bool,
 }
 
@@ -104,7 +104,7 @@ impl Panel for Curves {
 }
 
 impl Curves {
-    /// Brings the numbers up to date, and fits the values to other curves.
+    /// Updates the numbers, and fits the range of values when other curves are shown.
     fn follow(&mut self, ui: &Ui, state: &State, drawn: &Drawn) {
         let ids = shown::wanted(state, drawn, self.chosen.properties);
         let more = self.shown.update(&drawn.take, &ids, self.chosen.form);
@@ -122,7 +122,7 @@ impl Curves {
         }
         let Some([low, high]) = self.shown.extent(self.chosen.components, None) else { return };
         let others = self.fitted.as_ref() != Some(&fitted);
-        // What an edit brought out of sight comes back into it, unless somebody looks at a part.
+        // Values that an edit moved out of view come back into it, unless the user zoomed in on a part.
         let outside = !self.chosen_by_hand && self.window.is_none_or(|window| !window.holds(low, high));
         if others || outside {
             self.window = Some(ValueWindow::around(low, high));
@@ -194,18 +194,18 @@ impl Curves {
         dope::playhead(&painter, head, rect.bottom(), &time, state, theme);
     }
 
-    /// Somebody wants to see these values.
+    /// Shows a range of values that the user chose.
     fn look_at(&mut self, window: ValueWindow) {
         (self.window, self.chosen_by_hand) = (Some(window), true);
     }
 
-    /// The strip of numbers: dragged up and down it pans, the wheel over it zooms, a double click fits.
+    /// Handles the strip of numbers: dragging up and down pans, the wheel zooms, a double-click fits.
     fn values(&mut self, ui: &Ui, strip: Rect, canvas: &Response, value: &ValueScale) {
         let response = ui.interact(strip, ui.scope_id().with("values"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::ScrollBar, true, "Values"));
         let response = response
             .on_hover_cursor(egui::CursorIcon::ResizeVertical)
-            .on_hover_text("Values\nDrag to pan, wheel to zoom, double click to fit");
+            .on_hover_text("Values\nDrag to pan, wheel to zoom, double-click to fit");
         if response.dragged_by(PointerButton::Primary) {
             let by = f64::from(response.drag_delta().y) / value.per_unit();
             self.look_at(value.window.panned(by));
@@ -228,7 +228,7 @@ impl Curves {
         }
     }
 
-    /// The wheel over the curves: time as in the timeline; with Ctrl values, which [`Self::values`] does.
+    /// Handles the wheel over the curves: time as in the timeline; with Ctrl values, which [`Self::values`] handles.
     fn wheel(
         &self,
         ui: &Ui,
@@ -242,7 +242,7 @@ impl Curves {
         }
     }
 
-    /// Whose curves they are.
+    /// Draws whose curves they are.
     fn legend(&self, painter: &egui::Painter, canvas: Rect, state: &State, _drawn: &Drawn, theme: &Theme) {
         let mut bones: Vec<u32> = self.mesh.drawn.iter().map(|curve| curve.id.0).collect();
         bones.dedup();
@@ -260,7 +260,7 @@ impl Curves {
         let color = if bones.is_empty() { theme.faint } else { theme.weak };
         let galley = painter.layout_no_wrap(text, FontId::proportional(11.0), color);
         let rect = align.anchor_size(at, galley.size());
-        // Legible over whatever curve runs there.
+        // A background keeps the text legible over any curve.
         painter.rect_filled(rect.expand2(egui::vec2(4.0, 2.0)), 3, theme.sunken.gamma_multiply(0.9));
         painter.galley(rect.min, galley, color);
     }

@@ -1,4 +1,4 @@
-//! Over the curves: which of them, how rotations are read, what lies between keys.
+//! The bar above the curves: which are shown, how rotations are shown, and the interpolation.
 
 use super::curve::Curve;
 use super::drag::component_name;
@@ -17,12 +17,12 @@ use egui::accesskit::Role;
 use egui::{Align2, Button, Color32, CornerRadius, FontId, RichText, Sense, Ui, WidgetInfo, vec2};
 use std::sync::Arc;
 
-/// What the person chose to see.
+/// What the user chose to see.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chosen {
-    /// A set of properties, see [`bit`].
+    /// Set of properties, see [`bit`].
     pub(super) properties: u8,
-    /// A set of components, x first.
+    /// Set of components, X first.
     pub(super) components: u8,
     pub(super) form: Form,
 }
@@ -36,7 +36,7 @@ impl Default for Chosen {
 /// Height of the bar.
 pub(super) const HEIGHT: f32 = 32.0;
 
-/// Draws the bar, and at its right end what `rest` draws; was "fit" asked for?
+/// Draws the bar, and what `rest` draws at its right end. Returns whether "Fit" was clicked.
 pub(super) fn show(
     ui: &mut Ui,
     chosen: &mut Chosen,
@@ -50,7 +50,7 @@ pub(super) fn show(
         ui.set_height(HEIGHT);
         ui.spacing_mut().item_spacing.x = 2.0;
         ui.add_space(2.0 * GRID);
-        // What is drawn is lit: where the bones lack what was chosen, something else is.
+        // The buttons show what is drawn: if the bones lack the chosen properties, others are.
         let visible = curves.iter().fold(0, |all, curve| all | bit(curve.id.1));
         for (property, letter, name) in [
             (Property::Translation, "T", "Translation"),
@@ -102,7 +102,7 @@ pub(super) fn show(
     fit
 }
 
-/// A square button with a letter.
+/// Draws a square button with a letter.
 fn letter_button(ui: &mut Ui, letter: &str, name: &str, on: bool, tone: Option<Color32>) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(20.0, CONTROL), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));
@@ -132,7 +132,7 @@ fn form(ui: &mut Ui, chosen: &mut Chosen) {
     });
 }
 
-/// What lies between the keys of the channels that are shown; lit where all of them have it.
+/// Draws the buttons for the interpolation of the shown channels; one is pressed if all of them have it.
 fn between(ui: &mut Ui, curves: &[Arc<Curve>], state: &State, requests: &mut Vec<Request>) {
     let able = !state.keys.selection.is_empty();
     for (icon, id, kind, _) in [

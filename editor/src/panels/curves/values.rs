@@ -1,4 +1,4 @@
-//! Values that are dragged or typed: one component of some keys, as an edit.
+//! Edits of one component of several keys, by a drag or a typed number.
 
 use super::curve::{Curve, Numbers};
 use super::form::Form;
@@ -21,12 +21,12 @@ impl ValueKey {
         Some(Self { id: curve.id, time, numbers: curve.key(key), form: curve.form() })
     }
 
-    /// How many numbers it has.
+    /// Returns the number of its numbers.
     pub(super) fn width(&self) -> usize {
         if self.id.1 == Property::Rotation { self.form.numbers() } else { 3 }
     }
 
-    /// The pose that gives it these numbers.
+    /// Returns the pose that gives the key these numbers.
     pub(super) fn pose(&self, numbers: Numbers) -> BonePose {
         let mut pose =
             BonePose { bone: BoneRef::Index(self.id.0), translation: None, rotation: None, scale: None };
@@ -40,7 +40,7 @@ impl ValueKey {
     }
 }
 
-/// Adds `by` to one component of keys; nothing where there are none.
+/// Returns the edit that adds `by` to one component of keys; none without keys.
 pub(super) fn value_edit(take: TakeRef, keys: &[ValueKey], component: usize, by: f32) -> Option<Edit> {
     if !by.is_finite() || component > 3 {
         return None;
@@ -56,7 +56,7 @@ pub(super) fn value_edit(take: TakeRef, keys: &[ValueKey], component: usize, by:
     let at: Vec<PoseAt> = at.into_values().collect();
     match at.len() {
         0 => None,
-        // One time is what every program that reads edits knows.
+        // A single time is written in the simpler form of the edit.
         1 => {
             at.into_iter().next().map(|PoseAt { time, poses }| Edit::Set { take, time, poses, unstep: true })
         }

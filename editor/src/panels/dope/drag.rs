@@ -57,7 +57,7 @@ struct DopeKey {
 const REACH: f32 = 5.5;
 
 impl DopeDrag {
-    /// Whether a press on the keys goes on.
+    /// Whether a press on the keys is in progress.
     pub(super) fn is_busy(&self) -> bool {
         self.machine.is_busy()
     }
@@ -77,7 +77,7 @@ impl DopeDrag {
         if canvas.hovered() && !self.is_busy() && on.is_some() {
             ui.ctx().set_cursor_icon(CursorIcon::Grab);
         }
-        // The menu acts on what is under the pointer.
+        // The context menu acts on what is under the pointer.
         if canvas.hovered()
             && input.secondary_pressed
             && !self.is_busy()
@@ -148,7 +148,7 @@ impl DopeDrag {
     }
 }
 
-/// What a press becomes when the pointer has moved far enough.
+/// Returns what a press becomes when the pointer has moved far enough.
 fn start(
     press: &Press<Option<DopeKey>>,
     sheet: &Sheet<'_>,
@@ -221,7 +221,7 @@ impl Sheet<'_> {
         Request::Timeline(KeysRequest::Select { channels, stretch, choice })
     }
 
-    /// Selects the keys in a box from its first corner to `pointer`.
+    /// Returns the request that selects the keys in a box from its first corner to `pointer`.
     fn boxed(&self, drawn: &SelectionBox, pointer: Pos2) -> Request {
         let other = pointer.y - self.areas.canvas.top() + self.scroll;
         let [stretch, [top, bottom]] = drawn.ranges([self.scale.time_at(pointer.x), other]);
@@ -239,7 +239,7 @@ impl Sheet<'_> {
         Request::Timeline(KeysRequest::Select { channels: channels.into(), stretch, choice: drawn.choice })
     }
 
-    /// The key under the pointer.
+    /// Returns the key under the pointer.
     fn key_at(&self, pointer: Pos2) -> Option<DopeKey> {
         let Self { areas, rows, scale, drawn, scroll, .. } = *self;
         if !areas.canvas.contains(pointer) {
@@ -262,7 +262,7 @@ impl Sheet<'_> {
         Some(DopeKey { row: at as usize, time, selected })
     }
 
-    /// Whether another key of the row is so near that it is under the pointer as well.
+    /// Returns whether another key of the row is so near that it is under the pointer as well.
     fn is_crowded(&self, on: &DopeKey) -> bool {
         let Some(row) = self.rows.list().get(on.row) else { return false };
         let reach = self.scale.seconds(REACH);

@@ -1,4 +1,4 @@
-//! Names of rows, and what a bone can be marked with.
+//! The names of the rows, and the flags of the bones.
 
 use super::areas::DopeAreas;
 use super::rows::RowKind;
@@ -18,7 +18,7 @@ use egui::{
     Align2, CornerRadius, FontId, Rect, Sense, Shape, Stroke, TextEdit, TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 
-/// Width of the mark of a bone.
+/// Width of the button of a flag.
 const FLAG: f32 = 20.0;
 
 /// Draws the names of the rows in sight. Returns the bone whose triangle was clicked.
@@ -79,7 +79,7 @@ impl BoneLabel<'_> {
         }
         let over = ui.rect_contains_pointer(visible);
         let wide = rect.width() > 150.0;
-        // A name has the room of the marks where there are none to be seen.
+        // Flags that are not drawn leave their space to the name.
         let marked = over || BoneFlag::ALL.into_iter().any(|flag| state.keys.flags.has(flag, bone));
         let flags = if wide && marked { 3.0 * FLAG + 8.0 } else { 6.0 };
         let label = Rect::from_min_max(
@@ -175,7 +175,7 @@ impl BoneLabel<'_> {
     }
 }
 
-/// Over the names: a search field, and what the rows and drags follow.
+/// Draws the search field and the switches above the names.
 pub(super) fn tools(
     ui: &mut Ui,
     areas: &DopeAreas,
@@ -231,7 +231,7 @@ pub(super) fn tools(
         ui,
         Icon::Bone,
         "Selected bones only",
-        "Selected bones only\nLists the selected bones, where any are selected".to_owned(),
+        "Selected bones only\nList only the selected bones, if any are selected".to_owned(),
         only,
     ) {
         requests.push(Request::Timeline(KeysRequest::OnlySelected(!only)));

@@ -1,4 +1,4 @@
-//! The ruler: time is dragged here, the range that plays is set, and the selected keys are scaled by the bar below.
+//! The ruler: drags of the playhead and of the play range, and the bar that scales the selected keys.
 
 use super::Sheet;
 use super::areas::DopeAreas;
@@ -12,25 +12,25 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
-/// A ruler on which time is dragged.
+/// A ruler on which the playhead is dragged.
 #[derive(Debug, Default)]
 pub(in crate::panels) struct Scrub {
-    /// The command that lets time go on after scrubbing.
+    /// The command that resumes playback after scrubbing.
     resume: Option<Id>,
 }
 
-/// What is held in the ruler.
+/// The drags on the ruler.
 #[derive(Debug, Default)]
 pub(super) struct Head {
     scrub: Scrub,
     scaling: DragMachine<(), Scaling>,
     /// Name of the end of the bar that is dragged.
     grip: Option<&'static str>,
-    /// The first and the last selected key, found when the selection changed.
+    /// Times of the first and the last selected key, computed when the selection changed.
     extent: Option<(Drawn, Option<[f32; 2]>)>,
 }
 
-/// Points: how near a key must be to be under the pointer.
+/// Distance within which a key is under the pointer, points.
 const NEAR: f32 = 4.0;
 
 /// The bar over the selected keys, while one of its ends is dragged.
@@ -44,7 +44,7 @@ struct Scaling {
     requested: bool,
 }
 
-/// Lines and numbers, behind everything.
+/// Draws the background of the ruler, its lines and numbers.
 pub(super) fn back(painter: &Painter, areas: &DopeAreas, scale: &TimeScale, state: &State, theme: &Theme) {
     let top = Rect::from_min_max(areas.all.min, pos2(areas.all.right(), areas.bar.bottom()));
     painter.rect_filled(top, CornerRadius::ZERO, theme.bar);
@@ -54,7 +54,7 @@ pub(super) fn back(painter: &Painter, areas: &DopeAreas, scale: &TimeScale, stat
     ticks(&right, areas.head, areas.all.bottom(), scale, state, theme);
 }
 
-/// The lines of a ruler; also for the curves.
+/// Draws the lines and numbers of a ruler; also used by the curves.
 pub(in crate::panels) fn ticks(
     painter: &Painter,
     head: Rect,
@@ -82,7 +82,7 @@ pub(in crate::panels) fn ticks(
 }
 
 impl Scrub {
-    /// Takes what is done on `head`, which a screen reader calls `name`.
+    /// Handles input on `head`; `name` is its accessible name.
     pub(in crate::panels) fn show(
         &mut self,
         ui: &Ui,
@@ -95,12 +95,12 @@ impl Scrub {
         let response = ui.interact(head, ui.scope_id().with(name), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::slider(true, f64::from(state.time()), name));
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-        // From the press on, as a hand expects: not only once a movement has made it a drag, and not only
-        // once a quick release has made it a click, which it is not any more when a frame took long.
+        // Scrubbing starts with the press: a drag starts only after a movement, and a press is a click only after a
+        // quick release, which a slow frame can miss.
         let (primary, modifiers) = ui.input(|input| (input.pointer.primary_down(), input.modifiers));
         let down = response.is_pointer_button_down_on() && primary;
         if down && state.playback.playing && self.resume.is_none() {
-            // Time stands while it is held, and goes on as it went before.
+            // Playback pauses while the pointer is down, and resumes in the same direction.
             let command = if state.playback.speed < 0.0 { Id::PlayBackwards } else { Id::PlayPause };
             self.resume = Some(command);
             requests.push(Request::Command(command));
@@ -108,7 +108,8 @@ impl Scrub {
         if (down || response.clicked_by(PointerButton::Primary))
             && let Some(pointer) = response.interact_pointer_pos()
         {
-            // Beside what is shown its end is meant, so that the edge of the ruler is the end of a take that is seen whole.
+            // A pointer beyond the visible part means its end, so that the edge of the ruler is the end of a take that
+            // is shown whole.
             let window = scale.window;
             let time = f64::from(scale.time_at(pointer.x));
             let time = time.clamp(window.start, window.start + window.length) as f32;
@@ -166,7 +167,7 @@ impl Head {
             Rect::from_min_max(pos2(left, areas.bar.top() + 2.0), pos2(right, areas.bar.bottom() - 2.0));
         painter.rect_filled(bar, CornerRadius::same(2), theme.accent_soft);
         for (end, x, name) in
-            [(from, left, "Scale keys by their begin"), (to, right, "Scale keys by their end")]
+            [(from, left, "Scale keys by their start"), (to, right, "Scale keys by their end")]
         {
             let grip = Rect::from_center_size(pos2(x, areas.bar.center().y), vec2(12.0, areas.bar.height()));
             if !areas.bar.expand(6.0).contains_rect(grip.shrink(4.0)) {
@@ -175,7 +176,7 @@ impl Head {
             let response = ui.interact(grip, ui.scope_id().with(name), Sense::drag());
             response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Button, true, name));
             let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(format!(
-                "{name}\nThe other end stays; with Alt the playhead does\nCtrl inverts snapping"
+                "{name}\nAbout the other end, with Alt about the playhead\nCtrl inverts snapping"
             ));
             let lit = response.hovered() || response.dragged();
             let color = if lit { theme.accent } else { theme.accent.gamma_multiply(0.7) };
@@ -220,7 +221,7 @@ impl Head {
 }
 
 impl Scaling {
-    /// The operation that brings the dragged end to `x`; `None` where no factor does.
+    /// Returns the operation that brings the dragged end to `x`; `None` if no factor does.
     fn op(&self, x: f32, input: &PointerInput, sheet: &Sheet<'_>) -> Option<KeyDragOp> {
         let state = sheet.state;
         let snap = state.keys.snap != input.modifiers.command;
@@ -231,14 +232,14 @@ impl Scaling {
         let by_playhead = input.modifiers.alt && (now - self.grabbed).abs() > state.frame_seconds() * 0.5;
         let about = if by_playhead { now } else { self.other };
         let factor = (time - about) / (self.grabbed - about);
-        // Zero would bring all keys to one time; a thousandth is as near as it gets.
+        // Zero would bring all keys to one time, so a thousandth is the least.
         let factor = if factor.abs() < 1e-3 { 1e-3_f32.copysign(factor) } else { factor.clamp(-1e3, 1e3) };
         factor.is_finite().then_some(KeyDragOp::Scale { about, factor })
     }
 }
 
-/// The key or the end of the take under the pointer, or else the frame nearest to a time, seconds: a pose that is put a
-/// hair beside a key would be a second key.
+/// Returns the key or the end of the take under the pointer, or else the frame nearest to a time, seconds. A pose set
+/// slightly off a key would add a second key.
 fn to_key_or_frame(time: f32, scale: &TimeScale, state: &State) -> f32 {
     let reach = scale.seconds(NEAR).min(state.frame_seconds() * 0.5);
     let beside = [true, false].into_iter().filter_map(|forward| state.key_beside_of(time, forward));
@@ -247,13 +248,13 @@ fn to_key_or_frame(time: f32, scale: &TimeScale, state: &State) -> f32 {
     nearest.filter(|key| (key - time).abs() <= reach).unwrap_or_else(|| to_frame(time, state))
 }
 
-/// The frame nearest to a time, seconds.
+/// Returns the frame nearest to a time, seconds.
 pub(in crate::panels) fn to_frame(time: f32, state: &State) -> f32 {
     let rate = state.settings.frame_rate;
     crate::panels::ruler::time_of(crate::panels::ruler::frame_of(time, rate), rate)
 }
 
-/// The ends of the range that plays, to be dragged.
+/// Draws the ends of the play range, which can be dragged.
 fn range_ends(ui: &Ui, areas: &DopeAreas, scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
     let Some([from, to]) = state.keys.range() else { return };
     let theme = Theme::of(ui);
@@ -266,7 +267,7 @@ fn range_ends(ui: &Ui, areas: &DopeAreas, scale: &TimeScale, state: &State, requ
     for (time, first) in [(from, true), (to, false)] {
         let x = scale.x_of(time);
         let inward = if first { 1.0 } else { -1.0 };
-        let name = if first { "Begin of the play range" } else { "End of the play range" };
+        let name = if first { "Start of the play range" } else { "End of the play range" };
         let middle = pos2(x + inward * 4.0, areas.head.bottom() - 6.0);
         let grip = Rect::from_center_size(middle, vec2(10.0, 12.0));
         if !areas.head.contains(grip.center()) {
@@ -287,7 +288,7 @@ fn range_ends(ui: &Ui, areas: &DopeAreas, scale: &TimeScale, state: &State, requ
             && let Some(pointer) = response.interact_pointer_pos()
         {
             let at = to_frame(scale.time_at(pointer.x), state);
-            // An end that is dragged past the other stops there.
+            // An end that is dragged past the other one stops there.
             let range = if first {
                 [at.min(to - state.frame_seconds()), to]
             } else {

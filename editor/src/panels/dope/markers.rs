@@ -11,19 +11,20 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
-/// What is held or renamed.
+/// The marker that is dragged or renamed.
 #[derive(Debug, Default)]
 pub(super) struct MarkerLane {
     renaming: Option<(usize, String, Stage)>,
-    /// A marker on its way: it moves when it is let go, so that the order stays while it is held.
+    /// A dragged marker: index and time, seconds. The marker moves when it is released, so that the order stays during
+    /// the drag.
     held: Option<(usize, f32)>,
 }
 
-/// How far the typing of a name is.
+/// State of the field for a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Stage {
     Fresh,
-    /// The cursor is on its way into the field.
+    /// The focus is requested for the field.
     Asked,
     Typing,
 }
@@ -75,7 +76,7 @@ impl MarkerLane {
                 widgets::text_in(ui, name, &marker.name, &TextStyle::Small, theme.weak);
             }
             let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(format!(
-                "{}\n{time:.3} s\nClick to go there, drag to move, double click to rename",
+                "{}\n{time:.3} s\nClick to move the playhead here, drag to move, double-click to rename",
                 marker.name
             ));
             if response.clicked_by(PointerButton::Primary) {
@@ -87,7 +88,7 @@ impl MarkerLane {
             if self.held.is_some_and(|(held, _)| held == index)
                 && ui.input(|input| input.key_down(egui::Key::Escape))
             {
-                // By Escape egui ends the drag itself.
+                // egui itself ends the drag when Escape is pressed.
                 self.held = None;
             } else if response.dragged_by(PointerButton::Primary)
                 && let Some(pointer) = response.interact_pointer_pos()
@@ -123,7 +124,7 @@ impl MarkerLane {
         }
     }
 
-    /// The field in which a name is typed.
+    /// Draws the field for the name of a marker. Returns the action when the name is entered.
     fn rename(&mut self, ui: &mut Ui, lane: Rect, scale: &TimeScale, state: &State) -> Option<MarkerDeed> {
         let (index, name, stage) = self.renaming.as_mut()?;
         let Some(marker) = state.markers().get(*index) else {
@@ -135,7 +136,7 @@ impl MarkerLane {
         let id = egui::Id::unique("name of a marker");
         if *stage == Stage::Asked && ui.memory(|memory| memory.has_focus(id)) {
             *stage = Stage::Typing;
-            // What is typed takes the place of the old name.
+            // All text is selected, so that typing replaces the old name.
             widgets::select_all(ui.ctx(), id, name);
         }
         let field = TextEdit::singleline(name).id(id).font(TextStyle::Small).hint_text("Name");

@@ -1,5 +1,5 @@
-//! The dope sheet: a row for all bones, a row a bone, and below it its channels; keys as diamonds, and as bands where
-//! they lie closer than can be seen.
+//! The dope sheet: a row for all bones, a row for each bone, and the channels of open bones. Keys are diamonds, or
+//! bands where they are too dense.
 
 mod areas;
 mod drag;
@@ -27,12 +27,12 @@ pub(super) use menu::show as key_menu;
 pub(super) use overlay::{line as playhead, shade};
 pub(super) use scroll::{pan, time_bar, wheel};
 
-/// See the module: what it remembers between frames, none of it about the document.
+/// The dope sheet with its view state; it contains nothing of the document.
 #[derive(Debug, Default)]
 pub(super) struct Dope {
     rows: Rows,
     keys: KeysMesh,
-    /// Points: how far the rows are scrolled up.
+    /// Number of points by which the rows are scrolled up.
     scroll: f32,
     drag: DopeDrag,
     head: head::Head,
@@ -58,7 +58,7 @@ struct Sheet<'a> {
 }
 
 impl Dope {
-    /// Draws it into `rect`; a take is shown.
+    /// Draws the dope sheet into `rect`; a take must be shown.
     pub(super) fn show(&mut self, ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
         let Some(drawn) = state.drawn_keys() else { return };
         self.rows.update(state, &drawn.take);
@@ -114,7 +114,7 @@ impl Dope {
     }
 }
 
-/// While it plays, the playhead is not lost out of sight: the window turns a page.
+/// Moves the window by a page when the playhead leaves it during playback.
 fn follow(scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
     use super::keys::KeysRequest;
     if !state.playback.playing {

@@ -1,4 +1,4 @@
-//! What lies behind and over the keys: rows, the part that does not play, the playhead.
+//! What is drawn below and above the keys: rows, the range that does not play, the playhead.
 
 use super::rows::RowKind;
 use super::{ROW, Sheet};
@@ -7,7 +7,7 @@ use crate::panels::state::State;
 use crate::panels::theme::Theme;
 use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, pos2, vec2};
 
-/// Selected bones are lit, summaries are a little apart, fine lines in between.
+/// Draws the backgrounds of the rows: selected bones highlighted, the summary row set apart, lines in between.
 pub(super) fn rows(painter: &Painter, sheet: &Sheet<'_>) {
     let Sheet { areas, rows, scroll, state, theme, .. } = *sheet;
     let body = Rect::from_min_max(areas.names.min, areas.canvas.max);
@@ -28,7 +28,7 @@ pub(super) fn rows(painter: &Painter, sheet: &Sheet<'_>) {
     }
 }
 
-/// Shades what does not play, and what lies outside of the take.
+/// Shades the time that does not play or is outside the take.
 pub(in crate::panels) fn shade(
     painter: &Painter,
     rect: Rect,
@@ -40,7 +40,7 @@ pub(in crate::panels) fn shade(
     let [from, to] = state.keys.range().unwrap_or([start, start + length]);
     let color = theme.gap.gamma_multiply(0.45);
     let (left, right) = (scale.x_of(from), scale.x_of(to));
-    // On dark ground the shade alone is hard to see.
+    // On a dark background the shade alone is hard to see.
     let edge = Stroke::new(1.0, theme.line);
     if left > rect.left() {
         let outside = Rect::from_min_max(rect.min, pos2(left.min(rect.right()), rect.bottom()));
@@ -63,7 +63,7 @@ pub(super) fn playhead(painter: &Painter, sheet: &Sheet<'_>) {
     line(painter, areas.head, areas.all.bottom(), scale, state, theme);
 }
 
-/// The line of the playhead with its flag in a ruler.
+/// Draws the playhead: its line, and its flag in a ruler.
 pub(in crate::panels) fn line(
     painter: &Painter,
     head: Rect,
@@ -87,7 +87,7 @@ pub(in crate::panels) fn line(
     painter.add(Shape::convex_polygon(flag, theme.accent, Stroke::NONE));
 }
 
-/// A small hollow diamond in the ruler where poses wait to be keyed.
+/// Draws a small hollow diamond in the ruler at each time with pending poses.
 pub(super) fn pending(painter: &Painter, sheet: &Sheet<'_>) {
     let Sheet { areas, scale, state, theme, .. } = *sheet;
     let painter = painter.with_clip_rect(areas.head.intersect(painter.clip_rect()));
@@ -99,11 +99,11 @@ pub(super) fn pending(painter: &Painter, sheet: &Sheet<'_>) {
     }
 }
 
-/// Why no row is there.
+/// Draws the reason why there are no rows.
 pub(super) fn nothing(painter: &Painter, sheet: &Sheet<'_>) {
     let Sheet { areas, state, theme, .. } = *sheet;
     let text = if !state.keys.filter.is_empty() {
-        "No bone with keys is called that"
+        "No bone with keys matches the filter"
     } else if state.lists_only_selected() {
         "The selected bones have no keys in this take"
     } else {

@@ -1,4 +1,4 @@
-//! The rows of the dope sheet: which there are, and the channels of each.
+//! The rows of the dope sheet, and the channels of each.
 
 use crate::panels::keys::{self, ChannelId, channel};
 use crate::panels::state::State;
@@ -11,13 +11,13 @@ use std::sync::Arc;
 /// What a row shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum RowKind {
-    /// All bones that are listed.
+    /// All listed bones.
     Summary,
     /// A bone.
     Bone(BoneIndex),
-    /// One of its channels.
+    /// One channel of a bone.
     Channel(BoneIndex, Property),
-    /// Weights of shapes, which are shown and not edited.
+    /// Weights of morph targets, which are shown and not edited.
     Morphs,
 }
 
@@ -28,17 +28,17 @@ pub(super) struct Row {
     pub(super) kind: RowKind,
     /// Its name.
     pub(super) name: String,
-    /// Of a bone: are its channels listed?
+    /// Whether the channels of the bone are listed.
     pub(super) open: bool,
 }
 
-/// See the module; made anew only when something that it follows from changed.
+/// The rows, rebuilt only when something that they depend on changed.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
     list: Arc<[Row]>,
-    /// Of the listed bones, in their order.
+    /// Channels of the listed bones, in the order of the bones.
     channels: Arc<[ChannelId]>,
-    /// Bones that a hand opened or closed.
+    /// Bones that the user opened or closed.
     toggled: HashSet<BoneIndex>,
     made_of: Option<MadeOf>,
     looked_at: Option<(Arc<Take>, u64)>,
@@ -61,7 +61,7 @@ impl std::fmt::Debug for MadeOf {
 }
 
 impl Rows {
-    /// Makes them anew where they are not those of `take` any more.
+    /// Rebuilds the rows if they are not those of `take`.
     pub(super) fn update(&mut self, state: &State, take: &Arc<Take>) {
         let signature = match &self.looked_at {
             Some((looked_at, signature)) if Arc::ptr_eq(looked_at, take) => *signature,
@@ -106,7 +106,7 @@ impl Rows {
             };
             list.push(row(RowKind::Summary, &name, false));
         }
-        // One or two bones are open at once; a hand can turn that round.
+        // One or two bones are open by default; `toggled` inverts that.
         let usually = bones.len() <= 2;
         for &bone in &bones {
             let open = usually != self.toggled.contains(&bone);
@@ -128,22 +128,22 @@ impl Rows {
         (self.list, self.channels) = (list.into(), channels.into());
     }
 
-    /// The rows from top to bottom.
+    /// Returns the rows from top to bottom.
     pub(super) fn list(&self) -> &Arc<[Row]> {
         &self.list
     }
 
-    /// Is there none?
+    /// Whether there are no rows.
     pub(super) fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// The channels of all bones that are listed.
+    /// Returns the channels of all listed bones.
     pub(super) fn channels(&self) -> &Arc<[ChannelId]> {
         &self.channels
     }
 
-    /// The channels of a row.
+    /// Returns the channels of a row.
     pub(super) fn of(&self, kind: RowKind) -> &[ChannelId] {
         match kind {
             RowKind::Summary => &self.channels,
@@ -172,7 +172,7 @@ impl Rows {
     }
 }
 
-/// Which channels of a take have keys at all.
+/// Returns a hash of which channels of a take have keys.
 fn signature(take: &Take) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64 ^ u64::from(take.morphs.is_empty());
     for track in &take.tracks {

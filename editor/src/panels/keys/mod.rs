@@ -27,9 +27,9 @@ pub use shift::Shift;
 pub use shown::bones as shown_bones;
 pub use window::{TimeScale, TimeWindow};
 
+use super::change_summary;
 use super::settings::TimelineSettings;
 use super::state::State;
-use super::told;
 use drag::KeyDrag;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::View;
@@ -210,9 +210,9 @@ impl State {
     /// A newer view is there, or time has passed: ends a drag that was let go and is done.
     pub(super) fn settle_keys(&mut self) {
         let Some(view) = &self.view else { return };
-        let (generation, now) = (view.generation, self.now);
-        self.select_pasted(generation);
-        if let Some(drag) = self.keys.drag.take_if(|drag| drag.settled(generation, now)) {
+        self.select_pasted(view.generation);
+        let echo = &self.dragging.echo;
+        if let Some(drag) = self.keys.drag.take_if(|drag| drag.is_settled(echo)) {
             self.keys.selection = match (self.shared_take(), &drag.op) {
                 (
                     Some(take),
@@ -233,7 +233,8 @@ impl State {
     /// Says how many keys of the take gave way to others.
     fn tell_replaced(&mut self, before: usize, brought: usize) {
         let now = self.take().map_or(0, Take::keys);
-        let told = self.view.as_ref().and_then(|view| told::replaced(view, before, brought, now));
+        let told =
+            self.view.as_ref().and_then(|view| change_summary::describe_replaced(view, before, brought, now));
         if let Some(text) = told {
             self.status.remark(text);
         }

@@ -186,8 +186,6 @@ impl State {
     /// A drag begins or goes on.
     pub(super) fn drag_keys(&mut self, op: KeyDragOp) -> Option<Effect> {
         self.keys.has_hand = true;
-        let view = self.view.as_ref()?;
-        let (generation, now) = (view.generation, self.now);
         // One that was let go still waits: the next begins when it is done.
         if self.keys.drag.as_ref().is_some_and(|drag| !drag.held()) {
             return None;
@@ -210,15 +208,14 @@ impl State {
                 return None;
             }
             let gesture = self.new_gesture();
-            self.keys.drag = Some(KeyDrag::begin(gesture, take, base, moving, op, now));
+            self.keys.drag = Some(KeyDrag::begin(gesture, take, base, moving, op));
         }
-        self.keys.drag.as_mut()?.send(generation, false, now).map(Effect::Change)
+        self.keys.drag.as_mut()?.send(&self.dragging.echo, false).map(Effect::Change)
     }
 
     pub(super) fn release_keys(&mut self) -> Option<Effect> {
-        let generation = self.view.as_ref()?.generation;
         let drag = self.keys.drag.as_mut().filter(|drag| drag.held())?;
-        let change = drag.send(generation, true, self.now);
+        let change = drag.send(&self.dragging.echo, true);
         drag.release();
         let over = drag.has_sent().then_some(Change::Release(drag.gesture));
         self.settle_keys();

@@ -1,4 +1,4 @@
-//! A number field that has no focus: a number to be dragged or clicked.
+//! A number field without focus: dragged, or clicked to get the focus.
 
 use super::{DraggedNumber, FieldEvent, NumberField, Refused, Typing};
 use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
@@ -7,11 +7,11 @@ use egui::{CursorIcon, Key, PointerButton, Rect, Response, Sense, Ui};
 type NumberDrag = DragMachine<(), DraggedNumber>;
 
 impl NumberField<'_> {
-    /// While it has no focus: a number to be dragged or clicked.
+    /// Draws the field without focus.
     pub(super) fn rest(&self, ui: &mut Ui, rect: Rect) -> (FieldEvent, Response) {
         let id = self.id;
         let mut event = FieldEvent::Nothing;
-        // The focus went elsewhere: what is typed counts, unless Escape was pressed.
+        // The focus moved elsewhere: the typed text counts, unless Escape was pressed.
         let left = ui.data_mut(|data| data.remove_temp::<Typing>(id));
         if let Some(typing) = left
             && !ui.input(|input| input.key_pressed(Key::Escape))
@@ -41,7 +41,7 @@ impl NumberField<'_> {
         let quiet = ui.ctx().dragged_id().is_none() && ui.memory(|memory| memory.focused().is_none());
         let response = match refused {
             Some(refused) => response.on_hover_text(refused.reason),
-            // It would lie over the fields below, one of which somebody may be typing into.
+            // The tooltip would cover the fields below, which the user may be typing into.
             None if quiet => response.on_hover_ui(|ui| self.tooltip(ui)),
             None => response,
         };

@@ -1,4 +1,4 @@
-//! What is seen of a number field that has no focus.
+//! Draws a number field without focus.
 
 use super::{NumberField, Refused};
 use crate::panels::number_text::exact;
@@ -21,7 +21,7 @@ impl NumberField<'_> {
         let edge = match () {
             () if refused.is_some() => Some(theme.error),
             () if held => Some(theme.accent),
-            // White on nearly white needs an edge to be seen as a field.
+            // White on nearly white needs a border to be recognizable as a field.
             () if open && !theme.dark => Some(theme.line),
             () => None,
         };

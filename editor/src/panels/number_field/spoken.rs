@@ -1,11 +1,11 @@
-//! A number field as a screen reader has it.
+//! Accessibility of a number field.
 
 use super::{FieldEvent, NumberField, Typing};
 use egui::accesskit::{Action, ActionData, Role};
 use egui::{Response, Ui, WidgetInfo};
 
 impl NumberField<'_> {
-    /// What a screen reader asks for.
+    /// Returns the event that a screen reader requests.
     pub(super) fn asked_by_reader(&self, ui: &Ui) -> Option<FieldEvent> {
         let (steps, wanted) = ui.input(|input| {
             let steps = input.num_accesskit_action_requests(self.id, Action::Increment) as f64
@@ -24,7 +24,7 @@ impl NumberField<'_> {
         })
     }
 
-    /// What a screen reader says.
+    /// Describes the field to a screen reader.
     pub(super) fn describe(&self, ui: &Ui, response: &Response, refused: Option<&str>) {
         let enabled = self.locked.is_none() && ui.is_enabled();
         let has_focus = response.has_focus();

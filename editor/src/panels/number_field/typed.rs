@@ -1,4 +1,4 @@
-//! A number field that has the focus: a text field.
+//! A number field with focus: a text field.
 
 use super::{FieldEvent, LONGEST, NumberField, Refused, Typing};
 use crate::panels::number_text::exact;
@@ -10,12 +10,12 @@ use egui::{
     StrokeKind, TextEdit, Ui,
 };
 
-/// Points between the edge and the text, where the cursor stands.
+/// Margin between the border and the text, points.
 const MARGIN: i8 = 5;
 
 impl NumberField<'_> {
-    /// Enter accepts and gives the keys back to the commands, Tab goes on to the next field; where there is no number they
-    /// stay and say why.
+    /// Handles Enter and Tab. Enter accepts and returns the keyboard to the commands, Tab moves on to the next field.
+    /// If the text is not a number, the focus stays and the reason is shown.
     pub(super) fn keys(&self, ui: &Ui) -> Option<FieldEvent> {
         if !ui.memory(|memory| memory.has_focus(self.id)) {
             return None;
@@ -42,7 +42,7 @@ impl NumberField<'_> {
         read.ok().filter(|_| typing.text != typing.first).map(FieldEvent::Typed)
     }
 
-    /// While it has the focus: a text field.
+    /// Draws the field with focus.
     pub(super) fn edit(&self, ui: &mut Ui, rect: Rect) -> (FieldEvent, Response) {
         let known = ui.data_mut(|data| data.remove_temp::<Typing>(self.id));
         ui.data_mut(|data| data.remove::<Refused>(self.id));
@@ -71,7 +71,7 @@ impl NumberField<'_> {
         ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.sunken);
         let field = TextEdit::singleline(&mut typing.text)
             .id(self.id)
-            // A margin beside a frame is not event of.
+            // A margin set next to a frame has no effect.
             .frame(Frame::NONE.inner_margin(Margin::symmetric(MARGIN, 0)))
             .font(FontId::monospace(style::NUMBER))
             .align(Align2::RIGHT_CENTER)
@@ -81,7 +81,8 @@ impl NumberField<'_> {
         if response.changed() {
             typing.refused = None;
         }
-        // The first click opened the field and the second would put the cursor somewhere in it; all is meant.
+        // The first click opened the field; the second would put the cursor into the text, but a double-click means all
+        // of it.
         if response.double_clicked() {
             select_all(ui.ctx(), self.id, &typing.text);
         }
@@ -94,7 +95,7 @@ impl NumberField<'_> {
         (event, response)
     }
 
-    /// Why the text is not taken, or what an expression comes to.
+    /// Shows why the text is not accepted, or the result of an expression.
     pub(super) fn hint(&self, ui: &Ui, response: &Response, typing: &Typing) {
         let theme = Theme::of(ui);
         let (text, color) = match &typing.refused {

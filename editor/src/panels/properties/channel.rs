@@ -1,4 +1,4 @@
-//! One channel of a bone as a table: a row an axis, a column each for original, change and result.
+//! One channel of a bone as a table: a row for each axis, and columns for original, change and result.
 
 use super::super::number_field::{self, FieldEvent, NumberField};
 use super::super::number_slider::{NumberSlider, SliderScale};
@@ -21,20 +21,20 @@ const FIELD: f32 = 22.0;
 /// Height of a slider.
 const SLIDER: f32 = 14.0;
 
-/// What a table is about.
+/// The table of a bone.
 pub(super) struct ChannelTable<'a> {
     pub(super) state: &'a State,
     pub(super) bone: BoneIndex,
     pub(super) pair: Pair,
-    /// Why nothing can be changed, if so.
+    /// Reason why nothing can be changed.
     pub(super) locked: Option<&'a str>,
-    /// Radius of the model in the parent's space: how far a translation is likely to go.
+    /// Radius of the model in parent space: about how far a translation goes.
     pub(super) size: f64,
-    /// Metres of the scene that 1 is in the parent's space.
+    /// Meters of the scene per unit of parent space.
     pub(super) metres: f64,
 }
 
-/// Columns for which there is room, and where they are.
+/// Returns the columns that fit, and their positions.
 pub(super) fn columns(left: f32, width: f32) -> Vec<(Column, egui::Rangef)> {
     let shown: &[Column] = match width {
         width if width >= 196.0 => &Column::ALL,
@@ -52,7 +52,7 @@ pub(super) fn columns(left: f32, width: f32) -> Vec<(Column, egui::Rangef)> {
         .collect()
 }
 
-/// The heads of the columns.
+/// Draws the headings of the columns.
 pub(super) fn heads(ui: &mut Ui) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 16.0), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, "Original, change, result"));
@@ -64,7 +64,7 @@ pub(super) fn heads(ui: &mut Ui) {
     }
 }
 
-/// The place of a channel's rows.
+/// The area of the rows of a channel.
 #[derive(Clone, Copy)]
 pub(super) struct ChannelRows {
     rect: Rect,
@@ -86,7 +86,7 @@ struct Cell {
 }
 
 impl ChannelRows {
-    /// Points from row to row.
+    /// Returns the distance from row to row, points.
     fn step(&self) -> f32 {
         FIELD + 2.0 + if self.sliders { SLIDER } else { 0.0 }
     }
@@ -97,7 +97,8 @@ impl ChannelRows {
 }
 
 impl ChannelTable<'_> {
-    /// Room for the rows of a channel, with the letters of its axes. Its fields come later, with those of all channels.
+    /// Allocates the rows of a channel and draws the letters of its axes. The fields are drawn later, together with
+    /// those of all channels.
     pub(super) fn room(&self, ui: &mut Ui, property: Property, form: Form, sliders: bool) -> ChannelRows {
         let count = form.count();
         let step = FIELD + 2.0 + if sliders { SLIDER } else { 0.0 };
@@ -114,7 +115,8 @@ impl ChannelTable<'_> {
         rows
     }
 
-    /// Draws the fields of all channels, column by column, so that Tab goes down through all of them; was one in use?
+    /// Draws the fields of all channels, column by column, so that Tab moves down through all of them. Returns whether
+    /// one was in use.
     pub(super) fn fields(
         &self,
         ui: &mut Ui,
@@ -184,7 +186,7 @@ impl ChannelTable<'_> {
         in_use
     }
 
-    /// As it was read; a click gives it to the result.
+    /// Draws the original number; a click copies it to the result.
     fn original(&self, ui: &Ui, cell: &Cell, drag: &mut FieldDrag, requests: &mut Vec<Request>) {
         let Cell { spot, index, value, rect } = *cell;
         let theme = Theme::of(ui);
@@ -209,10 +211,10 @@ impl ChannelTable<'_> {
         let full = exact(value, grain);
         if response.clicked() {
             let result = Spot { column: Column::Result, ..spot };
-            // What is already there leaves nothing to do.
+            // A result that is equal already needs no edit.
             let _ = drag.apply(self.state, result, index, FieldEvent::Typed(value), requests);
         }
-        response.on_hover_text(format!("{name}: {full}\nClick to give the result this number"));
+        response.on_hover_text(format!("{name}: {full}\nClick to copy this number to the result"));
     }
 
     fn field(&self, ui: &mut Ui, cell: &Cell, drag: &mut FieldDrag, requests: &mut Vec<Request>) -> bool {
@@ -225,7 +227,7 @@ impl ChannelTable<'_> {
         };
         let (speed, snap) = self.steps(spot);
         let help = match (spot.property, spot.form) {
-            (_, Form::Quaternion) => "All four are brought to length 1 when you leave them.".to_owned(),
+            (_, Form::Quaternion) => "The quaternion is normalized when you leave its fields.".to_owned(),
             (Property::Translation, _) if !self.is_metric() => {
                 format!("In the parent's space, where 1 is {} m", Digits::Fitting.text(self.metres))
             }
@@ -274,7 +276,7 @@ impl ChannelTable<'_> {
         };
         let event = slider.show(ui, rect);
         let in_use = event != FieldEvent::Nothing;
-        // A number that cannot be is left out on the way.
+        // A number that is impossible is skipped during a drag.
         let _ = drag.apply(self.state, spot, index, event, requests);
         in_use
     }
@@ -283,7 +285,7 @@ impl ChannelTable<'_> {
         Id::unique(("number of a bone", self.bone, spot, index))
     }
 
-    /// Per point of a drag, and multiples at which a drag snaps.
+    /// Returns the change per point of a drag, and the step that a drag snaps to.
     fn steps(&self, spot: Spot) -> (f64, f64) {
         match (spot.property, spot.form) {
             (Property::Translation, _) => {
@@ -295,7 +297,7 @@ impl ChannelTable<'_> {
         }
     }
 
-    /// What numbers of 32 bits leave over.
+    /// Returns the rounding error of single precision.
     fn grain(&self, property: Property, form: Form) -> f64 {
         match (property, form) {
             (Property::Translation, _) => {
@@ -309,12 +311,12 @@ impl ChannelTable<'_> {
         }
     }
 
-    /// Are numbers of the parent's space metres?
+    /// Whether units of parent space are meters.
     pub(super) fn is_metric(&self) -> bool {
         (self.metres - 1.0).abs() < 0.01
     }
 
-    /// `m`, `°`, `×`: behind the number.
+    /// Returns the unit after the number: `m`, `°`, `×`.
     fn unit(&self, spot: Spot) -> &'static str {
         match (spot.property, spot.form, spot.column) {
             (Property::Translation, ..) if self.is_metric() => "m",
@@ -333,7 +335,7 @@ impl ChannelTable<'_> {
     }
 }
 
-/// What stands there where nothing is changed.
+/// Returns the number of an unchanged component.
 fn unchanged(spot: Spot, index: usize) -> f64 {
     match (spot.property, spot.form) {
         (Property::Scale, _) => 1.0,
@@ -342,7 +344,7 @@ fn unchanged(spot: Spot, index: usize) -> f64 {
     }
 }
 
-/// `Rotation change X`.
+/// Returns the accessible name: `Rotation change X`.
 fn name(spot: Spot, index: usize) -> String {
     let channel = match (spot.property, spot.form) {
         (Property::Translation, _) => "Translation",

@@ -1,8 +1,7 @@
-//! What a person changes in the panel: from numbers to edits.
+//! From what the user does to a number of the panel to edits.
 //!
-//! An edit takes some milliseconds until it is seen in a view. Until then the panel shows what was asked for, so that a
-//! field does not jump back and the next number is put on top of the last one. And three angles that were typed stay
-//! those angles as long as the rotation is the one that they say: many angles say the same rotation.
+//! Three typed angles stay those angles as long as the rotation is the one they stand for: many angles stand for the
+//! same rotation.
 
 use super::super::commands::Id;
 use super::super::number_field::FieldEvent;
@@ -11,15 +10,10 @@ use super::parts::{Column, Form, Numbers, Pair, Part, is_same_turn, numbers, par
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::{rest_pose, sample_track};
 use dragonfly_document::Change;
-use dragonfly_document::edit::{BonePose, BoneRef, Property};
+use dragonfly_document::edit::{BonePose, Property};
 use dragonfly_document::history::Gesture;
 use dragonfly_document::posing;
 use glam::DQuat;
-use std::collections::HashMap;
-use std::time::{Duration, Instant};
-
-/// As long as this it is believed that an edit that was sent will come.
-const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Which numbers of a bone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -28,16 +22,15 @@ pub(super) struct Spot {
     pub(super) property: Property,
     /// Original, change or result.
     pub(super) column: Column,
-    /// As which numbers.
+    /// Form in which they are shown.
     pub(super) form: Form,
 }
 
-/// What the panel remembers of the person's hand.
+/// The field that is dragged, and the angles that were typed.
 #[derive(Debug, Default)]
 pub(super) struct FieldDrag {
     held: Option<Held>,
-    sent: Option<Sent>,
-    /// Of the active bone.
+    /// Typed angles of the active bone.
     typed: Vec<Typed>,
 }
 
@@ -49,13 +42,13 @@ struct Held {
     component: usize,
     moment: Moment,
     begun: Begun,
-    /// How far it is from where it began.
+    /// Difference to the number at the start of the drag.
     by: f64,
-    /// Is it about something that is not shown any more?
+    /// Whether the selection, the take or the time changed, so that the drag has no effect any more.
     over: bool,
 }
 
-/// What a drag is about; when it becomes something else, the drag is over.
+/// What a drag applies to; the drag ends when it changes.
 #[derive(Clone, Debug, PartialEq)]
 struct Moment {
     take: Option<usize>,
@@ -63,15 +56,15 @@ struct Moment {
     bones: Vec<BoneIndex>,
 }
 
-/// How everything was when the drag began.
+/// The bones when the drag began.
 #[derive(Debug)]
 struct Begun {
     starts: Vec<Start>,
-    /// Of pinned bones, which stay.
+    /// Holds pinned bones in place.
     hold: Option<posing::Hold>,
 }
 
-/// A bone as it was when the drag began.
+/// A bone when the drag began.
 #[derive(Clone, Copy, Debug)]
 struct Start {
     bone: BoneIndex,
@@ -79,17 +72,7 @@ struct Start {
     numbers: Numbers,
 }
 
-/// Poses that were asked for.
-#[derive(Debug)]
-struct Sent {
-    take: Option<usize>,
-    time: u32,
-    at: Instant,
-    property: Property,
-    parts: HashMap<BoneIndex, Part>,
-}
-
-/// Numbers of a rotation as somebody typed them.
+/// Numbers of a rotation as they were typed.
 #[derive(Clone, Copy, Debug)]
 struct Typed {
     bone: BoneIndex,
@@ -115,31 +98,13 @@ enum NewNumber {
 }
 
 impl FieldDrag {
-    /// Begins a frame: forgets what is over. `in_use`: has a field of the panel the focus, or is it dragged?
+    /// Begins a frame. `in_use` is whether a field of the panel has the focus or is dragged.
     pub(super) fn begin(&mut self, state: &State, in_use: bool) {
-        if self
-            .sent
-            .as_ref()
-            .is_some_and(|sent| !sent.counts(state) || (self.held.is_none() && sent.came(state)))
-        {
-            self.sent = None;
-        }
         let active = state.selected();
         self.typed.retain(|typed| Some(typed.bone) == active && (in_use || typed.form != Form::Quaternion));
     }
 
-    /// The active bone or another one, as it was read and as it is or is asked to be.
-    pub(super) fn pair(&self, state: &State, bone: BoneIndex) -> Option<Pair> {
-        let mut pair = pair(state, bone)?;
-        if let Some(sent) = &self.sent
-            && let Some(part) = sent.parts.get(&bone)
-        {
-            part.put(&mut pair.result, sent.property);
-        }
-        Some(pair)
-    }
-
-    /// The numbers of a bone at `spot`.
+    /// Returns the numbers of a bone at `spot`.
     pub(super) fn numbers(&self, bone: BoneIndex, pair: &Pair, spot: Spot) -> Option<Numbers> {
         let now = numbers(pair, spot.property, spot.column, spot.form)?;
         let typed = self.typed.iter().find(|typed| {
@@ -151,7 +116,8 @@ impl FieldDrag {
         Some(typed.filter(fits).map_or(now, |typed| typed.numbers))
     }
 
-    /// The numbers that all selected bones have at `spot`; `None` where they differ. The active one is `pair`.
+    /// Returns the numbers that all selected bones share at `spot`; `None` where they differ. `pair` is the active
+    /// bone.
     pub(super) fn shared(
         &self,
         state: &State,
@@ -167,7 +133,7 @@ impl FieldDrag {
                 break;
             }
             let other =
-                self.pair(state, bone).and_then(|pair| numbers(&pair, spot.property, spot.column, spot.form));
+                pair_of(state, bone).and_then(|pair| numbers(&pair, spot.property, spot.column, spot.form));
             for (index, number) in shared.iter_mut().enumerate() {
                 let same = number.zip(other).is_some_and(|(a, other)| (a - other[index]).abs() <= grain);
                 *number = number.filter(|_| same);
@@ -176,7 +142,7 @@ impl FieldDrag {
         shared
     }
 
-    /// Does what a person did to one number. An error is why it cannot be so.
+    /// Applies what the user did to one number. An error is the reason why the number is impossible.
     pub(super) fn apply(
         &mut self,
         state: &State,
@@ -212,7 +178,6 @@ impl FieldDrag {
             FieldEvent::Cancelled => {
                 if let Some(held) = self.held.take() {
                     requests.push(Request::Change(Change::Cancel(held.gesture)));
-                    self.sent = None;
                 }
             }
             FieldEvent::Typed(value) => {
@@ -231,7 +196,7 @@ impl FieldDrag {
         if !held.over {
             held.by = by;
             let (begun, gesture) = (&mut held.begun, Some(held.gesture));
-            // A number that cannot be is left out on the way.
+            // A number that is impossible is skipped during a drag.
             let change = NumberChange { spot, component, to: NewNumber::Add(by) };
             let _ = self.send(state, change, begun, gesture, requests);
         }
@@ -242,7 +207,7 @@ impl FieldDrag {
         let starts = state
             .bones_to_pose()
             .filter_map(|bone| {
-                let pair = self.pair(state, bone)?;
+                let pair = pair_of(state, bone)?;
                 Some(Start { bone, pair, numbers: self.numbers(bone, &pair, spot)? })
             })
             .collect();
@@ -258,7 +223,6 @@ impl FieldDrag {
         requests: &mut Vec<Request>,
     ) -> Result<(), &'static str> {
         let NumberChange { spot, component, to } = change;
-        let mut parts = HashMap::new();
         let mut poses: Vec<BonePose> = Vec::new();
         for start in &begun.starts {
             let mut numbers = start.numbers;
@@ -279,70 +243,25 @@ impl FieldDrag {
                 self.typed.push(Typed { bone: start.bone, column, form, numbers, rotation });
             }
             poses.push(part.pose(start.bone, spot.property));
-            parts.insert(start.bone, part);
         }
         let poses = State::with_pins(&mut begun.hold, poses);
-        turn_parts(&mut parts, &poses);
-        if let Some(edit) = state.pose_edit(poses) {
-            requests.push(Request::Change(Change::Edit(edit, gesture)));
-            self.expect(state, spot.property, parts);
-        }
+        let edit = state.pose_edit(poses);
+        requests.extend(edit.map(|edit| Request::Change(Change::Edit(edit, gesture))));
         Ok(())
     }
-
-    /// Gives all selected bones other parts of their pose, as a step of its own.
-    pub(super) fn set(
-        &mut self,
-        state: &State,
-        property: Property,
-        of: impl Fn(&Pair, BoneIndex) -> Option<Part>,
-        requests: &mut Vec<Request>,
-    ) {
-        let mut parts: HashMap<BoneIndex, Part> = state
-            .bones_to_pose()
-            .filter_map(|bone| Some((bone, of(&self.pair(state, bone)?, bone)?)))
-            .collect();
-        let bones = state.bones_to_pose();
-        let poses = bones.filter_map(|bone| Some(parts.get(&bone)?.pose(bone, property))).collect();
-        let poses = State::with_pins(&mut state.hold_of_pins(), poses);
-        turn_parts(&mut parts, &poses);
-        if let Some(edit) = state.pose_edit(poses) {
-            requests.push(Request::Change(Change::Edit(edit, None)));
-            self.expect(state, property, parts);
-        }
-    }
-
-    fn expect(&mut self, state: &State, property: Property, parts: HashMap<BoneIndex, Part>) {
-        let (take, time) = (state.playback.take, state.time().to_bits());
-        self.sent = Some(Sent { take, time, at: state.now, property, parts });
-    }
 }
 
-/// A bone between the hand and a pin may be turned otherwise than the hand said: that is then what is asked for.
-fn turn_parts(parts: &mut HashMap<BoneIndex, Part>, poses: &[BonePose]) {
-    for pose in poses {
-        if let (BoneRef::Index(bone), Some(rotation)) = (&pose.bone, pose.rotation)
-            && let Some(Part::Turn(turn)) = parts.get_mut(bone)
-        {
-            *turn = glam::Quat::from_array(rotation);
-        }
-    }
-}
-
-impl Sent {
-    /// Is it still about what is shown, and believed?
-    fn counts(&self, state: &State) -> bool {
-        let shown = (state.playback.take, state.time().to_bits());
-        shown == (self.take, self.time) && state.now.saturating_duration_since(self.at) < PATIENCE
-    }
-
-    /// Is it there?
-    fn came(&self, state: &State) -> bool {
-        let here = |(&bone, part): (&BoneIndex, &Part)| {
-            pair(state, bone).is_some_and(|pair| Part::of(&pair.result, self.property).is_near(*part))
-        };
-        self.parts.iter().all(here)
-    }
+/// Returns the change that gives all selected bones other parts of their pose, as a step of its own.
+pub(super) fn set(
+    state: &State,
+    property: Property,
+    of: impl Fn(&Pair, BoneIndex) -> Option<Part>,
+) -> Option<Request> {
+    let bones = state.bones_to_pose();
+    let poses =
+        bones.filter_map(|bone| Some(of(&pair_of(state, bone)?, bone)?.pose(bone, property))).collect();
+    let poses = State::with_pins(&mut state.hold_of_pins(), poses);
+    state.pose_edit(poses).map(|edit| Request::Change(Change::Edit(edit, None)))
 }
 
 impl Moment {
@@ -352,8 +271,8 @@ impl Moment {
     }
 }
 
-/// A bone at the time shown.
-fn pair(state: &State, bone: BoneIndex) -> Option<Pair> {
+/// Returns original and result of a bone at the time shown.
+pub(super) fn pair_of(state: &State, bone: BoneIndex) -> Option<Pair> {
     let view = state.view.as_ref()?;
     let rules = view.loaded.model.animation.skeleton.bones.get(bone as usize)?;
     let result = *state.posed.animation()?.poses().get(bone as usize)?;
@@ -365,7 +284,7 @@ fn pair(state: &State, bone: BoneIndex) -> Option<Pair> {
     Some(Pair { original, result })
 }
 
-/// Time stands while numbers are changed.
+/// Pauses playback while numbers are edited.
 fn stop(state: &State, requests: &mut Vec<Request>) {
     if state.playback.playing {
         let backwards = state.playback.speed < 0.0;
@@ -375,8 +294,8 @@ fn stop(state: &State, requests: &mut Vec<Request>) {
 
 fn reason(spot: Spot) -> &'static str {
     match (spot.property, spot.column) {
-        (Property::Rotation, _) => "Four times 0 is no rotation",
-        (Property::Scale, Column::Change) => "The original scale is 0, and no factor changes that",
+        (Property::Rotation, _) => "Four zeros are not a rotation",
+        (Property::Scale, Column::Change) => "The original scale is 0, which no factor can change",
         _ => "The number is too large",
     }
 }

@@ -1,4 +1,4 @@
-//! Start and length of a take, and what is left of it when it is trimmed: numbers in a small sheet.
+//! A small sheet for start and length of a take, and for trimming it.
 
 use super::super::drag::FieldGesture;
 use super::super::number_field::{FieldEvent, NumberField};
@@ -19,7 +19,7 @@ use std::ops::RangeInclusive;
 const LONGEST: f64 = LATEST as f64;
 /// Shortest length that can be given, seconds.
 const SHORTEST: f64 = 0.001;
-/// Smaller parts of a frame are what arithmetic leaves over.
+/// Fractions of a frame below this are rounding errors.
 const GRAIN: f64 = 1e-3;
 
 /// The sheet.
@@ -40,12 +40,12 @@ impl TimeSheet {
         let rate = f64::from(state.settings.frame_rate.max(1));
         ui.spacing_mut().item_spacing.y = GRID;
         let Some((take, shown)) = state.take_ref().zip(state.take()) else {
-            ui.label(RichText::new("The rest pose has no time").color(Theme::of(ui).weak));
+            ui.label(RichText::new("The rest pose has no start and no length").color(Theme::of(ui).weak));
             return;
         };
         let (start, length) = (f64::from(shown.start), f64::from(shown.length));
         let locked = (length <= 0.0).then_some("All keys are at one time");
-        ui.label(RichText::new("Moves and stretches all keys").small().color(Theme::of(ui).weak));
+        ui.label(RichText::new("Move and stretch all keys").small().color(Theme::of(ui).weak));
         let event = number(ui, "Start", start, 0.0..=LONGEST, None, rate);
         let retime = take.clone();
         let change = self.gesture.change(
@@ -64,7 +64,7 @@ impl TimeSheet {
         );
         requests.extend(change.map(Request::Change));
         ui.separator();
-        ui.label(RichText::new("Cuts away what lies outside").small().color(Theme::of(ui).weak));
+        ui.label(RichText::new("Delete all keys outside this range").small().color(Theme::of(ui).weak));
         let id = state
             .view
             .as_ref()
@@ -98,8 +98,8 @@ impl TimeSheet {
         let shorter = range[0] > start || range[1] < end;
         let button = ui.add_enabled(shorter, egui::Button::new("Trim"));
         let button = button
-            .on_hover_text("Takes away what lies before and after")
-            .on_disabled_hover_text("All of the take lies between these times");
+            .on_hover_text("Delete all keys before and after this range")
+            .on_disabled_hover_text("The whole take is inside this range");
         if button.clicked() {
             let [from, to] = range.map(|time| time as f32);
             let trim = Edit::TrimTake { take, from, to, to_start: true };
@@ -114,8 +114,8 @@ fn with(mut range: [f64; 2], at: usize, value: f64) -> [f64; 2] {
     range
 }
 
-/// A name and two fields for the same time on one line: seconds, and frames of which there are so many a second. What is
-/// event is in seconds.
+/// Draws a label and two fields for the same time on one line: seconds, and frames at `rate` per second. The event is
+/// in seconds.
 fn number(
     ui: &mut Ui,
     name: &str,
@@ -154,9 +154,9 @@ fn number(
         } else {
             Digits::Fixed(2)
         },
-        // What single precision left over of a whole frame does not put it outside.
+        // The margin keeps a whole frame inside its range despite rounding errors.
         range: range.start() * rate - GRAIN..=range.end() * rate + GRAIN,
-        help: "Counted as the timeline counts them",
+        help: "In frames of the timeline",
         ..seconds.clone()
     };
     let [left, middle] = [rect.right() - 184.0, rect.right() - 88.0];
