@@ -26,7 +26,7 @@ pub struct Layout {
 const VERSION: u32 = 2;
 
 #[derive(Serialize, Deserialize)]
-struct Stored {
+struct StoredLayout {
     version: u32,
     tree: Tree<Pane>,
 }
@@ -63,7 +63,8 @@ impl Layout {
 
     /// Reads the text of a layout file; a damaged one, or one that lacks a panel, gives the default layout.
     pub fn parse(text: &str, panels: &[Box<dyn Panel>]) -> Self {
-        let stored = serde_json::from_str::<Stored>(text).ok().filter(|stored| stored.version == VERSION);
+        let stored =
+            serde_json::from_str::<StoredLayout>(text).ok().filter(|stored| stored.version == VERSION);
         let tree = stored.map(|stored| stored.tree).filter(|tree| sound(tree, panels));
         tree.map_or_else(|| Self::usual(panels), |tree| Self { tree, changed: false })
     }
@@ -72,7 +73,7 @@ impl Layout {
     pub fn to_text(&self) -> String {
         // Plain data always serializes.
         // Serialized through a value, whose keys are sorted: equal layouts give equal text.
-        let stored = Stored { version: VERSION, tree: self.tree.clone() };
+        let stored = StoredLayout { version: VERSION, tree: self.tree.clone() };
         serde_json::to_value(stored).map(|value| value.to_string()).unwrap_or_default()
     }
 

@@ -21,7 +21,7 @@ pub(super) struct Palette {
 
 /// An entry that can be found.
 #[derive(Clone, Copy)]
-enum Entry<'a> {
+enum PaletteEntry<'a> {
     Command(&'static Command),
     /// Index of the take, and its name.
     Take(usize, &'a str),
@@ -79,7 +79,7 @@ impl Palette {
 
 /// Returns the commands whose title, category or help contains every word of `query`, and the takes whose names do;
 /// those with a match in the title first.
-fn search<'a>(query: &str, state: &'a State) -> Vec<Entry<'a>> {
+fn search<'a>(query: &str, state: &'a State) -> Vec<PaletteEntry<'a>> {
     let words: Vec<String> = query.to_lowercase().split_whitespace().map(str::to_owned).collect();
     let has = |text: &str| {
         let text = text.to_lowercase();
@@ -90,18 +90,19 @@ fn search<'a>(query: &str, state: &'a State) -> Vec<Entry<'a>> {
         };
         words.iter().all(|word| has(word))
     };
-    let commands = commands::all().filter(|command| command.id != Id::Palette).map(Entry::Command);
+    let commands = commands::all().filter(|command| command.id != Id::Palette).map(PaletteEntry::Command);
     // An empty field lists the commands; takes have a list of their own.
     let takes = if words.is_empty() { &[][..] } else { &state.digest.takes };
-    let takes = takes.iter().enumerate().map(|(index, take)| Entry::Take(index, &take.name));
+    let takes = takes.iter().enumerate().map(|(index, take)| PaletteEntry::Take(index, &take.name));
     let takes = takes.filter(|entry| has(&entry.about())).take(TAKES);
-    let mut found: Vec<Entry<'_>> = commands.filter(|entry| has(&entry.about())).chain(takes).collect();
+    let mut found: Vec<PaletteEntry<'_>> =
+        commands.filter(|entry| has(&entry.about())).chain(takes).collect();
     // Matches in the title come first, and commands that are not available now come last, with the reason.
     found.sort_by_key(|entry| (!has(entry.title()), !entry.is_able(state)));
     found
 }
 
-impl<'a> Entry<'a> {
+impl<'a> PaletteEntry<'a> {
     fn title(self) -> &'a str {
         match self {
             Self::Command(command) => command.title,

@@ -10,7 +10,7 @@ use super::saving::Question;
 use super::settings::Settings;
 use super::status::Status;
 use crate::control::ClickCycle;
-use crate::control::Hands;
+use crate::control::ViewportTools;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones};
 use dragonfly_document::history::Gesture;
@@ -122,7 +122,7 @@ pub struct State {
     /// What lies over the picture, in points.
     pub shields: Vec<egui::Rect>,
     /// What a person acts on the picture with.
-    pub hands: Hands,
+    pub hands: ViewportTools,
     /// What the hands hold on to.
     pub hold: Hold,
     /// The drag that goes on, whoever holds it.
@@ -179,7 +179,7 @@ impl State {
             find: false,
             viewport: egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
             shields: Vec::new(),
-            hands: Hands::default(),
+            hands: ViewportTools::default(),
             hold: Hold::default(),
             dragging: Dragging::default(),
             trail: Trail::default(),

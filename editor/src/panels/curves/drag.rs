@@ -16,14 +16,14 @@ use std::sync::Arc;
 /// The drag on the curves.
 #[derive(Debug, Default)]
 pub(super) struct CurveDrag {
-    machine: DragMachine<CurveTarget, Dragged>,
+    machine: DragMachine<CurveTarget, CurveDragged>,
     /// Component of the key that was pressed on last.
     component: usize,
 }
 
 /// What is dragged. `requested` is whether the drag was requested, so that it must exist from now on.
 #[derive(Debug)]
-enum Dragged {
+enum CurveDragged {
     Times {
         /// Time of the pressed key when the drag began, seconds.
         grabbed: f32,
@@ -115,7 +115,7 @@ impl CurveDrag {
             canvas.hover(ui, pointer, &input, requests);
         }
         match self.machine.step(&input, response.is_pointer_button_down_on(), |at| canvas.target_at(at)) {
-            DragEvent::Nothing | DragEvent::Cancelled(Dragged::Box(_)) => {}
+            DragEvent::Nothing | DragEvent::Cancelled(CurveDragged::Box(_)) => {}
             DragEvent::Pressed => {
                 if let Some(Press { on: CurveTarget::Key(key), .. }) = self.machine.press() {
                     self.component = key.component;
@@ -131,7 +131,7 @@ impl CurveDrag {
             }
             DragEvent::Moved(pointer) => self.advance(ui, pointer, canvas, &input, requests),
             DragEvent::Clicked(press) => click(&press, requests),
-            DragEvent::Dropped(Dragged::Box(drawn)) => {
+            DragEvent::Dropped(CurveDragged::Box(drawn)) => {
                 if let Some(pointer) = pointer.or(input.pointer) {
                     let to = [canvas.time.time_at(pointer.x), canvas.value.value_at(pointer.y)];
                     let parts = canvas.boxed(drawn.ranges(to));
@@ -163,7 +163,7 @@ impl CurveDrag {
     }
 }
 
-impl Dragged {
+impl CurveDragged {
     fn was_requested(&self) -> bool {
         match self {
             Self::Times { requested, .. }
@@ -267,14 +267,14 @@ impl CurveCanvas<'_> {
         press: Press<CurveTarget>,
         pointer: Pos2,
         requests: &mut Vec<Request>,
-    ) -> Option<Dragged> {
+    ) -> Option<CurveDragged> {
         let Press { at, on, modifiers } = press;
         match on {
             CurveTarget::Handle(handle) => {
                 let curve = self.curves.iter().find(|curve| curve.id == handle.id)?;
-                Some(Dragged::Tangent { handle, curve: Arc::clone(curve), requested: false })
+                Some(CurveDragged::Tangent { handle, curve: Arc::clone(curve), requested: false })
             }
-            CurveTarget::Nothing => Some(Dragged::Box(SelectionBox {
+            CurveTarget::Nothing => Some(CurveDragged::Box(SelectionBox {
                 from: [self.time.time_at(at.x), self.value.value_at(at.y)],
                 choice: choice_of(modifiers),
             })),
@@ -289,7 +289,7 @@ impl CurveCanvas<'_> {
         pointer: Pos2,
         modifiers: Modifiers,
         requests: &mut Vec<Request>,
-    ) -> Dragged {
+    ) -> CurveDragged {
         if !on.selected {
             let choice = if modifiers.shift { Choice::Add } else { Choice::Replace };
             requests.push(select(on, choice));
@@ -299,10 +299,15 @@ impl CurveCanvas<'_> {
         if moved.x.abs() >= moved.y.abs() {
             let copies = modifiers.alt || (modifiers.shift && on.selected);
             let pressed = self.time.time_at(at.x);
-            Dragged::Times { grabbed: on.time(), pressed, copies, requested: false }
+            CurveDragged::Times { grabbed: on.time(), pressed, copies, requested: false }
         } else {
             let pressed = self.value.value_at(at.y);
-            Dragged::Values { keys: self.value_keys(on), component: on.component, pressed, requested: false }
+            CurveDragged::Values {
+                keys: self.value_keys(on),
+                component: on.component,
+                pressed,
+                requested: false,
+            }
         }
     }
 

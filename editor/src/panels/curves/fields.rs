@@ -3,7 +3,7 @@
 use super::axis::ValueWindow;
 use super::curve::Curve;
 use super::drag::component_name;
-use super::form::Form;
+use super::form::RotationForm;
 use super::paint::color;
 use super::toolbar::Chosen;
 use super::values::{ValueKey, value_edit};
@@ -29,26 +29,26 @@ const LETTER: f32 = 12.0;
 /// The fields, with the one that is dragged.
 #[derive(Debug, Default)]
 pub(super) struct Fields {
-    held: Option<Held>,
+    held: Option<HeldField>,
 }
 
 /// The number that a field edits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Part {
+enum KeyNumber {
     Value(usize),
     Time,
 }
 
 /// A dragged field: its key as it was when the drag began, and the distance from there.
 #[derive(Clone, Copy, Debug)]
-struct Held {
-    part: Part,
+struct HeldField {
+    part: KeyNumber,
     key: ValueKey,
     by: f32,
 }
 
 /// What the fields edit.
-pub(super) struct About<'a> {
+pub(super) struct FieldsContext<'a> {
     pub(super) chosen: &'a Chosen,
     pub(super) curves: &'a [Arc<Curve>],
     pub(super) drawn: &'a Drawn,
@@ -60,7 +60,7 @@ pub(super) struct About<'a> {
 
 impl Fields {
     /// Draws the fields from right to left: time, then as many values as fit.
-    pub(super) fn show(&mut self, ui: &mut Ui, about: &About<'_>, requests: &mut Vec<Request>) {
+    pub(super) fn show(&mut self, ui: &mut Ui, about: &FieldsContext<'_>, requests: &mut Vec<Request>) {
         self.held.take_if(|held| held.by != 0.0 && !about.state.keys.drag().is_some_and(|drag| drag.held()));
         let key = self.held.map(|held| held.key).or_else(|| only_key(about.curves, about.drawn));
         let Some(key) = key.filter(|_| ui.available_width() >= WIDTH) else { return };
@@ -79,10 +79,10 @@ impl Fields {
         }
     }
 
-    fn time(&mut self, ui: &mut Ui, key: &ValueKey, about: &About<'_>, requests: &mut Vec<Request>) {
+    fn time(&mut self, ui: &mut Ui, key: &ValueKey, about: &FieldsContext<'_>, requests: &mut Vec<Request>) {
         let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, CONTROL), Sense::hover());
         let frame = f64::from(about.state.frame_seconds());
-        let shown = key.time + self.by(Part::Time);
+        let shown = key.time + self.by(KeyNumber::Time);
         let field = NumberField {
             name: "Time of the key",
             value: Some(f64::from(shown)),
@@ -92,7 +92,7 @@ impl Fields {
             grain: 1e-6,
             digits: Digits::Fixed(3),
             range: 0.0..=f64::from(LATEST),
-            ..field(Part::Time)
+            ..field(KeyNumber::Time)
         };
         let (event, _) = field.show(ui, rect);
         let snap = about.state.keys.snap != ui.input(|input| input.modifiers.command);
@@ -107,7 +107,7 @@ impl Fields {
                 requests.push(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(value as f32 - key.time))));
                 requests.push(Request::Timeline(KeysRequest::Release));
             }
-            event => self.drag(event, Part::Time, key, |by| Some(KeyDragOp::Move(by)), requests),
+            event => self.drag(event, KeyNumber::Time, key, |by| Some(KeyDragOp::Move(by)), requests),
         }
     }
 
@@ -116,7 +116,7 @@ impl Fields {
         ui: &mut Ui,
         key: &ValueKey,
         component: usize,
-        about: &About<'_>,
+        about: &FieldsContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let (rect, _) = ui.allocate_exact_size(vec2(LETTER + WIDTH, CONTROL), Sense::hover());
@@ -125,11 +125,11 @@ impl Fields {
         let at = pos2(rect.left(), rect.center().y);
         ui.painter().text(at, Align2::LEFT_CENTER, letter, FontId::proportional(11.0), tone);
         let rect = Rect::from_min_max(pos2(rect.left() + LETTER, rect.top()), rect.max);
-        let angle = key.id.1 == Property::Rotation && key.form != Form::Quaternion;
+        let angle = key.id.1 == Property::Rotation && key.form != RotationForm::Quaternion;
         let number = key.numbers[component];
         let field = NumberField {
             name: &format!("Value {letter}"),
-            value: Some(f64::from(number + self.by(Part::Value(component)))),
+            value: Some(f64::from(number + self.by(KeyNumber::Value(component)))),
             quantity: if angle { Quantity::Angle } else { Quantity::Number },
             unit: if angle { "°" } else { "" },
             // About as far as the curve moves on the screen.
@@ -137,7 +137,7 @@ impl Fields {
             snap: if angle { 15.0 } else { 0.1 },
             grain: f64::from(number.abs()) * 1e-6 + 1e-7,
             digits: if angle { Digits::Fixed(2) } else { Digits::Fitting },
-            ..field(Part::Value(component))
+            ..field(KeyNumber::Value(component))
         };
         let (event, _) = field.show(ui, rect);
         let edit = |by: f32| value_edit(about.state.take_ref()?, &[*key], component, by);
@@ -146,21 +146,25 @@ impl Fields {
                 let edit = edit(value as f32 - number);
                 requests.extend(edit.map(|edit| Request::Change(Change::Edit(edit, None))));
             }
-            event => {
-                self.drag(event, Part::Value(component), key, |by| edit(by).map(KeyDragOp::Edit), requests)
-            }
+            event => self.drag(
+                event,
+                KeyNumber::Value(component),
+                key,
+                |by| edit(by).map(KeyDragOp::Edit),
+                requests,
+            ),
         }
     }
 
     /// Returns the distance by which a field is dragged.
-    fn by(&self, part: Part) -> f32 {
+    fn by(&self, part: KeyNumber) -> f32 {
         self.held.filter(|held| held.part == part).map_or(0.0, |held| held.by)
     }
 
     fn drag(
         &mut self,
         event: FieldEvent,
-        part: Part,
+        part: KeyNumber,
         key: &ValueKey,
         op: impl Fn(f32) -> Option<KeyDragOp>,
         requests: &mut Vec<Request>,
@@ -168,7 +172,7 @@ impl Fields {
         let request = match event {
             FieldEvent::Dragged(by) => {
                 let by = by as f32;
-                self.held = Some(Held { part, key: *key, by });
+                self.held = Some(HeldField { part, key: *key, by });
                 op(by).map(KeysRequest::Drag)
             }
             FieldEvent::Released => self.held.take().map(|_| KeysRequest::Release),
@@ -180,7 +184,7 @@ impl Fields {
 }
 
 /// Returns the settings that all fields share.
-fn field<'a>(part: Part) -> NumberField<'a> {
+fn field<'a>(part: KeyNumber) -> NumberField<'a> {
     NumberField {
         id: Id::unique(("number of the selected key", part)),
         name: "",

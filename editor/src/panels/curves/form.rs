@@ -6,20 +6,20 @@ use glam::{DQuat, EulerRot, Quat};
 
 /// The form in which rotations are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
+pub(super) enum RotationForm {
     /// Three angles, degrees, applied in this order.
     Euler(EulerOrder),
     /// x, y, z, w.
     Quaternion,
 }
 
-impl Default for Form {
+impl Default for RotationForm {
     fn default() -> Self {
         Self::Euler(EulerOrder::Xyz)
     }
 }
 
-impl Form {
+impl RotationForm {
     /// Returns all forms, in the order in which they are offered.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         EulerOrder::ALL.into_iter().map(Self::Euler).chain([Self::Quaternion])
@@ -142,7 +142,7 @@ mod tests {
         for _ in 0..500 {
             let near = [(); 4].map(|()| random.between(-400.0, 400.0));
             let quaternion = Quat::from_array([(); 4].map(|()| random.between(-1.0, 1.0))).normalize();
-            for form in Form::all() {
+            for form in RotationForm::all() {
                 let back = form.rotation(form.of(quaternion, near));
                 assert!(back.dot(quaternion).abs() > 0.999_99, "seed {seed} {form:?} {quaternion}");
             }
@@ -154,7 +154,7 @@ mod tests {
         let mut near = [0.0; 4];
         for step in 0..=36 {
             let angle = step as f32 * 20.0;
-            near = Form::default().of(Quat::from_rotation_z(angle.to_radians()), near);
+            near = RotationForm::default().of(Quat::from_rotation_z(angle.to_radians()), near);
             assert!((near[2] - angle).abs() < 0.01, "{near:?}");
         }
     }
@@ -168,7 +168,7 @@ mod tests {
                 [random.between(-70.0, 70.0), random.between(-70.0, 70.0), random.between(-70.0, 70.0), 0.0];
             let slopes =
                 [random.between(-90.0, 90.0), random.between(-90.0, 90.0), random.between(-90.0, 90.0), 0.0];
-            for form in [EulerOrder::Xyz, EulerOrder::Zyx, EulerOrder::Yxz].map(Form::Euler) {
+            for form in [EulerOrder::Xyz, EulerOrder::Zyx, EulerOrder::Yxz].map(RotationForm::Euler) {
                 let rotation = form.rotation(numbers);
                 let rate = form.rate(rotation, Quat::from_array([0.0; 4]), numbers, slopes);
                 let back = form.slopes(rotation, rate, numbers);

@@ -21,9 +21,9 @@ use drag::{CurveCanvas, CurveDrag};
 use egui::{
     Align2, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2,
 };
-use fields::{About, Fields};
+use fields::{Fields, FieldsContext};
 use paint::{CurveLook, CurveMesh};
-use shown::Shown;
+use shown::ShownCurves;
 use tangents::Tangents;
 use toolbar::Chosen;
 
@@ -31,7 +31,7 @@ use toolbar::Chosen;
 #[derive(Debug, Default)]
 pub struct Curves {
     chosen: Chosen,
-    shown: Shown,
+    shown: ShownCurves,
     mesh: CurveMesh,
     tangents: Tangents,
     drag: CurveDrag,
@@ -50,7 +50,7 @@ struct Fitted {
     model: usize,
     take: Option<usize>,
     ids: Vec<super::keys::ChannelId>,
-    chosen: (u8, u8, form::Form),
+    chosen: (u8, u8, form::RotationForm),
 }
 
 /// Width of the numbers at the left.
@@ -81,7 +81,7 @@ impl Panel for Curves {
         let window = self.window.unwrap_or_default();
         let fit = toolbar::show(ui, &mut self.chosen, curves, state, requests, |ui, chosen, requests| {
             let Some(drawn) = &drawn else { return };
-            fields.show(ui, &About { chosen, curves, drawn, window, component, state }, requests);
+            fields.show(ui, &FieldsContext { chosen, curves, drawn, window, component, state }, requests);
         });
         let rect = ui.available_rect_before_wrap();
         if rect.height() < HEAD + 24.0 || rect.width() < STRIP + 40.0 {

@@ -1,8 +1,8 @@
 //! The curves as triangles, made when something that they depend on changed.
 
 use super::axis::ValueScale;
-use super::curve::{Curve, Extent, Numbers};
-use super::shown::Shown;
+use super::curve::{Curve, CurveNumbers, Extent};
+use super::shown::ShownCurves;
 use crate::panels::dope::Pen;
 use crate::panels::keys::columns::gallop;
 use crate::panels::keys::intervals::{Intervals, keys_between};
@@ -16,14 +16,14 @@ use std::sync::Arc;
 /// The triangles of all visible curves.
 #[derive(Debug, Default)]
 pub(super) struct CurveMesh {
-    made_of: Option<MadeOf>,
+    made_of: Option<CurveMeshKey>,
     mesh: Arc<Mesh>,
     /// The curves as they are drawn: during a drag, those that it results in.
     pub(super) drawn: Vec<Arc<Curve>>,
 }
 
 #[derive(Debug)]
-struct MadeOf {
+struct CurveMeshKey {
     drawn: Drawn,
     version: u64,
     scales: (TimeScale, ValueScale),
@@ -42,7 +42,7 @@ const RADIUS: f32 = 4.0;
 /// Everything that the triangles of the curves depend on.
 #[derive(Clone, Copy)]
 pub(super) struct CurveLook<'a> {
-    pub(super) shown: &'a Shown,
+    pub(super) shown: &'a ShownCurves,
     pub(super) drawn: &'a Drawn,
     pub(super) time: &'a TimeScale,
     pub(super) value: &'a ValueScale,
@@ -69,7 +69,7 @@ impl CurveMesh {
     /// Draws the curves.
     pub(super) fn paint(&mut self, painter: &Painter, look: &CurveLook<'_>) {
         let CurveLook { shown, drawn, time, value, components, theme } = *look;
-        let made_of = MadeOf {
+        let made_of = CurveMeshKey {
             drawn: drawn.clone(),
             version: shown.version(),
             scales: (*time, *value),
@@ -115,7 +115,7 @@ impl CurveMesh {
     }
 }
 
-impl MadeOf {
+impl CurveMeshKey {
     fn same(&self, other: &Self) -> bool {
         let (a, b) = (&self.drawn, &other.drawn);
         Arc::ptr_eq(&a.take, &b.take)
@@ -200,7 +200,7 @@ impl Canvas<'_> {
         }
     }
 
-    fn push(&mut self, x: f32, numbers: Numbers, width: usize) {
+    fn push(&mut self, x: f32, numbers: CurveNumbers, width: usize) {
         for (at, points) in self.points.iter_mut().enumerate().take(width) {
             points.push(pos2(x, self.value.y_of(numbers[at])));
         }

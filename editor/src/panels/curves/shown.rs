@@ -1,7 +1,7 @@
 //! The curves that are shown. Their numbers are computed when a channel changes, over several frames if it is long.
 
 use super::curve::{Curve, Extent};
-use super::form::Form;
+use super::form::RotationForm;
 use crate::panels::keys::{ChannelId, Drawn, channel};
 use crate::panels::state::State;
 use dragonfly_anim::data::Take;
@@ -15,14 +15,14 @@ const BUDGET: usize = 24_000;
 
 /// The curves that are shown.
 #[derive(Debug, Default)]
-pub(super) struct Shown {
-    entries: Vec<Entry>,
+pub(super) struct ShownCurves {
+    entries: Vec<CurveSlot>,
     /// Counts the changes of curves.
     version: u64,
 }
 
 #[derive(Debug)]
-struct Entry {
+struct CurveSlot {
     id: ChannelId,
     /// The curve as it is drawn.
     curve: Option<Arc<Curve>>,
@@ -30,9 +30,9 @@ struct Entry {
     next: Option<Box<Curve>>,
 }
 
-impl Shown {
+impl ShownCurves {
     /// Updates the curves of `ids` to `take`. Returns whether more is to do in the next frame.
-    pub(super) fn update(&mut self, take: &Take, ids: &[ChannelId], form: Form) -> bool {
+    pub(super) fn update(&mut self, take: &Take, ids: &[ChannelId], form: RotationForm) -> bool {
         if self.entries.len() != ids.len() || self.entries.iter().zip(ids).any(|(entry, &id)| entry.id != id)
         {
             let mut old = std::mem::take(&mut self.entries);
@@ -40,7 +40,7 @@ impl Shown {
                 .iter()
                 .map(|&id| match old.iter().position(|entry| entry.id == id) {
                     Some(at) => old.swap_remove(at),
-                    None => Entry { id, curve: None, next: None },
+                    None => CurveSlot { id, curve: None, next: None },
                 })
                 .collect();
             self.version += 1;

@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 use super::drag::component_name;
-use super::form::Form;
+use super::form::RotationForm;
 use super::paint::color;
 use super::shown::bit;
 use crate::panels::commands::{self, Id};
@@ -24,12 +24,12 @@ pub(super) struct Chosen {
     pub(super) properties: u8,
     /// Set of components, X first.
     pub(super) components: u8,
-    pub(super) form: Form,
+    pub(super) form: RotationForm,
 }
 
 impl Default for Chosen {
     fn default() -> Self {
-        Self { properties: bit(Property::Rotation), components: 15, form: Form::default() }
+        Self { properties: bit(Property::Rotation), components: 15, form: RotationForm::default() }
     }
 }
 
@@ -124,7 +124,7 @@ fn form(ui: &mut Ui, chosen: &mut Chosen) {
     let button = ui.add(Button::new(text).frame(false)).on_hover_text("How rotations are shown");
     egui::Popup::menu(&button).show(|ui| {
         ui.set_width(110.0);
-        for form in Form::all() {
+        for form in RotationForm::all() {
             if ui.add(Button::selectable(form == chosen.form, form.name())).clicked() {
                 chosen.form = form;
             }

@@ -1,7 +1,7 @@
 //! Edits of one component of several keys, by a drag or a typed number.
 
-use super::curve::{Curve, Numbers};
-use super::form::Form;
+use super::curve::{Curve, CurveNumbers};
+use super::form::RotationForm;
 use crate::panels::keys::ChannelId;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, Property, TakeRef};
 use std::collections::BTreeMap;
@@ -11,8 +11,8 @@ use std::collections::BTreeMap;
 pub(super) struct ValueKey {
     pub(super) id: ChannelId,
     pub(super) time: f32,
-    pub(super) numbers: Numbers,
-    pub(super) form: Form,
+    pub(super) numbers: CurveNumbers,
+    pub(super) form: RotationForm,
 }
 
 impl ValueKey {
@@ -27,7 +27,7 @@ impl ValueKey {
     }
 
     /// Returns the pose that gives the key these numbers.
-    pub(super) fn pose(&self, numbers: Numbers) -> BonePose {
+    pub(super) fn pose(&self, numbers: CurveNumbers) -> BonePose {
         let mut pose =
             BonePose { bone: BoneRef::Index(self.id.0), translation: None, rotation: None, scale: None };
         let vector = Some([numbers[0], numbers[1], numbers[2]]);

@@ -7,7 +7,7 @@ use dragonfly_document::SaveOrder;
 use dragonfly_store::FileState;
 
 #[derive(Clone, Copy)]
-enum Choice {
+enum ChangedChoice {
     Overwrite,
     SaveAs,
     Reload,
@@ -37,26 +37,36 @@ pub(super) fn show(ask: &mut Ask<'_>, file: FileState, order: Option<&SaveOrder>
         "Overwrite",
         "Replace the file with the open document; the other version is kept in the autosave folder",
     );
-    let save_as = ("Save as…", "Keep both versions", Tone::Plain, Choice::SaveAs);
-    let cancel = ("Cancel", "Change nothing for now", Tone::Plain, Choice::Cancel);
+    let save_as = ("Save as…", "Keep both versions", Tone::Plain, ChangedChoice::SaveAs);
+    let cancel = ("Cancel", "Change nothing for now", Tone::Plain, ChangedChoice::Cancel);
     let pressed = if gone {
-        let write = ("Save again", "Write the file where it was", Tone::First, Choice::Overwrite);
+        let write = ("Save again", "Write the file where it was", Tone::First, ChangedChoice::Overwrite);
         ask.buttons(&[write, save_as, cancel])
     } else if saved && order.is_none() {
-        let reload = (reload.0, reload.1, reload.2, Choice::Reload);
-        ask.buttons(&[reload, cancel, save_as, (overwrite.0, overwrite.1, Tone::Loses, Choice::Overwrite)])
+        let reload = (reload.0, reload.1, reload.2, ChangedChoice::Reload);
+        ask.buttons(&[
+            reload,
+            cancel,
+            save_as,
+            (overwrite.0, overwrite.1, Tone::Loses, ChangedChoice::Overwrite),
+        ])
     } else {
-        let reload = (reload.0, reload.1, Tone::Loses, Choice::Reload);
-        let save_as = (save_as.0, save_as.1, Tone::First, Choice::SaveAs);
-        ask.buttons(&[save_as, cancel, (overwrite.0, overwrite.1, Tone::Loses, Choice::Overwrite), reload])
+        let reload = (reload.0, reload.1, Tone::Loses, ChangedChoice::Reload);
+        let save_as = (save_as.0, save_as.1, Tone::First, ChangedChoice::SaveAs);
+        ask.buttons(&[
+            save_as,
+            cancel,
+            (overwrite.0, overwrite.1, Tone::Loses, ChangedChoice::Overwrite),
+            reload,
+        ])
     };
     let request = match pressed {
-        Some(Choice::Overwrite) => {
+        Some(ChangedChoice::Overwrite) => {
             Request::Deed(Deed::Save(SaveOrder { anyway: true, ..SaveOrder::own(then) }))
         }
-        Some(Choice::SaveAs) => Request::Deed(Deed::Where { copy: false, then }),
-        Some(Choice::Reload) => Request::Deed(Deed::Reload),
-        Some(Choice::Cancel) => Request::Dismiss,
+        Some(ChangedChoice::SaveAs) => Request::Deed(Deed::Where { copy: false, then }),
+        Some(ChangedChoice::Reload) => Request::Deed(Deed::Reload),
+        Some(ChangedChoice::Cancel) => Request::Dismiss,
         None => return,
     };
     ask.requests.push(request);

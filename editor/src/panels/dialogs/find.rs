@@ -22,7 +22,7 @@ pub(super) fn show(ask: &mut Ask<'_>, offer: &Offer, other: Option<&Path>, path:
 }
 
 #[derive(Clone, Copy)]
-enum Choice {
+enum FindChoice {
     Another,
     Beside,
     Later,
@@ -34,22 +34,22 @@ fn is_another(ask: &mut Ask<'_>, offer: &Offer, other: &Path) {
     ask.says(format!("Its content is not what {} contained when the work was done.", offer.title));
     ask.adds("Opened as a copy, the work is applied to the content of this file, in a separate document. The file itself is not changed.");
     let pressed = ask.buttons(&[
-        ("Choose another…", "Choose another file", Tone::First, Choice::Another),
+        ("Choose another…", "Choose another file", Tone::First, FindChoice::Another),
         (
             "Open as a copy",
             "Apply the work to this file, in a separate document",
             Tone::Plain,
-            Choice::Beside,
+            FindChoice::Beside,
         ),
-        ("Later", "Keep the work and ask again later", Tone::Plain, Choice::Later),
+        ("Later", "Keep the work and ask again later", Tone::Plain, FindChoice::Later),
     ]);
     let request = match pressed {
-        Some(Choice::Another) => Request::Deed(Deed::Find(Box::new(offer.clone()))),
-        Some(Choice::Beside) => {
+        Some(FindChoice::Another) => Request::Deed(Deed::Find(Box::new(offer.clone()))),
+        Some(FindChoice::Beside) => {
             let offer = Offer { source: Some(Source::File(other.to_owned())), ..offer.clone() };
             Request::Deed(Deed::Decide(Box::new(offer), Decision::Beside))
         }
-        Some(Choice::Later) => Request::Dismiss,
+        Some(FindChoice::Later) => Request::Dismiss,
         None => return,
     };
     ask.requests.push(request);

@@ -6,7 +6,7 @@ use crate::panels::state::Request;
 use dragonfly_document::{SaveOrder, Then};
 
 #[derive(Clone, Copy)]
-enum Choice {
+enum UnsavedChoice {
     Save,
     DoNotSave,
     Cancel,
@@ -25,18 +25,18 @@ pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
     if let Some(last) = ask.state.view.as_ref().and_then(|view| view.history.last_unsaved()) {
         ask.adds(last);
     }
-    let save = ("Save", "Save, then continue", Tone::First, Choice::Save);
-    let cancel = ("Cancel", "Return to the document", Tone::Plain, Choice::Cancel);
+    let save = ("Save", "Save, then continue", Tone::First, UnsavedChoice::Save);
+    let cancel = ("Cancel", "Return to the document", Tone::Plain, UnsavedChoice::Cancel);
     let lose = (
         "Don't save",
         "Continue without saving; the changes stay in the bin of the autosave folder for a while",
         Tone::Loses,
-        Choice::DoNotSave,
+        UnsavedChoice::DoNotSave,
     );
     let request = match ask.buttons(&[save, cancel, lose]) {
-        Some(Choice::Save) => Request::Deed(Deed::Save(SaveOrder::own(Some(then.clone())))),
-        Some(Choice::DoNotSave) => Request::Deed(Deed::DoNotSave(then.clone())),
-        Some(Choice::Cancel) => Request::Dismiss,
+        Some(UnsavedChoice::Save) => Request::Deed(Deed::Save(SaveOrder::own(Some(then.clone())))),
+        Some(UnsavedChoice::DoNotSave) => Request::Deed(Deed::DoNotSave(then.clone())),
+        Some(UnsavedChoice::Cancel) => Request::Dismiss,
         None => return,
     };
     ask.requests.push(request);

@@ -15,12 +15,12 @@ use std::sync::Arc;
 /// The drag on the keys.
 #[derive(Debug, Default)]
 pub(super) struct DopeDrag {
-    machine: DragMachine<Option<DopeKey>, Dragged>,
+    machine: DragMachine<Option<DopeKey>, DopeDragged>,
 }
 
 /// What is dragged.
 #[derive(Debug)]
-enum Dragged {
+enum DopeDragged {
     Keys(DraggedKeys),
     Box(SelectionBox),
 }
@@ -86,7 +86,7 @@ impl DopeDrag {
             requests.push(sheet.select(on.row, [on.time; 2], Choice::Replace));
         }
         match self.machine.step(&input, canvas.is_pointer_button_down_on(), |at| sheet.key_at(at)) {
-            DragEvent::Nothing | DragEvent::Pressed | DragEvent::Cancelled(Dragged::Box(_)) => {}
+            DragEvent::Nothing | DragEvent::Pressed | DragEvent::Cancelled(DopeDragged::Box(_)) => {}
             DragEvent::Started(press) => {
                 self.machine.begin(start(&press, sheet, &input, requests));
                 if let Some(pointer) = input.pointer {
@@ -95,15 +95,15 @@ impl DopeDrag {
             }
             DragEvent::Moved(pointer) => return self.advance(ui, pointer, sheet, &input, requests),
             DragEvent::Clicked(press) => click(&press, sheet, requests),
-            DragEvent::Dropped(Dragged::Keys(_)) => {
+            DragEvent::Dropped(DopeDragged::Keys(_)) => {
                 requests.push(Request::Timeline(KeysRequest::Release));
             }
-            DragEvent::Dropped(Dragged::Box(drawn)) => {
+            DragEvent::Dropped(DopeDragged::Box(drawn)) => {
                 if let Some(pointer) = pointer.or(input.pointer) {
                     requests.push(sheet.boxed(&drawn, pointer));
                 }
             }
-            DragEvent::Cancelled(Dragged::Keys(_)) => {
+            DragEvent::Cancelled(DopeDragged::Keys(_)) => {
                 requests.push(Request::Timeline(KeysRequest::Cancel));
             }
         }
@@ -121,10 +121,10 @@ impl DopeDrag {
         let canvas = sheet.areas.canvas;
         match self.machine.drag_mut() {
             // The document refused the drag, or a key cancelled it.
-            Some(Dragged::Keys(keys)) if keys.requested && !sheet.state.keys.is_dragging() => {
+            Some(DopeDragged::Keys(keys)) if keys.requested && !sheet.state.keys.is_dragging() => {
                 self.machine.spend();
             }
-            Some(Dragged::Keys(keys)) => {
+            Some(DopeDragged::Keys(keys)) => {
                 let op = keys.op(ui, pointer, sheet, input);
                 // A selection is made in this frame, and the drag is of what is selected after it.
                 keys.requested |= !requests
@@ -132,7 +132,7 @@ impl DopeDrag {
                     .any(|request| matches!(request, Request::Timeline(KeysRequest::Select { .. })));
                 requests.push(Request::Timeline(KeysRequest::Drag(op)));
             }
-            Some(Dragged::Box(drawn)) => {
+            Some(DopeDragged::Box(drawn)) => {
                 let [time, height] = drawn.from;
                 let corner = pos2(sheet.scale.x_of(time), canvas.top() - sheet.scroll + height);
                 SelectionBox::paint(ui, canvas, corner, pointer);
@@ -154,13 +154,13 @@ fn start(
     sheet: &Sheet<'_>,
     input: &PointerInput,
     requests: &mut Vec<Request>,
-) -> Dragged {
+) -> DopeDragged {
     let Press { at, on, modifiers } = *press;
     let pressed = sheet.scale.time_at(at.x);
     // Among crowded keys no single one can be aimed at: unless the key is selected, the drag draws a box.
     let Some(on) = on.filter(|on| on.selected || !sheet.is_crowded(on)) else {
         let height = at.y - sheet.areas.canvas.top() + sheet.scroll;
-        return Dragged::Box(SelectionBox { from: [pressed, height], choice: choice_of(modifiers) });
+        return DopeDragged::Box(SelectionBox { from: [pressed, height], choice: choice_of(modifiers) });
     };
     let mut first = on.time;
     if on.selected {
@@ -175,7 +175,7 @@ fn start(
         Modifiers { shift: true, .. } if on.selected => DragMode::Duplicate,
         _ => DragMode::Move,
     };
-    Dragged::Keys(DraggedKeys { grabbed: on.time, pressed, mode, requested: false })
+    DopeDragged::Keys(DraggedKeys { grabbed: on.time, pressed, mode, requested: false })
 }
 
 impl DraggedKeys {

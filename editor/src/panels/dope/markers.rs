@@ -14,7 +14,7 @@ use egui::{
 /// The marker that is dragged or renamed.
 #[derive(Debug, Default)]
 pub(super) struct MarkerLane {
-    renaming: Option<(usize, String, Stage)>,
+    renaming: Option<(usize, String, MarkerNameStage)>,
     /// A dragged marker: index and time, seconds. The marker moves when it is released, so that the order stays during
     /// the drag.
     held: Option<(usize, f32)>,
@@ -22,7 +22,7 @@ pub(super) struct MarkerLane {
 
 /// State of the field for a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stage {
+enum MarkerNameStage {
     Fresh,
     /// The focus is requested for the field.
     Asked,
@@ -83,7 +83,7 @@ impl MarkerLane {
                 seek = Some(marker.time);
             }
             if response.double_clicked() {
-                self.renaming = Some((index, marker.name.clone(), Stage::Fresh));
+                self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
             }
             if self.held.is_some_and(|(held, _)| held == index)
                 && ui.input(|input| input.key_down(egui::Key::Escape))
@@ -107,7 +107,7 @@ impl MarkerLane {
             }
             response.context_menu(|ui| {
                 if ui.add(Button::new("Rename").frame_when_inactive(false)).clicked() {
-                    self.renaming = Some((index, marker.name.clone(), Stage::Fresh));
+                    self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
                     ui.close();
                 }
                 if ui.add(Button::new("Delete marker").frame_when_inactive(false)).clicked() {
@@ -134,8 +134,8 @@ impl MarkerLane {
         let left = scale.x_of(marker.time).clamp(lane.left(), (lane.right() - 120.0).max(lane.left()));
         let rect = Rect::from_min_size(pos2(left, lane.top() - 3.0), vec2(120.0, lane.height() + 6.0));
         let id = egui::Id::unique("name of a marker");
-        if *stage == Stage::Asked && ui.memory(|memory| memory.has_focus(id)) {
-            *stage = Stage::Typing;
+        if *stage == MarkerNameStage::Asked && ui.memory(|memory| memory.has_focus(id)) {
+            *stage = MarkerNameStage::Typing;
             // All text is selected, so that typing replaces the old name.
             widgets::select_all(ui.ctx(), id, name);
         }
@@ -144,8 +144,8 @@ impl MarkerLane {
         response.widget_info(|| {
             WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Name of the marker")
         });
-        if *stage == Stage::Fresh {
-            *stage = Stage::Asked;
+        if *stage == MarkerNameStage::Fresh {
+            *stage = MarkerNameStage::Asked;
             response.request_focus();
             return None;
         }

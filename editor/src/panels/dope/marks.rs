@@ -1,6 +1,6 @@
 //! The keys as triangles, made when something that they depend on changed.
 
-use super::rows::{Row, RowKind};
+use super::rows::{DopeRow, RowKind};
 use super::{ROW, Sheet};
 use crate::panels::keys::columns::Columns;
 use crate::panels::keys::intervals::Intervals;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 /// The triangles of all visible keys.
 #[derive(Debug, Default)]
 pub(super) struct KeysMesh {
-    made_of: Option<MadeOf>,
+    made_of: Option<KeysMeshKey>,
     mesh: Arc<Mesh>,
     plain: Columns,
     chosen: Columns,
@@ -23,9 +23,9 @@ pub(super) struct KeysMesh {
 
 /// Everything that the triangles depend on.
 #[derive(Debug)]
-struct MadeOf {
+struct KeysMeshKey {
     drawn: Drawn,
-    rows: Arc<[Row]>,
+    rows: Arc<[DopeRow]>,
     scale: TimeScale,
     canvas: Rect,
     scroll: f32,
@@ -66,7 +66,7 @@ impl KeysMesh {
         {
             self.count = Some((live.clone(), Arc::clone(take), live.count(take)));
         }
-        let made_of = MadeOf {
+        let made_of = KeysMeshKey {
             drawn: drawn.clone(),
             rows: Arc::clone(rows.list()),
             scale: *scale,
@@ -128,7 +128,7 @@ impl KeysMesh {
     }
 }
 
-impl MadeOf {
+impl KeysMeshKey {
     /// Compares without reading the shared data.
     fn same(&self, other: &Self) -> bool {
         let (a, b) = (&self.drawn, &other.drawn);

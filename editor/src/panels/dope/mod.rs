@@ -19,7 +19,7 @@ use areas::DopeAreas;
 use drag::DopeDrag;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo};
 use marks::KeysMesh;
-use rows::Rows;
+use rows::DopeRows;
 
 pub(super) use head::{Scrub, ticks, to_frame};
 pub(super) use marks::Pen;
@@ -30,7 +30,7 @@ pub(super) use scroll::{pan, time_bar, wheel};
 /// The dope sheet with its view state; it contains nothing of the document.
 #[derive(Debug, Default)]
 pub(super) struct Dope {
-    rows: Rows,
+    rows: DopeRows,
     keys: KeysMesh,
     /// Number of points by which the rows are scrolled up.
     scroll: f32,
@@ -48,7 +48,7 @@ pub(super) const ROW: f32 = 20.0;
 #[derive(Clone, Copy)]
 struct Sheet<'a> {
     areas: &'a DopeAreas,
-    rows: &'a Rows,
+    rows: &'a DopeRows,
     /// Number of points by which the rows are scrolled up.
     scroll: f32,
     scale: &'a TimeScale,

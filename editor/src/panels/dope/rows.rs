@@ -23,7 +23,7 @@ pub(super) enum RowKind {
 
 /// One row.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Row {
+pub(super) struct DopeRow {
     /// What it shows.
     pub(super) kind: RowKind,
     /// Its name.
@@ -34,18 +34,18 @@ pub(super) struct Row {
 
 /// The rows, rebuilt only when something that they depend on changed.
 #[derive(Debug, Default)]
-pub(super) struct Rows {
-    list: Arc<[Row]>,
+pub(super) struct DopeRows {
+    list: Arc<[DopeRow]>,
     /// Channels of the listed bones, in the order of the bones.
     channels: Arc<[ChannelId]>,
     /// Bones that the user opened or closed.
     toggled: HashSet<BoneIndex>,
-    made_of: Option<MadeOf>,
+    made_of: Option<RowsKey>,
     looked_at: Option<(Arc<Take>, u64)>,
 }
 
 #[derive(PartialEq)]
-struct MadeOf {
+struct RowsKey {
     model: usize,
     signature: u64,
     selected: Vec<BoneIndex>,
@@ -54,13 +54,13 @@ struct MadeOf {
     toggled: usize,
 }
 
-impl std::fmt::Debug for MadeOf {
+impl std::fmt::Debug for RowsKey {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(out, "MadeOf({:x})", self.signature)
     }
 }
 
-impl Rows {
+impl DopeRows {
     /// Rebuilds the rows if they are not those of `take`.
     pub(super) fn update(&mut self, state: &State, take: &Arc<Take>) {
         let signature = match &self.looked_at {
@@ -83,7 +83,7 @@ impl Rows {
         if same {
             return;
         }
-        self.made_of = Some(MadeOf {
+        self.made_of = Some(RowsKey {
             model,
             signature,
             selected: state.selection.bones().to_vec(),
@@ -98,7 +98,7 @@ impl Rows {
         let bones = keys::shown_bones(state);
         let channels: Vec<ChannelId> = bones.iter().flat_map(|&bone| channel::channels(take, bone)).collect();
         let mut list = Vec::new();
-        let row = |kind, name: &str, open| Row { kind, name: name.to_owned(), open };
+        let row = |kind, name: &str, open| DopeRow { kind, name: name.to_owned(), open };
         if !bones.is_empty() {
             let name = match bones.len() {
                 1 => "1 bone".to_owned(),
@@ -129,7 +129,7 @@ impl Rows {
     }
 
     /// Returns the rows from top to bottom.
-    pub(super) fn list(&self) -> &Arc<[Row]> {
+    pub(super) fn list(&self) -> &Arc<[DopeRow]> {
         &self.list
     }
 

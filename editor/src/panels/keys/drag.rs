@@ -91,13 +91,13 @@ pub struct KeyDrag {
     keys: Vec<KeySet>,
     /// The operation that was requested last.
     requested: Option<KeyDragOp>,
-    answer: Answer,
+    answer: Outstanding,
     released: bool,
 }
 
 /// The answer of the document that a drag waits for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Answer {
+enum Outstanding {
     /// Nothing was ever sent.
     None,
     /// To a change that has no number yet: it is sent at the end of the frame.
@@ -116,7 +116,7 @@ impl KeyDrag {
         op: KeyDragOp,
     ) -> Self {
         let keys = moving.key_sets(&base);
-        let answer = Answer::None;
+        let answer = Outstanding::None;
         Self { gesture, base, moving, op, take, keys, requested: None, answer, released: false }
     }
 
@@ -137,15 +137,15 @@ impl KeyDrag {
             (false, _) => Change::Edit(self.op.edit(self.take.clone(), &self.keys), Some(self.gesture)),
         };
         self.requested = (!self.op.idle()).then(|| self.op.clone());
-        self.answer = Answer::ToUnsent;
+        self.answer = Outstanding::ToUnsent;
         Some(change)
     }
 
     fn is_answered(&self, echo: &Echo) -> bool {
         match self.answer {
-            Answer::None => true,
-            Answer::ToUnsent => false,
-            Answer::To(number) => echo.has_answered(number),
+            Outstanding::None => true,
+            Outstanding::ToUnsent => false,
+            Outstanding::To(number) => echo.has_answered(number),
         }
     }
 
@@ -156,7 +156,7 @@ impl KeyDrag {
 
     /// Whether anything was sent that a cancel has to undo.
     pub fn has_sent(&self) -> bool {
-        self.answer != Answer::None
+        self.answer != Outstanding::None
     }
 
     /// The document refused the last edit.
@@ -193,7 +193,7 @@ impl Keys {
     /// Notes the number under which a change of the drag was sent.
     pub(in crate::panels) fn sent(&mut self, gesture: Gesture, number: u64) {
         if let Some(drag) = self.drag.as_mut().filter(|drag| drag.gesture == gesture) {
-            drag.answer = Answer::To(number);
+            drag.answer = Outstanding::To(number);
         }
     }
 

@@ -1,6 +1,6 @@
 //! A number field without focus: dragged, or clicked to get the focus.
 
-use super::{DraggedNumber, FieldEvent, NumberField, Refused, Typing};
+use super::{DraggedNumber, FieldEvent, NumberField, RefusedNumber, Typing};
 use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
 use egui::{CursorIcon, Key, PointerButton, Rect, Response, Sense, Ui};
 
@@ -20,14 +20,14 @@ impl NumberField<'_> {
             match self.read(&typing.text) {
                 Ok(value) => event = FieldEvent::Typed(value),
                 Err(reason) => {
-                    let refused = Refused::new(ui, reason, self.value);
+                    let refused = RefusedNumber::new(ui, reason, self.value);
                     ui.data_mut(|data| data.insert_temp(id, refused));
                 }
             }
         }
         let response = ui.interact(rect, id, Sense::click_and_drag());
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-        let before = ui.data_mut(|data| data.remove_temp::<Refused>(id));
+        let before = ui.data_mut(|data| data.remove_temp::<RefusedNumber>(id));
         let refused = before.and_then(|refused| refused.next(ui, self.value));
         if let Some(refused) = &refused {
             ui.data_mut(|data| data.insert_temp(id, refused.clone()));
@@ -54,7 +54,7 @@ impl NumberField<'_> {
             let mut number = DraggedNumber { start: self.value.unwrap_or(0.0), raw: 0.0, reported: 0.0 };
             self.advance(ui, response, &mut number);
             ui.data_mut(|data| data.insert_temp(id, NumberDrag::dragging(number)));
-            ui.data_mut(|data| data.remove::<Refused>(id));
+            ui.data_mut(|data| data.remove::<RefusedNumber>(id));
             ui.ctx().request_repaint();
             return Some(FieldEvent::Touched);
         }

@@ -94,7 +94,7 @@ const REFUSED: f64 = 6.0;
 
 /// A number that was refused when the focus left the field; shown for a while, as long as the number stays the same.
 #[derive(Clone, Debug, Default)]
-struct Refused {
+struct RefusedNumber {
     reason: String,
     value: Option<f64>,
     /// Time at which it is forgotten, on egui's clock, seconds.
@@ -104,7 +104,7 @@ struct Refused {
     settles: u8,
 }
 
-impl Refused {
+impl RefusedNumber {
     fn new(ui: &Ui, reason: String, value: Option<f64>) -> Self {
         Self { reason, value, until: ui.input(|input| input.time) + REFUSED, settles: 2 }
     }
@@ -125,7 +125,7 @@ impl Refused {
 
 /// Shows at a field for a while why the last typed number was refused.
 pub fn refuse(ui: &Ui, id: Id, value: Option<f64>, reason: &str) {
-    let refused = Refused::new(ui, reason.to_owned(), value);
+    let refused = RefusedNumber::new(ui, reason.to_owned(), value);
     ui.data_mut(|data| data.insert_temp(id, refused));
 }
 

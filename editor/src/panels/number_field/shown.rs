@@ -1,13 +1,13 @@
 //! Draws a number field without focus.
 
-use super::{NumberField, Refused};
+use super::{NumberField, RefusedNumber};
 use crate::panels::number_text::exact;
 use crate::panels::style::{self, RADIUS};
 use crate::panels::theme::Theme;
 use egui::{Align2, Color32, CornerRadius, FontId, Rect, Response, Stroke, StrokeKind, Ui, pos2, vec2};
 
 impl NumberField<'_> {
-    pub(super) fn paint(&self, ui: &Ui, rect: Rect, response: &Response, refused: Option<&Refused>) {
+    pub(super) fn paint(&self, ui: &Ui, rect: Rect, response: &Response, refused: Option<&RefusedNumber>) {
         let theme = Theme::of(ui);
         let open = self.locked.is_none() && ui.is_enabled();
         let radius = CornerRadius::same(RADIUS);

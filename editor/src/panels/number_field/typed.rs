@@ -1,6 +1,6 @@
 //! A number field with focus: a text field.
 
-use super::{FieldEvent, LONGEST, NumberField, Refused, Typing};
+use super::{FieldEvent, LONGEST, NumberField, RefusedNumber, Typing};
 use crate::panels::number_text::exact;
 use crate::panels::style::{self, RADIUS};
 use crate::panels::theme::Theme;
@@ -45,7 +45,7 @@ impl NumberField<'_> {
     /// Draws the field with focus.
     pub(super) fn edit(&self, ui: &mut Ui, rect: Rect) -> (FieldEvent, Response) {
         let known = ui.data_mut(|data| data.remove_temp::<Typing>(self.id));
-        ui.data_mut(|data| data.remove::<Refused>(self.id));
+        ui.data_mut(|data| data.remove::<RefusedNumber>(self.id));
         let fresh = known.is_none();
         let mut typing = known.unwrap_or_else(|| {
             let text = self.value.map_or(String::new(), |value| exact(value, self.grain));

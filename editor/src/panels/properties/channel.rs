@@ -7,7 +7,7 @@ use super::super::state::{Request, State};
 use super::super::style::{GRID, NUMBER, RADIUS};
 use super::super::theme::Theme;
 use super::drag::{FieldDrag, Spot};
-use super::parts::{Column, Form, Pair};
+use super::parts::{Column, NumberForm, Pair};
 use crate::control::expression::Quantity;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::edit::Property;
@@ -69,7 +69,7 @@ pub(super) fn heads(ui: &mut Ui) {
 pub(super) struct ChannelRows {
     rect: Rect,
     property: Property,
-    form: Form,
+    form: NumberForm,
     sliders: bool,
 }
 
@@ -99,7 +99,13 @@ impl ChannelRows {
 impl ChannelTable<'_> {
     /// Allocates the rows of a channel and draws the letters of its axes. The fields are drawn later, together with
     /// those of all channels.
-    pub(super) fn room(&self, ui: &mut Ui, property: Property, form: Form, sliders: bool) -> ChannelRows {
+    pub(super) fn room(
+        &self,
+        ui: &mut Ui,
+        property: Property,
+        form: NumberForm,
+        sliders: bool,
+    ) -> ChannelRows {
         let count = form.count();
         let step = FIELD + 2.0 + if sliders { SLIDER } else { 0.0 };
         let size = vec2(ui.available_width(), step * count as f32 - 2.0);
@@ -222,12 +228,14 @@ impl ChannelTable<'_> {
         let id = self.id(spot, index);
         let quantity = match (spot.property, spot.form) {
             (Property::Translation, _) => Quantity::Length,
-            (_, Form::Euler(_)) => Quantity::Angle,
+            (_, NumberForm::Euler(_)) => Quantity::Angle,
             _ => Quantity::Number,
         };
         let (speed, snap) = self.steps(spot);
         let help = match (spot.property, spot.form) {
-            (_, Form::Quaternion) => "The quaternion is normalized when you leave its fields.".to_owned(),
+            (_, NumberForm::Quaternion) => {
+                "The quaternion is normalized when you leave its fields.".to_owned()
+            }
             (Property::Translation, _) if !self.is_metric() => {
                 format!("In the parent's space, where 1 is {} m", Digits::Fitting.text(self.metres))
             }
@@ -260,7 +268,7 @@ impl ChannelTable<'_> {
         let theme = Theme::of(ui);
         let scale = match (spot.property, spot.form) {
             (Property::Translation, _) => SliderScale::Linear(self.size),
-            (Property::Rotation, Form::Quaternion) => SliderScale::Linear(1.0),
+            (Property::Rotation, NumberForm::Quaternion) => SliderScale::Linear(1.0),
             (Property::Rotation, _) => SliderScale::Linear(180.0),
             (Property::Scale, _) => SliderScale::Factor(10.0),
         };
@@ -292,20 +300,20 @@ impl ChannelTable<'_> {
                 let decade = 10_f64.powf(self.size.max(1e-6).log10().floor());
                 (self.size / 500.0, decade / 10.0)
             }
-            (_, Form::Euler(_)) => (0.5, 15.0),
+            (_, NumberForm::Euler(_)) => (0.5, 15.0),
             _ => (0.005, 0.1),
         }
     }
 
     /// Returns the rounding error of single precision.
-    fn grain(&self, property: Property, form: Form) -> f64 {
+    fn grain(&self, property: Property, form: NumberForm) -> f64 {
         match (property, form) {
             (Property::Translation, _) => {
                 let [original, result] =
                     [self.pair.original, self.pair.result].map(|pose| pose.translation.abs().max_element());
                 f64::from(original.max(result)) * 1e-6 + self.size * 1e-9
             }
-            (_, Form::Euler(_)) => 1e-4,
+            (_, NumberForm::Euler(_)) => 1e-4,
             (Property::Scale, _) => f64::from(self.pair.result.scale.abs().max_element()) * 1e-6 + 1e-9,
             _ => 1e-6,
         }
@@ -320,7 +328,7 @@ impl ChannelTable<'_> {
     fn unit(&self, spot: Spot) -> &'static str {
         match (spot.property, spot.form, spot.column) {
             (Property::Translation, ..) if self.is_metric() => "m",
-            (_, Form::Euler(_), _) => "°",
+            (_, NumberForm::Euler(_), _) => "°",
             (Property::Scale, _, Column::Change) => "×",
             _ => "",
         }
@@ -328,9 +336,9 @@ impl ChannelTable<'_> {
 
     fn digits(&self, spot: Spot) -> Digits {
         match spot.form {
-            Form::Euler(_) => Digits::Fixed(2),
-            Form::Quaternion => Digits::Fixed(4),
-            Form::Vector => Digits::Fitting,
+            NumberForm::Euler(_) => Digits::Fixed(2),
+            NumberForm::Quaternion => Digits::Fixed(4),
+            NumberForm::Vector => Digits::Fitting,
         }
     }
 }
@@ -339,7 +347,7 @@ impl ChannelTable<'_> {
 fn unchanged(spot: Spot, index: usize) -> f64 {
     match (spot.property, spot.form) {
         (Property::Scale, _) => 1.0,
-        (_, Form::Quaternion) if index == 3 => 1.0,
+        (_, NumberForm::Quaternion) if index == 3 => 1.0,
         _ => 0.0,
     }
 }
@@ -348,7 +356,7 @@ fn unchanged(spot: Spot, index: usize) -> f64 {
 fn name(spot: Spot, index: usize) -> String {
     let channel = match (spot.property, spot.form) {
         (Property::Translation, _) => "Translation",
-        (Property::Rotation, Form::Quaternion) => "Quaternion",
+        (Property::Rotation, NumberForm::Quaternion) => "Quaternion",
         (Property::Rotation, _) => "Rotation",
         (Property::Scale, _) => "Scale",
     };

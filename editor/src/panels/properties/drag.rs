@@ -6,7 +6,9 @@
 use super::super::commands::Id;
 use super::super::number_field::FieldEvent;
 use super::super::state::{Request, State};
-use super::parts::{Column, Form, Numbers, Pair, Part, is_same_turn, numbers, part, turn_of};
+use super::parts::{
+    ChannelNumbers, Column, NumberForm, Pair, PosePart, is_same_turn, numbers, part, turn_of,
+};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::{rest_pose, sample_track};
 use dragonfly_document::Change;
@@ -23,20 +25,20 @@ pub(super) struct Spot {
     /// Original, change or result.
     pub(super) column: Column,
     /// Form in which they are shown.
-    pub(super) form: Form,
+    pub(super) form: NumberForm,
 }
 
 /// The field that is dragged, and the angles that were typed.
 #[derive(Debug, Default)]
 pub(super) struct FieldDrag {
-    held: Option<Held>,
+    held: Option<HeldNumber>,
     /// Typed angles of the active bone.
-    typed: Vec<Typed>,
+    typed: Vec<TypedAngles>,
 }
 
 /// A field that is dragged.
 #[derive(Debug)]
-struct Held {
+struct HeldNumber {
     gesture: Gesture,
     spot: Spot,
     component: usize,
@@ -69,16 +71,16 @@ struct Begun {
 struct Start {
     bone: BoneIndex,
     pair: Pair,
-    numbers: Numbers,
+    numbers: ChannelNumbers,
 }
 
 /// Numbers of a rotation as they were typed.
 #[derive(Clone, Copy, Debug)]
-struct Typed {
+struct TypedAngles {
     bone: BoneIndex,
     column: Column,
-    form: Form,
-    numbers: Numbers,
+    form: NumberForm,
+    numbers: ChannelNumbers,
     rotation: DQuat,
 }
 
@@ -101,18 +103,20 @@ impl FieldDrag {
     /// Begins a frame. `in_use` is whether a field of the panel has the focus or is dragged.
     pub(super) fn begin(&mut self, state: &State, in_use: bool) {
         let active = state.selected();
-        self.typed.retain(|typed| Some(typed.bone) == active && (in_use || typed.form != Form::Quaternion));
+        self.typed
+            .retain(|typed| Some(typed.bone) == active && (in_use || typed.form != NumberForm::Quaternion));
     }
 
     /// Returns the numbers of a bone at `spot`.
-    pub(super) fn numbers(&self, bone: BoneIndex, pair: &Pair, spot: Spot) -> Option<Numbers> {
+    pub(super) fn numbers(&self, bone: BoneIndex, pair: &Pair, spot: Spot) -> Option<ChannelNumbers> {
         let now = numbers(pair, spot.property, spot.column, spot.form)?;
         let typed = self.typed.iter().find(|typed| {
             spot.property == Property::Rotation
                 && (typed.bone, typed.column, typed.form) == (bone, spot.column, spot.form)
         });
-        let fits =
-            |typed: &&Typed| turn_of(spot.form, now).is_some_and(|now| is_same_turn(typed.rotation, now));
+        let fits = |typed: &&TypedAngles| {
+            turn_of(spot.form, now).is_some_and(|now| is_same_turn(typed.rotation, now))
+        };
         Some(typed.filter(fits).map_or(now, |typed| typed.numbers))
     }
 
@@ -156,7 +160,7 @@ impl FieldDrag {
             FieldEvent::Touched => stop(state, requests),
             FieldEvent::Dragged(by) => {
                 if self.held.is_none() && !state.playback.playing && by != 0.0 {
-                    self.held = Some(Held {
+                    self.held = Some(HeldNumber {
                         gesture: state.new_gesture(),
                         spot,
                         component,
@@ -240,7 +244,7 @@ impl FieldDrag {
             {
                 let Spot { column, form, .. } = spot;
                 self.typed.retain(|typed| (typed.column, typed.form) != (column, form));
-                self.typed.push(Typed { bone: start.bone, column, form, numbers, rotation });
+                self.typed.push(TypedAngles { bone: start.bone, column, form, numbers, rotation });
             }
             poses.push(part.pose(start.bone, spot.property));
         }
@@ -255,7 +259,7 @@ impl FieldDrag {
 pub(super) fn set(
     state: &State,
     property: Property,
-    of: impl Fn(&Pair, BoneIndex) -> Option<Part>,
+    of: impl Fn(&Pair, BoneIndex) -> Option<PosePart>,
 ) -> Option<Request> {
     let bones = state.bones_to_pose();
     let poses =

@@ -5,7 +5,7 @@ use super::super::state::{Request, State};
 use super::super::theme::Theme;
 use super::super::widgets;
 use super::drag;
-use super::parts::Part;
+use super::parts::PosePart;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::rest_pose;
 use dragonfly_document::Change;
@@ -135,8 +135,8 @@ pub(super) fn reset(
     let Some(loaded) = state.loaded() else { return };
     let bones = &loaded.model.animation.skeleton.bones;
     let part = |pair: &super::parts::Pair, bone: BoneIndex| match to {
-        ResetTo::Original => Some(Part::of(&pair.original, property)),
-        ResetTo::Rest => Some(Part::of(&rest_pose(bones.get(bone as usize)?), property)),
+        ResetTo::Original => Some(PosePart::of(&pair.original, property)),
+        ResetTo::Rest => Some(PosePart::of(&rest_pose(bones.get(bone as usize)?), property)),
     };
     requests.extend(drag::set(state, property, part));
 }

@@ -22,7 +22,7 @@ use dragonfly_document::edit::{Property, ResetTo};
 use egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
 use keys::Keyed;
 use model::fact;
-use parts::Form;
+use parts::NumberForm;
 use serde::{Deserialize, Serialize};
 
 /// How the numbers of a bone are shown; saved in the settings.
@@ -109,12 +109,16 @@ impl Properties {
         let mut channels = Vec::with_capacity(4);
         for (at, property) in Property::ALL.into_iter().enumerate() {
             self.channel_head(ui, &table, property, requests);
-            let form = if property == Property::Rotation { Form::Euler(look.euler) } else { Form::Vector };
+            let form = if property == Property::Rotation {
+                NumberForm::Euler(look.euler)
+            } else {
+                NumberForm::Vector
+            };
             channels.push(table.room(ui, property, form, look.sliders[at]));
             if property == Property::Rotation {
                 quaternion_head(ui, look, requests);
                 if look.quaternion {
-                    channels.push(table.room(ui, property, Form::Quaternion, false));
+                    channels.push(table.room(ui, property, NumberForm::Quaternion, false));
                 }
             }
             ui.add_space(GRID);

@@ -39,7 +39,7 @@ impl Column {
 
 /// Form in which the numbers of a channel are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Form {
+pub enum NumberForm {
     /// Three numbers: translation, scale.
     Vector,
     /// Three angles in degrees.
@@ -48,7 +48,7 @@ pub enum Form {
     Quaternion,
 }
 
-impl Form {
+impl NumberForm {
     /// Returns how many numbers there are.
     pub fn count(self) -> usize {
         if self == Self::Quaternion { 4 } else { 3 }
@@ -65,10 +65,10 @@ pub struct Pair {
 }
 
 /// Numbers of a channel; if there are three, the last is 0.
-pub type Numbers = [f64; 4];
+pub type ChannelNumbers = [f64; 4];
 
 /// Returns the numbers of a column; `None` if there are none, such as the change of a scale that was 0.
-pub fn numbers(pair: &Pair, property: Property, column: Column, form: Form) -> Option<Numbers> {
+pub fn numbers(pair: &Pair, property: Property, column: Column, form: NumberForm) -> Option<ChannelNumbers> {
     match property {
         Property::Rotation => {
             let [original, result] = [pair.original, pair.result].map(|pose| pose.rotation.as_dquat());
@@ -104,19 +104,19 @@ pub fn part(
     original: &Transform,
     property: Property,
     column: Column,
-    form: Form,
-    numbers: Numbers,
-) -> Option<Part> {
+    form: NumberForm,
+    numbers: ChannelNumbers,
+) -> Option<PosePart> {
     match property {
         Property::Rotation => {
             let rotation = turn_of(form, numbers)?;
-            Some(Part::Turn(match column {
+            Some(PosePart::Turn(match column {
                 // Exact to the bit, as an identity change gives the original.
                 Column::Change if rotation == DQuat::IDENTITY => original.rotation,
                 Column::Change => (rotation * original.rotation.as_dquat()).normalize().as_quat(),
                 Column::Original | Column::Result => rotation.as_quat(),
             }))
-            .filter(|part| matches!(part, Part::Turn(turn) if turn.is_finite()))
+            .filter(|part| matches!(part, PosePart::Turn(turn) if turn.is_finite()))
         }
         Property::Translation | Property::Scale => {
             let from = vector(original, property).to_array();
@@ -128,7 +128,7 @@ pub fn part(
             let vanishes =
                 property == Property::Scale && (0..3).any(|axis| from[axis] == 0.0 && numbers[axis] != 1.0);
             let stuck = vanishes && column == Column::Change;
-            Some(Part::Vector(Vec3::from_array(value)))
+            Some(PosePart::Vector(Vec3::from_array(value)))
                 .filter(|_| !stuck && value.iter().all(|x| x.is_finite()))
         }
     }
@@ -136,14 +136,14 @@ pub fn part(
 
 /// The part of a pose that belongs to one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Part {
+pub enum PosePart {
     /// Translation or scale.
     Vector(Vec3),
     /// Rotation.
     Turn(Quat),
 }
 
-impl Part {
+impl PosePart {
     /// Returns the part of a pose.
     pub fn of(pose: &Transform, property: Property) -> Self {
         match property {
@@ -187,9 +187,9 @@ impl Part {
 }
 
 /// Returns the numbers of a rotation.
-pub fn turn_numbers(form: Form, rotation: DQuat) -> Numbers {
+pub fn turn_numbers(form: NumberForm, rotation: DQuat) -> ChannelNumbers {
     match form {
-        Form::Euler(order) => {
+        NumberForm::Euler(order) => {
             let [x, y, z] = turn::degrees(order, rotation);
             [x, y, z, 0.0]
         }
@@ -200,10 +200,10 @@ pub fn turn_numbers(form: Form, rotation: DQuat) -> Numbers {
 }
 
 /// Returns the rotation that numbers stand for; `None` if they stand for none.
-pub fn turn_of(form: Form, numbers: Numbers) -> Option<DQuat> {
+pub fn turn_of(form: NumberForm, numbers: ChannelNumbers) -> Option<DQuat> {
     match form {
-        Form::Euler(_) if numbers[..3] == [0.0; 3] => Some(DQuat::IDENTITY),
-        Form::Euler(order) => Some(turn::rotation(order, [numbers[0], numbers[1], numbers[2]])),
+        NumberForm::Euler(_) if numbers[..3] == [0.0; 3] => Some(DQuat::IDENTITY),
+        NumberForm::Euler(order) => Some(turn::rotation(order, [numbers[0], numbers[1], numbers[2]])),
         _ => {
             let rotation = DQuat::from_array(numbers);
             let length = rotation.length();
@@ -221,6 +221,6 @@ fn vector(pose: &Transform, property: Property) -> Vec3 {
     if property == Property::Scale { pose.scale } else { pose.translation }
 }
 
-fn finite(numbers: &Numbers) -> bool {
+fn finite(numbers: &ChannelNumbers) -> bool {
     numbers.iter().all(|number| number.is_finite())
 }

@@ -17,14 +17,14 @@ const LONGEST: usize = 10_000;
 #[derive(Debug, Default)]
 pub(super) struct Rename {
     text: String,
-    stage: Stage,
+    stage: RenameStage,
     /// Reason why the name is not accepted.
     refused: Option<String>,
 }
 
 /// State of the field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Stage {
+enum RenameStage {
     #[default]
     Fresh,
     /// The focus is requested for the field.
@@ -47,12 +47,12 @@ impl Rename {
         let own = view.slots.get(index).map(|slot| slot.id);
         let id = Id::unique("name of a take");
         let has_focus = ui.memory(|memory| memory.has_focus(id));
-        let first = self.stage == Stage::Fresh;
+        let first = self.stage == RenameStage::Fresh;
         if first {
             self.text.clone_from(&take.name);
-            self.stage = Stage::Asked;
-        } else if self.stage == Stage::Asked && has_focus {
-            self.stage = Stage::Typing;
+            self.stage = RenameStage::Asked;
+        } else if self.stage == RenameStage::Asked && has_focus {
+            self.stage = RenameStage::Typing;
             widgets::select_all(ui.ctx(), id, &self.text);
         }
         let (enter, escape) = ui.input_mut(|input| {

@@ -16,7 +16,7 @@ use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, CornerRadius, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-/// The viewport and its overlays. Mouse input in it goes to the controls of the scene ([`crate::control::Hands`])
+/// The viewport and its overlays. Mouse input in it goes to the controls of the scene ([`crate::control::ViewportTools`])
 /// before the panels get it.
 #[derive(Debug, Default)]
 pub struct Viewport;
