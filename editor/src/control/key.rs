@@ -98,7 +98,7 @@ impl HeldKeys {
     }
 
     /// A control was unregistered: its parent gets the releases.
-    pub(super) fn hand_on(&mut self, from: ControlId, to: Option<ControlId>) {
+    pub(super) fn pass_on(&mut self, from: ControlId, to: Option<ControlId>) {
         for held in self.keys.iter_mut().filter(|held| held.is_some_and(|held| held.1 == from)) {
             *held = held.zip(to).map(|((key, _), to)| (key, to));
         }

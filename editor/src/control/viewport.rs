@@ -19,7 +19,7 @@ pub enum Button {
     Right,
 }
 
-/// What the viewport requests apart from moving the camera. Positions are points from its top left.
+/// A request of the viewport apart from moving the camera. Positions are points from its top left.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// Select the bone at a position.

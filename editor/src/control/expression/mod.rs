@@ -20,7 +20,7 @@ mod parser;
 use lexer::Lexer;
 use parser::Parser;
 
-/// Longest text that is evaluated, bytes. Nobody types more, but a clipboard may contain anything.
+/// Longest text that is evaluated, bytes. A user never types more, but a clipboard may contain anything.
 pub const LONGEST: usize = 4096;
 /// Deepest nesting of brackets and signs.
 pub const DEEPEST: u32 = 64;
@@ -43,11 +43,11 @@ pub enum Quantity {
 pub struct ExpressionError {
     /// Position in the text, in characters from 0.
     pub at: usize,
-    /// What is wrong at that position.
+    /// The error at that position.
     pub reason: ExpressionFault,
 }
 
-/// What can be wrong with an expression.
+/// An error in an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ExpressionFault {
     /// The text is empty.
@@ -82,7 +82,7 @@ pub enum ExpressionFault {
     NotFinite,
 }
 
-/// Returns the number that `text` stands for, in the unit of `quantity`. Always finite.
+/// Returns the value of `text`, in the unit of `quantity`. Always finite.
 pub fn evaluate(text: &str, quantity: Quantity) -> Result<f64, ExpressionError> {
     if text.len() > LONGEST {
         return Err(ExpressionError { at: 0, reason: ExpressionFault::TooLong });

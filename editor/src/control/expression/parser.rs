@@ -23,7 +23,7 @@ impl<'a> Parser<'a> {
         Self { lexer, token: Token::End, at: 0, depth: 0, unit: Unit::of(quantity), given: None }
     }
 
-    /// Returns the number that the whole text stands for.
+    /// Returns the value of the whole text.
     pub(super) fn whole(&mut self) -> ParseResult {
         self.next()?;
         if self.token == Token::End {

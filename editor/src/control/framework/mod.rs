@@ -9,7 +9,7 @@
 //! An input allocates nothing. Ids of unregistered controls are recognized, so a control may be unregistered while an input is
 //! processed, by itself or by another.
 
-mod hear;
+mod route;
 mod settle;
 
 use super::base::{Area, ControlId, ControlLookup};
@@ -18,13 +18,13 @@ use super::key::{HeldKeys, Modifiers};
 use super::places::ControlTree;
 use glam::Vec2;
 
-/// Which control has the mouse while buttons are held.
+/// The control that has the mouse while buttons are held.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Capture {
     #[default]
     Free,
-    /// This control. `heard` is the last of its ancestors that the press was passed on to.
-    By { control: ControlId, heard: ControlId },
+    /// This control. `topmost` is the last of its ancestors that the press was passed on to.
+    By { control: ControlId, topmost: ControlId },
     /// None: the control that had it was unregistered, or the press was lost. Ends when all buttons are up.
     Gone,
 }
@@ -90,15 +90,15 @@ impl ControlFramework {
     /// Unregisters a control, without notifying it; those inside it get its parent. Returns whether it existed; the
     /// root stays.
     pub fn unregister_control(&mut self, id: ControlId) -> bool {
-        if let Capture::By { control, heard } = self.capture {
-            self.capture = match (control == id, heard == id) {
+        if let Capture::By { control, topmost } = self.capture {
+            self.capture = match (control == id, topmost == id) {
                 (true, true) => Capture::Gone,
                 // The controls that the press was passed on to get its end.
                 (true, false) => match self.places.parent(id) {
-                    Some(control) => Capture::By { control, heard },
+                    Some(control) => Capture::By { control, topmost },
                     None => self.capture,
                 },
-                (false, true) => Capture::By { control, heard: self.places.below(id, control) },
+                (false, true) => Capture::By { control, topmost: self.places.below(id, control) },
                 (false, false) => self.capture,
             };
         }
@@ -106,7 +106,7 @@ impl ControlFramework {
         if !self.places.remove(id) {
             return false;
         }
-        self.keys.hand_on(id, parent);
+        self.keys.pass_on(id, parent);
         let forget = |known: &mut Option<ControlId>| *known = known.filter(|&known| known != id);
         forget(&mut self.entered);
         forget(&mut self.grabbed);

@@ -27,10 +27,10 @@ impl ControlFramework {
 
     pub(super) fn lost_mouse(&mut self, controls: &mut dyn ControlLookup) {
         self.held = [false; 3];
-        let Capture::By { control, heard } = std::mem::take(&mut self.capture) else { return };
+        let Capture::By { control, topmost } = std::mem::take(&mut self.capture) else { return };
         let mut next = Some(control);
         while let Some(id) = next {
-            next = self.places.parent(id).filter(|_| id != heard);
+            next = self.places.parent(id).filter(|_| id != topmost);
             if let Some(control) = self.there(id, controls) {
                 control.input_lost(self);
             }

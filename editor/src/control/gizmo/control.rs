@@ -9,7 +9,7 @@ use crate::control::viewport_tools::ViewportTool;
 use dragonfly_picture::gizmo::{GizmoView, Handle, Tool};
 use glam::Vec2;
 
-/// The control of the gizmo, registered over the whole viewport inside its control, so that a press beside the handles
+/// The control of the gizmo, registered over the whole viewport inside its control, so that a press that misses the handles
 /// reaches the viewport.
 #[derive(Clone, Debug)]
 pub struct GizmoControl {

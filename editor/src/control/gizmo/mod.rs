@@ -29,7 +29,7 @@ use dragonfly_picture::gizmo::{
 use glam::{Mat4, Vec2};
 use typed::TypedNumbers;
 
-/// What a key or a button did.
+/// The effect of a key or a button on the gizmo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GizmoAnswer {
     /// It has no meaning for the gizmo.
@@ -42,7 +42,7 @@ pub enum GizmoAnswer {
     Cancelled,
 }
 
-/// The state of a drag, for the text beside the pointer. Lengths and angles are along the axes of [`Self::space`].
+/// The state of a drag, for the text next to the pointer. Lengths and angles are along the axes of [`Self::space`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GizmoReadout<'a> {
     /// Tool that drags.
@@ -210,7 +210,7 @@ impl Gizmo {
         self.delta.is_none_or(|delta| delta.is_identity())
     }
 
-    /// Returns what to show beside the pointer during a drag.
+    /// Returns what to show next to the pointer during a drag.
     pub fn readout(&self) -> Option<GizmoReadout<'_>> {
         let drag = self.going.as_ref()?;
         let field = self.typed.current();

@@ -30,7 +30,7 @@ impl ValueWindow {
         let (low, high) = (f64::from(low), f64::from(high));
         let span = (high - low).max((low.abs().max(high.abs()) * 0.02).max(0.02));
         let middle = (low + high) / 2.0;
-        Self { low: middle - span * 0.58, span: span * 1.16 }.mended()
+        Self { low: middle - span * 0.58, span: span * 1.16 }.sanitized()
     }
 
     /// Whether all of `low..=high` is visible.
@@ -38,7 +38,7 @@ impl ValueWindow {
         f64::from(low) >= self.low && f64::from(high) <= self.low + self.span
     }
 
-    fn mended(self) -> Self {
+    fn sanitized(self) -> Self {
         let span = if self.span.is_finite() { self.span.clamp(SMALLEST, LARGEST) } else { 2.0 };
         let low = if self.low.is_finite() { self.low.clamp(-LARGEST, LARGEST) } else { -1.0 };
         Self { low, span }
@@ -47,11 +47,11 @@ impl ValueWindow {
     pub(super) fn zoomed(self, about: f64, factor: f64) -> Self {
         let span = (self.span * factor).clamp(SMALLEST, LARGEST);
         let part = (about - self.low) / self.span;
-        Self { low: about - part * span, span }.mended()
+        Self { low: about - part * span, span }.sanitized()
     }
 
     pub(super) fn panned(self, by: f64) -> Self {
-        Self { low: self.low + by, ..self }.mended()
+        Self { low: self.low + by, ..self }.sanitized()
     }
 }
 

@@ -127,7 +127,7 @@ impl Curve {
         self.whole
     }
 
-    /// Computes more keys, at most as many as are left in `budget`.
+    /// Computes more keys, at most `budget`, and subtracts their number from it.
     pub(super) fn compute(&mut self, budget: &mut usize) {
         if self.whole {
             return;

@@ -21,7 +21,7 @@ pub(super) struct CurveDrag {
     component: usize,
 }
 
-/// What is dragged. `requested` is whether the drag was requested, so that it must exist from now on.
+/// The dragged part of the curves. `requested` is whether the drag was requested, so that it must exist from now on.
 #[derive(Debug)]
 enum CurveDragged {
     Times {
@@ -47,7 +47,7 @@ enum CurveDragged {
     Box(SelectionBox),
 }
 
-/// What is under the pointer.
+/// Target under the pointer.
 #[derive(Clone, Debug)]
 enum CurveTarget {
     Nothing,

@@ -59,7 +59,7 @@ pub(super) struct FieldsContext<'a> {
 }
 
 impl Fields {
-    /// Draws the fields from right to left: time, then as many values as fit.
+    /// Draws the fields from right to left: time, then the values that fit.
     pub(super) fn show(&mut self, ui: &mut Ui, about: &FieldsContext<'_>, requests: &mut Vec<Request>) {
         self.held.take_if(|held| held.by != 0.0 && !about.state.keys.drag().is_some_and(|drag| drag.held()));
         let key = self.held.map(|held| held.key).or_else(|| only_key(about.curves, about.drawn));

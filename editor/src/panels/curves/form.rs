@@ -71,7 +71,7 @@ impl RotationForm {
         [x as f32, y as f32, z as f32, 0.0]
     }
 
-    /// Returns the rotation that the numbers stand for.
+    /// Returns the rotation with these numbers.
     pub(super) fn rotation(self, numbers: [f32; 4]) -> Quat {
         self.exact(numbers.map(f64::from)).as_quat()
     }

@@ -39,7 +39,7 @@ pub struct Curves {
     scrub: Scrub,
     /// Range of values that is shown; none until there are curves to fit.
     window: Option<ValueWindow>,
-    /// What the range of values was fitted to.
+    /// Curves that the range of values was fitted to.
     fitted: Option<Fitted>,
     /// Whether the user chose another range of values since.
     chosen_by_hand: bool,

@@ -17,7 +17,7 @@ use egui::accesskit::Role;
 use egui::{Align2, Button, Color32, CornerRadius, FontId, RichText, Sense, Ui, WidgetInfo, vec2};
 use std::sync::Arc;
 
-/// What the user chose to see.
+/// Channels, components and form that the user chose to see.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chosen {
     /// Set of properties, see [`bit`].

@@ -1,4 +1,4 @@
-//! What a save would change, before it is written.
+//! The list of changes that a save would make, before it is written.
 
 use super::{Ask, Tone};
 use crate::panels::saving::Deed;

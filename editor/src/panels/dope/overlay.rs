@@ -1,4 +1,4 @@
-//! What is drawn below and above the keys: rows, the range that does not play, the playhead.
+//! The parts drawn below and above the keys: rows, the range that does not play, the playhead.
 
 use super::rows::RowKind;
 use super::{ROW, Sheet};

@@ -29,13 +29,13 @@ const THRESHOLD: f32 = 4.0;
 pub(in crate::panels) struct Press<T> {
     /// Where it was, points.
     pub(in crate::panels) at: Pos2,
-    /// What was under the pointer.
+    /// Target under the pointer.
     pub(in crate::panels) on: T,
     /// Modifier keys held at that time.
     pub(in crate::panels) modifiers: Modifiers,
 }
 
-/// What happened to a drag in one frame.
+/// The change of a drag in one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::panels) enum DragEvent<T, D> {
     /// Nothing to act on.
@@ -45,7 +45,7 @@ pub(in crate::panels) enum DragEvent<T, D> {
     /// The pointer moved past the threshold. The panel calls [`DragMachine::begin`] to drag something; otherwise the
     /// rest of the press is ignored.
     Started(Press<T>),
-    /// The drag goes on, with the pointer here.
+    /// The drag continues, with the pointer at this position.
     Moved(Pos2),
     /// The button went up before the threshold.
     Clicked(Press<T>),
@@ -116,7 +116,7 @@ impl<T, D> DragMachine<T, D> {
         self.phase = Phase::Dragging(drag);
     }
 
-    /// Ends what goes on without an event; the rest of the press is ignored.
+    /// Ends a press or drag without an event; the rest of the press is ignored.
     pub(in crate::panels) fn spend(&mut self) {
         self.phase = Phase::Spent;
     }

@@ -1,4 +1,4 @@
-//! What the pointer does in one frame, and the text beside it.
+//! Input of the pointer in one frame, and the text next to it.
 
 use crate::panels::theme::Theme;
 use egui::{
@@ -42,7 +42,7 @@ impl PointerInput {
         })
     }
 
-    /// Reads the input for a widget that egui drags: the button counts as down while egui says so.
+    /// Reads the input for a widget that egui drags: the button counts as down while egui reports a drag.
     pub(in crate::panels) fn of_widget(ui: &Ui, response: &Response) -> Self {
         let escape = ui.input(|input| input.key_pressed(Key::Escape));
         let read = Self::read(ui);
@@ -51,7 +51,7 @@ impl PointerInput {
     }
 }
 
-/// Draws what a drag amounts to beside the pointer.
+/// Draws the present amount of a drag next to the pointer.
 pub(in crate::panels) fn readout(ui: &Ui, pointer: Pos2, text: &str) {
     let theme = Theme::of(ui);
     let layer = egui::LayerId::new(egui::Order::Tooltip, egui::Id::unique("readout"));

@@ -9,7 +9,7 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
 /// Makes the enum of all icons and the table of their strokes, a row each.
 macro_rules! icons {
     ($($name:ident: [$($stroke:expr),+ $(,)?],)+) => {
-        /// What can be drawn.
+        /// An icon.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[allow(missing_docs)] // The names say it.
         pub enum Icon { $($name,)+ }
@@ -18,7 +18,7 @@ macro_rules! icons {
             /// All icons.
             pub const ALL: &[Self] = &[$(Self::$name,)+];
 
-            /// What the icon is drawn with, on a grid of sixteen by sixteen.
+            /// Returns the strokes of the icon, on a grid of sixteen by sixteen.
             pub(super) fn strokes(self) -> &'static [super::IconStroke] {
                 const STROKES: &[&[super::IconStroke]] = &[$(&[$($stroke),+],)+];
                 STROKES[self as usize]

@@ -19,7 +19,7 @@ use std::time::Duration;
 /// Longest text, in characters.
 const LONGEST: usize = 1000;
 
-/// What a field edits and shows.
+/// Settings of a field: its number, and how it is edited and shown.
 #[derive(Clone, Debug)]
 pub struct NumberField<'a> {
     /// Identifies the field between frames.
@@ -50,7 +50,7 @@ pub struct NumberField<'a> {
     pub quiet: bool,
 }
 
-/// What the user did to a field.
+/// An action of the user on a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FieldEvent {
     /// Nothing happened.
@@ -82,9 +82,9 @@ struct Typing {
 struct DraggedNumber {
     /// Number when the drag began.
     start: f64,
-    /// What the drag has added, before limits and snapping.
+    /// Amount that the drag has added, before limits and snapping.
     raw: f64,
-    /// What was reported last: the number minus `start`.
+    /// Amount that was reported last: the number minus `start`.
     reported: f64,
 }
 
@@ -153,7 +153,7 @@ impl NumberField<'_> {
         (early.or(stepped).unwrap_or(late), response)
     }
 
-    /// Returns the number that a text stands for.
+    /// Returns the value of a text.
     fn read(&self, text: &str) -> Result<f64, String> {
         let value = evaluate(text, self.quantity).map_err(|error| sentence(&error.to_string()))?;
         if !self.range.contains(&value) || !(value as f32).is_finite() {

@@ -31,7 +31,7 @@ pub(super) struct ChannelTable<'a> {
     /// Radius of the model in parent space: about how far a translation goes.
     pub(super) size: f64,
     /// Meters of the scene per unit of parent space.
-    pub(super) metres: f64,
+    pub(super) meters: f64,
 }
 
 /// Returns the columns that fit, and their positions.
@@ -237,7 +237,7 @@ impl ChannelTable<'_> {
                 "The quaternion is normalized when you leave its fields.".to_owned()
             }
             (Property::Translation, _) if !self.is_metric() => {
-                format!("In the parent's space, where 1 is {} m", Digits::Fitting.text(self.metres))
+                format!("In parent space, where 1 unit is {} m", Digits::Fitting.text(self.meters))
             }
             _ => String::new(),
         };
@@ -321,7 +321,7 @@ impl ChannelTable<'_> {
 
     /// Whether units of parent space are meters.
     pub(super) fn is_metric(&self) -> bool {
-        (self.metres - 1.0).abs() < 0.01
+        (self.meters - 1.0).abs() < 0.01
     }
 
     /// Returns the unit after the number: `m`, `°`, `×`.

@@ -50,7 +50,7 @@ struct HeldNumber {
     over: bool,
 }
 
-/// What a drag applies to; the drag ends when it changes.
+/// Take, time and bones of a drag; the drag ends when they change.
 #[derive(Clone, Debug, PartialEq)]
 struct Moment {
     take: Option<usize>,

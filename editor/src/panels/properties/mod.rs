@@ -100,8 +100,8 @@ impl Properties {
         }
         let size = f64::from(loaded.bounds.sphere.radius);
         let size = if size.is_finite() && size > 1e-9 { size } else { 1.0 };
-        let metres = metres(state, bone);
-        let table = ChannelTable { state, bone, pair, locked, size: size / metres, metres };
+        let meters = meters(state, bone);
+        let table = ChannelTable { state, bone, pair, locked, size: size / meters, meters };
         ui.add_space(GRID);
         channel::heads(ui);
         let look = state.settings.properties;
@@ -224,7 +224,7 @@ fn head(ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>
 
 /// Returns the number of meters of the scene per unit of parent space of a bone; 1 if it cannot be computed. Files
 /// whose skeleton is in centimeters have a node above it with a scale of 0.01.
-fn metres(state: &State, bone: BoneIndex) -> f64 {
+fn meters(state: &State, bone: BoneIndex) -> f64 {
     let parent =
         state.loaded().and_then(|loaded| loaded.model.animation.skeleton.bones.get(bone as usize)?.parent);
     let to_root = state
@@ -233,8 +233,8 @@ fn metres(state: &State, bone: BoneIndex) -> f64 {
         .zip(parent)
         .and_then(|(animation, parent)| animation.to_root().get(parent as usize).copied());
     let volume = to_root.map_or(1.0, |to_root| f64::from(to_root.determinant().abs()));
-    let metres = volume.cbrt();
-    if metres.is_finite() && metres > 1e-9 { metres } else { 1.0 }
+    let meters = volume.cbrt();
+    if meters.is_finite() && meters > 1e-9 { meters } else { 1.0 }
 }
 
 /// Draws the menu for the order of the three rotations.

@@ -199,7 +199,7 @@ pub fn turn_numbers(form: NumberForm, rotation: DQuat) -> ChannelNumbers {
     }
 }
 
-/// Returns the rotation that numbers stand for; `None` if they stand for none.
+/// Returns the rotation with these numbers; `None` if they are not a rotation.
 pub fn turn_of(form: NumberForm, numbers: ChannelNumbers) -> Option<DQuat> {
     match form {
         NumberForm::Euler(_) if numbers[..3] == [0.0; 3] => Some(DQuat::IDENTITY),

@@ -1,4 +1,4 @@
-//! The text beside the pointer: how far a drag is, or what the next one will do.
+//! The text next to the pointer: how far a drag is, or what the next one will do.
 
 use super::super::style::{GRID, NUMBER};
 use super::glass;

@@ -38,7 +38,7 @@ impl ControlFramework {
         self.held[button as usize] = true;
         if begins {
             let under = self.grabbed.or_else(|| self.under(self.pointer()?, controls));
-            self.capture = under.map_or(Capture::Gone, |control| Capture::By { control, heard: control });
+            self.capture = under.map_or(Capture::Gone, |control| Capture::By { control, topmost: control });
         }
         let mouse = Mouse { at: self.mouse?, modifiers: self.modifiers };
         let Capture::By { control, .. } = self.capture else { return None };
@@ -49,10 +49,10 @@ impl ControlFramework {
                 let Some(control) = self.there(id, controls) else { continue };
                 match &mut self.capture {
                     // The last ancestor that any press was passed on to.
-                    Capture::By { heard, .. } if self.places.is_inside(*heard, id) => *heard = id,
+                    Capture::By { topmost, .. } if self.places.is_inside(*topmost, id) => *topmost = id,
                     Capture::By { .. } => {}
                     // The pressed control unregistered itself and passed the press on.
-                    _ => self.capture = Capture::By { control: id, heard: id },
+                    _ => self.capture = Capture::By { control: id, topmost: id },
                 }
                 if control.mouse_down(button, mouse, self) == InputFlow::Stop {
                     return Some(id);
@@ -78,7 +78,7 @@ impl ControlFramework {
         stopped
     }
 
-    /// Calls the control that has the mouse, else the one under it, and those that it passes the input on to.
+    /// Calls the control that has the mouse, or the one under it, then those that it passes the input on to.
     pub(super) fn tell_mouse(
         &mut self,
         controls: &mut dyn ControlLookup,
