@@ -129,7 +129,8 @@ impl<T, D> DragMachine<T, D> {
         held: bool,
         target: impl FnOnce(Pos2) -> T,
     ) -> DragEvent<T, D> {
-        if !input.primary_down && !(input.cancels && self.drag().is_some()) {
+        let cancels_drag = input.cancels && self.drag().is_some();
+        if !input.primary_down && !cancels_drag {
             return match std::mem::replace(&mut self.phase, Phase::Idle) {
                 Phase::Idle | Phase::Spent => DragEvent::Nothing,
                 Phase::Pressed(press) => DragEvent::Clicked(press),
