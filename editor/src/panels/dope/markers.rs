@@ -2,6 +2,7 @@
 
 use super::Sheet;
 use super::head::to_frame;
+use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
 use crate::panels::keys::{KeysRequest, MarkerDeed, TimeScale};
 use crate::panels::state::{Request, State};
 use crate::panels::theme::Theme;
@@ -15,9 +16,10 @@ use egui::{
 #[derive(Debug, Default)]
 pub(super) struct MarkerLane {
     renaming: Option<(usize, String, MarkerNameStage)>,
-    /// A dragged marker: index and time, seconds. The marker moves when it is released, so that the order stays during
-    /// the drag.
-    held: Option<(usize, f32)>,
+    /// Index and time, seconds, of the dragged marker. It moves when it is released, so that the order stays during the drag.
+    drag: DragMachine<(), (usize, f32)>,
+    /// Index of the marker whose drag `drag` follows.
+    dragged: Option<usize>,
 }
 
 /// State of the field for a name.
@@ -34,7 +36,7 @@ impl MarkerLane {
         let Sheet { areas, scale, state, .. } = *sheet;
         let lane = areas.markers;
         if lane.height() < 4.0 {
-            (self.renaming, self.held) = (None, None);
+            *self = Self::default();
             return;
         }
         let theme = Theme::of(ui);
@@ -44,7 +46,8 @@ impl MarkerLane {
         let mut ask = |deed: MarkerDeed| requests.push(Request::Timeline(KeysRequest::Marker(deed)));
         let mut seek = None;
         for (index, marker) in markers.iter().enumerate() {
-            let time = self.held.filter(|(held, _)| *held == index).map_or(marker.time, |(_, time)| time);
+            let held = self.drag.drag().filter(|(held, _)| *held == index);
+            let time = held.map_or(marker.time, |(_, time)| *time);
             let x = scale.x_of(time);
             let end = markers.get(index + 1).map_or(f32::INFINITY, |next| scale.x_of(next.time));
             let grip = Rect::from_min_max(
@@ -85,25 +88,27 @@ impl MarkerLane {
             if response.double_clicked() {
                 self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
             }
-            if self.held.is_some_and(|(held, _)| held == index)
-                && ui.input(|input| input.key_down(egui::Key::Escape))
-            {
-                // egui itself ends the drag when Escape is pressed.
-                self.held = None;
-            } else if response.dragged_by(PointerButton::Primary)
-                && let Some(pointer) = response.interact_pointer_pos()
-            {
-                let snap = state.keys.snap != ui.input(|input| input.modifiers.command);
-                let time = scale.time_at(pointer.x);
-                let time = if snap { to_frame(time, state) } else { time };
-                let cancelled =
-                    ui.input(|input| input.pointer.secondary_down() || input.key_down(egui::Key::Escape));
-                self.held = if cancelled { None } else { Some((index, time)) };
+            if response.drag_started_by(PointerButton::Primary) {
+                self.drag = DragMachine::dragging((index, marker.time));
+                self.dragged = Some(index);
             }
-            if response.drag_stopped()
-                && let Some((index, time)) = self.held.take()
-            {
-                ask(MarkerDeed::Move(index, time));
+            if self.dragged == Some(index) {
+                let input = PointerInput::of_widget(ui, &response);
+                match self.drag.step(&input, input.primary_down, |_| ()) {
+                    DragEvent::Moved(pointer) => {
+                        let snap = state.keys.snap != input.modifiers.command;
+                        let time = scale.time_at(pointer.x);
+                        let time = if snap { to_frame(time, state) } else { time };
+                        self.drag.begin((index, time));
+                    }
+                    DragEvent::Dropped((index, time)) => ask(MarkerDeed::Move(index, time)),
+                    DragEvent::Cancelled(_)
+                    | DragEvent::Nothing
+                    | DragEvent::Pressed
+                    | DragEvent::Started(_)
+                    | DragEvent::Clicked(_) => {}
+                }
+                self.dragged = self.dragged.filter(|_| self.drag.is_busy());
             }
             response.context_menu(|ui| {
                 if ui.add(Button::new("Rename").frame_when_inactive(false)).clicked() {
