@@ -5,7 +5,7 @@
 //! `DRAGONFLY_BENCH_KEYS` reduces the ten minutes to a fraction, 0 to 1, for a machine with little memory.
 
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::keys::{ChannelId, Deed, KeysRequest, TimeWindow};
+use dragonfly::panels::keys::{ChannelId, KeyDragOp, KeysRequest, TimeWindow};
 use dragonfly::panels::{Desk, Effect, Request, Settings, State, style};
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{
@@ -59,7 +59,7 @@ pub(crate) fn all() {
 
 /// Drags 100,000 selected keys, while the document answers from a thread of its own.
 fn drag(view: &View, zoom: TimeWindow, name: &str) {
-    let (ask, asked) = channel::<Change>();
+    let (ask, asked) = channel::<(u64, Change)>();
     let (answer, answers) = channel::<View>();
     let first = view.clone();
     std::thread::scope(|scope| {
@@ -68,7 +68,13 @@ fn drag(view: &View, zoom: TimeWindow, name: &str) {
     });
 }
 
-fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, answers: &Receiver<View>) {
+fn drag_keys(
+    view: &View,
+    zoom: TimeWindow,
+    name: &str,
+    ask: Sender<(u64, Change)>,
+    answers: &Receiver<View>,
+) {
     let mut window = PanelsWindow::new(view, &[3, 4, 5]);
     let take = Arc::clone(&view.takes[0]);
     show(&mut window.state, zoom);
@@ -90,10 +96,13 @@ fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, ans
     let label = format!("dragging {selected} keys, {name}");
     window.measure_with(&label, |at, state, effects| {
         for effect in effects.drain(..) {
-            if let Effect::Change(change) = effect {
+            let mut passed = Vec::new();
+            state.let_through(effect, &mut |effect| passed.push(effect));
+            for effect in passed {
+                let Effect::Send(number, change) = effect else { continue };
                 edits += 1;
-                // Fails only when the bench has ended.
-                let _ = ask.send(change);
+                // The document ends with the bench.
+                let _ = ask.send((number, change));
             }
         }
         if let Some(view) = newest(answers) {
@@ -102,7 +111,7 @@ fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, ans
             shown.push((cpu() - begin).as_secs_f64() * 1e3);
         }
         let by = (at as f32 * 0.05).sin() * (zoom.length as f32 * 0.1) + at as f32 * 0.01;
-        Some(Request::Timeline(KeysRequest::Drag(Deed::Move(by))))
+        Some(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(by))))
     });
     drop(ask);
     let worst = shown.iter().copied().fold(0.0, f64::max);
@@ -113,11 +122,11 @@ fn newest(answers: &Receiver<View>) -> Option<View> {
     answers.try_iter().last()
 }
 
-/// Answers edits until the other end is dropped.
-fn document(first: View, asked: &Receiver<Change>, answer: &Sender<View>) {
+/// Answers edits until nobody asks any more.
+fn document(first: View, asked: &Receiver<(u64, Change)>, answer: &Sender<View>) {
     let mut edited = Edited::new(ModelAdapter::new(&first.loaded.model.animation));
     let mut generation = first.generation;
-    while let Ok(change) = asked.recv() {
+    while let Ok((answered, change)) = asked.recv() {
         let done = match change {
             Change::Edit(edit, gesture) => edited.apply(edit, gesture).is_ok(),
             Change::Cancel(gesture) => edited.cancel(gesture),
@@ -126,6 +135,7 @@ fn document(first: View, asked: &Receiver<Change>, answer: &Sender<View>) {
         generation += u64::from(done);
         let view = View {
             generation,
+            answered,
             takes: edited.adapter().results().cloned().collect(),
             slots: edited.adapter().slots().into(),
             ..first.clone()

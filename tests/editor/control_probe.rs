@@ -1,7 +1,7 @@
-//! Controls that note what they are told, for the tests of the framework.
+//! ControlLookup that note what they are told, for the tests of the framework.
 
 use dragonfly::control::{
-    Area, BaseControl, Button, ControlFramework, ControlId, Controls, Key, Modifiers, Mouse, Pass,
+    Area, BaseControl, Button, ControlFramework, ControlId, ControlLookup, InputFlow, Key, Modifiers, Mouse,
 };
 use glam::Vec2;
 
@@ -44,9 +44,9 @@ pub(crate) struct Probe {
 }
 
 impl Probe {
-    pub(crate) fn note(&mut self, told: Told) -> Pass {
+    pub(crate) fn note(&mut self, told: Told) -> InputFlow {
         self.told.push(told);
-        if self.passes { Pass::ToParent } else { Pass::Stop }
+        if self.passes { InputFlow::ToParent } else { InputFlow::Stop }
     }
 }
 
@@ -63,10 +63,10 @@ impl BaseControl for Probe {
             framework.set_focus(self.id);
         }
     }
-    fn key_down(&mut self, key: Key, _: Modifiers, repeat: bool, _: &mut ControlFramework) -> Pass {
+    fn key_down(&mut self, key: Key, _: Modifiers, repeat: bool, _: &mut ControlFramework) -> InputFlow {
         self.note(Told::KeyDown(key, repeat))
     }
-    fn key_up(&mut self, key: Key, _: Modifiers, _: &mut ControlFramework) -> Pass {
+    fn key_up(&mut self, key: Key, _: Modifiers, _: &mut ControlFramework) -> InputFlow {
         self.note(Told::KeyUp(key))
     }
     fn mouse_enter(&mut self, _: &mut ControlFramework) {
@@ -75,13 +75,13 @@ impl BaseControl for Probe {
     fn mouse_leave(&mut self, _: &mut ControlFramework) {
         self.note(Told::Leave);
     }
-    fn mouse_move(&mut self, _: Mouse, _: &mut ControlFramework) -> Pass {
+    fn mouse_move(&mut self, _: Mouse, _: &mut ControlFramework) -> InputFlow {
         self.note(Told::Move)
     }
-    fn mouse_wheel(&mut self, _: Vec2, _: Mouse, _: &mut ControlFramework) -> Pass {
+    fn mouse_wheel(&mut self, _: Vec2, _: Mouse, _: &mut ControlFramework) -> InputFlow {
         self.note(Told::Wheel)
     }
-    fn mouse_down(&mut self, button: Button, _: Mouse, framework: &mut ControlFramework) -> Pass {
+    fn mouse_down(&mut self, button: Button, _: Mouse, framework: &mut ControlFramework) -> InputFlow {
         match self.deed {
             Deed::Nothing => {}
             Deed::UnregisterSelf => assert!(framework.unregister_control(self.id)),
@@ -91,7 +91,7 @@ impl BaseControl for Probe {
         }
         self.note(Told::Down(button))
     }
-    fn mouse_up(&mut self, button: Button, _: Mouse, _: &mut ControlFramework) -> Pass {
+    fn mouse_up(&mut self, button: Button, _: Mouse, _: &mut ControlFramework) -> InputFlow {
         self.note(Told::Up(button))
     }
     fn input_lost(&mut self, _: &mut ControlFramework) {
@@ -105,7 +105,7 @@ pub(crate) struct Owner {
     pub(crate) probes: Vec<Probe>,
 }
 
-impl Controls for Owner {
+impl ControlLookup for Owner {
     fn control(&mut self, id: ControlId) -> Option<&mut dyn BaseControl> {
         self.probes.iter_mut().find(|probe| probe.id == id).map(|probe| probe as &mut dyn BaseControl)
     }

@@ -3,7 +3,8 @@
 use crate::gizmo_rig::{Rig, Screen, along};
 use dragonfly::control::gizmo::{GizmoAnswer, GizmoControl};
 use dragonfly::control::{
-    Area, BaseControl, Button, ControlFramework, ControlId, Controls, InputEvent, Key, Modifiers, Mouse, Pass,
+    Area, BaseControl, Button, ControlFramework, ControlId, ControlLookup, InputEvent, InputFlow, Key,
+    Modifiers, Mouse,
 };
 use dragonfly_kit::random::{Random, seed};
 use dragonfly_picture::gizmo::{AXIS_TO, GizmoSpace, Tool};
@@ -20,17 +21,17 @@ struct Picture {
 }
 
 impl BaseControl for Picture {
-    fn mouse_move(&mut self, _: Mouse, _: &mut ControlFramework) -> Pass {
+    fn mouse_move(&mut self, _: Mouse, _: &mut ControlFramework) -> InputFlow {
         self.moves += 1;
-        Pass::Stop
+        InputFlow::Stop
     }
-    fn mouse_down(&mut self, _: Button, _: Mouse, _: &mut ControlFramework) -> Pass {
+    fn mouse_down(&mut self, _: Button, _: Mouse, _: &mut ControlFramework) -> InputFlow {
         self.presses += 1;
-        Pass::Stop
+        InputFlow::Stop
     }
-    fn key_down(&mut self, _: Key, _: Modifiers, _: bool, _: &mut ControlFramework) -> Pass {
+    fn key_down(&mut self, _: Key, _: Modifiers, _: bool, _: &mut ControlFramework) -> InputFlow {
         self.keys += 1;
-        Pass::Stop
+        InputFlow::Stop
     }
 }
 
@@ -47,7 +48,7 @@ struct Owner {
     gizmo: (ControlId, GizmoControl),
 }
 
-impl Controls for Owner {
+impl ControlLookup for Owner {
     fn control(&mut self, id: ControlId) -> Option<&mut dyn BaseControl> {
         if id == self.picture.0 {
             Some(&mut self.picture.1)

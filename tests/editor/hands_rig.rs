@@ -5,7 +5,8 @@ use dragonfly::control::{Button, InputEvent, Key, Modifiers};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Effect, Request, Settings, State};
 use dragonfly_document::{
-    Cancel, Document, DocumentHandle, DocumentReply, LoadError, OpenedModel, Progress, Setup, Source, View,
+    Cancel, Change, Document, DocumentHandle, DocumentReply, LoadError, OpenedModel, Progress, Setup, Source,
+    View,
 };
 use dragonfly_kit::eventually;
 use dragonfly_picture::gizmo::{GizmoView, Handle};
@@ -91,6 +92,12 @@ impl Hand {
             }
         }
         self.state.begin(self.state.now);
+    }
+
+    /// Sends a numbered change, and lets both threads do what waits.
+    pub(crate) fn change_numbered(&mut self, number: u64, change: Change) {
+        self.document.change_numbered(number, change);
+        self.turn();
     }
 
     pub(crate) fn send(&mut self, event: InputEvent) -> bool {

@@ -12,6 +12,7 @@ mod control_mirror;
 mod control_probe;
 mod control_random;
 mod drag;
+mod echo;
 mod edit_command;
 mod explain;
 mod eye;

@@ -131,7 +131,7 @@ fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
     animator.request(Request::Command(Id::Undo));
     assert_eq!(animator.said(), "Undone: Add keys  ·  Survey");
     animator.request(Request::Command(Id::Redo));
-    assert_eq!(animator.said(), "Done again: Add keys  ·  Survey");
+    assert_eq!(animator.said(), "Redone: Add keys  ·  Survey");
     // A drag is said when it begins, and when it is given up.
     let state = &animator.harness.state().state;
     let gesture = state.new_gesture();
@@ -150,7 +150,7 @@ fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
     assert!(animator.said().starts_with("Move  ·  rib_00_left_middle  ·  Survey"), "{}", animator.said());
     assert_eq!(lines(&animator), before + 1);
     animator.request(Request::Change(Change::Cancel(gesture)));
-    assert!(animator.said().starts_with("Given up: Move"), "{}", animator.said());
+    assert!(animator.said().starts_with("Cancelled: Move"), "{}", animator.said());
     // Several steps at once.
     for name in ["a", "b"] {
         let rename = Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() });
@@ -191,7 +191,7 @@ fn keys_that_give_way_to_others_are_counted() {
     );
     // Moved beside all others.
     select(&mut animator, 0, 0);
-    animator.request(Request::Timeline(KeysRequest::Drag(dragonfly::panels::keys::Deed::Move(0.03))));
+    animator.request(Request::Timeline(KeysRequest::Drag(dragonfly::panels::keys::KeyDragOp::Move(0.03))));
     animator.request(Request::Timeline(KeysRequest::Release));
     animator.steps(2);
     assert!(
@@ -452,10 +452,10 @@ fn a_drag_that_a_command_waits_for_is_announced_beside_the_pointer() {
     use dragonfly::panels::commands::Id;
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
-    assert!(harness.query_by_label_contains("Draw around bones").is_none());
+    assert!(harness.query_by_label_contains("Draw a lasso around bones").is_none());
     harness.state_mut().state.execute(Request::Command(Id::LassoSelect));
     harness.run_steps(4);
-    harness.get_by_label_contains("Draw around bones");
+    harness.get_by_label_contains("Draw a lasso around bones");
     harness.state_mut().state.execute(Request::Command(Id::BoxSelect));
     harness.run_steps(4);
     harness.get_by_label_contains("Drag a box over bones");

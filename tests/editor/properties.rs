@@ -433,7 +433,7 @@ fn the_rest_pose_is_shown_and_not_changed() {
     let mut window = window();
     window.state_mut().state.execute(Request::ShowTake(None));
     window.run_steps(3);
-    assert!(window.query_by_label("The rest pose cannot be changed: show a take").is_some());
+    assert!(window.query_by_label("The rest pose cannot be edited: show a take").is_some());
     for key in [Key::Enter, Key::Tab] {
         type_into(&mut window, "Translation result X", "5", key);
     }
@@ -450,7 +450,7 @@ fn the_rest_pose_is_shown_and_not_changed() {
 fn a_locked_bone_is_shown_and_not_changed_and_others_change_without_it() {
     let mut window = window();
     let lock = |on| Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 3, on));
-    let said = "Locked in the timeline: its keys are not changed";
+    let said = "Locked in the timeline: its keys cannot be edited";
     assert!(window.query_by_label(said).is_none());
     window.state_mut().state.execute(lock(true));
     window.run_steps(3);

@@ -195,7 +195,7 @@ fn enter_does_what_is_meant_most_often() {
 fn each_button_of_the_unsaved_work_decides_about_the_one_that_is_shown() {
     for (button, decision) in [
         ("Restore", Decision::Keep),
-        ("Open beside", Decision::Beside),
+        ("Open as a copy", Decision::Beside),
         ("Later", Decision::Later),
         ("Discard", Decision::Discard),
     ] {

@@ -106,7 +106,7 @@ fn many_takes_are_searched_and_the_one_that_is_shown_is_in_sight() {
     window.run_steps(3);
     assert_eq!(shown(&window), Some(21), "Enter shows the first that is found");
     search(&mut window, "nobody");
-    assert!(window.query_by_label("No take is called that").is_some());
+    assert!(window.query_by_label("No take matches the search").is_some());
     window.get_by_label("Clear search").click();
     window.run_steps(3);
     window.get_by_label("Rig|Run_21");

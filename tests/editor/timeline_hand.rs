@@ -3,7 +3,7 @@
 use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::keys::{BoneFlag, Deed, KeysRequest};
+use dragonfly::panels::keys::{BoneFlag, KeyDragOp, KeysRequest};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{DuplicateKeys, Edit, MoveKeys, RippleKeys, ScaleKeys, SetInterpolation};
 use dragonfly_kit::document::fixture;
@@ -451,7 +451,7 @@ fn a_refused_drag_leaves_everything_as_it_was() {
     let mut animator = Animator::with_bone(3);
     let before = animator.times(3);
     animator.click(animator.at(0.0, 2));
-    animator.request(Request::Timeline(KeysRequest::Drag(Deed::Move(-5.0))));
+    animator.request(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(-5.0))));
     animator.request(Request::Timeline(KeysRequest::Release));
     assert_eq!(animator.times(3), before);
     assert!(animator.harness.state().state.keys.drag().is_none(), "nothing is waited for");

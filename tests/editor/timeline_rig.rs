@@ -16,6 +16,8 @@ pub(crate) struct Animator {
     pub(crate) harness: Harness<'static, Bench>,
     pub(crate) edited: Edited,
     first: View,
+    /// Of the document's last view.
+    generation: u64,
     modifiers: Modifiers,
     /// Effects that are not for the document.
     others: usize,
@@ -29,7 +31,16 @@ impl Animator {
         let bench = Bench::new(Some(view.clone()));
         let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
         harness.run_steps(4);
-        Self { harness, edited, first: view, modifiers: Modifiers::NONE, others: 0, changes: Vec::new() }
+        let generation = view.generation;
+        Self {
+            harness,
+            edited,
+            first: view,
+            generation,
+            modifiers: Modifiers::NONE,
+            others: 0,
+            changes: Vec::new(),
+        }
     }
 
     /// A model with a spine, each bone turned by 41 keys over 3.417 seconds; `bone` is selected.
@@ -58,13 +69,13 @@ impl Animator {
             bench.state.let_through(effect, &mut |effect| passed.push(effect));
             for effect in passed {
                 match effect {
-                    Effect::Change(change) => changes.push(change),
+                    Effect::Send(number, change) => changes.push((number, change)),
                     other => bench.effects.push(other),
                 }
             }
         }
         self.others = bench.effects.len();
-        for change in changes {
+        for (answered, change) in changes {
             self.changes.push(change.clone());
             let done = match change {
                 Change::Edit(edit, gesture) => match self.edited.ask(edit, gesture) {
@@ -81,10 +92,11 @@ impl Animator {
                 _ => false,
             };
             assert_eq!(self.edited.adapter().check(), Ok(()));
-            let generation = self.view().generation + u64::from(done);
+            self.generation += u64::from(done);
             let adapter = self.edited.adapter();
             let view = View {
-                generation,
+                generation: self.generation,
+                answered,
                 takes: adapter.results().cloned().collect(),
                 slots: adapter.slots().into(),
                 history: std::sync::Arc::new(HistoryView::of(&self.edited)),
@@ -92,10 +104,6 @@ impl Animator {
             };
             self.harness.state_mut().state.show(view);
         }
-    }
-
-    fn view(&self) -> View {
-        self.harness.state().state.view.clone().unwrap()
     }
 
     /// Does what a panel would ask for.

@@ -1,7 +1,7 @@
 //! The mouse over the picture.
 
 use dragonfly::control::{
-    Area, BaseControl, Button, Catch, ControlFramework, ControlId, Controls, InputEvent, Key, Modifiers,
+    Area, BaseControl, Button, Catch, ControlFramework, ControlId, ControlLookup, InputEvent, Key, Modifiers,
     Outcome, ViewportControl,
 };
 use dragonfly_document::bones::Choice;
@@ -25,7 +25,7 @@ struct Picture {
 
 struct Owner(ControlId, ViewportControl);
 
-impl Controls for Owner {
+impl ControlLookup for Owner {
     fn control(&mut self, id: ControlId) -> Option<&mut dyn BaseControl> {
         (id == self.0).then_some(&mut self.1 as _)
     }

@@ -92,6 +92,16 @@ impl Workbench {
 
     /// As the document's thread does it.
     pub(crate) fn change(&mut self, change: Change) {
+        let mut sent = Vec::new();
+        self.state.let_through(Effect::Change(change), &mut |effect| sent.push(effect));
+        for effect in sent {
+            if let Effect::Send(number, change) = effect {
+                self.answer(number, change);
+            }
+        }
+    }
+
+    fn answer(&mut self, answered: u64, change: Change) {
         self.changes.push(change.clone());
         let (Some(edited), Some(view)) = (&mut self.edited, self.state.view.clone()) else { return };
         let _there_was_something_to_do = match change {
@@ -116,7 +126,7 @@ impl Workbench {
         let adapter = edited.adapter();
         let takes = adapter.results().cloned().collect();
         let generation = view.generation + 1;
-        self.state.show(View { generation, takes, slots: adapter.slots().into(), history, ..view });
+        self.state.show(View { generation, answered, takes, slots: adapter.slots().into(), history, ..view });
     }
 
     /// The pose of a bone in the take and at the time shown, as the document has it.

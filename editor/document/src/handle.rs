@@ -28,6 +28,11 @@ impl DocumentHandle {
         self.send(DocumentMessage::Change(change));
     }
 
+    /// Sends a numbered change; see [`DocumentMessage::NumberedChange`].
+    pub fn change_numbered(&self, number: u64, change: Change) {
+        self.send(DocumentMessage::NumberedChange(number, change));
+    }
+
     /// Returns the document thread.
     pub fn thread(&self) -> &ThreadHandle {
         &self.thread

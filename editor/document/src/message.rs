@@ -23,6 +23,9 @@ pub enum DocumentMessage {
     CancelLoading,
     /// Applies an edit, undoes or redoes.
     Change(Change),
+    /// [`Self::Change`] whose sender waits for the outcome: the first view with [`View::answered`] at or above the number
+    /// contains the change, or was made after it was refused. Numbers ascend and begin at 1.
+    NumberedChange(u64, Change),
     /// Saves.
     Save(SaveOrder),
     /// Requests the list of what a save would change, and the save that follows once the user has seen it.

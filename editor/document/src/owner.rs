@@ -39,6 +39,10 @@ pub struct Document {
     generation: u64,
     /// Whether it changed since the last view.
     changed: bool,
+    /// Number of the last numbered change that was carried out or refused.
+    answered: u64,
+    /// Whether a view has to tell the sender that a change was answered, though nothing changed.
+    answers: bool,
     pub(super) job: Option<LoadingModel>,
     tickets: u64,
     load: Loader,
@@ -109,6 +113,8 @@ impl Document {
                 open: None,
                 generation: 0,
                 changed: false,
+                answered: 0,
+                answers: false,
                 job: None,
                 tickets: 0,
                 load: setup.load,
@@ -133,6 +139,7 @@ impl Document {
                     drop(lost.open.take());
                     let mut document = document.borrow_mut();
                     (document.generation, document.tickets) = (lost.generation, lost.tickets);
+                    document.answered = lost.answered;
                     document.reply(DocumentReply::Lost);
                     document.search();
                 }
@@ -300,9 +307,14 @@ impl Document {
 
     /// Publishes the newest state.
     fn publish(&mut self) {
+        let changed = std::mem::take(&mut self.changed);
+        self.answers = false;
         let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
+        let view = View { answered: self.answered, ..view };
         // Errors are ignored as in `reply`. The graphics thread comes first: it has more to do.
-        let _ = self.picture.send(view.clone());
+        if changed {
+            let _ = self.picture.send(view.clone());
+        }
         let _ = self.views.send(DocumentReply::View(view));
     }
 
@@ -337,6 +349,11 @@ impl Receiver for SharedDocument {
             DocumentMessage::Open { source, anyway } => document.open_or_ask(source, anyway),
             DocumentMessage::CancelLoading => document.cancel(),
             DocumentMessage::Change(change) => document.change(change, now),
+            DocumentMessage::NumberedChange(number, change) => {
+                document.change(change, now);
+                document.answered = number;
+                document.answers = true;
+            }
             DocumentMessage::Save(order) => document.save(order, now),
             DocumentMessage::Plan(order) => document.plan(order),
             DocumentMessage::Revert => document.revert(now),
@@ -368,7 +385,7 @@ impl Worker for SharedDocument {
     /// the disk.
     fn update(&mut self, thread: &mut Context) -> bool {
         let document = &mut *self.0.borrow_mut();
-        if std::mem::take(&mut document.changed) {
+        if document.changed || document.answers {
             document.publish();
         }
         let now = thread.now();

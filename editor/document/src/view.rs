@@ -100,11 +100,17 @@ impl FileView {
     }
 }
 
+/// Set in the generation of an echo, so that it differs from those of the document.
+const ECHO: u64 = 1 << 63;
+
 /// The newest state of the document. Panels read it, and nothing changes it.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// Grows with every change.
+    /// Grows with every change. An echo (see [`Self::echo`]) has its highest bit set.
     pub generation: u64,
+    /// Number of the last [numbered change](super::DocumentMessage::NumberedChange) that was carried out or refused before
+    /// this view was made; 0 before the first.
+    pub answered: u64,
     /// The model as it was opened.
     pub loaded: Arc<LoadedModel>,
     /// Its takes as they are now. They are separate from the model, so that a change of one take leaves the model as it is, also on the GPU:
@@ -136,7 +142,19 @@ impl View {
         file: Arc<FileView>,
     ) -> Self {
         let takes = adapter.results().cloned().collect();
-        Self { generation, loaded, takes, slots: adapter.slots().into(), history, file }
+        Self { generation, answered: 0, loaded, takes, slots: adapter.slots().into(), history, file }
+    }
+
+    /// The takes of this view, to be edited apart from the document. The copy is cheap: everything large is shared.
+    pub fn edited(&self) -> Edited {
+        Edited::new(ModelAdapter::of_slots(&self.loaded.model.animation.skeleton, &self.slots))
+    }
+
+    /// This view with the takes of `edited`: what a sender shows until the document has answered change `number`.
+    pub fn echo(&self, number: u64, edited: &Edited) -> Self {
+        let adapter = edited.adapter();
+        let takes = adapter.results().cloned().collect();
+        Self { generation: ECHO | number, takes, slots: adapter.slots().into(), ..self.clone() }
     }
 
     /// Returns the pending poses at a time of a take, which are shown instead of the keyed ones.

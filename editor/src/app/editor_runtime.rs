@@ -113,7 +113,11 @@ impl EditorRuntime {
         match effect {
             Effect::Open(_) | Effect::Quit | Effect::Deed(_) => {}
             // What these come to is what was let through.
-            Effect::Changes(_) | Effect::Cut(..) | Effect::TakeBack | Effect::HandsOff => {}
+            Effect::Change(_)
+            | Effect::Changes(_)
+            | Effect::Cut(..)
+            | Effect::TakeBack
+            | Effect::HandsOff => {}
             Effect::Stays => running.leaving = false,
             Effect::OpenDialog if interface.asking => {
                 interface.state.status.say(Level::Info, "The dialog for opening files is open already");
@@ -134,10 +138,10 @@ impl EditorRuntime {
                     document.cancel_loading();
                 }
             }
-            Effect::Change(change) => {
+            Effect::Send(number, change) => {
                 if let Some(document) = &running.document {
                     shown::asked(&change);
-                    document.change(change);
+                    document.change_numbered(number, change);
                 }
             }
             Effect::Copy(text) => interface.copy(text),

@@ -199,6 +199,7 @@ pub(super) fn heard(interface: &mut Interface, reply: DocumentReply) -> Option<D
         DocumentReply::Warning(text) => state.status.say(Level::Warning, text),
         DocumentReply::Lost => {
             state.lost = true;
+            state.dragging.echo.forget();
             state.status.say(Level::Error, "A mistake in the program closed the document");
         }
         other @ (DocumentReply::View(_)

@@ -1,4 +1,4 @@
-//! What every control is (thesis §3.2.9.3).
+//! The trait of all controls (thesis §3.2.9.3).
 
 use super::Button;
 use super::framework::ControlFramework;
@@ -6,7 +6,7 @@ use super::input::PlaceError;
 use super::key::{Key, Modifiers};
 use glam::Vec2;
 
-/// Names a control in its [`ControlFramework`]. The name of a control that is gone is never given to another.
+/// Identifies a control in its [`ControlFramework`]. The id of a removed control is never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ControlId {
     pub(super) slot: u32,
@@ -14,11 +14,12 @@ pub struct ControlId {
 }
 
 impl ControlId {
-    /// The control without function that is as large as the window and parent of all.
+    /// The root control: without function, as large as the window, and ancestor of all others.
     pub const ROOT: Self = Self { slot: 0, generation: 0 };
 }
 
-/// A rectangle, in points from the top left of the window, y down. Its left and upper edge belong to it, the others not.
+/// A rectangle, in points from the top left of the window, y down. It contains its left and upper edge, but not the
+/// others.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Area {
     /// Top left.
@@ -28,7 +29,8 @@ pub struct Area {
 }
 
 impl Area {
-    /// From corner to corner. What is not finite, or runs backwards, is empty: nothing is on it.
+    /// Returns the rectangle from corner to corner; an empty one, which contains no point, if a number is not finite or
+    /// the corners are in the wrong order.
     pub fn new(min: Vec2, max: Vec2) -> Self {
         if min.is_finite() && max.is_finite() && min.cmple(max).all() {
             Self { min, max }
@@ -37,80 +39,80 @@ impl Area {
         }
     }
 
-    /// Is the point on it?
+    /// Whether the point is inside.
     pub fn holds(&self, point: Vec2) -> bool {
         point.cmpge(self.min).all() && point.cmplt(self.max).all()
     }
 
-    /// Does all of `other` lie on it? Of two equal ones each contains the other.
+    /// Whether all of `other` is inside. Of two equal rectangles each contains the other.
     pub fn contains(&self, other: &Self) -> bool {
         other.min.cmpge(self.min).all() && other.max.cmple(self.max).all()
     }
 
-    /// Square points.
+    /// Returns the area, square points.
     pub fn size(&self) -> f64 {
         let size = (self.max - self.min).as_dvec2();
         size.x * size.y
     }
 }
 
-/// Who hears of an input when a control has processed it.
+/// Whether an input is passed on after a control has processed it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pass {
-    /// Nobody else.
+pub enum InputFlow {
+    /// It is not passed on.
     Stop,
-    /// The parent too.
+    /// It is passed on to the parent.
     ToParent,
 }
 
-/// The thesis's flags: which kinds of input a control's default bodies pass to its parent.
+/// The thesis's flags: the kinds of input that a control's default methods pass on to its parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PassFlags {
-    /// Moves of the mouse and turns of its wheel.
+    /// Movements of the mouse, and its wheel.
     pub mouse_move: bool,
-    /// Buttons of the mouse.
+    /// Mouse buttons.
     pub mouse_button: bool,
     /// Keys.
     pub keys: bool,
 }
 
 impl PassFlags {
-    /// Everything goes on to the parent, as if the control were not there.
+    /// Everything is passed on to the parent, as if the control did not exist.
     pub const ALL: Self = Self { mouse_move: true, mouse_button: true, keys: true };
-    /// Nothing goes on.
+    /// Nothing is passed on.
     pub const NONE: Self = Self { mouse_move: false, mouse_button: false, keys: false };
 
-    fn pass(on: bool) -> Pass {
-        if on { Pass::ToParent } else { Pass::Stop }
+    fn pass(on: bool) -> InputFlow {
+        if on { InputFlow::ToParent } else { InputFlow::Stop }
     }
 }
 
-/// What the mouse does, as a control hears of it.
+/// The state of the mouse in an input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mouse {
-    /// Points from the top left of the window; outside of the control while it has the mouse captured.
+    /// Position in points from the top left of the window; outside the control while it has captured the mouse.
     pub at: Vec2,
-    /// What is held besides.
+    /// Modifier keys.
     pub modifiers: Modifiers,
 }
 
-/// A control of the scene: default bodies do nothing and pass on what [`Self::flags`] says.
+/// A control of the scene. The default methods do nothing, and pass on what [`Self::flags`] contains.
 ///
-/// Its owner keeps it and registers its area in a [`ControlFramework`], which calls the methods below. Each gets the
+/// The owner of a control registers its area in a [`ControlFramework`], which calls the methods below. Each gets the
 /// framework, and may register, unregister, move and focus controls there, itself included.
 pub trait BaseControl {
-    /// What the default bodies pass on.
+    /// Returns what the default methods pass on.
     fn flags(&self) -> PassFlags {
         PassFlags::ALL
     }
 
-    /// Is the point, which lies on its area, on the control? For controls that are no rectangles.
+    /// Whether a point inside its area belongs to the control: for controls that are not rectangles.
     fn is_pos_on(&self, point: Vec2) -> bool {
         let _ = point;
         true
     }
 
-    /// Registers a control inside this one, whose name is `own`. An area that does not lie inside is refused.
+    /// Registers a control inside this one, whose id is `own`. An area outside it is an error.
     fn register_control(
         &self,
         own: ControlId,
@@ -120,84 +122,85 @@ pub trait BaseControl {
         framework.register_inside(own, area)
     }
 
-    /// Takes a control out again that lies inside this one, whose name is `own`; tells whether there was such a one.
+    /// Unregisters a control inside this one, whose id is `own`. Returns whether it existed.
     fn unregister_control(&self, own: ControlId, inner: ControlId, framework: &mut ControlFramework) -> bool {
         inner != own && framework.is_inside(inner, own) && framework.unregister_control(inner)
     }
 
-    /// It has the keyboard from now on.
+    /// The control has got the keyboard focus.
     fn set_focus(&mut self, framework: &mut ControlFramework) {
         let _ = framework;
     }
 
-    /// It has not the keyboard any more.
+    /// The control has lost the keyboard focus.
     fn null_focus(&mut self, framework: &mut ControlFramework) {
         let _ = framework;
     }
 
-    /// A key went down, or repeats because it is held. Goes to the control that has the mouse captured, else to the one with
-    /// the focus, else to the one under the mouse.
+    /// A key went down, or repeats because it is held. Sent to the control that has captured the mouse, else to the
+    /// focused one, else to the one under the mouse.
     fn key_down(
         &mut self,
         key: Key,
         modifiers: Modifiers,
         repeat: bool,
         framework: &mut ControlFramework,
-    ) -> Pass {
+    ) -> InputFlow {
         let _ = (key, modifiers, repeat, framework);
         PassFlags::pass(self.flags().keys)
     }
 
-    /// A key came up. Told to who was told that it went down, wherever the mouse and the focus are now.
-    fn key_up(&mut self, key: Key, modifiers: Modifiers, framework: &mut ControlFramework) -> Pass {
+    /// A key went up. Sent to the control that got the press, wherever mouse and focus are now.
+    fn key_up(&mut self, key: Key, modifiers: Modifiers, framework: &mut ControlFramework) -> InputFlow {
         let _ = (key, modifiers, framework);
         PassFlags::pass(self.flags().keys)
     }
 
-    /// The mouse is over this control from now on, and over none of those inside it. Not passed on.
+    /// The mouse has entered this control, and is in none of those inside it. Not passed on.
     fn mouse_enter(&mut self, framework: &mut ControlFramework) {
         let _ = framework;
     }
 
-    /// The mouse is elsewhere. Follows each [`Self::mouse_enter`] exactly once, unless the control is unregistered.
+    /// The mouse has left. Follows each [`Self::mouse_enter`] exactly once, unless the control is unregistered.
     fn mouse_leave(&mut self, framework: &mut ControlFramework) {
         let _ = framework;
     }
 
-    /// The mouse moved, over the control or captured by it.
-    fn mouse_move(&mut self, mouse: Mouse, framework: &mut ControlFramework) -> Pass {
+    /// The mouse moved, inside the control or captured by it.
+    fn mouse_move(&mut self, mouse: Mouse, framework: &mut ControlFramework) -> InputFlow {
         let _ = (mouse, framework);
         PassFlags::pass(self.flags().mouse_move)
     }
 
-    /// The wheel was turned by so many points.
-    fn mouse_wheel(&mut self, by: Vec2, mouse: Mouse, framework: &mut ControlFramework) -> Pass {
+    /// The wheel was turned, in points.
+    fn mouse_wheel(&mut self, by: Vec2, mouse: Mouse, framework: &mut ControlFramework) -> InputFlow {
         let _ = (by, mouse, framework);
         PassFlags::pass(self.flags().mouse_move)
     }
 
     /// A button went down. The mouse is captured until all buttons are up.
-    fn mouse_down(&mut self, button: Button, mouse: Mouse, framework: &mut ControlFramework) -> Pass {
+    fn mouse_down(&mut self, button: Button, mouse: Mouse, framework: &mut ControlFramework) -> InputFlow {
         let _ = (button, mouse, framework);
         PassFlags::pass(self.flags().mouse_button)
     }
 
-    /// A button came up, of those that went down on this control.
-    fn mouse_up(&mut self, button: Button, mouse: Mouse, framework: &mut ControlFramework) -> Pass {
+    /// A button went up that went down in this control.
+    fn mouse_up(&mut self, button: Button, mouse: Mouse, framework: &mut ControlFramework) -> InputFlow {
         let _ = (button, mouse, framework);
         PassFlags::pass(self.flags().mouse_button)
     }
 
-    /// What the control was doing with the mouse ends here, and is to be taken back: the release will never be heard of.
-    /// Goes to the control that has the mouse captured and to those that it passed the press on to; when the whole window
-    /// lost its input, also to one that grabbed it.
+    /// The control must cancel what it does with the mouse, because the release will never arrive. Sent to the control
+    /// that has captured the mouse and to those that it passed the press on to; when the whole window lost its input,
+    /// also to one that grabbed it.
     fn input_lost(&mut self, framework: &mut ControlFramework) {
         let _ = framework;
     }
 }
 
-/// Who has the controls: the framework knows their names and places only, so nobody owns anything twice.
-pub trait Controls {
-    /// The control of this name; `None` where its owner has none (any more), which is as if it had no function.
+/// Access to the controls. The framework knows only their ids and areas, so that each control has one owner.
+pub trait ControlLookup {
+    /// Returns the control with this id; `None`, which acts like a control without function, if there is none (any
+    /// more).
     fn control(&mut self, id: ControlId) -> Option<&mut dyn BaseControl>;
 }

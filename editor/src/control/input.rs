@@ -1,19 +1,19 @@
-//! What reaches the controls.
+//! The inputs of the controls.
 
 use super::key::{Key, Modifiers};
 use super::viewport::Button;
 use glam::Vec2;
 
-/// What happened. Places are points from the top left of the window, y down.
+/// An input. Positions are points from the top left of the window, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum InputEvent {
-    /// The mouse is there now.
+    /// The mouse moved to a position.
     MouseMove(Vec2),
-    /// The mouse left the window. While a button is held the window system goes on telling places outside.
+    /// The mouse left the window. While a button is held, the window system still reports positions outside.
     MouseGone,
-    /// A button went down, where the mouse is.
+    /// A button went down at the position of the mouse.
     MouseDown(Button),
-    /// A button came up.
+    /// A button went up.
     MouseUp(Button),
     /// The wheel was turned, points.
     Wheel(Vec2),
@@ -21,19 +21,19 @@ pub enum InputEvent {
     KeyDown(Key),
     /// A key came up.
     KeyUp(Key),
-    /// What is held besides changed.
+    /// The modifier keys changed.
     Modifiers(Modifiers),
-    /// The window lost the keyboard, a device was unplugged: releases will not be heard of.
+    /// The window lost the keyboard, or a device was unplugged: releases will not arrive.
     Lost,
 }
 
-/// Why a control has no place.
+/// Why a control cannot be registered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PlaceError {
-    /// It must lie inside of a control, and does not.
-    #[error("the area is not inside of its parent")]
+    /// Its area must be inside a control, and is not.
+    #[error("the area is not inside its parent")]
     NotInside,
-    /// There is no such control.
+    /// The parent does not exist.
     #[error("the parent is not registered")]
     NoParent,
 }

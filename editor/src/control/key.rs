@@ -1,4 +1,4 @@
-//! Keys as controls know them: what is written on them, not where they are.
+//! Keys by their label, not by their position.
 
 use super::base::ControlId;
 use dragonfly_document::bones::Choice;
@@ -6,45 +6,45 @@ use dragonfly_document::bones::Choice;
 /// A key of the keyboard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Key {
-    /// A key that writes something; letters in lower case, see [`Key::letter`].
+    /// A key that types a character; letters in lower case, see [`Key::letter`].
     Letter(char),
-    /// The large one, or the one of the number pad.
+    /// Either Enter key.
     Enter,
-    /// Takes back.
+    /// Escape.
     Escape,
-    /// Goes on to the next.
+    /// Tab.
     Tab,
-    /// Takes the last letter away.
+    /// Backspace.
     Backspace,
-    /// Takes away.
+    /// Delete.
     Delete,
-    /// Arrow.
+    /// Arrow left.
     Left,
-    /// Arrow.
+    /// Arrow right.
     Right,
-    /// Arrow.
+    /// Arrow up.
     Up,
-    /// Arrow.
+    /// Arrow down.
     Down,
-    /// Any other, by a number that whoever hears of it gave it.
+    /// Any other key, by a number that the window assigned to it.
     Other(u32),
 }
 
 impl Key {
-    /// The key that writes `letter`, which Shift does not change.
+    /// Returns the key that types `letter`, with or without Shift.
     pub fn letter(letter: char) -> Self {
         Self::Letter(letter.to_lowercase().next().unwrap_or(letter))
     }
 }
 
-/// Keys that change what others mean, as they are held.
+/// Modifier keys that are held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Modifiers {
-    /// Is Shift held?
+    /// Whether Shift is held.
     pub shift: bool,
-    /// Is Ctrl held? On a Mac: Command.
+    /// Whether Ctrl, or Command on a Mac, is held.
     pub ctrl: bool,
-    /// Is Alt held?
+    /// Whether Alt is held.
     pub alt: bool,
 }
 
@@ -59,46 +59,46 @@ impl From<Modifiers> for Choice {
     }
 }
 
-/// Keys held at once that are remembered with who heard of them; hands have ten fingers.
+/// Largest number of held keys that are remembered, with the controls that got them; a user has ten fingers.
 pub(super) const HELD_KEYS: usize = 16;
 
-/// Which keys are held, and which control was told: it is told of the end too.
+/// The held keys, each with the control that got the press and will get the release.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct HeldKeys {
     keys: [Option<(Key, ControlId)>; HELD_KEYS],
 }
 
 impl HeldKeys {
-    /// Who was told of a key that is held.
+    /// Returns the control that got a held key.
     pub(super) fn find(&self, key: Key) -> Option<ControlId> {
         self.keys.iter().flatten().find(|held| held.0 == key).map(|held| held.1)
     }
 
-    /// The key is let go.
+    /// Removes a key that was released, and returns its control.
     pub(super) fn take(&mut self, key: Key) -> Option<ControlId> {
         let held = self.keys.iter_mut().find(|held| held.is_some_and(|held| held.0 == key))?;
         held.take().map(|held| held.1)
     }
 
-    /// Any that is held.
+    /// Returns any held key.
     pub(super) fn first(&self) -> Option<Key> {
         self.keys.iter().flatten().next().map(|held| held.0)
     }
 
-    /// With no room for another: the one that has to be let go.
+    /// Returns the key to release if there is no space for another.
     pub(super) fn full(&self) -> Option<Key> {
         self.first().filter(|_| !self.keys.contains(&None))
     }
 
-    /// The key is held; without room it is not remembered.
+    /// Adds a held key; without space it is not remembered.
     pub(super) fn put(&mut self, key: Key, control: ControlId) {
         if let Some(free) = self.keys.iter_mut().find(|held| held.is_none()) {
             *free = Some((key, control));
         }
     }
 
-    /// A control is gone: its parent hears the end of what was passed on to it.
-    pub(super) fn hand_on(&mut self, from: ControlId, to: Option<ControlId>) {
+    /// A control was unregistered: its parent gets the releases.
+    pub(super) fn pass_on(&mut self, from: ControlId, to: Option<ControlId>) {
         for held in self.keys.iter_mut().filter(|held| held.is_some_and(|held| held.1 == from)) {
             *held = held.zip(to).map(|((key, _), to)| (key, to));
         }

@@ -1,20 +1,20 @@
-//! How a person acts on the picture: what the mouse does there, as a machine that needs no window to be tested.
+//! The controls in the viewport: a state machine of what the mouse does there, testable without a window.
 
 mod base;
 pub mod expression;
 mod framework;
 pub mod gizmo;
-pub mod hands;
 mod input;
 mod key;
 pub mod path;
 mod places;
 mod viewport;
+pub mod viewport_tools;
 
-pub use base::{Area, BaseControl, ControlId, Controls, Mouse, Pass, PassFlags};
+pub use base::{Area, BaseControl, ControlId, ControlLookup, InputFlow, Mouse, PassFlags};
 pub use framework::ControlFramework;
-pub use hands::Hands;
 pub use input::{InputEvent, PlaceError};
 pub use key::{Key, Modifiers};
 pub(crate) use viewport::orbit;
 pub use viewport::{Button, Catch, Outcome, ViewportControl};
+pub use viewport_tools::{ViewportTool, ViewportTools};

@@ -1,13 +1,14 @@
-//! The keys of a motion path as a control of the scene: each can be taken hold of and put elsewhere.
+//! The keys of a motion path as a control of the scene: each can be dragged.
 
-use super::base::{BaseControl, Mouse, Pass};
+use super::base::{BaseControl, InputFlow, Mouse};
 use super::framework::ControlFramework;
 use super::key::{Key, Modifiers};
 use super::viewport::Button;
+use super::viewport_tools::ViewportTool;
 use dragonfly_picture::gizmo::{AXIS_FROM, GizmoView};
 use glam::{DVec3, Vec2, Vec3};
 
-/// The pointer may miss a key by so much, points.
+/// Distance within which a key is under the pointer, points.
 const REACH: f32 = 7.0;
 
 /// A key on the path.
@@ -15,18 +16,18 @@ const REACH: f32 = 7.0;
 pub struct PathKey {
     /// Seconds.
     pub time: f32,
-    /// Where the joint is then, scene space.
+    /// Position of the joint at that time, scene space.
     pub place: Vec3,
 }
 
-/// What became of a drag.
+/// The outcome of a drag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PathAnswer {
-    /// The joint is to be there at this key.
+    /// The joint was dragged to this position at this key.
     Moved(PathKey),
-    /// It is over.
+    /// The drag was released.
     Done,
-    /// As if it had not been.
+    /// The drag was cancelled.
     Cancelled,
 }
 
@@ -36,15 +37,15 @@ struct Going {
     start: Vec2,
 }
 
-/// See the module.
+/// The control of the keys.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathControl {
-    /// Top left of the picture, points from that of the window.
+    /// Top left of the viewport, points from that of the window.
     pub corner: Vec2,
-    /// May keys be changed?
+    /// Whether keys can be changed.
     pub editable: bool,
-    /// Where the gizmo stands, scene space. Its handles are long and keys are small, so that these win everywhere but
-    /// in the middle of it: a joint that rests has all of its keys there.
+    /// Pivot of the gizmo, scene space. Handles are long and keys are small, so a key wins over a handle everywhere
+    /// except at the center of the gizmo: the keys of a joint that rests are all there.
     pub gizmo: Option<DVec3>,
     keys: Vec<PathKey>,
     view: Option<GizmoView>,
@@ -54,30 +55,20 @@ pub struct PathControl {
 }
 
 impl PathControl {
-    /// The keys there are. A drag that goes on keeps its own.
+    /// Sets the keys. A drag in progress keeps its own one.
     pub fn show(&mut self, keys: &[PathKey]) {
         self.keys.clear();
         self.keys.extend_from_slice(keys);
         self.hovered = None;
     }
 
-    /// From where it is seen.
-    pub fn look(&mut self, view: GizmoView) {
-        self.view = Some(view);
-    }
-
-    /// Is a key being dragged?
-    pub fn is_dragging(&self) -> bool {
-        self.going.is_some()
-    }
-
-    /// The time of the key under the pointer, or being dragged.
+    /// Returns the time of the key that is dragged or under the pointer.
     pub fn hovered(&self) -> Option<f32> {
         let under = self.hovered.and_then(|key| self.keys.get(key));
         self.going.map(|going| going.key.time).or(under.map(|key| key.time))
     }
 
-    /// What became of the drag since this was asked last.
+    /// Returns the outcome of the drag since the last call.
     pub fn take_answer(&mut self) -> Option<PathAnswer> {
         self.answer.take()
     }
@@ -99,7 +90,7 @@ impl PathControl {
         nearest.map(|(_, index)| index)
     }
 
-    /// Where the pointer puts what it took hold of: as far from the eye as it was.
+    /// Returns the position of the dragged key under the pointer, at its distance from the camera.
     fn put(&self, going: &Going, at: Vec2) -> Option<Vec3> {
         let view = self.view?;
         let place: DVec3 = going.key.place.as_dvec3();
@@ -108,12 +99,26 @@ impl PathControl {
         put.is_finite().then_some(put)
     }
 
-    fn end(&mut self, answer: PathAnswer) -> Pass {
+    fn end(&mut self, answer: PathAnswer) -> InputFlow {
         if self.going.take().is_none() {
-            return Pass::ToParent;
+            return InputFlow::ToParent;
         }
         self.answer = Some(answer);
-        Pass::Stop
+        InputFlow::Stop
+    }
+}
+
+impl ViewportTool for PathControl {
+    fn place(&mut self, corner: Vec2) {
+        self.corner = corner;
+    }
+
+    fn look(&mut self, view: GizmoView) {
+        self.view = Some(view);
+    }
+
+    fn is_dragging(&self) -> bool {
+        self.going.is_some()
     }
 }
 
@@ -122,19 +127,19 @@ impl BaseControl for PathControl {
         self.going.is_some() || self.key_at(point - self.corner).is_some()
     }
 
-    fn mouse_move(&mut self, mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
+    fn mouse_move(&mut self, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
         let at = mouse.at - self.corner;
         match self.going {
             Some(going) => {
                 if let Some(place) = self.put(&going, at) {
                     self.answer = Some(PathAnswer::Moved(PathKey { place, ..going.key }));
                 }
-                Pass::Stop
+                InputFlow::Stop
             }
             None => {
                 self.hovered = self.key_at(at);
-                // What lies behind a key has no handle under the pointer.
-                if self.hovered.is_some() { Pass::Stop } else { Pass::ToParent }
+                // A key covers the handles behind it.
+                if self.hovered.is_some() { InputFlow::Stop } else { InputFlow::ToParent }
             }
         }
     }
@@ -143,7 +148,7 @@ impl BaseControl for PathControl {
         self.hovered = None;
     }
 
-    fn mouse_down(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
+    fn mouse_down(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
         if button == Button::Right {
             return self.end(PathAnswer::Cancelled);
         }
@@ -153,18 +158,18 @@ impl BaseControl for PathControl {
         match key.filter(|_| begins) {
             Some(key) => {
                 self.going = Some(Going { key, start: at });
-                Pass::Stop
+                InputFlow::Stop
             }
-            None => Pass::ToParent,
+            None => InputFlow::ToParent,
         }
     }
 
-    fn mouse_up(&mut self, button: Button, _mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
-        if button == Button::Left { self.end(PathAnswer::Done) } else { Pass::ToParent }
+    fn mouse_up(&mut self, button: Button, _mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
+        if button == Button::Left { self.end(PathAnswer::Done) } else { InputFlow::ToParent }
     }
 
-    fn key_down(&mut self, key: Key, _: Modifiers, _: bool, _framework: &mut ControlFramework) -> Pass {
-        if key == Key::Escape { self.end(PathAnswer::Cancelled) } else { Pass::ToParent }
+    fn key_down(&mut self, key: Key, _: Modifiers, _: bool, _framework: &mut ControlFramework) -> InputFlow {
+        if key == Key::Escape { self.end(PathAnswer::Cancelled) } else { InputFlow::ToParent }
     }
 
     fn input_lost(&mut self, _framework: &mut ControlFramework) {

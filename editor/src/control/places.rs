@@ -1,30 +1,30 @@
-//! The areas of the controls and who lies in whom.
+//! The areas of the controls, and the tree that they form.
 
 use super::base::{Area, ControlId};
 
 /// A registered control.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct ControlSlot {
     id: ControlId,
     area: Area,
     /// Slot of the parent.
     parent: u32,
-    /// Counts registrations: of two that are as small the later one lies inside.
+    /// Number of the registration: of two controls of equal size the later one is inside.
     order: u64,
 }
 
-/// All places; the root is the first and stays.
+/// All registered controls; the root is the first one and stays.
 #[derive(Clone, Debug)]
-pub(super) struct Places {
-    slots: Vec<Option<Place>>,
-    /// Of each slot: how often it was used.
+pub(super) struct ControlTree {
+    slots: Vec<Option<ControlSlot>>,
+    /// For each slot, how often it was used.
     generations: Vec<u32>,
     order: u64,
 }
 
-impl Places {
+impl ControlTree {
     pub(super) fn new(root: Area) -> Self {
-        let root = Place { id: ControlId::ROOT, area: root, parent: 0, order: 0 };
+        let root = ControlSlot { id: ControlId::ROOT, area: root, parent: 0, order: 0 };
         Self { slots: vec![Some(root)], generations: vec![0], order: 0 }
     }
 
@@ -37,13 +37,13 @@ impl Places {
         self.slots[place.parent as usize].map(|parent| parent.id)
     }
 
-    /// Is `outer` the parent of `inner`, or a parent of that?
+    /// Whether `outer` is an ancestor of `inner`.
     pub(super) fn is_inside(&self, inner: ControlId, outer: ControlId) -> bool {
         let parent = |id: &ControlId| self.parent(*id);
         std::iter::successors(parent(&inner), parent).any(|id| id == outer)
     }
 
-    /// Of the controls from `inner` upwards the last before `outer`; `inner` where that is not above it.
+    /// Returns the last of the ancestors of `inner` below `outer`; `inner` if `outer` is not its ancestor.
     pub(super) fn below(&self, outer: ControlId, inner: ControlId) -> ControlId {
         if !self.is_inside(inner, outer) {
             return inner;
@@ -53,7 +53,7 @@ impl Places {
     }
 
     pub(super) fn insert(&mut self, area: Area) -> ControlId {
-        // A slot whose names are used up stays empty.
+        // A slot whose generations are used up stays empty.
         let free = |slot: &usize| self.slots[*slot].is_none() && self.generations[*slot] < u32::MAX;
         let slot = (1..self.slots.len()).find(free).unwrap_or_else(|| {
             self.slots.push(None);
@@ -63,7 +63,7 @@ impl Places {
         self.generations[slot] += 1;
         self.order += 1;
         let id = ControlId { slot: slot as u32, generation: self.generations[slot] };
-        self.slots[slot] = Some(Place { id, area, parent: 0, order: self.order });
+        self.slots[slot] = Some(ControlSlot { id, area, parent: 0, order: self.order });
         self.arrange();
         id
     }
@@ -86,9 +86,10 @@ impl Places {
         true
     }
 
-    /// The smallest control but the root for which `fits` holds; of several as small the one registered last.
+    /// Returns the smallest control except the root for which `fits` returns true; of several equal ones the last
+    /// registered.
     pub(super) fn smallest(&self, mut fits: impl FnMut(ControlId, &Area) -> bool) -> Option<ControlId> {
-        let mut best: Option<&Place> = None;
+        let mut best: Option<&ControlSlot> = None;
         for place in self.slots.iter().skip(1).flatten() {
             if best.is_none_or(|best| place.is_below(best)) && fits(place.id, &place.area) {
                 best = Some(place);
@@ -97,7 +98,7 @@ impl Places {
         best.map(|place| place.id)
     }
 
-    /// Finds every parent anew. Controls come and go seldom and are few, so the plain rule is quick enough.
+    /// Recomputes every parent. Controls are few and seldom registered, so the simple loop is fast enough.
     fn arrange(&mut self) {
         for slot in 1..self.slots.len() {
             let Some(place) = self.slots[slot] else { continue };
@@ -113,13 +114,13 @@ impl Places {
         }
     }
 
-    fn get(&self, id: ControlId) -> Option<&Place> {
+    fn get(&self, id: ControlId) -> Option<&ControlSlot> {
         self.slots.get(id.slot as usize)?.as_ref().filter(|place| place.id == id)
     }
 }
 
-impl Place {
-    /// Smaller, or as small and later.
+impl ControlSlot {
+    /// Whether it is smaller, or equal and later.
     fn is_below(&self, other: &Self) -> bool {
         let sizes = self.area.size().total_cmp(&other.area.size());
         sizes.then(other.order.cmp(&self.order)).is_lt()

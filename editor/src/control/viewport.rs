@@ -1,7 +1,6 @@
-//! The mouse over the picture: orbit, pan, zoom, click, box and lasso (keys and buttons as hands know them from other
-//! programs).
+//! The mouse in the viewport: orbit, pan, zoom, click, box and lasso, with the usual keys and buttons.
 
-use super::base::{BaseControl, Mouse, Pass};
+use super::base::{BaseControl, InputFlow, Mouse};
 use super::framework::ControlFramework;
 use super::key::{Key, Modifiers};
 use dragonfly_document::bones::Choice;
@@ -9,10 +8,10 @@ use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::{Lasso, OwnedRegion, Region};
 use glam::Vec2;
 
-/// A button of the mouse.
+/// A mouse button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Button {
-    /// Picks and boxes; with Alt it orbits, with Ctrl and Alt it draws a lasso.
+    /// Clicks and draws boxes; with Alt it orbits, with Ctrl and Alt it draws a lasso.
     Left,
     /// Orbits; with Shift or Alt it pans.
     Middle,
@@ -20,30 +19,30 @@ pub enum Button {
     Right,
 }
 
-/// What the picture asks for besides moving the camera. Places are points from its top left.
+/// A request of the viewport apart from moving the camera. Positions are points from its top left.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// Which bone lies here?
+    /// Select the bone at a position.
     Pick(Vec2, Choice),
-    /// Which bones lie in there?
+    /// Select the bones in a region.
     Catch(OwnedRegion, Choice),
 }
 
-/// A form in which bones are caught.
+/// Shape of a region that selects bones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Catch {
-    /// From corner to corner.
+    /// A box from corner to corner.
     Box,
-    /// Within a line.
+    /// A closed line.
     Lasso,
 }
 
-/// What the mouse is doing.
+/// State of the mouse.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-enum Mode {
+enum MouseMode {
     #[default]
     Idle,
-    /// Down, but not moved yet: may become a click, or `catch`.
+    /// A button is down and has not moved: may become a click, or `catch`.
     Pressed {
         at: Vec2,
         catch: Catch,
@@ -54,7 +53,7 @@ enum Mode {
         catch: Catch,
     },
     Drag {
-        kind: Drag,
+        kind: CameraMove,
         button: Button,
         last: Vec2,
         before: Camera,
@@ -62,73 +61,73 @@ enum Mode {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Drag {
+enum CameraMove {
     Orbit,
     Pan,
     Zoom,
 }
 
-/// Moves a camera as the mouse says. Its owner gives it the camera and the place of the picture before an input, and takes
-/// the camera and the outcome after it.
+/// Moves a camera by the mouse. Its owner sets the camera and the area of the viewport before an input, and reads the
+/// camera and the outcome after it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ViewportControl {
-    /// From where the picture is seen.
+    /// The camera.
     pub camera: Camera,
-    /// Top left of the picture, points from that of the window.
+    /// Top left of the viewport, points from that of the window.
     pub corner: Vec2,
-    /// Size of the picture, points.
+    /// Size of the viewport, points.
     pub size: Vec2,
-    mode: Mode,
+    mode: MouseMode,
     lasso: Lasso,
-    /// The next press catches bones, whatever it meets.
+    /// The next press selects in this shape, whatever is under it.
     armed: Option<Catch>,
     outcome: Option<Outcome>,
 }
 
-/// Radians a point.
+/// Radians per point.
 const ORBIT: f32 = 0.008;
-/// Change of the logarithm of the distance a point of wheel or drag.
+/// Change of the logarithm of the distance per point of wheel or drag.
 const ZOOM_WHEEL: f32 = 0.002;
 const ZOOM_DRAG: f32 = 0.008;
-/// A press that moves further than this is no click, points.
+/// Distance beyond which a press is not a click, points.
 pub(super) const CLICK: f32 = 4.0;
 
 impl ViewportControl {
-    /// Is a drag going on?
+    /// Whether a drag is in progress.
     pub fn is_dragging(&self) -> bool {
-        matches!(self.mode, Mode::Drag { .. } | Mode::Catching { .. })
+        matches!(self.mode, MouseMode::Drag { .. } | MouseMode::Catching { .. })
     }
 
-    /// Does the mouse move the camera?
+    /// Whether the mouse moves the camera.
     pub fn moves_camera(&self) -> bool {
-        matches!(self.mode, Mode::Drag { .. })
+        matches!(self.mode, MouseMode::Drag { .. })
     }
 
-    /// The next press of the left button catches bones, also where it meets a handle.
+    /// Makes the next press of the left button begin a selection, even on a handle.
     pub fn arm(&mut self, catch: Catch) {
         self.armed = Some(catch);
     }
 
-    /// What the next press catches with.
+    /// Returns the shape of the selection that the next press begins.
     pub fn armed(&self) -> Option<Catch> {
         self.armed
     }
 
-    /// The box or lasso that is being drawn.
+    /// Returns the box or lasso in progress.
     pub fn catching(&self) -> Option<Region<'_>> {
         match self.mode {
-            Mode::Catching { from, to, catch: Catch::Box } => Some(Region::Box(from, to)),
-            Mode::Catching { catch: Catch::Lasso, .. } => Some(self.lasso.region()),
+            MouseMode::Catching { from, to, catch: Catch::Box } => Some(Region::Box(from, to)),
+            MouseMode::Catching { catch: Catch::Lasso, .. } => Some(self.lasso.region()),
             _ => None,
         }
     }
 
-    /// What was asked for since this was called last.
+    /// Returns the request since the last call.
     pub fn take_outcome(&mut self) -> Option<Outcome> {
         self.outcome.take()
     }
 
-    /// Zooms so that what is under a point of the picture stays there; `by` is turned points of a wheel, positive is nearer.
+    /// Zooms about a point of the viewport by `by`, points of the wheel; positive is nearer.
     pub fn zoom(&mut self, at: Vec2, by: f32) {
         let factor = (-by * ZOOM_WHEEL).clamp(-2.0, 2.0).exp();
         if factor.is_finite() && at.is_finite() && factor != 1.0 {
@@ -136,7 +135,7 @@ impl ViewportControl {
         }
     }
 
-    /// Turns of a wheel that zoom as two fingers do which spread by `factor`.
+    /// Returns the points of the wheel that zoom as much as a pinch by `factor`.
     pub fn wheel_of_pinch(factor: f32) -> f32 {
         let sound = factor.is_finite() && factor > 0.0;
         if sound { factor.clamp(0.1, 10.0).ln() / ZOOM_WHEEL } else { 0.0 }
@@ -144,26 +143,26 @@ impl ViewportControl {
 
     fn moved(&mut self, at: Vec2) {
         match &mut self.mode {
-            Mode::Idle => {}
-            Mode::Pressed { at: from, catch } => {
+            MouseMode::Idle => {}
+            MouseMode::Pressed { at: from, catch } => {
                 if from.distance(at) > CLICK {
                     let (from, catch) = (*from, *catch);
                     self.lasso.begin(from);
                     self.lasso.push(at);
-                    self.mode = Mode::Catching { from, to: at, catch };
+                    self.mode = MouseMode::Catching { from, to: at, catch };
                 }
             }
-            Mode::Catching { to, .. } => {
+            MouseMode::Catching { to, .. } => {
                 *to = at;
                 self.lasso.push(at);
             }
-            Mode::Drag { kind, last, .. } => {
+            MouseMode::Drag { kind, last, .. } => {
                 let by = at - *last;
                 *last = at;
                 match *kind {
-                    Drag::Orbit => orbit(by, &mut self.camera),
-                    Drag::Pan => self.camera.pan(by, self.size.y),
-                    Drag::Zoom => {
+                    CameraMove::Orbit => orbit(by, &mut self.camera),
+                    CameraMove::Pan => self.camera.pan(by, self.size.y),
+                    CameraMove::Zoom => {
                         self.camera.dolly(((by.y - by.x) * ZOOM_DRAG).clamp(-2.0, 2.0).exp());
                     }
                 }
@@ -176,105 +175,105 @@ impl ViewportControl {
             Catch::Box => OwnedRegion::Box(from, to),
             Catch::Lasso => self.lasso.region().to_owned(),
         };
-        // Ctrl and Alt together belong to the lasso itself.
+        // Ctrl and Alt together mean the lasso itself.
         let ctrl = modifiers.ctrl && !modifiers.alt;
         self.outcome = Some(Outcome::Catch(region, Choice::from(Modifiers { ctrl, ..modifiers })));
     }
 }
 
 impl BaseControl for ViewportControl {
-    fn mouse_move(&mut self, mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
+    fn mouse_move(&mut self, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
         self.moved(mouse.at - self.corner);
-        Pass::Stop
+        InputFlow::Stop
     }
 
-    fn mouse_wheel(&mut self, by: Vec2, mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
+    fn mouse_wheel(&mut self, by: Vec2, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
         self.zoom(mouse.at - self.corner, by.y);
-        Pass::Stop
+        InputFlow::Stop
     }
 
-    fn mouse_down(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
+    fn mouse_down(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
         let at = mouse.at - self.corner;
         match self.mode {
-            Mode::Idle => {
+            MouseMode::Idle => {
                 let armed = self.armed.take().filter(|_| button == Button::Left);
                 self.mode = match begins(button, mouse.modifiers) {
-                    _ if armed.is_some() => Mode::Pressed { at, catch: armed.unwrap_or(Catch::Box) },
-                    Begins::Catch(catch) => Mode::Pressed { at, catch },
-                    Begins::Drag(kind) => Mode::Drag { kind, button, last: at, before: self.camera },
-                    Begins::Nothing => Mode::Idle,
+                    _ if armed.is_some() => MouseMode::Pressed { at, catch: armed.unwrap_or(Catch::Box) },
+                    Begins::Catch(catch) => MouseMode::Pressed { at, catch },
+                    Begins::Drag(kind) => MouseMode::Drag { kind, button, last: at, before: self.camera },
+                    Begins::Nothing => MouseMode::Idle,
                 };
             }
-            // Another button takes a box back.
-            Mode::Pressed { .. } | Mode::Catching { .. } => self.mode = Mode::Idle,
-            Mode::Drag { .. } => {}
+            // Another button cancels a box.
+            MouseMode::Pressed { .. } | MouseMode::Catching { .. } => self.mode = MouseMode::Idle,
+            MouseMode::Drag { .. } => {}
         }
-        Pass::Stop
+        InputFlow::Stop
     }
 
-    fn mouse_up(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> Pass {
+    fn mouse_up(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
         match self.mode {
-            Mode::Pressed { at, .. } if button == Button::Left => {
-                self.mode = Mode::Idle;
+            MouseMode::Pressed { at, .. } if button == Button::Left => {
+                self.mode = MouseMode::Idle;
                 self.outcome = Some(Outcome::Pick(at, Choice::from(mouse.modifiers)));
             }
-            Mode::Catching { from, to, catch } if button == Button::Left => {
-                self.mode = Mode::Idle;
+            MouseMode::Catching { from, to, catch } if button == Button::Left => {
+                self.mode = MouseMode::Idle;
                 self.caught(from, to, catch, mouse.modifiers);
             }
-            Mode::Drag { button: held, .. } if button == held => self.mode = Mode::Idle,
+            MouseMode::Drag { button: held, .. } if button == held => self.mode = MouseMode::Idle,
             _ => {}
         }
-        Pass::Stop
+        InputFlow::Stop
     }
 
-    /// Escape takes back what the mouse is doing.
+    /// Escape cancels what the mouse does.
     fn key_down(
         &mut self,
         key: Key,
         _modifiers: Modifiers,
         _repeat: bool,
         _framework: &mut ControlFramework,
-    ) -> Pass {
-        let busy = self.mode != Mode::Idle || self.armed.is_some();
+    ) -> InputFlow {
+        let busy = self.mode != MouseMode::Idle || self.armed.is_some();
         if key != Key::Escape || !busy {
-            return Pass::ToParent;
+            return InputFlow::ToParent;
         }
-        if let Mode::Drag { before, .. } = self.mode {
+        if let MouseMode::Drag { before, .. } = self.mode {
             self.camera = before;
         }
-        self.mode = Mode::Idle;
+        self.mode = MouseMode::Idle;
         self.armed = None;
-        Pass::Stop
+        InputFlow::Stop
     }
 
-    /// The release would never be heard of: the eye stays where it is, a box is forgotten.
+    /// The release would never arrive: the camera stays where it is, and a box is dropped.
     fn input_lost(&mut self, _framework: &mut ControlFramework) {
-        self.mode = Mode::Idle;
+        self.mode = MouseMode::Idle;
         self.armed = None;
     }
 }
 
 enum Begins {
     Nothing,
-    Drag(Drag),
+    Drag(CameraMove),
     Catch(Catch),
 }
 
-/// What a press of `button` begins.
+/// Returns what a press of `button` begins.
 fn begins(button: Button, Modifiers { shift, ctrl, alt }: Modifiers) -> Begins {
     match (button, alt, shift) {
         (Button::Left, true, _) if ctrl => Begins::Catch(Catch::Lasso),
-        (Button::Left, true, _) => Begins::Drag(Drag::Orbit),
+        (Button::Left, true, _) => Begins::Drag(CameraMove::Orbit),
         (Button::Left, false, _) => Begins::Catch(Catch::Box),
-        (Button::Middle, false, false) => Begins::Drag(Drag::Orbit),
-        (Button::Middle, ..) => Begins::Drag(Drag::Pan),
-        (Button::Right, true, _) => Begins::Drag(Drag::Zoom),
+        (Button::Middle, false, false) => Begins::Drag(CameraMove::Orbit),
+        (Button::Middle, ..) => Begins::Drag(CameraMove::Pan),
+        (Button::Right, true, _) => Begins::Drag(CameraMove::Zoom),
         (Button::Right, false, _) => Begins::Nothing,
     }
 }
 
-/// Turns the picture as if it were held at the pointer.
+/// Orbits as if the scene were held at the pointer.
 pub(crate) fn orbit(by: Vec2, camera: &mut Camera) {
     camera.orbit(-by.x * ORBIT, by.y * ORBIT);
 }

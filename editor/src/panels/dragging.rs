@@ -8,6 +8,7 @@
 //! The end of a drag may never come: a mouse is unplugged, another window takes the keyboard. Then it is taken back, too,
 //! and the panels are told that the button is up.
 
+use super::echo::Echo;
 use super::saving::Deed;
 use super::state::{Effect, State};
 use dragonfly_document::Change;
@@ -31,6 +32,8 @@ pub struct Dragging {
     open: Option<Gesture>,
     /// Gestures up to this one are over, whatever is still said of them.
     over: u64,
+    /// Numbers of changes, and what is shown before the document answers them.
+    pub echo: Echo,
     /// Are the panels to let go of what they drag?
     drops: bool,
     /// What the panels are to hear in their next drawings, a list each.
@@ -63,13 +66,13 @@ impl State {
         match effect {
             Effect::Change(change) => {
                 if let Some(change) = self.heard(change, pass) {
-                    pass(Effect::Change(change));
+                    self.send(change, pass);
                 }
             }
             Effect::Changes(changes) => {
                 for change in changes {
                     if let Some(change) = self.heard(change, pass) {
-                        pass(Effect::Change(change));
+                        self.send(change, pass);
                     }
                 }
             }
@@ -89,11 +92,23 @@ impl State {
         }
     }
 
+    /// Numbers a change, shows it before the document answers where that is possible, and passes it on.
+    fn send(&mut self, change: Change, pass: &mut impl FnMut(Effect)) {
+        let number = self.dragging.echo.send(&change, &mut self.view);
+        if let Change::Edit(_, Some(gesture)) | Change::Cancel(gesture) = change {
+            self.keys.sent(gesture, number);
+        }
+        pass(Effect::Send(number, change));
+    }
+
     /// The change, unless it is of a drag that is over.
     fn heard(&mut self, change: Change, pass: &mut impl FnMut(Effect)) -> Option<Change> {
         let own = &mut self.dragging;
         match &change {
-            Change::Edit(_, Some(gesture)) if gesture.0 <= own.over => return None,
+            Change::Edit(_, Some(gesture)) if gesture.0 <= own.over => {
+                self.keys.forget_drag(*gesture);
+                return None;
+            }
             Change::Edit(_, Some(gesture)) => own.open = Some(*gesture),
             Change::Release(gesture) | Change::Cancel(gesture) => {
                 own.open.take_if(|open| open == gesture);
@@ -112,7 +127,7 @@ impl State {
         if let Some(gesture) = self.dragging.open.take() {
             self.dragging.over = self.dragging.over.max(gesture.0);
             self.dragging.drops = true;
-            pass(Effect::Change(Change::Cancel(gesture)));
+            self.send(Change::Cancel(gesture), pass);
         }
     }
 
@@ -120,7 +135,7 @@ impl State {
     pub fn hands_are_off(&mut self, pass: &mut impl FnMut(Effect)) {
         if let Some(gesture) = self.dragging.open.filter(|_| !self.hands.is_busy()) {
             self.dragging.open = None;
-            pass(Effect::Change(Change::Release(gesture)));
+            self.send(Change::Release(gesture), pass);
         }
     }
 

@@ -1,4 +1,4 @@
-//! Where the panels stand: a tree of tiles, moved and resized by hand, remembered between runs.
+//! The layout of the panels: a tree of tiles that the user moves and resizes, saved between sessions.
 
 use super::state::{Request, State};
 use super::style::{self, GRID};
@@ -11,28 +11,28 @@ use egui_tiles::{
 };
 use serde::{Deserialize, Serialize};
 
-/// A panel's place in the tree: its name.
+/// A panel in the tree, by its name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Pane(String);
 
-/// Where the panels stand.
+/// The layout of the panels.
 #[derive(Debug)]
 pub struct Layout {
     tree: Tree<Pane>,
     changed: bool,
 }
 
-/// Changes with the meaning of the stored tree.
+/// Version of the stored tree; raised when its meaning changes.
 const VERSION: u32 = 2;
 
 #[derive(Serialize, Deserialize)]
-struct Stored {
+struct StoredLayout {
     version: u32,
     tree: Tree<Pane>,
 }
 
 impl Layout {
-    /// The usual places, as the panels say.
+    /// Returns the default layout, as the panels define it.
     pub fn usual(panels: &[Box<dyn Panel>]) -> Self {
         let mut tiles = Tiles::default();
         let mut column = |place: Place| -> Vec<TileId> {
@@ -61,22 +61,23 @@ impl Layout {
         Self { tree: Tree::new(egui::Id::unique("panels"), root, tiles), changed: true }
     }
 
-    /// From the text of a layout file; a damaged one, or one that lacks a panel, gives the usual places.
+    /// Reads the text of a layout file; a damaged one, or one that lacks a panel, gives the default layout.
     pub fn parse(text: &str, panels: &[Box<dyn Panel>]) -> Self {
-        let stored = serde_json::from_str::<Stored>(text).ok().filter(|stored| stored.version == VERSION);
+        let stored =
+            serde_json::from_str::<StoredLayout>(text).ok().filter(|stored| stored.version == VERSION);
         let tree = stored.map(|stored| stored.tree).filter(|tree| sound(tree, panels));
         tree.map_or_else(|| Self::usual(panels), |tree| Self { tree, changed: false })
     }
 
-    /// As the text of a layout file.
+    /// Returns the text of a layout file.
     pub fn to_text(&self) -> String {
-        // Plain data always has a text.
-        // By way of a value, whose keys are sorted: the same places give the same text.
-        let stored = Stored { version: VERSION, tree: self.tree.clone() };
+        // Plain data always serializes.
+        // Serialized through a value, whose keys are sorted: equal layouts give equal text.
+        let stored = StoredLayout { version: VERSION, tree: self.tree.clone() };
         serde_json::to_value(stored).map(|value| value.to_string()).unwrap_or_default()
     }
 
-    /// Is the panel shown?
+    /// Whether the panel is shown.
     pub fn is_shown(&self, id: &str) -> bool {
         self.find(id).is_some_and(|tile| self.tree.is_visible(tile))
     }
@@ -90,7 +91,7 @@ impl Layout {
         }
     }
 
-    /// Did anything change since the last call?
+    /// Whether anything changed since the last call.
     pub fn take_changed(&mut self) -> bool {
         std::mem::take(&mut self.changed)
     }
@@ -99,7 +100,7 @@ impl Layout {
         self.tree.tiles.find_pane(&Pane(id.to_owned()))
     }
 
-    /// Draws every panel in its place.
+    /// Draws every panel in its tile.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -108,9 +109,9 @@ impl Layout {
         requests: &mut Vec<Request>,
     ) {
         let viewport = self.find(VIEWPORT);
-        let mut hand = Hand { panels, state, requests, viewport, changed: false };
-        self.tree.ui(&mut hand, ui);
-        self.changed |= hand.changed;
+        let mut drag = LayoutDrag { panels, state, requests, viewport, changed: false };
+        self.tree.ui(&mut drag, ui);
+        self.changed |= drag.changed;
     }
 }
 
@@ -122,7 +123,7 @@ fn linear(direction: LinearDir, shares: &[(TileId, f32)]) -> Tile<Pane> {
     Tile::Container(Container::Linear(linear))
 }
 
-/// Has the tree a root, every panel once, and no panel that is unknown?
+/// Whether the tree has a root, every panel exactly once, and no unknown panel.
 fn sound(tree: &Tree<Pane>, panels: &[Box<dyn Panel>]) -> bool {
     let root = tree.root().and_then(|root| tree.tiles.get(root));
     let panes: Vec<&str> = tree
@@ -135,8 +136,8 @@ fn sound(tree: &Tree<Pane>, panels: &[Box<dyn Panel>]) -> bool {
         && panels.iter().all(|panel| panes.iter().filter(|id| **id == panel.id()).count() == 1)
 }
 
-/// Draws the tiles for egui_tiles.
-struct Hand<'a> {
+/// Draws the tiles and follows their drags for egui_tiles.
+struct LayoutDrag<'a> {
     panels: &'a mut [Box<dyn Panel>],
     state: &'a State,
     requests: &'a mut Vec<Request>,
@@ -144,7 +145,7 @@ struct Hand<'a> {
     changed: bool,
 }
 
-impl Behavior<Pane> for Hand<'_> {
+impl Behavior<Pane> for LayoutDrag<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, pane: &mut Pane) -> UiResponse {
         let Some(panel) = self.panels.iter_mut().find(|panel| panel.id() == pane.0) else {
             return UiResponse::None;
@@ -165,7 +166,7 @@ impl Behavior<Pane> for Hand<'_> {
     }
 
     fn is_tab_bar_visible(&self, _tile: TileId, tabs: &Tabs) -> bool {
-        // The picture needs no title; with another panel beside it, it does.
+        // The viewport alone needs no title; next to another panel it does.
         !(tabs.children.len() == 1 && self.viewport == Some(tabs.children[0]))
     }
 

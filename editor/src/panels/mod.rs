@@ -4,12 +4,15 @@
 
 mod baking;
 mod bone_menu;
+mod change_summary;
 pub mod commands;
 pub mod curves;
 mod dialogs;
 pub mod digest;
 mod dope;
+mod drag;
 pub mod dragging;
+pub mod echo;
 mod execute;
 mod frame_rate;
 mod framing;
@@ -47,7 +50,7 @@ mod tab;
 pub mod takes;
 pub mod theme;
 pub mod timeline;
-mod told;
+
 mod transport;
 pub mod viewport;
 mod widgets;

@@ -1,6 +1,7 @@
-//! A slider beside a number field: the same number as a place on a line, from its middle outwards.
+//! A slider for the number of a field: a position on a line, starting from the middle.
 
-use super::number_field::Heard;
+use super::drag::{DragEvent, DragMachine, PointerInput};
+use super::number_field::FieldEvent;
 use super::number_text::exact;
 use super::theme::Theme;
 use egui::accesskit::{Action, ActionData, Role};
@@ -8,36 +9,36 @@ use egui::{
     Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Sense, Stroke, Ui, WidgetInfo, pos2,
 };
 
-/// What a slider is and shows.
+/// What a slider edits and shows.
 #[derive(Clone, Debug)]
 pub struct NumberSlider<'a> {
-    /// Stays the same as long as the slider is about the same thing.
+    /// Identifies the slider between frames.
     pub id: Id,
-    /// What a screen reader says.
+    /// Accessible name.
     pub name: &'a str,
-    /// `None` where there are several, or none.
+    /// Number that is shown; `None` if several bones differ, or there is none.
     pub value: Option<f64>,
-    /// Which line it is on.
-    pub scale: Scale,
-    /// With Ctrl, it stops at whole multiples of this.
+    /// Mapping between numbers and positions.
+    pub scale: SliderScale,
+    /// With Ctrl, a drag snaps to multiples of this.
     pub snap: f64,
-    /// Of the line from the middle to the value.
+    /// Color of the line from the middle to the number.
     pub color: Color32,
-    /// Can it be moved?
+    /// Whether it can be moved.
     pub enabled: bool,
 }
 
-/// How numbers lie on the line.
+/// The mapping between numbers and positions on the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scale {
-    /// From minus this to this, 0 in the middle.
+pub enum SliderScale {
+    /// From minus this to this, with 0 in the middle.
     Linear(f64),
-    /// From 1 over this to this, 1 in the middle: each step a factor.
+    /// From 1 over this to this, with 1 in the middle: equal distances are equal factors.
     Factor(f64),
 }
 
-impl Scale {
-    /// −1 to 1.
+impl SliderScale {
+    /// Returns the position of a number, −1 to 1.
     fn place(self, value: f64) -> f64 {
         let place = match self {
             Self::Linear(end) => value / end,
@@ -59,23 +60,26 @@ impl Scale {
     }
 }
 
-/// A hand on a slider.
+/// The knob of a slider, while it is dragged.
 #[derive(Clone, Copy, Debug)]
 struct Grip {
+    /// Number when the drag began.
     start: f64,
-    /// −1 to 1, where the hand is.
+    /// Position of the knob, −1 to 1.
     place: f64,
-    /// How far beside the knob it was taken.
+    /// Distance from the knob at which it was pressed, in the same unit.
     beside: f64,
 }
 
+type GripDrag = DragMachine<(), Grip>;
+
 impl NumberSlider<'_> {
-    /// Draws the slider into `rect`; the line is as long as it is wide.
-    pub fn show(self, ui: &mut Ui, rect: Rect) -> Heard {
+    /// Draws the slider into `rect`; the line is as long as `rect` is wide.
+    pub fn show(self, ui: &mut Ui, rect: Rect) -> FieldEvent {
         let enabled = self.enabled && ui.is_enabled();
         let sense = if enabled { Sense::click_and_drag() } else { Sense::hover() };
         let response = ui.interact(rect, self.id, sense);
-        let heard = if enabled { self.listen(ui, rect, &response) } else { Heard::Nothing };
+        let event = if enabled { self.event(ui, rect, &response) } else { FieldEvent::Nothing };
         self.paint(ui, rect, &response, enabled);
         response.widget_info(|| WidgetInfo::slider(enabled, self.value.unwrap_or(0.0), self.name));
         ui.ctx().accesskit_node_builder(response.id, |node| {
@@ -96,19 +100,19 @@ impl NumberSlider<'_> {
                 ui.label(format!("{}: {value}", self.name));
                 ui.colored_label(
                     Theme::of(ui).faint,
-                    "Drag. Shift is finer, Ctrl snaps. Double click for none.",
+                    "Drag. Shift is finer, Ctrl snaps. Double-click to reset.",
                 );
             });
         }
-        heard
+        event
     }
 
-    fn listen(&self, ui: &Ui, rect: Rect, response: &egui::Response) -> Heard {
-        if let Some(heard) = self.keys(ui, response) {
-            return heard;
+    fn event(&self, ui: &Ui, rect: Rect, response: &egui::Response) -> FieldEvent {
+        if let Some(event) = self.keys(ui, response) {
+            return event;
         }
         if response.double_clicked() {
-            return Heard::Typed(self.scale.value(0.0));
+            return FieldEvent::Typed(self.scale.value(0.0));
         }
         let id = self.id;
         let pointer = response.interact_pointer_pos();
@@ -119,35 +123,50 @@ impl NumberSlider<'_> {
             let start = self.value.unwrap_or(self.scale.value(0.0));
             let place = self.scale.place(start);
             let grip = Grip { start, place, beside: at(pointer.x) - place };
-            ui.data_mut(|data| data.insert_temp(id, grip));
-            return Heard::Touched;
+            ui.data_mut(|data| data.insert_temp(id, GripDrag::dragging(grip)));
+            return FieldEvent::Touched;
         }
-        let Some(mut grip) = ui.data(|data| data.get_temp::<Grip>(id)) else { return Heard::Nothing };
-        if !response.dragged_by(PointerButton::Primary) {
-            ui.data_mut(|data| data.remove::<Grip>(id));
-            // Escape ends a drag.
-            let escape = ui.input(|input| input.key_pressed(Key::Escape));
-            return if escape { Heard::Cancelled } else { Heard::Released };
-        }
-        let modifiers = ui.input(|input| input.modifiers);
-        let by = f64::from(response.drag_delta().x / (rect.width() / 2.0).max(1.0));
-        grip.place = match pointer {
-            // The knob jumps to the hand where it was taken far from it, and stays under it where it was near.
-            Some(pointer) if !modifiers.shift => {
-                at(pointer.x) - if grip.beside.abs() < 0.1 { grip.beside } else { 0.0 }
-            }
-            _ => grip.place + by * 0.1,
+        let Some(mut drag) = ui.data(|data| data.get_temp::<GripDrag>(id)) else {
+            return FieldEvent::Nothing;
         };
-        ui.data_mut(|data| data.insert_temp(id, grip));
-        let mut to = self.scale.value(grip.place);
-        if modifiers.command && self.snap > 0.0 {
-            to = (to / self.snap).round() * self.snap;
-        }
-        Heard::Dragged(to - grip.start)
+        let input = PointerInput::of_widget(ui, response);
+        let event = match drag.step(&input, input.primary_down, |_| ()) {
+            DragEvent::Moved(_) => match drag.drag_mut() {
+                Some(grip) => {
+                    let by = f64::from(response.drag_delta().x / (rect.width() / 2.0).max(1.0));
+                    grip.place = match pointer {
+                        // Pressed far from the pointer, the knob jumps to it; pressed near, it keeps its distance.
+                        Some(pointer) if !input.modifiers.shift => {
+                            at(pointer.x) - if grip.beside.abs() < 0.1 { grip.beside } else { 0.0 }
+                        }
+                        _ => grip.place + by * 0.1,
+                    };
+                    let mut to = self.scale.value(grip.place);
+                    if input.modifiers.command && self.snap > 0.0 {
+                        to = (to / self.snap).round() * self.snap;
+                    }
+                    FieldEvent::Dragged(to - grip.start)
+                }
+                None => FieldEvent::Nothing,
+            },
+            DragEvent::Dropped(_) => FieldEvent::Released,
+            DragEvent::Cancelled(_) => FieldEvent::Cancelled,
+            DragEvent::Nothing | DragEvent::Pressed | DragEvent::Started(_) | DragEvent::Clicked(_) => {
+                FieldEvent::Nothing
+            }
+        };
+        ui.data_mut(|data| {
+            if drag.is_busy() {
+                data.insert_temp(id, drag);
+            } else {
+                data.remove::<GripDrag>(id);
+            }
+        });
+        event
     }
 
-    /// Arrows, and what a screen reader asks for.
-    fn keys(&self, ui: &Ui, response: &egui::Response) -> Option<Heard> {
+    /// Handles arrow keys and the requests of a screen reader.
+    fn keys(&self, ui: &Ui, response: &egui::Response) -> Option<FieldEvent> {
         let value = self.value?;
         let has_focus = response.has_focus();
         if has_focus {
@@ -167,9 +186,9 @@ impl NumberSlider<'_> {
         let [first, last] = self.scale.ends();
         match wanted {
             Some(ActionData::NumericValue(value)) if value.is_finite() => {
-                Some(Heard::Typed(value.clamp(first, last)))
+                Some(FieldEvent::Typed(value.clamp(first, last)))
             }
-            _ => (steps != 0.0).then(|| Heard::Typed((value + steps * self.snap).clamp(first, last))),
+            _ => (steps != 0.0).then(|| FieldEvent::Typed((value + steps * self.snap).clamp(first, last))),
         }
     }
 

@@ -1,4 +1,4 @@
-//! The command palette: every command and every take, found by what is typed.
+//! The command palette: finds every command and every take by typed text.
 
 use super::commands::{self, Command, Id};
 use super::state::{Request, State};
@@ -9,21 +9,21 @@ use egui::{
     Align2, FontId, Key, Margin, Modifiers, Rect, RichText, ScrollArea, TextEdit, TextStyle, Ui, pos2,
 };
 
-/// Takes that are listed at most: who has more of one name types on.
+/// Largest number of takes that are listed: more are found by typing on.
 const TAKES: usize = 50;
 
-/// What is typed and chosen.
+/// Typed text and chosen entry.
 #[derive(Debug, Default)]
 pub(super) struct Palette {
     query: String,
     chosen: usize,
 }
 
-/// Something that can be found.
+/// An entry that can be found.
 #[derive(Clone, Copy)]
-enum Entry<'a> {
+enum PaletteEntry<'a> {
     Command(&'static Command),
-    /// Its place in the list, and its name.
+    /// Index of the take, and its name.
     Take(usize, &'a str),
 }
 
@@ -45,7 +45,7 @@ impl Palette {
         }
         let found = search(&self.query, state);
         if found.is_empty() {
-            ui.label(RichText::new("Nothing is called that").color(Theme::of(ui).weak));
+            ui.label(RichText::new("No command or take matches").color(Theme::of(ui).weak));
             return;
         }
         if down {
@@ -57,7 +57,7 @@ impl Palette {
         }
         let mut run = enter.then(|| found[self.chosen]);
         ui.spacing_mut().item_spacing.y = 0.0;
-        // Said outright: a card that has just grown believes that there is no more room than before.
+        // Set explicitly: a card that has just grown is still laid out with its previous height.
         let height = (found.len() as f32 * ROW).min(12.0 * ROW);
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             for (index, entry) in found.iter().enumerate() {
@@ -77,31 +77,32 @@ impl Palette {
     }
 }
 
-/// Commands whose title, category or help has every word of `query`, and takes whose names have; those with it in the
-/// title first.
-fn search<'a>(query: &str, state: &'a State) -> Vec<Entry<'a>> {
+/// Returns the commands whose title, category or help contains every word of `query`, and the takes whose names do;
+/// those with a match in the title first.
+fn search<'a>(query: &str, state: &'a State) -> Vec<PaletteEntry<'a>> {
     let words: Vec<String> = query.to_lowercase().split_whitespace().map(str::to_owned).collect();
     let has = |text: &str| {
         let text = text.to_lowercase();
-        // One is meant by those who ask for several.
+        // A plural finds the singular as well.
         let has = |word: &str| {
             text.contains(word)
                 || word.strip_suffix('s').is_some_and(|one| one.len() > 2 && text.contains(one))
         };
         words.iter().all(|word| has(word))
     };
-    let commands = commands::all().filter(|command| command.id != Id::Palette).map(Entry::Command);
-    // An empty field shows what the program can do; takes stand in their own list.
+    let commands = commands::all().filter(|command| command.id != Id::Palette).map(PaletteEntry::Command);
+    // An empty field lists the commands; takes have a list of their own.
     let takes = if words.is_empty() { &[][..] } else { &state.digest.takes };
-    let takes = takes.iter().enumerate().map(|(index, take)| Entry::Take(index, &take.name));
+    let takes = takes.iter().enumerate().map(|(index, take)| PaletteEntry::Take(index, &take.name));
     let takes = takes.filter(|entry| has(&entry.about())).take(TAKES);
-    let mut found: Vec<Entry<'_>> = commands.filter(|entry| has(&entry.about())).chain(takes).collect();
-    // What is called so stands before what is about it; then what cannot be given now stands last, with its reason.
+    let mut found: Vec<PaletteEntry<'_>> =
+        commands.filter(|entry| has(&entry.about())).chain(takes).collect();
+    // Matches in the title come first, and commands that are not available now come last, with the reason.
     found.sort_by_key(|entry| (!has(entry.title()), !entry.is_able(state)));
     found
 }
 
-impl<'a> Entry<'a> {
+impl<'a> PaletteEntry<'a> {
     fn title(self) -> &'a str {
         match self {
             Self::Command(command) => command.title,
@@ -109,7 +110,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// What it is one of.
+    /// Returns the category that is shown next to the title.
     fn category(self) -> &'static str {
         match self {
             Self::Command(command) => commands::category_of(command.id).title(),
@@ -117,7 +118,7 @@ impl<'a> Entry<'a> {
         }
     }
 
-    /// The text in which it is searched.
+    /// Returns the text that is searched.
     fn about(self) -> String {
         let help = if let Self::Command(command) = self { command.help } else { "" };
         format!("{} {} {help}", self.category(), self.title())

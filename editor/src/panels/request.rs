@@ -97,6 +97,9 @@ pub enum Effect {
     CancelLoading,
     /// Tells the document.
     Change(Change),
+    /// Tells the document, under this number: what becomes of [`Self::Change`] and [`Self::Changes`] when a drag does not
+    /// stand in their way.
+    Send(u64, Change),
     /// Tells the document several things, each a step.
     Changes(Vec<Change>),
     /// Puts a text into the clipboard.

@@ -9,7 +9,7 @@ pub use super::request::{Effect, Request};
 use super::saving::Question;
 use super::settings::Settings;
 use super::status::Status;
-use crate::control::Hands;
+use crate::control::ViewportTools;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones};
 use dragonfly_document::history::Gesture;
@@ -122,7 +122,7 @@ pub struct State {
     /// What lies over the picture, in points.
     pub shields: Vec<egui::Rect>,
     /// What a person acts on the picture with.
-    pub hands: Hands,
+    pub hands: ViewportTools,
     /// What the hands hold on to.
     pub hold: Hold,
     /// The drag that goes on, whoever holds it.
@@ -179,7 +179,7 @@ impl State {
             find: false,
             viewport: egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0)),
             shields: Vec::new(),
-            hands: Hands::default(),
+            hands: ViewportTools::default(),
             hold: Hold::default(),
             dragging: Dragging::default(),
             trail: Trail::default(),
@@ -227,6 +227,7 @@ impl State {
 
     /// Shows another document: its first take that moves, playing from the start.
     pub fn show(&mut self, view: View) {
+        let view = self.dragging.echo.receive(view, &mut self.view);
         let fresh = self.view.as_ref().is_none_or(|old| !Arc::ptr_eq(&old.loaded, &view.loaded));
         if fresh {
             self.note_marks();
@@ -265,8 +266,9 @@ impl State {
 
     /// Says what was done since `before`.
     fn tell(&mut self, before: Option<&View>) {
-        if let Some(done) =
-            before.zip(self.view.as_ref()).and_then(|(old, new)| super::told::between(old, new))
+        if let Some(done) = before
+            .zip(self.view.as_ref())
+            .and_then(|(old, new)| super::change_summary::describe_change(old, new))
         {
             self.status.remark(done);
         }

@@ -1,4 +1,4 @@
-//! Small pieces that several panels are made of.
+//! Small widgets that several panels share.
 
 use super::commands::{self, Id};
 use super::icons::Icon;
@@ -12,7 +12,7 @@ use egui::{
     Sense, TextEdit, TextStyle, Tooltip, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
 
-/// A square button with an icon that does a command; lit when `on`. Its tooltip names the shortcut.
+/// Draws a square button with an icon that runs a command; highlighted when `on`. Its tooltip contains the shortcut.
 pub(super) fn command_button(
     ui: &mut Ui,
     icon: Icon,
@@ -24,7 +24,7 @@ pub(super) fn command_button(
     command(ui, icon, id, on, requests).on_hover_text(hint)
 }
 
-/// The same in a column of buttons: the tooltip lies beside it and not over the next one.
+/// Draws [`command_button`] in a column of buttons: the tooltip is beside it and does not cover the next one.
 pub(super) fn column_button(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request>) {
     let hint = commands::tooltip(ui.ctx(), id);
     hint_beside(&command(ui, icon, id, on, requests), hint);
@@ -38,14 +38,14 @@ fn command(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request
     response
 }
 
-/// A tooltip at the right of what it is about.
+/// Shows a tooltip on the right of a widget.
 pub(super) fn hint_beside(response: &Response, hint: impl Into<WidgetText>) {
     let mut tooltip = Tooltip::for_enabled(response);
     tooltip.popup = tooltip.popup.align(RectAlign::RIGHT);
     tooltip.show(|ui| ui.label(hint));
 }
 
-/// A square button with an icon; `name` is what a screen reader says.
+/// Draws a square button with an icon; `name` is its accessible name.
 pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(style::icon_size(), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, name));
@@ -68,14 +68,14 @@ pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Resp
     response
 }
 
-/// So that what is typed next takes the place of `text`, all that stands in the text field `id`.
+/// Selects all of `text` in the text field `id`, so that typing replaces it.
 pub(super) fn select_all(context: &Context, id: WidgetId, text: &str) {
     let mut state = TextEdit::load_state(context, id).unwrap_or_default();
     state.cursor.set_char_range(Some(CCursorRange::select_all_str(text)));
     state.store(context, id);
 }
 
-/// Shows where the keyboard is.
+/// Draws the keyboard focus.
 pub(super) fn focus_ring(ui: &Ui, response: &Response, rect: Rect) {
     if response.has_focus() {
         let stroke = egui::Stroke::new(1.0, Theme::of(ui).accent);
@@ -83,9 +83,9 @@ pub(super) fn focus_ring(ui: &Ui, response: &Response, rect: Rect) {
     }
 }
 
-/// A row of a list over the whole width: painted background, the rest is up to the caller.
+/// Allocates a row of a list over the whole width and draws its background; the caller draws the rest.
 ///
-/// Returns the place and the answer; `name` is what a screen reader says.
+/// Returns its area and the response; `name` is its accessible name.
 pub(super) fn row(ui: &mut Ui, name: &str, selected: bool, hovered: bool) -> (Rect, Response) {
     let width = ui.available_width();
     let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
@@ -106,7 +106,7 @@ pub(super) fn row(ui: &mut Ui, name: &str, selected: bool, hovered: bool) -> (Re
     (rect, response)
 }
 
-/// Text in the middle of `rect`'s height, cut off with dots at its right end; returns its right end.
+/// Draws text in the middle of the height of `rect`, truncated at its right end. Returns the right end of the text.
 pub(super) fn text_in(ui: &Ui, rect: Rect, text: &str, style: &TextStyle, color: Color32) -> f32 {
     let font = style.resolve(ui.style());
     let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), font, color);
@@ -118,13 +118,13 @@ pub(super) fn text_in(ui: &Ui, rect: Rect, text: &str, style: &TextStyle, color:
     right
 }
 
-/// How wide a text is, points.
+/// Returns the width of a text, points.
 pub(super) fn text_width(ui: &Ui, text: &str, style: &TextStyle) -> f32 {
     let font = style.resolve(ui.style());
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
 }
 
-/// A number right-aligned at `right`, in digits of one width; returns its left end.
+/// Draws a number right-aligned at `right`, in digits of equal width. Returns its left end.
 pub(super) fn number_at(ui: &Ui, right: f32, y: f32, text: &str, color: Color32) -> f32 {
     let rect = ui.painter().text(
         pos2(right, y),
@@ -136,13 +136,13 @@ pub(super) fn number_at(ui: &Ui, right: f32, y: f32, text: &str, color: Color32)
     rect.left()
 }
 
-/// A caption over a group of properties.
+/// Draws a caption above a group of properties.
 pub(super) fn caption(ui: &mut Ui, text: &str) {
     ui.add_space(GRID);
     ui.label(RichText::new(text).small().color(Theme::of(ui).weak));
 }
 
-/// A calm sentence where there is nothing to show.
+/// Draws a sentence where there is nothing to show.
 pub(super) fn empty(ui: &mut Ui, title: &str, hint: &str) {
     let theme = Theme::of(ui);
     ui.add_space((ui.available_height() * 0.3).min(72.0));
@@ -156,12 +156,12 @@ pub(super) fn empty(ui: &mut Ui, title: &str, hint: &str) {
     });
 }
 
-/// A dot between facts on one line.
+/// Joins facts on one line with dots.
 pub(super) fn dot_separated(parts: &[String]) -> String {
     parts.join("  ·  ")
 }
 
-/// `1 234 567`.
+/// Groups digits: `1 234 567`.
 pub(super) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut out = String::new();
@@ -174,12 +174,12 @@ pub(super) fn grouped(number: usize) -> String {
     out
 }
 
-/// `1 bone`, `2 bones`.
+/// Returns a number with its noun: `1 bone`, `2 bones`.
 pub(super) fn count(number: usize, one: &str, many: &str) -> String {
     format!("{} {}", grouped(number), if number == 1 { one } else { many })
 }
 
-/// A text that fits into a tooltip or a menu, however long it is.
+/// Shortens a text so that it fits into a tooltip or a menu.
 pub(super) fn shortened(text: &str) -> String {
     const LONGEST: usize = 200;
     match text.char_indices().nth(LONGEST) {
@@ -188,7 +188,7 @@ pub(super) fn shortened(text: &str) -> String {
     }
 }
 
-/// A quiet button: a small icon before or after a small text. `name` is what a screen reader says.
+/// Draws a quiet button: a small icon before or after a small text. `name` is its accessible name.
 pub(super) fn quiet_button(ui: &mut Ui, icon: Icon, before: bool, text: &str, name: &str) -> Response {
     let font = TextStyle::Small.resolve(ui.style());
     let theme = Theme::of(ui);

@@ -84,6 +84,12 @@ impl ModelAdapter {
         Self { skeleton: Arc::clone(&animation.skeleton), next: slots.len() as u32, slots }
     }
 
+    /// The takes of a model as they were in another adapter.
+    pub(crate) fn of_slots(skeleton: &Arc<Skeleton>, slots: &[Arc<TakeVersions>]) -> Self {
+        let next = slots.iter().map(|slot| slot.id.0 + 1).max().unwrap_or_default();
+        Self { skeleton: Arc::clone(skeleton), slots: slots.to_vec(), next }
+    }
+
     /// Returns the skeleton, which no edit changes.
     pub fn skeleton(&self) -> &Arc<Skeleton> {
         &self.skeleton

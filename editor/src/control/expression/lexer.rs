@@ -1,8 +1,8 @@
-//! Text into numbers, names and signs. Keeps one sign ahead; allocates nothing.
+//! Splits a text into numbers, names and signs. Looks one character ahead and does not allocate.
 
 use super::{ExpressionError, ExpressionFault};
 
-/// A piece of the text.
+/// A token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Token<'a> {
     Number(f64),
@@ -13,13 +13,13 @@ pub(super) enum Token<'a> {
     End,
 }
 
-/// Hands out one token after the other.
+/// Returns one token after the other.
 pub(super) struct Lexer<'a> {
     text: &'a str,
-    /// Bytes and characters already read.
+    /// Numbers of bytes and characters that were read.
     byte: usize,
     character: usize,
-    /// Does a comma part the numbers of a function here? Then it is no decimal separator.
+    /// Whether a comma separates the arguments of a function here, so that it is not a decimal separator.
     pub(super) comma_parts: bool,
 }
 
@@ -28,7 +28,7 @@ impl<'a> Lexer<'a> {
         Self { text, byte: 0, character: 0, comma_parts: false }
     }
 
-    /// The next token and its place, in characters.
+    /// Returns the next token and its position, in characters.
     pub(super) fn next(&mut self) -> Result<(Token<'a>, usize), ExpressionError> {
         while let Some(letter) = self.peek().filter(|letter| letter.is_whitespace()) {
             self.advance(letter);
@@ -65,7 +65,7 @@ impl<'a> Lexer<'a> {
         Ok((token, at))
     }
 
-    /// Digits, a separator, digits, an exponent.
+    /// Reads digits, a separator, digits, an exponent.
     fn number(&mut self, at: usize) -> Result<f64, ExpressionError> {
         let fault = |at, reason| Err(ExpressionError { at, reason });
         let start = self.byte;
@@ -85,7 +85,7 @@ impl<'a> Lexer<'a> {
                 return fault(self.character, ExpressionFault::Number);
             }
         }
-        // `2e` begins no exponent: `2exp(1)` is for the parser to judge.
+        // `2e` without digits is not an exponent: the parser handles `2exp(1)`.
         let rest = &self.text.as_bytes()[self.byte..];
         let signed = usize::from(matches!(rest.get(1), Some(b'+' | b'-')));
         if matches!(rest.first(), Some(b'e' | b'E')) && rest.get(1 + signed).is_some_and(u8::is_ascii_digit) {
@@ -109,7 +109,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Reads digits; how many.
+    /// Reads digits. Returns their number.
     fn digits(&mut self) -> usize {
         let rest = &self.text.as_bytes()[self.byte..];
         let count = rest.iter().take_while(|letter| letter.is_ascii_digit()).count();

@@ -1,77 +1,87 @@
-//! The constants, functions and units there are: one line each.
+//! The constants, functions and units of expressions.
+//!
+//! A new one is one line here: in [`CONSTANTS`], [`FUNCTIONS`], [`LENGTHS`] or [`ANGLES`]. Nothing else lists them, and a test
+//! below checks every line.
 
 use super::Quantity;
 use std::f64::consts::{E, PI, TAU};
 
-/// What angles inside and results outside of a function are.
+/// Units of the arguments and the result of a function.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Numbers in, number out, in the unit around it.
+pub(super) enum FunctionKind {
+    /// From numbers to a number, both in the unit around the function.
     Plain,
-    /// Radians in, unless a unit is written; number out.
+    /// From radians, unless a unit is typed, to a number.
     OfAngle,
-    /// Number in; an angle out, in the unit around it.
+    /// From a number to an angle in the unit around the function.
     ToAngle,
-}
-
-/// What a function computes.
-#[derive(Clone, Copy)]
-pub(super) enum Body {
-    One(fn(f64) -> f64),
-    Two(fn(f64, f64) -> f64),
 }
 
 /// A function that can be typed.
 pub(super) struct Function {
     pub(super) name: &'static str,
-    pub(super) kind: Kind,
-    pub(super) body: Body,
+    pub(super) kind: FunctionKind,
+    /// Number of arguments, 1 to [`MOST_ARGUMENTS`].
+    pub(super) arguments: usize,
+    /// Computes the result of exactly that many arguments.
+    pub(super) compute: fn(&[f64]) -> f64,
 }
 
-const fn one(name: &'static str, kind: Kind, body: fn(f64) -> f64) -> Function {
-    Function { name, kind, body: Body::One(body) }
-}
+/// Largest number of arguments of a function.
+pub(super) const MOST_ARGUMENTS: usize = 3;
 
-const fn two(name: &'static str, kind: Kind, body: fn(f64, f64) -> f64) -> Function {
-    Function { name, kind, body: Body::Two(body) }
+macro_rules! function {
+    ($name:literal, $kind:ident, $function:expr, 1) => {
+        Function { name: $name, kind: FunctionKind::$kind, arguments: 1, compute: |x| $function(x[0]) }
+    };
+    ($name:literal, $kind:ident, $function:expr, 2) => {
+        Function { name: $name, kind: FunctionKind::$kind, arguments: 2, compute: |x| $function(x[0], x[1]) }
+    };
 }
 
 const CONSTANTS: &[(&str, f64)] = &[("pi", PI), ("π", PI), ("tau", TAU), ("τ", TAU), ("e", E)];
 
 const FUNCTIONS: &[Function] = &[
-    one("sqrt", Kind::Plain, f64::sqrt),
-    one("√", Kind::Plain, f64::sqrt),
-    one("abs", Kind::Plain, f64::abs),
-    one("floor", Kind::Plain, f64::floor),
-    one("ceil", Kind::Plain, f64::ceil),
-    one("round", Kind::Plain, f64::round),
-    one("exp", Kind::Plain, f64::exp),
-    one("ln", Kind::Plain, f64::ln),
-    one("log", Kind::Plain, f64::log10),
-    one("sin", Kind::OfAngle, f64::sin),
-    one("cos", Kind::OfAngle, f64::cos),
-    one("tan", Kind::OfAngle, f64::tan),
-    one("asin", Kind::ToAngle, f64::asin),
-    one("acos", Kind::ToAngle, f64::acos),
-    one("atan", Kind::ToAngle, f64::atan),
-    two("atan2", Kind::ToAngle, f64::atan2),
-    two("min", Kind::Plain, f64::min),
-    two("max", Kind::Plain, f64::max),
-    two("pow", Kind::Plain, f64::powf),
+    function!("sqrt", Plain, f64::sqrt, 1),
+    function!("√", Plain, f64::sqrt, 1),
+    function!("abs", Plain, f64::abs, 1),
+    function!("floor", Plain, f64::floor, 1),
+    function!("ceil", Plain, f64::ceil, 1),
+    function!("round", Plain, f64::round, 1),
+    function!("exp", Plain, f64::exp, 1),
+    function!("ln", Plain, f64::ln, 1),
+    function!("log", Plain, f64::log10, 1),
+    function!("sin", OfAngle, f64::sin, 1),
+    function!("cos", OfAngle, f64::cos, 1),
+    function!("tan", OfAngle, f64::tan, 1),
+    function!("asin", ToAngle, f64::asin, 1),
+    function!("acos", ToAngle, f64::acos, 1),
+    function!("atan", ToAngle, f64::atan, 1),
+    function!("atan2", ToAngle, f64::atan2, 2),
+    function!("min", Plain, f64::min, 2),
+    function!("max", Plain, f64::max, 2),
+    function!("pow", Plain, f64::powf, 2),
+    // Never panics, unlike `f64::clamp`.
+    Function {
+        name: "clamp",
+        kind: FunctionKind::Plain,
+        arguments: 3,
+        compute: |x| x[0].max(x[1]).min(x[2]),
+    },
 ];
 
-/// Name, metres.
+/// Units of length: name, meters.
 const LENGTHS: &[(&str, f64)] =
     &[("mm", 0.001), ("cm", 0.01), ("dm", 0.1), ("m", 1.0), ("km", 1000.0), ("in", 0.0254), ("ft", 0.3048)];
 
-/// Name, how many make a turn. So degrees in degrees are multiplied by exactly 1.
+/// Units of angles: name, number per full turn. So degrees in degrees are multiplied by exactly 1.
 const ANGLES: &[(&str, f64)] = &[("deg", 360.0), ("°", 360.0), ("rad", TAU), ("turn", 1.0)];
 
-/// What numbers are in, in some part of an expression.
+/// Unit of numbers in a part of an expression.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Unit {
     Number,
-    Metres,
+    Meters,
     Degrees,
     Radians,
 }
@@ -80,23 +90,23 @@ impl Unit {
     pub(super) fn of(quantity: Quantity) -> Self {
         match quantity {
             Quantity::Number => Self::Number,
-            Quantity::Length => Self::Metres,
+            Quantity::Length => Self::Meters,
             Quantity::Angle => Self::Degrees,
         }
     }
 
-    /// What one `name` is in this unit.
+    /// Returns one `name` in this unit.
     pub(super) fn one(self, name: &str) -> Option<f64> {
         let find = |list: &[(&str, f64)]| list.iter().find(|entry| entry.0 == name).map(|entry| entry.1);
         match self {
             Self::Number => None,
-            Self::Metres => find(LENGTHS),
+            Self::Meters => find(LENGTHS),
             Self::Degrees => find(ANGLES).map(|turn| 360.0 / turn),
             Self::Radians => find(ANGLES).map(|turn| TAU / turn),
         }
     }
 
-    /// An angle in radians as this unit writes it.
+    /// Returns an angle in radians in this unit.
     pub(super) fn of_radians(self, angle: f64) -> f64 {
         if self == Self::Degrees { angle.to_degrees() } else { angle }
     }
@@ -108,4 +118,35 @@ pub(super) fn constant(name: &str) -> Option<f64> {
 
 pub(super) fn function(name: &str) -> Option<&'static Function> {
     FUNCTIONS.iter().find(|function| function.name.eq_ignore_ascii_case(name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::expression::evaluate;
+
+    #[test]
+    fn every_function_takes_exactly_its_arguments() {
+        for function in FUNCTIONS {
+            assert!((1..=MOST_ARGUMENTS).contains(&function.arguments), "{}", function.name);
+            let call = |count: usize| {
+                let arguments = vec!["0.5"; count].join("; ");
+                evaluate(&format!("{}({arguments})", function.name), Quantity::Number)
+            };
+            assert!(call(function.arguments).is_ok(), "{}", function.name);
+            assert!(call(function.arguments + 1).is_err(), "{}", function.name);
+        }
+    }
+
+    #[test]
+    fn every_constant_and_unit_is_understood() {
+        for (name, value) in CONSTANTS {
+            assert_eq!(evaluate(name, Quantity::Number), Ok(*value), "{name}");
+        }
+        for (quantity, units) in [(Quantity::Length, LENGTHS), (Quantity::Angle, ANGLES)] {
+            for (name, _) in units {
+                assert!(evaluate(&format!("2 {name}"), quantity).is_ok(), "{name}");
+            }
+        }
+    }
 }

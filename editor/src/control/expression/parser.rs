@@ -1,20 +1,20 @@
-//! Tokens into one number, from the top down, as deep as [`DEEPEST`].
+//! Parses tokens into one number by recursive descent, at most [`DEEPEST`] levels deep.
 
 use super::lexer::{Lexer, Token};
-use super::name::{Body, Kind, Unit, constant, function};
+use super::name::{Function, FunctionKind, MOST_ARGUMENTS, Unit, constant, function};
 use super::{DEEPEST, ExpressionError, ExpressionFault, Quantity};
 
-type Answer = Result<f64, ExpressionError>;
+type ParseResult = Result<f64, ExpressionError>;
 
 pub(super) struct Parser<'a> {
     lexer: Lexer<'a>,
-    /// The next token, and where it stands.
+    /// The next token, and its position.
     token: Token<'a>,
     at: usize,
     depth: u32,
-    /// What a number without unit is in, here.
+    /// Unit of a number without a unit, in this part of the expression.
     unit: Unit,
-    /// The unit that the value read last was given, if any.
+    /// Unit of the value that was read last, if it had one.
     given: Option<f64>,
 }
 
@@ -23,8 +23,8 @@ impl<'a> Parser<'a> {
         Self { lexer, token: Token::End, at: 0, depth: 0, unit: Unit::of(quantity), given: None }
     }
 
-    /// The number that all of the text is.
-    pub(super) fn whole(&mut self) -> Answer {
+    /// Returns the value of the whole text.
+    pub(super) fn whole(&mut self) -> ParseResult {
         self.next()?;
         if self.token == Token::End {
             return self.fault(ExpressionFault::Empty);
@@ -33,7 +33,7 @@ impl<'a> Parser<'a> {
         if self.token == Token::End { Ok(value) } else { self.unexpected() }
     }
 
-    fn sum(&mut self) -> Answer {
+    fn sum(&mut self) -> ParseResult {
         let mut value = self.product()?;
         while let Token::Sign(sign @ ('+' | '-')) = self.token {
             let at = self.at;
@@ -44,25 +44,25 @@ impl<'a> Parser<'a> {
         Ok(value)
     }
 
-    fn product(&mut self) -> Answer {
+    fn product(&mut self) -> ParseResult {
         let mut value = self.sign()?;
         let mut has_unit = self.given.is_some();
         while let Token::Sign(sign @ ('*' | '/' | '%')) = self.token {
             let at = self.at;
             self.next()?;
-            // `150%` of a factor: only where nothing follows, since in between `%` is the remainder.
+            // `150%` of a factor: only at the end, since in between `%` is the remainder.
             if sign == '%' && self.token == Token::End && self.unit == Unit::Number {
                 return Ok(value / 100.0);
             }
             let other = self.sign()?;
             let result = match sign {
                 '*' => value * other,
-                // `pi/4 rad` and `1/2 m`: the unit is that of the fraction, since no field wants one over metres.
+                // `pi/4 rad` and `1/2 m`: the unit applies to the fraction, since no field is in a unit per meter.
                 '/' => match self.given {
                     Some(one) if !has_unit => value / (other / one) * one,
                     _ => value / other,
                 },
-                // With the sign of the divisor, as angles want it.
+                // With the sign of the divisor, as is useful for angles.
                 _ => value - other * (value / other).floor(),
             };
             value = finite(result, at)?;
@@ -71,7 +71,7 @@ impl<'a> Parser<'a> {
         Ok(value)
     }
 
-    fn sign(&mut self) -> Answer {
+    fn sign(&mut self) -> ParseResult {
         match self.token {
             Token::Sign(sign @ ('+' | '-')) => {
                 self.deeper()?;
@@ -84,7 +84,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn power(&mut self) -> Answer {
+    fn power(&mut self) -> ParseResult {
         let value = self.with_unit()?;
         if self.token != Token::Power {
             return Ok(value);
@@ -97,11 +97,11 @@ impl<'a> Parser<'a> {
         finite(value.powf(exponent), at)
     }
 
-    fn with_unit(&mut self) -> Answer {
+    fn with_unit(&mut self) -> ParseResult {
         let bracket = self.token == Token::Sign('(');
         let value = self.primary()?;
         let Token::Name(name) = self.token else {
-            // What stands in brackets may have brought its own.
+            // An expression in brackets may have a unit of its own.
             self.given = self.given.filter(|_| bracket);
             return Ok(value);
         };
@@ -112,7 +112,7 @@ impl<'a> Parser<'a> {
         finite(value * one, at)
     }
 
-    fn primary(&mut self) -> Answer {
+    fn primary(&mut self) -> ParseResult {
         match self.token {
             Token::Number(value) => {
                 self.next()?;
@@ -133,50 +133,46 @@ impl<'a> Parser<'a> {
                     self.next()?;
                     Ok(value)
                 }
-                (None, Some(function)) => self.call(function.kind, function.body),
+                (None, Some(function)) => self.call(function),
                 (None, None) => self.fault(ExpressionFault::Name),
             },
             _ => self.unexpected(),
         }
     }
 
-    /// A function and what stands in its brackets.
-    fn call(&mut self, kind: Kind, body: Body) -> Answer {
+    /// Parses a function and its arguments.
+    fn call(&mut self, function: &Function) -> ParseResult {
         let at = self.at;
         let outer = self.unit;
-        let two = matches!(body, Body::Two(_));
+        let count = function.arguments;
         self.deeper()?;
         self.next()?;
         if self.token != Token::Sign('(') {
             return self.unexpected();
         }
-        let parts = std::mem::replace(&mut self.lexer.comma_parts, two);
-        self.unit = match kind {
-            Kind::Plain => outer,
-            Kind::OfAngle => Unit::Radians,
-            Kind::ToAngle => Unit::Number,
+        let parts = std::mem::replace(&mut self.lexer.comma_parts, count > 1);
+        self.unit = match function.kind {
+            FunctionKind::Plain => outer,
+            FunctionKind::OfAngle => Unit::Radians,
+            FunctionKind::ToAngle => Unit::Number,
         };
-        self.next()?;
-        let first = self.sum()?;
-        let result = match body {
-            Body::One(compute) => compute(first),
-            Body::Two(compute) => {
-                if !matches!(self.token, Token::Sign(',' | ';')) {
-                    return self.fault(ExpressionFault::Parts(2));
-                }
-                self.next()?;
-                let second = self.sum()?;
-                compute(first, second)
+        let mut arguments = [0.0; MOST_ARGUMENTS];
+        for (index, argument) in arguments.iter_mut().enumerate().take(count) {
+            if index > 0 && !matches!(self.token, Token::Sign(',' | ';')) {
+                return self.fault(ExpressionFault::Parts(count));
             }
-        };
-        if matches!(self.token, Token::Sign(',' | ';')) {
-            return self.fault(ExpressionFault::Parts(if two { 2 } else { 1 }));
+            self.next()?;
+            *argument = self.sum()?;
         }
+        if matches!(self.token, Token::Sign(',' | ';')) {
+            return self.fault(ExpressionFault::Parts(count));
+        }
+        let result = (function.compute)(&arguments[..count]);
         self.lexer.comma_parts = parts;
         self.unit = outer;
         self.close()?;
         self.depth -= 1;
-        finite(if kind == Kind::ToAngle { outer.of_radians(result) } else { result }, at)
+        finite(if function.kind == FunctionKind::ToAngle { outer.of_radians(result) } else { result }, at)
     }
 
     fn close(&mut self) -> Result<(), ExpressionError> {
@@ -193,11 +189,11 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn fault(&self, reason: ExpressionFault) -> Answer {
+    fn fault(&self, reason: ExpressionFault) -> ParseResult {
         Err(ExpressionError { at: self.at, reason })
     }
 
-    fn unexpected(&self) -> Answer {
+    fn unexpected(&self) -> ParseResult {
         self.fault(match self.token {
             Token::End => ExpressionFault::Unfinished,
             Token::Sign(sign) => ExpressionFault::Unexpected(sign),
@@ -208,7 +204,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-fn finite(value: f64, at: usize) -> Answer {
+fn finite(value: f64, at: usize) -> ParseResult {
     if value.is_finite() {
         Ok(value)
     } else {

@@ -1,13 +1,13 @@
-//! Who has the mouse and the focus, and that all are told when it changes.
+//! Notifies controls when mouse and focus change.
 
 use super::{Capture, ControlFramework, ROUNDS};
-use crate::control::base::{BaseControl, ControlId, Controls};
+use crate::control::base::{BaseControl, ControlId, ControlLookup};
 use crate::control::key::{HELD_KEYS, Modifiers};
 use glam::Vec2;
 
 impl ControlFramework {
-    /// Releases will not be heard of: what was begun with the mouse is taken back, keys are let go.
-    pub(super) fn lost(&mut self, controls: &mut dyn Controls) {
+    /// Cancels what was begun with the mouse and releases all keys, because their releases will not arrive.
+    pub(super) fn lost(&mut self, controls: &mut dyn ControlLookup) {
         let captured = match self.capture {
             Capture::By { control, .. } => Some(control),
             _ => None,
@@ -25,23 +25,23 @@ impl ControlFramework {
         }
     }
 
-    pub(super) fn lost_mouse(&mut self, controls: &mut dyn Controls) {
+    pub(super) fn lost_mouse(&mut self, controls: &mut dyn ControlLookup) {
         self.held = [false; 3];
-        let Capture::By { control, heard } = std::mem::take(&mut self.capture) else { return };
+        let Capture::By { control, topmost } = std::mem::take(&mut self.capture) else { return };
         let mut next = Some(control);
         while let Some(id) = next {
-            next = self.places.parent(id).filter(|_| id != heard);
+            next = self.places.parent(id).filter(|_| id != topmost);
             if let Some(control) = self.there(id, controls) {
                 control.input_lost(self);
             }
         }
     }
 
-    /// Tells the controls who has focus and mouse, until all know.
-    pub(super) fn settle(&mut self, controls: &mut dyn Controls) {
+    /// Notifies the controls of mouse and focus until nothing changes any more.
+    pub(super) fn settle(&mut self, controls: &mut dyn ControlLookup) {
         for _ in 0..ROUNDS {
             let over = match self.capture {
-                // Who has the mouse keeps it.
+                // A captured mouse stays with its control.
                 Capture::By { .. } | Capture::Gone => self.entered,
                 Capture::Free => self.grabbed.or_else(|| self.under(self.pointer()?, controls)),
             };
@@ -52,7 +52,7 @@ impl ControlFramework {
                 if let Some(control) = self.entered.take().and_then(|id| controls.control(id)) {
                     control.mouse_leave(self);
                 }
-                // The one that was left may have taken the other out.
+                // The control that was left may have unregistered the other one.
                 if let Some(id) = over.filter(|&id| self.places.area(id).is_some()) {
                     self.entered = Some(id);
                     if let Some(control) = controls.control(id) {
@@ -73,17 +73,17 @@ impl ControlFramework {
                 }
             }
         }
-        // Two controls that take it from each other: it stays with who was told last.
+        // Two controls that take the focus from each other: it stays with the one notified last.
         self.focus = self.focus_told;
     }
 
-    /// Where the mouse is; `None` outside of the window.
+    /// Returns the position of the mouse; `None` outside the window.
     pub(super) fn pointer(&self) -> Option<Vec2> {
         self.mouse.filter(|_| !self.mouse_gone)
     }
 
-    /// The control under a point; not the root, which has no function.
-    pub(super) fn under(&self, point: Vec2, controls: &mut dyn Controls) -> Option<ControlId> {
+    /// Returns the control at a point; never the root, which has no function.
+    pub(super) fn under(&self, point: Vec2, controls: &mut dyn ControlLookup) -> Option<ControlId> {
         let window = self.places.area(ControlId::ROOT)?;
         if !window.holds(point) {
             return None;
@@ -93,17 +93,17 @@ impl ControlFramework {
         })
     }
 
-    /// The control of a name that is still registered: one called before may have taken it out.
+    /// Returns a control that is still registered: a control called before may have unregistered it.
     pub(super) fn there<'a>(
         &self,
         id: ControlId,
-        controls: &'a mut dyn Controls,
+        controls: &'a mut dyn ControlLookup,
     ) -> Option<&'a mut dyn BaseControl> {
         self.places.area(id)?;
         controls.control(id)
     }
 
-    pub(super) fn is_on(&self, id: ControlId, point: Vec2, controls: &mut dyn Controls) -> bool {
+    pub(super) fn is_on(&self, id: ControlId, point: Vec2, controls: &mut dyn ControlLookup) -> bool {
         let holds = self.places.area(id).is_some_and(|area| area.holds(point));
         holds && controls.control(id).is_some_and(|control| control.is_pos_on(point))
     }

@@ -1,26 +1,28 @@
-//! The gizmo as a control of the scene: it is where its handles are, and everywhere while it drags.
+//! The gizmo as a control of the scene: its area is that of its handles, and everything while it drags.
 
 use super::{Gizmo, GizmoAnswer};
-use crate::control::base::{BaseControl, ControlId, Mouse, Pass};
+use crate::control::base::{BaseControl, ControlId, InputFlow, Mouse};
 use crate::control::framework::ControlFramework;
 use crate::control::key::{Key, Modifiers};
 use crate::control::viewport::{Button, CLICK};
-use dragonfly_picture::gizmo::{Handle, Tool};
+use crate::control::viewport_tools::ViewportTool;
+use dragonfly_picture::gizmo::{GizmoView, Handle, Tool};
 use glam::Vec2;
 
-/// Registered over the whole picture, inside of its control, so that what misses a handle goes to the picture.
+/// The control of the gizmo, registered over the whole viewport inside its control, so that a press that misses the handles
+/// reaches the viewport.
 #[derive(Clone, Debug)]
 pub struct GizmoControl {
     /// The gizmo itself.
     pub gizmo: Gizmo,
-    /// Top left of the picture, points from that of the window.
+    /// Top left of the viewport, points from that of the window.
     pub corner: Vec2,
-    /// May poses be changed? If not, a press on a handle is only noted, see [`Self::take_refused`].
+    /// Whether poses can be changed. If not, a press on a handle is only noted, see [`Self::take_refused`].
     pub editable: bool,
-    /// Was the drag begun by a key, so that no button is held?
+    /// Whether a key began the drag, so that no button is held.
     by_key: bool,
     answer: Option<GizmoAnswer>,
-    /// Where a handle was pressed, as long as the pointer has not moved: such a press is a click on what lies behind.
+    /// A press on a handle, as long as the pointer has not moved: if released there, it is a click on what is behind.
     pressed: Option<Pressed>,
     clicked: Option<Mouse>,
     refused: bool,
@@ -29,15 +31,15 @@ pub struct GizmoControl {
 /// A press that may still be a click.
 #[derive(Clone, Copy, Debug)]
 struct Pressed {
-    /// Where, and with which keys.
+    /// Position and modifier keys.
     mouse: Mouse,
-    /// Points that the pointer may go from there.
+    /// Distance that the pointer may move and still be a click, points.
     slack: f32,
-    /// Does nothing move before?
+    /// Whether nothing moves until then.
     waits: bool,
 }
 
-/// Points: a hand that holds a ring or an arrow may mean the least of turns.
+/// Slack of rings and arrows, points: even the smallest drag of them may be intended.
 const STEADY: f32 = 1.5;
 
 impl Default for GizmoControl {
@@ -56,8 +58,8 @@ impl Default for GizmoControl {
 }
 
 impl GizmoControl {
-    /// Begins a drag by a key, with the pointer at `at` in the window; the gizmo, whose name is `own`, has mouse and keyboard
-    /// until it ends. `false` where there is nothing to drag.
+    /// Begins a drag by a key, with the pointer at `at` in the window. The gizmo, whose id is `own`, has mouse and
+    /// keyboard until the drag ends. Returns false if there is nothing to drag.
     pub fn begin_by_key(&mut self, own: ControlId, at: Vec2, framework: &mut ControlFramework) -> bool {
         let begins = self.gizmo.begin(None, at - self.corner);
         if begins {
@@ -69,36 +71,32 @@ impl GizmoControl {
         begins
     }
 
-    /// What became of the drag since this was asked last: changed, confirmed or cancelled. [`Gizmo::drag`] has the poses.
+    /// Returns the outcome of the drag since the last call: changed, confirmed or cancelled. [`Gizmo::drag`] has the
+    /// poses.
     pub fn take_answer(&mut self) -> Option<GizmoAnswer> {
         self.answer.take()
     }
 
-    /// Was the drag that goes on begun by a key, so that no button is held?
-    pub fn is_modal(&self) -> bool {
-        self.by_key
-    }
-
-    /// A click on what lies behind a handle, since this was asked last.
+    /// Returns a click on what is behind a handle, since the last call.
     pub fn take_click(&mut self) -> Option<Mouse> {
         self.clicked.take()
     }
 
-    /// Was a handle pressed while nothing may be changed, since this was asked last?
+    /// Whether a handle was pressed since the last call although nothing can be changed.
     pub fn take_refused(&mut self) -> bool {
         std::mem::take(&mut self.refused)
     }
 
-    /// Ends a drag as Escape does, whoever has the mouse.
+    /// Cancels a drag as Escape does, whichever control has the mouse.
     pub fn cancel(&mut self, framework: &mut ControlFramework) {
         let answer = self.gizmo.cancel();
         self.note(answer, framework);
     }
 
-    /// Notes an answer; tells whether the input was for the gizmo.
-    fn note(&mut self, answer: GizmoAnswer, framework: &mut ControlFramework) -> Pass {
+    /// Notes an outcome. Returns whether the input is passed on.
+    fn note(&mut self, answer: GizmoAnswer, framework: &mut ControlFramework) -> InputFlow {
         if answer == GizmoAnswer::Ignored {
-            return Pass::ToParent;
+            return InputFlow::ToParent;
         }
         self.answer = Some(answer);
         if answer != GizmoAnswer::Changed {
@@ -107,7 +105,25 @@ impl GizmoControl {
                 framework.release();
             }
         }
-        Pass::Stop
+        InputFlow::Stop
+    }
+}
+
+impl ViewportTool for GizmoControl {
+    fn place(&mut self, corner: Vec2) {
+        self.corner = corner;
+    }
+
+    fn look(&mut self, view: GizmoView) {
+        self.gizmo.look(view);
+    }
+
+    fn is_dragging(&self) -> bool {
+        self.gizmo.is_dragging()
+    }
+
+    fn is_modal(&self) -> bool {
+        self.by_key
     }
 }
 
@@ -116,37 +132,37 @@ impl BaseControl for GizmoControl {
         self.gizmo.is_dragging() || self.gizmo.handle_at(point - self.corner).is_some()
     }
 
-    fn mouse_move(&mut self, mouse: Mouse, framework: &mut ControlFramework) -> Pass {
+    fn mouse_move(&mut self, mouse: Mouse, framework: &mut ControlFramework) -> InputFlow {
         let at = mouse.at - self.corner;
         if self.gizmo.is_dragging() {
             self.pressed =
                 self.pressed.filter(|pressed| pressed.mouse.at.distance(mouse.at) <= pressed.slack);
             if self.pressed.is_some_and(|pressed| pressed.waits) {
-                return Pass::Stop;
+                return InputFlow::Stop;
             }
             let answer = self.gizmo.pointer(at, mouse.modifiers);
             return self.note(answer, framework);
         }
         self.gizmo.hover(Some(at));
-        Pass::ToParent
+        InputFlow::ToParent
     }
 
     fn mouse_leave(&mut self, _framework: &mut ControlFramework) {
         self.gizmo.hover(None);
     }
 
-    fn mouse_down(&mut self, button: Button, mouse: Mouse, framework: &mut ControlFramework) -> Pass {
+    fn mouse_down(&mut self, button: Button, mouse: Mouse, framework: &mut ControlFramework) -> InputFlow {
         let at = mouse.at - self.corner;
         let answer = match button {
             Button::Left if self.gizmo.is_dragging() => self.gizmo.confirm(),
-            // With Alt the mouse turns the camera, whatever is under it.
+            // With Alt the mouse orbits the camera, whatever is under it.
             Button::Left if !mouse.modifiers.alt => {
                 let handle = self.gizmo.handle_at(at);
                 if handle.is_some() && !self.editable {
                     self.refused = true;
-                    return Pass::Stop;
+                    return InputFlow::Stop;
                 }
-                // The ball is large: it hides more bones than it turns.
+                // The ball is large, and covers bones that may be meant.
                 let ball = handle == Some(Handle::Center) && self.gizmo.tool == Tool::Rotate;
                 let slack = if ball { CLICK } else { STEADY };
                 self.pressed = handle.is_some().then_some(Pressed { mouse, slack, waits: ball });
@@ -159,9 +175,9 @@ impl BaseControl for GizmoControl {
         self.note(answer, framework)
     }
 
-    fn mouse_up(&mut self, button: Button, _mouse: Mouse, framework: &mut ControlFramework) -> Pass {
+    fn mouse_up(&mut self, button: Button, _mouse: Mouse, framework: &mut ControlFramework) -> InputFlow {
         if button != Button::Left || self.by_key {
-            return Pass::ToParent;
+            return InputFlow::ToParent;
         }
         self.clicked = self.pressed.take().map(|pressed| pressed.mouse);
         let answer = if self.clicked.is_some() { self.gizmo.cancel() } else { self.gizmo.confirm() };
@@ -174,12 +190,12 @@ impl BaseControl for GizmoControl {
         modifiers: Modifiers,
         _repeat: bool,
         framework: &mut ControlFramework,
-    ) -> Pass {
+    ) -> InputFlow {
         let answer = self.gizmo.key_down(key, modifiers);
         self.note(answer, framework)
     }
 
-    /// The drag is taken back: its end would never be heard of.
+    /// The drag is cancelled: its release would never arrive.
     fn input_lost(&mut self, framework: &mut ControlFramework) {
         let answer = self.gizmo.cancel();
         self.note(answer, framework);

@@ -1,21 +1,22 @@
 //! From one change of the whole selection to the new pose of each bone.
 //!
-//! Every result is computed from the pose before the drag and one delta, never from the result before, so nothing adds up.
+//! Every result is computed from the pose before the drag and one delta, never from the previous result, so errors do not
+//! accumulate.
 //!
-//! Under a parent that is stretched unevenly, the pose that would look exactly as if turned or stretched in the world has
-//! shear in it, which translation, rotation and scale cannot express. What is done: the joint goes exactly where it should;
-//! the bone turns by exactly the angle, about the axis as it stands in the parent's right-angled axes; each of the bone's
-//! own axes grows by the mean of the factors, weighted by how far it points along each. Where nothing is stretched
-//! unevenly, or the axes are the bone's own, that is exact. Under a parent that is flat in some direction no place in the
+//! Under a parent with non-uniform scale, the pose that would look exactly as if rotated or scaled in the world has shear in
+//! it, which translation, rotation and scale cannot express. The result is the nearest one without shear: the joint moves
+//! exactly to its target; the bone rotates by exactly the angle, about the axis as it is in the orthogonalized axes of the
+//! parent; each local axis of the bone scales by the mean of the factors, weighted by how far it points along each. Without
+//! non-uniform scale, or in local axes, that is exact. Under a parent with zero scale along some direction no position in the
 //! world can be reached, and the joint stays.
 
 use dragonfly_anim::data::Transform;
 use dragonfly_picture::gizmo::{GizmoAxes, GizmoDelta, GizmoTarget, unit};
 use glam::{DMat3, DQuat, DVec3};
 
-/// The new pose of a bone relative to its parent. `pivot` is the place in the scene that it turns and grows about; `None` for
-/// its own joint. A delta that changes nothing, and one whose result would not be finite, give the pose as it was, bit for
-/// bit.
+/// Returns the new pose of a bone relative to its parent. `pivot` is the point in the scene that it rotates and scales
+/// about; `None` for its own joint. A delta that changes nothing, and one whose result would not be finite, give the
+/// old pose bit for bit.
 pub(super) fn apply(
     target: &GizmoTarget,
     frame: &GizmoAxes,
@@ -58,7 +59,7 @@ pub(super) fn apply(
     if pose.is_finite() { pose } else { start }
 }
 
-/// The translation that brings the joint `by` scene units further.
+/// Returns the translation that moves the joint by `by`, scene units.
 fn moved(target: &GizmoTarget, by: DVec3) -> glam::Vec3 {
     let start = target.to_parent.translation;
     let linear = DMat3::from_mat4(target.parent());

@@ -1,8 +1,8 @@
-//! A drag from its beginning to its end: what is bound, measured, snapped, typed.
+//! A drag of the gizmo: its axis lock, its measurement, snapping, and typed numbers.
 
 use super::delta::apply;
 use super::measure::Measure;
-use super::typed::Typed;
+use super::typed::TypedNumbers;
 use crate::control::expression::Quantity;
 use crate::control::key::{Key, Modifiers};
 use dragonfly_anim::data::{BoneIndex, Transform};
@@ -15,51 +15,51 @@ use glam::{DVec2, DVec3};
 /// A bone and its new pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoneDrag {
-    /// Which.
+    /// The bone.
     pub bone: BoneIndex,
-    /// Relative to its parent.
+    /// New pose relative to its parent.
     pub to_parent: Transform,
 }
 
-/// What a drag has made so far: the new pose of each dragged bone, in the order of the skeleton.
+/// The result of a drag so far: the new pose of each dragged bone, in the order of the skeleton.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GizmoDrag {
-    /// Each with its whole new pose.
+    /// The bones, each with its whole new pose.
     pub bones: Vec<BoneDrag>,
 }
 
-/// An axis lock: which, whether the plane across it, and how often its key was pressed.
+/// An axis lock: the axis or the plane across it, and how often its key was pressed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Lock {
+struct AxisLock {
     handle: Handle,
     presses: u8,
 }
 
-/// A drag that goes on.
+/// A drag in progress.
 #[derive(Clone, Debug)]
-pub(super) struct Drag {
+pub(super) struct ActiveDrag {
     pub(super) tool: Tool,
-    /// What was taken hold of.
+    /// Handle that was pressed.
     grabbed: Handle,
-    /// Was it a handle, and not a key?
+    /// Whether a handle was pressed, and not a key.
     by_handle: bool,
-    lock: Option<Lock>,
+    lock: Option<AxisLock>,
     settings: GizmoSettings,
     placement: GizmoAnchor,
-    /// Seen from where it is, and from where it was at the beginning: its axes stay those.
+    /// View of now, and view at the start, which decides the axes.
     view: GizmoView,
     first: GizmoView,
     start: DVec2,
     pointer: DVec2,
     modifiers: Modifiers,
     measure: Measure,
-    /// The amount up to the last change of pace or view, and what the measure said there.
+    /// Amount up to the last change of speed or view, and the raw measurement then.
     settled: DVec3,
     anchor: DVec3,
 }
 
-impl Drag {
-    /// `None` where there is nothing to drag, or it lies behind the eye.
+impl ActiveDrag {
+    /// Begins a drag; `None` if there is nothing to drag, or it is behind the camera.
     pub(super) fn begin(
         tool: Tool,
         handle: Option<Handle>,
@@ -90,20 +90,20 @@ impl Drag {
         })
     }
 
-    /// How the drag is bound now.
+    /// Returns the handle that the drag is locked to now.
     pub(super) fn handle(&self) -> Handle {
         self.lock.map_or(self.grabbed, |lock| lock.handle)
     }
 
-    /// Whose axes it follows now.
+    /// Returns the space whose axes the drag follows now.
     pub(super) fn space(&self) -> GizmoSpace {
         match self.lock {
-            Some(Lock { presses: 2, .. }) => self.settings.space.other(),
+            Some(AxisLock { presses: 2, .. }) => self.settings.space.other(),
             _ => self.settings.space,
         }
     }
 
-    /// Where it stands: where it began.
+    /// Returns the layout of the gizmo where the drag began.
     pub(super) fn layout(&self) -> Option<GizmoLayout> {
         GizmoLayout::new(self.view, self.placement.pivot, self.placement.axes(self.space(), &self.first))
     }
@@ -112,7 +112,7 @@ impl Drag {
         self.start
     }
 
-    /// The pointer is there, and these keys are held. Shift slows down from where it was pressed, without a jump.
+    /// Sets pointer and modifier keys. Shift slows the drag down from where it was pressed, without a jump.
     pub(super) fn pointer(&mut self, pointer: DVec2, modifiers: Modifiers) {
         if modifiers.shift != self.modifiers.shift {
             self.settle();
@@ -121,7 +121,7 @@ impl Drag {
         self.pointer = pointer;
     }
 
-    /// The camera moved, or the window has another size. The drag goes on from what it has.
+    /// Follows the camera and the size of the window. The drag continues from its present amount.
     pub(super) fn look(&mut self, view: GizmoView) {
         if view == self.view {
             return;
@@ -140,8 +140,8 @@ impl Drag {
         }
     }
 
-    /// A key: an axis or a part of a number. `false` for others.
-    pub(super) fn key(&mut self, key: Key, modifiers: Modifiers, typed: &mut Typed) -> bool {
+    /// Handles a key: an axis, or a character of a number. Returns false for others.
+    pub(super) fn key(&mut self, key: Key, modifiers: Modifiers, typed: &mut TypedNumbers) -> bool {
         let axis = match key {
             Key::Letter('x') => Some(GizmoAxis::X),
             Key::Letter('y') => Some(GizmoAxis::Y),
@@ -158,17 +158,17 @@ impl Drag {
         }
     }
 
-    /// Binds to an axis or to the plane across it; again, in the other space; again, not at all.
+    /// Locks to an axis or to the plane across it; the second press changes the space, the third one unlocks.
     fn press(&mut self, axis: GizmoAxis, plane: bool) {
         let plane = plane && self.tool != Tool::Rotate;
         let handle = if plane { Handle::Plane(axis) } else { Handle::Axis(axis) };
         self.lock = match self.lock {
             Some(lock) if lock.handle == handle => {
-                (lock.presses < 2).then_some(Lock { handle, presses: lock.presses + 1 })
+                (lock.presses < 2).then_some(AxisLock { handle, presses: lock.presses + 1 })
             }
-            _ => Some(Lock { handle, presses: 1 }),
+            _ => Some(AxisLock { handle, presses: 1 }),
         };
-        // Measured from where the drag began, as if it had been bound so from then on.
+        // Measured from where the drag began, as if it had been locked from the start.
         if let Some(layout) = self.layout() {
             let grabbed = self.by_handle && self.lock.is_none();
             self.measure = Measure::new(self.tool, self.handle(), layout, self.start, grabbed);
@@ -186,7 +186,7 @@ impl Drag {
         self.anchor = raw;
     }
 
-    /// How many numbers can be typed.
+    /// Returns how many numbers can be typed.
     pub(super) fn fields(&self) -> usize {
         match (self.tool, self.handle()) {
             (Tool::Move, Handle::Center | Handle::Ring) => 3,
@@ -203,8 +203,8 @@ impl Drag {
         }
     }
 
-    /// The delta of now.
-    pub(super) fn delta(&mut self, typed: &Typed) -> GizmoDelta {
+    /// Returns the present delta.
+    pub(super) fn delta(&mut self, typed: &TypedNumbers) -> GizmoDelta {
         let raw = self.measure.at(self.pointer);
         let mut amount = self.settled + (raw - self.anchor) * self.pace();
         if self.modifiers.ctrl {
@@ -226,12 +226,12 @@ impl Drag {
         self.delta_of(amount)
     }
 
-    /// Typed numbers, in their order, to the axes that the drag is bound to.
+    /// Assigns typed numbers, in their order, to the axes that the drag is locked to.
     fn bound(&self, typed: DVec3) -> DVec3 {
         match self.handle() {
             Handle::Axis(axis) => axis.unit() * typed.x,
             Handle::Plane(normal) => {
-                // In the order of the alphabet, as they are shown.
+                // In alphabetical order, as they are shown.
                 let mut axes = normal.others();
                 axes.sort_by_key(|axis| *axis as usize);
                 axes[0].unit() * typed.x + axes[1].unit() * typed.y
@@ -240,7 +240,7 @@ impl Drag {
         }
     }
 
-    /// A measured way to the axes: along one it is in x.
+    /// Assigns a measured distance to the axes: along one axis it is in x.
     fn along(&self, amount: DVec3) -> DVec3 {
         match self.handle() {
             Handle::Axis(axis) => axis.unit() * amount.x,
@@ -299,7 +299,8 @@ impl Drag {
         }
     }
 
-    /// Each along its own axes, but what is done in the plane or along the line of the picture: that is one for all.
+    /// Returns the axes for one bone: its own ones, except for a drag in the view plane or about the line of sight,
+    /// which is the same for all.
     fn own_frame(&self, target: &GizmoTarget, common: GizmoAxes) -> GizmoAxes {
         let in_view = matches!((self.tool, self.handle()), (Tool::Move, Handle::Center))
             || (self.tool == Tool::Rotate && matches!(self.handle(), Handle::Center | Handle::Ring));

@@ -1,15 +1,14 @@
 //! Gizmos: handles at the selected bones that move, rotate and scale them.
 //!
-//! Everything here is geometry and state: no window, no device. The owner says what is selected ([`Gizmo::select`]) and from
-//! where it is seen ([`Gizmo::look`]), passes on pointer and keys, and reads the new poses ([`Gizmo::drag`]) and what to draw
+//! Everything here is geometry and state: no window, no device. The owner sets the selection ([`Gizmo::select`]) and the view
+//! ([`Gizmo::look`]), passes on pointer and keys, and reads the new poses ([`Gizmo::drag`]) and what to draw
 //! ([`GizmoShape`]).
 //!
-//! A drag computes every pose from the one before it and one delta ([`GizmoDelta`]), so nothing adds up: cancelling gives
-//! the old poses bit for bit, and coming back with the pointer does too, but for rounding.
+//! A drag computes every pose from the one before it and one delta ([`GizmoDelta`]), so errors do not accumulate: cancelling
+//! restores the old poses bit for bit, and so does moving the pointer back, up to rounding.
 //!
-//! While dragging: X, Y, Z bind to an axis, with Shift to the plane across it; the same again changes between own and world
-//! axes; the same a third time sets free. Digits type a number. Shift is precise, Ctrl snaps. Enter confirms, Escape
-//! cancels.
+//! During a drag, X, Y and Z lock to an axis, with Shift to the plane across it; the same key again changes between local and
+//! world axes, and a third time unlocks. Digits type a number. Shift is precise, Ctrl snaps. Enter confirms, Escape cancels.
 
 mod control;
 mod delta;
@@ -21,76 +20,76 @@ pub use control::GizmoControl;
 pub use drag::{BoneDrag, GizmoDrag};
 
 use super::key::{Key, Modifiers};
-use drag::Drag;
+use drag::ActiveDrag;
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use dragonfly_picture::gizmo::{
     GizmoDelta, GizmoLayout, GizmoPlacement, GizmoSettings, GizmoShape, GizmoSpace, GizmoTarget, GizmoView,
     Handle, PosedSkeleton, Tool,
 };
 use glam::{Mat4, Vec2};
-use typed::Typed;
+use typed::TypedNumbers;
 
-/// What became of a key or a button.
+/// The effect of a key or a button on the gizmo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GizmoAnswer {
-    /// It means nothing to the gizmo.
+    /// It has no meaning for the gizmo.
     Ignored,
-    /// The drag goes on, changed.
+    /// The drag continues, with another result.
     Changed,
-    /// The drag is over; [`Gizmo::drag`] is what it made, until the next.
+    /// The drag has ended; [`Gizmo::drag`] returns its result until the next one.
     Confirmed,
-    /// The drag is over; [`Gizmo::drag`] has the poses as they were before, bit for bit.
+    /// The drag has ended; [`Gizmo::drag`] returns the old poses, bit for bit.
     Cancelled,
 }
 
-/// What a drag can tell beside the pointer. Lengths and angles along the axes of [`Self::space`].
+/// The state of a drag, for the text next to the pointer. Lengths and angles are along the axes of [`Self::space`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GizmoReadout<'a> {
-    /// What is done.
+    /// Tool that drags.
     pub tool: Tool,
-    /// How it is bound.
+    /// Handle that the drag is locked to.
     pub handle: Handle,
-    /// Whose axes it follows.
+    /// GizmoSpace whose axes it follows.
     pub space: GizmoSpace,
-    /// How much.
+    /// Present amount.
     pub delta: GizmoDelta,
-    /// What is typed, for each of the numbers that can be; empty where nothing is.
+    /// Typed text of each number; empty where nothing is typed.
     pub typed: [&'a str; 3],
     /// How many numbers can be typed.
     pub fields: usize,
-    /// Which of them is typed into.
+    /// Index of the number that is typed into.
     pub field: usize,
-    /// Is what is typed there a number? If not, the last one that was counts.
+    /// Whether its text is a number. If not, the last one that was counts.
     pub is_number: bool,
 }
 
-/// See the module.
+/// The gizmo of the selected bones.
 #[derive(Clone, Debug, Default)]
 pub struct Gizmo {
-    /// How it works; a drag keeps what it began with.
+    /// Settings; a drag keeps those that it began with.
     pub settings: GizmoSettings,
-    /// What it does.
+    /// Present tool.
     pub tool: Tool,
     view: Option<GizmoView>,
     placement: GizmoPlacement,
     hovered: Option<Handle>,
-    going: Option<Drag>,
-    /// The bones of the drag as they were before it.
+    going: Option<ActiveDrag>,
+    /// The dragged bones as they were before.
     before: Vec<GizmoTarget>,
     made: GizmoDrag,
     delta: Option<GizmoDelta>,
-    typed: Typed,
+    typed: TypedNumbers,
 }
 
 impl Gizmo {
-    /// One that does this, with nothing selected and not yet seen.
+    /// Returns a gizmo with this tool, without a selection and a view.
     pub fn new(tool: Tool) -> Self {
         Self { tool, ..Self::default() }
     }
 
-    /// What is selected, in a pose: `poses` relative to the parents, `to_root` of all bones. `active` is the one whose axes
-    /// count; without, the last selected. A drag that goes on keeps what it began with. Allocates only when the skeleton
-    /// grows.
+    /// Sets the selection and its pose: `poses` relative to the parents, `to_root` of all bones. `active` is the bone
+    /// whose axes count; without it the last selected one. A drag in progress keeps what it began with. Allocates only
+    /// when the skeleton grows.
     pub fn select(
         &mut self,
         skeleton: &Skeleton,
@@ -103,7 +102,7 @@ impl Gizmo {
         self.placement.select(&self.settings, self.tool, &pose, selected, active);
     }
 
-    /// From where it is seen.
+    /// Sets the view.
     pub fn look(&mut self, view: GizmoView) {
         self.view = Some(view);
         if let Some(drag) = &mut self.going {
@@ -111,36 +110,36 @@ impl Gizmo {
         }
     }
 
-    /// What it stands at, scene space; `None` where nothing is selected.
+    /// Returns the pivot, scene space; `None` without a selection.
     pub fn pivot(&self) -> Option<glam::DVec3> {
         self.placement.anchor().map(|anchor| anchor.pivot)
     }
 
-    /// The handle at a place, points from the top left of the picture; none while dragging.
+    /// Returns the handle at a position, points from the top left of the viewport; none during a drag.
     pub fn handle_at(&self, pointer: Vec2) -> Option<Handle> {
         let free = pointer.is_finite() && self.going.is_none();
         free.then(|| self.layout()?.hit(self.tool, pointer.as_dvec2())).flatten()
     }
 
-    /// Notes and tells the handle under the pointer.
+    /// Notes and returns the handle under the pointer.
     pub fn hover(&mut self, pointer: Option<Vec2>) -> Option<Handle> {
         self.hovered = pointer.and_then(|pointer| self.handle_at(pointer));
         self.hovered
     }
 
-    /// The handle that was under the pointer last.
+    /// Returns the handle that was under the pointer last.
     pub fn hovered(&self) -> Option<Handle> {
         self.hovered
     }
 
-    /// Begins a drag: of `handle`, or without one as by a key, then in the plane of the picture. `false` where nothing is
-    /// selected or it lies behind the eye.
+    /// Begins a drag of `handle`, or, without one, a drag in the view plane as by a key. Returns false without a
+    /// selection, or if it is behind the camera.
     pub fn begin(&mut self, handle: Option<Handle>, pointer: Vec2) -> bool {
         let (Some(view), Some(anchor)) = (self.view, self.placement.anchor()) else { return false };
         if !pointer.is_finite() || self.going.is_some() {
             return false;
         }
-        self.going = Drag::begin(self.tool, handle, self.settings, anchor, view, pointer.as_dvec2());
+        self.going = ActiveDrag::begin(self.tool, handle, self.settings, anchor, view, pointer.as_dvec2());
         if self.going.is_none() {
             return false;
         }
@@ -152,7 +151,7 @@ impl Gizmo {
         true
     }
 
-    /// The pointer moved, or the keys held besides changed. `Ignored` when nothing is dragged, or for no place of a screen.
+    /// Sets pointer and modifier keys. `Ignored` without a drag, and for a position that is on no screen.
     pub fn pointer(&mut self, pointer: Vec2, modifiers: Modifiers) -> GizmoAnswer {
         let sound = pointer.is_finite() && pointer.abs().max_element() < 1e5;
         let Some(drag) = self.going.as_mut().filter(|_| sound) else { return GizmoAnswer::Ignored };
@@ -161,7 +160,7 @@ impl Gizmo {
         GizmoAnswer::Changed
     }
 
-    /// A key went down while dragging.
+    /// Handles a key during a drag.
     pub fn key_down(&mut self, key: Key, modifiers: Modifiers) -> GizmoAnswer {
         let Some(drag) = &mut self.going else { return GizmoAnswer::Ignored };
         match key {
@@ -175,12 +174,12 @@ impl Gizmo {
         }
     }
 
-    /// Ends the drag with what it made: the left button came up, Enter.
+    /// Confirms the drag: the left button went up, or Enter.
     pub fn confirm(&mut self) -> GizmoAnswer {
         if self.going.take().is_some() { GizmoAnswer::Confirmed } else { GizmoAnswer::Ignored }
     }
 
-    /// Ends the drag as if it had not been: Escape, the right button, input lost.
+    /// Cancels the drag: Escape, the right button, or lost input.
     pub fn cancel(&mut self) -> GizmoAnswer {
         if self.going.take().is_none() {
             return GizmoAnswer::Ignored;
@@ -191,27 +190,27 @@ impl Gizmo {
         GizmoAnswer::Cancelled
     }
 
-    /// Is a drag going on?
+    /// Whether a drag is in progress.
     pub fn is_dragging(&self) -> bool {
         self.going.is_some()
     }
 
-    /// What the drag has made so far, or the last one made.
+    /// Returns the result of the drag so far, or of the last one.
     pub fn drag(&self) -> &GizmoDrag {
         &self.made
     }
 
-    /// Bone by bone what [`Self::drag`] has, as it was before.
+    /// Returns the bones of [`Self::drag`] as they were before it.
     pub fn before(&self) -> &[GizmoTarget] {
         &self.before
     }
 
-    /// Does the drag that goes on, or did the last one, change nothing?
+    /// Whether the present or the last drag changes nothing.
     pub fn is_identity(&self) -> bool {
         self.delta.is_none_or(|delta| delta.is_identity())
     }
 
-    /// What to write beside the pointer while dragging.
+    /// Returns what to show next to the pointer during a drag.
     pub fn readout(&self) -> Option<GizmoReadout<'_>> {
         let drag = self.going.as_ref()?;
         let field = self.typed.current();
@@ -227,20 +226,20 @@ impl Gizmo {
         })
     }
 
-    /// Writes what to draw into `shape`, in scene space; nothing where there is nothing to see. Allocates only as `shape`
+    /// Writes what to draw into `shape`, in scene space; nothing if nothing is visible. Allocates only as `shape`
     /// grows.
     pub fn present(&self, shape: &mut GizmoShape) {
         shape.clear();
         self.present_into(shape);
     }
 
-    /// The same as [`Self::present`], behind what `shape` has already.
+    /// Does the same as [`Self::present`], after what `shape` contains already.
     pub fn present_into(&self, shape: &mut GizmoShape) {
         match &self.going {
             Some(drag) => {
                 let Some(mut layout) = drag.layout() else { return };
                 if let Some(GizmoDelta::Move(by)) = self.delta {
-                    // It goes where the bones go.
+                    // The gizmo moves with the bones.
                     layout.pivot += layout.axes.axes * by;
                 }
                 shape.dragging(&layout, drag.tool, drag.handle(), self.delta, drag.start());

@@ -1,28 +1,28 @@
-//! Numbers typed while dragging: `45`, `-1.5`, `45/2`, `.5`; Backspace takes back, Tab goes on to the next axis.
+//! Numbers typed during a drag: `45`, `-1.5`, `45/2`, `.5`. Backspace deletes, Tab moves on to the next axis.
 
 use crate::control::expression::{Quantity, evaluate};
 use crate::control::key::Key;
 
-/// Longest number that can be typed, letters.
+/// Longest number that can be typed, in characters.
 const LONGEST: usize = 40;
 
 #[derive(Clone, Debug, Default)]
 struct Field {
     text: String,
-    /// Of the text, or of the last one that was a number.
+    /// Value of the text, or of the last text that was a number.
     value: f64,
     is_number: bool,
 }
 
 /// Up to three numbers.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Typed {
+pub(super) struct TypedNumbers {
     fields: [Field; 3],
     current: usize,
 }
 
-impl Typed {
-    /// Forgets all; keeps the memory.
+impl TypedNumbers {
+    /// Clears all fields, and keeps their memory.
     pub(super) fn clear(&mut self) {
         self.current = 0;
         for field in &mut self.fields {
@@ -32,12 +32,12 @@ impl Typed {
         }
     }
 
-    /// Has something been typed? Then the pointer counts no more.
+    /// Whether something was typed, so that the pointer has no effect.
     pub(super) fn is_used(&self, count: usize) -> bool {
         self.fields.iter().take(count).any(|field| !field.text.is_empty())
     }
 
-    /// Numbers of the first `count` fields; `None` where nothing is typed.
+    /// Returns the numbers of the first `count` fields; `None` where nothing is typed.
     pub(super) fn values(&self, count: usize) -> [Option<f64>; 3] {
         std::array::from_fn(|index| {
             let field = &self.fields[index];
@@ -45,22 +45,23 @@ impl Typed {
         })
     }
 
-    /// What is typed in a field, and whether it is a number as it stands.
+    /// Returns the text of a field, and whether it is a number as it is.
     pub(super) fn text(&self, field: usize) -> (&str, bool) {
         self.fields.get(field).map_or(("", true), |field| (&field.text, field.is_number))
     }
 
-    /// Which field is typed into.
+    /// Returns the index of the field that is typed into.
     pub(super) fn current(&self) -> usize {
         self.current
     }
 
-    /// Fewer fields than before: typing goes on in one that there is.
+    /// Limits the number of fields; the current one moves into the range.
     pub(super) fn limit(&mut self, count: usize) {
         self.current = self.current.min(count.saturating_sub(1));
     }
 
-    /// Takes a key; `false` for one that no number has. Letters continue a number (`10cm`, `1e3`), they begin none.
+    /// Handles a key; false if it cannot be part of a number. Letters continue a number (`10cm`, `1e3`), but do not
+    /// begin one.
     pub(super) fn key(&mut self, key: Key, count: usize, quantity: Quantity) -> bool {
         self.limit(count);
         let field = &mut self.fields[self.current];
@@ -93,7 +94,7 @@ impl Typed {
         if field.text.is_empty() {
             (field.value, field.is_number) = (0.0, true);
         }
-        // `45/` on the way to `45/2`: what was there stays.
+        // `45/` on the way to `45/2`: the last number stays.
         field.value = value.unwrap_or(field.value);
         true
     }

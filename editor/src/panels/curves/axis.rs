@@ -1,14 +1,14 @@
-//! Values from below to above.
+//! The vertical axis of values.
 
 use crate::panels::theme::Theme;
 use egui::{Align2, FontId, Painter, Rect, Stroke, pos2};
 
-/// The part of values that is shown.
+/// The range of values that is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ValueWindow {
-    /// The lower edge.
+    /// Value at the lower edge.
     pub(super) low: f64,
-    /// From there to the upper edge; more than zero.
+    /// Difference between the upper and the lower edge; greater than zero.
     pub(super) span: f64,
 }
 
@@ -22,7 +22,7 @@ impl Default for ValueWindow {
 }
 
 impl ValueWindow {
-    /// All of `low..=high`, with some room; something to look at where it is a single value.
+    /// Returns a range that contains `low..=high` with a margin, also if that is a single value.
     pub(super) fn around(low: f32, high: f32) -> Self {
         if !(low.is_finite() && high.is_finite() && low <= high) {
             return Self::default();
@@ -30,15 +30,15 @@ impl ValueWindow {
         let (low, high) = (f64::from(low), f64::from(high));
         let span = (high - low).max((low.abs().max(high.abs()) * 0.02).max(0.02));
         let middle = (low + high) / 2.0;
-        Self { low: middle - span * 0.58, span: span * 1.16 }.mended()
+        Self { low: middle - span * 0.58, span: span * 1.16 }.sanitized()
     }
 
-    /// Is all of `low..=high` in sight?
+    /// Whether all of `low..=high` is visible.
     pub(super) fn holds(self, low: f32, high: f32) -> bool {
         f64::from(low) >= self.low && f64::from(high) <= self.low + self.span
     }
 
-    fn mended(self) -> Self {
+    fn sanitized(self) -> Self {
         let span = if self.span.is_finite() { self.span.clamp(SMALLEST, LARGEST) } else { 2.0 };
         let low = if self.low.is_finite() { self.low.clamp(-LARGEST, LARGEST) } else { -1.0 };
         Self { low, span }
@@ -47,15 +47,15 @@ impl ValueWindow {
     pub(super) fn zoomed(self, about: f64, factor: f64) -> Self {
         let span = (self.span * factor).clamp(SMALLEST, LARGEST);
         let part = (about - self.low) / self.span;
-        Self { low: about - part * span, span }.mended()
+        Self { low: about - part * span, span }.sanitized()
     }
 
     pub(super) fn panned(self, by: f64) -> Self {
-        Self { low: self.low + by, ..self }.mended()
+        Self { low: self.low + by, ..self }.sanitized()
     }
 }
 
-/// Which value lies at which height.
+/// The mapping between values and heights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ValueScale {
     pub(super) rect: Rect,
@@ -63,7 +63,7 @@ pub(super) struct ValueScale {
 }
 
 impl ValueScale {
-    /// Points a unit.
+    /// Returns the number of points per unit.
     pub(super) fn per_unit(&self) -> f64 {
         f64::from(self.rect.height().max(1.0)) / self.window.span
     }
@@ -77,7 +77,7 @@ impl ValueScale {
         (self.window.low + f64::from(self.rect.bottom() - y) / self.per_unit()) as f32
     }
 
-    /// Units between lines that can be read.
+    /// Returns the distance of labeled lines, units.
     pub(super) fn step(&self) -> f64 {
         let wanted = self.window.span * 28.0 / f64::from(self.rect.height().max(28.0));
         let ten = 10f64.powf(wanted.log10().floor());
@@ -85,7 +85,7 @@ impl ValueScale {
     }
 }
 
-/// Lines over `rect`, with numbers in `strip` at its left.
+/// Draws the lines over `rect`, with their numbers in `strip` on the left.
 pub(super) fn paint(painter: &Painter, strip: Rect, scale: &ValueScale, theme: &Theme) {
     let step = scale.step();
     let decimals = (-step.log10().floor()).clamp(0.0, 6.0) as usize;

@@ -1,7 +1,7 @@
-//! A channel as numbers over time, ready to be drawn: each key's numbers, and the least and greatest of every block of
-//! keys, so that a column of pixels costs the same whether it holds one key or a thousand.
+//! A channel as numbers over time, ready to be drawn: the numbers of each key, and the extents of every block of keys,
+//! so that a column of pixels costs the same whether it contains one key or a thousand.
 
-use super::form::Form;
+use super::form::RotationForm;
 use crate::panels::keys::intervals::Intervals;
 use crate::panels::keys::{ChannelId, Shift, channel};
 use dragonfly_anim::data::{Channel, Interpolation, Take};
@@ -11,35 +11,35 @@ use glam::{Quat, Vec3};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Numbers of a key; a vector's fourth is 0.
-pub(super) type Numbers = [f32; 4];
+/// Numbers of a key; the fourth of a vector is 0.
+pub(super) type CurveNumbers = [f32; 4];
 
 /// The columns of a channel.
 #[derive(Clone, Debug)]
-enum Columns {
+enum CurveColumns {
     Vector(Channel<Vec3>),
     Turn(Channel<Quat>),
 }
 
-/// See the module.
+/// The curve of a channel.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     pub(super) id: ChannelId,
-    columns: Columns,
-    form: Form,
-    numbers: Vec<Numbers>,
-    /// Least and greatest of blocks of keys; each level's blocks are [`BLOCK`] of the one before.
+    columns: CurveColumns,
+    form: RotationForm,
+    numbers: Vec<CurveNumbers>,
+    /// Extents of blocks of keys; a block of each level is [`BLOCK`] blocks of the one before.
     levels: Vec<Vec<Extent>>,
     whole: bool,
-    /// Of a curve whose keys are shifted: which ones are.
+    /// Of a curve with shifted keys: whether each key was shifted.
     moved: Option<Vec<bool>>,
 }
 
-/// The least and the greatest of some keys.
+/// Least and greatest numbers of some keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Extent {
-    pub(super) low: Numbers,
-    pub(super) high: Numbers,
+    pub(super) low: CurveNumbers,
+    pub(super) high: CurveNumbers,
 }
 
 const BLOCK: usize = 16;
@@ -55,34 +55,34 @@ impl Extent {
         self
     }
 
-    fn of(numbers: &Numbers) -> Self {
+    fn of(numbers: &CurveNumbers) -> Self {
         Self { low: *numbers, high: *numbers }
     }
 }
 
-/// A key of a spline: its numbers, and how fast they change before and behind it.
+/// A key of a spline: its numbers, and their rates of change before and after it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes {
-    pub(super) arrive: Numbers,
-    pub(super) leave: Numbers,
+    pub(super) arrive: CurveNumbers,
+    pub(super) leave: CurveNumbers,
 }
 
 impl Curve {
-    /// A channel of a take, not yet computed; `None` where it has no keys.
-    pub(super) fn new(take: &Take, id: ChannelId, form: Form) -> Option<Self> {
+    /// Returns the curve of a channel, not yet computed; `None` if the channel has no keys.
+    pub(super) fn new(take: &Take, id: ChannelId, form: RotationForm) -> Option<Self> {
         let track = channel::track(take, id.0)?;
         let columns = match id.1 {
-            Property::Translation => Columns::Vector(track.translation.clone()),
-            Property::Scale => Columns::Vector(track.scale.clone()),
-            Property::Rotation => Columns::Turn(track.rotation.clone()),
+            Property::Translation => CurveColumns::Vector(track.translation.clone()),
+            Property::Scale => CurveColumns::Vector(track.scale.clone()),
+            Property::Rotation => CurveColumns::Turn(track.rotation.clone()),
         };
         let curve =
             Self { id, columns, form, numbers: Vec::new(), levels: Vec::new(), whole: false, moved: None };
         (!curve.times().is_empty()).then_some(curve)
     }
 
-    /// Is it of just these columns, shown just so?
-    pub(super) fn is_of(&self, take: &Take, form: Form) -> bool {
+    /// Whether the curve was made from these columns and in this form.
+    pub(super) fn is_of(&self, take: &Take, form: RotationForm) -> bool {
         let Some(track) = channel::track(take, self.id.0) else { return false };
         let same = |channel: &Channel<Vec3>, other: &Channel<Vec3>| {
             Arc::ptr_eq(&channel.times, &other.times)
@@ -90,9 +90,9 @@ impl Curve {
                 && channel.interpolation == other.interpolation
         };
         match (&self.columns, self.id.1) {
-            (Columns::Vector(channel), Property::Translation) => same(channel, &track.translation),
-            (Columns::Vector(channel), Property::Scale) => same(channel, &track.scale),
-            (Columns::Turn(channel), _) => {
+            (CurveColumns::Vector(channel), Property::Translation) => same(channel, &track.translation),
+            (CurveColumns::Vector(channel), Property::Scale) => same(channel, &track.scale),
+            (CurveColumns::Turn(channel), _) => {
                 let other = &track.rotation;
                 self.form == form
                     && Arc::ptr_eq(&channel.times, &other.times)
@@ -105,29 +105,29 @@ impl Curve {
 
     pub(super) fn times(&self) -> &[f32] {
         match &self.columns {
-            Columns::Vector(channel) => &channel.times,
-            Columns::Turn(channel) => &channel.times,
+            CurveColumns::Vector(channel) => &channel.times,
+            CurveColumns::Turn(channel) => &channel.times,
         }
     }
 
     pub(super) fn interpolation(&self) -> Interpolation {
         match &self.columns {
-            Columns::Vector(channel) => channel.interpolation,
-            Columns::Turn(channel) => channel.interpolation,
+            CurveColumns::Vector(channel) => channel.interpolation,
+            CurveColumns::Turn(channel) => channel.interpolation,
         }
     }
 
-    /// How many numbers a key has.
+    /// Returns the number of numbers of a key.
     pub(super) fn width(&self) -> usize {
         if self.id.1 == Property::Rotation { self.form.numbers() } else { 3 }
     }
 
-    /// Is everything computed?
+    /// Whether everything is computed.
     pub(super) fn is_whole(&self) -> bool {
         self.whole
     }
 
-    /// Computes some more keys, as many as `budget` still has.
+    /// Computes more keys, at most `budget`, and subtracts their number from it.
     pub(super) fn compute(&mut self, budget: &mut usize) {
         if self.whole {
             return;
@@ -138,8 +138,8 @@ impl Curve {
         let mut near = self.numbers.last().copied().unwrap_or_default();
         for key in self.numbers.len()..until {
             near = match &self.columns {
-                Columns::Vector(channel) => vector(channel.value(key).unwrap_or_default()),
-                Columns::Turn(channel) => self.form.of(channel.value(key).unwrap_or_default(), near),
+                CurveColumns::Vector(channel) => vector(channel.value(key).unwrap_or_default()),
+                CurveColumns::Turn(channel) => self.form.of(channel.value(key).unwrap_or_default(), near),
             };
             self.numbers.push(near);
         }
@@ -149,17 +149,17 @@ impl Curve {
         }
     }
 
-    /// The numbers of a key; zeros where there is none.
-    pub(super) fn key(&self, key: usize) -> Numbers {
+    /// Returns the numbers of a key; zeros if there is none.
+    pub(super) fn key(&self, key: usize) -> CurveNumbers {
         self.numbers.get(key).copied().unwrap_or_default()
     }
 
-    /// The least and the greatest of some keys.
+    /// Returns the extent of some keys.
     pub(super) fn extent(&self, keys: Range<usize>) -> Extent {
         let (mut from, mut to) = (keys.start, keys.end.min(self.numbers.len()));
         let mut found = Extent::NONE;
         let mut below: Option<&[Extent]> = None;
-        // Single keys up to whole blocks, then blocks up to whole blocks of blocks.
+        // Single keys up to whole blocks, then blocks up to whole blocks of the next level.
         for level in 0..=self.levels.len() {
             let at =
                 |index: usize| below.map_or_else(|| Extent::of(&self.numbers[index]), |below| below[index]);
@@ -186,30 +186,30 @@ impl Curve {
         found
     }
 
-    /// The numbers at a time; angles near to `near`.
-    pub(super) fn at(&self, time: f32, near: Numbers) -> Numbers {
+    /// Returns the numbers at a time, with those angles that are nearest to `near`.
+    pub(super) fn at(&self, time: f32, near: CurveNumbers) -> CurveNumbers {
         match &self.columns {
-            Columns::Vector(channel) => vector(sample_channel(channel, Vec3::ZERO, time)),
-            Columns::Turn(channel) => self.form.of(sample_channel(channel, Quat::IDENTITY, time), near),
+            CurveColumns::Vector(channel) => vector(sample_channel(channel, Vec3::ZERO, time)),
+            CurveColumns::Turn(channel) => self.form.of(sample_channel(channel, Quat::IDENTITY, time), near),
         }
     }
 
-    /// Does it run straight between keys as it is drawn?
+    /// Whether the curve is drawn as straight lines between keys.
     pub(super) fn is_straight(&self) -> bool {
-        matches!((&self.columns, self.interpolation()), (Columns::Vector(_), Interpolation::Linear))
+        matches!((&self.columns, self.interpolation()), (CurveColumns::Vector(_), Interpolation::Linear))
     }
 
-    /// How fast the numbers of a key of a spline change.
+    /// Returns the rates of change of the numbers at a key of a spline.
     pub(super) fn slopes(&self, key: usize) -> Option<Slopes> {
         if self.interpolation() != Interpolation::CubicSpline {
             return None;
         }
         match &self.columns {
-            Columns::Vector(channel) => Some(Slopes {
+            CurveColumns::Vector(channel) => Some(Slopes {
                 arrive: vector(*channel.values.get(key * 3)?),
                 leave: vector(*channel.values.get(key * 3 + 2)?),
             }),
-            Columns::Turn(channel) => {
+            CurveColumns::Turn(channel) => {
                 let value = channel.value(key)?;
                 let of = |rate: Quat| self.form.slopes(value, rate, self.key(key));
                 Some(Slopes {
@@ -220,11 +220,11 @@ impl Curve {
         }
     }
 
-    /// The tangent, as edits name it, at which the numbers of a key change by `slopes` a second.
-    pub(super) fn tangent(&self, key: usize, arrive: bool, slopes: Numbers) -> Option<Vec<f32>> {
+    /// Returns the tangent, as edits contain it, at which the numbers of a key change by `slopes` per second.
+    pub(super) fn tangent(&self, key: usize, arrive: bool, slopes: CurveNumbers) -> Option<Vec<f32>> {
         match &self.columns {
-            Columns::Vector(_) => Some(slopes[..3].to_vec()),
-            Columns::Turn(channel) => {
+            CurveColumns::Vector(_) => Some(slopes[..3].to_vec()),
+            CurveColumns::Turn(channel) => {
                 let rate = *channel.values.get(key * 3 + if arrive { 0 } else { 2 })?;
                 let rate = self.form.rate(channel.value(key)?, rate, self.key(key), slopes);
                 Some(rate.to_array().to_vec())
@@ -232,7 +232,7 @@ impl Curve {
         }
     }
 
-    /// Is this key selected, where those in `chosen` are?
+    /// Whether the key is selected, if `chosen` are the selected ones.
     pub(super) fn is_chosen(&self, key: usize, chosen: &Intervals) -> bool {
         match &self.moved {
             Some(moved) => moved.get(key) == Some(&true),
@@ -240,18 +240,18 @@ impl Curve {
         }
     }
 
-    /// How its rotations are shown.
-    pub(super) fn form(&self) -> Form {
+    /// Returns the form in which its rotations are shown.
+    pub(super) fn form(&self) -> RotationForm {
         self.form
     }
 
-    /// The curve as it is when the keys in `chosen` are shifted, as long as it is short enough to be made every frame.
+    /// Returns the curve with the keys in `chosen` shifted, if it is short enough to be computed in every frame.
     pub(super) fn shifted(&self, chosen: &Intervals, shift: Shift, copies: bool) -> Option<Self> {
         let times = self.times();
         if chosen.is_empty() || times.len() > SHORT || !self.whole {
             return None;
         }
-        // Time, key, and whether it was moved: a moved key takes the place of one that stays.
+        // Time, key, and whether it was moved: a moved key overwrites one that stays.
         let mut keys: Vec<(f32, usize, bool)> = Vec::with_capacity(times.len());
         for (key, &time) in times.iter().enumerate() {
             let moves = chosen.holds(time);
@@ -270,8 +270,8 @@ impl Curve {
             _ => 1.0,
         };
         let columns = match &self.columns {
-            Columns::Vector(channel) => Columns::Vector(rearranged(channel, &keys, steeper)),
-            Columns::Turn(channel) => Columns::Turn(rearranged(channel, &keys, steeper)),
+            CurveColumns::Vector(channel) => CurveColumns::Vector(rearranged(channel, &keys, steeper)),
+            CurveColumns::Turn(channel) => CurveColumns::Turn(rearranged(channel, &keys, steeper)),
         };
         let numbers = keys.iter().map(|&(_, key, _)| self.key(key)).collect();
         let moved = Some(keys.iter().map(|&(.., moved)| moved).collect());
@@ -279,7 +279,7 @@ impl Curve {
     }
 }
 
-/// Keys of a curve that is made anew for every frame of a drag.
+/// Largest number of keys of a curve that is recomputed in every frame of a drag.
 const SHORT: usize = 4096;
 
 fn rearranged<T: Copy + std::ops::Mul<f32, Output = T>>(
@@ -300,11 +300,11 @@ fn rearranged<T: Copy + std::ops::Mul<f32, Output = T>>(
     Channel { times: times.into(), values: values.into(), interpolation: channel.interpolation }
 }
 
-fn vector(value: Vec3) -> Numbers {
+fn vector(value: Vec3) -> CurveNumbers {
     [value.x, value.y, value.z, 0.0].map(|number| if number.is_finite() { number } else { 0.0 })
 }
 
-fn levels(numbers: &[Numbers]) -> Vec<Vec<Extent>> {
+fn levels(numbers: &[CurveNumbers]) -> Vec<Vec<Extent>> {
     let mut all: Vec<Vec<Extent>> = Vec::new();
     let fold = |block: &[Extent]| block.iter().fold(Extent::NONE, |sum, next| sum.with(next));
     let mut level: Vec<Extent> = numbers
@@ -329,13 +329,13 @@ mod tests {
         let seed = seed(9);
         let mut random = Random::new(seed);
         for count in [1, 15, 16, 17, 255, 257, 5000] {
-            let numbers: Vec<Numbers> =
+            let numbers: Vec<CurveNumbers> =
                 (0..count).map(|_| [(); 4].map(|()| random.between(-9.0, 9.0))).collect();
             let channel = Channel::<Vec3>::default();
             let curve = Curve {
                 id: (0, Property::Translation),
-                columns: Columns::Vector(channel),
-                form: Form::default(),
+                columns: CurveColumns::Vector(channel),
+                form: RotationForm::default(),
                 levels: levels(&numbers),
                 numbers,
                 whole: true,

@@ -1,16 +1,16 @@
-//! The numbers of the one key that is selected: its values and its time, to be dragged or typed.
+//! Number fields for the values and the time of the selected key.
 
 use super::axis::ValueWindow;
 use super::curve::Curve;
-use super::form::Form;
-use super::hand::component_name;
+use super::drag::component_name;
+use super::form::RotationForm;
 use super::paint::color;
 use super::toolbar::Chosen;
 use super::values::{ValueKey, value_edit};
 use crate::control::expression::Quantity;
 use crate::panels::dope::to_frame;
-use crate::panels::keys::{Deed, Drawn, KeysRequest};
-use crate::panels::number_field::{Heard, NumberField};
+use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest};
+use crate::panels::number_field::{FieldEvent, NumberField};
 use crate::panels::number_text::Digits;
 use crate::panels::state::{Request, State};
 use crate::panels::style::{CONTROL, GRID};
@@ -26,41 +26,41 @@ const WIDTH: f32 = 80.0;
 /// Width of the letter before a value.
 const LETTER: f32 = 12.0;
 
-/// See the module.
+/// The fields, with the one that is dragged.
 #[derive(Debug, Default)]
 pub(super) struct Fields {
-    held: Option<Held>,
+    held: Option<HeldField>,
 }
 
-/// What a field is about.
+/// The number that a field edits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Part {
+enum KeyNumber {
     Value(usize),
     Time,
 }
 
-/// A field that is dragged: its key as it was when the drag began, and how far it is from there.
+/// A dragged field: its key as it was when the drag began, and the distance from there.
 #[derive(Clone, Copy, Debug)]
-struct Held {
-    part: Part,
+struct HeldField {
+    part: KeyNumber,
     key: ValueKey,
     by: f32,
 }
 
-/// What the fields are about.
-pub(super) struct About<'a> {
+/// What the fields edit.
+pub(super) struct FieldsContext<'a> {
     pub(super) chosen: &'a Chosen,
     pub(super) curves: &'a [Arc<Curve>],
     pub(super) drawn: &'a Drawn,
     pub(super) window: ValueWindow,
-    /// The component that was taken hold of last: shown where there is no room for all.
+    /// Component of the key that was pressed on last: shown where there is no space for all.
     pub(super) component: usize,
     pub(super) state: &'a State,
 }
 
 impl Fields {
-    /// From right to left: time, then as many values as there is room for.
-    pub(super) fn show(&mut self, ui: &mut Ui, about: &About<'_>, requests: &mut Vec<Request>) {
+    /// Draws the fields from right to left: time, then the values that fit.
+    pub(super) fn show(&mut self, ui: &mut Ui, about: &FieldsContext<'_>, requests: &mut Vec<Request>) {
         self.held.take_if(|held| held.by != 0.0 && !about.state.keys.drag().is_some_and(|drag| drag.held()));
         let key = self.held.map(|held| held.key).or_else(|| only_key(about.curves, about.drawn));
         let Some(key) = key.filter(|_| ui.available_width() >= WIDTH) else { return };
@@ -79,10 +79,10 @@ impl Fields {
         }
     }
 
-    fn time(&mut self, ui: &mut Ui, key: &ValueKey, about: &About<'_>, requests: &mut Vec<Request>) {
+    fn time(&mut self, ui: &mut Ui, key: &ValueKey, about: &FieldsContext<'_>, requests: &mut Vec<Request>) {
         let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, CONTROL), Sense::hover());
         let frame = f64::from(about.state.frame_seconds());
-        let shown = key.time + self.by(Part::Time);
+        let shown = key.time + self.by(KeyNumber::Time);
         let field = NumberField {
             name: "Time of the key",
             value: Some(f64::from(shown)),
@@ -92,22 +92,22 @@ impl Fields {
             grain: 1e-6,
             digits: Digits::Fixed(3),
             range: 0.0..=f64::from(LATEST),
-            ..field(Part::Time)
+            ..field(KeyNumber::Time)
         };
-        let (heard, _) = field.show(ui, rect);
+        let (event, _) = field.show(ui, rect);
         let snap = about.state.keys.snap != ui.input(|input| input.modifiers.command);
-        let heard = match heard {
-            Heard::Dragged(by) if snap => {
-                Heard::Dragged(f64::from(to_frame(key.time + by as f32, about.state) - key.time))
+        let event = match event {
+            FieldEvent::Dragged(by) if snap => {
+                FieldEvent::Dragged(f64::from(to_frame(key.time + by as f32, about.state) - key.time))
             }
-            heard => heard,
+            event => event,
         };
-        match heard {
-            Heard::Typed(value) => {
-                requests.push(Request::Timeline(KeysRequest::Drag(Deed::Move(value as f32 - key.time))));
+        match event {
+            FieldEvent::Typed(value) => {
+                requests.push(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(value as f32 - key.time))));
                 requests.push(Request::Timeline(KeysRequest::Release));
             }
-            heard => self.drag(heard, Part::Time, key, |by| Some(Deed::Move(by)), requests),
+            event => self.drag(event, KeyNumber::Time, key, |by| Some(KeyDragOp::Move(by)), requests),
         }
     }
 
@@ -116,7 +116,7 @@ impl Fields {
         ui: &mut Ui,
         key: &ValueKey,
         component: usize,
-        about: &About<'_>,
+        about: &FieldsContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let (rect, _) = ui.allocate_exact_size(vec2(LETTER + WIDTH, CONTROL), Sense::hover());
@@ -125,60 +125,66 @@ impl Fields {
         let at = pos2(rect.left(), rect.center().y);
         ui.painter().text(at, Align2::LEFT_CENTER, letter, FontId::proportional(11.0), tone);
         let rect = Rect::from_min_max(pos2(rect.left() + LETTER, rect.top()), rect.max);
-        let angle = key.id.1 == Property::Rotation && key.form != Form::Quaternion;
+        let angle = key.id.1 == Property::Rotation && key.form != RotationForm::Quaternion;
         let number = key.numbers[component];
         let field = NumberField {
             name: &format!("Value {letter}"),
-            value: Some(f64::from(number + self.by(Part::Value(component)))),
+            value: Some(f64::from(number + self.by(KeyNumber::Value(component)))),
             quantity: if angle { Quantity::Angle } else { Quantity::Number },
             unit: if angle { "°" } else { "" },
-            // As far as the curve goes on the screen, about.
+            // About as far as the curve moves on the screen.
             speed: about.window.span / 300.0,
             snap: if angle { 15.0 } else { 0.1 },
             grain: f64::from(number.abs()) * 1e-6 + 1e-7,
             digits: if angle { Digits::Fixed(2) } else { Digits::Fitting },
-            ..field(Part::Value(component))
+            ..field(KeyNumber::Value(component))
         };
-        let (heard, _) = field.show(ui, rect);
+        let (event, _) = field.show(ui, rect);
         let edit = |by: f32| value_edit(about.state.take_ref()?, &[*key], component, by);
-        match heard {
-            Heard::Typed(value) => {
+        match event {
+            FieldEvent::Typed(value) => {
                 let edit = edit(value as f32 - number);
                 requests.extend(edit.map(|edit| Request::Change(Change::Edit(edit, None))));
             }
-            heard => self.drag(heard, Part::Value(component), key, |by| edit(by).map(Deed::Edit), requests),
+            event => self.drag(
+                event,
+                KeyNumber::Value(component),
+                key,
+                |by| edit(by).map(KeyDragOp::Edit),
+                requests,
+            ),
         }
     }
 
-    /// How far a field is dragged.
-    fn by(&self, part: Part) -> f32 {
+    /// Returns the distance by which a field is dragged.
+    fn by(&self, part: KeyNumber) -> f32 {
         self.held.filter(|held| held.part == part).map_or(0.0, |held| held.by)
     }
 
     fn drag(
         &mut self,
-        heard: Heard,
-        part: Part,
+        event: FieldEvent,
+        part: KeyNumber,
         key: &ValueKey,
-        deed: impl Fn(f32) -> Option<Deed>,
+        op: impl Fn(f32) -> Option<KeyDragOp>,
         requests: &mut Vec<Request>,
     ) {
-        let request = match heard {
-            Heard::Dragged(by) => {
+        let request = match event {
+            FieldEvent::Dragged(by) => {
                 let by = by as f32;
-                self.held = Some(Held { part, key: *key, by });
-                deed(by).map(KeysRequest::Drag)
+                self.held = Some(HeldField { part, key: *key, by });
+                op(by).map(KeysRequest::Drag)
             }
-            Heard::Released => self.held.take().map(|_| KeysRequest::Release),
-            Heard::Cancelled => self.held.take().map(|_| KeysRequest::Cancel),
-            Heard::Nothing | Heard::Touched | Heard::Typed(_) => None,
+            FieldEvent::Released => self.held.take().map(|_| KeysRequest::Release),
+            FieldEvent::Cancelled => self.held.take().map(|_| KeysRequest::Cancel),
+            FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Typed(_) => None,
         };
         requests.extend(request.map(Request::Timeline));
     }
 }
 
-/// What all the fields share.
-fn field<'a>(part: Part) -> NumberField<'a> {
+/// Returns the settings that all fields share.
+fn field<'a>(part: KeyNumber) -> NumberField<'a> {
     NumberField {
         id: Id::unique(("number of the selected key", part)),
         name: "",
@@ -196,7 +202,7 @@ fn field<'a>(part: Part) -> NumberField<'a> {
     }
 }
 
-/// The key that is selected, where it is one alone among the curves shown.
+/// Returns the selected key, if exactly one key of the shown curves is selected.
 fn only_key(curves: &[Arc<Curve>], drawn: &Drawn) -> Option<ValueKey> {
     let mut found = None;
     for curve in curves {

@@ -1,31 +1,31 @@
-//! Rotations as numbers that can be read: angles in degrees in an order, or the four numbers of the quaternion.
+//! Rotations as readable numbers: angles in degrees in some order, or the four numbers of the quaternion.
 
 use crate::panels::properties::turn;
 use dragonfly_anim::joint::EulerOrder;
 use glam::{DQuat, EulerRot, Quat};
 
-/// How rotations are shown.
+/// The form in which rotations are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
-    /// Three angles, degrees, turned in this order.
+pub(super) enum RotationForm {
+    /// Three angles, degrees, applied in this order.
     Euler(EulerOrder),
     /// x, y, z, w.
     Quaternion,
 }
 
-impl Default for Form {
+impl Default for RotationForm {
     fn default() -> Self {
         Self::Euler(EulerOrder::Xyz)
     }
 }
 
-impl Form {
-    /// Every form, in the order in which they are offered.
+impl RotationForm {
+    /// Returns all forms, in the order in which they are offered.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         EulerOrder::ALL.into_iter().map(Self::Euler).chain([Self::Quaternion])
     }
 
-    /// Its name.
+    /// Returns the name of the form.
     pub(super) fn name(self) -> String {
         match self {
             Self::Euler(order) => format!("Euler {}", turn::name(order)),
@@ -33,7 +33,7 @@ impl Form {
         }
     }
 
-    /// The order and which axis each of its angles turns; `None` for quaternions.
+    /// Returns the order and the axis of each of its angles; `None` for quaternions.
     fn order(self) -> Option<(EulerRot, [usize; 3])> {
         match self {
             Self::Euler(order) => Some((order.of_glam(), order.axes())),
@@ -41,12 +41,12 @@ impl Form {
         }
     }
 
-    /// How many numbers a rotation has.
+    /// Returns the number of numbers that a rotation has in this form.
     pub(super) fn numbers(self) -> usize {
         if self == Self::Quaternion { 4 } else { 3 }
     }
 
-    /// The numbers of a rotation, by axis; of all angles that mean the same, those nearest to `near`.
+    /// Returns the numbers of a rotation, by axis. Of all equivalent angles, those nearest to `near`.
     pub(super) fn of(self, rotation: Quat, near: [f32; 4]) -> [f32; 4] {
         let Some((order, axes)) = self.order() else { return rotation.to_array() };
         let unit = rotation.as_dquat().normalize();
@@ -55,7 +55,7 @@ impl Form {
         }
         let near = near.map(f64::from);
         let (a, b, c) = unit.to_euler(order);
-        // The other set of angles that means the same: the middle one beyond a right angle.
+        // The other equivalent set of angles, with the middle one beyond a right angle.
         let half = std::f64::consts::PI;
         let sets = [[a, b, c], [a + half, half - b, c + half]];
         let best = sets.map(|angles| {
@@ -71,7 +71,7 @@ impl Form {
         [x as f32, y as f32, z as f32, 0.0]
     }
 
-    /// The rotation that numbers mean.
+    /// Returns the rotation with these numbers.
     pub(super) fn rotation(self, numbers: [f32; 4]) -> Quat {
         self.exact(numbers.map(f64::from)).as_quat()
     }
@@ -89,7 +89,7 @@ impl Form {
         }
     }
 
-    /// How fast the numbers change where the quaternion changes by `rate` a second.
+    /// Returns the rate of change of the numbers, per second, where the quaternion changes by `rate` per second.
     pub(super) fn slopes(self, rotation: Quat, rate: Quat, numbers: [f32; 4]) -> [f32; 4] {
         if self == Self::Quaternion {
             return rate.to_array();
@@ -107,8 +107,8 @@ impl Form {
         std::array::from_fn(|axis| ((after[axis] - before[axis]) / (2.0 * step)) as f32)
     }
 
-    /// The rate of the quaternion at which `numbers` change by `slopes` a second; what `rate` had along the quaternion
-    /// itself, which turns nothing, stays.
+    /// Returns the rate of the quaternion at which `numbers` change by `slopes` per second. The component of `rate`
+    /// along the quaternion itself, which rotates nothing, stays.
     pub(super) fn rate(self, rotation: Quat, rate: Quat, numbers: [f32; 4], slopes: [f32; 4]) -> Quat {
         if self == Self::Quaternion {
             return Quat::from_array(slopes);
@@ -142,7 +142,7 @@ mod tests {
         for _ in 0..500 {
             let near = [(); 4].map(|()| random.between(-400.0, 400.0));
             let quaternion = Quat::from_array([(); 4].map(|()| random.between(-1.0, 1.0))).normalize();
-            for form in Form::all() {
+            for form in RotationForm::all() {
                 let back = form.rotation(form.of(quaternion, near));
                 assert!(back.dot(quaternion).abs() > 0.999_99, "seed {seed} {form:?} {quaternion}");
             }
@@ -154,7 +154,7 @@ mod tests {
         let mut near = [0.0; 4];
         for step in 0..=36 {
             let angle = step as f32 * 20.0;
-            near = Form::default().of(Quat::from_rotation_z(angle.to_radians()), near);
+            near = RotationForm::default().of(Quat::from_rotation_z(angle.to_radians()), near);
             assert!((near[2] - angle).abs() < 0.01, "{near:?}");
         }
     }
@@ -168,7 +168,7 @@ mod tests {
                 [random.between(-70.0, 70.0), random.between(-70.0, 70.0), random.between(-70.0, 70.0), 0.0];
             let slopes =
                 [random.between(-90.0, 90.0), random.between(-90.0, 90.0), random.between(-90.0, 90.0), 0.0];
-            for form in [EulerOrder::Xyz, EulerOrder::Zyx, EulerOrder::Yxz].map(Form::Euler) {
+            for form in [EulerOrder::Xyz, EulerOrder::Zyx, EulerOrder::Yxz].map(RotationForm::Euler) {
                 let rotation = form.rotation(numbers);
                 let rate = form.rate(rotation, Quat::from_array([0.0; 4]), numbers, slopes);
                 let back = form.slopes(rotation, rate, numbers);

@@ -2,9 +2,9 @@
 
 mod axis;
 mod curve;
+mod drag;
 mod fields;
 mod form;
-mod hand;
 mod paint;
 mod shown;
 mod tangents;
@@ -17,31 +17,31 @@ use super::state::{Request, State};
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
 use axis::{ValueScale, ValueWindow};
+use drag::{CurveCanvas, CurveDrag};
 use egui::{
     Align2, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2,
 };
-use fields::{About, Fields};
-use hand::{Hand, Within};
-use paint::CurveMesh;
-use shown::Shown;
+use fields::{Fields, FieldsContext};
+use paint::{CurveLook, CurveMesh};
+use shown::ShownCurves;
 use tangents::Tangents;
 use toolbar::Chosen;
 
-/// See the module.
+/// The curve editor with its view state.
 #[derive(Debug, Default)]
 pub struct Curves {
     chosen: Chosen,
-    shown: Shown,
+    shown: ShownCurves,
     mesh: CurveMesh,
     tangents: Tangents,
-    hand: Hand,
+    drag: CurveDrag,
     fields: Fields,
     scrub: Scrub,
-    /// Which values are shown; none until there are curves to fit.
+    /// Range of values that is shown; none until there are curves to fit.
     window: Option<ValueWindow>,
-    /// What the values were fitted to.
+    /// Curves that the range of values was fitted to.
     fitted: Option<Fitted>,
-    /// Did somebody choose other values since?
+    /// Whether the user chose another range of values since.
     chosen_by_hand: bool,
 }
 
@@ -50,7 +50,7 @@ struct Fitted {
     model: usize,
     take: Option<usize>,
     ids: Vec<super::keys::ChannelId>,
-    chosen: (u8, u8, form::Form),
+    chosen: (u8, u8, form::RotationForm),
 }
 
 /// Width of the numbers at the left.
@@ -77,11 +77,11 @@ impl Panel for Curves {
         if let Some(drawn) = &drawn {
             self.follow(ui, state, drawn);
         }
-        let (fields, curves, component) = (&mut self.fields, &self.mesh.drawn, self.hand.component());
+        let (fields, curves, component) = (&mut self.fields, &self.mesh.drawn, self.drag.component());
         let window = self.window.unwrap_or_default();
         let fit = toolbar::show(ui, &mut self.chosen, curves, state, requests, |ui, chosen, requests| {
             let Some(drawn) = &drawn else { return };
-            fields.show(ui, &About { chosen, curves, drawn, window, component, state }, requests);
+            fields.show(ui, &FieldsContext { chosen, curves, drawn, window, component, state }, requests);
         });
         let rect = ui.available_rect_before_wrap();
         if rect.height() < HEAD + 24.0 || rect.width() < STRIP + 40.0 {
@@ -104,7 +104,7 @@ impl Panel for Curves {
 }
 
 impl Curves {
-    /// Brings the numbers up to date, and fits the values to other curves.
+    /// Updates the numbers, and fits the range of values when other curves are shown.
     fn follow(&mut self, ui: &Ui, state: &State, drawn: &Drawn) {
         let ids = shown::wanted(state, drawn, self.chosen.properties);
         let more = self.shown.update(&drawn.take, &ids, self.chosen.form);
@@ -117,12 +117,12 @@ impl Curves {
             ids,
             chosen: (self.chosen.properties, self.chosen.components, self.chosen.form),
         };
-        if more || self.hand.is_busy() {
+        if more || self.drag.is_busy() {
             return;
         }
         let Some([low, high]) = self.shown.extent(self.chosen.components, None) else { return };
         let others = self.fitted.as_ref() != Some(&fitted);
-        // What an edit brought out of sight comes back into it, unless somebody looks at a part.
+        // Values that an edit moved out of view come back into it, unless the user zoomed in on a part.
         let outside = !self.chosen_by_hand && self.window.is_none_or(|window| !window.holds(low, high));
         if others || outside {
             self.window = Some(ValueWindow::around(low, high));
@@ -163,7 +163,9 @@ impl Curves {
         let response = ui.interact(canvas, ui.scope_id().with("curves"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Curves of keys"));
         let inside = painter.with_clip_rect(canvas.intersect(painter.clip_rect()));
-        self.mesh.paint(&inside, &self.shown, drawn, &time, &value, self.chosen.components, theme);
+        let components = self.chosen.components;
+        let look = CurveLook { shown: &self.shown, drawn, time: &time, value: &value, components, theme };
+        self.mesh.paint(&inside, &look);
         self.tangents.update(&self.mesh.drawn, drawn, &time, &value, self.chosen.components);
         self.tangents.paint(&inside, theme);
         self.legend(&inside, canvas, state, drawn, theme);
@@ -175,7 +177,7 @@ impl Curves {
         if panned != 0.0 {
             self.look_at(value.window.panned(f64::from(panned) / value.per_unit()));
         }
-        let within = Within {
+        let curve_canvas = CurveCanvas {
             curves: &self.mesh.drawn,
             drawn,
             time: &time,
@@ -184,26 +186,26 @@ impl Curves {
             tangents: &self.tangents,
             state,
         };
-        self.hand.update(ui, &response, &within, requests);
-        if !self.hand.is_busy() {
+        self.drag.update(ui, &response, &curve_canvas, requests);
+        if !self.drag.is_busy() {
             response.context_menu(|ui| dope::key_menu(ui, state, requests));
         }
         dope::time_bar(ui, canvas, &time, &drawn.take, requests);
         dope::playhead(&painter, head, rect.bottom(), &time, state, theme);
     }
 
-    /// Somebody wants to see these values.
+    /// Shows a range of values that the user chose.
     fn look_at(&mut self, window: ValueWindow) {
         (self.window, self.chosen_by_hand) = (Some(window), true);
     }
 
-    /// The strip of numbers: dragged up and down it pans, the wheel over it zooms, a double click fits.
+    /// Handles the strip of numbers: dragging up and down pans, the wheel zooms, a double-click fits.
     fn values(&mut self, ui: &Ui, strip: Rect, canvas: &Response, value: &ValueScale) {
         let response = ui.interact(strip, ui.scope_id().with("values"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::ScrollBar, true, "Values"));
         let response = response
             .on_hover_cursor(egui::CursorIcon::ResizeVertical)
-            .on_hover_text("Values\nDrag to pan, wheel to zoom, double click to fit");
+            .on_hover_text("Values\nDrag to pan, wheel to zoom, double-click to fit");
         if response.dragged_by(PointerButton::Primary) {
             let by = f64::from(response.drag_delta().y) / value.per_unit();
             self.look_at(value.window.panned(by));
@@ -226,7 +228,7 @@ impl Curves {
         }
     }
 
-    /// The wheel over the curves: time as in the timeline; with Ctrl values, which [`Self::values`] does.
+    /// Handles the wheel over the curves: time as in the timeline; with Ctrl values, which [`Self::values`] handles.
     fn wheel(
         &self,
         ui: &Ui,
@@ -240,7 +242,7 @@ impl Curves {
         }
     }
 
-    /// Whose curves they are.
+    /// Draws whose curves they are.
     fn legend(&self, painter: &egui::Painter, canvas: Rect, state: &State, _drawn: &Drawn, theme: &Theme) {
         let mut bones: Vec<u32> = self.mesh.drawn.iter().map(|curve| curve.id.0).collect();
         bones.dedup();
@@ -258,7 +260,7 @@ impl Curves {
         let color = if bones.is_empty() { theme.faint } else { theme.weak };
         let galley = painter.layout_no_wrap(text, FontId::proportional(11.0), color);
         let rect = align.anchor_size(at, galley.size());
-        // Legible over whatever curve runs there.
+        // A background keeps the text legible over any curve.
         painter.rect_filled(rect.expand2(egui::vec2(4.0, 2.0)), 3, theme.sunken.gamma_multiply(0.9));
         painter.galley(rect.min, galley, color);
     }

@@ -1,8 +1,8 @@
-//! Curves as triangles: made when something of them changed, and used again until then.
+//! The curves as triangles, made when something that they depend on changed.
 
 use super::axis::ValueScale;
-use super::curve::{Curve, Extent, Numbers};
-use super::shown::Shown;
+use super::curve::{Curve, CurveNumbers, Extent};
+use super::shown::ShownCurves;
 use crate::panels::dope::Pen;
 use crate::panels::keys::columns::gallop;
 use crate::panels::keys::intervals::{Intervals, keys_between};
@@ -13,17 +13,17 @@ use egui::epaint::{TessellationOptions, Tessellator};
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2};
 use std::sync::Arc;
 
-/// See the module.
+/// The triangles of all visible curves.
 #[derive(Debug, Default)]
 pub(super) struct CurveMesh {
-    made_of: Option<MadeOf>,
+    made_of: Option<CurveMeshKey>,
     mesh: Arc<Mesh>,
-    /// The curves as they are drawn: while keys are dragged, those that come of it.
+    /// The curves as they are drawn: during a drag, those that it results in.
     pub(super) drawn: Vec<Arc<Curve>>,
 }
 
 #[derive(Debug)]
-struct MadeOf {
+struct CurveMeshKey {
     drawn: Drawn,
     version: u64,
     scales: (TimeScale, ValueScale),
@@ -32,14 +32,26 @@ struct MadeOf {
     dark: bool,
 }
 
-/// Points: keys nearer to each other than this, on average, have no dots.
+/// Average distance of keys below which they have no dots, points.
 const APART: f32 = 5.0;
-/// Points between samples of a bent curve.
+/// Distance of the samples of a curve, points.
 const SAMPLE: f32 = 3.0;
-/// Points from the middle of a key to its corner.
+/// Distance from the center of a key to its corners, points.
 const RADIUS: f32 = 4.0;
 
-/// Everything that a curve is drawn into.
+/// Everything that the triangles of the curves depend on.
+#[derive(Clone, Copy)]
+pub(super) struct CurveLook<'a> {
+    pub(super) shown: &'a ShownCurves,
+    pub(super) drawn: &'a Drawn,
+    pub(super) time: &'a TimeScale,
+    pub(super) value: &'a ValueScale,
+    /// A bit for each component that is shown.
+    pub(super) components: u8,
+    pub(super) theme: &'a Theme,
+}
+
+/// The target that curves are drawn into.
 struct Canvas<'a> {
     time: &'a TimeScale,
     value: &'a ValueScale,
@@ -48,24 +60,16 @@ struct Canvas<'a> {
     points: [Vec<Pos2>; 4],
 }
 
-/// The colour of a component.
+/// Returns the color of a component.
 pub(super) fn color(theme: &Theme, component: usize) -> Color32 {
     theme.axes.get(component).copied().unwrap_or(theme.weak)
 }
 
 impl CurveMesh {
-    #[allow(clippy::too_many_arguments, reason = "what is drawn follows from all of it")]
-    pub(super) fn paint(
-        &mut self,
-        painter: &Painter,
-        shown: &Shown,
-        drawn: &Drawn,
-        time: &TimeScale,
-        value: &ValueScale,
-        components: u8,
-        theme: &Theme,
-    ) {
-        let made_of = MadeOf {
+    /// Draws the curves.
+    pub(super) fn paint(&mut self, painter: &Painter, look: &CurveLook<'_>) {
+        let CurveLook { shown, drawn, time, value, components, theme } = *look;
+        let made_of = CurveMeshKey {
             drawn: drawn.clone(),
             version: shown.version(),
             scales: (*time, *value),
@@ -75,22 +79,13 @@ impl CurveMesh {
         };
         if !self.made_of.as_ref().is_some_and(|old| old.same(&made_of)) {
             self.made_of = Some(made_of);
-            self.make(shown, drawn, time, value, components, theme, painter.pixels_per_point());
+            self.rebuild(look, painter.pixels_per_point());
         }
         painter.add(Shape::Mesh(Arc::clone(&self.mesh)));
     }
 
-    #[allow(clippy::too_many_arguments, reason = "as above")]
-    fn make(
-        &mut self,
-        shown: &Shown,
-        drawn: &Drawn,
-        time: &TimeScale,
-        value: &ValueScale,
-        components: u8,
-        theme: &Theme,
-        pixels_per_point: f32,
-    ) {
+    fn rebuild(&mut self, look: &CurveLook<'_>, pixels_per_point: f32) {
+        let CurveLook { shown, drawn, time, value, components, theme } = *look;
         let moves = drawn.shift != crate::panels::keys::Shift::NONE;
         self.drawn.clear();
         let options = TessellationOptions::default();
@@ -120,7 +115,7 @@ impl CurveMesh {
     }
 }
 
-impl MadeOf {
+impl CurveMeshKey {
     fn same(&self, other: &Self) -> bool {
         let (a, b) = (&self.drawn, &other.drawn);
         Arc::ptr_eq(&a.take, &b.take)
@@ -137,7 +132,7 @@ impl Canvas<'_> {
         self.value.rect
     }
 
-    /// The keys in sight, with one more at each side.
+    /// Returns the visible keys, and one more on each side.
     fn in_sight(&self, curve: &Curve) -> std::ops::Range<usize> {
         let times = curve.times();
         let keys = keys_between(
@@ -165,7 +160,7 @@ impl Canvas<'_> {
         }
     }
 
-    /// Points of all components, from edge to edge.
+    /// Samples all components from edge to edge.
     fn sample(&mut self, curve: &Curve, keys: std::ops::Range<usize>) {
         let (rect, width) = (self.rect(), curve.width());
         self.points.iter_mut().for_each(Vec::clear);
@@ -205,20 +200,20 @@ impl Canvas<'_> {
         }
     }
 
-    fn push(&mut self, x: f32, numbers: Numbers, width: usize) {
+    fn push(&mut self, x: f32, numbers: CurveNumbers, width: usize) {
         for (at, points) in self.points.iter_mut().enumerate().take(width) {
             points.push(pos2(x, self.value.y_of(numbers[at])));
         }
     }
 
-    /// From the least to the greatest in every column of pixels.
+    /// Draws a bar from the least to the greatest value in every column of pixels.
     fn bands(&mut self, curve: &Curve, components: u8, theme: &Theme, strength: f32) {
         let rect = self.rect();
         let mut last: Option<Extent> = None;
         let mut x = rect.left();
         let mut key = keys_between(curve.times(), [self.time.time_at(x), f32::INFINITY]).start;
         while x < rect.right() {
-            // Each column begins where the one before ended.
+            // Each column begins where the previous one ended.
             let end = gallop(curve.times(), key, self.time.time_at(x + 1.0));
             let extent = curve.extent(key..end);
             key = end;
@@ -247,7 +242,7 @@ impl Canvas<'_> {
         }
     }
 
-    /// Where the selected keys of a long curve go, while they are dragged.
+    /// Draws where the selected keys of a long curve move during a drag.
     fn ghost(&mut self, curve: &Curve, components: u8, chosen: &Intervals, drawn: &Drawn, theme: &Theme) {
         let (factor, offset) = drawn.shift.affine();
         if factor == 0.0 {
@@ -270,7 +265,7 @@ impl Canvas<'_> {
         }
     }
 
-    /// Keys that can be told apart, as diamonds.
+    /// Draws keys as diamonds, where they are not too dense.
     fn dots(&mut self, curve: &Curve, components: u8, chosen: &Intervals, theme: &Theme, feather: f32) {
         let keys = self.in_sight(curve);
         if keys.len() as f32 * APART > self.rect().width() {
@@ -284,7 +279,7 @@ impl Canvas<'_> {
             for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
                 let center = pos2(x, self.value.y_of(numbers[at]));
                 if bounds.contains(center) {
-                    // A selected key keeps the colour of its axis: several may lie side by side.
+                    // A selected key keeps the color of its axis: several may be side by side.
                     let (edge, rim) = if selected { (theme.text, 2.0) } else { (theme.sunken, 1.0) };
                     pen.diamond(&mut self.mesh, center, RADIUS + rim, edge);
                     pen.diamond(&mut self.mesh, center, RADIUS, color(theme, at));
@@ -294,7 +289,7 @@ impl Canvas<'_> {
     }
 }
 
-/// An extent that touches the one before, so that steep parts have no gaps.
+/// Returns an extent that touches the previous one, so that steep parts have no gaps.
 fn joined(extent: &Extent, last: &Extent) -> Extent {
     let mut joined = *extent;
     for at in 0..4 {

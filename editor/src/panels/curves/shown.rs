@@ -1,38 +1,38 @@
-//! Which curves are shown, and their numbers: computed when a channel changes, a part each frame where it is long.
+//! The curves that are shown. Their numbers are computed when a channel changes, over several frames if it is long.
 
 use super::curve::{Curve, Extent};
-use super::form::Form;
+use super::form::RotationForm;
 use crate::panels::keys::{ChannelId, Drawn, channel};
 use crate::panels::state::State;
 use dragonfly_anim::data::Take;
 use dragonfly_document::edit::Property;
 use std::sync::Arc;
 
-/// More channels at once than this are not told apart.
+/// Largest number of channels: more cannot be distinguished.
 pub(super) const MOST: usize = 24;
-/// Keys that are computed in a frame.
+/// Number of keys that are computed per frame.
 const BUDGET: usize = 24_000;
 
-/// See the module.
+/// The curves that are shown.
 #[derive(Debug, Default)]
-pub(super) struct Shown {
-    entries: Vec<Entry>,
-    /// Grows with every curve that is another one.
+pub(super) struct ShownCurves {
+    entries: Vec<CurveSlot>,
+    /// Counts the changes of curves.
     version: u64,
 }
 
 #[derive(Debug)]
-struct Entry {
+struct CurveSlot {
     id: ChannelId,
-    /// As it is drawn.
+    /// The curve as it is drawn.
     curve: Option<Arc<Curve>>,
-    /// The next one, until all of it is computed.
+    /// The next curve, until all of it is computed.
     next: Option<Box<Curve>>,
 }
 
-impl Shown {
-    /// Brings the curves of `ids` up to `take`; is there more to do in the next frame?
-    pub(super) fn update(&mut self, take: &Take, ids: &[ChannelId], form: Form) -> bool {
+impl ShownCurves {
+    /// Updates the curves of `ids` to `take`. Returns whether more is to do in the next frame.
+    pub(super) fn update(&mut self, take: &Take, ids: &[ChannelId], form: RotationForm) -> bool {
         if self.entries.len() != ids.len() || self.entries.iter().zip(ids).any(|(entry, &id)| entry.id != id)
         {
             let mut old = std::mem::take(&mut self.entries);
@@ -40,7 +40,7 @@ impl Shown {
                 .iter()
                 .map(|&id| match old.iter().position(|entry| entry.id == id) {
                     Some(at) => old.swap_remove(at),
-                    None => Entry { id, curve: None, next: None },
+                    None => CurveSlot { id, curve: None, next: None },
                 })
                 .collect();
             self.version += 1;
@@ -59,7 +59,7 @@ impl Shown {
             }
             if let Some(next) = &mut entry.next {
                 next.compute(&mut budget);
-                // Numbers in another form are not shown in the place of those that were asked for.
+                // Numbers in another form are never shown instead of the requested ones.
                 if next.is_whole() || entry.curve.as_ref().is_some_and(|curve| curve.form() != form) {
                     entry.curve = entry.next.take_if(|next| next.is_whole()).map(|next| Arc::from(*next));
                     self.version += 1;
@@ -69,17 +69,17 @@ impl Shown {
         self.entries.iter().any(|entry| entry.next.is_some())
     }
 
-    /// Grows with every curve that is another one.
+    /// Returns a number that grows with every change of a curve.
     pub(super) fn version(&self) -> u64 {
         self.version
     }
 
-    /// The curves that can be drawn.
+    /// Returns the curves that can be drawn.
     pub(super) fn curves(&self) -> impl Iterator<Item = &Arc<Curve>> {
         self.entries.iter().filter_map(|entry| entry.curve.as_ref())
     }
 
-    /// The least and the greatest number of those components that are shown.
+    /// Returns the least and the greatest number of the shown components.
     pub(super) fn extent(&self, components: u8, times: Option<[f32; 2]>) -> Option<[f32; 2]> {
         let mut all = [f32::INFINITY, f32::NEG_INFINITY];
         for curve in self.curves() {
@@ -96,9 +96,9 @@ impl Shown {
     }
 }
 
-/// The channels whose curves are wanted: of the selected bones, or those with selected keys.
+/// Returns the channels whose curves are wanted: of the selected bones, or those with selected keys.
 ///
-/// Where the bones have none of the wanted properties, those that they have: an empty panel explains nothing.
+/// If the bones have none of the wanted properties, those that they have: an empty panel explains nothing.
 pub(super) fn wanted(state: &State, drawn: &Drawn, properties: u8) -> Vec<ChannelId> {
     let of_bones: Vec<ChannelId> = state
         .selection
@@ -123,7 +123,7 @@ pub(super) fn wanted(state: &State, drawn: &Drawn, properties: u8) -> Vec<Channe
     ids
 }
 
-/// The place of a property in a set of them.
+/// Returns the bit of a property in a set of them.
 pub(super) fn bit(property: Property) -> u8 {
     1 << property as u8
 }

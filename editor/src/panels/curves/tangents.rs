@@ -1,4 +1,4 @@
-//! Tangents of selected keys: two ends that are dragged, straight through the key unless Alt breaks them.
+//! Tangents of selected keys: two handles that can be dragged, in line with each other unless Alt breaks them.
 
 use super::axis::ValueScale;
 use super::curve::{Curve, Slopes};
@@ -10,34 +10,34 @@ use dragonfly_document::edit::{BoneRef, Edit, SetTangents, TakeRef};
 use egui::{Painter, Pos2, Rect, Stroke, Vec2, vec2};
 use std::sync::Arc;
 
-/// One end of a tangent.
+/// One handle of a tangent.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Handle {
+pub(super) struct TangentHandle {
     pub(super) id: ChannelId,
     pub(super) key: usize,
     pub(super) component: usize,
-    /// Does it lie before the key?
+    /// Whether it is the incoming tangent, before the key.
     pub(super) arrive: bool,
-    /// Where the key is, points.
+    /// Position of the key, points.
     center: Pos2,
-    /// Where the end is, points.
+    /// Position of the handle, points.
     end: Pos2,
     slopes: Slopes,
 }
 
-/// The ends in sight.
+/// The visible handles.
 #[derive(Debug, Default)]
 pub(super) struct Tangents {
-    handles: Vec<Handle>,
+    handles: Vec<TangentHandle>,
 }
 
-/// Points from a key to an end.
+/// Distance from a key to its handles, points.
 const LENGTH: f32 = 44.0;
-/// Keys with ends: more are no help.
+/// Largest number of keys with handles: more are no help.
 const MOST: usize = 48;
 
 impl Tangents {
-    /// Finds the ends of the selected keys.
+    /// Finds the handles of the selected keys.
     pub(super) fn update(
         &mut self,
         curves: &[Arc<Curve>],
@@ -71,7 +71,7 @@ impl Tangents {
                         let slope = if arrive { slopes.arrive } else { slopes.leave }[component];
                         let way = direction(slope, time, value) * if arrive { -LENGTH } else { LENGTH };
                         let end = center + way;
-                        self.handles.push(Handle {
+                        self.handles.push(TangentHandle {
                             id: curve.id,
                             key,
                             component,
@@ -94,13 +94,13 @@ impl Tangents {
         }
     }
 
-    /// The end under the pointer.
-    pub(super) fn under(&self, pointer: Pos2, reach: f32) -> Option<Handle> {
+    /// Returns the handle under the pointer.
+    pub(super) fn under(&self, pointer: Pos2, reach: f32) -> Option<TangentHandle> {
         let near = self.handles.iter().filter(|handle| handle.end.distance(pointer) <= reach);
         near.min_by(|a, b| a.end.distance(pointer).total_cmp(&b.end.distance(pointer))).copied()
     }
 
-    /// Where the ends are, for tests and for who looks.
+    /// Returns the positions of the handles, for tests.
     #[allow(dead_code, reason = "read by tests beside this file")]
     pub(super) fn bounds(&self) -> Option<Rect> {
         self.handles
@@ -110,24 +110,24 @@ impl Tangents {
     }
 }
 
-/// Which way a curve of this slope runs on the screen, one point long.
+/// Returns the direction of a curve of this slope on the screen, one point long.
 fn direction(slope: f32, time: &TimeScale, value: &ValueScale) -> Vec2 {
     let way = vec2(time.per_second() as f32, -(f64::from(slope) * value.per_unit()) as f32);
     let length = way.length();
     if length.is_finite() && length > 0.0 { way / length } else { vec2(0.0, -slope.signum()) }
 }
 
-impl Handle {
-    /// The slope that brings the end under the pointer, units a second.
+impl TangentHandle {
+    /// Returns the slope that brings the handle under the pointer, units per second.
     pub(super) fn slope_at(&self, pointer: Pos2, time: &TimeScale, value: &ValueScale) -> f32 {
         let way = if self.arrive { self.center - pointer } else { pointer - self.center };
-        // An end stays on its side of the key.
+        // A handle stays on its side of the key.
         let seconds = f64::from(way.x.max(1.0)) / time.per_second();
         let units = f64::from(-way.y) / value.per_unit();
         (units / seconds).clamp(-1e6, 1e6) as f32
     }
 
-    /// The edit that gives this component that slope: on both sides, or on one where `broken`.
+    /// Returns the edit that gives this component the slope, on both sides or, if `broken`, on one.
     pub(super) fn edit(&self, take: TakeRef, curve: &Curve, slope: f32, broken: bool) -> Option<Edit> {
         let with = |mut slopes: [f32; 4]| {
             slopes[self.component] = slope;

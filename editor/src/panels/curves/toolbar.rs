@@ -1,8 +1,8 @@
-//! Over the curves: which of them, how rotations are read, what lies between keys.
+//! The bar above the curves: which are shown, how rotations are shown, and the interpolation.
 
 use super::curve::Curve;
-use super::form::Form;
-use super::hand::component_name;
+use super::drag::component_name;
+use super::form::RotationForm;
 use super::paint::color;
 use super::shown::bit;
 use crate::panels::commands::{self, Id};
@@ -17,26 +17,26 @@ use egui::accesskit::Role;
 use egui::{Align2, Button, Color32, CornerRadius, FontId, RichText, Sense, Ui, WidgetInfo, vec2};
 use std::sync::Arc;
 
-/// What the person chose to see.
+/// Channels, components and form that the user chose to see.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chosen {
-    /// A set of properties, see [`bit`].
+    /// Set of properties, see [`bit`].
     pub(super) properties: u8,
-    /// A set of components, x first.
+    /// Set of components, X first.
     pub(super) components: u8,
-    pub(super) form: Form,
+    pub(super) form: RotationForm,
 }
 
 impl Default for Chosen {
     fn default() -> Self {
-        Self { properties: bit(Property::Rotation), components: 15, form: Form::default() }
+        Self { properties: bit(Property::Rotation), components: 15, form: RotationForm::default() }
     }
 }
 
 /// Height of the bar.
 pub(super) const HEIGHT: f32 = 32.0;
 
-/// Draws the bar, and at its right end what `rest` draws; was "fit" asked for?
+/// Draws the bar, and what `rest` draws at its right end. Returns whether "Fit" was clicked.
 pub(super) fn show(
     ui: &mut Ui,
     chosen: &mut Chosen,
@@ -50,7 +50,7 @@ pub(super) fn show(
         ui.set_height(HEIGHT);
         ui.spacing_mut().item_spacing.x = 2.0;
         ui.add_space(2.0 * GRID);
-        // What is drawn is lit: where the bones lack what was chosen, something else is.
+        // The buttons show what is drawn: if the bones lack the chosen properties, others are.
         let visible = curves.iter().fold(0, |all, curve| all | bit(curve.id.1));
         for (property, letter, name) in [
             (Property::Translation, "T", "Translation"),
@@ -102,7 +102,7 @@ pub(super) fn show(
     fit
 }
 
-/// A square button with a letter.
+/// Draws a square button with a letter.
 fn letter_button(ui: &mut Ui, letter: &str, name: &str, on: bool, tone: Option<Color32>) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(20.0, CONTROL), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));
@@ -124,7 +124,7 @@ fn form(ui: &mut Ui, chosen: &mut Chosen) {
     let button = ui.add(Button::new(text).frame(false)).on_hover_text("How rotations are shown");
     egui::Popup::menu(&button).show(|ui| {
         ui.set_width(110.0);
-        for form in Form::all() {
+        for form in RotationForm::all() {
             if ui.add(Button::selectable(form == chosen.form, form.name())).clicked() {
                 chosen.form = form;
             }
@@ -132,7 +132,7 @@ fn form(ui: &mut Ui, chosen: &mut Chosen) {
     });
 }
 
-/// What lies between the keys of the channels that are shown; lit where all of them have it.
+/// Draws the buttons for the interpolation of the shown channels; one is pressed if all of them have it.
 fn between(ui: &mut Ui, curves: &[Arc<Curve>], state: &State, requests: &mut Vec<Request>) {
     let able = !state.keys.selection.is_empty();
     for (icon, id, kind, _) in [

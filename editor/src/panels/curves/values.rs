@@ -1,7 +1,7 @@
-//! Values that are dragged or typed: one component of some keys, as an edit.
+//! Edits of one component of several keys, by a drag or a typed number.
 
-use super::curve::{Curve, Numbers};
-use super::form::Form;
+use super::curve::{Curve, CurveNumbers};
+use super::form::RotationForm;
 use crate::panels::keys::ChannelId;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, Property, SetPose, SetPoses, TakeRef};
 use std::collections::BTreeMap;
@@ -11,8 +11,8 @@ use std::collections::BTreeMap;
 pub(super) struct ValueKey {
     pub(super) id: ChannelId,
     pub(super) time: f32,
-    pub(super) numbers: Numbers,
-    pub(super) form: Form,
+    pub(super) numbers: CurveNumbers,
+    pub(super) form: RotationForm,
 }
 
 impl ValueKey {
@@ -21,13 +21,13 @@ impl ValueKey {
         Some(Self { id: curve.id, time, numbers: curve.key(key), form: curve.form() })
     }
 
-    /// How many numbers it has.
+    /// Returns the number of its numbers.
     pub(super) fn width(&self) -> usize {
         if self.id.1 == Property::Rotation { self.form.numbers() } else { 3 }
     }
 
-    /// The pose that gives it these numbers.
-    pub(super) fn pose(&self, numbers: Numbers) -> BonePose {
+    /// Returns the pose that gives the key these numbers.
+    pub(super) fn pose(&self, numbers: CurveNumbers) -> BonePose {
         let mut pose =
             BonePose { bone: BoneRef::Index(self.id.0), translation: None, rotation: None, scale: None };
         let vector = Some([numbers[0], numbers[1], numbers[2]]);
@@ -40,7 +40,7 @@ impl ValueKey {
     }
 }
 
-/// Adds `by` to one component of keys; nothing where there are none.
+/// Returns the edit that adds `by` to one component of keys; none without keys.
 pub(super) fn value_edit(take: TakeRef, keys: &[ValueKey], component: usize, by: f32) -> Option<Edit> {
     if !by.is_finite() || component > 3 {
         return None;
@@ -56,7 +56,7 @@ pub(super) fn value_edit(take: TakeRef, keys: &[ValueKey], component: usize, by:
     let at: Vec<PoseAt> = at.into_values().collect();
     match at.len() {
         0 => None,
-        // One time is what every program that reads edits knows.
+        // A single time is written in the simpler form of the edit.
         1 => at
             .into_iter()
             .next()

@@ -1,4 +1,4 @@
-//! Somebody else changed the file that is open, or took it away.
+//! The question when another program changed or removed the file that is open.
 
 use super::{Ask, Tone};
 use crate::panels::saving::Deed;
@@ -7,7 +7,7 @@ use dragonfly_document::SaveOrder;
 use dragonfly_store::FileState;
 
 #[derive(Clone, Copy)]
-enum Choice {
+enum ChangedChoice {
     Overwrite,
     SaveAs,
     Reload,
@@ -20,42 +20,53 @@ pub(super) fn show(ask: &mut Ask<'_>, file: FileState, order: Option<&SaveOrder>
     let (title, saved) = (view.file.title.clone(), view.history.saved);
     let gone = file == FileState::Missing;
     let then = order.and_then(|order| order.then.clone());
-    ask.title(&if gone { format!("{title} is gone") } else { format!("{title} was changed on the disk") });
+    ask.title(&if gone { format!("{title} is gone") } else { format!("{title} was changed on disk") });
     ask.says(if gone {
-        "Another program removed or moved the file. What is open here is still whole."
+        "Another program moved or deleted the file. The open document is still complete."
     } else if order.is_some() {
-        "Another program wrote to the file since it was opened, so it was not overwritten."
+        "Another program changed the file after it was opened, so it was not overwritten."
     } else {
-        "Another program wrote to the file since it was opened."
+        "Another program changed the file after it was opened."
     });
     if !saved && !gone {
-        ask.adds("What you did here is not saved. Reloading gives it up; it lies in the bin of the autosave folder for a while.");
+        ask.adds("Your changes are not saved. Reloading discards them; a copy stays in the bin of the autosave folder for a while.");
     }
-    let reload = ("Reload", "Shows what is on the disk now", if saved { Tone::First } else { Tone::Loses });
+    let reload =
+        ("Reload", "Open the file as it is on disk now", if saved { Tone::First } else { Tone::Loses });
     let overwrite = (
         "Overwrite",
-        "Puts what is open here in its place; the other version is kept in the autosave folder",
+        "Replace the file with the open document; the other version is kept in the autosave folder",
     );
-    let save_as = ("Save as…", "Keeps both", Tone::Plain, Choice::SaveAs);
-    let cancel = ("Cancel", "Does nothing now", Tone::Plain, Choice::Cancel);
+    let save_as = ("Save as…", "Keep both versions", Tone::Plain, ChangedChoice::SaveAs);
+    let cancel = ("Cancel", "Change nothing for now", Tone::Plain, ChangedChoice::Cancel);
     let pressed = if gone {
-        let write = ("Save again", "Writes it where it was", Tone::First, Choice::Overwrite);
+        let write = ("Save again", "Write the file where it was", Tone::First, ChangedChoice::Overwrite);
         ask.buttons(&[write, save_as, cancel])
     } else if saved && order.is_none() {
-        let reload = (reload.0, reload.1, reload.2, Choice::Reload);
-        ask.buttons(&[reload, cancel, save_as, (overwrite.0, overwrite.1, Tone::Loses, Choice::Overwrite)])
+        let reload = (reload.0, reload.1, reload.2, ChangedChoice::Reload);
+        ask.buttons(&[
+            reload,
+            cancel,
+            save_as,
+            (overwrite.0, overwrite.1, Tone::Loses, ChangedChoice::Overwrite),
+        ])
     } else {
-        let reload = (reload.0, reload.1, Tone::Loses, Choice::Reload);
-        let save_as = (save_as.0, save_as.1, Tone::First, Choice::SaveAs);
-        ask.buttons(&[save_as, cancel, (overwrite.0, overwrite.1, Tone::Loses, Choice::Overwrite), reload])
+        let reload = (reload.0, reload.1, Tone::Loses, ChangedChoice::Reload);
+        let save_as = (save_as.0, save_as.1, Tone::First, ChangedChoice::SaveAs);
+        ask.buttons(&[
+            save_as,
+            cancel,
+            (overwrite.0, overwrite.1, Tone::Loses, ChangedChoice::Overwrite),
+            reload,
+        ])
     };
     let request = match pressed {
-        Some(Choice::Overwrite) => {
+        Some(ChangedChoice::Overwrite) => {
             Request::Deed(Deed::Save(SaveOrder { anyway: true, ..SaveOrder::own(then) }))
         }
-        Some(Choice::SaveAs) => Request::Deed(Deed::Where { copy: false, then }),
-        Some(Choice::Reload) => Request::Deed(Deed::Reload),
-        Some(Choice::Cancel) => Request::Dismiss,
+        Some(ChangedChoice::SaveAs) => Request::Deed(Deed::Where { copy: false, then }),
+        Some(ChangedChoice::Reload) => Request::Deed(Deed::Reload),
+        Some(ChangedChoice::Cancel) => Request::Dismiss,
         None => return,
     };
     ask.requests.push(request);

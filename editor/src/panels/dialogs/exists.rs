@@ -1,4 +1,4 @@
-//! The name that was typed belongs to another file.
+//! The question when the typed name belongs to another file.
 
 use super::{Ask, Tone};
 use crate::panels::saving::Deed;
@@ -10,10 +10,10 @@ pub(super) fn show(ask: &mut Ask<'_>, path: &Path, order: &SaveOrder) {
     ask.ui.set_width(440.0);
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     ask.title(&format!("Replace {name}?"));
-    ask.says("There is a file of this name already. Its content is kept in the autosave folder for a while.");
+    ask.says("A file with this name already exists. Its content is kept in the autosave folder for a while.");
     ask.adds(path.display().to_string());
-    let replace = ("Replace", "Puts what is open in its place", Tone::Loses, true);
-    let cancel = ("Cancel", "Leaves it as it is", Tone::First, false);
+    let replace = ("Replace", "Overwrite the existing file", Tone::Loses, true);
+    let cancel = ("Cancel", "Keep the existing file", Tone::First, false);
     match ask.buttons(&[cancel, replace]) {
         Some(true) => {
             let order = SaveOrder { anyway: true, ..order.clone() };

@@ -1,5 +1,5 @@
-//! Where the file of unsaved work is now: typed, for desktops without a dialog for files; and what becomes of the work
-//! where the file that was chosen is another one.
+//! The question where the file of unsaved work is now, with a field for the path, for desktops without a file dialog;
+//! and the question what to do with the work if the chosen file is a different one.
 
 use super::{Ask, Tone};
 use crate::panels::saving::Deed;
@@ -8,7 +8,7 @@ use dragonfly_document::{Decision, Offer, Source};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
-/// The path that stands in the field at first: where it was.
+/// Returns the path that the field contains at first: where the file was.
 pub(super) fn proposal(offer: &Offer) -> String {
     offer.found.document.as_ref().map_or_else(String::new, |path| path.display().to_string())
 }
@@ -22,7 +22,7 @@ pub(super) fn show(ask: &mut Ask<'_>, offer: &Offer, other: Option<&Path>, path:
 }
 
 #[derive(Clone, Copy)]
-enum Choice {
+enum FindChoice {
     Another,
     Beside,
     Later,
@@ -30,26 +30,26 @@ enum Choice {
 
 fn is_another(ask: &mut Ask<'_>, offer: &Offer, other: &Path) {
     let name = other.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    ask.title(&format!("{name} is another file"));
-    ask.says(format!("It does not hold what {} held when the work was done.", offer.title));
-    ask.adds("Opened beside, the work is done again on what this file holds, as a document of its own. The file itself stays as it is.");
+    ask.title(&format!("{name} is a different file"));
+    ask.says(format!("Its content is not what {} contained when the work was done.", offer.title));
+    ask.adds("Opened as a copy, the work is applied to the content of this file, in a separate document. The file itself is not changed.");
     let pressed = ask.buttons(&[
-        ("Choose another…", "Looks for the file once more", Tone::First, Choice::Another),
+        ("Choose another…", "Choose another file", Tone::First, FindChoice::Another),
         (
-            "Open beside",
-            "Does the work again on this file, as a document of its own",
+            "Open as a copy",
+            "Apply the work to this file, in a separate document",
             Tone::Plain,
-            Choice::Beside,
+            FindChoice::Beside,
         ),
-        ("Later", "Leaves the work where it is, and asks another time", Tone::Plain, Choice::Later),
+        ("Later", "Keep the work and ask again later", Tone::Plain, FindChoice::Later),
     ]);
     let request = match pressed {
-        Some(Choice::Another) => Request::Deed(Deed::Find(Box::new(offer.clone()))),
-        Some(Choice::Beside) => {
+        Some(FindChoice::Another) => Request::Deed(Deed::Find(Box::new(offer.clone()))),
+        Some(FindChoice::Beside) => {
             let offer = Offer { source: Some(Source::File(other.to_owned())), ..offer.clone() };
             Request::Deed(Deed::Decide(Box::new(offer), Decision::Beside))
         }
-        Some(Choice::Later) => Request::Dismiss,
+        Some(FindChoice::Later) => Request::Dismiss,
         None => return,
     };
     ask.requests.push(request);
@@ -65,8 +65,8 @@ fn typed(ask: &mut Ask<'_>, offer: &Offer, path: &mut String) {
     }
     let entered = response.lost_focus() && ask.ui.input(|input| input.key_pressed(Key::Enter));
     let fresh = std::mem::replace(&mut ask.fresh, false);
-    let open = ("Open", "Opens the file with the work, if it holds what it held then", Tone::First, true);
-    let cancel = ("Cancel", "Leaves the work where it is", Tone::Plain, false);
+    let open = ("Open", "Open the file with the work, if its content is unchanged", Tone::First, true);
+    let cancel = ("Cancel", "Keep the work for later", Tone::Plain, false);
     let pressed = ask.buttons(&[open, cancel]);
     ask.fresh = fresh;
     let wanted = path.trim().trim_matches('"');

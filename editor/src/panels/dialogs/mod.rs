@@ -1,4 +1,4 @@
-//! What a person is asked, a file a question. A question lies over everything and waits.
+//! The questions to the user, one per file. A question covers everything else until it is answered.
 
 mod changed;
 mod exists;
@@ -14,18 +14,18 @@ use super::style::{GRID, RADIUS};
 use super::theme::Theme;
 use egui::{Button, CornerRadius, Id, Modal, Response, RichText, Ui, vec2};
 
-/// What is typed and chosen in questions.
+/// State of the controls in questions.
 #[derive(Debug, Default)]
 pub(super) struct Dialogs {
     path: String,
     chosen: usize,
     shown: Option<u64>,
-    /// Was the question told to the log?
+    /// Whether the question was written to the log.
     told: bool,
 }
 
 impl Dialogs {
-    /// Draws the question that the state asks.
+    /// Draws the question that is open.
     pub(super) fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         let number = state.question_number();
         let fresh = self.shown != number;
@@ -33,7 +33,7 @@ impl Dialogs {
         let Some(question) = state.question() else { return };
         if fresh {
             self.told = false;
-            // The keyboard gets there with the next frame.
+            // The keyboard focus arrives with the next frame.
             ui.ctx().request_repaint();
             self.chosen = 0;
             self.path = match question {
@@ -70,22 +70,22 @@ impl Dialogs {
     }
 }
 
-/// A question being drawn.
+/// A question that is being drawn.
 struct Ask<'a> {
     ui: &'a mut Ui,
     state: &'a State,
-    /// Is this its first frame? The keyboard goes to what is meant most often.
+    /// Whether this is its first frame, in which the default button gets the focus.
     fresh: bool,
     requests: &'a mut Vec<Request>,
 }
 
-/// How a button looks.
+/// Style of a button.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Tone {
-    /// What is meant most often, and what Enter does.
+    /// The default button, which Enter presses.
     First,
     Plain,
-    /// Something is lost by it, or put where it is hard to find.
+    /// The button of a choice that discards something, or moves it where it is hard to find.
     Loses,
 }
 
@@ -94,25 +94,25 @@ impl Ask<'_> {
         self.ui.label(RichText::new(text).heading());
     }
 
-    /// A sentence.
+    /// Draws a sentence.
     fn says(&mut self, text: impl Into<String>) {
         self.ui.label(text.into());
     }
 
-    /// A sentence that is read second.
+    /// Draws a secondary sentence.
     fn adds(&mut self, text: impl Into<String>) {
         let weak = Theme::of(self.ui).weak;
         self.ui.label(RichText::new(text).color(weak));
     }
 
-    /// A sentence that warns.
+    /// Draws a warning.
     fn warns(&mut self, text: impl Into<String>) {
         let warning = Theme::of(self.ui).warning;
         self.ui.label(RichText::new(text).color(warning));
     }
 
-    /// The row of buttons: what loses something stands left, the others right, the first of them last. Which was
-    /// pressed?
+    /// Draws the row of buttons: those that discard something on the left, the others on the right with the default one
+    /// last. Returns the one that was pressed.
     fn buttons<T: Copy>(&mut self, choices: &[(&str, &str, Tone, T)]) -> Option<T> {
         self.ui.add_space(GRID);
         let mut pressed = None;
@@ -140,7 +140,7 @@ impl Ask<'_> {
     }
 }
 
-/// A button of a question.
+/// Draws a button of a question.
 fn button(ui: &mut Ui, title: &str, tone: Tone, able: bool) -> Response {
     let theme = Theme::of(ui);
     let text = match tone {

@@ -1,4 +1,4 @@
-//! Where to save, typed: for desktops without a dialog for files.
+//! A field for the path to save at, for desktops without a file dialog.
 
 use super::{Ask, Tone};
 use crate::panels::saving::Deed;
@@ -7,7 +7,7 @@ use dragonfly_document::{SaveOrder, SaveTo, Then};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
-/// The name that stands in the field at first.
+/// Returns the name that the field contains at first.
 pub(super) fn proposal(state: &State, copy: bool) -> String {
     let Some(view) = &state.view else { return String::new() };
     let read = view.loaded.path.as_deref();
@@ -41,8 +41,8 @@ pub(super) fn show(ask: &mut Ask<'_>, copy: bool, then: Option<&Then>, path: &mu
     }
     let entered = response.lost_focus() && ask.ui.input(|input| input.key_pressed(Key::Enter));
     let fresh = std::mem::replace(&mut ask.fresh, false);
-    let save = ("Save", "Writes the file", Tone::First, true);
-    let cancel = ("Cancel", "Writes nothing", Tone::Plain, false);
+    let save = ("Save", "Write the file", Tone::First, true);
+    let cancel = ("Cancel", "Close without saving", Tone::Plain, false);
     let pressed = ask.buttons(&[save, cancel]);
     ask.fresh = fresh;
     let typed = path.trim().trim_matches('"');

@@ -1,4 +1,4 @@
-//! What a save will change, before it is written.
+//! The list of changes that a save would make, before it is written.
 
 use super::{Ask, Tone};
 use crate::panels::saving::Deed;
@@ -16,9 +16,9 @@ pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder
     ask.title("What will be saved");
     let nothing = lines.is_empty() || lines.iter().any(|line| line == "nothing changes");
     if nothing {
-        ask.says("Nothing: the file will be the same, byte for byte.");
+        ask.says("Nothing: the file stays the same, byte for byte.");
     } else {
-        // How much it is stands over the list, where there is one.
+        // The heading above the list contains the amount.
         let lines = match lines {
             [summary, list @ ..] if !list.is_empty() => {
                 ask.says(format!("{summary}."));
@@ -26,7 +26,7 @@ pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder
             }
             lines => lines,
         };
-        ask.adds("Everything that is not in this list keeps its bytes.".to_owned());
+        ask.adds("Everything not listed here is kept byte for byte.".to_owned());
         let theme = Theme::of(ask.ui);
         Frame::NONE.fill(theme.sunken).corner_radius(style::RADIUS).inner_margin(2.0 * GRID).show(
             ask.ui,
@@ -50,9 +50,9 @@ pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder
             },
         );
     }
-    let close = ("Close", "Writes nothing", Tone::First, false);
-    let cancel = ("Cancel", "Writes nothing", Tone::Plain, false);
-    let save = ("Save", "Writes exactly this", Tone::First, true);
+    let close = ("Close", "Close without saving", Tone::First, false);
+    let cancel = ("Cancel", "Close without saving", Tone::Plain, false);
+    let save = ("Save", "Write exactly these changes", Tone::First, true);
     let pressed = if order.is_some() { ask.buttons(&[save, cancel]) } else { ask.buttons(&[close]) };
     match (pressed, order) {
         (Some(true), Some(order)) => ask.requests.push(Request::Deed(Deed::Save(order.clone()))),

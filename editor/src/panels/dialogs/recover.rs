@@ -1,4 +1,4 @@
-//! Unsaved work of an earlier time: what it is, and what becomes of it.
+//! The question what to do with unsaved work of an earlier session.
 
 use super::{Ask, Tone};
 use crate::panels::saving::Deed;
@@ -13,35 +13,34 @@ use std::time::Duration;
 pub(super) fn show(ask: &mut Ask<'_>, offers: &[Offer], lost: bool, chosen: &mut usize) {
     ask.ui.set_width(520.0);
     *chosen = (*chosen).min(offers.len().saturating_sub(1));
-    ask.title(if lost { "The document was lost, its work was not" } else { "Unsaved work" });
+    ask.title(if lost { "The document was closed by an error" } else { "Unsaved work" });
     if lost {
-        ask.says("A mistake in the program closed the document. All that you did is in its journal.");
+        ask.says("An internal error closed the document. Everything that you did is in its journal.");
     } else {
-        ask.says("The program ended before this was saved. You can go on where you were.");
+        ask.says("The program ended before this was saved. You can continue where you left off.");
     }
     if offers.len() > 1 {
         list(ask, offers, chosen);
     }
     let Some(offer) = offers.get(*chosen) else { return };
     about(ask, offer);
-    let keep =
-        ("Restore", "Opens it as it was, with everything that can be undone", Tone::First, Decision::Keep);
+    let keep = ("Restore", "Open it as it was, with its undo history", Tone::First, Decision::Keep);
     let beside = (
-        "Open beside",
-        "Opens it as a document of its own; the file stays as it is",
+        "Open as a copy",
+        "Open it as a separate document; the file is not changed",
         Tone::Plain,
         Decision::Beside,
     );
-    let later = ("Later", "Leaves it where it is, and asks another time", Tone::Plain, Decision::Later);
-    let discard = ("Discard", "Puts it into the bin of the autosave folder", Tone::Loses, Decision::Discard);
+    let later = ("Later", "Keep it and ask again later", Tone::Plain, Decision::Later);
+    let discard = ("Discard", "Move it to the bin of the autosave folder", Tone::Loses, Decision::Discard);
     let pressed = if offer.can_be_kept() {
         ask.buttons(&[keep, beside, later, discard])
     } else if offer.is_missing() {
         let some =
             |(title, help, tone, decision): (_, _, Tone, Decision)| (title, help, tone, Some(decision));
         let find = (
-            "Open it where it is now…",
-            "Choose the file: it is the right one if it holds what it held then",
+            "Locate the file…",
+            "Choose the moved file; it is accepted if its content is unchanged",
             Tone::First,
             None,
         );
@@ -102,7 +101,7 @@ fn about(ask: &mut Ask<'_>, offer: &Offer) {
     }
 }
 
-/// `3 minutes ago`.
+/// Returns an age as text: `3 minutes ago`.
 fn ago(age: Option<Duration>) -> String {
     let Some(age) = age.map(|age| age.as_secs()) else { return "a while ago".to_owned() };
     let (number, unit) = match age {

@@ -1,4 +1,4 @@
-//! Something is not saved, and the person wants to leave it.
+//! The question when the user is about to leave unsaved changes.
 
 use super::{Ask, Tone};
 use crate::panels::saving::Deed;
@@ -6,7 +6,7 @@ use crate::panels::state::Request;
 use dragonfly_document::{SaveOrder, Then};
 
 #[derive(Clone, Copy)]
-enum Choice {
+enum UnsavedChoice {
     Save,
     DoNotSave,
     Cancel,
@@ -17,26 +17,26 @@ pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
     let title = ask.state.view.as_ref().map_or(String::new(), |view| view.file.title.clone());
     ask.title(&format!("Save {title}?"));
     ask.says(match then {
-        Then::Quit => "It has changes that are in no file yet, and the program is about to end.".to_owned(),
+        Then::Quit => "It has unsaved changes, and the program is about to close.".to_owned(),
         Then::Open(source) => {
-            format!("It has changes that are in no file yet, and {} is about to be opened.", source.title())
+            format!("It has unsaved changes, and {} is about to be opened.", source.title())
         }
     });
     if let Some(last) = ask.state.view.as_ref().and_then(|view| view.history.last_unsaved()) {
         ask.adds(last);
     }
-    let save = ("Save", "Saves, then goes on", Tone::First, Choice::Save);
-    let cancel = ("Cancel", "Goes back to work", Tone::Plain, Choice::Cancel);
+    let save = ("Save", "Save, then continue", Tone::First, UnsavedChoice::Save);
+    let cancel = ("Cancel", "Return to the document", Tone::Plain, UnsavedChoice::Cancel);
     let lose = (
         "Don't save",
-        "Goes on without saving; the changes lie in the bin of the autosave folder for a while",
+        "Continue without saving; the changes stay in the bin of the autosave folder for a while",
         Tone::Loses,
-        Choice::DoNotSave,
+        UnsavedChoice::DoNotSave,
     );
     let request = match ask.buttons(&[save, cancel, lose]) {
-        Some(Choice::Save) => Request::Deed(Deed::Save(SaveOrder::own(Some(then.clone())))),
-        Some(Choice::DoNotSave) => Request::Deed(Deed::DoNotSave(then.clone())),
-        Some(Choice::Cancel) => Request::Dismiss,
+        Some(UnsavedChoice::Save) => Request::Deed(Deed::Save(SaveOrder::own(Some(then.clone())))),
+        Some(UnsavedChoice::DoNotSave) => Request::Deed(Deed::DoNotSave(then.clone())),
+        Some(UnsavedChoice::Cancel) => Request::Dismiss,
         None => return,
     };
     ask.requests.push(request);

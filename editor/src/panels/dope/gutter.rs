@@ -1,10 +1,11 @@
-//! Names of rows, and what a bone can be marked with.
+//! The names of the rows, and the flags of the bones.
 
-use super::ROW;
-use super::place::Places;
-use super::rows::{RowKind, Rows};
+use super::areas::DopeAreas;
+use super::rows::RowKind;
+use super::{ROW, Sheet};
 use crate::panels::bone_menu;
 use crate::panels::commands::{self, Id};
+use crate::panels::drag::choice_of;
 use crate::panels::icons::Icon;
 use crate::panels::keys::{BoneFlag, KeysRequest};
 use crate::panels::state::{Request, State};
@@ -12,38 +13,30 @@ use crate::panels::style::RADIUS;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_anim::data::BoneIndex;
-use dragonfly_document::bones::Choice;
 use egui::accesskit::Role;
 use egui::{
     Align2, CornerRadius, FontId, Rect, Sense, Shape, Stroke, TextEdit, TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 
-/// Width of the mark of a bone.
+/// Width of the button of a flag.
 const FLAG: f32 = 20.0;
 
-/// Draws the names of the rows in sight.
-pub(super) fn show(
-    ui: &mut Ui,
-    places: &Places,
-    scroll: f32,
-    rows: &mut Rows,
-    state: &State,
-    requests: &mut Vec<Request>,
-) {
-    let names = places.names;
+/// Draws the names of the rows in sight. Returns the bone whose triangle was clicked.
+pub(super) fn show(ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) -> Option<BoneIndex> {
+    let Sheet { areas, rows, scroll, state, theme, .. } = *sheet;
+    let names = areas.names;
     let first = (scroll / ROW).floor().max(0.0) as usize;
     let last = ((scroll + names.height()) / ROW).ceil().max(0.0) as usize;
-    let list = std::sync::Arc::clone(rows.list());
     let clip = ui.clip_rect();
     ui.set_clip_rect(names.intersect(clip));
     let mut toggled = None;
-    for (at, row) in list.iter().enumerate().take(last).skip(first) {
+    for (at, row) in rows.list().iter().enumerate().take(last).skip(first) {
         let top = names.top() - scroll + at as f32 * ROW;
         let rect = Rect::from_min_max(pos2(names.left(), top), pos2(names.right(), top + ROW));
-        let theme = Theme::of(ui);
         match row.kind {
             RowKind::Bone(bone) => {
-                if let Some(bone) = bone_row(ui, rect, bone, &row.name, row.open, state, requests) {
+                let label = BoneLabel { bone, name: &row.name };
+                if label.show(ui, rect, row.open, state, requests) {
                     toggled = Some(bone);
                 }
             }
@@ -65,127 +58,132 @@ pub(super) fn show(
         }
     }
     ui.set_clip_rect(clip);
-    if let Some(bone) = toggled {
-        rows.toggle(bone);
-    }
+    toggled
 }
 
-/// A bone: opened by the triangle, selected by its name, marked at the right; the bone whose triangle was clicked.
-fn bone_row(
-    ui: &mut Ui,
-    rect: Rect,
+/// The name of a bone at the left of its row.
+struct BoneLabel<'a> {
     bone: BoneIndex,
-    name: &str,
-    open: bool,
-    state: &State,
-    requests: &mut Vec<Request>,
-) -> Option<BoneIndex> {
-    let theme = Theme::of(ui);
-    let visible = rect.intersect(ui.clip_rect());
-    if visible.height() < 4.0 {
-        return None;
-    }
-    let over = ui.rect_contains_pointer(visible);
-    let wide = rect.width() > 150.0;
-    // A name has the room of the marks where there are none to be seen.
-    let marked = over || BoneFlag::ALL.into_iter().any(|flag| state.keys.flags.has(flag, bone));
-    let flags = if wide && marked { 3.0 * FLAG + 8.0 } else { 6.0 };
-    let label =
-        Rect::from_min_max(pos2(rect.left() + 28.0, rect.top()), pos2(rect.right() - flags, rect.bottom()));
-    let response = ui.interact(label.intersect(visible), ui.scope_id().with(("bone", bone)), Sense::click());
-    let selected = state.selection.contains(bone);
-    response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("Keys of {name}")));
-    widgets::focus_ring(ui, &response, label);
-    let color = match () {
-        () if state.keys.flags.locked(bone) => theme.faint,
-        () if selected => theme.accent,
-        () => theme.text,
-    };
-    widgets::text_in(ui, label, name, &TextStyle::Small, color);
-    if response.hovered() {
-        requests.push(Request::Hover(bone));
-    }
-    bone_menu::show(&response, state, Some(bone), requests);
-    if response.clicked() {
-        let modifiers = ui.input(|input| input.modifiers);
-        let choice = if modifiers.command {
-            Choice::Toggle
-        } else if modifiers.shift {
-            Choice::Add
-        } else {
-            Choice::Replace
-        };
-        requests.push(Request::Timeline(KeysRequest::SelectRow(bone, choice)));
-    }
+    name: &'a str,
+}
 
-    let triangle =
-        Rect::from_min_max(pos2(rect.left() + 8.0, rect.top()), pos2(rect.left() + 26.0, rect.bottom()));
-    let arrow = ui.interact(triangle.intersect(visible), ui.scope_id().with(("open", bone)), Sense::click());
-    let verb = if open { "Close" } else { "Open" };
-    arrow.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{verb} {name}")));
-    let (center, tone) = (triangle.center(), if arrow.hovered() { theme.text } else { theme.faint });
-    let corners = if open {
-        vec![center + vec2(-4.0, -2.0), center + vec2(4.0, -2.0), center + vec2(0.0, 3.0)]
-    } else {
-        vec![center + vec2(-2.0, -4.0), center + vec2(3.0, 0.0), center + vec2(-2.0, 4.0)]
-    };
-    ui.painter().add(Shape::convex_polygon(corners, tone, Stroke::NONE));
-    widgets::focus_ring(ui, &arrow, triangle);
-
-    if wide {
-        for (at, flag) in BoneFlag::ALL.into_iter().enumerate() {
-            let left = rect.right() - 6.0 - FLAG * (3 - at) as f32;
-            let place = Rect::from_min_size(pos2(left, rect.top() + 1.0), vec2(FLAG, ROW - 2.0));
-            mark(ui, place.intersect(visible), flag, bone, name, over, state, requests);
+impl BoneLabel<'_> {
+    /// Draws it: the triangle opens and closes the bone, its name selects it, and at the right are its flags. Returns
+    /// whether the triangle was clicked.
+    fn show(&self, ui: &mut Ui, rect: Rect, open: bool, state: &State, requests: &mut Vec<Request>) -> bool {
+        let Self { bone, name } = *self;
+        let theme = Theme::of(ui);
+        let visible = rect.intersect(ui.clip_rect());
+        if visible.height() < 4.0 {
+            return false;
         }
-    }
-    arrow.clicked().then_some(bone)
-}
-
-/// One mark of a bone: a letter, faint until the row is under the pointer or the mark is set.
-#[allow(clippy::too_many_arguments, reason = "a small button that says what it is about")]
-fn mark(
-    ui: &mut Ui,
-    rect: Rect,
-    flag: BoneFlag,
-    bone: BoneIndex,
-    name: &str,
-    over: bool,
-    state: &State,
-    requests: &mut Vec<Request>,
-) {
-    let theme = Theme::of(ui);
-    let on = state.keys.flags.has(flag, bone);
-    let response = ui.interact(rect, ui.scope_id().with((flag.name(), bone)), Sense::click());
-    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, format!("{} {name}", flag.name())));
-    if on || over || response.has_focus() {
-        let color = match flag {
-            _ if !on => theme.faint,
-            BoneFlag::Mute => theme.error,
-            BoneFlag::Solo => theme.warning,
-            BoneFlag::Lock => theme.accent,
+        let over = ui.rect_contains_pointer(visible);
+        let wide = rect.width() > 150.0;
+        // Flags that are not drawn leave their space to the name.
+        let marked = over || BoneFlag::ALL.into_iter().any(|flag| state.keys.flags.has(flag, bone));
+        let flags = if wide && marked { 3.0 * FLAG + 8.0 } else { 6.0 };
+        let label = Rect::from_min_max(
+            pos2(rect.left() + 28.0, rect.top()),
+            pos2(rect.right() - flags, rect.bottom()),
+        );
+        let response =
+            ui.interact(label.intersect(visible), ui.scope_id().with(("bone", bone)), Sense::click());
+        let selected = state.selection.contains(bone);
+        response
+            .widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("Keys of {name}")));
+        widgets::focus_ring(ui, &response, label);
+        let color = match () {
+            () if state.keys.flags.locked(bone) => theme.faint,
+            () if selected => theme.accent,
+            () => theme.text,
         };
+        widgets::text_in(ui, label, name, &TextStyle::Small, color);
         if response.hovered() {
-            ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.hover);
+            requests.push(Request::Hover(bone));
         }
-        let letter = flag.name().get(..1).unwrap_or_default();
-        ui.painter().text(rect.center(), Align2::CENTER_CENTER, letter, FontId::proportional(12.0), color);
-        widgets::focus_ring(ui, &response, rect);
+        bone_menu::show(&response, state, Some(bone), requests);
+        if response.clicked() {
+            let modifiers = ui.input(|input| input.modifiers);
+            let choice = choice_of(modifiers);
+            requests.push(Request::Timeline(KeysRequest::SelectRow(bone, choice)));
+        }
+
+        let triangle =
+            Rect::from_min_max(pos2(rect.left() + 8.0, rect.top()), pos2(rect.left() + 26.0, rect.bottom()));
+        let arrow =
+            ui.interact(triangle.intersect(visible), ui.scope_id().with(("open", bone)), Sense::click());
+        let verb = if open { "Close" } else { "Open" };
+        arrow.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{verb} {name}")));
+        let (center, tone) = (triangle.center(), if arrow.hovered() { theme.text } else { theme.faint });
+        let corners = if open {
+            vec![center + vec2(-4.0, -2.0), center + vec2(4.0, -2.0), center + vec2(0.0, 3.0)]
+        } else {
+            vec![center + vec2(-2.0, -4.0), center + vec2(3.0, 0.0), center + vec2(-2.0, 4.0)]
+        };
+        ui.painter().add(Shape::convex_polygon(corners, tone, Stroke::NONE));
+        widgets::focus_ring(ui, &arrow, triangle);
+
+        if wide {
+            for (at, flag) in BoneFlag::ALL.into_iter().enumerate() {
+                let left = rect.right() - 6.0 - FLAG * (3 - at) as f32;
+                let place = Rect::from_min_size(pos2(left, rect.top() + 1.0), vec2(FLAG, ROW - 2.0));
+                self.flag(ui, place.intersect(visible), flag, over, state, requests);
+            }
+        }
+        arrow.clicked()
     }
-    if response.on_hover_text(format!("{}\n{}", flag.name(), flag.help())).clicked() {
-        requests.push(Request::Timeline(KeysRequest::Flag(flag, bone, !on)));
+
+    /// Draws one flag of the bone: a letter, faint until the pointer is over the row or the flag is set.
+    fn flag(
+        &self,
+        ui: &mut Ui,
+        rect: Rect,
+        flag: BoneFlag,
+        over: bool,
+        state: &State,
+        requests: &mut Vec<Request>,
+    ) {
+        let Self { bone, name } = *self;
+        let theme = Theme::of(ui);
+        let on = state.keys.flags.has(flag, bone);
+        let response = ui.interact(rect, ui.scope_id().with((flag.name(), bone)), Sense::click());
+        response
+            .widget_info(|| WidgetInfo::selected(Role::Button, true, on, format!("{} {name}", flag.name())));
+        if on || over || response.has_focus() {
+            let color = match flag {
+                _ if !on => theme.faint,
+                BoneFlag::Mute => theme.error,
+                BoneFlag::Solo => theme.warning,
+                BoneFlag::Lock => theme.accent,
+            };
+            if response.hovered() {
+                ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.hover);
+            }
+            let letter = flag.name().get(..1).unwrap_or_default();
+            ui.painter().text(
+                rect.center(),
+                Align2::CENTER_CENTER,
+                letter,
+                FontId::proportional(12.0),
+                color,
+            );
+            widgets::focus_ring(ui, &response, rect);
+        }
+        if response.on_hover_text(format!("{}\n{}", flag.name(), flag.help())).clicked() {
+            requests.push(Request::Timeline(KeysRequest::Flag(flag, bone, !on)));
+        }
     }
 }
 
-/// Over the names: a search field, and what the rows and drags follow.
+/// Draws the search field and the switches above the names.
 pub(super) fn tools(
     ui: &mut Ui,
-    places: &Places,
+    areas: &DopeAreas,
     filter: &mut String,
     state: &State,
     requests: &mut Vec<Request>,
 ) {
-    let rect = places.tools;
+    let rect = areas.tools;
     if rect.width() < 150.0 || rect.height() < 20.0 {
         return;
     }
@@ -233,7 +231,7 @@ pub(super) fn tools(
         ui,
         Icon::Bone,
         "Selected bones only",
-        "Selected bones only\nLists the selected bones, where any are selected".to_owned(),
+        "Selected bones only\nList only the selected bones, if any are selected".to_owned(),
         only,
     ) {
         requests.push(Request::Timeline(KeysRequest::OnlySelected(!only)));

@@ -1,8 +1,10 @@
-//! The ruler: time is dragged here, the range that plays is set, and the selected keys are scaled by the bar below.
+//! The ruler: drags of the playhead and of the play range, and the bar that scales the selected keys.
 
-use super::place::Places;
+use super::Sheet;
+use super::areas::DopeAreas;
 use crate::panels::commands::Id;
-use crate::panels::keys::{Deed, Drawn, KeysRequest, TimeScale};
+use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
+use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest, TimeScale};
 use crate::panels::state::{Request, State};
 use crate::panels::theme::Theme;
 use egui::{
@@ -10,45 +12,49 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
-/// A ruler on which time is dragged.
+/// A ruler on which the playhead is dragged.
 #[derive(Debug, Default)]
 pub(in crate::panels) struct Scrub {
-    /// The command that lets time go on after scrubbing.
+    /// The command that resumes playback after scrubbing.
     resume: Option<Id>,
 }
 
-/// What is held in the ruler.
+/// The drags on the ruler.
 #[derive(Debug, Default)]
 pub(super) struct Head {
     scrub: Scrub,
-    /// Scaling: what stays, and where the end was that is held.
-    scaling: Option<Scaling>,
-    /// The first and the last selected key, found when the selection changed.
+    scaling: DragMachine<(), Scaling>,
+    /// Name of the end of the bar that is dragged.
+    grip: Option<&'static str>,
+    /// Times of the first and the last selected key, computed when the selection changed.
     extent: Option<(Drawn, Option<[f32; 2]>)>,
 }
 
-/// Points: how near a key must be to be under the pointer.
+/// Distance within which a key is under the pointer, points.
 const NEAR: f32 = 4.0;
 
+/// The bar over the selected keys, while one of its ends is dragged.
 #[derive(Clone, Copy, Debug)]
 struct Scaling {
-    /// The end that is not held, seconds.
+    /// Time of the end that is not dragged, seconds.
     other: f32,
+    /// Time of the dragged end when the drag began, seconds.
     grabbed: f32,
-    begun: bool,
+    /// Whether the drag was requested, so that it must exist from now on.
+    requested: bool,
 }
 
-/// Lines and numbers, behind everything.
-pub(super) fn back(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
-    let top = Rect::from_min_max(places.all.min, pos2(places.all.right(), places.bar.bottom()));
+/// Draws the background of the ruler, its lines and numbers.
+pub(super) fn back(painter: &Painter, areas: &DopeAreas, scale: &TimeScale, state: &State, theme: &Theme) {
+    let top = Rect::from_min_max(areas.all.min, pos2(areas.all.right(), areas.bar.bottom()));
     painter.rect_filled(top, CornerRadius::ZERO, theme.bar);
     painter.hline(top.x_range(), top.bottom(), Stroke::new(1.0, theme.line));
     let right = painter
-        .with_clip_rect(Rect::from_min_max(places.head.min, places.all.max).intersect(painter.clip_rect()));
-    ticks(&right, places.head, places.all.bottom(), scale, state, theme);
+        .with_clip_rect(Rect::from_min_max(areas.head.min, areas.all.max).intersect(painter.clip_rect()));
+    ticks(&right, areas.head, areas.all.bottom(), scale, state, theme);
 }
 
-/// The lines of a ruler; also for the curves.
+/// Draws the lines and numbers of a ruler; also used by the curves.
 pub(in crate::panels) fn ticks(
     painter: &Painter,
     head: Rect,
@@ -76,7 +82,7 @@ pub(in crate::panels) fn ticks(
 }
 
 impl Scrub {
-    /// Takes what is done on `head`, which a screen reader calls `name`.
+    /// Handles input on `head`; `name` is its accessible name.
     pub(in crate::panels) fn show(
         &mut self,
         ui: &Ui,
@@ -89,12 +95,12 @@ impl Scrub {
         let response = ui.interact(head, ui.scope_id().with(name), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::slider(true, f64::from(state.time()), name));
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-        // From the press on, as a hand expects: not only once a movement has made it a drag, and not only
-        // once a quick release has made it a click, which it is not any more when a frame took long.
+        // Scrubbing starts with the press: a drag starts only after a movement, and a press is a click only after a
+        // quick release, which a slow frame can miss.
         let (primary, modifiers) = ui.input(|input| (input.pointer.primary_down(), input.modifiers));
         let down = response.is_pointer_button_down_on() && primary;
         if down && state.playback.playing && self.resume.is_none() {
-            // Time stands while it is held, and goes on as it went before.
+            // Playback pauses while the pointer is down, and resumes in the same direction.
             let command = if state.playback.speed < 0.0 { Id::PlayBackwards } else { Id::PlayPause };
             self.resume = Some(command);
             requests.push(Request::Command(command));
@@ -102,7 +108,8 @@ impl Scrub {
         if (down || response.clicked_by(PointerButton::Primary))
             && let Some(pointer) = response.interact_pointer_pos()
         {
-            // Beside what is shown its end is meant, so that the edge of the ruler is the end of a take that is seen whole.
+            // A pointer beyond the visible part means its end, so that the edge of the ruler is the end of a take that
+            // is shown whole.
             let window = scale.window;
             let time = f64::from(scale.time_at(pointer.x));
             let time = time.clamp(window.start, window.start + window.length) as f32;
@@ -132,32 +139,17 @@ impl Scrub {
 }
 
 impl Head {
-    pub(super) fn show(
-        &mut self,
-        ui: &mut Ui,
-        places: &Places,
-        scale: &TimeScale,
-        drawn: &Drawn,
-        state: &State,
-        requests: &mut Vec<Request>,
-    ) {
-        self.scrub.show(ui, places.head, "Time track", scale, state, requests);
-        range_ends(ui, places, scale, state, requests);
-        self.bar(ui, places, scale, drawn, state, requests);
+    pub(super) fn show(&mut self, ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
+        let Sheet { areas, scale, state, .. } = *sheet;
+        self.scrub.show(ui, areas.head, "Time track", scale, state, requests);
+        range_ends(ui, areas, scale, state, requests);
+        self.bar(ui, sheet, requests);
     }
 
-    /// The bar over the selected keys: its ends scale them about each other, with Alt about the playhead.
-    fn bar(
-        &mut self,
-        ui: &Ui,
-        places: &Places,
-        scale: &TimeScale,
-        drawn: &Drawn,
-        state: &State,
-        requests: &mut Vec<Request>,
-    ) {
-        let theme = Theme::of(ui);
-        let painter = ui.painter().with_clip_rect(places.bar);
+    /// Draws the bar over the selected keys. Its ends scale the keys about each other, with Alt about the playhead.
+    fn bar(&mut self, ui: &Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
+        let Sheet { areas, scale, drawn, theme, .. } = *sheet;
+        let painter = ui.painter().with_clip_rect(areas.bar);
         let known = self.extent.as_ref().filter(|(of, _)| {
             of.selection.same(&drawn.selection) && std::sync::Arc::ptr_eq(&of.take, &drawn.take)
         });
@@ -167,25 +159,24 @@ impl Head {
         };
         let extent = extent.map(|extent| drawn.shift.stretch(extent));
         let Some([from, to]) = extent.filter(|[from, to]| to - from > scale.seconds(6.0)) else {
-            self.scaling = None;
+            self.scaling = DragMachine::default();
             return;
         };
         let (left, right) = (scale.x_of(from), scale.x_of(to));
         let bar =
-            Rect::from_min_max(pos2(left, places.bar.top() + 2.0), pos2(right, places.bar.bottom() - 2.0));
+            Rect::from_min_max(pos2(left, areas.bar.top() + 2.0), pos2(right, areas.bar.bottom() - 2.0));
         painter.rect_filled(bar, CornerRadius::same(2), theme.accent_soft);
         for (end, x, name) in
-            [(from, left, "Scale keys by their begin"), (to, right, "Scale keys by their end")]
+            [(from, left, "Scale keys by their start"), (to, right, "Scale keys by their end")]
         {
-            let grip =
-                Rect::from_center_size(pos2(x, places.bar.center().y), vec2(12.0, places.bar.height()));
-            if !places.bar.expand(6.0).contains_rect(grip.shrink(4.0)) {
+            let grip = Rect::from_center_size(pos2(x, areas.bar.center().y), vec2(12.0, areas.bar.height()));
+            if !areas.bar.expand(6.0).contains_rect(grip.shrink(4.0)) {
                 continue;
             }
             let response = ui.interact(grip, ui.scope_id().with(name), Sense::drag());
             response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Button, true, name));
             let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(format!(
-                "{name}\nThe other end stays; with Alt the playhead does\nCtrl inverts snapping"
+                "{name}\nAbout the other end, with Alt about the playhead\nCtrl inverts snapping"
             ));
             let lit = response.hovered() || response.dragged();
             let color = if lit { theme.accent } else { theme.accent.gamma_multiply(0.7) };
@@ -194,61 +185,61 @@ impl Head {
                 CornerRadius::same(2),
                 color,
             );
-            self.scale_by(ui, &response, end, [from, to], scale, state, requests);
+            if response.drag_started_by(PointerButton::Primary) {
+                let other = if end == from { to } else { from };
+                self.scaling = DragMachine::dragging(Scaling { other, grabbed: end, requested: false });
+                self.grip = Some(name);
+            }
+            if self.grip == Some(name) {
+                self.scale_by(ui, &response, sheet, requests);
+            }
         }
     }
 
-    #[allow(clippy::too_many_arguments, reason = "a drag follows from all of it")]
-    fn scale_by(
-        &mut self,
-        ui: &Ui,
-        response: &Response,
-        end: f32,
-        [from, to]: [f32; 2],
-        scale: &TimeScale,
-        state: &State,
-        requests: &mut Vec<Request>,
-    ) {
-        if response.drag_started_by(PointerButton::Primary) {
-            let other = if end == from { to } else { from };
-            self.scaling = Some(Scaling { other, grabbed: end, begun: false });
-        }
-        let Some(scaling) = &mut self.scaling else { return };
-        let cancelled = ui.input(|input| input.pointer.secondary_down() || input.key_down(egui::Key::Escape));
-        // By Escape egui ends the drag itself.
-        if cancelled || response.dragged_by(PointerButton::Primary) {
-            let gone = scaling.begun && !state.keys.drag().is_some_and(|drag| drag.held());
-            if cancelled || gone {
-                requests.push(Request::Timeline(KeysRequest::Cancel));
-                self.scaling = None;
-                return;
+    fn scale_by(&mut self, ui: &Ui, response: &Response, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
+        let state = sheet.state;
+        let input = PointerInput::of_widget(ui, response);
+        match self.scaling.step(&input, input.primary_down, |_| ()) {
+            DragEvent::Moved(pointer) => {
+                let Some(scaling) = self.scaling.drag_mut() else { return };
+                if scaling.requested && !state.keys.is_dragging() {
+                    return self.scaling.spend();
+                }
+                if let Some(op) = scaling.op(pointer.x, &input, sheet) {
+                    scaling.requested = true;
+                    requests.push(Request::Timeline(KeysRequest::Drag(op)));
+                }
             }
-            let Some(pointer) = response.interact_pointer_pos() else { return };
-            let snap = state.keys.snap != ui.input(|input| input.modifiers.command);
-            let time = scale.time_at(pointer.x);
-            let time = if snap { to_frame(time, state) } else { time };
-            // Asked anew each time: a hand may think of it in the midst of the drag.
-            let now = state.time();
-            let by_playhead = ui.input(|input| input.modifiers.alt)
-                && (now - scaling.grabbed).abs() > state.frame_seconds() * 0.5;
-            let about = if by_playhead { now } else { scaling.other };
-            let factor = (time - about) / (scaling.grabbed - about);
-            // Zero would bring all keys to one time; a thousandth is as near as it gets.
-            let factor =
-                if factor.abs() < 1e-3 { 1e-3_f32.copysign(factor) } else { factor.clamp(-1e3, 1e3) };
-            if factor.is_finite() {
-                scaling.begun = true;
-                requests.push(Request::Timeline(KeysRequest::Drag(Deed::Scale { about, factor })));
-            }
+            DragEvent::Dropped(_) => requests.push(Request::Timeline(KeysRequest::Release)),
+            DragEvent::Cancelled(_) => requests.push(Request::Timeline(KeysRequest::Cancel)),
+            DragEvent::Nothing | DragEvent::Pressed | DragEvent::Started(_) | DragEvent::Clicked(_) => {}
         }
-        if response.drag_stopped() && self.scaling.take().is_some() {
-            requests.push(Request::Timeline(KeysRequest::Release));
+        if !self.scaling.is_busy() {
+            self.grip = None;
         }
     }
 }
 
-/// The key or the end of the take under the pointer, or else the frame nearest to a time, seconds: a pose that is put a
-/// hair beside a key would be a second key.
+impl Scaling {
+    /// Returns the operation that brings the dragged end to `x`; `None` if no factor does.
+    fn op(&self, x: f32, input: &PointerInput, sheet: &Sheet<'_>) -> Option<KeyDragOp> {
+        let state = sheet.state;
+        let snap = state.keys.snap != input.modifiers.command;
+        let time = sheet.scale.time_at(x);
+        let time = if snap { to_frame(time, state) } else { time };
+        // Read in every frame: Alt may be pressed in the middle of the drag.
+        let now = state.time();
+        let by_playhead = input.modifiers.alt && (now - self.grabbed).abs() > state.frame_seconds() * 0.5;
+        let about = if by_playhead { now } else { self.other };
+        let factor = (time - about) / (self.grabbed - about);
+        // Zero would bring all keys to one time, so a thousandth is the least.
+        let factor = if factor.abs() < 1e-3 { 1e-3_f32.copysign(factor) } else { factor.clamp(-1e3, 1e3) };
+        factor.is_finite().then_some(KeyDragOp::Scale { about, factor })
+    }
+}
+
+/// Returns the key or the end of the take under the pointer, or else the frame nearest to a time, seconds. A pose set
+/// slightly off a key would add a second key.
 fn to_key_or_frame(time: f32, scale: &TimeScale, state: &State) -> f32 {
     let reach = scale.seconds(NEAR).min(state.frame_seconds() * 0.5);
     let beside = [true, false].into_iter().filter_map(|forward| state.key_beside_of(time, forward));
@@ -257,29 +248,29 @@ fn to_key_or_frame(time: f32, scale: &TimeScale, state: &State) -> f32 {
     nearest.filter(|key| (key - time).abs() <= reach).unwrap_or_else(|| to_frame(time, state))
 }
 
-/// The frame nearest to a time, seconds.
+/// Returns the frame nearest to a time, seconds.
 pub(in crate::panels) fn to_frame(time: f32, state: &State) -> f32 {
     let rate = state.settings.frame_rate;
     crate::panels::ruler::time_of(crate::panels::ruler::frame_of(time, rate), rate)
 }
 
-/// The ends of the range that plays, to be dragged.
-fn range_ends(ui: &Ui, places: &Places, scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
+/// Draws the ends of the play range, which can be dragged.
+fn range_ends(ui: &Ui, areas: &DopeAreas, scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
     let Some([from, to]) = state.keys.range() else { return };
     let theme = Theme::of(ui);
-    let painter = ui.painter().with_clip_rect(places.head);
+    let painter = ui.painter().with_clip_rect(areas.head);
     let band = Rect::from_min_max(
-        pos2(scale.x_of(from), places.head.bottom() - 3.0),
-        pos2(scale.x_of(to), places.head.bottom()),
+        pos2(scale.x_of(from), areas.head.bottom() - 3.0),
+        pos2(scale.x_of(to), areas.head.bottom()),
     );
     painter.rect_filled(band, CornerRadius::ZERO, theme.warning.gamma_multiply(0.5));
     for (time, first) in [(from, true), (to, false)] {
         let x = scale.x_of(time);
         let inward = if first { 1.0 } else { -1.0 };
-        let name = if first { "Begin of the play range" } else { "End of the play range" };
-        let middle = pos2(x + inward * 4.0, places.head.bottom() - 6.0);
+        let name = if first { "Start of the play range" } else { "End of the play range" };
+        let middle = pos2(x + inward * 4.0, areas.head.bottom() - 6.0);
         let grip = Rect::from_center_size(middle, vec2(10.0, 12.0));
-        if !places.head.contains(grip.center()) {
+        if !areas.head.contains(grip.center()) {
             continue;
         }
         let response = ui.interact(grip, ui.scope_id().with(name), Sense::drag());
@@ -288,16 +279,16 @@ fn range_ends(ui: &Ui, places: &Places, scale: &TimeScale, state: &State, reques
         let lit = response.hovered() || response.dragged();
         let color = if lit { theme.warning } else { theme.warning.gamma_multiply(0.8) };
         let corners = vec![
-            pos2(x, places.head.bottom()),
-            pos2(x, places.head.bottom() - 9.0),
-            pos2(x + inward * 6.0, places.head.bottom()),
+            pos2(x, areas.head.bottom()),
+            pos2(x, areas.head.bottom() - 9.0),
+            pos2(x + inward * 6.0, areas.head.bottom()),
         ];
         painter.add(egui::Shape::convex_polygon(corners, color, Stroke::NONE));
         if response.dragged_by(PointerButton::Primary)
             && let Some(pointer) = response.interact_pointer_pos()
         {
             let at = to_frame(scale.time_at(pointer.x), state);
-            // An end that is dragged past the other stops there.
+            // An end that is dragged past the other one stops there.
             let range = if first {
                 [at.min(to - state.frame_seconds()), to]
             } else {

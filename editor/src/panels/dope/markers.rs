@@ -1,7 +1,8 @@
 //! The lane of markers below the ruler.
 
+use super::Sheet;
 use super::head::to_frame;
-use super::place::Places;
+use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
 use crate::panels::keys::{KeysRequest, MarkerDeed, TimeScale};
 use crate::panels::state::{Request, State};
 use crate::panels::theme::Theme;
@@ -11,35 +12,31 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
-/// What is held or renamed.
+/// The marker that is dragged or renamed.
 #[derive(Debug, Default)]
 pub(super) struct MarkerLane {
-    renaming: Option<(usize, String, Stage)>,
-    /// A marker on its way: it moves when it is let go, so that the order stays while it is held.
-    held: Option<(usize, f32)>,
+    renaming: Option<(usize, String, MarkerNameStage)>,
+    /// Index and time, seconds, of the dragged marker. It moves when it is released, so that the order stays during the drag.
+    drag: DragMachine<(), (usize, f32)>,
+    /// Index of the marker whose drag `drag` follows.
+    dragged: Option<usize>,
 }
 
-/// How far the typing of a name is.
+/// State of the field for a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stage {
+enum MarkerNameStage {
     Fresh,
-    /// The cursor is on its way into the field.
+    /// The focus is requested for the field.
     Asked,
     Typing,
 }
 
 impl MarkerLane {
-    pub(super) fn show(
-        &mut self,
-        ui: &mut Ui,
-        places: &Places,
-        scale: &TimeScale,
-        state: &State,
-        requests: &mut Vec<Request>,
-    ) {
-        let lane = places.markers;
+    pub(super) fn show(&mut self, ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
+        let Sheet { areas, scale, state, .. } = *sheet;
+        let lane = areas.markers;
         if lane.height() < 4.0 {
-            (self.renaming, self.held) = (None, None);
+            *self = Self::default();
             return;
         }
         let theme = Theme::of(ui);
@@ -49,7 +46,8 @@ impl MarkerLane {
         let mut ask = |deed: MarkerDeed| requests.push(Request::Timeline(KeysRequest::Marker(deed)));
         let mut seek = None;
         for (index, marker) in markers.iter().enumerate() {
-            let time = self.held.filter(|(held, _)| *held == index).map_or(marker.time, |(_, time)| time);
+            let held = self.drag.drag().filter(|(held, _)| *held == index);
+            let time = held.map_or(marker.time, |(_, time)| *time);
             let x = scale.x_of(time);
             let end = markers.get(index + 1).map_or(f32::INFINITY, |next| scale.x_of(next.time));
             let grip = Rect::from_min_max(
@@ -81,38 +79,40 @@ impl MarkerLane {
                 widgets::text_in(ui, name, &marker.name, &TextStyle::Small, theme.weak);
             }
             let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(format!(
-                "{}\n{time:.3} s\nClick to go there, drag to move, double click to rename",
+                "{}\n{time:.3} s\nClick to move the playhead here, drag to move, double-click to rename",
                 marker.name
             ));
             if response.clicked_by(PointerButton::Primary) {
                 seek = Some(marker.time);
             }
             if response.double_clicked() {
-                self.renaming = Some((index, marker.name.clone(), Stage::Fresh));
+                self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
             }
-            if self.held.is_some_and(|(held, _)| held == index)
-                && ui.input(|input| input.key_down(egui::Key::Escape))
-            {
-                // By Escape egui ends the drag itself.
-                self.held = None;
-            } else if response.dragged_by(PointerButton::Primary)
-                && let Some(pointer) = response.interact_pointer_pos()
-            {
-                let snap = state.keys.snap != ui.input(|input| input.modifiers.command);
-                let time = scale.time_at(pointer.x);
-                let time = if snap { to_frame(time, state) } else { time };
-                let cancelled =
-                    ui.input(|input| input.pointer.secondary_down() || input.key_down(egui::Key::Escape));
-                self.held = if cancelled { None } else { Some((index, time)) };
+            if response.drag_started_by(PointerButton::Primary) {
+                self.drag = DragMachine::dragging((index, marker.time));
+                self.dragged = Some(index);
             }
-            if response.drag_stopped()
-                && let Some((index, time)) = self.held.take()
-            {
-                ask(MarkerDeed::Move(index, time));
+            if self.dragged == Some(index) {
+                let input = PointerInput::of_widget(ui, &response);
+                match self.drag.step(&input, input.primary_down, |_| ()) {
+                    DragEvent::Moved(pointer) => {
+                        let snap = state.keys.snap != input.modifiers.command;
+                        let time = scale.time_at(pointer.x);
+                        let time = if snap { to_frame(time, state) } else { time };
+                        self.drag.begin((index, time));
+                    }
+                    DragEvent::Dropped((index, time)) => ask(MarkerDeed::Move(index, time)),
+                    DragEvent::Cancelled(_)
+                    | DragEvent::Nothing
+                    | DragEvent::Pressed
+                    | DragEvent::Started(_)
+                    | DragEvent::Clicked(_) => {}
+                }
+                self.dragged = self.dragged.filter(|_| self.drag.is_busy());
             }
             response.context_menu(|ui| {
                 if ui.add(Button::new("Rename").frame_when_inactive(false)).clicked() {
-                    self.renaming = Some((index, marker.name.clone(), Stage::Fresh));
+                    self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
                     ui.close();
                 }
                 if ui.add(Button::new("Delete marker").frame_when_inactive(false)).clicked() {
@@ -129,7 +129,7 @@ impl MarkerLane {
         }
     }
 
-    /// The field in which a name is typed.
+    /// Draws the field for the name of a marker. Returns the action when the name is entered.
     fn rename(&mut self, ui: &mut Ui, lane: Rect, scale: &TimeScale, state: &State) -> Option<MarkerDeed> {
         let (index, name, stage) = self.renaming.as_mut()?;
         let Some(marker) = state.markers().get(*index) else {
@@ -139,9 +139,9 @@ impl MarkerLane {
         let left = scale.x_of(marker.time).clamp(lane.left(), (lane.right() - 120.0).max(lane.left()));
         let rect = Rect::from_min_size(pos2(left, lane.top() - 3.0), vec2(120.0, lane.height() + 6.0));
         let id = egui::Id::unique("name of a marker");
-        if *stage == Stage::Asked && ui.memory(|memory| memory.has_focus(id)) {
-            *stage = Stage::Typing;
-            // What is typed takes the place of the old name.
+        if *stage == MarkerNameStage::Asked && ui.memory(|memory| memory.has_focus(id)) {
+            *stage = MarkerNameStage::Typing;
+            // All text is selected, so that typing replaces the old name.
             widgets::select_all(ui.ctx(), id, name);
         }
         let field = TextEdit::singleline(name).id(id).font(TextStyle::Small).hint_text("Name");
@@ -149,8 +149,8 @@ impl MarkerLane {
         response.widget_info(|| {
             WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Name of the marker")
         });
-        if *stage == Stage::Fresh {
-            *stage = Stage::Asked;
+        if *stage == MarkerNameStage::Fresh {
+            *stage = MarkerNameStage::Asked;
             response.request_focus();
             return None;
         }

@@ -1,34 +1,31 @@
-//! Keys as triangles: made once for what is seen, and used again until something of it changes.
+//! The keys as triangles, made when something that they depend on changed.
 
-use super::ROW;
-use super::place::Places;
-use super::rows::{Row, RowKind, Rows};
+use super::rows::{DopeRow, RowKind};
+use super::{ROW, Sheet};
 use crate::panels::keys::columns::Columns;
 use crate::panels::keys::intervals::Intervals;
 use crate::panels::keys::{Drawn, KeySelection, Shift, TimeScale, channel};
-use crate::panels::state::State;
-use crate::panels::theme::Theme;
 use dragonfly_anim::data::Take;
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
 use std::sync::Arc;
 
-/// The triangles of all keys in sight.
+/// The triangles of all visible keys.
 #[derive(Debug, Default)]
 pub(super) struct KeysMesh {
-    made_of: Option<MadeOf>,
+    made_of: Option<KeysMeshKey>,
     mesh: Arc<Mesh>,
     plain: Columns,
     chosen: Columns,
     marks: Vec<Mark>,
-    /// Selected keys, counted when the selection changed.
+    /// Number of selected keys, with the selection and the take that it was counted for.
     count: Option<(KeySelection, Arc<Take>, usize)>,
 }
 
-/// Everything that the triangles follow from.
+/// Everything that the triangles depend on.
 #[derive(Debug)]
-struct MadeOf {
+struct KeysMeshKey {
     drawn: Drawn,
-    rows: Arc<[Row]>,
+    rows: Arc<[DopeRow]>,
     scale: TimeScale,
     canvas: Rect,
     scroll: f32,
@@ -40,35 +37,26 @@ struct MadeOf {
 /// A key, or several in one column of pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mark {
-    /// Points.
+    /// Horizontal position, points.
     pub(super) x: f32,
-    /// Is one of them selected?
+    /// Whether one of the keys is selected.
     pub(super) chosen: bool,
 }
 
-/// Points: keys closer than this to each other are drawn as one band.
+/// Distance below which keys are drawn as one band, points.
 const DENSE: f32 = 6.0;
-/// Points from the middle of a diamond to its corner.
+/// Distance from the center of a diamond to its corners, points.
 const RADIUS: f32 = 4.5;
 
 impl KeysMesh {
-    /// How many keys are selected.
+    /// Returns the number of selected keys.
     pub(super) fn selected(&self) -> usize {
         self.count.as_ref().map_or(0, |(_, _, count)| *count)
     }
 
-    #[allow(clippy::too_many_arguments, reason = "what is drawn follows from all of it")]
-    pub(super) fn paint(
-        &mut self,
-        painter: &Painter,
-        places: &Places,
-        scroll: f32,
-        rows: &Rows,
-        scale: &TimeScale,
-        drawn: &Drawn,
-        state: &State,
-        theme: &Theme,
-    ) {
+    /// Draws the keys in sight.
+    pub(super) fn paint(&mut self, painter: &Painter, sheet: &Sheet<'_>) {
+        let Sheet { areas, rows, scroll, scale, drawn, state, theme } = *sheet;
         let live = &state.keys.selection;
         if let Some(take) = state.shared_take()
             && !self
@@ -78,11 +66,11 @@ impl KeysMesh {
         {
             self.count = Some((live.clone(), Arc::clone(take), live.count(take)));
         }
-        let made_of = MadeOf {
+        let made_of = KeysMeshKey {
             drawn: drawn.clone(),
             rows: Arc::clone(rows.list()),
             scale: *scale,
-            canvas: places.canvas,
+            canvas: areas.canvas,
             scroll,
             pixels_per_point: painter.pixels_per_point(),
             dark: theme.dark,
@@ -91,27 +79,17 @@ impl KeysMesh {
         let same = self.made_of.as_ref().is_some_and(|old| old.same(&made_of));
         if !same {
             self.made_of = Some(made_of);
-            self.make(places, scroll, rows, scale, drawn, state, theme, painter.pixels_per_point());
+            self.rebuild(sheet, painter.pixels_per_point());
         }
         painter
-            .with_clip_rect(places.canvas.intersect(painter.clip_rect()))
+            .with_clip_rect(areas.canvas.intersect(painter.clip_rect()))
             .add(Shape::Mesh(Arc::clone(&self.mesh)));
     }
 
-    #[allow(clippy::too_many_arguments, reason = "as above")]
-    fn make(
-        &mut self,
-        places: &Places,
-        scroll: f32,
-        rows: &Rows,
-        scale: &TimeScale,
-        drawn: &Drawn,
-        state: &State,
-        theme: &Theme,
-        pixels_per_point: f32,
-    ) {
+    fn rebuild(&mut self, sheet: &Sheet<'_>, pixels_per_point: f32) {
+        let Sheet { areas, rows, scroll, scale, drawn, state, theme } = *sheet;
         let mut mesh = Mesh::default();
-        let canvas = places.canvas;
+        let canvas = areas.canvas;
         let pen = Pen { feather: 1.0 / pixels_per_point };
         let first = (scroll / ROW).floor().max(0.0) as usize;
         let last = ((scroll + canvas.height()) / ROW).ceil().max(0.0) as usize;
@@ -150,8 +128,8 @@ impl KeysMesh {
     }
 }
 
-impl MadeOf {
-    /// The same, without looking into what is shared.
+impl KeysMeshKey {
+    /// Compares without reading the shared data.
     fn same(&self, other: &Self) -> bool {
         let (a, b) = (&self.drawn, &other.drawn);
         Arc::ptr_eq(&a.take, &b.take)
@@ -164,7 +142,7 @@ impl MadeOf {
     }
 }
 
-/// Both kinds in one list, ascending; where both share a column it counts as selected.
+/// Merges both kinds into one list, ascending; a column with both counts as selected.
 fn merge(plain: &Columns, chosen: &Columns, out: &mut Vec<Mark>) {
     out.clear();
     let mut chosen = chosen.marks().peekable();
@@ -184,7 +162,7 @@ fn merge(plain: &Columns, chosen: &Columns, out: &mut Vec<Mark>) {
 /// Draws marks into a mesh.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::panels) struct Pen {
-    /// Points over which an edge fades.
+    /// Width over which an edge fades, points.
     pub(in crate::panels) feather: f32,
 }
 
@@ -209,7 +187,8 @@ impl Pen {
         }
     }
 
-    /// Keys that cannot be told apart: a band, in parts of one colour, with a line where a key still can be seen.
+    /// Draws keys that are too dense for diamonds: a band in segments of one color, with a line where a key is still
+    /// visible.
     fn band(self, mesh: &mut Mesh, run: &[Mark], y: f32, colors: [Color32; 2]) {
         let mut at = 0;
         while at < run.len() {
@@ -223,7 +202,7 @@ impl Pen {
                 Rect::from_min_max(pos2(run[at].x - 1.0, y - 4.0), pos2(right.max(run[at].x), y + 4.0));
             let color = colors[usize::from(chosen)];
             mesh.add_colored_rect(rect, color.gamma_multiply(0.45));
-            // Lines that touch are one.
+            // Lines that touch become one.
             let mut lines = run[at..end].iter().map(|mark| mark.x).peekable();
             while let Some(first) = lines.next() {
                 let mut last = first;

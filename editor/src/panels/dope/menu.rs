@@ -1,6 +1,6 @@
-//! The menu of keys, at the right button.
+//! The context menu of keys.
 
-use super::hand::Hand;
+use super::drag::DopeDrag;
 use crate::panels::commands::Id;
 use crate::panels::menu::item;
 use crate::panels::state::{Request, State};
@@ -12,19 +12,25 @@ use egui::{Button, Response, Ui};
 pub(super) struct KeyMenu;
 
 impl KeyMenu {
-    pub(super) fn show(&self, canvas: &Response, hand: &Hand, state: &State, requests: &mut Vec<Request>) {
-        // The right button that takes a drag back opens nothing.
-        if hand.is_busy() {
+    pub(super) fn show(
+        &self,
+        canvas: &Response,
+        drag: &DopeDrag,
+        state: &State,
+        requests: &mut Vec<Request>,
+    ) {
+        // A right-click that cancels a drag opens no menu.
+        if drag.is_busy() {
             return;
         }
         canvas.context_menu(|ui| show(ui, state, requests));
     }
 }
 
-/// The entries: for the dope sheet and for the curves.
+/// Draws the entries, for the dope sheet and for the curves.
 pub(in crate::panels) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     let button = Button::new("Add keys at the playhead").frame_when_inactive(false);
-    let hint = "Keys that keep the motion: of the selected bones, or of all";
+    let hint = "Add keys that keep the motion, for the selected bones or for all";
     if ui.add_enabled(state.take().is_some(), button).on_hover_text(hint).clicked() {
         requests.extend(state.added_keys().map(|edit| Request::Change(Change::Edit(edit, None))));
         ui.close();

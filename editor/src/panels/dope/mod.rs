@@ -1,41 +1,40 @@
-//! The dope sheet: a row for all bones, a row a bone, and below it its channels; keys as diamonds, and as bands where
-//! they lie closer than can be seen.
+//! The dope sheet: a row for all bones, a row for each bone, and the channels of open bones. Keys are diamonds, or
+//! bands where they are too dense.
 
+mod areas;
+mod drag;
 mod gutter;
-mod hand;
 mod head;
 mod markers;
 mod marks;
 mod menu;
 mod overlay;
-mod place;
 mod rows;
 mod scroll;
 
-use super::keys::window::TimeScale;
+use super::keys::{Drawn, TimeScale};
 use super::state::{Request, State};
 use super::theme::Theme;
+use areas::DopeAreas;
+use drag::DopeDrag;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo};
-use hand::Hand;
 use marks::KeysMesh;
-use place::Places;
-use rows::Rows;
+use rows::DopeRows;
 
-pub(super) use hand::{Input, readout};
 pub(super) use head::{Scrub, ticks, to_frame};
 pub(super) use marks::Pen;
 pub(super) use menu::show as key_menu;
 pub(super) use overlay::{line as playhead, shade};
 pub(super) use scroll::{pan, time_bar, wheel};
 
-/// See the module: what it remembers between frames, none of it about the document.
+/// The dope sheet with its view state; it contains nothing of the document.
 #[derive(Debug, Default)]
 pub(super) struct Dope {
-    rows: Rows,
+    rows: DopeRows,
     keys: KeysMesh,
-    /// Points: how far the rows are scrolled up.
+    /// Number of points by which the rows are scrolled up.
     scroll: f32,
-    hand: Hand,
+    drag: DopeDrag,
     head: head::Head,
     markers: markers::MarkerLane,
     menu: menu::KeyMenu,
@@ -45,50 +44,77 @@ pub(super) struct Dope {
 /// Height of a row.
 pub(super) const ROW: f32 = 20.0;
 
+/// Everything that the parts of the dope sheet read in one frame.
+#[derive(Clone, Copy)]
+struct Sheet<'a> {
+    areas: &'a DopeAreas,
+    rows: &'a DopeRows,
+    /// Number of points by which the rows are scrolled up.
+    scroll: f32,
+    scale: &'a TimeScale,
+    drawn: &'a Drawn,
+    state: &'a State,
+    theme: &'a Theme,
+}
+
 impl Dope {
-    /// Draws it into `rect`; a take is shown.
+    /// Draws the dope sheet into `rect`; a take must be shown.
     pub(super) fn show(&mut self, ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
         let Some(drawn) = state.drawn_keys() else { return };
         self.rows.update(state, &drawn.take);
-        let places = Places::of(rect, state);
+        let areas = DopeAreas::of(rect, state);
         let scale = TimeScale {
-            left: places.canvas.left() + place::ROOM,
-            width: (places.canvas.width() - place::ROOM - place::ROOM_RIGHT).max(1.0),
+            left: areas.canvas.left() + areas::ROOM,
+            width: (areas.canvas.width() - areas::ROOM - areas::ROOM_RIGHT).max(1.0),
             window: state.keys.window(&drawn.take),
         };
-        let content = self.rows.list().len() as f32 * ROW;
-        self.scroll = self.scroll.clamp(0.0, (content - places.canvas.height()).max(0.0));
         let theme = Theme::of(ui);
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         painter.rect_filled(rect, CornerRadius::ZERO, theme.sunken);
+        head::back(&painter, &areas, &scale, state, theme);
 
-        head::back(&painter, &places, &scale, state, theme);
-        let canvas = ui.interact(places.canvas, ui.scope_id().with("keys"), Sense::click_and_drag());
+        let canvas = ui.interact(areas.canvas, ui.scope_id().with("keys"), Sense::click_and_drag());
         let selected = self.keys.selected();
         canvas.widget_info(|| {
             WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, format!("Keys, {selected} selected"))
         });
-        overlay::rows(&painter, &places, self.scroll, &self.rows, state, theme);
-        overlay::outside_range(&painter, &places, &scale, state, theme);
-        self.keys.paint(&painter, &places, self.scroll, &self.rows, &scale, &drawn, state, theme);
-        self.hand.update(ui, &canvas, &places, &mut self.scroll, &self.rows, &scale, &drawn, state, requests);
-        self.menu.show(&canvas, &self.hand, state, requests);
-        self.head.show(ui, &places, &scale, &drawn, state, requests);
-        self.markers.show(ui, &places, &scale, state, requests);
-        overlay::pending(&painter, &places, &scale, state, theme);
-        overlay::playhead(&painter, &places, &scale, state, theme);
-        gutter::show(ui, &places, self.scroll, &mut self.rows, state, requests);
-        gutter::tools(ui, &places, &mut self.filter, state, requests);
-        scroll::show(ui, &places, &mut self.scroll, content, &scale, &drawn.take, requests);
-        painter.vline(places.canvas.left() - 0.5, rect.y_range(), Stroke::new(1.0, theme.line));
+        let content = self.rows.list().len() as f32 * ROW;
+        let scroll = self.scroll - scroll::pan(ui, &canvas, &scale, requests);
+        self.scroll = scroll.clamp(0.0, (content - areas.canvas.height()).max(0.0));
+        scroll::wheel(ui, &canvas, &scale, requests);
+        let sheet = Sheet {
+            areas: &areas,
+            rows: &self.rows,
+            scroll: self.scroll,
+            scale: &scale,
+            drawn: &drawn,
+            state,
+            theme,
+        };
+        overlay::rows(&painter, &sheet);
+        overlay::outside_range(&painter, &sheet);
+        self.keys.paint(&painter, &sheet);
+        self.scroll = (self.scroll + self.drag.update(ui, &canvas, &sheet, requests)).max(0.0);
+        self.menu.show(&canvas, &self.drag, state, requests);
+        self.head.show(ui, &sheet, requests);
+        self.markers.show(ui, &sheet, requests);
+        overlay::pending(&painter, &sheet);
+        overlay::playhead(&painter, &sheet);
+        let toggled = gutter::show(ui, &sheet, requests);
+        gutter::tools(ui, &areas, &mut self.filter, state, requests);
         if self.rows.is_empty() {
-            overlay::nothing(&painter, &places, state, theme);
+            overlay::nothing(&painter, &sheet);
         }
+        if let Some(bone) = toggled {
+            self.rows.toggle(bone);
+        }
+        scroll::show(ui, &areas, &mut self.scroll, content, &scale, &drawn.take, requests);
+        painter.vline(areas.canvas.left() - 0.5, rect.y_range(), Stroke::new(1.0, theme.line));
         follow(&scale, state, requests);
     }
 }
 
-/// While it plays, the playhead is not lost out of sight: the window turns a page.
+/// Moves the window by a page when the playhead leaves it during playback.
 fn follow(scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
     use super::keys::KeysRequest;
     if !state.playback.playing {

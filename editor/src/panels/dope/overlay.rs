@@ -1,23 +1,16 @@
-//! What lies behind and over the keys: rows, the part that does not play, the playhead.
+//! The parts drawn below and above the keys: rows, the range that does not play, the playhead.
 
-use super::ROW;
-use super::place::Places;
-use super::rows::{RowKind, Rows};
+use super::rows::RowKind;
+use super::{ROW, Sheet};
 use crate::panels::keys::TimeScale;
 use crate::panels::state::State;
 use crate::panels::theme::Theme;
 use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, pos2, vec2};
 
-/// Selected bones are lit, summaries are a little apart, fine lines in between.
-pub(super) fn rows(
-    painter: &Painter,
-    places: &Places,
-    scroll: f32,
-    rows: &Rows,
-    state: &State,
-    theme: &Theme,
-) {
-    let body = Rect::from_min_max(places.names.min, places.canvas.max);
+/// Draws the backgrounds of the rows: selected bones highlighted, the summary row set apart, lines in between.
+pub(super) fn rows(painter: &Painter, sheet: &Sheet<'_>) {
+    let Sheet { areas, rows, scroll, state, theme, .. } = *sheet;
+    let body = Rect::from_min_max(areas.names.min, areas.canvas.max);
     let painter = painter.with_clip_rect(body.intersect(painter.clip_rect()));
     let first = (scroll / ROW).floor().max(0.0) as usize;
     let last = ((scroll + body.height()) / ROW).ceil().max(0.0) as usize;
@@ -35,7 +28,7 @@ pub(super) fn rows(
     }
 }
 
-/// Shades what does not play, and what lies outside of the take.
+/// Shades the time that does not play or is outside the take.
 pub(in crate::panels) fn shade(
     painter: &Painter,
     rect: Rect,
@@ -47,7 +40,7 @@ pub(in crate::panels) fn shade(
     let [from, to] = state.keys.range().unwrap_or([start, start + length]);
     let color = theme.gap.gamma_multiply(0.45);
     let (left, right) = (scale.x_of(from), scale.x_of(to));
-    // On dark ground the shade alone is hard to see.
+    // On a dark background the shade alone is hard to see.
     let edge = Stroke::new(1.0, theme.line);
     if left > rect.left() {
         let outside = Rect::from_min_max(rect.min, pos2(left.min(rect.right()), rect.bottom()));
@@ -61,21 +54,16 @@ pub(in crate::panels) fn shade(
     }
 }
 
-pub(super) fn outside_range(
-    painter: &Painter,
-    places: &Places,
-    scale: &TimeScale,
-    state: &State,
-    theme: &Theme,
-) {
-    shade(painter, places.canvas, scale, state, theme);
+pub(super) fn outside_range(painter: &Painter, sheet: &Sheet<'_>) {
+    shade(painter, sheet.areas.canvas, sheet.scale, sheet.state, sheet.theme);
 }
 
-pub(super) fn playhead(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
-    line(painter, places.head, places.all.bottom(), scale, state, theme);
+pub(super) fn playhead(painter: &Painter, sheet: &Sheet<'_>) {
+    let Sheet { areas, scale, state, theme, .. } = *sheet;
+    line(painter, areas.head, areas.all.bottom(), scale, state, theme);
 }
 
-/// The line of the playhead with its flag in a ruler.
+/// Draws the playhead: its line, and its flag in a ruler.
 pub(in crate::panels) fn line(
     painter: &Painter,
     head: Rect,
@@ -99,31 +87,27 @@ pub(in crate::panels) fn line(
     painter.add(Shape::convex_polygon(flag, theme.accent, Stroke::NONE));
 }
 
-/// A small hollow diamond in the ruler where poses wait to be keyed.
-pub(super) fn pending(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
-    let painter = painter.with_clip_rect(places.head.intersect(painter.clip_rect()));
+/// Draws a small hollow diamond in the ruler at each time with pending poses.
+pub(super) fn pending(painter: &Painter, sheet: &Sheet<'_>) {
+    let Sheet { areas, scale, state, theme, .. } = *sheet;
+    let painter = painter.with_clip_rect(areas.head.intersect(painter.clip_rect()));
     for time in state.pending_times() {
-        let center = pos2(scale.x_of(time), places.head.bottom() - 5.0);
+        let center = pos2(scale.x_of(time), areas.head.bottom() - 5.0);
         let points = [vec2(0.0, -4.0), vec2(4.0, 0.0), vec2(0.0, 4.0), vec2(-4.0, 0.0)];
         let points = points.into_iter().map(|offset| center + offset).collect();
         painter.add(Shape::convex_polygon(points, theme.bar, Stroke::new(1.3, theme.warning)));
     }
 }
 
-/// Why no row is there.
-pub(super) fn nothing(painter: &Painter, places: &Places, state: &State, theme: &Theme) {
+/// Draws the reason why there are no rows.
+pub(super) fn nothing(painter: &Painter, sheet: &Sheet<'_>) {
+    let Sheet { areas, state, theme, .. } = *sheet;
     let text = if !state.keys.filter.is_empty() {
-        "No bone with keys is called that"
+        "No bone with keys matches the filter"
     } else if state.lists_only_selected() {
         "The selected bones have no keys in this take"
     } else {
         "This take has no keys"
     };
-    painter.text(
-        places.canvas.center(),
-        Align2::CENTER_CENTER,
-        text,
-        FontId::proportional(12.0),
-        theme.faint,
-    );
+    painter.text(areas.canvas.center(), Align2::CENTER_CENTER, text, FontId::proportional(12.0), theme.faint);
 }

@@ -1,4 +1,4 @@
-//! The rows of the dope sheet: which there are, and the channels of each.
+//! The rows of the dope sheet, and the channels of each.
 
 use crate::panels::keys::{self, ChannelId, channel};
 use crate::panels::state::State;
@@ -11,41 +11,41 @@ use std::sync::Arc;
 /// What a row shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum RowKind {
-    /// All bones that are listed.
+    /// All listed bones.
     Summary,
     /// A bone.
     Bone(BoneIndex),
-    /// One of its channels.
+    /// One channel of a bone.
     Channel(BoneIndex, Property),
-    /// Weights of shapes, which are shown and not edited.
+    /// Weights of morph targets, which are shown and not edited.
     Morphs,
 }
 
 /// One row.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Row {
+pub(super) struct DopeRow {
     /// What it shows.
     pub(super) kind: RowKind,
     /// Its name.
     pub(super) name: String,
-    /// Of a bone: are its channels listed?
+    /// Whether the channels of the bone are listed.
     pub(super) open: bool,
 }
 
-/// See the module; made anew only when something that it follows from changed.
+/// The rows, rebuilt only when something that they depend on changed.
 #[derive(Debug, Default)]
-pub(super) struct Rows {
-    list: Arc<[Row]>,
-    /// Of the listed bones, in their order.
+pub(super) struct DopeRows {
+    list: Arc<[DopeRow]>,
+    /// Channels of the listed bones, in the order of the bones.
     channels: Arc<[ChannelId]>,
-    /// Bones that a hand opened or closed.
+    /// Bones that the user opened or closed.
     toggled: HashSet<BoneIndex>,
-    made_of: Option<MadeOf>,
+    made_of: Option<RowsKey>,
     looked_at: Option<(Arc<Take>, u64)>,
 }
 
 #[derive(PartialEq)]
-struct MadeOf {
+struct RowsKey {
     model: usize,
     signature: u64,
     selected: Vec<BoneIndex>,
@@ -54,14 +54,14 @@ struct MadeOf {
     toggled: usize,
 }
 
-impl std::fmt::Debug for MadeOf {
+impl std::fmt::Debug for RowsKey {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(out, "MadeOf({:x})", self.signature)
     }
 }
 
-impl Rows {
-    /// Makes them anew where they are not those of `take` any more.
+impl DopeRows {
+    /// Rebuilds the rows if they are not those of `take`.
     pub(super) fn update(&mut self, state: &State, take: &Arc<Take>) {
         let signature = match &self.looked_at {
             Some((looked_at, signature)) if Arc::ptr_eq(looked_at, take) => *signature,
@@ -83,7 +83,7 @@ impl Rows {
         if same {
             return;
         }
-        self.made_of = Some(MadeOf {
+        self.made_of = Some(RowsKey {
             model,
             signature,
             selected: state.selection.bones().to_vec(),
@@ -98,7 +98,7 @@ impl Rows {
         let bones = keys::shown_bones(state);
         let channels: Vec<ChannelId> = bones.iter().flat_map(|&bone| channel::channels(take, bone)).collect();
         let mut list = Vec::new();
-        let row = |kind, name: &str, open| Row { kind, name: name.to_owned(), open };
+        let row = |kind, name: &str, open| DopeRow { kind, name: name.to_owned(), open };
         if !bones.is_empty() {
             let name = match bones.len() {
                 1 => "1 bone".to_owned(),
@@ -106,7 +106,7 @@ impl Rows {
             };
             list.push(row(RowKind::Summary, &name, false));
         }
-        // One or two bones are open at once; a hand can turn that round.
+        // One or two bones are open by default; `toggled` inverts that.
         let usually = bones.len() <= 2;
         for &bone in &bones {
             let open = usually != self.toggled.contains(&bone);
@@ -128,22 +128,22 @@ impl Rows {
         (self.list, self.channels) = (list.into(), channels.into());
     }
 
-    /// The rows from top to bottom.
-    pub(super) fn list(&self) -> &Arc<[Row]> {
+    /// Returns the rows from top to bottom.
+    pub(super) fn list(&self) -> &Arc<[DopeRow]> {
         &self.list
     }
 
-    /// Is there none?
+    /// Whether there are no rows.
     pub(super) fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// The channels of all bones that are listed.
+    /// Returns the channels of all listed bones.
     pub(super) fn channels(&self) -> &Arc<[ChannelId]> {
         &self.channels
     }
 
-    /// The channels of a row.
+    /// Returns the channels of a row.
     pub(super) fn of(&self, kind: RowKind) -> &[ChannelId] {
         match kind {
             RowKind::Summary => &self.channels,
@@ -172,7 +172,7 @@ impl Rows {
     }
 }
 
-/// Which channels of a take have keys at all.
+/// Returns a hash of which channels of a take have keys.
 fn signature(take: &Take) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64 ^ u64::from(take.morphs.is_empty());
     for track in &take.tracks {

@@ -1,6 +1,6 @@
-//! Zooming and panning: wheel, middle button, bars.
+//! Zooming and panning by wheel, middle button and scroll bars.
 
-use super::place::{Places, SCROLL};
+use super::areas::{DopeAreas, SCROLL};
 use crate::panels::commands::Id;
 use crate::panels::keys::{KeysRequest, TimeScale};
 use crate::panels::state::Request;
@@ -8,10 +8,10 @@ use crate::panels::theme::Theme;
 use dragonfly_anim::data::Take;
 use egui::{CornerRadius, PointerButton, Rect, Response, Sense, Ui, WidgetInfo, pos2};
 
-/// The wheel over a part that shows time: zooms about the pointer, pans with Shift, steps frames with Alt. Pinching
-/// zooms, two fingers sidewards pan.
+/// Handles the wheel over an area with a time axis: zooms about the pointer, pans with Shift, steps by frames with Alt.
+/// A pinch zooms, two fingers sideways pan.
 pub(in crate::panels) fn wheel(ui: &Ui, response: &Response, scale: &TimeScale, requests: &mut Vec<Request>) {
-    // Also while another part holds the pointer: a drag can be zoomed into.
+    // Checks the position only, so that the wheel works during a drag of another widget.
     if !response.contains_pointer() {
         return;
     }
@@ -35,7 +35,7 @@ pub(in crate::panels) fn wheel(ui: &Ui, response: &Response, scale: &TimeScale, 
     }
 }
 
-/// Dragging with the middle button pans; how far the content goes down comes back.
+/// Pans while the middle button drags. Returns by how many points the content moves down.
 pub(in crate::panels) fn pan(
     ui: &Ui,
     response: &Response,
@@ -57,23 +57,23 @@ pub(in crate::panels) fn pan(
     delta.y
 }
 
-/// Both bars, where something is out of sight.
+/// Draws both scroll bars, where something is out of view.
 pub(super) fn show(
     ui: &Ui,
-    places: &Places,
+    areas: &DopeAreas,
     scroll: &mut f32,
     content: f32,
     scale: &TimeScale,
     take: &Take,
     requests: &mut Vec<Request>,
 ) {
-    let canvas = places.canvas;
+    let canvas = areas.canvas;
     if content > canvas.height() + 0.5 && canvas.height() > 24.0 {
         let track = Rect::from_min_max(pos2(canvas.right() - SCROLL, canvas.top()), canvas.max);
         let part = canvas.height() / content;
         let moved = bar(ui, track, true, *scroll / content, part, "Scroll through bones");
         *scroll = (*scroll + moved * content).clamp(0.0, content - canvas.height());
-        let over = ui.rect_contains_pointer(places.names);
+        let over = ui.rect_contains_pointer(areas.names);
         if over {
             *scroll -= ui.input(|input| input.smooth_scroll_delta().y);
             *scroll = scroll.clamp(0.0, content - canvas.height());
@@ -82,7 +82,7 @@ pub(super) fn show(
     time_bar(ui, canvas, scale, take, requests);
 }
 
-/// The bar for time at the lower edge of `canvas`, where not all of the take is in sight.
+/// Draws the scroll bar of time at the lower edge of `canvas`, where not all of the take is visible.
 pub(in crate::panels) fn time_bar(
     ui: &Ui,
     canvas: Rect,
@@ -109,7 +109,8 @@ pub(in crate::panels) fn time_bar(
     }
 }
 
-/// A bar that shows `part` of a whole from `at` on, both 0..1; how far it was dragged, as a part of the whole.
+/// Draws a scroll bar that shows the fraction `part` of a whole from `at` on, both 0..1. Returns by which fraction it
+/// was dragged.
 fn bar(ui: &Ui, track: Rect, vertical: bool, at: f32, part: f32, name: &'static str) -> f32 {
     let theme = Theme::of(ui);
     let length = if vertical { track.height() } else { track.width() };

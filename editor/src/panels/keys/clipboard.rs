@@ -189,7 +189,7 @@ impl State {
             let any = |times: &[[f32; 2]], bone, property| {
                 times.iter().any(|[time, _]| is_key(bone, property, *time))
             };
-            generation > awaited.generation
+            generation != awaited.generation
                 && awaited.parts.iter().any(|((bone, property), times)| any(times, *bone, *property))
         };
         if self.keys.awaited.as_ref().is_some_and(there)

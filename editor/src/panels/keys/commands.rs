@@ -1,6 +1,6 @@
 //! What the commands about keys do.
 
-use super::drag::Deed;
+use super::drag::KeyDragOp;
 use super::{KeysRequest, MarkerDeed, TimeWindow};
 use crate::panels::state::{Effect, State};
 use crate::panels::status::Level;
@@ -25,12 +25,12 @@ impl State {
     }
 
     /// Does to the selected keys what a drag would.
-    pub(in crate::panels) fn do_keys(&mut self, deed: Deed) -> Option<Effect> {
+    pub(in crate::panels) fn do_keys(&mut self, op: KeyDragOp) -> Option<Effect> {
         if self.keys.drag.is_some() {
             return None;
         }
         // A first edit is always sent at once; letting go only says that it is over.
-        let first = self.drag_keys(deed);
+        let first = self.drag_keys(op);
         let last = self.release_keys();
         let changes: Vec<Change> = [first, last]
             .into_iter()
@@ -49,24 +49,24 @@ impl State {
         let [first, last] = self.keys.selection.extent(self.take()?)?;
         let by = self.time() - first;
         let behind = last - first + self.frame_seconds();
-        self.do_keys(Deed::Duplicate(if by.abs() > SAME_TIME { by } else { behind }))
+        self.do_keys(KeyDragOp::Duplicate(if by.abs() > SAME_TIME { by } else { behind }))
     }
 
     /// Scales the selected keys about the time shown.
     pub(in crate::panels) fn scale_keys(&mut self, factor: f32) -> Option<Effect> {
         let about = self.time();
-        self.do_keys(Deed::Scale { about, factor })
+        self.do_keys(KeyDragOp::Scale { about, factor })
     }
 
     /// Moves the selected keys by so many frames.
     pub(in crate::panels) fn nudge_keys(&mut self, frames: f32) -> Option<Effect> {
         let by = frames * self.frame_seconds();
-        self.do_keys(Deed::Move(by))
+        self.do_keys(KeyDragOp::Move(by))
     }
 
     /// Moves the selected keys to whole frames.
     pub(in crate::panels) fn snap_keys(&mut self) -> Option<Effect> {
-        self.do_keys(Deed::Snap(self.settings.frame_rate as f32))
+        self.do_keys(KeyDragOp::Snap(self.settings.frame_rate as f32))
     }
 
     /// Makes room of so many frames at the time shown, or takes it away.
@@ -76,7 +76,7 @@ impl State {
         // Closing takes away what lies behind the time shown, so what comes after it is moved.
         let from = if frames < 0.0 { from - step } else { from };
         // Where there is no key to move the document says so.
-        self.do_keys(Deed::Ripple { from, by: step }).or(Some(Effect::Change(Change::Edit(
+        self.do_keys(KeyDragOp::Ripple { from, by: step }).or(Some(Effect::Change(Change::Edit(
             Edit::RippleKeys(RippleKeys { take, from, by: step }),
             None,
         ))))

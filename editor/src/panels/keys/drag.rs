@@ -1,10 +1,13 @@
-//! Keys that are dragged: one gesture, one undo step, and a picture that does not wait for the document.
+//! A drag of keys: one gesture, one undo step, drawn without waiting for the document.
 //!
-//! While it lasts, the timeline draws the take as it was when the drag began, with the dragged keys displaced. An edit is
-//! sent only when the one before was answered, so a slow edit makes the picture coarse in time and the hand never slow.
+//! During the drag the timeline draws the take as it was when the drag began, with the dragged keys displaced. An edit
+//! is sent only when the previous one was answered, so a slow edit makes the result coarse in time, and the pointer is
+//! never late.
 
+use super::Keys;
 use super::selection::KeySelection;
 use super::shift::Shift;
+use crate::panels::echo::Echo;
 use dragonfly_anim::data::Take;
 use dragonfly_document::Change;
 use dragonfly_document::edit::{
@@ -12,37 +15,36 @@ use dragonfly_document::edit::{
 };
 use dragonfly_document::history::Gesture;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
-/// What a hand does to keys; always as seen from the begin of the drag.
+/// What a drag does to keys, always relative to the start of the drag.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Deed {
-    /// The selected keys, seconds later.
+pub enum KeyDragOp {
+    /// Moves the selected keys by this many seconds.
     Move(f32),
-    /// The selected keys about a time.
+    /// Scales the times of the selected keys about a time.
     Scale {
         /// Seconds.
         about: f32,
-        /// Not zero.
+        /// Factor, not zero.
         factor: f32,
     },
-    /// Copies of the selected keys, seconds later.
+    /// Duplicates the selected keys this many seconds later.
     Duplicate(f32),
-    /// Every key from a time on, seconds later.
+    /// Moves every key from a time on.
     Ripple {
         /// Seconds.
         from: f32,
         /// Seconds.
         by: f32,
     },
-    /// The selected keys to whole frames a second.
+    /// Moves the selected keys to whole frames at this rate per second.
     Snap(f32),
-    /// Something else, ready to be sent: values, tangents.
+    /// Applies an edit as it is: values, tangents.
     Edit(Edit),
 }
 
-impl Deed {
-    /// Where it brings keys.
+impl KeyDragOp {
+    /// Returns where the keys are moved.
     pub fn shift(&self) -> Shift {
         match *self {
             Self::Move(by) | Self::Duplicate(by) | Self::Ripple { by, .. } => Shift::Move(by),
@@ -52,7 +54,7 @@ impl Deed {
         }
     }
 
-    /// Does it leave everything as it is?
+    /// Whether it changes nothing.
     fn idle(&self) -> bool {
         match *self {
             Self::Move(by) | Self::Duplicate(by) | Self::Ripple { by, .. } => {
@@ -76,118 +78,134 @@ impl Deed {
     }
 }
 
-/// A drag under way, or one that was let go and waits for its answer.
+/// A drag of keys, until it is released and answered.
 #[derive(Clone, Debug)]
 pub struct KeyDrag {
-    /// Names it in the history.
+    /// Identifies the drag in the history.
     pub gesture: Gesture,
-    /// The take as it was when it began.
+    /// The take as it was when the drag began.
     pub base: Arc<Take>,
     /// The keys that move.
     pub moving: KeySelection,
-    /// The newest.
-    pub deed: Deed,
+    /// The newest operation.
+    pub op: KeyDragOp,
     take: TakeRef,
     keys: Vec<KeySet>,
-    sent: Option<Deed>,
-    /// Was anything ever sent?
-    touched: bool,
-    sent_at: Instant,
-    /// The generation of the view in which everything that was sent is done.
-    expects: u64,
+    /// The operation that was requested last.
+    requested: Option<KeyDragOp>,
+    answer: Outstanding,
     released: bool,
 }
 
-/// An answer that takes longer will not come.
-const LATE: Duration = Duration::from_secs(2);
+/// The answer of the document that a drag waits for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Outstanding {
+    /// Nothing was ever sent.
+    None,
+    /// To a change that has no number yet: it is sent at the end of the frame.
+    ToUnsent,
+    /// To the change with this number.
+    To(u64),
+}
 
 impl KeyDrag {
-    /// Begins with `deed`.
+    /// Begins with `op`.
     pub fn begin(
         gesture: Gesture,
         take: TakeRef,
         base: Arc<Take>,
         moving: KeySelection,
-        deed: Deed,
-        now: Instant,
+        op: KeyDragOp,
     ) -> Self {
         let keys = moving.key_sets(&base);
-        Self {
-            gesture,
-            base,
-            moving,
-            deed,
-            take,
-            keys,
-            sent: None,
-            touched: false,
-            sent_at: now,
-            expects: 0,
-            released: false,
-        }
+        let answer = Outstanding::None;
+        Self { gesture, base, moving, op, take, keys, requested: None, answer, released: false }
     }
 
-    /// Is the hand still on it?
+    /// Whether the drag goes on: it is not released yet.
     pub fn held(&self) -> bool {
         !self.released
     }
 
-    /// What is to be sent now, if anything is; `last` where no later one will come.
-    pub fn send(&mut self, generation: u64, last: bool, now: Instant) -> Option<Change> {
-        let waits = generation < self.expects && now.saturating_duration_since(self.sent_at) < LATE;
-        if (waits && !last) || self.sent.as_ref() == Some(&self.deed) {
+    /// Returns the change to send now. While an answer is outstanding there is none, so a slow edit makes the drag coarse
+    /// and never late; `last`, when no later call follows, sends in any case.
+    pub fn send(&mut self, echo: &Echo, last: bool) -> Option<Change> {
+        if (!self.is_answered(echo) && !last) || self.requested.as_ref() == Some(&self.op) {
             return None;
         }
-        let change = match (self.deed.idle(), &self.sent) {
+        let change = match (self.op.idle(), &self.requested) {
             (true, None) => return None,
             (true, Some(_)) => Change::Cancel(self.gesture),
-            (false, _) => Change::Edit(self.deed.edit(self.take.clone(), &self.keys), Some(self.gesture)),
+            (false, _) => Change::Edit(self.op.edit(self.take.clone(), &self.keys), Some(self.gesture)),
         };
-        self.sent = (!self.deed.idle()).then(|| self.deed.clone());
-        self.touched = true;
-        self.sent_at = now;
-        self.expects = self.expects.max(generation) + 1;
+        self.requested = (!self.op.idle()).then(|| self.op.clone());
+        self.answer = Outstanding::ToUnsent;
         Some(change)
     }
 
-    /// The hand is off.
+    fn is_answered(&self, echo: &Echo) -> bool {
+        match self.answer {
+            Outstanding::None => true,
+            Outstanding::ToUnsent => false,
+            Outstanding::To(number) => echo.has_answered(number),
+        }
+    }
+
+    /// The button is up, and the drag counts.
     pub fn release(&mut self) {
         self.released = true;
     }
 
-    /// Was anything sent that a cancel has to take back?
+    /// Whether anything was sent that a cancel has to undo.
     pub fn has_sent(&self) -> bool {
-        self.touched
+        self.answer != Outstanding::None
     }
 
-    /// An edit was refused: nothing is on its way any more.
+    /// The document refused the last edit.
     pub fn refused(&mut self) {
-        self.expects = 0;
-        self.sent = None;
+        self.requested = None;
     }
 
-    /// Let go, and everything that was sent is done?
-    pub fn settled(&self, generation: u64, now: Instant) -> bool {
-        let late = now.saturating_duration_since(self.sent_at) >= LATE;
-        self.released && (self.sent.is_none() || generation >= self.expects || late)
+    /// Whether the drag is released, and everything that it sent is answered.
+    pub fn is_settled(&self, echo: &Echo) -> bool {
+        self.released && self.is_answered(echo)
     }
 
-    /// Keys that it was to add to the take; `None` where it brought none anywhere.
+    /// Returns how many keys the drag was to add to the take; `None` if it moved none.
     pub fn brings(&self) -> Option<usize> {
-        self.sent.as_ref()?;
-        match self.deed {
-            Deed::Duplicate(_) => Some(self.moving.count(&self.base)),
-            Deed::Move(_) | Deed::Scale { .. } | Deed::Snap(_) => Some(0),
-            Deed::Ripple { .. } | Deed::Edit(_) => None,
+        self.requested.as_ref()?;
+        match self.op {
+            KeyDragOp::Duplicate(_) => Some(self.moving.count(&self.base)),
+            KeyDragOp::Move(_) | KeyDragOp::Scale { .. } | KeyDragOp::Snap(_) => Some(0),
+            KeyDragOp::Ripple { .. } | KeyDragOp::Edit(_) => None,
         }
     }
 
-    /// The keys that moved, in the take as it is now.
+    /// Returns the keys that moved, in the take as it is now.
     pub fn moved(&self, take: &Take) -> KeySelection {
-        match self.deed {
-            Deed::Ripple { .. } | Deed::Edit(_) => self.moving.clone(),
-            _ if self.sent.is_none() => self.moving.clone(),
-            _ => self.moving.shifted(&self.base, take, self.deed.shift()),
+        match self.op {
+            KeyDragOp::Ripple { .. } | KeyDragOp::Edit(_) => self.moving.clone(),
+            _ if self.requested.is_none() => self.moving.clone(),
+            _ => self.moving.shifted(&self.base, take, self.op.shift()),
         }
+    }
+}
+
+impl Keys {
+    /// Notes the number under which a change of the drag was sent.
+    pub(in crate::panels) fn sent(&mut self, gesture: Gesture, number: u64) {
+        if let Some(drag) = self.drag.as_mut().filter(|drag| drag.gesture == gesture) {
+            drag.answer = Outstanding::To(number);
+        }
+    }
+
+    /// Drops the drag of this gesture, whose changes are not sent any more.
+    pub(in crate::panels) fn forget_drag(&mut self, gesture: Gesture) {
+        self.drag.take_if(|drag| drag.gesture == gesture);
+    }
+
+    /// Whether keys are being dragged, and the drag is not released yet.
+    pub fn is_dragging(&self) -> bool {
+        self.drag.as_ref().is_some_and(KeyDrag::held)
     }
 }

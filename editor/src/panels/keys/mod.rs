@@ -18,7 +18,7 @@ mod step;
 pub mod window;
 
 pub use channel::ChannelId;
-pub use drag::Deed;
+pub use drag::KeyDragOp;
 pub use flags::{BoneFlag, BoneFlags};
 pub use markers::{Marker, MarkerDeed, Markers};
 pub use request::KeysRequest;
@@ -27,9 +27,9 @@ pub use shift::Shift;
 pub use shown::bones as shown_bones;
 pub use window::{TimeScale, TimeWindow};
 
+use super::change_summary;
 use super::settings::TimelineSettings;
 use super::state::State;
-use super::told;
 use drag::KeyDrag;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::View;
@@ -142,11 +142,11 @@ impl State {
     /// The keys as they are to be drawn now; none where no take is shown.
     pub fn drawn_keys(&self) -> Option<Drawn> {
         match &self.keys.drag {
-            Some(drag) if !matches!(drag.deed, Deed::Edit(_)) => Some(Drawn {
+            Some(drag) if !matches!(drag.op, KeyDragOp::Edit(_)) => Some(Drawn {
                 take: Arc::clone(&drag.base),
                 selection: drag.moving.clone(),
-                shift: drag.deed.shift(),
-                copies: matches!(drag.deed, Deed::Duplicate(_)),
+                shift: drag.op.shift(),
+                copies: matches!(drag.op, KeyDragOp::Duplicate(_)),
             }),
             _ => Some(Drawn {
                 take: Arc::clone(self.shared_take()?),
@@ -210,14 +210,18 @@ impl State {
     /// A newer view is there, or time has passed: ends a drag that was let go and is done.
     pub(super) fn settle_keys(&mut self) {
         let Some(view) = &self.view else { return };
-        let (generation, now) = (view.generation, self.now);
-        self.select_pasted(generation);
-        if let Some(drag) = self.keys.drag.take_if(|drag| drag.settled(generation, now)) {
-            self.keys.selection = match (self.shared_take(), &drag.deed) {
-                (Some(take), Deed::Move(_) | Deed::Scale { .. } | Deed::Duplicate(_) | Deed::Snap(_)) => {
-                    drag.moved(take)
-                }
-                (Some(take), Deed::Ripple { from, by }) => self.keys.selection.rippled(take, *from, *by),
+        self.select_pasted(view.generation);
+        let echo = &self.dragging.echo;
+        if let Some(drag) = self.keys.drag.take_if(|drag| drag.is_settled(echo)) {
+            self.keys.selection = match (self.shared_take(), &drag.op) {
+                (
+                    Some(take),
+                    KeyDragOp::Move(_)
+                    | KeyDragOp::Scale { .. }
+                    | KeyDragOp::Duplicate(_)
+                    | KeyDragOp::Snap(_),
+                ) => drag.moved(take),
+                (Some(take), KeyDragOp::Ripple { from, by }) => self.keys.selection.rippled(take, *from, *by),
                 _ => self.keys.selection.clone(),
             };
             if let Some(brought) = drag.brings() {
@@ -229,7 +233,8 @@ impl State {
     /// Says how many keys of the take gave way to others.
     fn tell_replaced(&mut self, before: usize, brought: usize) {
         let now = self.take().map_or(0, Take::keys);
-        let told = self.view.as_ref().and_then(|view| told::replaced(view, before, brought, now));
+        let told =
+            self.view.as_ref().and_then(|view| change_summary::describe_replaced(view, before, brought, now));
         if let Some(text) = told {
             self.status.remark(text);
         }

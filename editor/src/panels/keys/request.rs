@@ -1,6 +1,6 @@
 //! What panels ask for about keys.
 
-use super::drag::{Deed, KeyDrag};
+use super::drag::{KeyDrag, KeyDragOp};
 use super::flags::BoneFlag;
 use super::intervals::WHOLE;
 use super::markers::MarkerDeed;
@@ -40,7 +40,7 @@ pub enum KeysRequest {
     /// Shows this part of time, or the whole take.
     Window(Option<TimeWindow>),
     /// A drag goes on like this, or begins.
-    Drag(Deed),
+    Drag(KeyDragOp),
     /// The hand is off: the drag counts.
     Release,
     /// As if the drag had never been.
@@ -75,7 +75,7 @@ impl State {
             }
             KeysRequest::Deselect => self.keys.selection = KeySelection::default(),
             KeysRequest::Window(window) => self.show_window(window),
-            KeysRequest::Drag(deed) => return self.drag_keys(deed),
+            KeysRequest::Drag(op) => return self.drag_keys(op),
             KeysRequest::Release => return self.release_keys(),
             KeysRequest::Cancel => return self.cancel_keys(),
             KeysRequest::Flag(flag, bone, on) => self.flag(flag, bone, on),
@@ -184,20 +184,18 @@ impl State {
     }
 
     /// A drag begins or goes on.
-    pub(super) fn drag_keys(&mut self, deed: Deed) -> Option<Effect> {
+    pub(super) fn drag_keys(&mut self, op: KeyDragOp) -> Option<Effect> {
         self.keys.has_hand = true;
-        let view = self.view.as_ref()?;
-        let (generation, now) = (view.generation, self.now);
         // One that was let go still waits: the next begins when it is done.
         if self.keys.drag.as_ref().is_some_and(|drag| !drag.held()) {
             return None;
         }
         if let Some(drag) = &mut self.keys.drag {
-            drag.deed = deed;
+            drag.op = op;
         } else {
             let (take, base) = (self.take_ref()?, Arc::clone(self.shared_take()?));
-            let moving = match deed {
-                Deed::Ripple { from, .. } => {
+            let moving = match op {
+                KeyDragOp::Ripple { from, .. } => {
                     let bones = base.tracks.iter().map(|track| track.bone);
                     let all: Vec<ChannelId> = bones.flat_map(|bone| channel::channels(&base, bone)).collect();
                     let mut late = KeySelection::default();
@@ -206,19 +204,18 @@ impl State {
                 }
                 _ => self.keys.selection.clone(),
             };
-            if moving.is_empty() && !matches!(deed, Deed::Edit(_)) {
+            if moving.is_empty() && !matches!(op, KeyDragOp::Edit(_)) {
                 return None;
             }
             let gesture = self.new_gesture();
-            self.keys.drag = Some(KeyDrag::begin(gesture, take, base, moving, deed, now));
+            self.keys.drag = Some(KeyDrag::begin(gesture, take, base, moving, op));
         }
-        self.keys.drag.as_mut()?.send(generation, false, now).map(Effect::Change)
+        self.keys.drag.as_mut()?.send(&self.dragging.echo, false).map(Effect::Change)
     }
 
     pub(super) fn release_keys(&mut self) -> Option<Effect> {
-        let generation = self.view.as_ref()?.generation;
         let drag = self.keys.drag.as_mut().filter(|drag| drag.held())?;
-        let change = drag.send(generation, true, self.now);
+        let change = drag.send(&self.dragging.echo, true);
         drag.release();
         let over = drag.has_sent().then_some(Change::Release(drag.gesture));
         self.settle_keys();

@@ -1,30 +1,33 @@
-//! A number field that has no focus: a number to be dragged or clicked.
+//! A number field without focus: dragged, or clicked to get the focus.
 
-use super::{Drag, Heard, NumberField, Refused, Typing};
+use super::{DraggedNumber, FieldEvent, NumberField, RefusedNumber, Typing};
+use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
 use egui::{CursorIcon, Key, PointerButton, Rect, Response, Sense, Ui};
 
+type NumberDrag = DragMachine<(), DraggedNumber>;
+
 impl NumberField<'_> {
-    /// While it has no focus: a number to be dragged or clicked.
-    pub(super) fn rest(&self, ui: &mut Ui, rect: Rect) -> (Heard, Response) {
+    /// Draws the field without focus.
+    pub(super) fn rest(&self, ui: &mut Ui, rect: Rect) -> (FieldEvent, Response) {
         let id = self.id;
-        let mut heard = Heard::Nothing;
-        // The focus went elsewhere: what is typed counts, unless Escape was pressed.
+        let mut event = FieldEvent::Nothing;
+        // The focus moved elsewhere: the typed text counts, unless Escape was pressed.
         let left = ui.data_mut(|data| data.remove_temp::<Typing>(id));
         if let Some(typing) = left
             && !ui.input(|input| input.key_pressed(Key::Escape))
             && typing.text != typing.first
         {
             match self.read(&typing.text) {
-                Ok(value) => heard = Heard::Typed(value),
+                Ok(value) => event = FieldEvent::Typed(value),
                 Err(reason) => {
-                    let refused = Refused::new(ui, reason, self.value);
+                    let refused = RefusedNumber::new(ui, reason, self.value);
                     ui.data_mut(|data| data.insert_temp(id, refused));
                 }
             }
         }
         let response = ui.interact(rect, id, Sense::click_and_drag());
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
-        let before = ui.data_mut(|data| data.remove_temp::<Refused>(id));
+        let before = ui.data_mut(|data| data.remove_temp::<RefusedNumber>(id));
         let refused = before.and_then(|refused| refused.next(ui, self.value));
         if let Some(refused) = &refused {
             ui.data_mut(|data| data.insert_temp(id, refused.clone()));
@@ -38,49 +41,60 @@ impl NumberField<'_> {
         let quiet = ui.ctx().dragged_id().is_none() && ui.memory(|memory| memory.focused().is_none());
         let response = match refused {
             Some(refused) => response.on_hover_text(refused.reason),
-            // It would lie over the fields below, one of which somebody may be typing into.
+            // The tooltip would cover the fields below, which the user may be typing into.
             None if quiet => response.on_hover_ui(|ui| self.tooltip(ui)),
             None => response,
         };
-        (dragged.unwrap_or(heard), response)
+        (dragged.unwrap_or(event), response)
     }
 
-    pub(super) fn drag(&self, ui: &Ui, response: &Response) -> Option<Heard> {
+    fn drag(&self, ui: &Ui, response: &Response) -> Option<FieldEvent> {
         let id = self.id;
         if response.drag_started_by(PointerButton::Primary) {
-            let start = self.value.unwrap_or(0.0);
-            let mut drag = Drag { start, raw: 0.0, told: 0.0 };
-            self.pull(ui, response, &mut drag);
-            ui.data_mut(|data| data.insert_temp(id, drag));
-            ui.data_mut(|data| data.remove::<Refused>(id));
+            let mut number = DraggedNumber { start: self.value.unwrap_or(0.0), raw: 0.0, reported: 0.0 };
+            self.advance(ui, response, &mut number);
+            ui.data_mut(|data| data.insert_temp(id, NumberDrag::dragging(number)));
+            ui.data_mut(|data| data.remove::<RefusedNumber>(id));
             ui.ctx().request_repaint();
-            return Some(Heard::Touched);
+            return Some(FieldEvent::Touched);
         }
-        let mut drag = ui.data(|data| data.get_temp::<Drag>(id))?;
-        if !response.dragged_by(PointerButton::Primary) {
-            ui.data_mut(|data| data.remove::<Drag>(id));
-            // Escape ends a drag.
-            let escape = ui.input(|input| input.key_pressed(Key::Escape));
-            return Some(if escape { Heard::Cancelled } else { Heard::Released });
-        }
-        ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
-        let by = self.pull(ui, response, &mut drag);
-        let news = by != drag.told;
-        drag.told = by;
-        ui.data_mut(|data| data.insert_temp(id, drag));
-        Some(if news { Heard::Dragged(by) } else { Heard::Nothing })
+        let mut drag = ui.data(|data| data.get_temp::<NumberDrag>(id))?;
+        let input = PointerInput::of_widget(ui, response);
+        let event = match drag.step(&input, input.primary_down, |_| ()) {
+            DragEvent::Moved(_) => {
+                ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
+                let number = drag.drag_mut()?;
+                let by = self.advance(ui, response, number);
+                let changed = by != number.reported;
+                number.reported = by;
+                if changed { FieldEvent::Dragged(by) } else { FieldEvent::Nothing }
+            }
+            DragEvent::Dropped(_) => FieldEvent::Released,
+            DragEvent::Cancelled(_) => FieldEvent::Cancelled,
+            DragEvent::Nothing | DragEvent::Pressed | DragEvent::Started(_) | DragEvent::Clicked(_) => {
+                FieldEvent::Nothing
+            }
+        };
+        ui.data_mut(|data| {
+            if drag.is_busy() {
+                data.insert_temp(id, drag);
+            } else {
+                data.remove::<NumberDrag>(id);
+            }
+        });
+        Some(event)
     }
 
-    /// Moves the drag on by what the hand did in this frame; how far it is from its start.
-    pub(super) fn pull(&self, ui: &Ui, response: &Response, drag: &mut Drag) -> f64 {
+    /// Adds the movement of this frame to the drag. Returns how far the number is from its start.
+    fn advance(&self, ui: &Ui, response: &Response, number: &mut DraggedNumber) -> f64 {
         let modifiers = ui.input(|input| input.modifiers);
         let by = response.drag_delta();
         let fine = if modifiers.shift { 0.1 } else { 1.0 };
-        drag.raw += f64::from(by.x - by.y) * self.speed * fine;
-        let mut to = drag.start + drag.raw;
+        number.raw += f64::from(by.x - by.y) * self.speed * fine;
+        let mut to = number.start + number.raw;
         if modifiers.command && self.snap > 0.0 {
             to = (to / self.snap).round() * self.snap;
         }
-        self.clamp(to) - drag.start
+        self.clamp(to) - number.start
     }
 }

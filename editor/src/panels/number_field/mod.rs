@@ -1,8 +1,8 @@
-//! A field that holds a number: dragged, typed as an expression, stepped by a screen reader.
+//! A number field: dragged, typed as an expression, or stepped by a screen reader.
 //!
-//! The field knows nothing of what its number is about. It says what a person does to it ([`Heard`]), and its owner
-//! makes edits of that. While it has the focus it is a text field; a text that is no number stays in it with a red edge
-//! and the reason, until it is mended or taken back with Escape.
+//! The field reports what the user does as a [`FieldEvent`], and its owner makes edits of that. While it has the focus
+//! it is a text field; a text that is not a number stays in it, with a red border and the reason, until it is corrected
+//! or Escape is pressed.
 
 mod dragged;
 mod shown;
@@ -16,54 +16,54 @@ use egui::{Id, Rect, Response, Sense, Ui};
 use std::ops::RangeInclusive;
 use std::time::Duration;
 
-/// Longest text that a field takes, letters.
+/// Longest text, in characters.
 const LONGEST: usize = 1000;
 
-/// What a field is and shows.
+/// Settings of a field: its number, and how it is edited and shown.
 #[derive(Clone, Debug)]
 pub struct NumberField<'a> {
-    /// Stays the same as long as the field is about the same thing.
+    /// Identifies the field between frames.
     pub id: Id,
-    /// What a screen reader says: `Rotation change X`.
+    /// Accessible name, such as `Rotation change X`.
     pub name: &'a str,
-    /// `None` where there are several, or none.
+    /// Number that is shown; `None` if several bones differ, or there is none.
     pub value: Option<f64>,
-    /// Which units can be typed.
+    /// Quantity, which decides which units can be typed.
     pub quantity: Quantity,
-    /// Behind the number, where there is room; empty for none.
+    /// Unit shown after the number, where there is space; empty for none.
     pub unit: &'a str,
-    /// Per point of a drag.
+    /// Change per point of a drag.
     pub speed: f64,
-    /// With Ctrl, a drag stops at whole multiples of this; also what a screen reader steps by.
+    /// Step: with Ctrl, a drag snaps to multiples of it; a screen reader steps by it.
     pub snap: f64,
-    /// Smaller differences are what arithmetic leaves over.
+    /// Differences below this are rounding errors.
     pub grain: f64,
-    /// How it is shown.
+    /// Number of digits shown.
     pub digits: Digits,
-    /// What can be typed and dragged to.
+    /// Range that can be typed and dragged to.
     pub range: RangeInclusive<f64>,
-    /// Why it cannot be changed; `None` where it can.
+    /// Reason why the number cannot be changed; `None` if it can.
     pub locked: Option<&'a str>,
-    /// A sentence for the tooltip; empty for none.
+    /// Sentence for the tooltip; empty for none.
     pub help: &'a str,
-    /// Shown weaker: it is what it is where nobody did anything.
+    /// Whether the number is drawn faintly, because it is the default.
     pub quiet: bool,
 }
 
-/// What a person does to a field.
+/// An action of the user on a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Heard {
-    /// Nothing.
+pub enum FieldEvent {
+    /// Nothing happened.
     Nothing,
-    /// Takes hold of it, or puts the cursor into it: what it shows should stand still.
+    /// A drag began, or the field got the focus: the number should stop changing by itself.
     Touched,
-    /// Drags: so much is added to what it was when the drag began.
+    /// The drag moved. The payload is the difference to the number at its start.
     Dragged(f64),
-    /// Lets go.
+    /// The drag was released.
     Released,
-    /// Takes a drag back.
+    /// The drag was cancelled.
     Cancelled,
-    /// This number is wanted.
+    /// The user entered this number.
     Typed(f64),
 }
 
@@ -71,44 +71,45 @@ pub enum Heard {
 #[derive(Clone, Debug, Default)]
 struct Typing {
     text: String,
-    /// As it was at the begin.
+    /// Text when typing began.
     first: String,
-    /// Why it is not taken.
+    /// Reason why the text is not accepted.
     refused: Option<String>,
 }
 
-/// A drag.
+/// A number field that is dragged.
 #[derive(Clone, Copy, Debug)]
-struct Drag {
+struct DraggedNumber {
+    /// Number when the drag began.
     start: f64,
-    /// What the hand has added, before it is snapped.
+    /// Amount that the drag has added, before limits and snapping.
     raw: f64,
-    /// What was told last.
-    told: f64,
+    /// Amount that was reported last: the number minus `start`.
+    reported: f64,
 }
 
-/// Seconds for which a field says that a number was refused, once the cursor has left it: nothing is wrong any more, since
-/// the old number stands there.
+/// Time for which a field shows that a number was refused after the focus left it, seconds. The old number is in the
+/// field again, so nothing is wrong any more.
 const REFUSED: f64 = 6.0;
 
-/// What was refused when the cursor left the field; said for a while, as long as the number stays the same.
+/// A number that was refused when the focus left the field; shown for a while, as long as the number stays the same.
 #[derive(Clone, Debug, Default)]
-struct Refused {
+struct RefusedNumber {
     reason: String,
     value: Option<f64>,
-    /// egui's seconds at which it is forgotten.
+    /// Time at which it is forgotten, on egui's clock, seconds.
     until: f64,
-    /// Frames in which the number may still become another one without anybody having changed it: fields that belong
-    /// together show what was typed until the cursor has left them, as the parts of a quaternion do.
+    /// Number of frames in which the number may still change by itself: fields that belong together, such as the
+    /// components of a quaternion, show the typed numbers until the focus leaves them.
     settles: u8,
 }
 
-impl Refused {
+impl RefusedNumber {
     fn new(ui: &Ui, reason: String, value: Option<f64>) -> Self {
         Self { reason, value, until: ui.input(|input| input.time) + REFUSED, settles: 2 }
     }
 
-    /// What is left of it in the next frame, in which the field shows `value`.
+    /// Returns what remains of it in the next frame, in which the field shows `value`.
     fn next(self, ui: &Ui, value: Option<f64>) -> Option<Self> {
         let left = self.until - ui.input(|input| input.time);
         if left <= 0.0 {
@@ -122,15 +123,15 @@ impl Refused {
     }
 }
 
-/// Shows at a field for a while why the number typed last was not taken.
+/// Shows at a field for a while why the last typed number was refused.
 pub fn refuse(ui: &Ui, id: Id, value: Option<f64>, reason: &str) {
-    let refused = Refused::new(ui, reason.to_owned(), value);
+    let refused = RefusedNumber::new(ui, reason.to_owned(), value);
     ui.data_mut(|data| data.insert_temp(id, refused));
 }
 
 impl NumberField<'_> {
     /// Draws the field into `rect`.
-    pub fn show(self, ui: &mut Ui, rect: Rect) -> (Heard, Response) {
+    pub fn show(self, ui: &mut Ui, rect: Rect) -> (FieldEvent, Response) {
         let id = self.id;
         if self.locked.is_some() || !ui.is_enabled() {
             let response = ui.interact(rect, id, Sense::hover());
@@ -140,7 +141,7 @@ impl NumberField<'_> {
                 Some(why) => response.on_hover_text(format!("{}{}\n{why}", self.title(), self.full())),
                 None => response,
             };
-            return (Heard::Nothing, response);
+            return (FieldEvent::Nothing, response);
         }
         let early = self.keys(ui);
         let has_focus = ui.memory_mut(|memory| {
@@ -152,13 +153,13 @@ impl NumberField<'_> {
         (early.or(stepped).unwrap_or(late), response)
     }
 
-    /// The number that a text says, or why it is none.
+    /// Returns the value of a text.
     fn read(&self, text: &str) -> Result<f64, String> {
         let value = evaluate(text, self.quantity).map_err(|error| sentence(&error.to_string()))?;
         if !self.range.contains(&value) || !(value as f32).is_finite() {
             let edge = |edge: &f64| Digits::Fitting.text(*edge);
             return Err(format!(
-                "A number from {} to {} is wanted",
+                "Enter a number from {} to {}",
                 edge(self.range.start()),
                 edge(self.range.end())
             ));

@@ -1,13 +1,13 @@
-//! What is seen of a number field that has no focus.
+//! Draws a number field without focus.
 
-use super::{NumberField, Refused};
+use super::{NumberField, RefusedNumber};
 use crate::panels::number_text::exact;
 use crate::panels::style::{self, RADIUS};
 use crate::panels::theme::Theme;
 use egui::{Align2, Color32, CornerRadius, FontId, Rect, Response, Stroke, StrokeKind, Ui, pos2, vec2};
 
 impl NumberField<'_> {
-    pub(super) fn paint(&self, ui: &Ui, rect: Rect, response: &Response, refused: Option<&Refused>) {
+    pub(super) fn paint(&self, ui: &Ui, rect: Rect, response: &Response, refused: Option<&RefusedNumber>) {
         let theme = Theme::of(ui);
         let open = self.locked.is_none() && ui.is_enabled();
         let radius = CornerRadius::same(RADIUS);
@@ -21,7 +21,7 @@ impl NumberField<'_> {
         let edge = match () {
             () if refused.is_some() => Some(theme.error),
             () if held => Some(theme.accent),
-            // White on nearly white needs an edge to be seen as a field.
+            // White on nearly white needs a border to be recognizable as a field.
             () if open && !theme.dark => Some(theme.line),
             () => None,
         };

@@ -1,12 +1,12 @@
-//! A number field as a screen reader has it.
+//! Accessibility of a number field.
 
-use super::{Heard, NumberField, Typing};
+use super::{FieldEvent, NumberField, Typing};
 use egui::accesskit::{Action, ActionData, Role};
 use egui::{Response, Ui, WidgetInfo};
 
 impl NumberField<'_> {
-    /// What a screen reader asks for.
-    pub(super) fn asked_by_reader(&self, ui: &Ui) -> Option<Heard> {
+    /// Returns the event that a screen reader requests.
+    pub(super) fn asked_by_reader(&self, ui: &Ui) -> Option<FieldEvent> {
         let (steps, wanted) = ui.input(|input| {
             let steps = input.num_accesskit_action_requests(self.id, Action::Increment) as f64
                 - input.num_accesskit_action_requests(self.id, Action::Decrement) as f64;
@@ -20,11 +20,11 @@ impl NumberField<'_> {
         };
         value.map(|value| {
             ui.data_mut(|data| data.remove::<Typing>(self.id));
-            Heard::Typed(value)
+            FieldEvent::Typed(value)
         })
     }
 
-    /// What a screen reader says.
+    /// Describes the field to a screen reader.
     pub(super) fn describe(&self, ui: &Ui, response: &Response, refused: Option<&str>) {
         let enabled = self.locked.is_none() && ui.is_enabled();
         let has_focus = response.has_focus();

@@ -1,6 +1,6 @@
-//! A number field that has the focus: a text field.
+//! A number field with focus: a text field.
 
-use super::{Heard, LONGEST, NumberField, Refused, Typing};
+use super::{FieldEvent, LONGEST, NumberField, RefusedNumber, Typing};
 use crate::panels::number_text::exact;
 use crate::panels::style::{self, RADIUS};
 use crate::panels::theme::Theme;
@@ -10,13 +10,13 @@ use egui::{
     StrokeKind, TextEdit, Ui,
 };
 
-/// Points between the edge and the text, where the cursor stands.
+/// Margin between the border and the text, points.
 const MARGIN: i8 = 5;
 
 impl NumberField<'_> {
-    /// Enter accepts and gives the keys back to the commands, Tab goes on to the next field; where there is no number they
-    /// stay and say why.
-    pub(super) fn keys(&self, ui: &Ui) -> Option<Heard> {
+    /// Handles Enter and Tab. Enter accepts and returns the keyboard to the commands, Tab moves on to the next field.
+    /// If the text is not a number, the focus stays and the reason is shown.
+    pub(super) fn keys(&self, ui: &Ui) -> Option<FieldEvent> {
         if !ui.memory(|memory| memory.has_focus(self.id)) {
             return None;
         }
@@ -39,19 +39,19 @@ impl NumberField<'_> {
             ui.memory_mut(|memory| memory.surrender_focus(self.id));
         }
         ui.data_mut(|data| data.remove::<Typing>(self.id));
-        read.ok().filter(|_| typing.text != typing.first).map(Heard::Typed)
+        read.ok().filter(|_| typing.text != typing.first).map(FieldEvent::Typed)
     }
 
-    /// While it has the focus: a text field.
-    pub(super) fn edit(&self, ui: &mut Ui, rect: Rect) -> (Heard, Response) {
+    /// Draws the field with focus.
+    pub(super) fn edit(&self, ui: &mut Ui, rect: Rect) -> (FieldEvent, Response) {
         let known = ui.data_mut(|data| data.remove_temp::<Typing>(self.id));
-        ui.data_mut(|data| data.remove::<Refused>(self.id));
+        ui.data_mut(|data| data.remove::<RefusedNumber>(self.id));
         let fresh = known.is_none();
         let mut typing = known.unwrap_or_else(|| {
             let text = self.value.map_or(String::new(), |value| exact(value, self.grain));
             Typing { first: text.clone(), text, refused: None }
         });
-        let mut heard = if fresh { Heard::Touched } else { Heard::Nothing };
+        let mut event = if fresh { FieldEvent::Touched } else { FieldEvent::Nothing };
         if fresh {
             select_all(ui.ctx(), self.id, &typing.text);
         }
@@ -65,13 +65,13 @@ impl NumberField<'_> {
             let value = self.clamp(value + steps * self.snap);
             let text = exact(value, self.grain);
             typing = Typing { first: text.clone(), text, refused: None };
-            heard = Heard::Typed(value);
+            event = FieldEvent::Typed(value);
         }
         let theme = Theme::of(ui);
         ui.painter().rect_filled(rect, CornerRadius::same(RADIUS), theme.sunken);
         let field = TextEdit::singleline(&mut typing.text)
             .id(self.id)
-            // A margin beside a frame is not heard of.
+            // A margin set next to a frame has no effect.
             .frame(Frame::NONE.inner_margin(Margin::symmetric(MARGIN, 0)))
             .font(FontId::monospace(style::NUMBER))
             .align(Align2::RIGHT_CENTER)
@@ -81,7 +81,8 @@ impl NumberField<'_> {
         if response.changed() {
             typing.refused = None;
         }
-        // The first click opened the field and the second would put the cursor somewhere in it; all is meant.
+        // The first click opened the field; the second would put the cursor into the text, but a double-click means all
+        // of it.
         if response.double_clicked() {
             select_all(ui.ctx(), self.id, &typing.text);
         }
@@ -91,10 +92,10 @@ impl NumberField<'_> {
         self.hint(ui, &response, &typing);
         self.describe(ui, &response, typing.refused.as_deref());
         ui.data_mut(|data| data.insert_temp(self.id, typing));
-        (heard, response)
+        (event, response)
     }
 
-    /// Why the text is not taken, or what an expression comes to.
+    /// Shows why the text is not accepted, or the result of an expression.
     pub(super) fn hint(&self, ui: &Ui, response: &Response, typing: &Typing) {
         let theme = Theme::of(ui);
         let (text, color) = match &typing.refused {

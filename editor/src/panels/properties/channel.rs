@@ -1,13 +1,13 @@
-//! One channel of a bone as a table: a row an axis, a column each for original, change and result.
+//! One channel of a bone as a table: a row for each axis, and columns for original, change and result.
 
-use super::super::number_field::{self, Heard, NumberField};
-use super::super::number_slider::{NumberSlider, Scale};
+use super::super::number_field::{self, FieldEvent, NumberField};
+use super::super::number_slider::{NumberSlider, SliderScale};
 use super::super::number_text::{Digits, exact};
 use super::super::state::{Request, State};
 use super::super::style::{GRID, NUMBER, RADIUS};
 use super::super::theme::Theme;
-use super::hand::{Hand, Spot};
-use super::parts::{Column, Form, Pair};
+use super::drag::{FieldDrag, Spot};
+use super::parts::{Column, NumberForm, Pair};
 use crate::control::expression::Quantity;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::edit::Property;
@@ -21,20 +21,20 @@ const FIELD: f32 = 22.0;
 /// Height of a slider.
 const SLIDER: f32 = 14.0;
 
-/// What a table is about.
-pub(super) struct Table<'a> {
+/// The table of a bone.
+pub(super) struct ChannelTable<'a> {
     pub(super) state: &'a State,
     pub(super) bone: BoneIndex,
     pub(super) pair: Pair,
-    /// Why nothing can be changed, if so.
+    /// Reason why nothing can be changed.
     pub(super) locked: Option<&'a str>,
-    /// Radius of the model in the parent's space: how far a translation is likely to go.
+    /// Radius of the model in parent space: about how far a translation goes.
     pub(super) size: f64,
-    /// Metres of the scene that 1 is in the parent's space.
-    pub(super) metres: f64,
+    /// Meters of the scene per unit of parent space.
+    pub(super) meters: f64,
 }
 
-/// Columns for which there is room, and where they are.
+/// Returns the columns that fit, and their positions.
 pub(super) fn columns(left: f32, width: f32) -> Vec<(Column, egui::Rangef)> {
     let shown: &[Column] = match width {
         width if width >= 196.0 => &Column::ALL,
@@ -52,7 +52,7 @@ pub(super) fn columns(left: f32, width: f32) -> Vec<(Column, egui::Rangef)> {
         .collect()
 }
 
-/// The heads of the columns.
+/// Draws the headings of the columns.
 pub(super) fn heads(ui: &mut Ui) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 16.0), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, "Original, change, result"));
@@ -64,17 +64,29 @@ pub(super) fn heads(ui: &mut Ui) {
     }
 }
 
-/// The place of a channel's rows.
+/// The area of the rows of a channel.
 #[derive(Clone, Copy)]
-pub(super) struct Rows {
+pub(super) struct ChannelRows {
     rect: Rect,
     property: Property,
-    form: Form,
+    form: NumberForm,
     sliders: bool,
 }
 
-impl Rows {
-    /// Points from row to row.
+/// One number of the table.
+#[derive(Clone, Copy)]
+struct Cell {
+    spot: Spot,
+    /// Component, 0 for X.
+    index: usize,
+    /// Number that all selected bones share; `None` where they differ.
+    value: Option<f64>,
+    /// Position, points.
+    rect: Rect,
+}
+
+impl ChannelRows {
+    /// Returns the distance from row to row, points.
     fn step(&self) -> f32 {
         FIELD + 2.0 + if self.sliders { SLIDER } else { 0.0 }
     }
@@ -84,14 +96,21 @@ impl Rows {
     }
 }
 
-impl Table<'_> {
-    /// Room for the rows of a channel, with the letters of its axes. Its fields come later, with those of all channels.
-    pub(super) fn room(&self, ui: &mut Ui, property: Property, form: Form, sliders: bool) -> Rows {
+impl ChannelTable<'_> {
+    /// Allocates the rows of a channel and draws the letters of its axes. The fields are drawn later, together with
+    /// those of all channels.
+    pub(super) fn room(
+        &self,
+        ui: &mut Ui,
+        property: Property,
+        form: NumberForm,
+        sliders: bool,
+    ) -> ChannelRows {
         let count = form.count();
         let step = FIELD + 2.0 + if sliders { SLIDER } else { 0.0 };
         let size = vec2(ui.available_width(), step * count as f32 - 2.0);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-        let rows = Rows { rect, property, form, sliders };
+        let rows = ChannelRows { rect, property, form, sliders };
         let theme = Theme::of(ui);
         let letters =
             ["X", "Y", "Z", "W"].into_iter().zip([theme.axes[0], theme.axes[1], theme.axes[2], theme.weak]);
@@ -102,22 +121,23 @@ impl Table<'_> {
         rows
     }
 
-    /// Draws the fields of all channels, column by column, so that Tab goes down through all of them; was one in use?
+    /// Draws the fields of all channels, column by column, so that Tab moves down through all of them. Returns whether
+    /// one was in use.
     pub(super) fn fields(
         &self,
         ui: &mut Ui,
-        hand: &mut Hand,
-        channels: &[Rows],
+        drag: &mut FieldDrag,
+        channels: &[ChannelRows],
         requests: &mut Vec<Request>,
     ) -> bool {
         let mut in_use = false;
         for column in Column::ALL.into_iter().rev() {
             for rows in channels {
-                in_use |= self.column(ui, hand, rows, column, requests);
+                in_use |= self.column(ui, drag, rows, column, requests);
             }
         }
         for rows in channels.iter().filter(|rows| rows.sliders) {
-            in_use |= self.sliders(ui, hand, rows, requests);
+            in_use |= self.sliders(ui, drag, rows, requests);
         }
         in_use
     }
@@ -125,34 +145,41 @@ impl Table<'_> {
     fn column(
         &self,
         ui: &mut Ui,
-        hand: &mut Hand,
-        rows: &Rows,
+        drag: &mut FieldDrag,
+        rows: &ChannelRows,
         column: Column,
         requests: &mut Vec<Request>,
     ) -> bool {
-        let Rows { rect, property, form, .. } = *rows;
+        let ChannelRows { rect, property, form, .. } = *rows;
         let columns = columns(rect.left(), rect.width());
         let Some(&(_, x)) = columns.iter().find(|(other, _)| *other == column) else { return false };
         let spot = Spot { property, column, form };
-        let shared = hand.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
+        let shared = drag.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
         let mut in_use = false;
         for (index, value) in shared.into_iter().enumerate().take(form.count()) {
             let place = Rect::from_x_y_ranges(x, rows.top(index)..=rows.top(index) + FIELD);
+            let cell = Cell { spot, index, value, rect: place };
             in_use |= match column {
                 Column::Original => {
-                    self.original(ui, place, hand, spot, index, value, requests);
+                    self.original(ui, &cell, drag, requests);
                     false
                 }
-                _ => self.field(ui, place, hand, spot, index, value, requests),
+                Column::Change | Column::Result => self.field(ui, &cell, drag, requests),
             };
         }
         in_use
     }
 
-    fn sliders(&self, ui: &mut Ui, hand: &mut Hand, rows: &Rows, requests: &mut Vec<Request>) -> bool {
-        let Rows { rect, property, form, .. } = *rows;
+    fn sliders(
+        &self,
+        ui: &mut Ui,
+        drag: &mut FieldDrag,
+        rows: &ChannelRows,
+        requests: &mut Vec<Request>,
+    ) -> bool {
+        let ChannelRows { rect, property, form, .. } = *rows;
         let spot = Spot { property, column: Column::Change, form };
-        let shared = hand.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
+        let shared = drag.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
         let mut in_use = false;
         for (index, value) in shared.into_iter().enumerate().take(form.count()) {
             let top = rows.top(index) + FIELD;
@@ -160,23 +187,14 @@ impl Table<'_> {
                 pos2(rect.left() + LETTER + 6.0, top),
                 pos2(rect.right() - 6.0, top + SLIDER - 1.0),
             );
-            in_use |= self.slider(ui, place, hand, spot, index, value, requests);
+            in_use |= self.slider(ui, &Cell { spot, index, value, rect: place }, drag, requests);
         }
         in_use
     }
 
-    /// As it was read; a click gives it to the result.
-    #[expect(clippy::too_many_arguments, reason = "place, number, and what comes of it")]
-    fn original(
-        &self,
-        ui: &Ui,
-        rect: Rect,
-        hand: &mut Hand,
-        spot: Spot,
-        index: usize,
-        value: Option<f64>,
-        requests: &mut Vec<Request>,
-    ) {
+    /// Draws the original number; a click copies it to the result.
+    fn original(&self, ui: &Ui, cell: &Cell, drag: &mut FieldDrag, requests: &mut Vec<Request>) {
+        let Cell { spot, index, value, rect } = *cell;
         let theme = Theme::of(ui);
         let enabled = self.locked.is_none() && value.is_some();
         let sense = if enabled { Sense::click() } else { Sense::hover() };
@@ -199,34 +217,27 @@ impl Table<'_> {
         let full = exact(value, grain);
         if response.clicked() {
             let result = Spot { column: Column::Result, ..spot };
-            // What is already there leaves nothing to do.
-            let _ = hand.hear(self.state, result, index, Heard::Typed(value), requests);
+            // A result that is equal already needs no edit.
+            let _ = drag.apply(self.state, result, index, FieldEvent::Typed(value), requests);
         }
-        response.on_hover_text(format!("{name}: {full}\nClick to give the result this number"));
+        response.on_hover_text(format!("{name}: {full}\nClick to copy this number to the result"));
     }
 
-    #[expect(clippy::too_many_arguments, reason = "place, number, and what comes of it")]
-    fn field(
-        &self,
-        ui: &mut Ui,
-        rect: Rect,
-        hand: &mut Hand,
-        spot: Spot,
-        index: usize,
-        value: Option<f64>,
-        requests: &mut Vec<Request>,
-    ) -> bool {
+    fn field(&self, ui: &mut Ui, cell: &Cell, drag: &mut FieldDrag, requests: &mut Vec<Request>) -> bool {
+        let Cell { spot, index, value, rect } = *cell;
         let id = self.id(spot, index);
         let quantity = match (spot.property, spot.form) {
             (Property::Translation, _) => Quantity::Length,
-            (_, Form::Euler(_)) => Quantity::Angle,
+            (_, NumberForm::Euler(_)) => Quantity::Angle,
             _ => Quantity::Number,
         };
         let (speed, snap) = self.steps(spot);
         let help = match (spot.property, spot.form) {
-            (_, Form::Quaternion) => "All four are brought to length 1 when you leave them.".to_owned(),
+            (_, NumberForm::Quaternion) => {
+                "The quaternion is normalized when you leave its fields.".to_owned()
+            }
             (Property::Translation, _) if !self.is_metric() => {
-                format!("In the parent's space, where 1 is {} m", Digits::Fitting.text(self.metres))
+                format!("In parent space, where 1 unit is {} m", Digits::Fitting.text(self.meters))
             }
             _ => String::new(),
         };
@@ -245,30 +256,21 @@ impl Table<'_> {
             help: &help,
             quiet: spot.column == Column::Change && value == Some(unchanged(spot, index)),
         };
-        let (heard, response) = field.show(ui, rect);
-        if let Err(reason) = hand.hear(self.state, spot, index, heard, requests) {
+        let (event, response) = field.show(ui, rect);
+        if let Err(reason) = drag.apply(self.state, spot, index, event, requests) {
             number_field::refuse(ui, id, value, reason);
         }
         response.has_focus() || response.dragged()
     }
 
-    #[expect(clippy::too_many_arguments, reason = "place, number, and what comes of it")]
-    fn slider(
-        &self,
-        ui: &mut Ui,
-        rect: Rect,
-        hand: &mut Hand,
-        spot: Spot,
-        index: usize,
-        value: Option<f64>,
-        requests: &mut Vec<Request>,
-    ) -> bool {
+    fn slider(&self, ui: &mut Ui, cell: &Cell, drag: &mut FieldDrag, requests: &mut Vec<Request>) -> bool {
+        let Cell { spot, index, value, rect } = *cell;
         let theme = Theme::of(ui);
         let scale = match (spot.property, spot.form) {
-            (Property::Translation, _) => Scale::Linear(self.size),
-            (Property::Rotation, Form::Quaternion) => Scale::Linear(1.0),
-            (Property::Rotation, _) => Scale::Linear(180.0),
-            (Property::Scale, _) => Scale::Factor(10.0),
+            (Property::Translation, _) => SliderScale::Linear(self.size),
+            (Property::Rotation, NumberForm::Quaternion) => SliderScale::Linear(1.0),
+            (Property::Rotation, _) => SliderScale::Linear(180.0),
+            (Property::Scale, _) => SliderScale::Factor(10.0),
         };
         let id = self.id(spot, index).with("slider");
         let slider = NumberSlider {
@@ -280,10 +282,10 @@ impl Table<'_> {
             color: theme.axes.get(index).copied().unwrap_or(theme.weak),
             enabled: self.locked.is_none(),
         };
-        let heard = slider.show(ui, rect);
-        let in_use = heard != Heard::Nothing;
-        // A number that cannot be is left out on the way.
-        let _ = hand.hear(self.state, spot, index, heard, requests);
+        let event = slider.show(ui, rect);
+        let in_use = event != FieldEvent::Nothing;
+        // A number that is impossible is skipped during a drag.
+        let _ = drag.apply(self.state, spot, index, event, requests);
         in_use
     }
 
@@ -291,42 +293,42 @@ impl Table<'_> {
         Id::unique(("number of a bone", self.bone, spot, index))
     }
 
-    /// Per point of a drag, and multiples at which a drag snaps.
+    /// Returns the change per point of a drag, and the step that a drag snaps to.
     fn steps(&self, spot: Spot) -> (f64, f64) {
         match (spot.property, spot.form) {
             (Property::Translation, _) => {
                 let decade = 10_f64.powf(self.size.max(1e-6).log10().floor());
                 (self.size / 500.0, decade / 10.0)
             }
-            (_, Form::Euler(_)) => (0.5, 15.0),
+            (_, NumberForm::Euler(_)) => (0.5, 15.0),
             _ => (0.005, 0.1),
         }
     }
 
-    /// What numbers of 32 bits leave over.
-    fn grain(&self, property: Property, form: Form) -> f64 {
+    /// Returns the rounding error of single precision.
+    fn grain(&self, property: Property, form: NumberForm) -> f64 {
         match (property, form) {
             (Property::Translation, _) => {
                 let [original, result] =
                     [self.pair.original, self.pair.result].map(|pose| pose.translation.abs().max_element());
                 f64::from(original.max(result)) * 1e-6 + self.size * 1e-9
             }
-            (_, Form::Euler(_)) => 1e-4,
+            (_, NumberForm::Euler(_)) => 1e-4,
             (Property::Scale, _) => f64::from(self.pair.result.scale.abs().max_element()) * 1e-6 + 1e-9,
             _ => 1e-6,
         }
     }
 
-    /// Are numbers of the parent's space metres?
+    /// Whether units of parent space are meters.
     pub(super) fn is_metric(&self) -> bool {
-        (self.metres - 1.0).abs() < 0.01
+        (self.meters - 1.0).abs() < 0.01
     }
 
-    /// `m`, `°`, `×`: behind the number.
+    /// Returns the unit after the number: `m`, `°`, `×`.
     fn unit(&self, spot: Spot) -> &'static str {
         match (spot.property, spot.form, spot.column) {
             (Property::Translation, ..) if self.is_metric() => "m",
-            (_, Form::Euler(_), _) => "°",
+            (_, NumberForm::Euler(_), _) => "°",
             (Property::Scale, _, Column::Change) => "×",
             _ => "",
         }
@@ -334,27 +336,27 @@ impl Table<'_> {
 
     fn digits(&self, spot: Spot) -> Digits {
         match spot.form {
-            Form::Euler(_) => Digits::Fixed(2),
-            Form::Quaternion => Digits::Fixed(4),
-            Form::Vector => Digits::Fitting,
+            NumberForm::Euler(_) => Digits::Fixed(2),
+            NumberForm::Quaternion => Digits::Fixed(4),
+            NumberForm::Vector => Digits::Fitting,
         }
     }
 }
 
-/// What stands there where nothing is changed.
+/// Returns the number of an unchanged component.
 fn unchanged(spot: Spot, index: usize) -> f64 {
     match (spot.property, spot.form) {
         (Property::Scale, _) => 1.0,
-        (_, Form::Quaternion) if index == 3 => 1.0,
+        (_, NumberForm::Quaternion) if index == 3 => 1.0,
         _ => 0.0,
     }
 }
 
-/// `Rotation change X`.
+/// Returns the accessible name: `Rotation change X`.
 fn name(spot: Spot, index: usize) -> String {
     let channel = match (spot.property, spot.form) {
         (Property::Translation, _) => "Translation",
-        (Property::Rotation, Form::Quaternion) => "Quaternion",
+        (Property::Rotation, NumberForm::Quaternion) => "Quaternion",
         (Property::Rotation, _) => "Rotation",
         (Property::Scale, _) => "Scale",
     };

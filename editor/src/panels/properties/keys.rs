@@ -1,11 +1,11 @@
-//! Whether the channels of the selected bones have a key at the time shown, and what a button does about it.
+//! Whether the channels of the selected bones have a key at the time shown, and the button that adds or deletes it.
 
 use super::super::icons::Icon;
 use super::super::state::{Request, State};
 use super::super::theme::Theme;
 use super::super::widgets;
-use super::hand::Hand;
-use super::parts::Part;
+use super::drag;
+use super::parts::PosePart;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::rest_pose;
 use dragonfly_document::Change;
@@ -14,20 +14,20 @@ use dragonfly_document::edit::{
 };
 use egui::Ui;
 
-/// What a channel has at the time shown.
+/// Keys of a channel relative to the time shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Keyed {
-    /// A key.
+    /// A key at that time.
     Here,
-    /// Keys before or after.
+    /// Keys before or after it.
     Elsewhere,
     /// No key at all: the rest value.
     Never,
-    /// A pose that waits to be keyed.
+    /// A pending pose, which is not keyed yet.
     Pending,
 }
 
-/// Of all selected bones: a key only where all of them have one.
+/// Returns the state of all selected bones: a key only if all of them have one.
 pub(super) fn at_time(state: &State, property: Property) -> Keyed {
     let bones = state.selection.bones();
     if bones.iter().any(|&bone| is_pending(state, bone, property)) {
@@ -67,7 +67,7 @@ fn of(state: &State, bone: BoneIndex, property: Property) -> Keyed {
     }
 }
 
-/// Shows whether there is a key; adds or deletes it.
+/// Draws the button that shows whether there is a key, and adds or deletes it.
 pub(super) fn button(
     ui: &mut Ui,
     state: &State,
@@ -118,10 +118,9 @@ fn toggled(state: &State, property: Property, keyed: Keyed) -> Option<Edit> {
     })
 }
 
-/// Takes a channel of all selected bones back to the original or to the rest pose.
+/// Resets a channel of all selected bones to the original or to the rest pose.
 pub(super) fn reset(
     state: &State,
-    hand: &mut Hand,
     property: Property,
     to: ResetTo,
     has_key: bool,
@@ -134,12 +133,12 @@ pub(super) fn reset(
         requests.push(Request::Change(Change::Edit(edit, None)));
         return;
     }
-    // Between keys there is no change to take away, but a pose to be had.
+    // Without a key there is no change to remove; the pose is set instead.
     let Some(loaded) = state.loaded() else { return };
     let bones = &loaded.model.animation.skeleton.bones;
     let part = |pair: &super::parts::Pair, bone: BoneIndex| match to {
-        ResetTo::Original => Some(Part::of(&pair.original, property)),
-        ResetTo::Rest => Some(Part::of(&rest_pose(bones.get(bone as usize)?), property)),
+        ResetTo::Original => Some(PosePart::of(&pair.original, property)),
+        ResetTo::Rest => Some(PosePart::of(&rest_pose(bones.get(bone as usize)?), property)),
     };
-    hand.set(state, property, part, requests);
+    requests.extend(drag::set(state, property, part));
 }

@@ -1,7 +1,7 @@
-//! Numbers of the selected bones at the time shown, to be changed; without selection, what the model consists of.
+//! The properties panel: numbers of the selected bones at the time shown; without a selection, statistics of the model.
 
 mod channel;
-mod hand;
+mod drag;
 mod keys;
 mod model;
 pub mod parts;
@@ -14,27 +14,27 @@ use super::state::{Request, State};
 use super::style::GRID;
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
-use channel::Table;
+use channel::ChannelTable;
+use drag::FieldDrag;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::joint::EulerOrder;
 use dragonfly_document::edit::{Property, ResetTo};
 use egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
-use hand::Hand;
 use keys::Keyed;
 use model::fact;
-use parts::Form;
+use parts::NumberForm;
 use serde::{Deserialize, Serialize};
 
-/// How the numbers of a bone are shown; remembered between runs.
+/// How the numbers of a bone are shown; saved in the settings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PropertiesLook {
-    /// In which order three turns follow each other.
+    /// Order of the three rotations.
     #[serde(with = "turn::by_name")]
     pub euler: EulerOrder,
-    /// Is the quaternion shown as well?
+    /// Whether the quaternion is shown as well.
     pub quaternion: bool,
-    /// Are there sliders for translation, rotation, scale?
+    /// Whether there are sliders for translation, rotation and scale.
     pub sliders: [bool; 3],
 }
 
@@ -44,11 +44,11 @@ impl Default for PropertiesLook {
     }
 }
 
-/// Numbers of the selection.
+/// The properties panel.
 #[derive(Debug, Default)]
 pub struct Properties {
-    hand: Hand,
-    /// Had a field the focus when it was drawn last, or was it dragged?
+    drag: FieldDrag,
+    /// Whether a field had the focus or was dragged in the last frame.
     in_use: bool,
 }
 
@@ -67,9 +67,9 @@ impl Panel for Properties {
 
     fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         if state.view.is_none() {
-            return widgets::empty(ui, "", "Numbers appear here");
+            return widgets::empty(ui, "", "Properties appear here");
         }
-        self.hand.begin(state, self.in_use);
+        self.drag.begin(state, self.in_use);
         self.in_use = false;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::NONE.inner_margin(egui::Margin::symmetric(12, 8)).show(ui, |ui| {
@@ -85,12 +85,12 @@ impl Panel for Properties {
 
 impl Properties {
     fn bone(&mut self, ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
-        let (Some(loaded), Some(pair)) = (state.loaded(), self.hand.pair(state, bone)) else { return };
+        let (Some(loaded), Some(pair)) = (state.loaded(), drag::pair_of(state, bone)) else { return };
         head(ui, state, bone, requests);
         let locked = match state.take_ref() {
-            None => Some("The rest pose cannot be changed: show a take"),
+            None => Some("The rest pose cannot be edited: show a take"),
             Some(_) if state.keys.flags.locked(bone) => {
-                Some("Locked in the timeline: its keys are not changed")
+                Some("Locked in the timeline: its keys cannot be edited")
             }
             Some(_) => None,
         };
@@ -100,8 +100,8 @@ impl Properties {
         }
         let size = f64::from(loaded.bounds.sphere.radius);
         let size = if size.is_finite() && size > 1e-9 { size } else { 1.0 };
-        let metres = metres(state, bone);
-        let table = Table { state, bone, pair, locked, size: size / metres, metres };
+        let meters = meters(state, bone);
+        let table = ChannelTable { state, bone, pair, locked, size: size / meters, meters };
         ui.add_space(GRID);
         channel::heads(ui);
         let look = state.settings.properties;
@@ -109,26 +109,30 @@ impl Properties {
         let mut channels = Vec::with_capacity(4);
         for (at, property) in Property::ALL.into_iter().enumerate() {
             self.channel_head(ui, &table, property, requests);
-            let form = if property == Property::Rotation { Form::Euler(look.euler) } else { Form::Vector };
+            let form = if property == Property::Rotation {
+                NumberForm::Euler(look.euler)
+            } else {
+                NumberForm::Vector
+            };
             channels.push(table.room(ui, property, form, look.sliders[at]));
             if property == Property::Rotation {
                 quaternion_head(ui, look, requests);
                 if look.quaternion {
-                    channels.push(table.room(ui, property, Form::Quaternion, false));
+                    channels.push(table.room(ui, property, NumberForm::Quaternion, false));
                 }
             }
             ui.add_space(GRID);
         }
-        self.in_use |= table.fields(ui, &mut self.hand, &channels, requests);
+        self.in_use |= table.fields(ui, &mut self.drag, &channels, requests);
         ui.spacing_mut().item_spacing.y = GRID;
         place(ui, state, bone, size);
     }
 
-    /// Title and unit at the left, what can be done with the channel at the right.
+    /// Draws title and unit of a channel, and its buttons on the right.
     fn channel_head(
         &mut self,
         ui: &mut Ui,
-        table: &Table<'_>,
+        table: &ChannelTable<'_>,
         property: Property,
         requests: &mut Vec<Request>,
     ) {
@@ -143,7 +147,7 @@ impl Properties {
             ui.spacing_mut().item_spacing.x = 0.0;
             ui.set_min_height(24.0);
             let room = ui.available_width();
-            ui.label(title).on_hover_text("In the space of the parent bone, whatever axes the gizmo has");
+            ui.label(title).on_hover_text("In parent space, whatever axes the gizmo uses");
             if room > 180.0 {
                 ui.label(RichText::new(format!("  {unit}")).small().color(theme.faint));
             }
@@ -166,7 +170,7 @@ impl Properties {
                         widgets::icon_button(ui, icon, &label, false)
                     });
                     if response.inner.on_hover_text(&label).clicked() {
-                        keys::reset(state, &mut self.hand, property, to, keyed == Keyed::Here, requests);
+                        keys::reset(state, property, to, keyed == Keyed::Here, requests);
                     }
                 }
                 let mut look = state.settings.properties;
@@ -183,7 +187,7 @@ impl Properties {
     }
 }
 
-/// Name, how many are selected, and whose child it is.
+/// Draws the name of the bone, the size of the selection, and the parent.
 fn head(ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
     let name = state.bone_name(bone);
     ui.add(Label::new(RichText::new(&name).heading()).truncate()).on_hover_text(widgets::shortened(&name));
@@ -218,9 +222,9 @@ fn head(ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>
     });
 }
 
-/// How many metres of the scene 1 is in the space of a bone's parent, as it stands; 1 where that cannot be said. Files whose
-/// skeleton is in centimetres have a node above it that is a hundredth in size.
-fn metres(state: &State, bone: BoneIndex) -> f64 {
+/// Returns the number of meters of the scene per unit of parent space of a bone; 1 if it cannot be computed. Files
+/// whose skeleton is in centimeters have a node above it with a scale of 0.01.
+fn meters(state: &State, bone: BoneIndex) -> f64 {
     let parent =
         state.loaded().and_then(|loaded| loaded.model.animation.skeleton.bones.get(bone as usize)?.parent);
     let to_root = state
@@ -229,11 +233,11 @@ fn metres(state: &State, bone: BoneIndex) -> f64 {
         .zip(parent)
         .and_then(|(animation, parent)| animation.to_root().get(parent as usize).copied());
     let volume = to_root.map_or(1.0, |to_root| f64::from(to_root.determinant().abs()));
-    let metres = volume.cbrt();
-    if metres.is_finite() && metres > 1e-9 { metres } else { 1.0 }
+    let meters = volume.cbrt();
+    if meters.is_finite() && meters > 1e-9 { meters } else { 1.0 }
 }
 
-/// The order of the three turns.
+/// Draws the menu for the order of the three rotations.
 fn order(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request>) {
     let name = turn::name(look.euler);
     let button = widgets::quiet_button(ui, Icon::Down, false, name, &format!("Order of rotation: {name}"));
@@ -251,7 +255,7 @@ fn order(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request>) {
     });
 }
 
-/// Shows or hides the quaternion.
+/// Draws the button that shows or hides the quaternion.
 fn quaternion_head(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request>) {
     let mark = if look.quaternion { Icon::Down } else { Icon::Right };
     let name = if look.quaternion { "Hide the quaternion" } else { "Show the quaternion" };
@@ -261,13 +265,13 @@ fn quaternion_head(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request
     }
 }
 
-/// Where the bone is in the scene, and what it is in the skeleton.
+/// Draws the position of the bone in the scene and its place in the skeleton.
 fn place(ui: &mut Ui, state: &State, bone: BoneIndex, size: f64) {
     let to_root = state.posed.animation().and_then(|animation| animation.to_root().get(bone as usize));
     if let Some(to_root) = to_root {
         widgets::caption(ui, "In the scene");
         for (axis, value) in ["X", "Y", "Z"].into_iter().zip(to_root.w_axis.truncate().to_array()) {
-            // Less than a millionth of the model is what arithmetic leaves over, not a place.
+            // Less than a millionth of the model is a rounding error.
             let value = if f64::from(value.abs()) < size * 1e-6 { 0.0 } else { f64::from(value) };
             fact(ui, axis, &format!("{} m", Digits::Fitting.text(value)));
         }

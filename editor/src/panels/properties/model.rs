@@ -1,4 +1,4 @@
-//! What a model consists of.
+//! Statistics of a model.
 
 use super::super::number_text::Digits;
 use super::super::state::State;
@@ -12,7 +12,7 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
     let theme = Theme::of(ui);
     let model = &loaded.model;
     ui.add(egui::Label::new(RichText::new(&file.title).heading()).truncate());
-    // What is part of the program may have been saved as a file.
+    // The built-in model may have been saved as a file.
     let kind = match (file.path.as_ref().or(loaded.path.as_ref()), loaded.format) {
         (Some(_), Some(format)) => format.title,
         (None, _) | (_, None) => "Part of the program",
@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
     fact(ui, "Bones", &widgets::grouped(model.animation.skeleton.len()));
     fact(ui, "Takes", &widgets::grouped(state.digest.takes.len()));
     fact(ui, "Keys", &widgets::grouped(state.digest.takes.iter().map(|take| take.keys).sum()));
-    // A skeleton alone needs no six lines that say so.
+    // A skeleton without a mesh needs no six lines of zeros.
     if !(model.meshes.is_empty() && model.materials.is_empty() && model.images.is_empty()) {
         widgets::caption(ui, "Surface");
         fact(ui, "Meshes", &widgets::grouped(model.meshes.len()));
@@ -48,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, state: &State) {
     }
 }
 
-/// A name and a number on one line.
+/// Draws a name and a value on one line.
 pub(super) fn fact(ui: &mut Ui, name: &str, value: &str) {
     let theme = Theme::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());

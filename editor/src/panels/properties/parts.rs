@@ -12,22 +12,22 @@ use dragonfly_anim::joint::EulerOrder;
 use dragonfly_document::edit::{BonePose, BoneRef, Property};
 use glam::{DQuat, Quat, Vec3};
 
-/// Which of the three.
+/// A column of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Column {
-    /// As it was read.
+    /// As read from the file.
     Original,
     /// What was changed.
     Change,
-    /// What comes of both.
+    /// The combination of both.
     Result,
 }
 
 impl Column {
-    /// In the order in which they stand.
+    /// All columns in their order.
     pub const ALL: [Self; 3] = [Self::Original, Self::Change, Self::Result];
 
-    /// For the head of the column.
+    /// Returns the heading of the column.
     pub fn title(self) -> &'static str {
         match self {
             Self::Original => "Original",
@@ -37,38 +37,38 @@ impl Column {
     }
 }
 
-/// As which numbers a channel is shown.
+/// Form in which the numbers of a channel are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Form {
-    /// Three: translation, scale.
+pub enum NumberForm {
+    /// Three numbers: translation, scale.
     Vector,
     /// Three angles in degrees.
     Euler(EulerOrder),
-    /// Four: x, y, z, w.
+    /// Four numbers: x, y, z, w.
     Quaternion,
 }
 
-impl Form {
-    /// How many numbers.
+impl NumberForm {
+    /// Returns how many numbers there are.
     pub fn count(self) -> usize {
         if self == Self::Quaternion { 4 } else { 3 }
     }
 }
 
-/// A bone at a time, as it was read and as it is.
+/// A bone at a time: original and result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// As it was read.
+    /// As read from the file.
     pub original: Transform,
-    /// As it is.
+    /// As it is now.
     pub result: Transform,
 }
 
-/// Numbers of a channel; where there are three, the last is 0.
-pub type Numbers = [f64; 4];
+/// Numbers of a channel; if there are three, the last is 0.
+pub type ChannelNumbers = [f64; 4];
 
-/// What stands in a column; `None` where there is no such number: a change of a scale that was 0.
-pub fn numbers(pair: &Pair, property: Property, column: Column, form: Form) -> Option<Numbers> {
+/// Returns the numbers of a column; `None` if there are none, such as the change of a scale that was 0.
+pub fn numbers(pair: &Pair, property: Property, column: Column, form: NumberForm) -> Option<ChannelNumbers> {
     match property {
         Property::Rotation => {
             let [original, result] = [pair.original, pair.result].map(|pose| pose.rotation.as_dquat());
@@ -98,25 +98,25 @@ pub fn numbers(pair: &Pair, property: Property, column: Column, form: Form) -> O
     }
 }
 
-/// The part of a pose that makes a column show these numbers; `None` where none does: a quaternion of zeros, a change
-/// of a scale that was 0.
+/// Returns the part of a pose for which a column shows these numbers; `None` if there is none: a quaternion of zeros, a
+/// change of a scale that was 0.
 pub fn part(
     original: &Transform,
     property: Property,
     column: Column,
-    form: Form,
-    numbers: Numbers,
-) -> Option<Part> {
+    form: NumberForm,
+    numbers: ChannelNumbers,
+) -> Option<PosePart> {
     match property {
         Property::Rotation => {
             let rotation = turn_of(form, numbers)?;
-            Some(Part::Turn(match column {
-                // To the bit, as an identity change gives the original.
+            Some(PosePart::Turn(match column {
+                // Exact to the bit, as an identity change gives the original.
                 Column::Change if rotation == DQuat::IDENTITY => original.rotation,
                 Column::Change => (rotation * original.rotation.as_dquat()).normalize().as_quat(),
                 Column::Original | Column::Result => rotation.as_quat(),
             }))
-            .filter(|part| matches!(part, Part::Turn(turn) if turn.is_finite()))
+            .filter(|part| matches!(part, PosePart::Turn(turn) if turn.is_finite()))
         }
         Property::Translation | Property::Scale => {
             let from = vector(original, property).to_array();
@@ -128,23 +128,23 @@ pub fn part(
             let vanishes =
                 property == Property::Scale && (0..3).any(|axis| from[axis] == 0.0 && numbers[axis] != 1.0);
             let stuck = vanishes && column == Column::Change;
-            Some(Part::Vector(Vec3::from_array(value)))
+            Some(PosePart::Vector(Vec3::from_array(value)))
                 .filter(|_| !stuck && value.iter().all(|x| x.is_finite()))
         }
     }
 }
 
-/// One channel's part of a pose.
+/// The part of a pose that belongs to one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Part {
+pub enum PosePart {
     /// Translation or scale.
     Vector(Vec3),
     /// Rotation.
     Turn(Quat),
 }
 
-impl Part {
-    /// Of a pose.
+impl PosePart {
+    /// Returns the part of a pose.
     pub fn of(pose: &Transform, property: Property) -> Self {
         match property {
             Property::Rotation => Self::Turn(pose.rotation),
@@ -152,7 +152,7 @@ impl Part {
         }
     }
 
-    /// As an edit names it.
+    /// Returns the part as edits contain it.
     pub fn pose(self, bone: BoneIndex, property: Property) -> BonePose {
         let mut pose =
             BonePose { bone: BoneRef::Index(bone), translation: None, rotation: None, scale: None };
@@ -186,24 +186,24 @@ impl Part {
     }
 }
 
-/// The numbers of a rotation.
-pub fn turn_numbers(form: Form, rotation: DQuat) -> Numbers {
+/// Returns the numbers of a rotation.
+pub fn turn_numbers(form: NumberForm, rotation: DQuat) -> ChannelNumbers {
     match form {
-        Form::Euler(order) => {
+        NumberForm::Euler(order) => {
             let [x, y, z] = turn::degrees(order, rotation);
             [x, y, z, 0.0]
         }
-        // Of q and -q the one that people write.
+        // Of q and -q, the one that people write.
         _ if rotation.w < 0.0 => (-rotation).to_array(),
         _ => rotation.to_array(),
     }
 }
 
-/// The rotation that numbers say; `None` where they say none.
-pub fn turn_of(form: Form, numbers: Numbers) -> Option<DQuat> {
+/// Returns the rotation with these numbers; `None` if they are not a rotation.
+pub fn turn_of(form: NumberForm, numbers: ChannelNumbers) -> Option<DQuat> {
     match form {
-        Form::Euler(_) if numbers[..3] == [0.0; 3] => Some(DQuat::IDENTITY),
-        Form::Euler(order) => Some(turn::rotation(order, [numbers[0], numbers[1], numbers[2]])),
+        NumberForm::Euler(_) if numbers[..3] == [0.0; 3] => Some(DQuat::IDENTITY),
+        NumberForm::Euler(order) => Some(turn::rotation(order, [numbers[0], numbers[1], numbers[2]])),
         _ => {
             let rotation = DQuat::from_array(numbers);
             let length = rotation.length();
@@ -212,7 +212,7 @@ pub fn turn_of(form: Form, numbers: Numbers) -> Option<DQuat> {
     }
 }
 
-/// The same rotation, but for what numbers of 32 bits leave over?
+/// Whether two rotations are equal up to the rounding error of single precision.
 pub fn is_same_turn(a: DQuat, b: DQuat) -> bool {
     (a - b).length().min((a + b).length()) < 2e-6
 }
@@ -221,6 +221,6 @@ fn vector(pose: &Transform, property: Property) -> Vec3 {
     if property == Property::Scale { pose.scale } else { pose.translation }
 }
 
-fn finite(numbers: &Numbers) -> bool {
+fn finite(numbers: &ChannelNumbers) -> bool {
     numbers.iter().all(|number| number.is_finite())
 }

@@ -1,14 +1,14 @@
-//! Rotations as numbers: three angles in an order of choice, or a quaternion.
+//! Rotations as numbers: three angles in a chosen order, or a quaternion.
 
 use dragonfly_anim::joint::EulerOrder;
 use glam::DQuat;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Nearer to 90° than this the first and the third turn are about the same line, radians. A thousand times what
-/// numbers of 32 bits leave over.
+/// Distance from 90° below which the first and the third rotation are about the same line, radians. A thousand times
+/// the rounding error of single precision.
 const LOCKED: f64 = 1e-6;
 
-/// As people write it: `XYZ`.
+/// Returns the usual name: `XYZ`.
 pub fn name(order: EulerOrder) -> &'static str {
     match order {
         EulerOrder::Xyz => "XYZ",
@@ -20,25 +20,25 @@ pub fn name(order: EulerOrder) -> &'static str {
     }
 }
 
-/// The order of that name.
+/// Returns the order with that name.
 pub fn order(text: &str) -> Option<EulerOrder> {
     EulerOrder::ALL.into_iter().find(|order| name(*order) == text)
 }
 
-/// The rotation of three angles in degrees: those about x, y, z, whatever the order.
+/// Returns the rotation of three angles in degrees: those about x, y, z, whatever the order.
 pub fn rotation(order: EulerOrder, degrees: [f64; 3]) -> DQuat {
     let [a, b, c] = order.axes().map(|axis| (degrees[axis] % 360.0).to_radians());
     DQuat::from_euler(order.of_glam(), a, b, c)
 }
 
-/// Three angles in degrees, those about x, y, z: between −180 and 180, the second one of the order between −90 and 90.
-/// Where that one is 90 or −90, the last one of the order is 0.
+/// Returns three angles in degrees, those about x, y, z: between −180 and 180, the second one of the order between −90
+/// and 90. If that one is 90 or −90, the last one of the order is 0.
 ///
-/// After Bernardes and Viollet (PLOS ONE 17(11), 2022), because it is as exact near 90° as elsewhere; a way by the
-/// matrix loses half of the digits there.
+/// After Bernardes and Viollet (PLOS ONE 17(11), 2022), because it is as exact near 90° as elsewhere; the conversion by
+/// a matrix loses half of the digits there.
 pub fn degrees(order: EulerOrder, rotation: DQuat) -> [f64; 3] {
     let [first, middle, last] = order.axes();
-    // The method names the axes of an extrinsic rotation, which turns in the opposite order.
+    // The method names the axes of an extrinsic rotation, which is applied in the opposite order.
     let (i, j, k) = (last, middle, first);
     let sign = if (i + 1) % 3 == j { 1.0 } else { -1.0 };
     let q = rotation.normalize().to_array();
@@ -64,7 +64,7 @@ fn wrapped(angle: f64) -> f64 {
     if (-PI..=PI).contains(&angle) { angle } else { angle - (angle / TAU).round() * TAU }
 }
 
-/// Settings hold the order by its name.
+/// Serializes the order by its name.
 pub mod by_name {
     use super::EulerOrder;
     use serde::{Deserialize, Deserializer, Serializer};
@@ -74,7 +74,7 @@ pub mod by_name {
         to.serialize_str(super::name(*order))
     }
 
-    /// Reads a name; the usual order where there is none of that name.
+    /// Reads a name; the default order if it is unknown.
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<EulerOrder, D::Error> {
         Ok(super::order(&String::deserialize(from)?).unwrap_or_default())
     }
@@ -98,13 +98,13 @@ mod tests {
             let mut angle = || f64::from(random.unit()) * 360.0 - 180.0;
             let mut turn = [angle(), angle(), angle()];
             for order in EulerOrder::ALL {
-                // Every fourth is at the place where two axes fall together, or next to it.
+                // Every fourth is at a gimbal lock, or next to one.
                 if round % 4 == 0 {
                     let near = [0.0, 1e-9, 1e-5, 1e-3][round / 4 % 4];
                     turn[order.axes()[1]] = if round % 8 == 0 { 90.0 - near } else { -90.0 + near };
                 }
                 let wanted = rotation(order, turn);
-                // As a model holds it.
+                // In single precision, as a model contains it.
                 let kept = wanted.as_quat().as_dquat().normalize();
                 let read = degrees(order, kept);
                 let back = rotation(order, read);

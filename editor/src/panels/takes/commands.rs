@@ -1,4 +1,4 @@
-//! What the commands for takes do: edits of the take that is shown.
+//! The commands for takes: edits of the take that is shown.
 
 use super::super::commands::Id;
 use super::super::state::{Effect, State};
@@ -10,19 +10,19 @@ use dragonfly_document::edit::{
 };
 use std::sync::Arc;
 
-/// What the list of takes is about to do.
+/// State of the list of takes.
 #[derive(Clone, Debug, Default)]
 pub struct TakesState {
     /// The take whose name is being typed.
     pub renaming: Option<TakeId>,
-    /// Grows each time that start and length are asked for.
+    /// Counts the requests to edit start and length.
     pub(super) times_asked: u64,
-    /// Is the next take that appears to be shown?
+    /// Whether the next new take is shown when it appears.
     show_new: bool,
 }
 
 impl State {
-    /// Does a command for takes.
+    /// Carries out a command for takes.
     pub(in super::super) fn take_command(&mut self, id: Id) -> Option<Effect> {
         if id == Id::NewTake {
             return self.create_take(None);
@@ -50,7 +50,7 @@ impl State {
                 let [from, to] = self.trim_range();
                 let (start, length) = self.take_bounds();
                 if from <= start && to >= start + length {
-                    let text = "Nothing lies outside of what plays: set a play range first";
+                    let text = "Nothing to trim: set a play range first";
                     self.status.say(Level::Info, text);
                     return None;
                 }
@@ -67,7 +67,7 @@ impl State {
         self.takes.renaming = index.and_then(|index| Some(self.view.as_ref()?.slots.get(index)?.id));
     }
 
-    /// Seconds: the play range, or the whole take where none is set, whether time runs or stands; what trimming leaves.
+    /// Returns the play range, or the whole take if none is set, seconds: what trimming leaves.
     pub(in super::super) fn trim_range(&self) -> [f32; 2] {
         let (start, length) = self.play_bounds();
         [start, start + length]
@@ -82,7 +82,7 @@ impl State {
         Some(Effect::Change(Change::Edit(Edit::CreateTake(CreateTake { name, copy, at: None }), None)))
     }
 
-    /// `base`, or with the first number behind it that makes it a name that no take has.
+    /// Returns `base`, or `base` with the first number that makes it an unused name.
     fn unused_name(&self, base: &str, first: usize) -> String {
         let takes = self.view.as_ref().map_or(&[][..], |view| &view.takes);
         let numbered = |number| if number == 1 { base.to_owned() } else { format!("{base} {number}") };
@@ -90,7 +90,7 @@ impl State {
         (first..first + takes.len() + 1).map(numbered).find(unused).unwrap_or_else(|| base.to_owned())
     }
 
-    /// The take that was shown stays shown, wherever it stands in the list now; where it is gone, its neighbour.
+    /// Keeps the take that was shown, wherever it is in the list now; if it was deleted, shows its neighbor.
     pub(in super::super) fn follow_take(&mut self, before: &[Arc<TakeVersions>]) {
         let Some(view) = &self.view else { return };
         let slots = Arc::clone(&view.slots);
@@ -119,13 +119,13 @@ impl State {
     }
 }
 
-/// `Walk copy 2` and `Walk copy` are copies of `Walk`.
+/// Removes the suffix of a copy: `Walk copy 2` and `Walk copy` are copies of `Walk`.
 fn without_copy(name: &str) -> &str {
     let bare = without_number(name);
     bare.strip_suffix(" copy").or(name.strip_suffix(" copy")).filter(|bare| !bare.is_empty()).unwrap_or(name)
 }
 
-/// What the second part of a take is called, without its number.
+/// Returns the name of the second part of a take, without its number.
 fn part_of(name: &str) -> String {
     without_number(name).to_owned()
 }

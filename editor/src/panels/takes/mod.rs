@@ -1,4 +1,4 @@
-//! The list of takes: shown by a click, named, put in order by hand, made, cut and deleted.
+//! The list of takes: a click shows a take; takes are renamed, reordered, created, split and deleted.
 
 mod commands;
 mod rename;
@@ -20,31 +20,32 @@ use egui::{
     TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 use rename::Rename;
-use time::Times;
+use time::TimeSheet;
 
 /// The list of takes.
 #[derive(Debug, Default)]
 pub struct Takes {
-    times: Times,
-    /// How often start and length were asked for when they were shown last.
+    times: TimeSheet,
+    /// The last request to edit start and length that was answered.
     times_shown: u64,
     rename: Option<(dragonfly_document::adapter::TakeId, Rename)>,
-    /// Bytes with which all names begin and that are not shown: some programs write the skeleton's name before each.
+    /// Number of bytes that all names begin with and that are not shown: some programs write the name of the skeleton
+    /// before each.
     prefix: usize,
-    /// Part of the names that are listed; empty for all.
+    /// Text that the listed names contain; empty for all.
     query: String,
     /// The take that was last scrolled to.
     followed: Option<usize>,
-    /// How far the list is scrolled, points.
+    /// Number of points by which the list is scrolled.
     scrolled: f32,
-    /// The take that is dragged to another place.
+    /// The take that is dragged to another position.
     moving: Option<usize>,
 }
 
-/// From so many takes on, they are searched: fewer are seen at a glance.
+/// Number of takes from which on there is a search field.
 const SEARCHED: usize = 12;
 
-/// What can be done with a take, in the order of the context menu.
+/// Commands for a take, in the order of the context menu.
 const MENU: &[&[Id]] = &[
     &[Id::NewTake, Id::DuplicateTake, Id::RenameTake],
     &[Id::MoveTakeUp, Id::MoveTakeDown],
@@ -73,15 +74,15 @@ impl Panel for Takes {
         let found = self.search(ui, state, requests);
         ui.spacing_mut().item_spacing.y = 0.0;
         if found.as_ref().is_some_and(Vec::is_empty) {
-            return widgets::empty(ui, "No take is called that", "");
+            return widgets::empty(ui, "No take matches the search", "");
         }
         let count = state.digest.takes.len();
         self.prefix = shared_prefix(state.digest.takes.iter().map(|take| take.name.as_str()));
-        // The rest pose stands first: it is always there.
+        // The rest pose is first in the list: it always exists.
         let rows = found.as_ref().map_or(count + 1, Vec::len);
         let take_at = |row: usize| found.as_ref().map_or(row.checked_sub(1), |found| Some(found[row]));
         let mut area = ScrollArea::vertical().auto_shrink(false);
-        // Of takes that are searched the first ones are looked at.
+        // A search begins at the top of its results.
         let follow = state.playback.take.filter(|_| found.is_none());
         if std::mem::replace(&mut self.followed, follow) != follow
             && let Some(take) = follow
@@ -99,7 +100,7 @@ impl Panel for Takes {
                 }
             }
             if found.is_some() {
-                // Between which takes it would come is not seen.
+                // During a search the neighbors of the new position are hidden.
                 self.moving = None;
             }
             self.drop_line(ui, top, count, requests);
@@ -108,7 +109,7 @@ impl Panel for Takes {
     }
 }
 
-/// The row of the rest pose.
+/// Draws the row of the rest pose.
 fn rest_pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     let selected = state.playback.take.is_none();
     if row(ui, "Rest pose", "Rest pose", ["", ""], selected, Sense::click()).clicked() {
@@ -117,7 +118,7 @@ fn rest_pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
 }
 
 impl Takes {
-    /// The takes that are searched; `None` where all are listed.
+    /// Returns the takes that match the search; `None` if all are listed.
     fn search(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) -> Option<Vec<usize>> {
         let takes = &state.digest.takes;
         if takes.len() < SEARCHED {
@@ -126,7 +127,7 @@ impl Takes {
         }
         let entered = search_field::show(ui, &mut self.query, "Find a take", false);
         let query = self.query.trim().to_lowercase();
-        // The one that is renamed may have another name than the one that is searched.
+        // A take that is being renamed may not match the search.
         if query.is_empty() || state.takes.renaming.is_some() {
             return None;
         }
@@ -157,7 +158,7 @@ impl Takes {
                     widgets::icon_button(ui, Icon::Clock, "Start and length", false)
                 })
                 .inner
-                .on_hover_text("Start and length of the take, and what is left of it when it is trimmed");
+                .on_hover_text("Change start and length of the take, or trim it");
             let asked = state.takes.times_asked;
             if std::mem::replace(&mut self.times_shown, asked) != asked {
                 egui::Popup::open_id(ui.ctx(), egui::Popup::default_response_id(&response));
@@ -225,7 +226,7 @@ impl Takes {
         }
     }
 
-    /// Where the take that is dragged would come; moves it when it is let go.
+    /// Draws the line where the dragged take would be inserted, and moves the take when it is released.
     fn drop_line(&mut self, ui: &Ui, top: f32, count: usize, requests: &mut Vec<Request>) {
         let Some(from) = self.moving else { return };
         let (pointer, released, escape) = ui.input(|input| {
@@ -235,7 +236,7 @@ impl Takes {
             self.moving = None;
             return;
         };
-        // Rows below the one of the rest pose.
+        // Rows below that of the rest pose.
         let gap = (((pointer.y - top) / ROW).round() as isize - 1).clamp(0, count as isize) as usize;
         let to = if gap > from { gap - 1 } else { gap };
         if released {
@@ -253,7 +254,8 @@ impl Takes {
     }
 }
 
-/// How many bytes all names share at their begin, up to a `|` and with it; none where a name would be empty without them.
+/// Returns the number of bytes that all names begin with, up to and including a `|`; 0 if a name would be empty without
+/// them.
 fn shared_prefix<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> usize {
     let Some(first) = names.next() else { return 0 };
     let Some(end) = first.rfind('|').map(|at| at + 1) else { return 0 };
@@ -263,7 +265,7 @@ fn shared_prefix<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> usize 
     if several && rest(first) && names.all(rest) { end } else { 0 }
 }
 
-/// A button for a command that is grey where it cannot be given.
+/// Draws a button for a command, disabled if the command is not available.
 fn command(ui: &mut Ui, state: &State, icon: Icon, id: Id, requests: &mut Vec<Request>) {
     let when = super::commands::get(id).when;
     ui.add_enabled_ui(when.holds(state), |ui| {
@@ -271,10 +273,10 @@ fn command(ui: &mut Ui, state: &State, icon: Icon, id: Id, requests: &mut Vec<Re
     });
 }
 
-/// Points: what the number of keys takes, with some air.
+/// Width of the number of keys with a margin, points.
 const KEYS_WIDTH: f32 = 48.0;
 
-/// Name at the left, number of keys and length at the right.
+/// Draws a row: name on the left, number of keys and length on the right.
 fn row(
     ui: &mut Ui,
     name: &str,
@@ -301,11 +303,11 @@ fn row(
     let y = rect.center().y;
     let numbers = if selected { theme.accent } else { theme.weak };
     let mut right = rect.right() - 12.0;
-    // The name is what a narrow list is for.
+    // A narrow list shows only names.
     if rect.width() > 130.0 {
         right = widgets::number_at(ui, right, y, length, numbers) - 8.0;
     }
-    // Takes of one file often begin with the same word, so the name goes before how many keys there are.
+    // Takes of one file often begin with the same word, so the name needs the space more than the number of keys does.
     let keys_right = (rect.right() - 76.0).min(right);
     let wanted = widgets::text_width(ui, shown, &TextStyle::Body);
     if !keys.is_empty() && keys_right - KEYS_WIDTH - (rect.left() + 12.0) > wanted {

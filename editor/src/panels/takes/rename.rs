@@ -1,4 +1,4 @@
-//! The name of a take, typed where it stands.
+//! The field that renames a take in its row.
 
 use super::super::state::{Request, State};
 use super::super::style::RADIUS;
@@ -10,30 +10,30 @@ use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
 use dragonfly_document::text::sentence;
 use egui::{CornerRadius, Frame, Id, Key, Margin, Modifiers, Rect, Stroke, StrokeKind, TextEdit, Ui};
 
-/// Longest name that can be typed, letters.
+/// Longest name that can be typed, in characters.
 const LONGEST: usize = 10_000;
 
 /// A name that is being typed.
 #[derive(Debug, Default)]
 pub(super) struct Rename {
     text: String,
-    stage: Stage,
-    /// Why it cannot be called so.
+    stage: RenameStage,
+    /// Reason why the name is not accepted.
     refused: Option<String>,
 }
 
-/// How far it is.
+/// State of the field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Stage {
+enum RenameStage {
     #[default]
     Fresh,
-    /// The cursor is on its way into the field.
+    /// The focus is requested for the field.
     Asked,
     Typing,
 }
 
 impl Rename {
-    /// The field; `false` when it is done.
+    /// Draws the field. Returns `false` when renaming is done.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
@@ -47,12 +47,12 @@ impl Rename {
         let own = view.slots.get(index).map(|slot| slot.id);
         let id = Id::unique("name of a take");
         let has_focus = ui.memory(|memory| memory.has_focus(id));
-        let first = self.stage == Stage::Fresh;
+        let first = self.stage == RenameStage::Fresh;
         if first {
             self.text.clone_from(&take.name);
-            self.stage = Stage::Asked;
-        } else if self.stage == Stage::Asked && has_focus {
-            self.stage = Stage::Typing;
+            self.stage = RenameStage::Asked;
+        } else if self.stage == RenameStage::Asked && has_focus {
+            self.stage = RenameStage::Typing;
             widgets::select_all(ui.ctx(), id, &self.text);
         }
         let (enter, escape) = ui.input_mut(|input| {
@@ -82,7 +82,7 @@ impl Rename {
             egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), id.with("hint"), anchor)
                 .show(|ui| ui.colored_label(theme.error, reason));
         }
-        // What it is called already it may be called, whatever that is.
+        // The present name is always allowed.
         let changed = self.text != take.name;
         let fits = if changed { take_name(&view.slots, &self.text, own) } else { Ok(()) };
         if enter && let Err(reason) = &fits {
@@ -90,7 +90,7 @@ impl Rename {
             return true;
         }
         let left = !first && !response.has_focus();
-        // What does not fit and is left is refused by the document, which says why.
+        // A name that is not accepted is refused by the document, which reports the reason.
         if (enter || left) && !escape && changed {
             let edit = Edit::RenameTake(RenameTake {
                 take: TakeRef::Index(index),

@@ -1,6 +1,7 @@
-//! Start and length of a take, and what is left of it when it is trimmed: numbers in a small sheet.
+//! A small sheet for start and length of a take, and for trimming it.
 
-use super::super::number_field::{Heard, NumberField};
+use super::super::drag::FieldGesture;
+use super::super::number_field::{FieldEvent, NumberField};
 use super::super::number_text::Digits;
 use super::super::state::{Request, State};
 use super::super::style::GRID;
@@ -10,7 +11,6 @@ use crate::control::expression::Quantity;
 use dragonfly_document::Change;
 use dragonfly_document::adapter::TakeId;
 use dragonfly_document::edit::{Edit, RetimeTake, TrimTake};
-use dragonfly_document::history::Gesture;
 use dragonfly_picture::playback::LATEST;
 use egui::{Id, Rect, RichText, Sense, TextStyle, Ui, vec2};
 use std::ops::RangeInclusive;
@@ -19,42 +19,56 @@ use std::ops::RangeInclusive;
 const LONGEST: f64 = LATEST as f64;
 /// Shortest length that can be given, seconds.
 const SHORTEST: f64 = 0.001;
-/// Smaller parts of a frame are what arithmetic leaves over.
+/// Fractions of a frame below this are rounding errors.
 const GRAIN: f64 = 1e-3;
 
 /// The sheet.
 #[derive(Debug, Default)]
-pub(super) struct Times {
-    /// A field that is dragged: which gesture, and what the number was.
-    held: Option<(Gesture, f64)>,
-    /// Of which take what will be left.
+pub(super) struct TimeSheet {
+    /// The drag of start or length.
+    gesture: FieldGesture,
+    /// Time of `From` or `To` when its drag began, seconds.
+    trim_from: Option<f64>,
+    /// The take that is about to be trimmed, and the range that will be left of it, seconds.
     trim: Option<(TakeId, [f64; 2])>,
 }
 
-impl Times {
+impl TimeSheet {
     /// Draws the fields for the take that is shown.
     pub(super) fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         ui.set_width(240.0);
         let rate = f64::from(state.settings.frame_rate.max(1));
         ui.spacing_mut().item_spacing.y = GRID;
         let Some((take, shown)) = state.take_ref().zip(state.take()) else {
-            ui.label(RichText::new("The rest pose has no time").color(Theme::of(ui).weak));
+            ui.label(RichText::new("The rest pose has no start and no length").color(Theme::of(ui).weak));
             return;
         };
         let (start, length) = (f64::from(shown.start), f64::from(shown.length));
         let locked = (length <= 0.0).then_some("All keys are at one time");
-        ui.label(RichText::new("Moves and stretches all keys").small().color(Theme::of(ui).weak));
-        let heard = number(ui, "Start", start, 0.0..=LONGEST, None, rate);
+        ui.label(RichText::new("Move and stretch all keys").small().color(Theme::of(ui).weak));
+        let event = number(ui, "Start", start, 0.0..=LONGEST, None, rate);
         let retime = take.clone();
-        self.edit(state, start, heard, requests, |start| {
-            Edit::RetimeTake(RetimeTake { take: retime.clone(), start: Some(start), length: None })
-        });
-        let heard = number(ui, "Length", length, SHORTEST..=LONGEST, locked, rate);
-        self.edit(state, length, heard, requests, |length| {
-            Edit::RetimeTake(RetimeTake { take: take.clone(), start: None, length: Some(length) })
-        });
+        let change = self.gesture.change(
+            event,
+            start,
+            || state.new_gesture(),
+            |start| {
+                Edit::RetimeTake(RetimeTake { take: retime.clone(), start: Some(start as f32), length: None })
+            },
+        );
+        requests.extend(change.map(Request::Change));
+        let event = number(ui, "Length", length, SHORTEST..=LONGEST, locked, rate);
+        let change = self.gesture.change(
+            event,
+            length,
+            || state.new_gesture(),
+            |length| {
+                Edit::RetimeTake(RetimeTake { take: take.clone(), start: None, length: Some(length as f32) })
+            },
+        );
+        requests.extend(change.map(Request::Change));
         ui.separator();
-        ui.label(RichText::new("Cuts away what lies outside").small().color(Theme::of(ui).weak));
+        ui.label(RichText::new("Delete all keys outside this range").small().color(Theme::of(ui).weak));
         let id = state
             .view
             .as_ref()
@@ -71,59 +85,30 @@ impl Times {
         for (at, name) in ["From", "To"].into_iter().enumerate() {
             let (low, high) = if at == 0 { (start, range[1]) } else { (range[0], end) };
             match number(ui, name, range[at], low..=high, locked, rate) {
-                Heard::Typed(value) => self.trim = Some((id, with(range, at, value))),
-                Heard::Dragged(by) => {
-                    let (_, from) = *self.held.get_or_insert((Gesture(0), range[at]));
+                FieldEvent::Typed(value) => self.trim = Some((id, with(range, at, value))),
+                FieldEvent::Dragged(by) => {
+                    let from = *self.trim_from.get_or_insert(range[at]);
                     self.trim = Some((id, with(range, at, from + by)));
                 }
-                Heard::Cancelled => {
-                    if let Some((_, from)) = self.held.take() {
+                FieldEvent::Cancelled => {
+                    if let Some(from) = self.trim_from.take() {
                         self.trim = Some((id, with(range, at, from)));
                     }
                 }
-                Heard::Released => self.held = None,
-                Heard::Nothing | Heard::Touched => {}
+                FieldEvent::Released => self.trim_from = None,
+                FieldEvent::Nothing | FieldEvent::Touched => {}
             }
         }
         let shorter = range[0] > start || range[1] < end;
         let button = ui.add_enabled(shorter, egui::Button::new("Trim"));
         let button = button
-            .on_hover_text("Takes away what lies before and after")
-            .on_disabled_hover_text("All of the take lies between these times");
+            .on_hover_text("Delete all keys before and after this range")
+            .on_disabled_hover_text("The whole take is inside this range");
         if button.clicked() {
             let [from, to] = range.map(|time| time as f32);
             let trim = Edit::TrimTake(TrimTake { take, from, to, to_start: true });
             requests.push(Request::Change(Change::Edit(trim, None)));
             self.trim = None;
-        }
-    }
-
-    fn edit(
-        &mut self,
-        state: &State,
-        now: f64,
-        heard: Heard,
-        requests: &mut Vec<Request>,
-        edit: impl Fn(f32) -> Edit,
-    ) {
-        match heard {
-            Heard::Typed(value) => requests.push(Request::Change(Change::Edit(edit(value as f32), None))),
-            Heard::Dragged(by) => {
-                let (gesture, from) = *self.held.get_or_insert_with(|| (state.new_gesture(), now));
-                let edit = edit((from + by) as f32);
-                requests.push(Request::Change(Change::Edit(edit, Some(gesture))));
-            }
-            Heard::Cancelled => {
-                if let Some((gesture, _)) = self.held.take() {
-                    requests.push(Request::Change(Change::Cancel(gesture)));
-                }
-            }
-            Heard::Released => {
-                if let Some((gesture, _)) = self.held.take() {
-                    requests.push(Request::Change(Change::Release(gesture)));
-                }
-            }
-            Heard::Nothing | Heard::Touched => {}
         }
     }
 }
@@ -133,8 +118,8 @@ fn with(mut range: [f64; 2], at: usize, value: f64) -> [f64; 2] {
     range
 }
 
-/// A name and two fields for the same time on one line: seconds, and frames of which there are so many a second. What is
-/// heard is in seconds.
+/// Draws a label and two fields for the same time on one line: seconds, and frames at `rate` per second. The event is
+/// in seconds.
 fn number(
     ui: &mut Ui,
     name: &str,
@@ -142,7 +127,7 @@ fn number(
     range: RangeInclusive<f64>,
     locked: Option<&str>,
     rate: f64,
-) -> Heard {
+) -> FieldEvent {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
     widgets::text_in(ui, rect, name, &TextStyle::Body, Theme::of(ui).text);
     let seconds = NumberField {
@@ -173,21 +158,21 @@ fn number(
         } else {
             Digits::Fixed(2)
         },
-        // What single precision left over of a whole frame does not put it outside.
+        // The margin keeps a whole frame inside its range despite rounding errors.
         range: range.start() * rate - GRAIN..=range.end() * rate + GRAIN,
-        help: "Counted as the timeline counts them",
+        help: "In frames of the timeline",
         ..seconds.clone()
     };
     let [left, middle] = [rect.right() - 184.0, rect.right() - 88.0];
     let place = Rect::from_x_y_ranges(left..=middle - GRID, rect.y_range());
-    let heard = seconds.show(ui, place).0;
+    let event = seconds.show(ui, place).0;
     let place = Rect::from_x_y_ranges(middle..=rect.right(), rect.y_range());
-    match (heard, frames.show(ui, place).0) {
-        (Heard::Nothing, Heard::Typed(frames)) => {
-            Heard::Typed((frames / rate).max(*range.start()).min(*range.end()))
+    match (event, frames.show(ui, place).0) {
+        (FieldEvent::Nothing, FieldEvent::Typed(frames)) => {
+            FieldEvent::Typed((frames / rate).max(*range.start()).min(*range.end()))
         }
-        (Heard::Nothing, Heard::Dragged(by)) => Heard::Dragged(by / rate),
-        (Heard::Nothing, heard) => heard,
-        (heard, _) => heard,
+        (FieldEvent::Nothing, FieldEvent::Dragged(by)) => FieldEvent::Dragged(by / rate),
+        (FieldEvent::Nothing, event) => event,
+        (event, _) => event,
     }
 }

@@ -1,4 +1,4 @@
-//! The scene's axes in the corner of the picture.
+//! The axes of the scene in the corner of the viewport.
 
 use crate::control;
 use crate::panels::commands::{self, Id};
@@ -8,7 +8,8 @@ use egui::accesskit::Role;
 use egui::{Align2, FontId, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 use glam::{Vec2, Vec3};
 
-/// The scene's axes as seen now. Dragging them orbits; a click on an end looks from there. Tells where they are.
+/// Draws the axes of the scene as seen from the camera. Dragging them orbits; a click on an end looks from there.
+/// Returns their area.
 pub(super) fn axes(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Option<Rect> {
     let radius = 30.0;
     let center = pos2(rect.left() + radius + 18.0, rect.bottom() - radius - 18.0);
@@ -36,7 +37,7 @@ pub(super) fn axes(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Re
         ends.push((axis.dot(camera.back()), place(axis), color, name, towards));
         ends.push((-axis.dot(camera.back()), place(-axis), color, "", away));
     }
-    // What is nearer to the eye is drawn later.
+    // Nearer ends are drawn later.
     ends.sort_by(|one, other| one.0.total_cmp(&other.0));
     let pointer = response.hover_pos();
     let mut under = None;

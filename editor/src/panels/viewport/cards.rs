@@ -1,4 +1,4 @@
-//! Cards in the middle of the picture: nothing is open, something is on its way, the device failed.
+//! Cards in the middle of the viewport: no model is open, a model is loading, the graphics device failed.
 
 use crate::panels::commands::{self, Id};
 use crate::panels::state::Device;
@@ -8,7 +8,7 @@ use crate::panels::{Request, State};
 use dragonfly_document::Source;
 use egui::{Align2, CornerRadius, Frame, Margin, Rect, RichText, Stroke, Ui, vec2};
 
-/// What there is to say.
+/// Draws the card for the present state, if there is one.
 pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
     if let Some(loading) = &state.loading {
         card(ui, rect, |ui| {
@@ -38,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Re
     }
 }
 
-/// Nothing is open: what one can do.
+/// Draws the card when no model is open.
 fn welcome(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
     card(ui, rect, |ui| {
         ui.label(RichText::new("Nothing is open").heading());
@@ -60,7 +60,7 @@ fn welcome(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) 
     });
 }
 
-/// A card in the middle of the picture.
+/// Draws a card in the middle of the viewport.
 fn card(ui: &mut Ui, rect: Rect, add: impl FnOnce(&mut Ui)) {
     let theme = Theme::of(ui);
     let id = ui.scope_id().with("card");

@@ -1,4 +1,4 @@
-//! What follows a bone that is moved, at the left of the picture: IK, how many bones it is about, pins.
+//! The buttons for IK on the left of the viewport: on and off, chain length, pins.
 
 use crate::panels::commands::{self, Id};
 use crate::panels::icons::Icon;
@@ -9,7 +9,7 @@ use crate::panels::{Request, State, menu};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, CornerRadius, FontId, Response, Sense, Ui, WidgetInfo};
 
-/// Three buttons, one above the other.
+/// Draws three buttons, one above the other.
 pub(super) fn tools(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     column_button(ui, Icon::Ik, Id::ToggleIk, state.ik.on, requests);
     length(ui, state, requests);
@@ -17,7 +17,7 @@ pub(super) fn tools(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     column_button(ui, Icon::Pin, Id::Pin, pinned, requests);
 }
 
-/// How many bones follow; opens a list of all about IK and pins.
+/// Draws the button for the chain length, which opens a menu for IK and pins.
 fn length(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     let bones = count(state.ik.length as usize, "bone", "bones");
     let name = format!("IK chain: {bones}");
@@ -35,19 +35,18 @@ fn length(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
         menu::item(ui, state, Id::BakePins, false, requests);
     });
     let [longer, shorter] = [Id::LongerIk, Id::ShorterIk].map(|id| commands::shortcut_text(ui.ctx(), id));
-    let pole = state
-        .ik
-        .pole
-        .map_or(String::new(), |pole| format!("\nElbows and knees bend towards {}", state.bone_name(pole)));
+    let pole =
+        state.ik.pole.map_or(String::new(), |pole| format!("\nPole target: {}", state.bone_name(pole)));
     let pins = match state.pins.len() {
         0 => String::new(),
         pins => format!("\n{} pinned", count(pins, "bone is", "bones are")),
     };
-    let help = format!("{bones} above a bone that is moved with IK ({longer} one more, {shorter} one less)");
+    let help =
+        format!("IK moves {bones} above the moved one ({longer} for one more, {shorter} for one less)");
     hint_beside(&response, format!("{help}{pole}{pins}"));
 }
 
-/// A square button that shows a number.
+/// Draws a square button that shows a number.
 fn number_button(ui: &mut Ui, number: u32, name: &str, on: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(style::icon_size(), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));

@@ -1,12 +1,12 @@
-//! The picture: transparent, so that what the graphics thread draws shows through; small tools lie over it.
+//! The viewport panel: transparent, so that the image of the graphics thread shows through, with small toolbars on top.
 
 mod axes;
 mod cards;
-mod hand;
 mod ik;
 mod overlay;
 mod readout;
 mod toolbar;
+mod tools;
 
 use super::state::{Request, State};
 use super::style;
@@ -16,8 +16,8 @@ use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, CornerRadius, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-/// The picture and what lies over it. What the mouse does there is up to the controls of the scene
-/// ([`crate::control::Hands`]), which hear of it before the panels do.
+/// The viewport and its overlays. Mouse input in it goes to the controls of the scene ([`crate::control::ViewportTools`])
+/// before the panels get it.
 #[derive(Debug, Default)]
 pub struct Viewport;
 
@@ -48,7 +48,7 @@ impl Panel for Viewport {
             overlay::drawn(ui, rect, state);
             let tools = toolbar::toolbar(ui, rect, state, requests);
             shields.push(tools);
-            shields.extend(hand::toolbar(ui, rect, state, requests));
+            shields.extend(tools::toolbar(ui, rect, state, requests));
             shields.extend(axes::axes(ui, rect, state, requests));
             caption(ui, rect, tools.left(), state);
             readout::show(ui, rect, state);
@@ -58,7 +58,7 @@ impl Panel for Viewport {
     }
 }
 
-/// What is seen: model and take, quietly, at the top left, as far as `right`; long names end with dots.
+/// Draws the names of model and take at the top left, as far as `right`; long names are truncated.
 fn caption(ui: &Ui, rect: Rect, right: f32, state: &State) {
     let Some(view) = &state.view else { return };
     let theme = Theme::of(ui);
@@ -74,7 +74,7 @@ fn caption(ui: &Ui, rect: Rect, right: f32, state: &State) {
     }
 }
 
-/// A name on one line, whole when the pointer is over it; tells where it ends below.
+/// Draws a name on one line, with the whole name as tooltip if it is truncated. Returns its lower edge.
 fn name(ui: &Ui, at: Pos2, width: f32, text: &str, what: &str, (size, color): (f32, Color32)) -> f32 {
     let mut job = LayoutJob::simple_singleline(text.to_owned(), FontId::proportional(size), color);
     job.wrap = TextWrapping::truncate_at_width(width.max(0.0));
@@ -89,7 +89,7 @@ fn name(ui: &Ui, at: Pos2, width: f32, text: &str, what: &str, (size, color): (f
     place.bottom()
 }
 
-/// The ground of an overlay.
+/// Draws the background of an overlay.
 fn glass(ui: &Ui, rect: Rect) {
     let theme = Theme::of(ui);
     let stroke = Stroke::new(1.0, theme.glass_line);

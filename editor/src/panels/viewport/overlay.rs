@@ -1,4 +1,4 @@
-//! What the mouse is doing in the picture, as far as it is drawn by the panels: pointer, box, lasso.
+//! Mouse feedback in the viewport that the panels draw: cursor, box, lasso.
 
 use crate::control::ViewportControl;
 use crate::panels::theme::Theme;
@@ -7,7 +7,7 @@ use dragonfly_picture::pick::Region;
 use egui::{CursorIcon, Pos2, Rect, Response, Shape, Stroke, StrokeKind, Ui, pos2};
 use glam::Vec2;
 
-/// Tells where the pointer rests and what its wheel does, and gives it its form.
+/// Requests picking and zooming at the pointer, and sets the cursor.
 pub(super) fn pointer(ui: &Ui, response: &Response, state: &State, requests: &mut Vec<Request>) {
     let (at, held, focused, wheel, pinch) = ui.input(|input| {
         let pointer = &input.pointer;
@@ -38,7 +38,7 @@ pub(super) fn pointer(ui: &Ui, response: &Response, state: &State, requests: &mu
     }
 }
 
-/// The box or lasso that is being drawn.
+/// Draws the box or lasso selection in progress.
 pub(super) fn drawn(ui: &Ui, rect: Rect, state: &State) {
     let Some(region) = state.hands.picture().catching() else { return };
     let theme = Theme::of(ui);

@@ -1,4 +1,4 @@
-//! What a drag has come to, or would be of, beside the pointer.
+//! The text next to the pointer: how far a drag is, or what the next one will do.
 
 use super::super::style::{GRID, NUMBER};
 use super::glass;
@@ -11,7 +11,7 @@ use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
-/// Draws it while something is dragged or waits for the drag that a command asked for, and at the keys of a motion path.
+/// Draws the text during a drag, while a command waits for its drag, and over the keys of a motion path.
 pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State) {
     let theme = Theme::of(ui);
     let words = |color| TextFormat::simple(FontId::proportional(NUMBER), color);
@@ -28,10 +28,10 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State) {
     } else if let Some(catch) = state.hands.picture().armed() {
         let what = match catch {
             Catch::Box => "Drag a box over bones",
-            Catch::Lasso => "Draw around bones",
+            Catch::Lasso => "Draw a lasso around bones",
         };
         job.append(what, 0.0, words(theme.text));
-        job.append("Shift adds, Ctrl toggles, Esc stops", 10.0, words(theme.weak));
+        job.append("Shift adds, Ctrl toggles, Esc cancels", 10.0, words(theme.weak));
     } else if let Some(time) = state.hands.path().hovered() {
         let frame = (f64::from(time) * f64::from(state.settings.frame_rate)).round();
         job.append("Key", 0.0, words(theme.text));
@@ -75,9 +75,9 @@ fn how(readout: &GizmoReadout<'_>) -> String {
         }
         Handle::Center if readout.tool == Tool::Rotate => return "freely".to_owned(),
         Handle::Center if readout.tool == Tool::Scale => return "evenly".to_owned(),
-        Handle::Center => return "in the picture".to_owned(),
+        Handle::Center => return "in the view plane".to_owned(),
         Handle::Ring if readout.tool == Tool::Scale => return "evenly".to_owned(),
-        Handle::Ring => return "in the picture".to_owned(),
+        Handle::Ring => return "in the view plane".to_owned(),
     };
     let space = match readout.space {
         GizmoSpace::Local => "local",
@@ -105,12 +105,12 @@ fn amount(readout: &GizmoReadout<'_>) -> String {
     }
 }
 
-/// No minus before nothing.
+/// Returns 0 instead of a tiny negative number, which would be shown as -0.
 fn zero(number: f64) -> f64 {
     if number.abs() < 5e-5 { 0.0 } else { number }
 }
 
-/// What is typed, with a cursor in the field that is typed into.
+/// Returns the typed numbers, with a cursor in the current field.
 fn typed(readout: &GizmoReadout<'_>) -> Option<String> {
     let fields = readout.typed.iter().take(readout.fields);
     if fields.clone().all(|text| text.is_empty()) {

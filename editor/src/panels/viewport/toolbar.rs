@@ -1,4 +1,4 @@
-//! Buttons for how the picture is drawn and seen, at its right top.
+//! The toolbar for camera and shading, at the top right of the viewport.
 
 use super::{divider, glass};
 use crate::panels::commands::Id;
@@ -10,10 +10,11 @@ use dragonfly_picture::camera::Projection;
 use dragonfly_picture::{BoneLook, Shading};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
-/// Buttons for everything about the picture, so that nothing needs a numeric keypad or a middle button. Tells where it is.
+/// Draws a button for everything about camera and shading, so that nothing needs a numeric keypad or a middle button.
+/// Returns its area.
 pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Rect {
     let look = &state.settings.look;
-    // Narrow pictures keep what has no other button nearby; the menus have it all.
+    // A narrow viewport keeps the buttons that have no alternative nearby; the menus contain all of them.
     let wide = rect.width() > 430.0;
     let groups = if wide { 12.0 } else { 6.0 };
     let width = groups * 26.0 + 3.0 * 9.0 + 2.0 * GRID + if wide { 26.0 } else { 0.0 };

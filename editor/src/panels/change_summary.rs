@@ -1,12 +1,12 @@
-//! What was done to the document, for the line at the bottom: each step once, when it begins, when it is taken back, and
-//! when it is done again.
+//! Describes what was done to the document, for the status line: each step once when it begins, when it is undone, and
+//! when it is redone.
 
 use super::widgets::{count, grouped};
 use dragonfly_document::{HistoryView, View};
 use std::sync::Arc;
 
-/// What leads from one view of a model to a newer one; `None` where nothing was done, or a gesture just goes on.
-pub(super) fn between(old: &View, new: &View) -> Option<String> {
+/// Describes what leads from one view of a model to a newer one; `None` if nothing was done, or a gesture continues.
+pub(super) fn describe_change(old: &View, new: &View) -> Option<String> {
     let (before, now) = (&*old.history, &*new.history);
     if same_steps(before, now) {
         let (few, many) = (before.done.min(now.done), before.done.max(now.done));
@@ -15,7 +15,7 @@ pub(super) fn between(old: &View, new: &View) -> Option<String> {
             1 => step(now, few),
             several => count(several, "step", "steps"),
         };
-        let verb = if now.done < before.done { "Undone" } else { "Done again" };
+        let verb = if now.done < before.done { "Undone" } else { "Redone" };
         return Some(format!("{verb}: {what}"));
     }
     let gone = before.steps.len().saturating_sub(1);
@@ -23,15 +23,15 @@ pub(super) fn between(old: &View, new: &View) -> Option<String> {
         && now.steps.len() == gone
         && now.about.last().map(address) == before.about[..gone].last().map(address)
     {
-        return Some(format!("Given up: {}", step(before, gone)));
+        return Some(format!("Cancelled: {}", step(before, gone)));
     }
     let last = now.done.checked_sub(1)?;
     Some([Some(step(now, last)), keys(old, new)].into_iter().flatten().collect::<Vec<_>>().join("  ·  "))
 }
 
-/// What keys that were moved, copied or pasted came to, where they took the place of others; `None` where they did not.
-/// The take had `before` keys, was to get `brought` more, and has `now`.
-pub(super) fn replaced(view: &View, before: usize, brought: usize, now: usize) -> Option<String> {
+/// Describes how many keys were overwritten when keys were moved, duplicated or pasted; `None` if none were. The take
+/// had `before` keys, was to get `brought` more, and has `now`.
+pub(super) fn describe_replaced(view: &View, before: usize, brought: usize, now: usize) -> Option<String> {
     let replaced = (before + brought).checked_sub(now).filter(|&keys| keys > 0)?;
     let last = view.history.done.checked_sub(1)?;
     let more = now.checked_sub(before).filter(|&keys| keys > 0).map(|keys| format!("{} more", grouped(keys)));
@@ -45,17 +45,18 @@ pub(super) fn replaced(view: &View, before: usize, brought: usize, now: usize) -
     )
 }
 
-/// Are they the same steps, however many of them are done?
+/// Whether both contain the same steps, however many of them are done.
 fn same_steps(before: &HistoryView, now: &HistoryView) -> bool {
     before.steps.len() == now.steps.len() && before.about.last().map(address) == now.about.last().map(address)
 }
 
-/// A step keeps the text of what it is about for as long as it is known, so the text's place tells it from all others.
+/// Identifies a step: each keeps its own text for as long as it is in the history, so the address of the text differs
+/// from all others.
 fn address(about: &Arc<str>) -> *const u8 {
     about.as_ptr()
 }
 
-/// A step in a few words.
+/// Returns a step in a few words.
 fn step(history: &HistoryView, at: usize) -> String {
     let label = history.steps.get(at).copied().unwrap_or_default();
     match history.about.get(at) {
@@ -64,7 +65,7 @@ fn step(history: &HistoryView, at: usize) -> String {
     }
 }
 
-/// How many keys more or fewer there are, where the takes are the same ones.
+/// Returns how many keys were added or deleted, if the takes are the same ones.
 fn keys(old: &View, new: &View) -> Option<String> {
     if !old.slots.iter().map(|slot| slot.id).eq(new.slots.iter().map(|slot| slot.id)) {
         return None;

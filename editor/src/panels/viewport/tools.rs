@@ -1,4 +1,4 @@
-//! The tools of the hand at the left of the picture: what the gizmo does, whose axes it has, what it turns about.
+//! The toolbar on the left of the viewport: tool, axes and pivot of the gizmo.
 
 use super::{divider_across, glass, ik};
 use crate::panels::commands::Id;
@@ -9,12 +9,12 @@ use crate::panels::{Request, State, menu};
 use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
-/// Draws them; tells where they are. In a low picture they stand in two columns, in a narrow one some are left out, and in a
-/// very low one all: keys and menus have it all.
+/// Draws the toolbar and returns its area. A low viewport gets two columns, a narrow one fewer buttons, and a very low
+/// one none: keys and menus have all of them.
 pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Option<Rect> {
     let hand = &state.settings.hand;
     let top = rect.top() + 52.0;
-    // The axes stand below.
+    // The axes of the scene are below.
     let room = rect.bottom() - top - 92.0;
     let height = |buttons: f32, dividers: f32| {
         buttons * 24.0 + dividers * 7.0 + (buttons + dividers - 1.0) * 2.0 + 2.0 * GRID
@@ -80,7 +80,7 @@ const PIVOTS: [(Id, Option<GizmoSpace>, Option<Pivot>); 3] = [
     (Id::PivotActive, None, Some(Pivot::Active)),
 ];
 
-/// A button that shows what is chosen and opens the list.
+/// Draws a button that shows the chosen entry and opens the list.
 fn choice(
     ui: &mut Ui,
     state: &State,
@@ -119,10 +119,10 @@ fn space_icon(space: GizmoSpace) -> Icon {
 
 fn space_name(space: GizmoSpace) -> &'static str {
     match space {
-        GizmoSpace::Local => "Axes: the bone's own",
-        GizmoSpace::Parent => "Axes: the parent's",
-        GizmoSpace::World => "Axes: the world's",
-        GizmoSpace::View => "Axes: the picture's",
+        GizmoSpace::Local => "Axes: local",
+        GizmoSpace::Parent => "Axes: parent",
+        GizmoSpace::World => "Axes: world",
+        GizmoSpace::View => "Axes: view",
     }
 }
 
@@ -136,8 +136,8 @@ fn pivot_icon(pivot: Pivot) -> Icon {
 
 fn pivot_name(pivot: Pivot) -> &'static str {
     match pivot {
-        Pivot::Individual => "Pivot: each joint",
-        Pivot::Median => "Pivot: the middle",
-        Pivot::Active => "Pivot: the active bone",
+        Pivot::Individual => "Pivot: individual joints",
+        Pivot::Median => "Pivot: median",
+        Pivot::Active => "Pivot: active bone",
     }
 }

@@ -1,14 +1,14 @@
-//! The way of one input: to the control that it is for, then to its parents.
+//! Routes one input: to the control that it is for, then to its parents.
 
 use super::{Capture, ControlFramework};
 use crate::control::Button;
-use crate::control::base::{BaseControl, ControlId, Controls, Mouse, Pass};
+use crate::control::base::{BaseControl, ControlId, ControlLookup, InputFlow, Mouse};
 use crate::control::key::Key;
 use glam::Vec2;
 
 impl ControlFramework {
-    pub(super) fn mouse_move(&mut self, at: Vec2, controls: &mut dyn Controls) -> Option<ControlId> {
-        // No screen is so large: a place reported there is a mistake of the driver.
+    pub(super) fn mouse_move(&mut self, at: Vec2, controls: &mut dyn ControlLookup) -> Option<ControlId> {
+        // No screen is so large: such a position is an error of the driver.
         if !(at.is_finite() && at.abs().max_element() < 1e5) {
             return None;
         }
@@ -18,23 +18,27 @@ impl ControlFramework {
         self.tell_mouse(controls, |control, mouse, framework| control.mouse_move(mouse, framework))
     }
 
-    pub(super) fn wheel(&mut self, by: Vec2, controls: &mut dyn Controls) -> Option<ControlId> {
+    pub(super) fn wheel(&mut self, by: Vec2, controls: &mut dyn ControlLookup) -> Option<ControlId> {
         if !by.is_finite() {
             return None;
         }
         self.tell_mouse(controls, |control, mouse, framework| control.mouse_wheel(by, mouse, framework))
     }
 
-    pub(super) fn mouse_down(&mut self, button: Button, controls: &mut dyn Controls) -> Option<ControlId> {
+    pub(super) fn mouse_down(
+        &mut self,
+        button: Button,
+        controls: &mut dyn ControlLookup,
+    ) -> Option<ControlId> {
         if self.held[button as usize] {
-            // Its release was never heard of: what it began is over.
+            // The release never arrived: what the press began is cancelled.
             self.lost_mouse(controls);
         }
         let begins = !self.held.contains(&true);
         self.held[button as usize] = true;
         if begins {
             let under = self.grabbed.or_else(|| self.under(self.pointer()?, controls));
-            self.capture = under.map_or(Capture::Gone, |control| Capture::By { control, heard: control });
+            self.capture = under.map_or(Capture::Gone, |control| Capture::By { control, topmost: control });
         }
         let mouse = Mouse { at: self.mouse?, modifiers: self.modifiers };
         let Capture::By { control, .. } = self.capture else { return None };
@@ -44,22 +48,22 @@ impl ControlFramework {
             if !begins || id == control || self.is_on(id, mouse.at, controls) {
                 let Some(control) = self.there(id, controls) else { continue };
                 match &mut self.capture {
-                    // As far up as any press was passed on.
-                    Capture::By { heard, .. } if self.places.is_inside(*heard, id) => *heard = id,
+                    // The last ancestor that any press was passed on to.
+                    Capture::By { topmost, .. } if self.places.is_inside(*topmost, id) => *topmost = id,
                     Capture::By { .. } => {}
-                    // The one that was pressed took itself out and passed the press on.
-                    _ => self.capture = Capture::By { control: id, heard: id },
+                    // The pressed control unregistered itself and passed the press on.
+                    _ => self.capture = Capture::By { control: id, topmost: id },
                 }
-                if control.mouse_down(button, mouse, self) == Pass::Stop {
+                if control.mouse_down(button, mouse, self) == InputFlow::Stop {
                     return Some(id);
                 }
-                // It may have taken itself out; its parent was noted before.
+                // The control may have unregistered itself; its parent was read before.
             }
         }
         None
     }
 
-    pub(super) fn mouse_up(&mut self, button: Button, controls: &mut dyn Controls) -> Option<ControlId> {
+    pub(super) fn mouse_up(&mut self, button: Button, controls: &mut dyn ControlLookup) -> Option<ControlId> {
         if !std::mem::take(&mut self.held[button as usize]) {
             return None;
         }
@@ -74,11 +78,11 @@ impl ControlFramework {
         stopped
     }
 
-    /// To the control that has the mouse, else to the one under it, and to those that it is passed on to.
+    /// Calls the control that has the mouse, or the one under it, then those that it passes the input on to.
     pub(super) fn tell_mouse(
         &mut self,
-        controls: &mut dyn Controls,
-        mut tell: impl FnMut(&mut dyn BaseControl, Mouse, &mut Self) -> Pass,
+        controls: &mut dyn ControlLookup,
+        mut tell: impl FnMut(&mut dyn BaseControl, Mouse, &mut Self) -> InputFlow,
     ) -> Option<ControlId> {
         let (first, is_captured) = match self.capture {
             Capture::By { control, .. } => (Some(control), true),
@@ -90,10 +94,10 @@ impl ControlFramework {
         let mut next = first;
         while let Some(id) = next {
             next = self.places.parent(id);
-            // A captured mouse may be anywhere; those who saw the press see what follows.
+            // A captured mouse may be anywhere; the controls that got the press get what follows.
             if is_captured || Some(id) == first || self.is_on(id, mouse.at, controls) {
                 let Some(control) = self.there(id, controls) else { continue };
-                if tell(control, mouse, self) == Pass::Stop {
+                if tell(control, mouse, self) == InputFlow::Stop {
                     return Some(id);
                 }
             }
@@ -101,12 +105,12 @@ impl ControlFramework {
         None
     }
 
-    pub(super) fn key_down(&mut self, key: Key, controls: &mut dyn Controls) -> Option<ControlId> {
+    pub(super) fn key_down(&mut self, key: Key, controls: &mut dyn ControlLookup) -> Option<ControlId> {
         let held = self.keys.find(key);
         let target = match held {
             Some(control) => control,
             None => {
-                // While something is dragged keys are for that: Escape, an axis, a number.
+                // During a drag, keys are for the drag: Escape, an axis, a number.
                 let known = self.captured().or(self.focus);
                 let control = match known {
                     Some(control) => control,
@@ -125,24 +129,24 @@ impl ControlFramework {
         })
     }
 
-    pub(super) fn key_up(&mut self, key: Key, controls: &mut dyn Controls) -> Option<ControlId> {
+    pub(super) fn key_up(&mut self, key: Key, controls: &mut dyn ControlLookup) -> Option<ControlId> {
         let control = self.keys.take(key)?;
         let modifiers = self.modifiers;
         self.tell(control, controls, |control, framework| control.key_up(key, modifiers, framework))
     }
 
-    /// To a control and to those that it is passed on to.
+    /// Calls a control, and those that it passes the input on to.
     pub(super) fn tell(
         &mut self,
         first: ControlId,
-        controls: &mut dyn Controls,
-        mut tell: impl FnMut(&mut dyn BaseControl, &mut Self) -> Pass,
+        controls: &mut dyn ControlLookup,
+        mut tell: impl FnMut(&mut dyn BaseControl, &mut Self) -> InputFlow,
     ) -> Option<ControlId> {
         let mut next = Some(first);
         while let Some(id) = next {
             next = self.places.parent(id);
             let Some(control) = self.there(id, controls) else { continue };
-            if tell(control, self) == Pass::Stop {
+            if tell(control, self) == InputFlow::Stop {
                 return Some(id);
             }
         }

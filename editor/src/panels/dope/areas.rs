@@ -1,24 +1,24 @@
-//! Where the parts of the dope sheet are.
+//! The areas of the dope sheet.
 
 use crate::panels::state::State;
 use egui::{Rect, pos2};
 
-/// See the module, in points.
+/// The areas of the dope sheet, points.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Places {
-    /// Everything.
+pub(super) struct DopeAreas {
+    /// The whole sheet.
     pub(super) all: Rect,
-    /// Over the names: search field and switches.
+    /// The area above the names: search field and switches.
     pub(super) tools: Rect,
     /// The ruler.
     pub(super) head: Rect,
-    /// Markers; no height where there are none.
+    /// The lane of markers; without height if there are none.
     pub(super) markers: Rect,
     /// The bar over the selected keys.
     pub(super) bar: Rect,
-    /// Names of rows.
+    /// The names of the rows.
     pub(super) names: Rect,
-    /// Keys.
+    /// The canvas with the keys.
     pub(super) canvas: Rect,
 }
 
@@ -28,13 +28,13 @@ pub(in crate::panels) const RULER: f32 = 24.0;
 const MARKERS: f32 = 16.0;
 /// Height of the bar over the selected keys.
 const BAR: f32 = 8.0;
-/// Room before the start and after the end of the take.
+/// Margin before the start and after the end of the take.
 pub(super) const ROOM: f32 = 16.0;
 pub(super) const ROOM_RIGHT: f32 = 20.0;
 /// Height and width of scroll bars.
 pub(super) const SCROLL: f32 = 8.0;
 
-impl Places {
+impl DopeAreas {
     pub(super) fn of(all: Rect, state: &State) -> Self {
         // A narrow panel keeps at least half of itself for keys.
         let gutter = if all.width() < 480.0 { (all.width() * 0.3).clamp(64.0, 120.0) } else { 192.0 };

@@ -1,0 +1,270 @@
+//! The controls of the viewport and their tree (thesis §3.2.9).
+//!
+//! ```text
+//! root (window, without function)
+//!   └ viewport: camera, clicks, boxes       the size of the viewport
+//!       ├ shields: toolbars on top           panels take precedence where they are
+//!       └ gizmo                             where its handles are; everywhere during its drag
+//!           └ path                          the same with its keys, which cover the handles of the gizmo
+//! ```
+//!
+//! Inputs arrive as they happen, not once a frame. The owner takes the outcome after each.
+//!
+//! A new tool that is used with the mouse in the viewport needs:
+//!
+//! 1. a file beside `path.rs`, with a type that implements [`BaseControl`] and [`ViewportTool`] and offers its outcome by a
+//!    `take_…` method, as [`PathControl`] does;
+//! 2. a field of `ToolSet`, its registration in `Default`, and its line in each of `ToolSet::tools` and
+//!    `ToolSet::tools_mut`: area, view, focus, cancelling and cursor follow from these lists;
+//! 3. a call of its `take_…` method in `panels/hands`, which makes an edit of the outcome;
+//! 4. if it is drawn, a component in `editor/picture/src/control`, and its line in the list there;
+//! 5. if a command starts it, a row in `panels/commands/table/tools.rs`.
+
+mod shield;
+
+pub use shield::Shield;
+
+use super::base::{Area, BaseControl, ControlId, ControlLookup};
+use super::framework::ControlFramework;
+use super::gizmo::GizmoControl;
+use super::input::InputEvent;
+use super::key::Modifiers;
+use super::path::PathControl;
+use super::viewport::ViewportControl;
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::gizmo::GizmoView;
+use glam::Vec2;
+
+/// Width of the edge of the viewport that belongs to the panels, points.
+const EDGE: f32 = 3.0;
+
+/// The tools in the viewport.
+#[derive(Clone, Debug)]
+pub struct ViewportTools {
+    framework: ControlFramework,
+    owner: ToolSet,
+    /// Last position of the mouse, points from the top left of the window.
+    pointer: Option<Vec2>,
+    modifiers: Modifiers,
+    revision: u64,
+}
+
+/// A tool in the viewport that a press can begin to drag.
+pub trait ViewportTool: BaseControl {
+    /// Sets the top left of the viewport, points from that of the window.
+    fn place(&mut self, corner: Vec2);
+
+    /// Sets the view.
+    fn look(&mut self, view: GizmoView);
+
+    /// Whether a drag of the tool changes the document.
+    fn is_dragging(&self) -> bool;
+
+    /// Whether the tool has mouse and keyboard although no button is held.
+    fn is_modal(&self) -> bool {
+        false
+    }
+}
+
+/// The controls; the framework knows only their areas.
+#[derive(Clone, Debug)]
+struct ToolSet {
+    picture: (ControlId, ViewportControl),
+    path: (ControlId, PathControl),
+    gizmo: (ControlId, GizmoControl),
+    shields: Vec<(ControlId, Shield)>,
+}
+
+impl ToolSet {
+    /// All tools. A tool is inside those before it: where both are under the pointer, the later one gets the press.
+    fn tools(&self) -> [(ControlId, &dyn ViewportTool); 2] {
+        [(self.gizmo.0, &self.gizmo.1), (self.path.0, &self.path.1)]
+    }
+
+    /// [`Self::tools`], to be changed.
+    fn tools_mut(&mut self) -> [(ControlId, &mut dyn ViewportTool); 2] {
+        [(self.gizmo.0, &mut self.gizmo.1), (self.path.0, &mut self.path.1)]
+    }
+}
+
+impl ControlLookup for ToolSet {
+    fn control(&mut self, id: ControlId) -> Option<&mut dyn BaseControl> {
+        if id == self.picture.0 {
+            return Some(&mut self.picture.1);
+        }
+        // An armed selection begins on anything.
+        let armed = self.picture.1.armed().is_some();
+        if self.tools().iter().any(|tool| tool.0 == id) {
+            let tool = self.tools_mut().into_iter().find(|tool| tool.0 == id).filter(|_| !armed);
+            return tool.map(|(_, tool)| tool as &mut dyn BaseControl);
+        }
+        self.shields.iter_mut().find(|shield| shield.0 == id).map(|shield| &mut shield.1 as _)
+    }
+}
+
+impl Default for ViewportTools {
+    fn default() -> Self {
+        let mut framework = ControlFramework::new(Vec2::ONE);
+        let nowhere = Area::default();
+        // Of equal areas the one registered later is inside.
+        let picture = (framework.register_control(nowhere), ViewportControl::default());
+        let gizmo = (framework.register_control(nowhere), GizmoControl::default());
+        let path = (framework.register_control(nowhere), PathControl::default());
+        Self {
+            framework,
+            owner: ToolSet { picture, path, gizmo, shields: Vec::new() },
+            pointer: None,
+            modifiers: Modifiers::default(),
+            revision: 0,
+        }
+    }
+}
+
+impl ViewportTools {
+    /// Returns the control of the viewport itself.
+    pub fn picture(&self) -> &ViewportControl {
+        &self.owner.picture.1
+    }
+
+    /// Returns the control of the viewport itself, to be changed.
+    pub fn picture_mut(&mut self) -> &mut ViewportControl {
+        &mut self.owner.picture.1
+    }
+
+    /// Returns the gizmo.
+    pub fn gizmo(&self) -> &GizmoControl {
+        &self.owner.gizmo.1
+    }
+
+    /// Returns the gizmo, to be changed.
+    pub fn gizmo_mut(&mut self) -> &mut GizmoControl {
+        &mut self.owner.gizmo.1
+    }
+
+    /// Returns the keys of the motion path.
+    pub fn path(&self) -> &PathControl {
+        &self.owner.path.1
+    }
+
+    /// Returns the keys of the motion path, to be changed.
+    pub fn path_mut(&mut self) -> &mut PathControl {
+        &mut self.owner.path.1
+    }
+
+    /// Sets the area of the viewport and of what covers it, points from the top left of the window. Allocates only when
+    /// more covers it than before.
+    pub fn place(&mut self, picture: Area, shields: impl Iterator<Item = Area>) {
+        let Self { framework, owner, .. } = self;
+        framework.resize(picture.max);
+        // The edge is for resizing the panels.
+        let inside = Area::new(picture.min + EDGE, picture.max - EDGE);
+        if framework.area(owner.picture.0) != Some(inside) {
+            framework.move_control(owner.picture.0, inside);
+            for (id, _) in owner.tools() {
+                framework.move_control(id, inside);
+            }
+        }
+        let mut count = 0;
+        for area in shields {
+            match owner.shields.get(count) {
+                Some((id, _)) => {
+                    if framework.area(*id) != Some(area) {
+                        framework.move_control(*id, area);
+                    }
+                }
+                None => owner.shields.push((framework.register_control(area), Shield)),
+            }
+            count += 1;
+        }
+        for (id, _) in owner.shields.drain(count..) {
+            framework.unregister_control(id);
+        }
+        let size = picture.max - picture.min;
+        (owner.picture.1.corner, owner.picture.1.size) = (picture.min, size);
+        for (_, tool) in owner.tools_mut() {
+            tool.place(picture.min);
+        }
+    }
+
+    /// Sets the camera.
+    pub fn look(&mut self, camera: &Camera) {
+        let picture = &mut self.owner.picture.1;
+        picture.camera = *camera;
+        let view = GizmoView::new(camera, picture.size);
+        for (_, tool) in self.owner.tools_mut() {
+            tool.look(view);
+        }
+    }
+
+    /// Returns a number that grows with every input, after which a drag may look different.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// Routes an input to its control. Returns whether one of them stopped it.
+    pub fn input(&mut self, event: InputEvent) -> bool {
+        self.revision += 1;
+        match event {
+            InputEvent::MouseMove(at) if at.is_finite() => self.pointer = Some(at),
+            InputEvent::MouseGone => self.pointer = None,
+            InputEvent::Modifiers(modifiers) => self.modifiers = modifiers,
+            InputEvent::Lost => (self.pointer, self.modifiers) = (None, Modifiers::default()),
+            _ => {}
+        }
+        self.framework.resolve_input(event, &mut self.owner).is_some()
+    }
+
+    /// Notifies the controls after they changed without an input.
+    pub fn update(&mut self) {
+        self.framework.update(&mut self.owner);
+    }
+
+    /// Begins a drag of the gizmo by a key, at the position of the mouse. Returns false if there is nothing to drag.
+    pub fn begin_by_key(&mut self) -> bool {
+        let (id, gizmo) = &mut self.owner.gizmo;
+        let middle = self.owner.picture.1.corner + self.owner.picture.1.size / 2.0;
+        gizmo.begin_by_key(*id, self.pointer.unwrap_or(middle), &mut self.framework)
+    }
+
+    /// Cancels what is being dragged, for example because the model is closed.
+    pub fn cancel(&mut self) {
+        self.framework.resolve_input(InputEvent::Lost, &mut self.owner);
+        self.owner.gizmo.1.cancel(&mut self.framework);
+    }
+
+    /// Whether a control has mouse and keyboard, because a button is held or a key began a drag.
+    pub fn is_busy(&self) -> bool {
+        self.framework.captured().is_some()
+    }
+
+    /// Whether a control has mouse and keyboard although no button is held.
+    pub fn is_modal(&self) -> bool {
+        self.owner.tools().iter().any(|(_, tool)| tool.is_modal()) || self.owner.picture.1.armed().is_some()
+    }
+
+    /// Whether a pose is being changed.
+    pub fn edits(&self) -> bool {
+        self.owner.tools().iter().any(|(_, tool)| tool.is_dragging())
+    }
+
+    /// Whether the mouse is over the viewport itself, and over nothing that can be dragged.
+    pub fn over_ground(&self) -> bool {
+        self.framework.hovered() == Some(self.owner.picture.0)
+    }
+
+    /// Whether the mouse is over a handle.
+    pub fn over_handle(&self) -> bool {
+        let hovered = self.framework.hovered();
+        self.owner.tools().iter().any(|(id, _)| hovered == Some(*id))
+    }
+
+    /// Returns the position of the mouse, points from the top left of the window; `None` outside it.
+    pub fn pointer(&self) -> Option<Vec2> {
+        self.pointer
+    }
+
+    /// Returns the modifier keys.
+    pub fn modifiers(&self) -> Modifiers {
+        self.modifiers
+    }
+}

@@ -1,0 +1,400 @@
+//! Drags on the curves: keys sideways in time or up and down in value, tangents by their handles, and selection boxes.
+
+use super::axis::ValueScale;
+use super::curve::Curve;
+use super::tangents::{TangentHandle, Tangents};
+use super::values::{ValueKey, value_edit};
+use crate::panels::dope::to_frame;
+use crate::panels::drag::{DragEvent, DragMachine, PointerInput, Press, SelectionBox, choice_of, readout};
+use crate::panels::keys::intervals::keys_between;
+use crate::panels::keys::{ChannelId, Drawn, KeyDragOp, KeysRequest, TimeScale};
+use crate::panels::state::{Request, State};
+use dragonfly_document::bones::Choice;
+use egui::{CursorIcon, Modifiers, Pos2, Response, Ui, pos2};
+use std::sync::Arc;
+
+/// The drag on the curves.
+#[derive(Debug, Default)]
+pub(super) struct CurveDrag {
+    machine: DragMachine<CurveTarget, CurveDragged>,
+    /// Component of the key that was pressed on last.
+    component: usize,
+}
+
+/// The dragged part of the curves. `requested` is whether the drag was requested, so that it must exist from now on.
+#[derive(Debug)]
+enum CurveDragged {
+    Times {
+        /// Time of the pressed key when the drag began, seconds.
+        grabbed: f32,
+        /// Time under the pointer at the press, seconds.
+        pressed: f32,
+        copies: bool,
+        requested: bool,
+    },
+    Values {
+        keys: Vec<ValueKey>,
+        component: usize,
+        /// Value under the pointer at the press.
+        pressed: f32,
+        requested: bool,
+    },
+    Tangent {
+        handle: TangentHandle,
+        curve: Arc<Curve>,
+        requested: bool,
+    },
+    Box(SelectionBox),
+}
+
+/// Target under the pointer.
+#[derive(Clone, Debug)]
+enum CurveTarget {
+    Nothing,
+    Key(CurveKey),
+    Handle(TangentHandle),
+}
+
+/// A key under the pointer, on the curve of one component.
+#[derive(Clone, Debug)]
+struct CurveKey {
+    curve: Arc<Curve>,
+    key: usize,
+    component: usize,
+    selected: bool,
+}
+
+/// Distance within which something is under the pointer, points.
+const REACH: f32 = 8.0;
+/// Largest number of keys whose values are dragged at once.
+const MOST: usize = 2000;
+
+/// Everything that a drag on the curves reads in one frame.
+pub(super) struct CurveCanvas<'a> {
+    pub(super) curves: &'a [Arc<Curve>],
+    pub(super) drawn: &'a Drawn,
+    pub(super) time: &'a TimeScale,
+    pub(super) value: &'a ValueScale,
+    /// A bit for each component that is shown.
+    pub(super) components: u8,
+    pub(super) tangents: &'a Tangents,
+    pub(super) state: &'a State,
+}
+
+impl CurveKey {
+    fn time(&self) -> f32 {
+        self.curve.times().get(self.key).copied().unwrap_or_default()
+    }
+}
+
+impl CurveDrag {
+    /// Component of the key that was pressed on last, 0 for X.
+    pub(super) fn component(&self) -> usize {
+        self.component
+    }
+
+    /// Whether a press on the curves is in progress.
+    pub(super) fn is_busy(&self) -> bool {
+        self.machine.is_busy()
+    }
+
+    /// Acts on what the pointer does on `canvas`.
+    pub(super) fn update(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        canvas: &CurveCanvas<'_>,
+        requests: &mut Vec<Request>,
+    ) {
+        let input = PointerInput::read(ui);
+        let pointer = response.interact_pointer_pos().or_else(|| response.hover_pos());
+        if !self.is_busy()
+            && response.hovered()
+            && let Some(pointer) = pointer
+        {
+            canvas.hover(ui, pointer, &input, requests);
+        }
+        match self.machine.step(&input, response.is_pointer_button_down_on(), |at| canvas.target_at(at)) {
+            DragEvent::Nothing | DragEvent::Cancelled(CurveDragged::Box(_)) => {}
+            DragEvent::Pressed => {
+                if let Some(Press { on: CurveTarget::Key(key), .. }) = self.machine.press() {
+                    self.component = key.component;
+                }
+            }
+            DragEvent::Started(press) => {
+                if let Some(pointer) = input.pointer
+                    && let Some(drag) = canvas.start(press, pointer, requests)
+                {
+                    self.machine.begin(drag);
+                    self.advance(ui, pointer, canvas, &input, requests);
+                }
+            }
+            DragEvent::Moved(pointer) => self.advance(ui, pointer, canvas, &input, requests),
+            DragEvent::Clicked(press) => click(&press, requests),
+            DragEvent::Dropped(CurveDragged::Box(drawn)) => {
+                if let Some(pointer) = pointer.or(input.pointer) {
+                    let to = [canvas.time.time_at(pointer.x), canvas.value.value_at(pointer.y)];
+                    let parts = canvas.boxed(drawn.ranges(to));
+                    let choice = drawn.choice;
+                    requests.push(Request::Timeline(KeysRequest::SelectKeys { parts, choice }));
+                }
+            }
+            DragEvent::Dropped(_) => requests.push(Request::Timeline(KeysRequest::Release)),
+            DragEvent::Cancelled(_) => requests.push(Request::Timeline(KeysRequest::Cancel)),
+        }
+    }
+
+    fn advance(
+        &mut self,
+        ui: &Ui,
+        pointer: Pos2,
+        canvas: &CurveCanvas<'_>,
+        input: &PointerInput,
+        requests: &mut Vec<Request>,
+    ) {
+        let Some(drag) = self.machine.drag_mut() else { return };
+        // The document refused the drag, or a key cancelled it.
+        if drag.was_requested() && !canvas.state.keys.is_dragging() {
+            return self.machine.spend();
+        }
+        if let Some(op) = drag.op(ui, pointer, canvas, input) {
+            requests.push(Request::Timeline(KeysRequest::Drag(op)));
+        }
+    }
+}
+
+impl CurveDragged {
+    fn was_requested(&self) -> bool {
+        match self {
+            Self::Times { requested, .. }
+            | Self::Values { requested, .. }
+            | Self::Tangent { requested, .. } => *requested,
+            Self::Box(_) => false,
+        }
+    }
+
+    /// Shows how far the drag is, and returns the operation that it amounts to; `None` for a box and where there is none.
+    fn op(
+        &mut self,
+        ui: &Ui,
+        pointer: Pos2,
+        canvas: &CurveCanvas<'_>,
+        input: &PointerInput,
+    ) -> Option<KeyDragOp> {
+        let state = canvas.state;
+        match self {
+            Self::Times { grabbed, pressed, copies, requested } => {
+                let by = canvas.time.time_at(pointer.x) - *pressed;
+                let snap = state.keys.snap != input.modifiers.command;
+                let by = if snap { to_frame(*grabbed + by, state) - *grabbed } else { by };
+                ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
+                let frames = by * state.settings.frame_rate as f32;
+                readout(ui, pointer, &format!("{by:+.3} s   {frames:+.1} frames"));
+                *requested = true;
+                Some(if *copies { KeyDragOp::Duplicate(by) } else { KeyDragOp::Move(by) })
+            }
+            Self::Values { keys, component, pressed, requested } => {
+                ui.ctx().set_cursor_icon(CursorIcon::ResizeVertical);
+                if keys.len() > MOST {
+                    readout(ui, pointer, &format!("At most {MOST} key values can be dragged at once"));
+                    return None;
+                }
+                let mut by = canvas.value.value_at(pointer.y) - *pressed;
+                if input.modifiers.command {
+                    let step = (canvas.value.step() / 2.0) as f32;
+                    by = (by / step).round() * step;
+                }
+                readout(ui, pointer, &format!("{} {by:+.3}", component_name(*component)));
+                let edit = value_edit(state.take_ref()?, keys, *component, by)?;
+                *requested = true;
+                Some(KeyDragOp::Edit(edit))
+            }
+            Self::Tangent { handle, curve, requested } => {
+                let slope = handle.slope_at(pointer, canvas.time, canvas.value);
+                ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
+                readout(ui, pointer, &format!("{} {slope:+.3} / s", component_name(handle.component)));
+                let edit = handle.edit(state.take_ref()?, curve, slope, input.modifiers.alt)?;
+                *requested = true;
+                Some(KeyDragOp::Edit(edit))
+            }
+            Self::Box(drawn) => {
+                let [time, value] = drawn.from;
+                let corner = pos2(canvas.time.x_of(time), canvas.value.y_of(value));
+                SelectionBox::paint(ui, canvas.value.rect, corner, pointer);
+                None
+            }
+        }
+    }
+}
+
+/// Acts on a click on a key, a handle or the empty canvas.
+fn click(press: &Press<CurveTarget>, requests: &mut Vec<Request>) {
+    match &press.on {
+        CurveTarget::Key(on) => requests.push(select(on, choice_of(press.modifiers))),
+        CurveTarget::Handle(_) => {}
+        CurveTarget::Nothing => {
+            if !press.modifiers.command && !press.modifiers.shift {
+                requests.push(Request::Timeline(KeysRequest::Deselect));
+            }
+        }
+    }
+}
+
+impl CurveCanvas<'_> {
+    fn components(&self, curve: &Curve) -> impl Iterator<Item = usize> {
+        let components = self.components;
+        (0..curve.width()).filter(move |at| components & (1 << at) != 0)
+    }
+
+    /// Shows what is under the pointer; the right button selects it for the menu.
+    fn hover(&self, ui: &Ui, pointer: Pos2, input: &PointerInput, requests: &mut Vec<Request>) {
+        match self.target_at(pointer) {
+            CurveTarget::Key(on) => {
+                ui.ctx().set_cursor_icon(CursorIcon::Grab);
+                readout(ui, pointer, &self.description(&on));
+                if input.secondary_pressed && !on.selected {
+                    requests.push(select(&on, Choice::Replace));
+                }
+            }
+            CurveTarget::Handle(_) => ui.ctx().set_cursor_icon(CursorIcon::Grab),
+            CurveTarget::Nothing => {}
+        }
+    }
+
+    /// Returns what a press becomes when the pointer has moved far enough, to `pointer`.
+    fn start(
+        &self,
+        press: Press<CurveTarget>,
+        pointer: Pos2,
+        requests: &mut Vec<Request>,
+    ) -> Option<CurveDragged> {
+        let Press { at, on, modifiers } = press;
+        match on {
+            CurveTarget::Handle(handle) => {
+                let curve = self.curves.iter().find(|curve| curve.id == handle.id)?;
+                Some(CurveDragged::Tangent { handle, curve: Arc::clone(curve), requested: false })
+            }
+            CurveTarget::Nothing => Some(CurveDragged::Box(SelectionBox {
+                from: [self.time.time_at(at.x), self.value.value_at(at.y)],
+                choice: choice_of(modifiers),
+            })),
+            CurveTarget::Key(on) => Some(self.start_on_key(&on, at, pointer, modifiers, requests)),
+        }
+    }
+
+    fn start_on_key(
+        &self,
+        on: &CurveKey,
+        at: Pos2,
+        pointer: Pos2,
+        modifiers: Modifiers,
+        requests: &mut Vec<Request>,
+    ) -> CurveDragged {
+        if !on.selected {
+            let choice = if modifiers.shift { Choice::Add } else { Choice::Replace };
+            requests.push(select(on, choice));
+        }
+        let moved = pointer - at;
+        // The first movement decides between time and value: both at once would be two edits in one.
+        if moved.x.abs() >= moved.y.abs() {
+            let copies = modifiers.alt || (modifiers.shift && on.selected);
+            let pressed = self.time.time_at(at.x);
+            CurveDragged::Times { grabbed: on.time(), pressed, copies, requested: false }
+        } else {
+            let pressed = self.value.value_at(at.y);
+            CurveDragged::Values {
+                keys: self.value_keys(on),
+                component: on.component,
+                pressed,
+                requested: false,
+            }
+        }
+    }
+
+    fn target_at(&self, pointer: Pos2) -> CurveTarget {
+        if let Some(handle) = self.tangents.under(pointer, REACH) {
+            return CurveTarget::Handle(handle);
+        }
+        let mut best: Option<(f32, CurveKey)> = None;
+        let stretch = [self.time.time_at(pointer.x - REACH), self.time.time_at(pointer.x + REACH)];
+        for curve in self.curves {
+            let keys = keys_between(curve.times(), stretch);
+            // Keys this dense have no dots, and cannot be pressed on.
+            if keys.len() > 8 {
+                continue;
+            }
+            for key in keys {
+                let (x, numbers) = (self.time.x_of(curve.times()[key]), curve.key(key));
+                for component in self.components(curve) {
+                    let distance = pos2(x, self.value.y_of(numbers[component])).distance(pointer);
+                    if distance <= REACH && best.as_ref().is_none_or(|(least, _)| distance < *least) {
+                        let selected = curve.is_chosen(key, self.drawn.selection.of(curve.id));
+                        best =
+                            Some((distance, CurveKey { curve: Arc::clone(curve), key, component, selected }));
+                    }
+                }
+            }
+        }
+        best.map_or(CurveTarget::Nothing, |(_, on)| CurveTarget::Key(on))
+    }
+
+    /// Returns bone, channel, value and time of a key as text.
+    fn description(&self, on: &CurveKey) -> String {
+        let (bone, property) = on.curve.id;
+        let number = on.curve.key(on.key)[on.component];
+        format!(
+            "{} {} {}  {number:.3}  at {:.3} s",
+            self.state.bone_name(bone),
+            property.name(),
+            component_name(on.component),
+            on.time()
+        )
+    }
+
+    /// Returns the keys whose values a drag of `on` changes: those selected keys of the same property whose curves are
+    /// shown.
+    fn value_keys(&self, on: &CurveKey) -> Vec<ValueKey> {
+        if !on.selected {
+            return ValueKey::of(&on.curve, on.key).into_iter().collect();
+        }
+        let same = self.curves.iter().filter(|curve| curve.id.1 == on.curve.id.1);
+        let keys = same.flat_map(|curve| {
+            let chosen = self.drawn.selection.of(curve.id);
+            chosen.keys(curve.times()).flatten().filter_map(|key| ValueKey::of(curve, key))
+        });
+        keys.take(MOST + 1).collect()
+    }
+
+    /// Returns the keys in a box of times and values.
+    fn boxed(&self, [times, values]: [[f32; 2]; 2]) -> Vec<(ChannelId, Vec<[f32; 2]>)> {
+        /// Number of keys of a curve above which only their times count.
+        const LOOKED_AT: usize = 50_000;
+        let mut parts = Vec::new();
+        for curve in self.curves {
+            let keys = keys_between(curve.times(), times);
+            if keys.len() > LOOKED_AT {
+                parts.push((curve.id, vec![times]));
+                continue;
+            }
+            let inside = |&key: &usize| {
+                let numbers = curve.key(key);
+                self.components(curve).any(|at| (values[0]..=values[1]).contains(&numbers[at]))
+            };
+            let found: Vec<[f32; 2]> = keys.filter(inside).map(|key| [curve.times()[key]; 2]).collect();
+            if !found.is_empty() {
+                parts.push((curve.id, found));
+            }
+        }
+        parts
+    }
+}
+
+fn select(on: &CurveKey, choice: Choice) -> Request {
+    let stretch = [on.time(); 2];
+    Request::Timeline(KeysRequest::Select { channels: Arc::new([on.curve.id]), stretch, choice })
+}
+
+/// Returns the letter of a component: X, Y, Z, W.
+pub(super) fn component_name(component: usize) -> &'static str {
+    ["X", "Y", "Z", "W"].get(component).copied().unwrap_or("?")
+}

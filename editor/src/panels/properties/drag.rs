@@ -1,0 +1,305 @@
+//! From what the user does to a number of the panel to edits.
+//!
+//! Three typed angles stay those angles as long as the rotation is the one they stand for: many angles stand for the
+//! same rotation.
+
+use super::super::commands::Id;
+use super::super::number_field::FieldEvent;
+use super::super::state::{Request, State};
+use super::parts::{
+    ChannelNumbers, Column, NumberForm, Pair, PosePart, is_same_turn, numbers, part, turn_of,
+};
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_anim::sample::{rest_pose, sample_track};
+use dragonfly_document::Change;
+use dragonfly_document::edit::{BonePose, Property};
+use dragonfly_document::history::Gesture;
+use dragonfly_document::posing;
+use glam::DQuat;
+
+/// Which numbers of a bone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Spot {
+    /// Translation, rotation or scale.
+    pub(super) property: Property,
+    /// Original, change or result.
+    pub(super) column: Column,
+    /// Form in which they are shown.
+    pub(super) form: NumberForm,
+}
+
+/// The field that is dragged, and the angles that were typed.
+#[derive(Debug, Default)]
+pub(super) struct FieldDrag {
+    held: Option<HeldNumber>,
+    /// Typed angles of the active bone.
+    typed: Vec<TypedAngles>,
+}
+
+/// A field that is dragged.
+#[derive(Debug)]
+struct HeldNumber {
+    gesture: Gesture,
+    spot: Spot,
+    component: usize,
+    moment: Moment,
+    begun: Begun,
+    /// Difference to the number at the start of the drag.
+    by: f64,
+    /// Whether the selection, the take or the time changed, so that the drag has no effect any more.
+    over: bool,
+}
+
+/// Take, time and bones of a drag; the drag ends when they change.
+#[derive(Clone, Debug, PartialEq)]
+struct Moment {
+    take: Option<usize>,
+    time: u32,
+    bones: Vec<BoneIndex>,
+}
+
+/// The bones when the drag began.
+#[derive(Debug)]
+struct Begun {
+    starts: Vec<Start>,
+    /// Holds pinned bones in place.
+    hold: Option<posing::PoseDragState>,
+}
+
+/// A bone when the drag began.
+#[derive(Clone, Copy, Debug)]
+struct Start {
+    bone: BoneIndex,
+    pair: Pair,
+    numbers: ChannelNumbers,
+}
+
+/// Numbers of a rotation as they were typed.
+#[derive(Clone, Copy, Debug)]
+struct TypedAngles {
+    bone: BoneIndex,
+    column: Column,
+    form: NumberForm,
+    numbers: ChannelNumbers,
+    rotation: DQuat,
+}
+
+/// A change of one number of all selected bones.
+#[derive(Clone, Copy)]
+struct NumberChange {
+    spot: Spot,
+    component: usize,
+    to: NewNumber,
+}
+
+/// What a number becomes.
+#[derive(Clone, Copy)]
+enum NewNumber {
+    Set(f64),
+    Add(f64),
+}
+
+impl FieldDrag {
+    /// Begins a frame. `in_use` is whether a field of the panel has the focus or is dragged.
+    pub(super) fn begin(&mut self, state: &State, in_use: bool) {
+        let active = state.selected();
+        self.typed
+            .retain(|typed| Some(typed.bone) == active && (in_use || typed.form != NumberForm::Quaternion));
+    }
+
+    /// Returns the numbers of a bone at `spot`.
+    pub(super) fn numbers(&self, bone: BoneIndex, pair: &Pair, spot: Spot) -> Option<ChannelNumbers> {
+        let now = numbers(pair, spot.property, spot.column, spot.form)?;
+        let typed = self.typed.iter().find(|typed| {
+            spot.property == Property::Rotation
+                && (typed.bone, typed.column, typed.form) == (bone, spot.column, spot.form)
+        });
+        let fits = |typed: &&TypedAngles| {
+            turn_of(spot.form, now).is_some_and(|now| is_same_turn(typed.rotation, now))
+        };
+        Some(typed.filter(fits).map_or(now, |typed| typed.numbers))
+    }
+
+    /// Returns the numbers that all selected bones share at `spot`; `None` where they differ. `pair` is the active
+    /// bone.
+    pub(super) fn shared(
+        &self,
+        state: &State,
+        active: BoneIndex,
+        pair: &Pair,
+        spot: Spot,
+        grain: f64,
+    ) -> [Option<f64>; 4] {
+        let first = self.numbers(active, pair, spot);
+        let mut shared = first.map_or([None; 4], |numbers| numbers.map(Some));
+        for &bone in state.selection.bones().iter().filter(|&&bone| bone != active) {
+            if shared == [None; 4] {
+                break;
+            }
+            let other =
+                pair_of(state, bone).and_then(|pair| numbers(&pair, spot.property, spot.column, spot.form));
+            for (index, number) in shared.iter_mut().enumerate() {
+                let same = number.zip(other).is_some_and(|(a, other)| (a - other[index]).abs() <= grain);
+                *number = number.filter(|_| same);
+            }
+        }
+        shared
+    }
+
+    /// Applies what the user did to one number. An error is the reason why the number is impossible.
+    pub(super) fn apply(
+        &mut self,
+        state: &State,
+        spot: Spot,
+        component: usize,
+        event: FieldEvent,
+        requests: &mut Vec<Request>,
+    ) -> Result<(), &'static str> {
+        match event {
+            FieldEvent::Nothing => {}
+            FieldEvent::Touched => stop(state, requests),
+            FieldEvent::Dragged(by) => {
+                if self.held.is_none() && !state.playback.playing && by != 0.0 {
+                    self.held = Some(HeldNumber {
+                        gesture: state.new_gesture(),
+                        spot,
+                        component,
+                        moment: Moment::of(state),
+                        begun: self.begun(state, spot),
+                        by: 0.0,
+                        over: false,
+                    });
+                }
+                self.drag(state, spot, component, by, requests);
+            }
+            FieldEvent::Released => {
+                if let Some(held) = self.held.take() {
+                    let came_back = held.by == 0.0 && !held.over;
+                    let end = if came_back { Change::Cancel } else { Change::Release };
+                    requests.push(Request::Change(end(held.gesture)));
+                }
+            }
+            FieldEvent::Cancelled => {
+                if let Some(held) = self.held.take() {
+                    requests.push(Request::Change(Change::Cancel(held.gesture)));
+                }
+            }
+            FieldEvent::Typed(value) => {
+                stop(state, requests);
+                let mut begun = self.begun(state, spot);
+                let change = NumberChange { spot, component, to: NewNumber::Set(value) };
+                self.send(state, change, &mut begun, None, requests)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn drag(&mut self, state: &State, spot: Spot, component: usize, by: f64, requests: &mut Vec<Request>) {
+        let Some(mut held) = self.held.take() else { return };
+        held.over |= (held.spot, held.component) != (spot, component) || held.moment != Moment::of(state);
+        if !held.over {
+            held.by = by;
+            let (begun, gesture) = (&mut held.begun, Some(held.gesture));
+            // A number that is impossible is skipped during a drag.
+            let change = NumberChange { spot, component, to: NewNumber::Add(by) };
+            let _ = self.send(state, change, begun, gesture, requests);
+        }
+        self.held = Some(held);
+    }
+
+    fn begun(&self, state: &State, spot: Spot) -> Begun {
+        let starts = state
+            .bones_to_pose()
+            .filter_map(|bone| {
+                let pair = pair_of(state, bone)?;
+                Some(Start { bone, pair, numbers: self.numbers(bone, &pair, spot)? })
+            })
+            .collect();
+        Begun { starts, hold: state.hold_of_pins() }
+    }
+
+    fn send(
+        &mut self,
+        state: &State,
+        change: NumberChange,
+        begun: &mut Begun,
+        gesture: Option<Gesture>,
+        requests: &mut Vec<Request>,
+    ) -> Result<(), &'static str> {
+        let NumberChange { spot, component, to } = change;
+        let mut poses: Vec<BonePose> = Vec::new();
+        for start in &begun.starts {
+            let mut numbers = start.numbers;
+            numbers[component] = match to {
+                NewNumber::Set(value) => value,
+                NewNumber::Add(by) => numbers[component] + by,
+            };
+            let Some(part) = part(&start.pair.original, spot.property, spot.column, spot.form, numbers)
+            else {
+                return Err(reason(spot));
+            };
+            if Some(start.bone) == state.selected()
+                && let Some(rotation) =
+                    turn_of(spot.form, numbers).filter(|_| spot.property == Property::Rotation)
+            {
+                let Spot { column, form, .. } = spot;
+                self.typed.retain(|typed| (typed.column, typed.form) != (column, form));
+                self.typed.push(TypedAngles { bone: start.bone, column, form, numbers, rotation });
+            }
+            poses.push(part.pose(start.bone, spot.property));
+        }
+        let poses = State::with_pins(&mut begun.hold, poses);
+        let edit = state.pose_edit(poses);
+        requests.extend(edit.map(|edit| Request::Change(Change::Edit(edit, gesture))));
+        Ok(())
+    }
+}
+
+/// Returns the change that gives all selected bones other parts of their pose, as a step of its own.
+pub(super) fn set(
+    state: &State,
+    property: Property,
+    of: impl Fn(&Pair, BoneIndex) -> Option<PosePart>,
+) -> Option<Request> {
+    let bones = state.bones_to_pose();
+    let poses =
+        bones.filter_map(|bone| Some(of(&pair_of(state, bone)?, bone)?.pose(bone, property))).collect();
+    let poses = State::with_pins(&mut state.hold_of_pins(), poses);
+    state.pose_edit(poses).map(|edit| Request::Change(Change::Edit(edit, None)))
+}
+
+impl Moment {
+    fn of(state: &State) -> Self {
+        let bones = state.selection.bones().to_vec();
+        Self { take: state.playback.take, time: state.time().to_bits(), bones }
+    }
+}
+
+/// Returns original and result of a bone at the time shown.
+pub(super) fn pair_of(state: &State, bone: BoneIndex) -> Option<Pair> {
+    let view = state.view.as_ref()?;
+    let rules = view.loaded.model.animation.skeleton.bones.get(bone as usize)?;
+    let result = *state.posed.animation()?.poses().get(bone as usize)?;
+    let slot = state.playback.take.and_then(|take| view.slots.get(take));
+    let original = match slot.and_then(|slot| slot.original.tracks.get(bone as usize)) {
+        Some(track) => sample_track(track, rules, state.time()),
+        None => rest_pose(rules),
+    };
+    Some(Pair { original, result })
+}
+
+/// Pauses playback while numbers are edited.
+fn stop(state: &State, requests: &mut Vec<Request>) {
+    if state.playback.playing {
+        let backwards = state.playback.speed < 0.0;
+        requests.push(Request::Command(if backwards { Id::PlayBackwards } else { Id::PlayPause }));
+    }
+}
+
+fn reason(spot: Spot) -> &'static str {
+    match (spot.property, spot.column) {
+        (Property::Rotation, _) => "Four zeros are not a rotation",
+        (Property::Scale, Column::Change) => "The original scale is 0, which no factor can change",
+        _ => "The number is too large",
+    }
+}

@@ -1,0 +1,127 @@
+//! What the user sees of an edit before the document answers.
+
+use crate::hands_rig::Hand;
+use dragonfly::panels::echo::Echo;
+use dragonfly_document::edit::{BonePose, BoneRef, DropPending, Edit, ReverseTake, SetPose, TakeRef};
+use dragonfly_document::history::Gesture;
+use dragonfly_document::{Change, View, open_model};
+use dragonfly_kit::document::fixture;
+use std::sync::Arc;
+
+const GESTURE: Gesture = Gesture(5);
+
+/// Puts bone 1 of the first take at `x` at its start.
+fn set(x: f32, gesture: Option<Gesture>) -> Change {
+    let translation = Some([x, 0.0, 0.0]);
+    let pose = BonePose { bone: BoneRef::Index(1), translation, rotation: None, scale: None };
+    let take = TakeRef::Index(0);
+    Change::Edit(Edit::SetPose(SetPose { take, time: 0.0, poses: vec![pose], unstep: false }), gesture)
+}
+
+/// Where bone 1 is at the start of the first take.
+fn x_of(view: Option<&View>) -> f32 {
+    let view = view.unwrap();
+    let bone = &view.loaded.model.animation.skeleton.bones[1];
+    dragonfly_anim::sample::sample_track(&view.takes[0].tracks[1], bone, 0.0).translation.x
+}
+
+/// The document's view after `changes`, the last of which has number `answered`.
+fn answer(first: &View, answered: u64, changes: &[Change]) -> View {
+    let mut edited = first.edited();
+    for change in changes {
+        match change {
+            Change::Edit(edit, gesture) => edited.ask(edit.clone(), *gesture).unwrap(),
+            Change::Cancel(gesture) => assert!(edited.cancel(*gesture)),
+            other => panic!("{other:?}"),
+        }
+    }
+    let takes = edited.adapter().results().cloned().collect();
+    let slots = edited.adapter().slots().into();
+    View { generation: first.generation + answered, answered, takes, slots, ..first.clone() }
+}
+
+#[test]
+fn an_edit_is_shown_until_the_view_that_contains_it_arrives() {
+    let first = fixture::full();
+    let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
+    let number = echo.send(&set(3.0, None), &mut shown);
+    assert_eq!(x_of(shown.as_ref()), 3.0, "at once");
+    assert_ne!(
+        shown.as_ref().unwrap().generation,
+        first.generation,
+        "whoever caches by generation looks again"
+    );
+    assert!(!echo.has_answered(number));
+    let view = answer(&first, number, &[set(3.0, None)]);
+    let takes = Arc::clone(&view.takes);
+    let now = echo.receive(view, &mut shown);
+    assert!(echo.has_answered(number) && Arc::ptr_eq(&now.takes, &takes), "the document's own");
+    assert_eq!(shown.unwrap().generation, first.generation, "and before it the document's last one");
+}
+
+#[test]
+fn a_view_without_the_newest_edit_does_not_bring_the_old_number_back() {
+    let first = fixture::full();
+    let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
+    let one = echo.send(&set(1.0, Some(GESTURE)), &mut shown);
+    let two = echo.send(&set(2.0, Some(GESTURE)), &mut shown);
+    let now = echo.receive(answer(&first, one, &[set(1.0, Some(GESTURE))]), &mut shown);
+    assert_eq!(x_of(Some(&now)), 2.0);
+    shown = Some(now);
+    let changes = [set(1.0, Some(GESTURE)), set(2.0, Some(GESTURE))];
+    let now = echo.receive(answer(&first, two, &changes), &mut shown);
+    assert_eq!((x_of(Some(&now)), now.generation), (2.0, first.generation + two));
+}
+
+#[test]
+fn what_the_document_refused_is_dropped() {
+    let first = fixture::full();
+    let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
+    let before = x_of(shown.as_ref());
+    let number = echo.send(&set(3.0, None), &mut shown);
+    let now = echo.receive(View { answered: number, ..first }, &mut shown);
+    assert_eq!(x_of(Some(&now)), before);
+}
+
+#[test]
+fn a_cancelled_drag_is_undone_at_once() {
+    let first = fixture::full();
+    let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
+    let before = x_of(shown.as_ref());
+    echo.send(&set(1.0, Some(GESTURE)), &mut shown);
+    echo.send(&set(2.0, Some(GESTURE)), &mut shown);
+    echo.send(&Change::Cancel(GESTURE), &mut shown);
+    assert_eq!(x_of(shown.as_ref()), before);
+}
+
+#[test]
+fn an_edit_that_is_impossible_here_shows_nothing() {
+    let first = fixture::full();
+    let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
+    let wrong = Change::Edit(
+        Edit::DropPending(DropPending { take: TakeRef::Index(99), time: None, bones: Vec::new() }),
+        None,
+    );
+    echo.send(&wrong, &mut shown);
+    assert_eq!(shown.unwrap().generation, first.generation);
+}
+
+#[test]
+fn a_model_that_was_opened_meanwhile_is_shown_as_it_is() {
+    let (first, other) = (fixture::full(), fixture::full());
+    let (mut echo, mut shown) = (Echo::default(), Some(first));
+    echo.send(&set(3.0, None), &mut shown);
+    let now = echo.receive(other.clone(), &mut shown);
+    assert_eq!(now.generation, other.generation);
+    assert!(Arc::ptr_eq(&now.takes, &other.takes));
+}
+
+#[test]
+fn the_document_answers_a_numbered_change_that_it_refuses() {
+    let mut hand = Hand::new(open_model);
+    let before = hand.state.view.clone().unwrap();
+    hand.change_numbered(7, Change::Edit(Edit::ReverseTake(ReverseTake { take: TakeRef::Index(99) }), None));
+    assert_eq!(hand.refused.len(), 1);
+    let after = hand.state.view.as_ref().unwrap();
+    assert_eq!((after.answered, after.generation), (7, before.generation));
+}
