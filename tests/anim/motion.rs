@@ -329,7 +329,7 @@ fn a_bone_without_motion_is_an_error_with_its_reason() {
     skeleton.bones[0].rest.scale = Vec3::new(1.0, 0.0, 1.0);
     let error = extract(&take, &skeleton, 1, RootMotionOptions::default()).unwrap_err();
     assert_eq!(error, MotionError::Flat { bone: 1, milliseconds: 0 });
-    assert!(error.to_string().contains("scale above it is zero"));
+    assert!(error.to_string().contains("a scale of one of its ancestors is zero"));
 }
 
 #[test]

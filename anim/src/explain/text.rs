@@ -59,7 +59,7 @@ fn title(explanation: &Explanation, out: &mut Formatter<'_>) -> Result {
     }
     writeln!(
         out,
-        "Matrices are for column vectors; the thesis uses row vectors, with the factors in the opposite order."
+        "Matrices multiply column vectors; the thesis uses row vectors and the opposite order of factors."
     )
 }
 
