@@ -67,7 +67,7 @@
 //! | compress takes | [`compressed`] |
 //! | bounding volumes; ray and sphere queries | [`bounds`], [`hit`] |
 //! | levels of detail | [`level`] |
-//! | validate a model | [`check`] |
+//! | validate a model; measure the difference between two takes | [`check`], [`compare`] |
 //! | show every intermediate value of a bone or a vertex | [`explain`] |
 //! | the limits for imported files | [`limits`] |
 //!

@@ -1,4 +1,4 @@
-//! How far two takes are apart, against distances and angles known by hand.
+//! The distance between two takes, compared with distances and angles computed by hand.
 
 use dragonfly_anim::compare::{LONGEST_GAP, MOST_SAMPLES, compare_takes, pair_bones, sample_times};
 use dragonfly_anim::data::{Bone, Channel, Interpolation, MorphTrack, Skeleton, Take, Track, Transform};

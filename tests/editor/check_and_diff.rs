@@ -43,7 +43,7 @@ fn warnings_fail_a_check_only_where_they_are_denied() {
             return None;
         }
         let report: Value = report.json();
-        (report[0]["warnings"].as_u64() > Some(0)).then(|| (path, report))
+        (report[0]["warnings"].as_u64() > Some(0)).then_some((path, report))
     });
     let (path, report) = warned.expect("a model of tests/data has a warning");
     let denied = run(["check", text(path), "--deny", "warning"]).expect(1);
