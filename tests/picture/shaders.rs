@@ -17,14 +17,14 @@ fn every_shader_is_valid() {
 
 #[test]
 fn every_file_is_in_the_list() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../shaders");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders");
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "wgsl") {
             let name = path.file_stem().unwrap().to_str().unwrap();
             assert!(
                 ALL.iter().any(|shader| shader.name == name),
-                "{name}.wgsl is not in graphics/shaders.rs"
+                "{name}.wgsl is not in picture/src/shaders.rs"
             );
         }
     }

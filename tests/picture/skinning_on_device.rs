@@ -193,7 +193,7 @@ fn bones_that_swell_and_shrink_keep_the_light_where_it_falls() {
 #[test]
 fn the_morphed_cube_of_the_sample_is_as_computed() {
     let Some(mut studio) = studio::studio() else { return };
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gltf/AnimatedMorphCube.glb");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/gltf/AnimatedMorphCube.glb");
     let loaded = open(&Source::File(folder.into()));
     let take = &loaded.model.animation.takes[0];
     check(&mut studio, &loaded, take.start + take.length * 0.4);
