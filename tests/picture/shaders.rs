@@ -24,7 +24,7 @@ fn every_file_is_in_the_list() {
             let name = path.file_stem().unwrap().to_str().unwrap();
             assert!(
                 ALL.iter().any(|shader| shader.name == name),
-                "{name}.wgsl is not in graphics/shaders.rs"
+                "{name}.wgsl is not in picture/src/shaders.rs"
             );
         }
     }
