@@ -1,23 +1,7 @@
 //! Cancellation and progress of long work on another thread.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// A flag that the caller raises and that the work checks between its steps. Clones share it.
-#[derive(Clone, Debug, Default)]
-pub struct Cancel(Arc<AtomicBool>);
-
-impl Cancel {
-    /// Requests the work to stop soon.
-    pub fn cancel(&self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
-
-    /// Returns whether the work was cancelled.
-    pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
-}
+#[doc(inline)]
+pub use dragonfly_runtime::CancelFlag as Cancel;
 
 /// A stage of loading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

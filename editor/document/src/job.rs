@@ -1,9 +1,8 @@
-//! Loading on a separate thread: the document continues to work while a file is read, and survives an importer that
-//! panics.
+//! Loading in a job: the document continues to work while a file is read, and survives an importer that panics.
 
-use super::{Cancel, LoadError, Loader, OpenedModel, Progress, Source};
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::thread::JoinHandle;
+use super::message::{DocumentMessage, NewsBox};
+use super::{LoadError, Loader, OpenedModel, Progress, Source};
+use dragonfly_runtime::{Address, Job};
 
 /// News of a loading job.
 #[derive(Debug)]
@@ -14,66 +13,31 @@ pub(super) enum JobNews {
     Done(Result<Box<OpenedModel>, LoadError>),
 }
 
-/// A model that is loading. Dropping it cancels the job without waiting for its end.
-pub(super) struct LoadJob {
-    cancel: Cancel,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl LoadJob {
-    /// Starts loading. `load` and `tell` are called on the thread of the job.
-    pub(super) fn start(
-        source: Source,
-        load: Loader,
-        tell: impl Fn(JobNews) + Send + 'static,
-    ) -> std::io::Result<Self> {
-        let cancel = Cancel::default();
-        let seen = cancel.clone();
-        let thread = std::thread::Builder::new().name("load".to_owned()).spawn(move || {
-            let title = source.title();
-            let mut last = -1.0;
-            let mut progress = |progress: Progress| {
-                // A progress bar needs no more than a hundred steps.
-                if progress.done - last >= 0.01 {
-                    last = progress.done;
-                    tell(JobNews::Progress(progress));
-                }
-            };
-            // Nothing of a failed job is used, so no partial state is visible.
-            let loaded = catch_unwind(AssertUnwindSafe(|| load(&source, &mut progress, &seen)));
-            tell(JobNews::Done(loaded.map(|loaded| loaded.map(Box::new)).unwrap_or_else(|panic| {
-                let reason = format!("the importer failed: {}", panic_text(&*panic));
-                Err(LoadError::Format { title, reason })
-            })));
-        })?;
-        Ok(Self { cancel, thread: Some(thread) })
-    }
-
-    /// Returns whether the job has ended.
-    pub(super) fn is_finished(&self) -> bool {
-        self.thread.as_ref().is_none_or(JoinHandle::is_finished)
-    }
-}
-
-impl Drop for LoadJob {
-    fn drop(&mut self) {
-        self.cancel.cancel();
-        // A job that reads from a slow disk cannot be interrupted, and is not waited for.
-        if self.is_finished()
-            && let Some(thread) = self.thread.take()
-            && thread.join().is_err()
-        {
-            tracing::error!("a load job panicked outside its guard");
-        }
-    }
-}
-
-fn panic_text(panic: &(dyn std::any::Any + Send)) -> &str {
-    if let Some(text) = panic.downcast_ref::<&str>() {
-        text
-    } else if let Some(text) = panic.downcast_ref::<String>() {
-        text
-    } else {
-        "it gave no reason"
-    }
+/// Starts loading `source` in a job, whose news reach the document with `ticket`. Dropping the job cancels it without
+/// waiting for its end.
+///
+/// # Errors
+/// The system cannot create a thread, or the document has stopped.
+pub(super) fn start_loading(
+    document: &Address<DocumentMessage>,
+    ticket: u64,
+    source: Source,
+    load: Loader,
+) -> std::io::Result<Job> {
+    let news = move |news| DocumentMessage::News(ticket, NewsBox(Box::new(news)));
+    let title = source.title();
+    Job::start(
+        document,
+        "load",
+        move |job| {
+            let mut report =
+                |progress: Progress| job.report(progress.done, |_| news(JobNews::Progress(progress)));
+            let loaded = load(&source, &mut report, job.cancel_flag());
+            news(JobNews::Done(loaded.map(Box::new)))
+        },
+        move |panic| {
+            let reason = format!("the importer failed: {panic}");
+            news(JobNews::Done(Err(LoadError::Format { title, reason })))
+        },
+    )
 }

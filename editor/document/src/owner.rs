@@ -2,14 +2,14 @@
 
 use super::fault::{FaultInjection, FaultPoint};
 use super::handle::DocumentHandle;
-use super::job::{JobNews, LoadJob};
+use super::job::{JobNews, start_loading};
 use super::message::{DocumentMessage, DocumentReply, NewsBox, ScanBox};
 use super::open::Open;
 use super::saving::{SaveOrder, Then};
 use super::scan::{Decision, RecoveryScan};
 use super::{Change, LoadError, Loader, Offer, Source, View, open_model};
 use crate::text::sentence;
-use dragonfly_runtime::{Address, Context, Receiver, Thread, ThreadHandle, Worker};
+use dragonfly_runtime::{Address, Context, Job, JobContext, Receiver, Thread, ThreadHandle, Worker};
 use dragonfly_store::{Autosave, FileState, Recoverable};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -68,7 +68,7 @@ pub struct Document {
 /// A model that is loading.
 pub(super) struct LoadingModel {
     /// The job, which is cancelled when this is dropped.
-    _job: LoadJob,
+    _job: Job,
     ticket: u64,
     pub(super) source: Source,
     /// The unsaved work that is restored in it.
@@ -156,12 +156,12 @@ impl Document {
     /// Searches for unsaved work of earlier sessions on a separate thread.
     fn search(&self) {
         let Some(autosave) = self.autosave.clone() else { return };
-        let own = self.own.clone();
-        let search = move || {
-            let _ = own.send(DocumentMessage::Found(ScanBox(RecoveryScan::of(&autosave))));
-        };
-        if let Err(error) = std::thread::Builder::new().name("recovery".to_owned()).spawn(search) {
-            tracing::error!("the search for unsaved work could not be started: {error}");
+        let found = |scan| DocumentMessage::Found(ScanBox(scan));
+        let search = move |_: &JobContext<_>| found(RecoveryScan::of(&autosave));
+        match Job::start(&self.own, "recovery", search, move |panic| found(RecoveryScan::failed(panic))) {
+            // The answer arrives although the job is dropped: the search does not look at the cancel flag.
+            Ok(job) => drop(job),
+            Err(error) => tracing::error!("the search for unsaved work could not be started: {error}"),
         }
     }
 
@@ -180,12 +180,8 @@ impl Document {
     /// Starts to load a model in the background; `offer` is the unsaved work that it is opened for.
     pub(super) fn open(&mut self, source: Source, offer: Option<(Offer, Decision)>) {
         self.tickets += 1;
-        let (ticket, own) = (self.tickets, self.own.clone());
-        let tell = move |news| {
-            // Fails if the document has stopped, and then the news are not needed.
-            let _ = own.send(DocumentMessage::News(ticket, NewsBox(Box::new(news))));
-        };
-        match LoadJob::start(source.clone(), self.load, tell) {
+        let ticket = self.tickets;
+        match start_loading(&self.own, ticket, source.clone(), self.load) {
             Ok(job) => self.job = Some(LoadingModel { _job: job, ticket, source, offer }),
             Err(error) => self.reply(DocumentReply::Failed { source, reason: error.to_string() }),
         }

@@ -28,6 +28,13 @@ pub(super) struct RecoveryScan {
 }
 
 impl RecoveryScan {
+    /// Returns the result of a search that failed with the panic `reason`.
+    pub(super) fn failed(reason: &str) -> Self {
+        let text =
+            format!("the search for unsaved work of earlier sessions failed: {reason}; nothing was changed");
+        Self { unreadable: vec![text], ..Self::default() }
+    }
+
     /// Searches the whole folder, and deletes the oldest journals with nothing but history.
     pub(super) fn of(autosave: &Autosave) -> Self {
         let mut scan = Self::default();
