@@ -5,7 +5,7 @@
 //! `DRAGONFLY_BENCH_KEYS` takes a part of the ten minutes, 0..1, for a machine with little memory.
 
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::keys::{ChannelId, Deed, KeysRequest, TimeWindow};
+use dragonfly::panels::keys::{ChannelId, KeyDragOp, KeysRequest, TimeWindow};
 use dragonfly::panels::{Desk, Effect, Request, Settings, State, style};
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{
@@ -84,7 +84,7 @@ fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, ans
     let stretch = [from, from + frames as f32 / RATE];
     let choice = dragonfly_document::bones::Choice::Replace;
     window.state.execute(Request::Timeline(KeysRequest::Select { channels, stretch, choice }));
-    let selected = window.state.keys.selection.count(&take);
+    let selected = window.state.read().keys.selection().count(&take);
     let mut shown = Vec::new();
     let mut edits = 0;
     let label = format!("dragging {selected} keys, {name}");
@@ -102,7 +102,7 @@ fn drag_keys(view: &View, zoom: TimeWindow, name: &str, ask: Sender<Change>, ans
             shown.push((cpu() - begin).as_secs_f64() * 1e3);
         }
         let by = (at as f32 * 0.05).sin() * (zoom.length as f32 * 0.1) + at as f32 * 0.01;
-        Some(Request::Timeline(KeysRequest::Drag(Deed::Move(by))))
+        Some(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(by))))
     });
     drop(ask);
     let worst = shown.iter().copied().fold(0.0, f64::max);
@@ -155,7 +155,7 @@ impl Window {
         style::install(&context);
         let mut state = State::new(Settings::default(), Instant::now());
         state.show(view.clone());
-        state.playback.playing = false;
+        state.pause();
         let choice = dragonfly_document::bones::Choice::Replace;
         state.execute(Request::SelectBones(bones.to_vec(), choice));
         let mut window = Self { context, desk: Desk::new(""), state, begin: Instant::now(), frame: 0 };
@@ -177,13 +177,13 @@ impl Window {
             ..egui::RawInput::default()
         };
         let mut requests = Vec::from_iter(more);
-        self.state.begin(now);
-        let (desk, state) = (&mut self.desk, &self.state);
+        self.state.begin_frame(now);
+        let (desk, state) = (&mut self.desk, &self.state.read());
         let mut output = self.context.run_ui(input, |ui| desk.show(ui, state, &mut requests));
         let shapes = std::mem::take(&mut output.shapes);
         std::hint::black_box(self.context.tessellate(shapes, output.pixels_per_point));
         output.textures_delta.clear();
-        self.state.hovered = None;
+        self.state.end_frame();
         requests.into_iter().filter_map(|request| self.state.execute(request)).collect()
     }
 

@@ -106,12 +106,12 @@ fn select(bones: &[u32]) -> BoneSelection {
 fn shift_adds_and_ctrl_toggles() {
     let mut selection = select(&[]);
     let none = Modifiers::default();
-    selection.click(Some(3), Choice::of(none));
-    selection.click(Some(1), Choice::of(Modifiers { shift: true, ..none }));
+    selection.click(Some(3), Choice::from(none));
+    selection.click(Some(1), Choice::from(Modifiers { shift: true, ..none }));
     assert_eq!((selection.bones(), selection.active()), (&[3, 1][..], Some(1)));
-    selection.click(Some(3), Choice::of(Modifiers { shift: true, ..none }));
+    selection.click(Some(3), Choice::from(Modifiers { shift: true, ..none }));
     assert_eq!(selection.bones(), [1, 3], "it becomes the active one");
-    let ctrl = Choice::of(Modifiers { ctrl: true, ..none });
+    let ctrl = Choice::from(Modifiers { ctrl: true, ..none });
     selection.click(Some(1), ctrl);
     assert_eq!(selection.bones(), [3]);
     selection.click(Some(1), ctrl);

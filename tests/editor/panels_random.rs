@@ -3,6 +3,7 @@
 use crate::program::takes_long;
 use crate::workbench::{Window, Workbench, button};
 use crate::{fixture, nasty};
+use dragonfly::panels::Request;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{Edit, TakeRef};
 use dragonfly_document::history::Edited;
@@ -12,7 +13,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 
 fn bench() -> Workbench {
     let mut bench = Workbench::full();
-    bench.state.select(Some(3));
+    bench.state.execute(Request::Select(Some(3)));
     bench
 }
 
@@ -55,7 +56,7 @@ fn any_text_in_any_field() {
         }
     }
     let bench = window.state();
-    for bone in 0..bench.state.selection.bone_count() as u32 {
+    for bone in 0..bench.state.read().selection.bone_count() as u32 {
         let pose = bench.pose(bone);
         assert!(pose.translation.is_finite() && pose.rotation.is_finite() && pose.scale.is_finite());
     }

@@ -94,9 +94,9 @@ fn a_skeleton_without_any_surface_is_seen() {
 
     // The editor shows the bones, although its settings do not ask for them.
     let mut state = State::new(Settings::default(), Instant::now());
-    assert!(!state.settings.look.skeleton && !state.shows_skeleton());
+    assert!(!state.read().settings.look.skeleton && !state.read().shows_skeleton());
     state.show(View::opened(1, Arc::clone(&loaded)));
-    assert!(state.shows_skeleton());
+    assert!(state.read().shows_skeleton());
 
     let Some(mut studio) = studio::studio() else { return };
     let mut with = |skeleton| {

@@ -4,6 +4,7 @@ use crate::workbench::Workbench;
 use crate::{fixture, workbench};
 use dragonfly::panels::{Request, style};
 use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, TakeRef};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -40,7 +41,7 @@ pub(crate) fn save<T>(window: &mut Harness<'_, T>, folder: &Path, name: &str) {
 
 fn bench() -> Workbench {
     let mut bench = Workbench::full();
-    bench.state.select(Some(3));
+    bench.state.execute(Request::Select(Some(3)));
     bench.state.execute(Request::Seek(1.3));
     bench
 }
@@ -80,7 +81,7 @@ fn long_names() -> Workbench {
         skeleton,
         &[(name, 12_345.678, 41), ("Walk", 0.708, 18)],
     )));
-    bench.state.select(Some(5));
+    bench.state.execute(Request::Select(Some(5)));
     bench
 }
 
@@ -133,7 +134,7 @@ fn pictures_of_the_panels_that_edit() {
         "p_several",
         {
             let mut bench = edited();
-            bench.state.selection.choose(&[1, 2, 3], Default::default());
+            bench.state.execute(Request::SelectBones(vec![1, 2, 3], Choice::Replace));
             bench
         },
         true,

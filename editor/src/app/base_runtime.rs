@@ -23,8 +23,8 @@ pub trait BaseRuntime {
     /// The graphics thread said something else than that it is ready.
     fn graphics_said(&mut self, reply: GraphicsReply, main: &mut Context);
 
-    /// The window had input: what follows from it need not wait for the panels to be drawn.
-    fn hasten(&mut self) {}
+    /// Sends out what followed from input of the window, without waiting until the panels are drawn.
+    fn flush_effects(&mut self) {}
 
     /// One turn of the main loop, after the window had its own.
     fn update(&mut self, main: &mut Context);

@@ -1,19 +1,18 @@
 //! The editor: opens models, and carries what the person does to the threads that can do it (thesis §3.2.4.5).
 
-use super::answers::{Answers, Replies};
 use super::base_runtime::{BaseRuntime, Parts};
 use super::file_dialog::{self, Answer, Purpose};
+use super::graphics_sync::GraphicsSync;
 use super::hover::{Hover, Place};
 use super::interface::Interface;
 use super::options::{Options, Part};
-use super::sent::Sent;
-use super::shown;
-use crate::panels::saving::Deed;
-use crate::panels::state::Device;
+use super::replies::{Answers, Replies};
+use super::state_trace;
 use crate::panels::status::Level;
+use crate::panels::window_status::Device;
 use crate::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{Document, DocumentHandle, DocumentReply, Setup, Source, Then};
+use dragonfly_document::{Document, DocumentHandle, DocumentReply, Setup, Source};
 use dragonfly_picture::{GraphicsMessage, GraphicsReply};
 use dragonfly_runtime::{Address, Context, Outcome, Receiver, Thread};
 use dragonfly_store::{Autosave, RealFiles};
@@ -40,7 +39,7 @@ pub(super) struct Running {
     pub(super) leaving: bool,
     replies: Address<DocumentReply>,
     pub(super) answers: Address<Answer>,
-    sent: Sent,
+    graphics_sync: GraphicsSync,
     /// Questions asked so far.
     tickets: u64,
     /// The newest question of a click or a box.
@@ -70,7 +69,7 @@ impl EditorRuntime {
             Some(document) => document.open(source),
             None => {
                 let mut interface = running.parts.interface.borrow_mut();
-                interface.state.status.say(Level::Error, "There is no document thread");
+                interface.state.say(Level::Error, "There is no document thread");
             }
         }
     }
@@ -93,19 +92,14 @@ impl EditorRuntime {
             self.effect(effect);
         }
         if let Some(running) = &mut self.running {
-            running.sent.update(&running.parts.graphics, &running.parts.interface.borrow());
+            running.graphics_sync.update(&running.parts.graphics, &running.parts.interface.borrow());
         }
     }
 
     fn effect(&mut self, effect: Effect) {
         let Some(running) = &mut self.running else { return };
-        let effect = match effect {
-            Effect::Open(source) => Effect::Deed(Deed::Leave(Then::Open(source))),
-            Effect::Quit => Effect::Deed(Deed::Leave(Then::Quit)),
-            other => other,
-        };
-        if let Effect::Deed(deed) = effect {
-            if running.deed(deed) {
+        if let Effect::File(action) = effect {
+            if running.file_action(action) {
                 self.quit.set(true);
             }
             return;
@@ -113,21 +107,21 @@ impl EditorRuntime {
         let graphics = &running.parts.graphics;
         let mut interface = running.parts.interface.borrow_mut();
         match effect {
-            Effect::Open(_) | Effect::Quit | Effect::Deed(_) => {}
-            // What these come to is what was let through.
-            Effect::Changes(_) | Effect::Cut(..) | Effect::TakeBack | Effect::HandsOff => {}
-            Effect::Stays => running.leaving = false,
+            // Done above.
+            Effect::File(_) => {}
+            // Became other effects when they were let through.
+            Effect::Changes(_) | Effect::Cut(..) | Effect::CancelDrag | Effect::ReleaseDrag => {}
             Effect::OpenDialog if interface.asking => {
-                interface.state.status.say(Level::Info, "The dialog for opening files is open already");
+                interface.state.say(Level::Info, "The dialog for opening files is open already");
             }
             Effect::OpenDialog => {
-                let recent = interface.state.settings.recent.first();
+                let recent = interface.state.read().settings.recent.first();
                 let folder = recent.and_then(|path| path.parent()).map(std::path::Path::to_owned);
                 match file_dialog::ask(Purpose::Open, folder, running.answers.clone()) {
                     Ok(()) => interface.asking = true,
                     Err(error) => {
                         let text = format!("No dialog could be opened: {error}");
-                        interface.state.status.say(Level::Error, text);
+                        interface.state.say(Level::Error, text);
                     }
                 }
             }
@@ -138,7 +132,7 @@ impl EditorRuntime {
             }
             Effect::Change(change) => {
                 if let Some(document) = &running.document {
-                    shown::asked(&change);
+                    state_trace::asked(&change);
                     document.change(change);
                 }
             }
@@ -172,7 +166,7 @@ impl BaseRuntime for EditorRuntime {
     fn initialize(&mut self, parts: Parts, main: &mut Context) {
         {
             let mut interface = parts.interface.borrow_mut();
-            interface.state.passed_over = self.options.passed_over;
+            interface.state.pass_over(self.options.passed_over);
             interface.edits = std::mem::take(&mut self.options.edits);
             interface.mistake = self.options.mistake;
         }
@@ -188,10 +182,7 @@ impl BaseRuntime for EditorRuntime {
             }
             Err(error) => {
                 let mut interface = parts.interface.borrow_mut();
-                interface
-                    .state
-                    .status
-                    .say(Level::Error, format!("No document thread could be started: {error}"));
+                interface.state.say(Level::Error, format!("No document thread could be started: {error}"));
                 None
             }
         };
@@ -201,7 +192,7 @@ impl BaseRuntime for EditorRuntime {
             replies,
             answers,
             leaving: false,
-            sent: Sent::default(),
+            graphics_sync: GraphicsSync::default(),
             tickets: 0,
             asked: None,
             hover: Hover::default(),
@@ -216,15 +207,12 @@ impl BaseRuntime for EditorRuntime {
         match reply {
             GraphicsReply::Ready { adapter, max_texture_side } => {
                 interface.set_max_texture_side(max_texture_side);
-                interface.state.device = Device::Ready { adapter };
+                interface.state.set_device(Device::Ready { adapter });
             }
             GraphicsReply::Picked { bone, ticket } => {
-                if running.hover.answered(ticket) {
-                    // A pointer that stays on its bone changes nothing, so nothing is drawn.
-                    if interface.state.pointed == bone || interface.state.pointer.is_none() {
-                        return;
-                    }
-                    interface.state.pointed = bone;
+                // A pointer that stays on its bone changes nothing, so nothing is drawn.
+                if running.hover.answered(ticket) && !interface.state.set_pointed(bone) {
+                    return;
                 }
             }
             GraphicsReply::PickedAll { bones, ticket } => {
@@ -236,10 +224,10 @@ impl BaseRuntime for EditorRuntime {
                 }
             }
             GraphicsReply::Statistics { frames, milliseconds } => {
-                interface.state.frame_time = Some(milliseconds);
+                interface.state.set_frame_time(milliseconds);
                 // While something moves: else each loss would draw the frame that brings the next one.
                 if let Some(every) = self.options.lose_device_every
-                    && interface.state.playback.moves(Instant::now())
+                    && interface.state.read().playback.moves(Instant::now())
                     && frames.saturating_sub(running.lost_at) >= u64::from(every.max(1))
                 {
                     running.lost_at = frames;
@@ -248,29 +236,29 @@ impl BaseRuntime for EditorRuntime {
             }
             GraphicsReply::Recovered { reason, losses } => {
                 let text = format!("The graphics device was lost and is back ({losses}): {reason}");
-                interface.state.status.say(Level::Info, text);
+                interface.state.say(Level::Info, text);
             }
             GraphicsReply::Paused { .. } if self.options.never_pause => {
                 running.parts.graphics.resume();
             }
             GraphicsReply::Paused { reason } => {
-                interface.state.status.say(Level::Warning, format!("The viewport is paused: {reason}"));
-                interface.state.device = Device::Paused { reason };
+                interface.state.say(Level::Warning, format!("The viewport is paused: {reason}"));
+                interface.state.set_device(Device::Paused { reason });
             }
             GraphicsReply::Captured(Ok(path)) => {
-                interface.state.status.say(Level::Info, format!("Wrote {}", path.display()));
+                interface.state.say(Level::Info, format!("Wrote {}", path.display()));
             }
             GraphicsReply::Captured(Err(reason)) => {
-                interface.state.status.say(Level::Error, format!("No picture was written: {reason}"));
+                interface.state.say(Level::Error, format!("No picture was written: {reason}"));
             }
             GraphicsReply::Fatal(reason) => {
-                interface.state.status.say(Level::Error, format!("Nothing can be drawn any more: {reason}"));
+                interface.state.say(Level::Error, format!("Nothing can be drawn any more: {reason}"));
             }
         }
         interface.redraw();
     }
 
-    fn hasten(&mut self) {
+    fn flush_effects(&mut self) {
         self.carry_out();
     }
 
@@ -304,8 +292,8 @@ impl Running {
     /// Asks which bone is under the pointer, when that may have changed and no answer is on its way.
     fn ask_under_pointer(&mut self) {
         let interface = self.parts.interface.borrow();
-        let (state, scale) = (&interface.state, interface.pixels_per_point());
-        let place = state.pointer.zip(state.view.as_ref()).map(|(pointer, view)| Place {
+        let (state, scale) = (interface.state.read(), interface.pixels_per_point());
+        let place = state.pointer.zip(state.view).map(|(pointer, view)| Place {
             position: [pointer.x * scale, pointer.y * scale],
             camera: state.camera,
             generation: view.generation,

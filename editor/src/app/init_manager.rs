@@ -54,9 +54,9 @@ impl InitManager {
     }
 
     /// The window had input.
-    pub(super) fn hasten(&mut self) {
+    pub(super) fn flush_effects(&mut self) {
         if let Some(runtime) = &mut self.runtime {
-            runtime.hasten();
+            runtime.flush_effects();
         }
     }
 

@@ -2,20 +2,23 @@
 //!
 //! It is there before the device and before any model, so the program answers at once (T-093).
 
+use super::accessibility_trace::AccessibilityTrace;
 use super::options::{Mistake, Part};
-use super::reader::Reader;
-use super::shown::Shown;
+use super::state_trace::StateTrace;
 use super::store::{self, Store};
 use crate::panels::commands;
-use crate::panels::hands;
 use crate::panels::marks;
-use crate::panels::saving::Deed;
+use crate::panels::prompts::{Overlay, Question};
 use crate::panels::settings::ThemeChoice;
 use crate::panels::status::Level;
-use crate::panels::{Desk, Effect, Request, Settings, State, style};
+use crate::panels::{Desk, Effect, FileAction, Request, Settings, State, style};
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::bones::BoneSelection;
 use dragonfly_document::edit::Edit;
+use dragonfly_picture::playback::Playback;
 use dragonfly_picture::{GraphicsHandle, PanelsFrame};
 use dragonfly_runtime::{Context, Worker};
+use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -30,7 +33,7 @@ pub struct Interface {
     window: Arc<Window>,
     egui: egui_winit::State,
     desk: Desk,
-    /// What the panels show.
+    /// State of the panels.
     pub state: State,
     /// What they asked for and only others can do.
     pub effects: Vec<Effect>,
@@ -55,8 +58,8 @@ pub struct Interface {
     pub(super) given_up: Option<String>,
     /// One that a test asked for.
     pub(super) mistake: Option<Mistake>,
-    shown: Shown,
-    reader: Reader,
+    state_trace: StateTrace,
+    accessibility_trace: AccessibilityTrace,
 }
 
 impl Interface {
@@ -88,8 +91,8 @@ impl Interface {
             occluded: false,
             given_up: None,
             mistake: None,
-            shown: Shown::default(),
-            reader: Reader::default(),
+            state_trace: StateTrace::default(),
+            accessibility_trace: AccessibilityTrace::default(),
         }
     }
 
@@ -113,13 +116,13 @@ impl Interface {
         if for_good {
             self.given_up.get_or_insert_with(|| text.clone());
         }
-        self.state.status.say(Level::Error, format!("{text}. Nothing that you did is lost"));
+        self.state.say(Level::Error, format!("{text}. Nothing that you did is lost"));
         self.redraw();
     }
 
     /// Does a test want a mistake to be made here now?
     pub(super) fn makes_mistake(&mut self, part: Part) -> bool {
-        let steps = self.state.view.as_ref().map(|view| view.history.done);
+        let steps = self.state.read().view.map(|view| view.history.done);
         self.mistake.as_mut().zip(steps).is_some_and(|(mistake, steps)| mistake.is_made(part, steps))
     }
 
@@ -146,7 +149,7 @@ impl Interface {
     /// How much egui must enlarge what it takes for the usual size: what the person chose, and what the window does not
     /// know yet.
     fn zoom(&self) -> f32 {
-        self.state.settings.scale * (self.desktop_scale / self.window.scale_factor()) as f32
+        self.state.read().settings.scale * (self.desktop_scale / self.window.scale_factor()) as f32
     }
 
     /// Takes the desktop's new scale. Told the same scale again, winit would enlarge the window a second time.
@@ -179,8 +182,7 @@ impl Interface {
 
     /// Uses the whole screen, or a window again.
     pub fn toggle_full_screen(&mut self) {
-        self.state.full_screen = !self.state.full_screen;
-        let full = self.state.full_screen.then_some(Fullscreen::Borderless(None));
+        let full = self.state.toggle_full_screen().then_some(Fullscreen::Borderless(None));
         self.window.set_fullscreen(full);
     }
 
@@ -228,7 +230,7 @@ impl Interface {
                 self.redraw();
             }
             WindowEvent::Focused(true) => {
-                self.effects.push(Effect::Deed(Deed::LookAtFile));
+                self.effects.push(Effect::File(FileAction::LookAtFile));
                 self.redraw();
             }
             WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => {
@@ -239,7 +241,7 @@ impl Interface {
         }
         let context = self.egui.egui_ctx().clone();
         let input = self.egui.egui_input_mut();
-        let heard = hands::feed(&context, &mut self.state, input, before, &mut self.effects);
+        let heard = self.state.feed(&context, input, before, &mut self.effects);
         if heard {
             self.redraw();
         }
@@ -275,9 +277,9 @@ impl Interface {
     }
 
     fn save(&mut self) {
-        if self.state.settings != self.saved {
-            self.keep(store::SETTINGS, &self.state.settings.to_text());
-            self.saved = self.state.settings.clone();
+        if *self.state.read().settings != self.saved {
+            self.saved = self.state.read().settings.clone();
+            self.keep(store::SETTINGS, &self.saved.to_text());
         }
         if let Some(layout) = self.desk.changed_layout() {
             self.keep(store::LAYOUT, &layout);
@@ -292,7 +294,7 @@ impl Interface {
 
     fn keep(&mut self, name: &str, text: &str) {
         if let Err(error) = self.store.write(name, text) {
-            self.state.status.say(Level::Warning, format!("The settings could not be kept: {error}"));
+            self.state.say(Level::Warning, format!("The settings could not be kept: {error}"));
         }
     }
 
@@ -302,7 +304,7 @@ impl Interface {
         if context.zoom_factor() != zoom {
             context.set_zoom_factor(zoom);
         }
-        context.set_theme(match self.state.settings.theme {
+        context.set_theme(match self.state.read().settings.theme {
             ThemeChoice::System => egui::ThemePreference::System,
             ThemeChoice::Dark => egui::ThemePreference::Dark,
             ThemeChoice::Light => egui::ThemePreference::Light,
@@ -310,17 +312,17 @@ impl Interface {
         // Asked before there are textures to deliver: asking panics when the window was destroyed behind our back.
         let size = self.window.inner_size();
         let mut input = self.egui.take_egui_input(&self.window);
-        let tells_more = self.state.dragging.tell(&context, &mut input);
+        let tells_more = self.state.prepend_events(&context, &mut input);
         let dropped: Vec<_> = input.dropped_files.iter().map(|file| file.path().to_owned()).collect();
-        self.reader.listen(&context);
+        self.accessibility_trace.listen(&context);
         let mut requests = Vec::new();
         if let Some(name) = self.state.wanted_markers() {
             let text = self.store.read(&name);
             self.state.read_markers(&text);
         }
-        self.state.begin(now);
+        self.state.begin_frame(now);
         let fails = self.makes_mistake(Part::Panels);
-        let (desk, state) = (&mut self.desk, &self.state);
+        let (desk, state) = (&mut self.desk, self.state.read());
         let mut mistake = None;
         let output = context.run_ui(input, |ui| {
             // Caught here, or egui would be left in the midst of its drawing.
@@ -330,7 +332,7 @@ impl Interface {
                 if state.question().is_none() && !state.dragging.is_open() {
                     requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
                 }
-                desk.show(ui, state, &mut requests);
+                desk.show(ui, &state, &mut requests);
                 assert!(!fails, "a test asked for it");
             }));
             if let Err(panic) = drawn {
@@ -353,45 +355,27 @@ impl Interface {
             self.redraw();
             resume_unwind(mistake);
         }
-        self.reader.tell(&output.platform_output, output.pixels_per_point);
+        self.accessibility_trace.tell(&output.platform_output, output.pixels_per_point);
         self.egui.handle_platform_output(&self.window, output.platform_output);
 
-        let before = (
-            self.state.playback,
-            self.state.selection.clone(),
-            self.state.bright(),
-            self.state.settings.clone(),
-        );
-        let (overlay, viewport) = (self.state.overlay, self.state.viewport);
-        let questions = self.state.questions.clone();
-        self.state.hovered = None;
-        self.state.find = false;
+        let before = Redrawn::of(&self.state);
+        self.state.end_frame();
         let files = dropped.len();
         if let Some(path) = dropped.into_iter().next() {
-            self.state.passed_over = files - 1;
+            self.state.pass_over(files - 1);
             requests.push(Request::Open(dragonfly_document::Source::File(path)));
         }
         for request in requests {
             let effect = self.state.execute(request);
             self.effects.extend(effect);
         }
-        if self.state.dragging.is_open() && !context.input(|input| input.pointer.any_down()) {
-            self.effects.push(Effect::HandsOff);
+        if self.state.read().dragging.is_open() && !context.input(|input| input.pointer.any_down()) {
+            self.effects.push(Effect::ReleaseDrag);
         }
         // What was asked for is seen in the next drawing.
-        let after = (
-            self.state.playback,
-            self.state.selection.clone(),
-            self.state.bright(),
-            self.state.settings.clone(),
-        );
-        let changed = tells_more
-            || before != after
-            || overlay != self.state.overlay
-            || questions != self.state.questions
-            || viewport != self.state.viewport;
+        let changed = tells_more || before != Redrawn::of(&self.state);
 
-        self.shown.tell(&self.state);
+        self.state_trace.tell(&self.state.read());
         self.drawn = now;
         self.due = None;
         let egui_wants =
@@ -399,6 +383,33 @@ impl Interface {
         let wanted = [changed.then_some(Duration::ZERO), egui_wants, self.state.next_display()];
         if let Some(when) = wanted.into_iter().flatten().min().and_then(|delay| now.checked_add(delay)) {
             self.redraw_at(when);
+        }
+    }
+}
+
+/// The part of the state whose change by a request needs another drawing.
+#[derive(PartialEq)]
+struct Redrawn {
+    playback: Playback,
+    selection: BoneSelection,
+    highlighted: Option<BoneIndex>,
+    settings: Settings,
+    overlay: Option<Overlay>,
+    viewport: egui::Rect,
+    questions: VecDeque<(u64, Question)>,
+}
+
+impl Redrawn {
+    fn of(state: &State) -> Self {
+        let panels = state.read();
+        Self {
+            playback: panels.playback,
+            selection: panels.selection.clone(),
+            highlighted: panels.highlighted(),
+            settings: panels.settings.clone(),
+            overlay: panels.overlay,
+            viewport: panels.viewport,
+            questions: panels.prompts.questions().clone(),
         }
     }
 }

@@ -109,7 +109,7 @@ impl MainRuntime {
         let taken = caught(|| {
             let heard = self.interface.borrow_mut().window_event(event);
             if heard {
-                self.init.borrow_mut().hasten();
+                self.init.borrow_mut().flush_effects();
             }
         });
         if let Err(reason) = taken {
@@ -121,7 +121,9 @@ impl MainRuntime {
     pub(super) fn may_ask_before_closing(&mut self) -> bool {
         let asks = self.init.borrow().is_running();
         if asks {
-            self.interface.borrow_mut().effects.push(crate::panels::Effect::Quit);
+            self.interface.borrow_mut().effects.push(crate::panels::Effect::File(
+                crate::panels::FileAction::Leave(dragonfly_document::Then::Quit),
+            ));
         }
         asks
     }

@@ -7,21 +7,21 @@
 //!
 //! [`timeline`] has the order in which all of this comes and goes.
 
-mod answers;
+mod accessibility_trace;
 mod base_runtime;
 mod editor_runtime;
 mod event;
+mod file_actions;
 mod file_dialog;
+mod graphics_sync;
 pub mod hover;
 mod init_manager;
 mod interface;
 mod main_runtime;
 mod options;
-mod reader;
-mod saving;
-mod sent;
-mod shown;
+mod replies;
 mod signals;
+mod state_trace;
 pub mod store;
 mod target_window;
 pub mod timeline;

@@ -1,8 +1,6 @@
 //! At how many frames a second the keys of a model were made, guessed from where they lie: files do not say it.
 
 use super::settings::FRAME_RATES;
-use super::state::State;
-use super::status::Level;
 use dragonfly_anim::data::Take;
 use std::sync::Arc;
 
@@ -14,22 +12,9 @@ const MOST_TAKES: usize = 100;
 /// Keys that say something; fewer lie on frames by chance.
 const LEAST: usize = 3;
 
-impl State {
-    /// Counts in the frames that the keys of a model lie on, where they do not lie on those that are counted in.
-    pub(super) fn guess_frame_rate(&mut self) {
-        let Some(view) = &self.view else { return };
-        let now = self.settings.frame_rate;
-        if let Some(rate) = rate_of(&view.takes, now).filter(|&rate| rate != now) {
-            self.settings.frame_rate = rate;
-            let text = format!("Its keys lie on {rate} frames a second: the timeline counts in these now");
-            self.status.say(Level::Info, text);
-        }
-    }
-}
-
 /// The rate on whose frames the keys of most takes lie, and of at least half of them; that of earlier ones where as many lie
 /// on others. `None` where there are too few keys to tell, or they lie anywhere.
-fn rate_of(takes: &[Arc<Take>], now: u32) -> Option<u32> {
+pub(super) fn rate_of(takes: &[Arc<Take>], now: u32) -> Option<u32> {
     let told: Vec<Option<u32>> =
         takes.iter().take(MOST_TAKES).filter_map(|take| rate_of_take(take, now)).collect();
     let votes = |rate: u32| told.iter().filter(|&&other| other == Some(rate)).count();

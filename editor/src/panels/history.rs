@@ -1,8 +1,9 @@
 //! The list of everything that was done: a click goes there, back or forth.
 
 use super::commands::Id;
+use super::context::PanelContext;
 use super::icons::Icon;
-use super::state::{Request, State};
+use super::request::Request;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
@@ -30,8 +31,8 @@ impl Panel for History {
         Place::Right
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-        let Some(view) = &state.view else { return widgets::empty(ui, "", "What was done appears here") };
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let Some(view) = state.view else { return widgets::empty(ui, "", "What was done appears here") };
         let history = &view.history;
         buttons(ui, state, history, requests);
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -53,7 +54,7 @@ impl Panel for History {
     }
 }
 
-fn buttons(ui: &mut Ui, state: &State, history: &HistoryView, requests: &mut Vec<Request>) {
+fn buttons(ui: &mut Ui, state: &PanelContext<'_>, history: &HistoryView, requests: &mut Vec<Request>) {
     ui.add_space(GRID);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
@@ -125,9 +126,9 @@ fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
 }
 
 /// What a command is called now: undo and redo say what they would do.
-pub(super) fn title(state: &State, id: Id) -> Cow<'static, str> {
+pub(super) fn title(state: &PanelContext<'_>, id: Id) -> Cow<'static, str> {
     let title = super::commands::get(id).title;
-    let labels = state.view.as_ref().map_or([None, None], |view| view.history.labels());
+    let labels = state.view.map_or([None, None], |view| view.history.labels());
     let label = match id {
         Id::Undo => labels[0],
         Id::Redo => labels[1],

@@ -1,6 +1,7 @@
 //! Where the panels stand: a tree of tiles, moved and resized by hand, remembered between runs.
 
-use super::state::{Request, State};
+use super::context::PanelContext;
+use super::request::Request;
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::{Panel, Place, VIEWPORT, timeline};
@@ -104,7 +105,7 @@ impl Layout {
         &mut self,
         ui: &mut Ui,
         panels: &mut [Box<dyn Panel>],
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let viewport = self.find(VIEWPORT);
@@ -138,7 +139,7 @@ fn sound(tree: &Tree<Pane>, panels: &[Box<dyn Panel>]) -> bool {
 /// Draws the tiles for egui_tiles.
 struct Hand<'a> {
     panels: &'a mut [Box<dyn Panel>],
-    state: &'a State,
+    state: &'a PanelContext<'a>,
     requests: &'a mut Vec<Request>,
     viewport: Option<TileId>,
     changed: bool,

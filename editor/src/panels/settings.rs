@@ -1,7 +1,7 @@
 //! What the program remembers between runs.
 
-use super::commands::KeySettings;
-use super::properties::PropertiesLook;
+use super::commands::key_settings::KeySettings;
+use super::properties::look::PropertiesLook;
 use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
 use dragonfly_picture::gizmo::{Pivot, Space, Tool};
 use dragonfly_picture::playback::Repeat;
@@ -133,7 +133,7 @@ impl GhostSettings {
     pub const MOST: [u32; 2] = [10, 60];
 
     /// The nearest right numbers.
-    pub fn mended(mut self) -> Self {
+    pub fn sanitized(mut self) -> Self {
         self.count = self.count.map(|count| count.min(Self::MOST[0]));
         self.step = self.step.clamp(1, Self::MOST[1]);
         self
@@ -218,7 +218,7 @@ impl Default for Settings {
 impl Settings {
     /// From the text of a settings file; a damaged one gives the defaults, a wrong number the nearest right one.
     pub fn parse(text: &str) -> Self {
-        serde_json::from_str::<Self>(text).unwrap_or_default().mended()
+        serde_json::from_str::<Self>(text).unwrap_or_default().sanitized()
     }
 
     /// As the text of a settings file.
@@ -227,7 +227,7 @@ impl Settings {
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
 
-    fn mended(mut self) -> Self {
+    fn sanitized(mut self) -> Self {
         self.scale =
             if self.scale.is_finite() { self.scale.clamp(*SCALES.start(), *SCALES.end()) } else { 1.0 };
         self.speed =
@@ -235,7 +235,7 @@ impl Settings {
         if !FRAME_RATES.contains(&self.frame_rate) {
             self.frame_rate = 30;
         }
-        self.hand.ghosts = self.hand.ghosts.mended();
+        self.hand.ghosts = self.hand.ghosts.sanitized();
         self.hand.ik.length = self.hand.ik.length.clamp(1, LONGEST_CHAIN);
         self.recent.truncate(RECENT);
         self

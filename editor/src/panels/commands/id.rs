@@ -171,9 +171,4 @@ impl Id {
     pub fn name(self) -> String {
         format!("{self:?}")
     }
-
-    /// The command of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        super::all().map(|command| command.id).find(|id| id.name() == name)
-    }
 }

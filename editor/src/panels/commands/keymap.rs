@@ -1,38 +1,11 @@
 //! Which keys give which command: those of a preset, and on top what the person chose.
 
-use super::{Id, Preset, parse, text};
+use super::id::Id;
+use super::key_settings::KeySettings;
+use super::shortcut::parse;
 use egui::{Key, KeyboardShortcut, Modifiers};
-use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::sync::Arc;
-
-/// What is remembered of the keys.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct KeySettings {
-    /// The keys to begin with.
-    pub preset: Preset,
-    /// Names of commands with the keys that the person gave them, as [`text`] writes them; none: no key at all.
-    /// What is no name or no key (any more) is passed over.
-    pub own: BTreeMap<String, Vec<String>>,
-}
-
-impl KeySettings {
-    /// Gives a command these keys.
-    pub fn set(&mut self, id: Id, shortcuts: &[KeyboardShortcut]) {
-        self.own.insert(id.name(), shortcuts.iter().map(text).collect());
-    }
-
-    /// Gives a command the keys of the preset again.
-    pub fn reset(&mut self, id: Id) {
-        self.own.remove(&id.name());
-    }
-
-    /// Has the person given this command other keys?
-    pub fn is_own(&self, id: Id) -> bool {
-        self.own.contains_key(&id.name())
-    }
-}
 
 /// Which keys give which command. The one in use lies in the memory of egui, so that every tooltip can name its keys.
 #[derive(Clone, Debug, Default)]
@@ -52,7 +25,7 @@ impl Keymap {
         }
         let own = keymap.settings.own.clone();
         for (name, shortcuts) in &own {
-            if let Some(id) = Id::named(name) {
+            if let Some(id) = super::named(name) {
                 keymap.give(id, shortcuts.iter().filter_map(|text| parse(text)).collect());
             }
         }

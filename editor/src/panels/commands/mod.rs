@@ -1,7 +1,8 @@
 //! Everything the program can be told to do, once: menus, tooltips, keys, palette and shortcut sheet all read this table.
 
 mod category;
-mod id;
+pub(super) mod id;
+pub(super) mod key_settings;
 mod keymap;
 mod preset;
 mod shortcut;
@@ -10,12 +11,15 @@ mod when;
 
 pub use category::Category;
 pub use id::Id;
-pub use keymap::{KeySettings, Keymap};
+pub use key_settings::KeySettings;
+pub use keymap::Keymap;
 pub use preset::Preset;
 pub use shortcut::{parse, text};
 pub use table::TABLE;
 pub use when::When;
 
+use super::request::Effect;
+use super::workspace::Workspace;
 use egui::{Key, KeyboardShortcut, Modifiers, Popup};
 
 /// One thing the program can be told to do.
@@ -29,13 +33,20 @@ pub struct Command {
     pub shortcuts: &'static [KeyboardShortcut],
     /// One sentence.
     pub help: &'static str,
-    /// When it can be given.
+    /// Condition under which it can be run.
     pub when: When,
+    /// Runs the command. Returns what reaches further than the panels.
+    pub(super) run: fn(&mut Workspace) -> Option<Effect>,
 }
 
 /// Every command, in the order of the table.
 pub fn all() -> impl Iterator<Item = &'static Command> {
     TABLE.iter().flat_map(|(_, commands)| commands.iter())
+}
+
+/// Returns the command with this name in settings.
+pub fn named(name: &str) -> Option<Id> {
+    all().map(|command| command.id).find(|id| id.name() == name)
 }
 
 /// Where a command stands.

@@ -2,6 +2,16 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
+pub(super) const NONE: Modifiers = Modifiers::NONE;
+pub(super) const CTRL: Modifiers = Modifiers::COMMAND;
+pub(super) const SHIFT: Modifiers = Modifiers::SHIFT;
+pub(super) const ALT: Modifiers = Modifiers::ALT;
+
+/// Returns a shortcut.
+pub(super) const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(modifiers, key)
+}
+
 /// Keys with a shorter name on their cap than in the library.
 const CAPS: &[(Key, &str)] = &[
     (Key::ArrowLeft, "Left"),

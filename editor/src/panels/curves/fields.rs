@@ -8,11 +8,12 @@ use super::paint::color;
 use super::toolbar::Chosen;
 use super::values::{ValueKey, value_edit};
 use crate::control::expression::Quantity;
+use crate::panels::context::PanelContext;
 use crate::panels::dope::to_frame;
-use crate::panels::keys::{Deed, Drawn, KeysRequest};
+use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest};
 use crate::panels::number_field::{Heard, NumberField};
 use crate::panels::number_text::Digits;
-use crate::panels::state::{Request, State};
+use crate::panels::request::Request;
 use crate::panels::style::{CONTROL, GRID};
 use crate::panels::theme::Theme;
 use dragonfly_document::Change;
@@ -55,7 +56,7 @@ pub(super) struct About<'a> {
     pub(super) window: ValueWindow,
     /// The component that was taken hold of last: shown where there is no room for all.
     pub(super) component: usize,
-    pub(super) state: &'a State,
+    pub(super) state: &'a PanelContext<'a>,
 }
 
 impl Fields {
@@ -95,7 +96,7 @@ impl Fields {
             ..field(Part::Time)
         };
         let (heard, _) = field.show(ui, rect);
-        let snap = about.state.keys.snap != ui.input(|input| input.modifiers.command);
+        let snap = about.state.keys.snap() != ui.input(|input| input.modifiers.command);
         let heard = match heard {
             Heard::Dragged(by) if snap => {
                 Heard::Dragged(f64::from(to_frame(key.time + by as f32, about.state) - key.time))
@@ -104,10 +105,10 @@ impl Fields {
         };
         match heard {
             Heard::Typed(value) => {
-                requests.push(Request::Timeline(KeysRequest::Drag(Deed::Move(value as f32 - key.time))));
+                requests.push(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(value as f32 - key.time))));
                 requests.push(Request::Timeline(KeysRequest::Release));
             }
-            heard => self.drag(heard, Part::Time, key, |by| Some(Deed::Move(by)), requests),
+            heard => self.drag(heard, Part::Time, key, |by| Some(KeyDragOp::Move(by)), requests),
         }
     }
 
@@ -146,7 +147,9 @@ impl Fields {
                 let edit = edit(value as f32 - number);
                 requests.extend(edit.map(|edit| Request::Change(Change::Edit(edit, None))));
             }
-            heard => self.drag(heard, Part::Value(component), key, |by| edit(by).map(Deed::Edit), requests),
+            heard => {
+                self.drag(heard, Part::Value(component), key, |by| edit(by).map(KeyDragOp::Edit), requests)
+            }
         }
     }
 
@@ -160,7 +163,7 @@ impl Fields {
         heard: Heard,
         part: Part,
         key: &ValueKey,
-        deed: impl Fn(f32) -> Option<Deed>,
+        deed: impl Fn(f32) -> Option<KeyDragOp>,
         requests: &mut Vec<Request>,
     ) {
         let request = match heard {

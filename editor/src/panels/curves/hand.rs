@@ -4,10 +4,11 @@ use super::axis::ValueScale;
 use super::curve::Curve;
 use super::tangents::{Handle, Tangents};
 use super::values::{ValueKey, value_edit};
+use crate::panels::context::PanelContext;
 use crate::panels::dope::{Input, readout, to_frame};
 use crate::panels::keys::intervals::keys_between;
-use crate::panels::keys::{Deed, Drawn, KeysRequest, TimeScale};
-use crate::panels::state::{Request, State};
+use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest, TimeScale};
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use dragonfly_document::bones::Choice;
 use egui::{CornerRadius, CursorIcon, Modifiers, Pos2, Rect, Response, Stroke, StrokeKind, Ui, pos2};
@@ -87,7 +88,7 @@ pub(super) struct Within<'a> {
     pub(super) value: &'a ValueScale,
     pub(super) components: u8,
     pub(super) tangents: &'a Tangents,
-    pub(super) state: &'a State,
+    pub(super) state: &'a PanelContext<'a>,
 }
 
 impl OnKey {
@@ -227,7 +228,7 @@ impl Hand {
             }
             Doing::Times { grabbed, pressed, copies, begun } => {
                 let by = within.time.time_at(pointer.x) - *pressed;
-                let snap = state.keys.snap != input.modifiers.command;
+                let snap = state.keys.snap() != input.modifiers.command;
                 let by = if snap { to_frame(*grabbed + by, state) - *grabbed } else { by };
                 *begun = true;
                 ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
@@ -236,7 +237,7 @@ impl Hand {
                     pointer,
                     &format!("{by:+.3} s   {:+.1} frames", by * state.settings.frame_rate as f32),
                 );
-                if *copies { Deed::Duplicate(by) } else { Deed::Move(by) }
+                if *copies { KeyDragOp::Duplicate(by) } else { KeyDragOp::Move(by) }
             }
             Doing::Values { keys, component, pressed, begun } => {
                 ui.ctx().set_cursor_icon(CursorIcon::ResizeVertical);
@@ -255,7 +256,7 @@ impl Hand {
                     return;
                 };
                 *begun = true;
-                Deed::Edit(edit)
+                KeyDragOp::Edit(edit)
             }
             Doing::Tangent { handle, curve, begun } => {
                 let slope = handle.slope_at(pointer, within.time, within.value);
@@ -267,7 +268,7 @@ impl Hand {
                     return;
                 };
                 *begun = true;
-                Deed::Edit(edit)
+                KeyDragOp::Edit(edit)
             }
             _ => return,
         };

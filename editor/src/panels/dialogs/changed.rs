@@ -1,8 +1,8 @@
 //! Somebody else changed the file that is open, or took it away.
 
 use super::{Ask, Tone};
-use crate::panels::saving::Deed;
-use crate::panels::state::Request;
+use crate::panels::request::FileAction;
+use crate::panels::request::Request;
 use dragonfly_document::SaveOrder;
 use dragonfly_store::FileState;
 
@@ -51,10 +51,10 @@ pub(super) fn show(ask: &mut Ask<'_>, file: FileState, order: Option<&SaveOrder>
     };
     let request = match pressed {
         Some(Choice::Overwrite) => {
-            Request::Deed(Deed::Save(SaveOrder { anyway: true, ..SaveOrder::own(then) }))
+            Request::Answer(FileAction::Save(SaveOrder { anyway: true, ..SaveOrder::own(then) }))
         }
-        Some(Choice::SaveAs) => Request::Deed(Deed::Where { copy: false, then }),
-        Some(Choice::Reload) => Request::Deed(Deed::Reload),
+        Some(Choice::SaveAs) => Request::Answer(FileAction::Where { copy: false, then }),
+        Some(Choice::Reload) => Request::Answer(FileAction::Reload),
         Some(Choice::Cancel) => Request::Dismiss,
         None => return,
     };

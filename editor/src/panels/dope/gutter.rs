@@ -5,9 +5,10 @@ use super::place::Places;
 use super::rows::{RowKind, Rows};
 use crate::panels::bone_menu;
 use crate::panels::commands::{self, Id};
+use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::keys::{BoneFlag, KeysRequest};
-use crate::panels::state::{Request, State};
+use crate::panels::request::Request;
 use crate::panels::style::RADIUS;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
@@ -27,7 +28,7 @@ pub(super) fn show(
     places: &Places,
     scroll: f32,
     rows: &mut Rows,
-    state: &State,
+    state: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) {
     let names = places.names;
@@ -77,7 +78,7 @@ fn bone_row(
     bone: BoneIndex,
     name: &str,
     open: bool,
-    state: &State,
+    state: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) -> Option<BoneIndex> {
     let theme = Theme::of(ui);
@@ -88,7 +89,7 @@ fn bone_row(
     let over = ui.rect_contains_pointer(visible);
     let wide = rect.width() > 150.0;
     // A name has the room of the marks where there are none to be seen.
-    let marked = over || BoneFlag::ALL.into_iter().any(|flag| state.keys.flags.has(flag, bone));
+    let marked = over || BoneFlag::ALL.into_iter().any(|flag| state.keys.flags().has(flag, bone));
     let flags = if wide && marked { 3.0 * FLAG + 8.0 } else { 6.0 };
     let label =
         Rect::from_min_max(pos2(rect.left() + 28.0, rect.top()), pos2(rect.right() - flags, rect.bottom()));
@@ -97,7 +98,7 @@ fn bone_row(
     response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("Keys of {name}")));
     widgets::focus_ring(ui, &response, label);
     let color = match () {
-        () if state.keys.flags.locked(bone) => theme.faint,
+        () if state.keys.flags().locked(bone) => theme.faint,
         () if selected => theme.accent,
         () => theme.text,
     };
@@ -151,11 +152,11 @@ fn mark(
     bone: BoneIndex,
     name: &str,
     over: bool,
-    state: &State,
+    state: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) {
     let theme = Theme::of(ui);
-    let on = state.keys.flags.has(flag, bone);
+    let on = state.keys.flags().has(flag, bone);
     let response = ui.interact(rect, ui.scope_id().with((flag.name(), bone)), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, format!("{} {name}", flag.name())));
     if on || over || response.has_focus() {
@@ -182,7 +183,7 @@ pub(super) fn tools(
     ui: &mut Ui,
     places: &Places,
     filter: &mut String,
-    state: &State,
+    state: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) {
     let rect = places.tools;
@@ -194,8 +195,8 @@ pub(super) fn tools(
         pos2(rect.left() + 8.0, rect.top() + 2.0),
         pos2(rect.right() - buttons - 8.0, rect.bottom() - 2.0),
     );
-    if *filter != state.keys.filter {
-        filter.clone_from(&state.keys.filter);
+    if *filter != state.keys.filter() {
+        state.keys.filter().clone_into(filter);
     }
     let edit = TextEdit::singleline(filter)
         .font(TextStyle::Small)
@@ -228,7 +229,7 @@ pub(super) fn tools(
         widgets::focus_ring(ui, &response, place);
         response.on_hover_text(help).clicked()
     };
-    let only = state.keys.only_selected;
+    let only = state.keys.only_selected();
     if button(
         ui,
         Icon::Bone,
@@ -239,7 +240,7 @@ pub(super) fn tools(
         requests.push(Request::Timeline(KeysRequest::OnlySelected(!only)));
     }
     let snap = commands::tooltip(ui.ctx(), Id::ToggleSnap);
-    if button(ui, Icon::Snap, "Snap", snap, state.keys.snap) {
+    if button(ui, Icon::Snap, "Snap", snap, state.keys.snap()) {
         requests.push(Request::Command(Id::ToggleSnap));
     }
     let fit = commands::tooltip(ui.ctx(), Id::FitKeys);

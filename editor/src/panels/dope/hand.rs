@@ -5,8 +5,9 @@ use super::head::to_frame;
 use super::place::Places;
 use super::rows::{RowKind, Rows};
 use super::scroll;
-use crate::panels::keys::{ChannelId, Deed, Drawn, KeysRequest, TimeScale, channel};
-use crate::panels::state::{Request, State};
+use crate::panels::context::PanelContext;
+use crate::panels::keys::{ChannelId, Drawn, KeyDragOp, KeysRequest, TimeScale, channel};
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::SAME_TIME;
@@ -72,7 +73,7 @@ impl Hand {
         rows: &Rows,
         scale: &TimeScale,
         drawn: &Drawn,
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         *scrolled = (*scrolled - scroll::pan(ui, canvas, scale, requests)).max(0.0);
@@ -186,7 +187,7 @@ impl Hand {
         pointer: Pos2,
         scale: &TimeScale,
         input: &Input,
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let Doing::Keys { grabbed, pressed, how, begun } = &mut self.doing else { return };
@@ -196,12 +197,12 @@ impl Hand {
             return;
         }
         let by = scale.time_at(pointer.x) - *pressed;
-        let snap = state.keys.snap != input.modifiers.command;
+        let snap = state.keys.snap() != input.modifiers.command;
         let by = if snap { to_frame(*grabbed + by, state) - *grabbed } else { by };
         let deed = match *how {
-            How::Move => Deed::Move(by),
-            How::Duplicate => Deed::Duplicate(by),
-            How::Ripple { from } => Deed::Ripple { from, by },
+            How::Move => KeyDragOp::Move(by),
+            How::Duplicate => KeyDragOp::Duplicate(by),
+            How::Ripple { from } => KeyDragOp::Ripple { from, by },
         };
         *begun |=
             !requests.iter().any(|request| matches!(request, Request::Timeline(KeysRequest::Select { .. })));

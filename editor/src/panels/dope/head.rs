@@ -2,8 +2,9 @@
 
 use super::place::Places;
 use crate::panels::commands::Id;
-use crate::panels::keys::{Deed, Drawn, KeysRequest, TimeScale};
-use crate::panels::state::{Request, State};
+use crate::panels::context::PanelContext;
+use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest, TimeScale};
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use egui::{
     Align2, CornerRadius, CursorIcon, FontId, Painter, PointerButton, Rect, Response, Sense, Stroke, Ui,
@@ -39,7 +40,13 @@ struct Scaling {
 }
 
 /// Lines and numbers, behind everything.
-pub(super) fn back(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
+pub(super) fn back(
+    painter: &Painter,
+    places: &Places,
+    scale: &TimeScale,
+    state: &PanelContext<'_>,
+    theme: &Theme,
+) {
     let top = Rect::from_min_max(places.all.min, pos2(places.all.right(), places.bar.bottom()));
     painter.rect_filled(top, CornerRadius::ZERO, theme.bar);
     painter.hline(top.x_range(), top.bottom(), Stroke::new(1.0, theme.line));
@@ -54,7 +61,7 @@ pub(in crate::panels) fn ticks(
     head: Rect,
     bottom: f32,
     scale: &TimeScale,
-    state: &State,
+    state: &PanelContext<'_>,
     theme: &Theme,
 ) {
     let rate = state.settings.frame_rate;
@@ -83,7 +90,7 @@ impl Scrub {
         head: Rect,
         name: &'static str,
         scale: &TimeScale,
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let response = ui.interact(head, ui.scope_id().with(name), Sense::click_and_drag());
@@ -106,7 +113,7 @@ impl Scrub {
             let window = scale.window;
             let time = f64::from(scale.time_at(pointer.x));
             let time = time.clamp(window.start, window.start + window.length) as f32;
-            let snap = state.keys.snap != modifiers.command;
+            let snap = state.keys.snap() != modifiers.command;
             requests.push(Request::Seek(if snap { to_key_or_frame(time, scale, state) } else { time }));
         }
         if !down && let Some(command) = self.resume.take() {
@@ -138,7 +145,7 @@ impl Head {
         places: &Places,
         scale: &TimeScale,
         drawn: &Drawn,
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         self.scrub.show(ui, places.head, "Time track", scale, state, requests);
@@ -153,7 +160,7 @@ impl Head {
         places: &Places,
         scale: &TimeScale,
         drawn: &Drawn,
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let theme = Theme::of(ui);
@@ -206,7 +213,7 @@ impl Head {
         end: f32,
         [from, to]: [f32; 2],
         scale: &TimeScale,
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         if response.drag_started_by(PointerButton::Primary) {
@@ -224,7 +231,7 @@ impl Head {
                 return;
             }
             let Some(pointer) = response.interact_pointer_pos() else { return };
-            let snap = state.keys.snap != ui.input(|input| input.modifiers.command);
+            let snap = state.keys.snap() != ui.input(|input| input.modifiers.command);
             let time = scale.time_at(pointer.x);
             let time = if snap { to_frame(time, state) } else { time };
             // Asked anew each time: a hand may think of it in the midst of the drag.
@@ -238,7 +245,7 @@ impl Head {
                 if factor.abs() < 1e-3 { 1e-3_f32.copysign(factor) } else { factor.clamp(-1e3, 1e3) };
             if factor.is_finite() {
                 scaling.begun = true;
-                requests.push(Request::Timeline(KeysRequest::Drag(Deed::Scale { about, factor })));
+                requests.push(Request::Timeline(KeysRequest::Drag(KeyDragOp::Scale { about, factor })));
             }
         }
         if response.drag_stopped() && self.scaling.take().is_some() {
@@ -249,22 +256,28 @@ impl Head {
 
 /// The key or the end of the take under the pointer, or else the frame nearest to a time, seconds: a pose that is put a
 /// hair beside a key would be a second key.
-fn to_key_or_frame(time: f32, scale: &TimeScale, state: &State) -> f32 {
+fn to_key_or_frame(time: f32, scale: &TimeScale, state: &PanelContext<'_>) -> f32 {
     let reach = scale.seconds(NEAR).min(state.frame_seconds() * 0.5);
-    let beside = [true, false].into_iter().filter_map(|forward| state.key_beside_of(time, forward));
+    let beside = [true, false].into_iter().filter_map(|forward| state.next_key_from(time, forward));
     let end = state.take().map(|take| take.end());
     let nearest = beside.chain(end).min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()));
     nearest.filter(|key| (key - time).abs() <= reach).unwrap_or_else(|| to_frame(time, state))
 }
 
 /// The frame nearest to a time, seconds.
-pub(in crate::panels) fn to_frame(time: f32, state: &State) -> f32 {
+pub(in crate::panels) fn to_frame(time: f32, state: &PanelContext<'_>) -> f32 {
     let rate = state.settings.frame_rate;
     crate::panels::ruler::time_of(crate::panels::ruler::frame_of(time, rate), rate)
 }
 
 /// The ends of the range that plays, to be dragged.
-fn range_ends(ui: &Ui, places: &Places, scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
+fn range_ends(
+    ui: &Ui,
+    places: &Places,
+    scale: &TimeScale,
+    state: &PanelContext<'_>,
+    requests: &mut Vec<Request>,
+) {
     let Some([from, to]) = state.keys.range() else { return };
     let theme = Theme::of(ui);
     let painter = ui.painter().with_clip_rect(places.head);

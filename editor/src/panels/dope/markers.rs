@@ -2,8 +2,9 @@
 
 use super::head::to_frame;
 use super::place::Places;
-use crate::panels::keys::{KeysRequest, MarkerDeed, TimeScale};
-use crate::panels::state::{Request, State};
+use crate::panels::context::PanelContext;
+use crate::panels::keys::{KeysRequest, MarkerAction, TimeScale};
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use egui::{
@@ -34,7 +35,7 @@ impl MarkerLane {
         ui: &mut Ui,
         places: &Places,
         scale: &TimeScale,
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let lane = places.markers;
@@ -46,7 +47,7 @@ impl MarkerLane {
         ui.painter().rect_filled(lane, CornerRadius::ZERO, theme.bar);
         let painter = ui.painter().with_clip_rect(lane);
         let markers = state.markers();
-        let mut ask = |deed: MarkerDeed| requests.push(Request::Timeline(KeysRequest::Marker(deed)));
+        let mut ask = |deed: MarkerAction| requests.push(Request::Timeline(KeysRequest::Marker(deed)));
         let mut seek = None;
         for (index, marker) in markers.iter().enumerate() {
             let time = self.held.filter(|(held, _)| *held == index).map_or(marker.time, |(_, time)| time);
@@ -98,7 +99,7 @@ impl MarkerLane {
             } else if response.dragged_by(PointerButton::Primary)
                 && let Some(pointer) = response.interact_pointer_pos()
             {
-                let snap = state.keys.snap != ui.input(|input| input.modifiers.command);
+                let snap = state.keys.snap() != ui.input(|input| input.modifiers.command);
                 let time = scale.time_at(pointer.x);
                 let time = if snap { to_frame(time, state) } else { time };
                 let cancelled =
@@ -108,7 +109,7 @@ impl MarkerLane {
             if response.drag_stopped()
                 && let Some((index, time)) = self.held.take()
             {
-                ask(MarkerDeed::Move(index, time));
+                ask(MarkerAction::Move(index, time));
             }
             response.context_menu(|ui| {
                 if ui.add(Button::new("Rename").frame_when_inactive(false)).clicked() {
@@ -116,7 +117,7 @@ impl MarkerLane {
                     ui.close();
                 }
                 if ui.add(Button::new("Delete marker").frame_when_inactive(false)).clicked() {
-                    ask(MarkerDeed::Delete(index));
+                    ask(MarkerAction::Delete(index));
                     ui.close();
                 }
             });
@@ -130,7 +131,13 @@ impl MarkerLane {
     }
 
     /// The field in which a name is typed.
-    fn rename(&mut self, ui: &mut Ui, lane: Rect, scale: &TimeScale, state: &State) -> Option<MarkerDeed> {
+    fn rename(
+        &mut self,
+        ui: &mut Ui,
+        lane: Rect,
+        scale: &TimeScale,
+        state: &PanelContext<'_>,
+    ) -> Option<MarkerAction> {
         let (index, name, stage) = self.renaming.as_mut()?;
         let Some(marker) = state.markers().get(*index) else {
             self.renaming = None;
@@ -159,6 +166,6 @@ impl MarkerLane {
         }
         let (index, name, _) = self.renaming.take()?;
         let kept = !ui.input(|input| input.key_down(egui::Key::Escape));
-        kept.then_some(MarkerDeed::Rename(index, name))
+        kept.then_some(MarkerAction::Rename(index, name))
     }
 }

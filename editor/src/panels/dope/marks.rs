@@ -3,10 +3,10 @@
 use super::ROW;
 use super::place::Places;
 use super::rows::{Row, RowKind, Rows};
+use crate::panels::context::PanelContext;
 use crate::panels::keys::columns::Columns;
 use crate::panels::keys::intervals::Intervals;
 use crate::panels::keys::{Drawn, KeySelection, Shift, TimeScale, channel};
-use crate::panels::state::State;
 use crate::panels::theme::Theme;
 use dragonfly_anim::data::Take;
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
@@ -66,10 +66,10 @@ impl KeysMesh {
         rows: &Rows,
         scale: &TimeScale,
         drawn: &Drawn,
-        state: &State,
+        state: &PanelContext<'_>,
         theme: &Theme,
     ) {
-        let live = &state.keys.selection;
+        let live = state.keys.selection();
         if let Some(take) = state.shared_take()
             && !self
                 .count
@@ -86,7 +86,7 @@ impl KeysMesh {
             scroll,
             pixels_per_point: painter.pixels_per_point(),
             dark: theme.dark,
-            flags: state.keys.flags.version(),
+            flags: state.keys.flags().version(),
         };
         let same = self.made_of.as_ref().is_some_and(|old| old.same(&made_of));
         if !same {
@@ -106,7 +106,7 @@ impl KeysMesh {
         rows: &Rows,
         scale: &TimeScale,
         drawn: &Drawn,
-        state: &State,
+        state: &PanelContext<'_>,
         theme: &Theme,
         pixels_per_point: f32,
     ) {
@@ -136,7 +136,7 @@ impl KeysMesh {
             let color = match row.kind {
                 RowKind::Summary => theme.weak,
                 RowKind::Morphs => theme.faint,
-                RowKind::Bone(bone) | RowKind::Channel(bone, _) if state.keys.flags.locked(bone) => {
+                RowKind::Bone(bone) | RowKind::Channel(bone, _) if state.keys.flags().locked(bone) => {
                     theme.faint
                 }
                 RowKind::Bone(_) => theme.key,

@@ -2,8 +2,9 @@
 
 use super::hand::Hand;
 use crate::panels::commands::Id;
+use crate::panels::context::PanelContext;
 use crate::panels::menu::item;
-use crate::panels::state::{Request, State};
+use crate::panels::request::Request;
 use dragonfly_document::Change;
 use egui::{Button, Response, Ui};
 
@@ -12,7 +13,13 @@ use egui::{Button, Response, Ui};
 pub(super) struct KeyMenu;
 
 impl KeyMenu {
-    pub(super) fn show(&self, canvas: &Response, hand: &Hand, state: &State, requests: &mut Vec<Request>) {
+    pub(super) fn show(
+        &self,
+        canvas: &Response,
+        hand: &Hand,
+        state: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
         // The right button that takes a drag back opens nothing.
         if hand.is_busy() {
             return;
@@ -22,11 +29,11 @@ impl KeyMenu {
 }
 
 /// The entries: for the dope sheet and for the curves.
-pub(in crate::panels) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+pub(in crate::panels) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let button = Button::new("Add keys at the playhead").frame_when_inactive(false);
     let hint = "Keys that keep the motion: of the selected bones, or of all";
     if ui.add_enabled(state.take().is_some(), button).on_hover_text(hint).clicked() {
-        requests.extend(state.added_keys().map(|edit| Request::Change(Change::Edit(edit, None))));
+        requests.extend(state.key_edit().map(|edit| Request::Change(Change::Edit(edit, None))));
         ui.close();
     }
     for id in [Id::CutKeys, Id::CopyKeys, Id::PastePose] {

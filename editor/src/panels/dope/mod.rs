@@ -12,8 +12,9 @@ mod place;
 mod rows;
 mod scroll;
 
+use super::context::PanelContext;
 use super::keys::window::TimeScale;
-use super::state::{Request, State};
+use super::request::Request;
 use super::theme::Theme;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo};
 use hand::Hand;
@@ -47,7 +48,13 @@ pub(super) const ROW: f32 = 20.0;
 
 impl Dope {
     /// Draws it into `rect`; a take is shown.
-    pub(super) fn show(&mut self, ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        state: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
         let Some(drawn) = state.drawn_keys() else { return };
         self.rows.update(state, &drawn.take);
         let places = Places::of(rect, state);
@@ -89,7 +96,7 @@ impl Dope {
 }
 
 /// While it plays, the playhead is not lost out of sight: the window turns a page.
-fn follow(scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
+fn follow(scale: &TimeScale, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     use super::keys::KeysRequest;
     if !state.playback.playing {
         return;

@@ -3,8 +3,8 @@
 use super::ROW;
 use super::place::Places;
 use super::rows::{RowKind, Rows};
+use crate::panels::context::PanelContext;
 use crate::panels::keys::TimeScale;
-use crate::panels::state::State;
 use crate::panels::theme::Theme;
 use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, pos2, vec2};
 
@@ -14,7 +14,7 @@ pub(super) fn rows(
     places: &Places,
     scroll: f32,
     rows: &Rows,
-    state: &State,
+    state: &PanelContext<'_>,
     theme: &Theme,
 ) {
     let body = Rect::from_min_max(places.names.min, places.canvas.max);
@@ -40,7 +40,7 @@ pub(in crate::panels) fn shade(
     painter: &Painter,
     rect: Rect,
     scale: &TimeScale,
-    state: &State,
+    state: &PanelContext<'_>,
     theme: &Theme,
 ) {
     let (start, length) = state.take_bounds();
@@ -65,13 +65,19 @@ pub(super) fn outside_range(
     painter: &Painter,
     places: &Places,
     scale: &TimeScale,
-    state: &State,
+    state: &PanelContext<'_>,
     theme: &Theme,
 ) {
     shade(painter, places.canvas, scale, state, theme);
 }
 
-pub(super) fn playhead(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
+pub(super) fn playhead(
+    painter: &Painter,
+    places: &Places,
+    scale: &TimeScale,
+    state: &PanelContext<'_>,
+    theme: &Theme,
+) {
     line(painter, places.head, places.all.bottom(), scale, state, theme);
 }
 
@@ -81,7 +87,7 @@ pub(in crate::panels) fn line(
     head: Rect,
     bottom: f32,
     scale: &TimeScale,
-    state: &State,
+    state: &PanelContext<'_>,
     theme: &Theme,
 ) {
     let right = Rect::from_min_max(head.min, pos2(head.right(), bottom));
@@ -100,7 +106,13 @@ pub(in crate::panels) fn line(
 }
 
 /// A small hollow diamond in the ruler where poses wait to be keyed.
-pub(super) fn pending(painter: &Painter, places: &Places, scale: &TimeScale, state: &State, theme: &Theme) {
+pub(super) fn pending(
+    painter: &Painter,
+    places: &Places,
+    scale: &TimeScale,
+    state: &PanelContext<'_>,
+    theme: &Theme,
+) {
     let painter = painter.with_clip_rect(places.head.intersect(painter.clip_rect()));
     for time in state.pending_times() {
         let center = pos2(scale.x_of(time), places.head.bottom() - 5.0);
@@ -111,8 +123,8 @@ pub(super) fn pending(painter: &Painter, places: &Places, scale: &TimeScale, sta
 }
 
 /// Why no row is there.
-pub(super) fn nothing(painter: &Painter, places: &Places, state: &State, theme: &Theme) {
-    let text = if !state.keys.filter.is_empty() {
+pub(super) fn nothing(painter: &Painter, places: &Places, state: &PanelContext<'_>, theme: &Theme) {
+    let text = if !state.keys.filter().is_empty() {
         "No bone with keys is called that"
     } else if state.lists_only_selected() {
         "The selected bones have no keys in this take"

@@ -1,6 +1,6 @@
 //! Where the parts of the dope sheet are.
 
-use crate::panels::state::State;
+use crate::panels::context::PanelContext;
 use egui::{Rect, pos2};
 
 /// See the module, in points.
@@ -35,7 +35,7 @@ pub(super) const ROOM_RIGHT: f32 = 20.0;
 pub(super) const SCROLL: f32 = 8.0;
 
 impl Places {
-    pub(super) fn of(all: Rect, state: &State) -> Self {
+    pub(super) fn of(all: Rect, state: &PanelContext<'_>) -> Self {
         // A narrow panel keeps at least half of itself for keys.
         let gutter = if all.width() < 480.0 { (all.width() * 0.3).clamp(64.0, 120.0) } else { 192.0 };
         let left = all.left() + gutter;

@@ -1,7 +1,7 @@
 //! The channels of a take, by name.
 
-use dragonfly_anim::data::{BoneIndex, Interpolation, Take, Track};
-use dragonfly_document::edit::Property;
+use dragonfly_anim::data::{BoneIndex, Interpolation, Skeleton, Take, Track};
+use dragonfly_document::edit::{BoneRef, Property};
 use std::sync::Arc;
 
 /// A channel: of which bone, and what of it.
@@ -51,4 +51,14 @@ pub fn nearest(take: &Take, channel: ChannelId, time: f32) -> Option<f32> {
     let around =
         [after.checked_sub(1), Some(after)].into_iter().flatten().filter_map(|at| times.get(at).copied());
     around.min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))
+}
+
+/// Returns a bone by its name, so that text means the same in another model; by its index where the name is not unique.
+pub fn named(skeleton: &Skeleton, bone: BoneIndex) -> BoneRef {
+    match skeleton.bones.get(bone as usize) {
+        Some(rules) if !rules.name.is_empty() && skeleton.find(&rules.name) == Some(bone) => {
+            BoneRef::Name(rules.name.clone())
+        }
+        Some(_) | None => BoneRef::Index(bone),
+    }
 }

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 /// What a hand does to keys; always as seen from the begin of the drag.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Deed {
+pub enum KeyDragOp {
     /// The selected keys, seconds later.
     Move(f32),
     /// The selected keys about a time.
@@ -39,7 +39,7 @@ pub enum Deed {
     Edit(Edit),
 }
 
-impl Deed {
+impl KeyDragOp {
     /// Where it brings keys.
     pub fn shift(&self) -> Shift {
         match *self {
@@ -84,10 +84,10 @@ pub struct KeyDrag {
     /// The keys that move.
     pub moving: KeySelection,
     /// The newest.
-    pub deed: Deed,
+    pub op: KeyDragOp,
     take: TakeRef,
     keys: Vec<KeySet>,
-    sent: Option<Deed>,
+    sent: Option<KeyDragOp>,
     /// Was anything ever sent?
     touched: bool,
     sent_at: Instant,
@@ -100,13 +100,13 @@ pub struct KeyDrag {
 const LATE: Duration = Duration::from_secs(2);
 
 impl KeyDrag {
-    /// Begins with `deed`.
+    /// Begins with `op`.
     pub fn begin(
         gesture: Gesture,
         take: TakeRef,
         base: Arc<Take>,
         moving: KeySelection,
-        deed: Deed,
+        op: KeyDragOp,
         now: Instant,
     ) -> Self {
         let keys = moving.key_sets(&base);
@@ -114,7 +114,7 @@ impl KeyDrag {
             gesture,
             base,
             moving,
-            deed,
+            op,
             take,
             keys,
             sent: None,
@@ -133,15 +133,15 @@ impl KeyDrag {
     /// What is to be sent now, if anything is; `last` where no later one will come.
     pub fn send(&mut self, generation: u64, last: bool, now: Instant) -> Option<Change> {
         let waits = generation < self.expects && now.saturating_duration_since(self.sent_at) < LATE;
-        if (waits && !last) || self.sent.as_ref() == Some(&self.deed) {
+        if (waits && !last) || self.sent.as_ref() == Some(&self.op) {
             return None;
         }
-        let change = match (self.deed.idle(), &self.sent) {
+        let change = match (self.op.idle(), &self.sent) {
             (true, None) => return None,
             (true, Some(_)) => Change::Cancel(self.gesture),
-            (false, _) => Change::Edit(self.deed.edit(self.take.clone(), &self.keys), Some(self.gesture)),
+            (false, _) => Change::Edit(self.op.edit(self.take.clone(), &self.keys), Some(self.gesture)),
         };
-        self.sent = (!self.deed.idle()).then(|| self.deed.clone());
+        self.sent = (!self.op.idle()).then(|| self.op.clone());
         self.touched = true;
         self.sent_at = now;
         self.expects = self.expects.max(generation) + 1;
@@ -173,19 +173,19 @@ impl KeyDrag {
     /// Keys that it was to add to the take; `None` where it brought none anywhere.
     pub fn brings(&self) -> Option<usize> {
         self.sent.as_ref()?;
-        match self.deed {
-            Deed::Duplicate(_) => Some(self.moving.count(&self.base)),
-            Deed::Move(_) | Deed::Scale { .. } | Deed::Snap(_) => Some(0),
-            Deed::Ripple { .. } | Deed::Edit(_) => None,
+        match self.op {
+            KeyDragOp::Duplicate(_) => Some(self.moving.count(&self.base)),
+            KeyDragOp::Move(_) | KeyDragOp::Scale { .. } | KeyDragOp::Snap(_) => Some(0),
+            KeyDragOp::Ripple { .. } | KeyDragOp::Edit(_) => None,
         }
     }
 
     /// The keys that moved, in the take as it is now.
     pub fn moved(&self, take: &Take) -> KeySelection {
-        match self.deed {
-            Deed::Ripple { .. } | Deed::Edit(_) => self.moving.clone(),
+        match self.op {
+            KeyDragOp::Ripple { .. } | KeyDragOp::Edit(_) => self.moving.clone(),
             _ if self.sent.is_none() => self.moving.clone(),
-            _ => self.moving.shifted(&self.base, take, self.deed.shift()),
+            _ => self.moving.shifted(&self.base, take, self.op.shift()),
         }
     }
 }

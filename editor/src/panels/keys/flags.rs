@@ -109,7 +109,7 @@ impl BoneFlags {
     /// What is done to a whole take (trim, split, reverse, retime, rename) is not about bones: it goes for locked ones too,
     /// as else they would fall out of step with the others. Where several bones are meant, those who ask leave the locked
     /// ones out, unless all of them are.
-    pub fn hinders(&self, change: &Change, skeleton: &Skeleton) -> Option<BoneIndex> {
+    pub fn locked_bone_in(&self, change: &Change, skeleton: &Skeleton) -> Option<BoneIndex> {
         let Change::Edit(edit, _) = change else { return None };
         if !self.any_locked() {
             return None;

@@ -17,7 +17,7 @@ pub struct Marker {
 
 /// What is done to the markers of the take that is shown.
 #[derive(Clone, Debug, PartialEq)]
-pub enum MarkerDeed {
+pub enum MarkerAction {
     /// A new one, unless there is one already.
     Add(f32),
     /// This one elsewhere.
@@ -110,7 +110,7 @@ impl Markers {
 
     /// Gives takes that are new the markers of those they were made of: copies all, the second part of a take that was
     /// cut in two those behind the cut. Where the markers come from they stay, so nothing is lost when that is undone.
-    pub(super) fn take_along(&mut self, before: &[Arc<Slot>], now: &[Arc<Slot>]) {
+    pub(in crate::panels) fn take_along(&mut self, before: &[Arc<Slot>], now: &[Arc<Slot>]) {
         for (at, slot) in now.iter().enumerate() {
             let known = self.takes.contains_key(&slot.id) || before.iter().any(|old| old.id == slot.id);
             let Some((from, cut)) = made_of(before, now, at).filter(|_| !known) else { continue };
@@ -128,25 +128,25 @@ impl Markers {
     }
 
     /// Does it.
-    pub fn change(&mut self, take: TakeId, deed: MarkerDeed) {
+    pub fn change(&mut self, take: TakeId, action: MarkerAction) {
         let markers = self.takes.entry(take).or_default();
-        match deed {
-            MarkerDeed::Add(time) if time.is_finite() && markers.len() < MOST => {
+        match action {
+            MarkerAction::Add(time) if time.is_finite() && markers.len() < MOST => {
                 if markers.iter().any(|marker| (marker.time - time).abs() < 1e-4) {
                     return;
                 }
                 let name = format!("Marker {}", markers.len() + 1);
                 markers.push(Marker { time, name });
             }
-            MarkerDeed::Move(index, time) if time.is_finite() => match markers.get_mut(index) {
+            MarkerAction::Move(index, time) if time.is_finite() => match markers.get_mut(index) {
                 Some(marker) => marker.time = time,
                 None => return,
             },
-            MarkerDeed::Rename(index, name) => match markers.get_mut(index) {
+            MarkerAction::Rename(index, name) => match markers.get_mut(index) {
                 Some(marker) => marker.name = name.chars().take(LONGEST).collect(),
                 None => return,
             },
-            MarkerDeed::Delete(index) if index < markers.len() => {
+            MarkerAction::Delete(index) if index < markers.len() => {
                 markers.remove(index);
             }
             _ => return,

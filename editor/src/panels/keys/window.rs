@@ -21,11 +21,11 @@ impl TimeWindow {
     /// A whole take; one second where it is a single pose.
     pub fn whole(start: f32, length: f32) -> Self {
         let length = if length > 0.0 { f64::from(length) } else { 1.0 };
-        Self { start: f64::from(start), length }.mended()
+        Self { start: f64::from(start), length }.sanitized()
     }
 
     /// Finite, neither too short nor too long.
-    pub fn mended(self) -> Self {
+    pub fn sanitized(self) -> Self {
         let start = if self.start.is_finite() { self.start.clamp(-LONGEST, LONGEST) } else { 0.0 };
         let length = if self.length.is_finite() { self.length.clamp(SHORTEST, LONGEST) } else { 1.0 };
         Self { start, length }
@@ -35,12 +35,12 @@ impl TimeWindow {
     pub fn zoomed(self, about: f64, factor: f64) -> Self {
         let length = (self.length * factor).clamp(SHORTEST, LONGEST);
         let part = (about - self.start) / self.length;
-        Self { start: about - part * length, length }.mended()
+        Self { start: about - part * length, length }.sanitized()
     }
 
     /// The same length, `by` seconds later.
     pub fn panned(self, by: f64) -> Self {
-        Self { start: self.start + by, ..self }.mended()
+        Self { start: self.start + by, ..self }.sanitized()
     }
 
     /// At least a part of `first..=last` stays in sight, and no more than three times as much is shown, or what a short take
@@ -48,7 +48,7 @@ impl TimeWindow {
     pub fn near(self, first: f64, last: f64) -> Self {
         let length = self.length.min(((last - first) * 3.0).max(GROWS)).max(SHORTEST);
         let start = self.start.clamp(first - length * 0.9, (last - length * 0.1).max(first - length * 0.9));
-        Self { start, length }.mended()
+        Self { start, length }.sanitized()
     }
 }
 
@@ -115,7 +115,7 @@ mod tests {
     fn no_number_makes_a_window_without_size() {
         for start in [f64::NAN, f64::INFINITY, -1e300, 0.0] {
             for length in [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e300] {
-                let window = TimeWindow { start, length }.mended().near(0.0, 3.0);
+                let window = TimeWindow { start, length }.sanitized().near(0.0, 3.0);
                 assert!(window.start.is_finite() && window.length >= SHORTEST, "{window:?}");
             }
         }

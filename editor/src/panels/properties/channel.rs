@@ -1,9 +1,10 @@
 //! One channel of a bone as a table: a row an axis, a column each for original, change and result.
 
+use super::super::context::PanelContext;
 use super::super::number_field::{self, Heard, NumberField};
 use super::super::number_slider::{NumberSlider, Scale};
 use super::super::number_text::{Digits, exact};
-use super::super::state::{Request, State};
+use super::super::request::Request;
 use super::super::style::{GRID, NUMBER, RADIUS};
 use super::super::theme::Theme;
 use super::hand::{Hand, Spot};
@@ -23,7 +24,7 @@ const SLIDER: f32 = 14.0;
 
 /// What a table is about.
 pub(super) struct Table<'a> {
-    pub(super) state: &'a State,
+    pub(super) state: &'a PanelContext<'a>,
     pub(super) bone: BoneIndex,
     pub(super) pair: Pair,
     /// Why nothing can be changed, if so.

@@ -5,8 +5,9 @@
 //! those angles as long as the rotation is the one that they say: many angles say the same rotation.
 
 use super::super::commands::Id;
+use super::super::context::PanelContext;
 use super::super::number_field::Heard;
-use super::super::state::{Request, State};
+use super::super::request::Request;
 use super::parts::{Column, Form, Numbers, Pair, Part, is_same_turn, numbers, part, turn_of};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::{rest_pose, sample_track};
@@ -108,7 +109,7 @@ enum Way {
 
 impl Hand {
     /// Begins a frame: forgets what is over. `in_use`: has a field of the panel the focus, or is it dragged?
-    pub(super) fn begin(&mut self, state: &State, in_use: bool) {
+    pub(super) fn begin(&mut self, state: &PanelContext<'_>, in_use: bool) {
         if self
             .sent
             .as_ref()
@@ -121,7 +122,7 @@ impl Hand {
     }
 
     /// The active bone or another one, as it was read and as it is or is asked to be.
-    pub(super) fn pair(&self, state: &State, bone: BoneIndex) -> Option<Pair> {
+    pub(super) fn pair(&self, state: &PanelContext<'_>, bone: BoneIndex) -> Option<Pair> {
         let mut pair = pair(state, bone)?;
         if let Some(sent) = &self.sent
             && let Some(part) = sent.parts.get(&bone)
@@ -146,7 +147,7 @@ impl Hand {
     /// The numbers that all selected bones have at `spot`; `None` where they differ. The active one is `pair`.
     pub(super) fn shared(
         &self,
-        state: &State,
+        state: &PanelContext<'_>,
         active: BoneIndex,
         pair: &Pair,
         spot: Spot,
@@ -171,7 +172,7 @@ impl Hand {
     /// Does what a person did to one number. An error is why it cannot be so.
     pub(super) fn hear(
         &mut self,
-        state: &State,
+        state: &PanelContext<'_>,
         spot: Spot,
         component: usize,
         heard: Heard,
@@ -216,7 +217,14 @@ impl Hand {
         Ok(())
     }
 
-    fn drag(&mut self, state: &State, spot: Spot, component: usize, by: f64, requests: &mut Vec<Request>) {
+    fn drag(
+        &mut self,
+        state: &PanelContext<'_>,
+        spot: Spot,
+        component: usize,
+        by: f64,
+        requests: &mut Vec<Request>,
+    ) {
         let Some(mut held) = self.held.take() else { return };
         held.over |= (held.spot, held.component) != (spot, component) || held.moment != Moment::of(state);
         if !held.over {
@@ -228,7 +236,7 @@ impl Hand {
         self.held = Some(held);
     }
 
-    fn begun(&self, state: &State, spot: Spot) -> Begun {
+    fn begun(&self, state: &PanelContext<'_>, spot: Spot) -> Begun {
         let starts = state
             .bones_to_pose()
             .filter_map(|bone| {
@@ -242,7 +250,7 @@ impl Hand {
     #[expect(clippy::too_many_arguments, reason = "all of them say what is edited")]
     fn send(
         &mut self,
-        state: &State,
+        state: &PanelContext<'_>,
         spot: Spot,
         component: usize,
         begun: &mut Begun,
@@ -273,7 +281,7 @@ impl Hand {
             poses.push(part.pose(start.bone, spot.property));
             parts.insert(start.bone, part);
         }
-        let poses = State::with_pins(&mut begun.hold, poses);
+        let poses = PanelContext::with_pins(&mut begun.hold, poses);
         turn_parts(&mut parts, &poses);
         if let Some(edit) = state.pose_edit(poses) {
             requests.push(Request::Change(Change::Edit(edit, gesture)));
@@ -285,7 +293,7 @@ impl Hand {
     /// Gives all selected bones other parts of their pose, as a step of its own.
     pub(super) fn set(
         &mut self,
-        state: &State,
+        state: &PanelContext<'_>,
         property: Property,
         of: impl Fn(&Pair, BoneIndex) -> Option<Part>,
         requests: &mut Vec<Request>,
@@ -296,7 +304,7 @@ impl Hand {
             .collect();
         let bones = state.bones_to_pose();
         let poses = bones.filter_map(|bone| Some(parts.get(&bone)?.pose(bone, property))).collect();
-        let poses = State::with_pins(&mut state.hold_of_pins(), poses);
+        let poses = PanelContext::with_pins(&mut state.hold_of_pins(), poses);
         turn_parts(&mut parts, &poses);
         if let Some(edit) = state.pose_edit(poses) {
             requests.push(Request::Change(Change::Edit(edit, None)));
@@ -304,7 +312,7 @@ impl Hand {
         }
     }
 
-    fn expect(&mut self, state: &State, property: Property, parts: HashMap<BoneIndex, Part>) {
+    fn expect(&mut self, state: &PanelContext<'_>, property: Property, parts: HashMap<BoneIndex, Part>) {
         let (take, time) = (state.playback.take, state.time().to_bits());
         self.sent = Some(Sent { take, time, at: state.now, property, parts });
     }
@@ -323,13 +331,13 @@ fn turn_parts(parts: &mut HashMap<BoneIndex, Part>, poses: &[BonePose]) {
 
 impl Sent {
     /// Is it still about what is shown, and believed?
-    fn counts(&self, state: &State) -> bool {
+    fn counts(&self, state: &PanelContext<'_>) -> bool {
         let shown = (state.playback.take, state.time().to_bits());
         shown == (self.take, self.time) && state.now.saturating_duration_since(self.at) < PATIENCE
     }
 
     /// Is it there?
-    fn came(&self, state: &State) -> bool {
+    fn came(&self, state: &PanelContext<'_>) -> bool {
         let here = |(&bone, part): (&BoneIndex, &Part)| {
             pair(state, bone).is_some_and(|pair| Part::of(&pair.result, self.property).is_near(*part))
         };
@@ -338,15 +346,15 @@ impl Sent {
 }
 
 impl Moment {
-    fn of(state: &State) -> Self {
+    fn of(state: &PanelContext<'_>) -> Self {
         let bones = state.selection.bones().to_vec();
         Self { take: state.playback.take, time: state.time().to_bits(), bones }
     }
 }
 
 /// A bone at the time shown.
-fn pair(state: &State, bone: BoneIndex) -> Option<Pair> {
-    let view = state.view.as_ref()?;
+fn pair(state: &PanelContext<'_>, bone: BoneIndex) -> Option<Pair> {
+    let view = state.view?;
     let rules = view.loaded.model.animation.skeleton.bones.get(bone as usize)?;
     let result = *state.posed.animation()?.poses().get(bone as usize)?;
     let slot = state.playback.take.and_then(|take| view.slots.get(take));
@@ -358,7 +366,7 @@ fn pair(state: &State, bone: BoneIndex) -> Option<Pair> {
 }
 
 /// Time stands while numbers are changed.
-fn stop(state: &State, requests: &mut Vec<Request>) {
+fn stop(state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     if state.playback.playing {
         let backwards = state.playback.speed < 0.0;
         requests.push(Request::Command(if backwards { Id::PlayBackwards } else { Id::PlayPause }));

@@ -3,14 +3,16 @@
 mod channel;
 mod hand;
 mod keys;
+pub mod look;
 mod model;
 pub mod parts;
 pub mod turn;
 
 use super::commands::{self, Id};
+use super::context::PanelContext;
 use super::icons::Icon;
 use super::number_text::Digits;
-use super::state::{Request, State};
+use super::request::Request;
 use super::style::GRID;
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
@@ -21,28 +23,9 @@ use dragonfly_document::edit::{Property, ResetTo};
 use egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
 use hand::Hand;
 use keys::Keyed;
+pub use look::PropertiesLook;
 use model::fact;
 use parts::Form;
-use serde::{Deserialize, Serialize};
-
-/// How the numbers of a bone are shown; remembered between runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct PropertiesLook {
-    /// In which order three turns follow each other.
-    #[serde(with = "turn::by_name")]
-    pub euler: EulerOrder,
-    /// Is the quaternion shown as well?
-    pub quaternion: bool,
-    /// Are there sliders for translation, rotation, scale?
-    pub sliders: [bool; 3],
-}
-
-impl Default for PropertiesLook {
-    fn default() -> Self {
-        Self { euler: EulerOrder::default(), quaternion: false, sliders: [false, true, false] }
-    }
-}
 
 /// Numbers of the selection.
 #[derive(Debug, Default)]
@@ -65,7 +48,7 @@ impl Panel for Properties {
         Place::Right
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         if state.view.is_none() {
             return widgets::empty(ui, "", "Numbers appear here");
         }
@@ -84,12 +67,12 @@ impl Panel for Properties {
 }
 
 impl Properties {
-    fn bone(&mut self, ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
+    fn bone(&mut self, ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, requests: &mut Vec<Request>) {
         let (Some(loaded), Some(pair)) = (state.loaded(), self.hand.pair(state, bone)) else { return };
         head(ui, state, bone, requests);
         let locked = match state.take_ref() {
             None => Some("The rest pose cannot be changed: show a take"),
-            Some(_) if state.keys.flags.locked(bone) => {
+            Some(_) if state.keys.flags().locked(bone) => {
                 Some("Locked in the timeline: its keys are not changed")
             }
             Some(_) => None,
@@ -184,7 +167,7 @@ impl Properties {
 }
 
 /// Name, how many are selected, and whose child it is.
-fn head(ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
+fn head(ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, requests: &mut Vec<Request>) {
     let name = state.bone_name(bone);
     ui.add(Label::new(RichText::new(&name).heading()).truncate()).on_hover_text(widgets::shortened(&name));
     let theme = Theme::of(ui);
@@ -220,7 +203,7 @@ fn head(ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>
 
 /// How many metres of the scene 1 is in the space of a bone's parent, as it stands; 1 where that cannot be said. Files whose
 /// skeleton is in centimetres have a node above it that is a hundredth in size.
-fn metres(state: &State, bone: BoneIndex) -> f64 {
+fn metres(state: &PanelContext<'_>, bone: BoneIndex) -> f64 {
     let parent =
         state.loaded().and_then(|loaded| loaded.model.animation.skeleton.bones.get(bone as usize)?.parent);
     let to_root = state
@@ -262,7 +245,7 @@ fn quaternion_head(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request
 }
 
 /// Where the bone is in the scene, and what it is in the skeleton.
-fn place(ui: &mut Ui, state: &State, bone: BoneIndex, size: f64) {
+fn place(ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, size: f64) {
     let to_root = state.posed.animation().and_then(|animation| animation.to_root().get(bone as usize));
     if let Some(to_root) = to_root {
         widgets::caption(ui, "In the scene");

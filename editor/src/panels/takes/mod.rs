@@ -1,14 +1,12 @@
 //! The list of takes: shown by a click, named, put in order by hand, made, cut and deleted.
 
-mod commands;
 mod rename;
 mod time;
 
-pub use commands::TakesState;
-
 use super::commands::Id;
+use super::context::PanelContext;
 use super::icons::Icon;
-use super::state::{Request, State};
+use super::request::Request;
 use super::style::{GRID, RADIUS, ROW};
 use super::theme::Theme;
 use super::{Panel, Place, menu, search_field, widgets};
@@ -65,7 +63,7 @@ impl Panel for Takes {
         Place::LeftBelow
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         if state.view.is_none() {
             return widgets::empty(ui, "", "Takes appear here");
         }
@@ -109,7 +107,7 @@ impl Panel for Takes {
 }
 
 /// The row of the rest pose.
-fn rest_pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn rest_pose(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let selected = state.playback.take.is_none();
     if row(ui, "Rest pose", "Rest pose", ["", ""], selected, Sense::click()).clicked() {
         requests.push(Request::ShowTake(None));
@@ -118,7 +116,12 @@ fn rest_pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
 
 impl Takes {
     /// The takes that are searched; `None` where all are listed.
-    fn search(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) -> Option<Vec<usize>> {
+    fn search(
+        &mut self,
+        ui: &mut Ui,
+        state: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) -> Option<Vec<usize>> {
         let takes = &state.digest.takes;
         if takes.len() < SEARCHED {
             self.query.clear();
@@ -127,7 +130,7 @@ impl Takes {
         let entered = search_field::show(ui, &mut self.query, "Find a take", false);
         let query = self.query.trim().to_lowercase();
         // The one that is renamed may have another name than the one that is searched.
-        if query.is_empty() || state.takes.renaming.is_some() {
+        if query.is_empty() || state.takes.renaming().is_some() {
             return None;
         }
         let is_found = |&at: &usize| takes[at].name.to_lowercase().contains(&query);
@@ -138,7 +141,7 @@ impl Takes {
         Some(found)
     }
 
-    fn buttons(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    fn buttons(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.add_space(GRID);
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
@@ -158,7 +161,7 @@ impl Takes {
                 })
                 .inner
                 .on_hover_text("Start and length of the take, and what is left of it when it is trimmed");
-            let asked = state.takes.times_asked;
+            let asked = state.takes.times_asked();
             if std::mem::replace(&mut self.times_shown, asked) != asked {
                 egui::Popup::open_id(ui.ctx(), egui::Popup::default_response_id(&response));
             }
@@ -169,10 +172,10 @@ impl Takes {
         });
     }
 
-    fn take(&mut self, ui: &mut Ui, state: &State, index: usize, requests: &mut Vec<Request>) {
+    fn take(&mut self, ui: &mut Ui, state: &PanelContext<'_>, index: usize, requests: &mut Vec<Request>) {
         let Some(take) = state.digest.takes.get(index) else { return };
-        let id = state.view.as_ref().and_then(|view| view.slots.get(index)).map(|slot| slot.id);
-        if state.takes.renaming.is_some() && state.takes.renaming == id {
+        let id = state.view.and_then(|view| view.slots.get(index)).map(|slot| slot.id);
+        if state.takes.renaming().is_some() && state.takes.renaming() == id {
             return self.rename(ui, state, index, requests);
         }
         let (keys, length) = (widgets::grouped(take.keys), format!("{:.2} s", take.length));
@@ -211,8 +214,8 @@ impl Takes {
         }
     }
 
-    fn rename(&mut self, ui: &mut Ui, state: &State, index: usize, requests: &mut Vec<Request>) {
-        let Some(id) = state.takes.renaming else { return };
+    fn rename(&mut self, ui: &mut Ui, state: &PanelContext<'_>, index: usize, requests: &mut Vec<Request>) {
+        let Some(id) = state.takes.renaming() else { return };
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
         if self.rename.as_ref().is_none_or(|(of, _)| *of != id) {
             self.rename = Some((id, Rename::default()));
@@ -264,7 +267,7 @@ fn shared_prefix<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> usize 
 }
 
 /// A button for a command that is grey where it cannot be given.
-fn command(ui: &mut Ui, state: &State, icon: Icon, id: Id, requests: &mut Vec<Request>) {
+fn command(ui: &mut Ui, state: &PanelContext<'_>, icon: Icon, id: Id, requests: &mut Vec<Request>) {
     let when = super::commands::get(id).when;
     ui.add_enabled_ui(when.holds(state), |ui| {
         let _ = widgets::command_button(ui, icon, id, false, requests).on_disabled_hover_text(when.reason());

@@ -1,8 +1,9 @@
 //! Start and length of a take, and what is left of it when it is trimmed: numbers in a small sheet.
 
+use super::super::context::PanelContext;
 use super::super::number_field::{Heard, NumberField};
 use super::super::number_text::Digits;
-use super::super::state::{Request, State};
+use super::super::request::Request;
 use super::super::style::GRID;
 use super::super::theme::Theme;
 use super::super::widgets;
@@ -33,7 +34,7 @@ pub(super) struct Times {
 
 impl Times {
     /// Draws the fields for the take that is shown.
-    pub(super) fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    pub(super) fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.set_width(240.0);
         let rate = f64::from(state.settings.frame_rate.max(1));
         ui.spacing_mut().item_spacing.y = GRID;
@@ -104,7 +105,7 @@ impl Times {
 
     fn edit(
         &mut self,
-        state: &State,
+        state: &PanelContext<'_>,
         now: f64,
         heard: Heard,
         requests: &mut Vec<Request>,

@@ -2,14 +2,20 @@
 
 use crate::control;
 use crate::panels::commands::{self, Id};
+use crate::panels::context::PanelContext;
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
-use crate::panels::{Request, State};
 use egui::accesskit::Role;
 use egui::{Align2, FontId, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 use glam::{Vec2, Vec3};
 
 /// The scene's axes as seen now. Dragging them orbits; a click on an end looks from there. Tells where they are.
-pub(super) fn axes(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Option<Rect> {
+pub(super) fn axes(
+    ui: &mut Ui,
+    rect: Rect,
+    state: &PanelContext<'_>,
+    requests: &mut Vec<Request>,
+) -> Option<Rect> {
     let radius = 30.0;
     let center = pos2(rect.left() + radius + 18.0, rect.bottom() - radius - 18.0);
     if rect.height() < 200.0 || rect.width() < 200.0 {

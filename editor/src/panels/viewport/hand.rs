@@ -2,16 +2,23 @@
 
 use super::{divider_across, glass, ik};
 use crate::panels::commands::Id;
+use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
+use crate::panels::menu;
+use crate::panels::request::Request;
 use crate::panels::style::GRID;
 use crate::panels::widgets::{column_button, hint_beside, icon_button};
-use crate::panels::{Request, State, menu};
 use dragonfly_picture::gizmo::{Pivot, Space, Tool};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
 /// Draws them; tells where they are. In a low picture they stand in two columns, in a narrow one some are left out, and in a
 /// very low one all: keys and menus have it all.
-pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Option<Rect> {
+pub(super) fn toolbar(
+    ui: &mut Ui,
+    rect: Rect,
+    state: &PanelContext<'_>,
+    requests: &mut Vec<Request>,
+) -> Option<Rect> {
     let hand = &state.settings.hand;
     let top = rect.top() + 52.0;
     // The axes stand below.
@@ -83,7 +90,7 @@ const PIVOTS: [(Id, Option<Space>, Option<Pivot>); 3] = [
 /// A button that shows what is chosen and opens the list.
 fn choice(
     ui: &mut Ui,
-    state: &State,
+    state: &PanelContext<'_>,
     icon: Icon,
     name: &str,
     list: &[(Id, Option<Space>, Option<Pivot>)],

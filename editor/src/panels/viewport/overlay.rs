@@ -1,14 +1,15 @@
 //! What the mouse is doing in the picture, as far as it is drawn by the panels: pointer, box, lasso.
 
 use crate::control::ViewportControl;
+use crate::panels::context::PanelContext;
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
-use crate::panels::{Request, State};
 use dragonfly_picture::pick::Region;
 use egui::{CursorIcon, Pos2, Rect, Response, Shape, Stroke, StrokeKind, Ui, pos2};
 use glam::Vec2;
 
 /// Tells where the pointer rests and what its wheel does, and gives it its form.
-pub(super) fn pointer(ui: &Ui, response: &Response, state: &State, requests: &mut Vec<Request>) {
+pub(super) fn pointer(ui: &Ui, response: &Response, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let (at, held, focused, wheel, pinch) = ui.input(|input| {
         let pointer = &input.pointer;
         let wheel = input.smooth_scroll_delta().y;
@@ -39,7 +40,7 @@ pub(super) fn pointer(ui: &Ui, response: &Response, state: &State, requests: &mu
 }
 
 /// The box or lasso that is being drawn.
-pub(super) fn drawn(ui: &Ui, rect: Rect, state: &State) {
+pub(super) fn drawn(ui: &Ui, rect: Rect, state: &PanelContext<'_>) {
     let Some(region) = state.hands.picture().catching() else { return };
     let theme = Theme::of(ui);
     let painter = ui.painter().with_clip_rect(rect);

@@ -4,7 +4,7 @@ use super::super::style::{GRID, NUMBER};
 use super::glass;
 use crate::control::Catch;
 use crate::control::gizmo::GizmoReadout;
-use crate::panels::State;
+use crate::panels::context::PanelContext;
 use crate::panels::theme::Theme;
 use dragonfly_picture::gizmo::{Axis, GizmoDelta, Handle, Space, Tool};
 use egui::accesskit::Role;
@@ -12,7 +12,7 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Draws it while something is dragged or waits for the drag that a command asked for, and at the keys of a motion path.
-pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State) {
+pub(super) fn show(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>) {
     let theme = Theme::of(ui);
     let words = |color| TextFormat::simple(FontId::proportional(NUMBER), color);
     let digits = |color| TextFormat::simple(FontId::monospace(NUMBER), color);
@@ -43,7 +43,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State) {
     beside_the_pointer(ui, rect, state, job);
 }
 
-fn beside_the_pointer(ui: &Ui, rect: Rect, state: &State, job: LayoutJob) {
+fn beside_the_pointer(ui: &Ui, rect: Rect, state: &PanelContext<'_>, job: LayoutJob) {
     let text = job.text.clone();
     let galley = ui.painter().layout_job(job);
     let size = galley.size() + vec2(4.0 * GRID, 2.0 * GRID);

@@ -2,16 +2,23 @@
 
 use super::{divider, glass};
 use crate::panels::commands::Id;
+use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
+use crate::panels::menu;
+use crate::panels::request::Request;
 use crate::panels::style::GRID;
 use crate::panels::widgets::{command_button, icon_button};
-use crate::panels::{Request, State, menu};
 use dragonfly_picture::camera::Projection;
 use dragonfly_picture::{BoneLook, Shading};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
 /// Buttons for everything about the picture, so that nothing needs a numeric keypad or a middle button. Tells where it is.
-pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Rect {
+pub(super) fn toolbar(
+    ui: &mut Ui,
+    rect: Rect,
+    state: &PanelContext<'_>,
+    requests: &mut Vec<Request>,
+) -> Rect {
     let look = &state.settings.look;
     // Narrow pictures keep what has no other button nearby; the menus have it all.
     let wide = rect.width() > 430.0;
@@ -53,7 +60,7 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
     at
 }
 
-fn views(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn views(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let response = icon_button(ui, Icon::View, "Views", false).on_hover_text("Views");
     egui::Popup::menu(&response).show(|ui| {
         ui.set_width(160.0);

@@ -7,8 +7,8 @@ mod blender;
 mod game_engines;
 mod maya;
 
-use super::Id;
-use super::table::{ALT, CTRL, NONE, SHIFT, key};
+use super::id::Id;
+use super::shortcut::{ALT, CTRL, NONE, SHIFT, key};
 use egui::{Key, KeyboardShortcut};
 use serde::{Deserialize, Serialize};
 

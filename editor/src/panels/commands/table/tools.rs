@@ -1,27 +1,32 @@
 //! What the mouse does in the picture.
 
 use super::*;
+use crate::control::Catch;
+use crate::panels::actions::tools;
+use dragonfly_picture::gizmo::Pivot;
+use dragonfly_picture::gizmo::Space;
+use dragonfly_picture::gizmo::Tool;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const COMMANDS: &[Command] = &[
-    command(Id::ToolSelect, When::Always, "Select", &[key(NONE, Key::Q)], "No gizmo: the mouse only selects"),
-    command(Id::ToolMove, When::Always, "Move", &[key(NONE, Key::W)], "A gizmo that moves the selected bones"),
-    command(Id::ToolRotate, When::Always, "Rotate", &[key(NONE, Key::E)], "A gizmo that turns the selected bones"),
-    command(Id::ToolScale, When::Always, "Scale", &[key(NONE, Key::R)], "A gizmo that scales the selected bones"),
-    command(Id::MoveNow, When::BoneInTake, "Move now", &[], "Moves with the mouse at once: X, Y, Z bind, digits type, Enter ends"),
-    command(Id::RotateNow, When::BoneInTake, "Rotate now", &[], "Turns with the mouse at once: X, Y, Z bind, digits type, Enter ends"),
-    command(Id::ScaleNow, When::BoneInTake, "Scale now", &[], "Scales with the mouse at once: X, Y, Z bind, digits type, Enter ends"),
-    command(Id::NextSpace, When::Always, "Next axes", &[key(NONE, Key::T)], "Own axes, the parent's, the world's, the picture's"),
-    command(Id::SpaceLocal, When::Always, "Own axes", &[], "The gizmo has the axes of the bone"),
-    command(Id::SpaceParent, When::Always, "Parent's axes", &[], "The gizmo has the axes of the bone's parent"),
-    command(Id::SpaceWorld, When::Always, "World's axes", &[], "The gizmo has the axes of the scene"),
-    command(Id::SpaceView, When::Always, "Picture's axes", &[], "The gizmo has right, up and towards the viewer"),
-    command(Id::PivotIndividual, When::Always, "Each about its own joint", &[], "Several bones turn and grow where they are"),
-    command(Id::PivotMedian, When::Always, "All about their middle", &[], "Several bones turn and grow about the mean of their joints"),
-    command(Id::PivotActive, When::Always, "All about the active bone", &[], "Several bones turn and grow about the joint of the one selected last"),
-    command(Id::ToggleCurl, When::Always, "Curl chains", &[], "Every bone of a selected chain turns by the whole amount, as a finger does"),
-    command(Id::BoxSelect, When::Model, "Select in a box", &[key(SHIFT, Key::B)], "The next drag draws a box, wherever it begins"),
-    command(Id::LassoSelect, When::Model, "Select in a lasso", &[key(SHIFT, Key::L)], "The next drag draws a line around what is meant"),
-    command(Id::ToggleGhosts, When::Always, "Ghosts", &[key(SHIFT, Key::G)], "Shows the skeleton some frames before and after"),
-    command(Id::TogglePath, When::Always, "Motion path", &[key(SHIFT, Key::P)], "Shows where the selected bone moves along; its keys can be dragged"),
+    command(Id::ToolSelect, When::Always, "Select", &[key(NONE, Key::Q)], "No gizmo: the mouse only selects", |w| done(w.settings.hand.tool = None)),
+    command(Id::ToolMove, When::Always, "Move", &[key(NONE, Key::W)], "A gizmo that moves the selected bones", |w| done(w.settings.hand.tool = Some(Tool::Move))),
+    command(Id::ToolRotate, When::Always, "Rotate", &[key(NONE, Key::E)], "A gizmo that turns the selected bones", |w| done(w.settings.hand.tool = Some(Tool::Rotate))),
+    command(Id::ToolScale, When::Always, "Scale", &[key(NONE, Key::R)], "A gizmo that scales the selected bones", |w| done(w.settings.hand.tool = Some(Tool::Scale))),
+    command(Id::MoveNow, When::BoneInTake, "Move now", &[], "Moves with the mouse at once: X, Y, Z bind, digits type, Enter ends", |w| done(tools::drag_now(w, Tool::Move))),
+    command(Id::RotateNow, When::BoneInTake, "Rotate now", &[], "Turns with the mouse at once: X, Y, Z bind, digits type, Enter ends", |w| done(tools::drag_now(w, Tool::Rotate))),
+    command(Id::ScaleNow, When::BoneInTake, "Scale now", &[], "Scales with the mouse at once: X, Y, Z bind, digits type, Enter ends", |w| done(tools::drag_now(w, Tool::Scale))),
+    command(Id::NextSpace, When::Always, "Next axes", &[key(NONE, Key::T)], "Own axes, the parent's, the world's, the picture's", |w| done(tools::next_space(w))),
+    command(Id::SpaceLocal, When::Always, "Own axes", &[], "The gizmo has the axes of the bone", |w| done(w.settings.hand.space = Space::Local)),
+    command(Id::SpaceParent, When::Always, "Parent's axes", &[], "The gizmo has the axes of the bone's parent", |w| done(w.settings.hand.space = Space::Parent)),
+    command(Id::SpaceWorld, When::Always, "World's axes", &[], "The gizmo has the axes of the scene", |w| done(w.settings.hand.space = Space::World)),
+    command(Id::SpaceView, When::Always, "Picture's axes", &[], "The gizmo has right, up and towards the viewer", |w| done(w.settings.hand.space = Space::View)),
+    command(Id::PivotIndividual, When::Always, "Each about its own joint", &[], "Several bones turn and grow where they are", |w| done(w.settings.hand.pivot = Pivot::Individual)),
+    command(Id::PivotMedian, When::Always, "All about their middle", &[], "Several bones turn and grow about the mean of their joints", |w| done(w.settings.hand.pivot = Pivot::Median)),
+    command(Id::PivotActive, When::Always, "All about the active bone", &[], "Several bones turn and grow about the joint of the one selected last", |w| done(w.settings.hand.pivot = Pivot::Active)),
+    command(Id::ToggleCurl, When::Always, "Curl chains", &[], "Every bone of a selected chain turns by the whole amount, as a finger does", |w| done(w.settings.hand.curl ^= true)),
+    command(Id::BoxSelect, When::Model, "Select in a box", &[key(SHIFT, Key::B)], "The next drag draws a box, wherever it begins", |w| done(tools::arm(w, Catch::Box))),
+    command(Id::LassoSelect, When::Model, "Select in a lasso", &[key(SHIFT, Key::L)], "The next drag draws a line around what is meant", |w| done(tools::arm(w, Catch::Lasso))),
+    command(Id::ToggleGhosts, When::Always, "Ghosts", &[key(SHIFT, Key::G)], "Shows the skeleton some frames before and after", |w| done(w.settings.hand.ghosts.shown ^= true)),
+    command(Id::TogglePath, When::Always, "Motion path", &[key(SHIFT, Key::P)], "Shows where the selected bone moves along; its keys can be dragged", |w| done(w.settings.hand.path ^= true)),
 ];

@@ -1,0 +1,83 @@
+//! What a screen reader is told, in the log: for who looks after the program from outside and cannot read pixels.
+
+use egui::accesskit::{Node, NodeId, Toggled};
+use egui::{Context, PlatformOutput};
+use serde::Serialize;
+use std::collections::HashMap;
+use tracing::{debug, enabled};
+
+/// The target of the lines in the log.
+const TARGET: &str = "dragonfly::reader";
+
+/// What was told last: only what differs is told again.
+#[derive(Debug, Default)]
+pub(super) struct AccessibilityTrace(HashMap<NodeId, Told>);
+
+/// A control as a screen reader has it. What is `None` is left out.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct Told {
+    id: u64,
+    role: String,
+    name: String,
+    /// Left, top, width, height in the window, physical pixels.
+    place: [f64; 4],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    number: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    on: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    about: Option<String>,
+    disabled: bool,
+    focused: bool,
+}
+
+impl AccessibilityTrace {
+    /// Has the controls described, where somebody listens (`DRAGONFLY_LOG=dragonfly::reader=debug`).
+    pub(super) fn listen(&self, context: &Context) {
+        if enabled!(target: TARGET, tracing::Level::DEBUG) {
+            context.enable_accesskit();
+        }
+    }
+
+    /// Tells of each control that is another one than before or is there no more, an object of JSON each.
+    pub(super) fn tell(&mut self, output: &PlatformOutput, pixels_per_point: f32) {
+        let Some(update) = &output.accesskit_update else { return };
+        if !enabled!(target: TARGET, tracing::Level::DEBUG) {
+            return;
+        }
+        let mut gone = std::mem::take(&mut self.0);
+        for (id, node) in &update.nodes {
+            let Some(told) = told(*id, node, *id == update.focus, pixels_per_point) else { continue };
+            if gone.remove(id).as_ref() != Some(&told)
+                && let Ok(line) = serde_json::to_string(&told)
+            {
+                debug!(target: TARGET, "{line}");
+            }
+            self.0.insert(*id, told);
+        }
+        for id in gone.into_keys() {
+            debug!(target: TARGET, "{{\"id\":{},\"gone\":true}}", id.0);
+        }
+    }
+}
+
+/// Nothing of what has no name and nothing to say.
+fn told(id: NodeId, node: &Node, focused: bool, pixels_per_point: f32) -> Option<Told> {
+    let [name, value] = [node.label(), node.value()].map(|text| text.filter(|text| !text.is_empty()));
+    let rect = node.bounds().filter(|_| name.or(value).is_some())?;
+    let place = [rect.x0, rect.y0, rect.width(), rect.height()];
+    Some(Told {
+        id: id.0,
+        role: format!("{:?}", node.role()),
+        name: name.unwrap_or_default().to_owned(),
+        place: place.map(|side| side * f64::from(pixels_per_point)),
+        value: value.map(str::to_owned),
+        number: node.numeric_value(),
+        on: node.is_selected().or(node.toggled().map(|toggled| toggled == Toggled::True)),
+        about: node.description().map(str::to_owned),
+        disabled: node.is_disabled() || node.is_read_only(),
+        focused,
+    })
+}

@@ -1,0 +1,82 @@
+//! What the window shows, in the log: for who looks after the program from outside and cannot read pixels.
+
+use crate::panels::PanelContext;
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::Change;
+use dragonfly_document::protocol::Deed;
+use glam::{Quat, Vec3};
+use tracing::{debug, enabled};
+
+/// The target of the lines in the log.
+const TARGET: &str = "dragonfly::shown";
+
+/// The target of the lines about what was asked of the document.
+const ASKED: &str = "dragonfly::asked";
+
+/// Tells what is asked of the document, each as a line that `dragonfly --stdio` understands, where somebody listens
+/// (`DRAGONFLY_LOG=dragonfly::asked=debug`).
+pub(super) fn asked(change: &Change) {
+    if !enabled!(target: ASKED, tracing::Level::DEBUG) {
+        return;
+    }
+    let line = Deed::of(change).and_then(|deed| serde_json::to_string(&deed).ok());
+    if let Some(line) = line {
+        debug!(target: ASKED, "{line}");
+    }
+}
+
+/// What was told last: only what differs is told again.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct StateTrace(Option<Told>);
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Told {
+    viewport: egui::Rect,
+    bones: usize,
+    bone: Option<BoneIndex>,
+    time: f32,
+    playing: bool,
+    steps: [usize; 2],
+    pose: Option<(Vec3, Quat, Vec3)>,
+}
+
+impl StateTrace {
+    /// Tells what is shown, where it differs and somebody listens (`DRAGONFLY_LOG=dragonfly::shown=debug`).
+    pub(super) fn tell(&mut self, state: &PanelContext<'_>) {
+        if !enabled!(target: TARGET, tracing::Level::DEBUG) || state.playback.playing {
+            return;
+        }
+        let bone = state.selected();
+        let animation = bone.and(state.posed.animation());
+        let pose = animation.zip(bone).and_then(|(animation, bone)| animation.poses().get(bone as usize));
+        let history = state.view.map(|view| [view.history.done, view.history.steps.len()]);
+        let told = Told {
+            viewport: state.viewport,
+            bones: state.selection.bones().len(),
+            bone,
+            time: state.time(),
+            playing: state.playback.playing,
+            steps: history.unwrap_or_default(),
+            pose: pose.map(|pose| (pose.translation, pose.rotation, pose.scale)),
+        };
+        if self.0.replace(told) == Some(told) {
+            return;
+        }
+        let name = bone.map_or(String::new(), |bone| state.bone_name(bone));
+        let rect = told.viewport;
+        let (translation, rotation, scale) = told.pose.unwrap_or_default();
+        debug!(
+            target: TARGET,
+            viewport = ?[rect.left(), rect.top(), rect.width(), rect.height()],
+            bones = told.bones,
+            bone = name,
+            time = told.time,
+            done = told.steps[0],
+            steps = told.steps[1],
+            translation = ?translation.to_array(),
+            rotation = ?rotation.to_array(),
+            scale = ?scale.to_array(),
+            "shown"
+        );
+    }
+}

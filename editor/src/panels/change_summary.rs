@@ -1,0 +1,80 @@
+//! What was done to the document, for the line at the bottom: each step once, when it begins, when it is taken back, and
+//! when it is done again.
+
+use super::count_text::{count, grouped};
+use dragonfly_document::{HistoryView, View};
+use std::sync::Arc;
+
+/// What leads from one view of a model to a newer one; `None` where nothing was done, or a gesture just goes on.
+pub(super) fn describe_change(old: &View, new: &View) -> Option<String> {
+    let (before, now) = (&*old.history, &*new.history);
+    if same_steps(before, now) {
+        let (few, many) = (before.done.min(now.done), before.done.max(now.done));
+        let what = match many - few {
+            0 => return None,
+            1 => step(now, few),
+            several => count(several, "step", "steps"),
+        };
+        let verb = if now.done < before.done { "Undone" } else { "Done again" };
+        return Some(format!("{verb}: {what}"));
+    }
+    let gone = before.steps.len().saturating_sub(1);
+    if now.steps.len() < before.steps.len()
+        && now.steps.len() == gone
+        && now.about.last().map(address) == before.about[..gone].last().map(address)
+    {
+        return Some(format!("Given up: {}", step(before, gone)));
+    }
+    let last = now.done.checked_sub(1)?;
+    Some([Some(step(now, last)), keys(old, new)].into_iter().flatten().collect::<Vec<_>>().join("  ·  "))
+}
+
+/// What keys that were moved, copied or pasted came to, where they took the place of others; `None` where they did not.
+/// The take had `before` keys, was to get `brought` more, and has `now`.
+pub(super) fn replaced(view: &View, before: usize, brought: usize, now: usize) -> Option<String> {
+    let replaced = (before + brought).checked_sub(now).filter(|&keys| keys > 0)?;
+    let last = view.history.done.checked_sub(1)?;
+    let more = now.checked_sub(before).filter(|&keys| keys > 0).map(|keys| format!("{} more", grouped(keys)));
+    let replaced = format!("{} replaced", count(replaced, "key", "keys"));
+    Some(
+        [Some(step(&view.history, last)), more, Some(replaced)]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join("  ·  "),
+    )
+}
+
+/// Are they the same steps, however many of them are done?
+fn same_steps(before: &HistoryView, now: &HistoryView) -> bool {
+    before.steps.len() == now.steps.len() && before.about.last().map(address) == now.about.last().map(address)
+}
+
+/// A step keeps the text of what it is about for as long as it is known, so the text's place tells it from all others.
+fn address(about: &Arc<str>) -> *const u8 {
+    about.as_ptr()
+}
+
+/// A step in a few words.
+fn step(history: &HistoryView, at: usize) -> String {
+    let label = history.steps.get(at).copied().unwrap_or_default();
+    match history.about.get(at) {
+        Some(about) if !about.is_empty() => format!("{label}  ·  {about}"),
+        _ => label.to_owned(),
+    }
+}
+
+/// How many keys more or fewer there are, where the takes are the same ones.
+fn keys(old: &View, new: &View) -> Option<String> {
+    if !old.slots.iter().map(|slot| slot.id).eq(new.slots.iter().map(|slot| slot.id)) {
+        return None;
+    }
+    let changed = old.takes.iter().zip(new.takes.iter()).filter(|(a, b)| !Arc::ptr_eq(a, b));
+    let [before, now] = changed.fold([0, 0], |[before, now], (a, b)| [before + a.keys(), now + b.keys()]);
+    match now.abs_diff(before) {
+        0 => None,
+        some => {
+            Some(format!("{} {}", count(some, "key", "keys"), if now > before { "more" } else { "fewer" }))
+        }
+    }
+}
