@@ -9,7 +9,6 @@ use super::theme::Theme;
 use super::{Panel, Place, widgets};
 use dragonfly_document::{Change, HistoryView};
 use egui::{Rect, ScrollArea, TextStyle, Ui, pos2, vec2};
-use std::borrow::Cow;
 
 /// The list of steps.
 #[derive(Debug, Default)]
@@ -123,16 +122,4 @@ fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
     let saved = if saved && done > 0 { "\nSaved like this" } else { "" };
     let about = if about.is_empty() { String::new() } else { format!("\n{about}") };
     response.on_hover_text(format!("{label}{about}\n{deed}{saved}"))
-}
-
-/// What a command is called now: undo and redo say what they would do.
-pub(super) fn title(state: &PanelContext<'_>, id: Id) -> Cow<'static, str> {
-    let title = super::commands::get(id).title;
-    let labels = state.view.map_or([None, None], |view| view.history.labels());
-    let label = match id {
-        Id::Undo => labels[0],
-        Id::Redo => labels[1],
-        _ => None,
-    };
-    label.map_or(Cow::Borrowed(title), |label| Cow::Owned(format!("{title} {label}")))
 }

@@ -45,7 +45,7 @@ pub(super) fn item(ui: &mut Ui, state: &PanelContext<'_>, id: Id, on: bool, requ
     let command = commands::get(id);
     let shortcut =
         RichText::new(commands::shortcut_text(ui.ctx(), id)).size(style::SMALL).color(Theme::of(ui).faint);
-    let title = RichText::new(super::history::title(state, id)).color(if on {
+    let title = RichText::new(super::commands::title(state, id)).color(if on {
         Theme::of(ui).accent
     } else {
         Theme::of(ui).text

@@ -36,6 +36,7 @@ pub mod number_text;
 pub mod open_model;
 pub mod overlays;
 mod palette;
+pub mod panel;
 mod player;
 pub mod posed;
 pub mod prompts;
@@ -65,46 +66,12 @@ mod workspace;
 
 pub use context::PanelContext;
 pub use layout::Layout;
+pub use panel::{Panel, Place, VIEWPORT};
 pub use request::{Effect, FileAction, Request};
 pub use settings::Settings;
 pub use state::State;
 
 use egui::Ui;
-
-/// The name of the panel through which the picture shows.
-pub const VIEWPORT: &str = "viewport";
-
-/// Where a panel stands before anybody moves it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// Upper left.
-    Left,
-    /// Lower left.
-    LeftBelow,
-    /// The middle.
-    Middle,
-    /// The right edge.
-    Right,
-    /// Along the lower edge.
-    Below,
-    /// Beside it, at the right.
-    BelowRight,
-}
-
-/// A part of the window.
-pub trait Panel {
-    /// Its name in files; never changes.
-    fn id(&self) -> &'static str;
-
-    /// Its name on the screen.
-    fn title(&self) -> &'static str;
-
-    /// Where it stands at first.
-    fn place(&self) -> Place;
-
-    /// Draws it. What the person did is pushed to `requests`.
-    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>);
-}
 
 /// Every panel.
 pub fn all() -> Vec<Box<dyn Panel>> {

@@ -18,9 +18,11 @@ pub use shortcut::{parse, text};
 pub use table::TABLE;
 pub use when::When;
 
+use super::context::PanelContext;
 use super::request::Effect;
 use super::workspace::Workspace;
 use egui::{Key, KeyboardShortcut, Modifiers, Popup};
+use std::borrow::Cow;
 
 /// One thing the program can be told to do.
 #[derive(Clone, Copy, Debug)]
@@ -81,6 +83,20 @@ pub const MOUSE: &[(&str, &str)] = &[
 pub fn get(id: Id) -> &'static Command {
     // A test proves that every name has a line.
     all().find(|command| command.id == id).unwrap_or(&TABLE[0].1[0])
+}
+
+/// Returns the title of a command as menus show it: undo and redo with the step that they are about.
+pub fn title(panels: &PanelContext<'_>, id: Id) -> Cow<'static, str> {
+    let title = get(id).title;
+    let [undo, redo] = panels.view.map_or([None, None], |view| view.history.labels());
+    let label = if id == Id::Undo {
+        undo
+    } else if id == Id::Redo {
+        redo
+    } else {
+        None
+    };
+    label.map_or(Cow::Borrowed(title), |label| Cow::Owned(format!("{title} {label}")))
 }
 
 /// The first shortcut as text, `Ctrl+O`; empty when there is none.
