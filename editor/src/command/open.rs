@@ -16,6 +16,9 @@ pub(super) struct Arguments {
     /// Talks instead of opening a window: one JSON edit or query a line in, one JSON answer a line out
     #[arg(long)]
     stdio: bool,
+    /// Prints the table of the editor's commands: id, title, tooltip, keys, and when each can be run
+    #[arg(long, conflicts_with = "stdio")]
+    commands: bool,
     /// Loses the graphics device after every so many drawn frames, to show that nothing is lost with it
     #[arg(long, value_name = "FRAMES", hide = true)]
     lose_device: Option<u32>,
@@ -41,6 +44,9 @@ pub(super) struct Arguments {
 
 impl Command for Arguments {
     fn run(self) -> Result<(), Failure> {
+        if self.commands {
+            return super::command_list::print();
+        }
         if self.stdio {
             return super::stdio::talk(self.files.first());
         }
