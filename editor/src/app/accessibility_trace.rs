@@ -1,4 +1,4 @@
-//! What a screen reader is told, in the log: for who looks after the program from outside and cannot read pixels.
+//! The accessibility tree in the log: for tests and tools that cannot read pixels.
 
 use egui::accesskit::{Node, NodeId, Toggled};
 use egui::{Context, PlatformOutput};
@@ -6,14 +6,14 @@ use serde::Serialize;
 use std::collections::HashMap;
 use tracing::{debug, enabled};
 
-/// The target of the lines in the log.
+/// Target of the lines in the log.
 const TARGET: &str = "dragonfly::reader";
 
-/// What was told last: only what differs is told again.
+/// The controls as they were logged last: only those that differ are logged again.
 #[derive(Debug, Default)]
 pub(super) struct AccessibilityTrace(HashMap<NodeId, Told>);
 
-/// A control as a screen reader has it. What is `None` is left out.
+/// A control of the accessibility tree. Fields that are `None` are left out.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct Told {
     id: u64,
@@ -34,14 +34,14 @@ struct Told {
 }
 
 impl AccessibilityTrace {
-    /// Has the controls described, where somebody listens (`DRAGONFLY_LOG=dragonfly::reader=debug`).
+    /// Enables the accessibility tree where the log records it (`DRAGONFLY_LOG=dragonfly::reader=debug`).
     pub(super) fn listen(&self, context: &Context) {
         if enabled!(target: TARGET, tracing::Level::DEBUG) {
             context.enable_accesskit();
         }
     }
 
-    /// Tells of each control that is another one than before or is there no more, an object of JSON each.
+    /// Logs each control that changed or is gone, as a JSON object for each.
     pub(super) fn tell(&mut self, output: &PlatformOutput, pixels_per_point: f32) {
         let Some(update) = &output.accesskit_update else { return };
         if !enabled!(target: TARGET, tracing::Level::DEBUG) {
@@ -63,7 +63,7 @@ impl AccessibilityTrace {
     }
 }
 
-/// Nothing of what has no name and nothing to say.
+/// Returns the record of a control; `None` for a control without name and value.
 fn told(id: NodeId, node: &Node, focused: bool, pixels_per_point: f32) -> Option<Told> {
     let [name, value] = [node.label(), node.value()].map(|text| text.filter(|text| !text.is_empty()));
     let rect = node.bounds().filter(|_| name.or(value).is_some())?;

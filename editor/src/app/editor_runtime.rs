@@ -1,4 +1,4 @@
-//! The editor: opens models, and carries what the person does to the threads that can do it (thesis §3.2.4.5).
+//! The editor's run-time: opens models, and passes what the user does to the threads that do it (thesis §3.2.4.5).
 
 use super::base_runtime::{BaseRuntime, Parts};
 use super::file_dialog::{self, Answer, Purpose};
@@ -21,7 +21,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// How long the document may take to end: what is in its journal must come to the disk, and disks can be slow.
+/// Time limit for the document to end: its journal must reach the disk, and disks can be slow.
 const END: Duration = Duration::from_secs(10);
 
 /// The editor's custom run-time.
@@ -31,25 +31,25 @@ pub struct EditorRuntime {
     running: Option<Running>,
 }
 
-/// What it has between initialize and destroy.
+/// The run-time between initialize and destroy.
 pub(super) struct Running {
     pub(super) parts: Parts,
     pub(super) document: Option<DocumentHandle>,
-    /// The document was asked whether the program may end.
+    /// Whether the document was asked if the program may end.
     pub(super) leaving: bool,
     replies: Address<DocumentReply>,
     pub(super) answers: Address<Answer>,
     graphics_sync: GraphicsSync,
-    /// Questions asked so far.
+    /// Number of questions sent to the graphics thread.
     tickets: u64,
-    /// The newest question of a click or a box.
+    /// The newest question about a click or a box.
     asked: Option<(u64, Asked)>,
     hover: Hover,
-    /// Frames drawn when the device was last lost on purpose.
+    /// Number of drawn frames when the device was last lost on purpose.
     lost_at: u64,
 }
 
-/// What a click or a box asked about.
+/// A question about a click or a box.
 #[derive(Clone, Copy, Debug)]
 enum Asked {
     Click(egui::Pos2, Choice),
@@ -57,12 +57,12 @@ enum Asked {
 }
 
 impl EditorRuntime {
-    /// Inactive until [`BaseRuntime::initialize`]; raises `quit` when the person wants to leave.
+    /// Creates a run-time that is inactive until [`BaseRuntime::initialize`]; sets `quit` when the user ends the program.
     pub fn new(options: Options, quit: Rc<Cell<bool>>) -> Self {
         Self { options, quit, running: None }
     }
 
-    /// Opens a model: the document loads it, and what is open stays until then.
+    /// Opens a model: the document loads it, and the model that is open stays until then.
     pub fn open_model(&mut self, source: Source) {
         let Some(running) = &self.running else { return };
         match &running.document {
@@ -74,7 +74,7 @@ impl EditorRuntime {
         }
     }
 
-    /// Where the document records what is not saved: with settings of their own, beside them.
+    /// Returns where the document records unsaved changes: next to the settings where those have a folder of their own.
     fn setup(&self) -> Setup {
         let beside = self.options.settings_folder.as_ref().map(|folder| folder.join("autosave"));
         let folder = self.options.autosave_folder.clone().or(beside);
@@ -82,7 +82,7 @@ impl EditorRuntime {
         Setup { autosave, fail_at: self.options.fail_at, ..Setup::default() }
     }
 
-    /// Sends out what the person asked for, and what the graphics thread is to know of it.
+    /// Carries out the effects of the panels, and sends the graphics thread what changed.
     fn carry_out(&mut self) {
         let effects = match &self.running {
             Some(running) => running.parts.interface.borrow_mut().take_effects(),
@@ -216,7 +216,7 @@ impl BaseRuntime for EditorRuntime {
                 }
             }
             GraphicsReply::PickedAll { bones, ticket } => {
-                // An answer to an older question is not what the person points at now.
+                // An answer to an older question is not about the newest click.
                 match running.asked.take_if(|asked| asked.0 == ticket) {
                     Some((_, Asked::Click(at, choice))) => interface.state.picked(at, &bones, choice),
                     Some((_, Asked::Region(choice))) => interface.state.caught(&bones, choice),
@@ -225,7 +225,7 @@ impl BaseRuntime for EditorRuntime {
             }
             GraphicsReply::Statistics { frames, milliseconds } => {
                 interface.state.set_frame_time(milliseconds);
-                // While something moves: else each loss would draw the frame that brings the next one.
+                // Only while something moves: otherwise each loss would draw the frame that causes the next one.
                 if let Some(every) = self.options.lose_device_every
                     && interface.state.read().playback.moves(Instant::now())
                     && frames.saturating_sub(running.lost_at) >= u64::from(every.max(1))
@@ -289,7 +289,7 @@ impl BaseRuntime for EditorRuntime {
 }
 
 impl Running {
-    /// Asks which bone is under the pointer, when that may have changed and no answer is on its way.
+    /// Asks which bone is under the pointer, where that may have changed and no answer is pending.
     fn ask_under_pointer(&mut self) {
         let interface = self.parts.interface.borrow();
         let (state, scale) = (interface.state.read(), interface.pixels_per_point());
@@ -306,7 +306,7 @@ impl Running {
     }
 }
 
-/// Lets panics of another thread be seen in the status line.
+/// Shows panics of another thread in the status line.
 pub(super) fn report_faults(
     thread: &dragonfly_runtime::ThreadHandle,
     interface: &Rc<RefCell<Interface>>,
@@ -317,7 +317,7 @@ pub(super) fn report_faults(
     main.register_restartable_receiver_at(&address, move |_| Faults(Rc::clone(&shown)));
     thread.observe(move |fault| {
         let text = format!("{} in thread {} failed: {}", fault.object, fault.thread, fault.reason);
-        // The log has it in any case.
+        // The log has it also where nothing receives it.
         let _ = address.send((text, fault.outcome == Outcome::GivenUp));
     });
 }
@@ -325,7 +325,7 @@ pub(super) fn report_faults(
 struct Faults(Rc<RefCell<Interface>>);
 
 impl Receiver for Faults {
-    /// What failed, and whether it did for good.
+    /// The text of the failure, and whether the part stays ended.
     type Message = (String, bool);
 
     fn receive(&mut self, (text, for_good): (String, bool), _main: &mut Context) {

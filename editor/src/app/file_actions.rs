@@ -57,13 +57,13 @@ impl Running {
         interface.state.read().view.and_then(|view| view.file.path.clone())
     }
 
-    /// Tells the document; `false` when there is none.
+    /// Sends a message to the document. Returns whether there is a document.
     fn tell(&self, message: DocumentMessage) -> bool {
         self.document.as_ref().is_some_and(|document| document.send(message))
     }
 
-    /// Asks the document whether something unsaved is in the way. Who asks a second time before the answer is there, or
-    /// where nobody can answer, goes at once: what was recorded is offered at the next start.
+    /// Asks the document whether there are unsaved changes. A second request before the answer, or one without a document,
+    /// is carried out at once: recorded changes are offered at the next start.
     fn leave(&mut self, then: Then) -> bool {
         let waits = then == Then::Quit && std::mem::replace(&mut self.leaving, true);
         if !waits && self.tell(DocumentMessage::Leave(then.clone())) {
@@ -123,7 +123,7 @@ impl Running {
     }
 }
 
-/// Takes what came of a dialog for files.
+/// Handles the answer of a file dialog.
 pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
     interface.asking = false;
     let file_dialog::Answer { purpose, file, quick } = answer;
@@ -134,7 +134,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
         (Purpose::Save { copy, then, .. }, Some(path)) => {
             use dragonfly_document::SaveTo::{As, Copy};
             let to = if copy { Copy(path) } else { As(path) };
-            // The dialog asked before it gave the name of a file that is there.
+            // The dialog asked before it returned the name of an existing file.
             let order = SaveOrder { to, anyway: true, then };
             interface.effects.push(Effect::File(FileAction::Save(order)));
         }
@@ -156,7 +156,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             interface.state.say(Level::Warning, text);
             interface.state.ask(Question::Where { copy, then });
         }
-        // Also where the dialog failed slowly, which looks the same from here.
+        // A dialog that failed slowly cannot be told from one that was closed.
         (Purpose::Open | Purpose::Find(_), None) => interface.state.say(Level::Info, "No file was chosen"),
         (Purpose::Save { .. }, None) => interface.state.say(Level::Info, "Nothing was saved"),
     }

@@ -1,4 +1,4 @@
-//! What the graphics thread knows already: it is told only what differs.
+//! Keeps the graphics thread in step with the panels: only what differs is sent.
 
 use super::interface::Interface;
 use crate::panels::PanelContext;
@@ -11,7 +11,7 @@ use dragonfly_picture::playback::Playback;
 use dragonfly_picture::{Appearance, GizmoLook, GraphicsHandle, IkLook, Look, PathLook};
 use std::sync::Arc;
 
-/// See the module.
+/// What was sent to the graphics thread last.
 #[derive(Default)]
 pub(super) struct GraphicsSync {
     playback: Option<Playback>,
@@ -19,11 +19,11 @@ pub(super) struct GraphicsSync {
     look: Option<Look>,
     hidden: Arc<HiddenBones>,
     gizmo: Option<GizmoLook>,
-    /// Is a gizmo shown that is dragged?
+    /// Whether a gizmo is shown that is dragged.
     drags: bool,
-    /// How often the hands changed something when it was told.
+    /// Revision of the viewport tools that was sent last.
     revision: u64,
-    /// Version of the marks of bones.
+    /// Version of the flags of bones.
     flags: u64,
     path: Option<Arc<PathLook>>,
     path_hovered: Option<f32>,
@@ -31,13 +31,13 @@ pub(super) struct GraphicsSync {
     spare_times: Vec<(f32, i32)>,
     ghost_skins: bool,
     ik: Option<IkLook>,
-    /// Room for the list of selected bones.
+    /// Memory for the list of selected bones.
     spare: Vec<BoneIndex>,
 }
 
 impl GraphicsSync {
-    /// Sends what differs from what was sent last. What these times and bones are about comes from the document itself,
-    /// and was sent before the view that they were chosen for.
+    /// Sends what differs from what was sent last. The takes and bones that it refers to are in the view, which the document
+    /// sent to the graphics thread before.
     pub(super) fn update(&mut self, graphics: &GraphicsHandle, interface: &Interface) {
         let state = &interface.state.read();
         if self.playback != Some(state.playback) {
@@ -71,7 +71,7 @@ impl GraphicsSync {
         self.controls(graphics, state);
     }
 
-    /// What the controls of the scene look like.
+    /// Sends how the gizmo, the motion path, ghosts and IK look.
     fn controls(&mut self, graphics: &GraphicsHandle, state: &PanelContext<'_>) {
         let gizmo = &state.hands.gizmo().gizmo;
         let look = state.settings.hand.tool.map(|tool| GizmoLook {
@@ -120,7 +120,7 @@ impl GraphicsSync {
     }
 }
 
-/// How the graphics thread is to draw what the state says.
+/// Returns how the graphics thread is to draw the viewport.
 fn look(
     state: &PanelContext<'_>,
     selected: Vec<BoneIndex>,

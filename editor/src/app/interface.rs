@@ -1,6 +1,6 @@
 //! The two-dimensional side of the window: input goes to egui and the panels, drawings go to the graphics thread.
 //!
-//! It is there before the device and before any model, so the program answers at once (T-093).
+//! It exists before the device and before any model, so the program answers at once (T-093).
 
 use super::accessibility_trace::AccessibilityTrace;
 use super::options::{Mistake, Part};
@@ -25,7 +25,7 @@ use std::time::{Duration, Instant};
 use winit::event::{InnerSizeWriter, WindowEvent};
 use winit::window::{Fullscreen, Window};
 
-/// Panels are drawn at most this often, however fast the mouse reports.
+/// Minimum time between two drawings of the panels, however fast the mouse reports.
 const FASTEST: Duration = Duration::from_millis(8);
 
 /// Window, egui, panels and their state.
@@ -35,35 +35,35 @@ pub struct Interface {
     desk: Desk,
     /// State of the panels.
     pub state: State,
-    /// What they asked for and only others can do.
+    /// Effects that the panels asked for and that only the run-time can carry out.
     pub effects: Vec<Effect>,
-    /// The system's dialog for opening files is open: one is enough.
+    /// Whether the system's dialog for files is open: one is enough.
     pub(super) asking: bool,
     /// The window's title.
     title: String,
-    /// Done once the first model is there.
+    /// Edits that are applied once the first model is open.
     pub(super) edits: Vec<Edit>,
     graphics: Option<GraphicsHandle>,
     store: Store,
     saved: Settings,
-    /// Physical pixels a point, as the desktop says; the window's own answer is late (winit under X11 tells of a change
-    /// and goes on to answer with the scale before).
+    /// Physical pixels per point, as the desktop reports; the window's own answer is late (winit on X11 reports a change and
+    /// continues to answer with the old scale).
     desktop_scale: f64,
-    /// When the panels are to be drawn.
+    /// When the panels are to be drawn next.
     due: Option<Instant>,
     drawn: Instant,
     accepts_input: bool,
     occluded: bool,
-    /// A part of the program failed so often that nothing goes on; which.
+    /// The part of the program that failed too often, so that the program ends.
     pub(super) given_up: Option<String>,
-    /// One that a test asked for.
+    /// A failure that a test asked for.
     pub(super) mistake: Option<Mistake>,
     state_trace: StateTrace,
     accessibility_trace: AccessibilityTrace,
 }
 
 impl Interface {
-    /// For `window`, which must not be visible yet; `egui` has its accessibility bridge.
+    /// Creates the interface for `window`, which must not be visible yet; `egui` has its accessibility bridge.
     pub(super) fn new(window: Arc<Window>, egui: egui_winit::State, store: Store) -> Self {
         let now = Instant::now();
         let settings = Settings::parse(&store.read(store::SETTINGS));
@@ -96,13 +96,13 @@ impl Interface {
         }
     }
 
-    /// From now on drawings have somewhere to go.
+    /// Sets the graphics thread to which drawings go.
     pub(super) fn set_graphics(&mut self, graphics: GraphicsHandle) {
         graphics.resize(self.window_size());
         self.graphics = Some(graphics);
     }
 
-    /// What the panels asked for; before what would cut a drag in two, that it is taken back.
+    /// Returns the effects that the panels asked for; before an effect that would cut a drag in two, the cancelling of the drag.
     pub(super) fn take_effects(&mut self) -> Vec<Effect> {
         let mut passed = Vec::with_capacity(self.effects.len());
         for effect in self.effects.drain(..) {
@@ -111,7 +111,7 @@ impl Interface {
         passed
     }
 
-    /// A part of the program failed; for good?
+    /// Reports a part of the program that failed; with `for_good` the program ends.
     pub(super) fn failed(&mut self, text: String, for_good: bool) {
         if for_good {
             self.given_up.get_or_insert_with(|| text.clone());
@@ -120,7 +120,7 @@ impl Interface {
         self.redraw();
     }
 
-    /// Does a test want a mistake to be made here now?
+    /// Returns whether a test wants a failure here now.
     pub(super) fn makes_mistake(&mut self, part: Part) -> bool {
         let steps = self.state.read().view.map(|view| view.history.done);
         self.mistake.as_mut().zip(steps).is_some_and(|(mistake, steps)| mistake.is_made(part, steps))
@@ -135,43 +135,43 @@ impl Interface {
         self.due = Some(self.due.map_or(when, |due| due.min(when)));
     }
 
-    /// Physical pixels of the window.
+    /// Returns the size of the window, physical pixels.
     pub fn window_size(&self) -> [u32; 2] {
         let size = self.window.inner_size();
         if self.occluded { [0, 0] } else { [size.width, size.height] }
     }
 
-    /// Physical pixels a point.
+    /// Returns the number of physical pixels per point.
     pub fn pixels_per_point(&self) -> f32 {
         egui_winit::pixels_per_point(self.egui.egui_ctx(), &self.window)
     }
 
-    /// How much egui must enlarge what it takes for the usual size: what the person chose, and what the window does not
-    /// know yet.
+    /// Returns the zoom of egui: the scale that the user chose, and the part of the desktop's scale that the window does not
+    /// report yet.
     fn zoom(&self) -> f32 {
         self.state.read().settings.scale * (self.desktop_scale / self.window.scale_factor()) as f32
     }
 
-    /// Takes the desktop's new scale. Told the same scale again, winit would enlarge the window a second time.
+    /// Takes the desktop's new scale. Given the same scale again, winit would enlarge the window a second time.
     fn set_desktop_scale(&mut self, scale: f64, size: &InnerSizeWriter) {
         if self.desktop_scale == scale {
-            // Fails only when the size is settled already.
+            // Fails only when the size is already set.
             let _ = size.clone().request_inner_size(self.window.inner_size());
         }
         self.desktop_scale = scale;
     }
 
-    /// Is the dark theme shown?
+    /// Returns whether the dark theme is shown.
     pub fn is_dark(&self) -> bool {
         self.egui.egui_ctx().theme() == egui::Theme::Dark
     }
 
-    /// The longest side of a texture that the device takes.
+    /// Sets the longest side of a texture that the device supports.
     pub fn set_max_texture_side(&mut self, side: u32) {
         self.egui.set_max_texture_side(side as usize);
     }
 
-    /// Names the document in the window's title, with a dot before it while something is not saved.
+    /// Shows the document's name in the window's title, with a dot before it while there are unsaved changes.
     pub(super) fn set_title(&mut self, title: &str, saved: bool) {
         let text = format!("{}{title} – Dragonfly", if saved { "" } else { "• " });
         if text != self.title {
@@ -180,7 +180,7 @@ impl Interface {
         }
     }
 
-    /// Uses the whole screen, or a window again.
+    /// Switches between the whole screen and a window.
     pub fn toggle_full_screen(&mut self) {
         let full = self.state.toggle_full_screen().then_some(Fullscreen::Borderless(None));
         self.window.set_fullscreen(full);
@@ -191,7 +191,7 @@ impl Interface {
         self.egui.set_clipboard_text(text);
     }
 
-    /// The text in the clipboard; empty where there is none.
+    /// Returns the text in the clipboard; empty where there is none.
     pub fn clipboard(&mut self) -> String {
         self.egui.clipboard_text().unwrap_or_default()
     }
@@ -201,12 +201,13 @@ impl Interface {
         self.desk.toggle_panel(id);
     }
 
-    /// Puts every panel where it was at first.
+    /// Moves every panel back to its first place.
     pub fn reset_layout(&mut self) {
         self.desk.reset_layout();
     }
 
-    /// Takes an event of the window. Tells whether the scene heard it: then what follows is not to wait for the panels.
+    /// Handles an event of the window. Returns whether the viewport tools used it: then its effects are flushed without waiting
+    /// for the panels.
     pub(super) fn window_event(&mut self, event: &WindowEvent) -> bool {
         if !self.accepts_input {
             return false;
@@ -220,7 +221,7 @@ impl Interface {
         match event {
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
                 self.tell_size();
-                // The old drawing does not fit: at once, whatever was drawn just now.
+                // The old drawing does not fit: draw at once, without the minimum time.
                 self.drawn = Instant::now() - FASTEST;
                 self.redraw();
             }
@@ -248,7 +249,7 @@ impl Interface {
         heard
     }
 
-    /// Takes an event of the accessibility bridge.
+    /// Handles an event of the accessibility bridge.
     pub(super) fn accesskit_event(&mut self, event: accesskit_winit::WindowEvent) {
         match event {
             accesskit_winit::WindowEvent::InitialTreeRequested => self.egui.egui_ctx().enable_accesskit(),
@@ -268,7 +269,7 @@ impl Interface {
         }
     }
 
-    /// Input is not accepted any more, the window disappears, settings are kept.
+    /// Stops accepting input, hides the window and stores the settings.
     pub(super) fn close(&mut self) {
         self.accepts_input = false;
         self.window.set_visible(false);
@@ -309,7 +310,7 @@ impl Interface {
             ThemeChoice::Dark => egui::ThemePreference::Dark,
             ThemeChoice::Light => egui::ThemePreference::Light,
         });
-        // Asked before there are textures to deliver: asking panics when the window was destroyed behind our back.
+        // Read before there are textures to deliver: the call panics when the window was destroyed elsewhere.
         let size = self.window.inner_size();
         let mut input = self.egui.take_egui_input(&self.window);
         let tells_more = self.state.prepend_events(&context, &mut input);
@@ -325,10 +326,10 @@ impl Interface {
         let (desk, state) = (&mut self.desk, self.state.read());
         let mut mistake = None;
         let output = context.run_ui(input, |ui| {
-            // Caught here, or egui would be left in the midst of its drawing.
+            // Caught here, so that egui finishes its frame.
             let drawn = catch_unwind(AssertUnwindSafe(|| {
-                // A frame may be run twice; what was asked for in the first run counts.
-                // Who is asked something answers that first, and who drags something means that.
+                // egui may run a frame twice; the requests of the first run count. Commands get no keys while a question is
+                // shown or something is dragged.
                 if state.question().is_none() && !state.dragging.is_open() {
                     requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
                 }
@@ -339,7 +340,7 @@ impl Interface {
                 mistake.get_or_insert(panic);
             }
         });
-        // Sent before anything else can go wrong: egui aborts when textures are lost on the way.
+        // Sent before anything else can fail: egui aborts when textures are lost.
         let jobs = context.tessellate(output.shapes, output.pixels_per_point);
         let frame = PanelsFrame {
             size: [size.width, size.height],
@@ -351,7 +352,7 @@ impl Interface {
             graphics.show_panels(frame);
         }
         if let Some(mistake) = mistake {
-            // What was asked for before it is not done: it may be half of something.
+            // Requests made before the failure are dropped: they may be incomplete.
             self.redraw();
             resume_unwind(mistake);
         }
@@ -372,7 +373,7 @@ impl Interface {
         if self.state.read().dragging.is_open() && !context.input(|input| input.pointer.any_down()) {
             self.effects.push(Effect::ReleaseDrag);
         }
-        // What was asked for is seen in the next drawing.
+        // The next drawing shows the effect of the requests.
         let changed = tells_more || before != Redrawn::of(&self.state);
 
         self.state_trace.tell(&self.state.read());
@@ -415,7 +416,7 @@ impl Redrawn {
 }
 
 impl Worker for Interface {
-    /// Draws the panels when it is time to.
+    /// Draws the panels when they are due.
     fn update(&mut self, main: &mut Context) -> bool {
         if !self.accepts_input || self.graphics.is_none() {
             return true;

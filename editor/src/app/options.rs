@@ -8,34 +8,35 @@ use std::str::FromStr;
 /// How the editor is started.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What to open first.
+    /// The model that is opened first.
     pub source: Source,
-    /// How many more files were asked for: one is open at a time, and the person is told.
+    /// Number of further files that were given: one is open at a time, and a message says so.
     pub passed_over: usize,
-    /// While time runs, loses the graphics device after every so many drawn frames, to show that nothing is lost with it.
+    /// Loses the graphics device after this number of drawn frames while time passes, to test that nothing is lost.
     pub lose_device_every: Option<u32>,
-    /// Draws on however often the device is lost, where the editor would pause: for tests of just that.
+    /// Continues to draw however often the device is lost, where the editor would pause: for tests of device loss.
     pub never_pause: bool,
-    /// Where settings are kept; the system's usual place when it is not given.
+    /// Folder of the settings; `None` for the system's usual folder.
     pub settings_folder: Option<PathBuf>,
-    /// Where unsaved work is recorded; beside settings that have a folder of their own, else in the system's usual place.
+    /// Folder in which unsaved changes are recorded; `None` for a folder next to the settings where those have one of their own,
+    /// otherwise the system's usual folder.
     pub autosave_folder: Option<PathBuf>,
-    /// Edits done once the first model is there, as if a person did them: for tests of what becomes of them.
+    /// Edits applied once the first model is open, as if the user made them: for tests.
     pub edits: Vec<Edit>,
-    /// Lets the document fail at this change, to show that nothing is lost with it.
+    /// Number of the change at which the document fails, to test that nothing is lost.
     pub fail_at: Option<u32>,
-    /// Lets another part of the program fail, likewise.
+    /// A failure of another part of the program, for the same test.
     pub mistake: Option<Mistake>,
 }
 
-/// A mistake made on purpose.
+/// A failure on purpose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// Where.
+    /// The part that fails.
     pub part: Part,
-    /// Once so many steps are done.
+    /// Number of steps that must be done before.
     pub steps: usize,
-    /// So often.
+    /// Number of failures.
     pub times: u32,
 }
 
@@ -44,16 +45,16 @@ pub struct Mistake {
 pub enum Part {
     /// The main thread, while it draws the panels.
     Panels,
-    /// The main thread, while it takes an input.
+    /// The main thread, while it handles an input.
     Input,
-    /// The graphics thread, while it takes a message.
+    /// The graphics thread, while it handles a message.
     Message,
     /// The graphics thread, while it draws.
     Picture,
 }
 
 impl Mistake {
-    /// Is it made now? Then it is made so often less later.
+    /// Returns true, and counts one failure down, if the failure is due now.
     pub(super) fn is_made(&mut self, part: Part, steps: usize) -> bool {
         let made = self.part == part && self.times > 0 && steps >= self.steps;
         self.times -= u32::from(made);
@@ -64,7 +65,7 @@ impl Mistake {
 impl FromStr for Mistake {
     type Err = &'static str;
 
-    /// `panels:3` or `panels:3:5`: place, steps, and how often.
+    /// Parses `panels:3` or `panels:3:5`: part, steps, number of failures.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let mut parts = text.split(':');
         let part = match parts.next() {
@@ -81,7 +82,7 @@ impl FromStr for Mistake {
 }
 
 impl Default for Options {
-    /// The built-in model.
+    /// Returns the options that open the built-in model.
     fn default() -> Self {
         Self {
             source: Source::BuiltIn,

@@ -1,4 +1,4 @@
-//! What the window shows, in the log: for who looks after the program from outside and cannot read pixels.
+//! The state of the window in the log: for tests and tools that cannot read pixels.
 
 use crate::panels::PanelContext;
 use dragonfly_anim::data::BoneIndex;
@@ -7,13 +7,13 @@ use dragonfly_document::protocol::Deed;
 use glam::{Quat, Vec3};
 use tracing::{debug, enabled};
 
-/// The target of the lines in the log.
+/// Target of the lines about the state.
 const TARGET: &str = "dragonfly::shown";
 
-/// The target of the lines about what was asked of the document.
+/// Target of the lines about changes that the document was asked for.
 const ASKED: &str = "dragonfly::asked";
 
-/// Tells what is asked of the document, each as a line that `dragonfly --stdio` understands, where somebody listens
+/// Logs a change that the document is asked for, as a line that `dragonfly --stdio` understands
 /// (`DRAGONFLY_LOG=dragonfly::asked=debug`).
 pub(super) fn asked(change: &Change) {
     if !enabled!(target: ASKED, tracing::Level::DEBUG) {
@@ -25,7 +25,7 @@ pub(super) fn asked(change: &Change) {
     }
 }
 
-/// What was told last: only what differs is told again.
+/// The state that was logged last: it is logged again only where it differs.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct StateTrace(Option<Told>);
 
@@ -41,7 +41,7 @@ struct Told {
 }
 
 impl StateTrace {
-    /// Tells what is shown, where it differs and somebody listens (`DRAGONFLY_LOG=dragonfly::shown=debug`).
+    /// Logs the state where it differs (`DRAGONFLY_LOG=dragonfly::shown=debug`).
     pub(super) fn tell(&mut self, state: &PanelContext<'_>) {
         if !enabled!(target: TARGET, tracing::Level::DEBUG) || state.playback.playing {
             return;

@@ -1,7 +1,7 @@
-//! Input as the window tells it, to inputs of the scene.
+//! Events of the window as input events of the viewport.
 //!
-//! The window's events come here before the panels are drawn, so a drag does not wait for them. What is for the scene alone,
-//! as a letter typed while dragging, is taken out of the list; all else is left for the panels.
+//! The window's events arrive here before the panels are drawn, so a drag does not wait for them. Events for the viewport
+//! alone, such as a letter typed while dragging, are removed from the list; all others stay for the panels.
 
 use super::drags::lose_input;
 use super::input::{input as send, place};
@@ -11,8 +11,8 @@ use crate::panels::workspace::Workspace;
 use egui::{Context, Event, Order, PointerButton, Popup, Pos2, RawInput};
 use std::time::{Duration, Instant};
 
-/// Gives the scene the events of `input` from `from` on, and takes out what only it is to hear. Tells whether the picture
-/// may look different now.
+/// Gives the events of `input` from `from` on to the tools of the viewport, and removes those that are for the tools alone.
+/// Returns whether the viewport may look different now.
 pub(in crate::panels) fn feed(
     context: &Context,
     workspace: &mut Workspace,
@@ -42,16 +42,16 @@ pub(in crate::panels) fn feed(
     hears
 }
 
-/// Whom an event was for.
+/// The receiver of an event.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Heard {
-    /// Not for the scene.
+    /// The panels.
     Nothing,
-    /// For the scene and for the panels.
+    /// The viewport and the panels.
     Both,
-    /// For the scene alone.
+    /// The viewport alone.
     Alone,
-    /// The same, with the letter that follows.
+    /// The viewport alone, together with the letter that follows.
     AloneWithText,
 }
 
@@ -119,7 +119,7 @@ fn hear(
             Heard::Alone
         }
         Event::Copy | Event::Paste(_) if workspace.tools.controls().is_busy() => Heard::Alone,
-        // Of a letter that no key has a name for.
+        // A letter that no key has a name for.
         Event::Text(text) if workspace.tools.controls().is_busy() => {
             for letter in text.chars() {
                 press(workspace, Key::letter(letter), effects);
@@ -135,8 +135,8 @@ fn hear(
     }
 }
 
-/// A drag that a key asked for was refused just now: its axis, its number and the key that ends it are for nothing else. `R`,
-/// `X`, `30`, Enter would else delete keys and change the view.
+/// Handles a key after a drag was refused that a key asked for: its axis, its number and the key that ends it have no other
+/// effect. Otherwise `R`, `X`, `30`, Enter would delete keys and change the view.
 fn typed_for_nothing(workspace: &mut Workspace, key: Option<Key>, written: Option<char>) -> Option<Heard> {
     let at = workspace.tools.take_refused_drag()?;
     let goes_on = match key? {
@@ -154,10 +154,10 @@ fn typed_for_nothing(workspace: &mut Workspace, key: Option<Key>, written: Optio
     Some(if written.is_some() { Heard::AloneWithText } else { Heard::Alone })
 }
 
-/// As long as this after the last key more is expected.
+/// Time after the last key within which more keys are expected.
 const PATIENCE: Duration = Duration::from_millis(1500);
 
-/// These keys are held besides.
+/// Passes on the modifiers that are held.
 fn hold(workspace: &mut Workspace, modifiers: egui::Modifiers, effects: &mut Vec<Effect>) {
     let modifiers = Modifiers { shift: modifiers.shift, ctrl: modifiers.command, alt: modifiers.alt };
     if workspace.tools.controls().modifiers() != modifiers {
@@ -167,12 +167,12 @@ fn hold(workspace: &mut Workspace, modifiers: egui::Modifiers, effects: &mut Vec
 
 fn press(workspace: &mut Workspace, key: Key, effects: &mut Vec<Effect>) -> bool {
     let taken = send(workspace, InputEvent::KeyDown(key), effects);
-    // Nothing here depends on how long a key is held, and its release may be told to somebody else.
+    // Nothing here depends on how long a key is held, and its release may go to another window.
     send(workspace, InputEvent::KeyUp(key), effects);
     taken
 }
 
-/// The mouse is there; over a menu or a card it is not over the scene.
+/// Moves the mouse; over a menu or a card it is not over the viewport.
 fn move_to(context: &Context, workspace: &mut Workspace, at: Pos2, effects: &mut Vec<Effect>) {
     let to = place(at);
     if !workspace.tools.controls().is_busy() && is_covered(context, at) {
@@ -184,7 +184,7 @@ fn move_to(context: &Context, workspace: &mut Workspace, at: Pos2, effects: &mut
     }
 }
 
-/// Lies something over the panels there: a menu, a sheet, a card?
+/// Returns whether a menu, a sheet or a card covers the panels there.
 fn is_covered(context: &Context, at: Pos2) -> bool {
     context.layer_id_at(at).is_some_and(|layer| layer.order != Order::Background)
 }
@@ -198,7 +198,7 @@ fn button_of(button: PointerButton) -> Option<Button> {
     }
 }
 
-/// `written` is what the key writes, where the window told.
+/// Returns the key; `written` is the letter that it writes, where the window reported it.
 fn key_of(key: egui::Key, written: Option<char>) -> Option<Key> {
     let named = match key {
         egui::Key::Enter => Some(Key::Enter),

@@ -1,4 +1,4 @@
-//! Shortcuts as text, as people read and settings keep them.
+//! Shortcuts as text, as users read them and settings store them.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
@@ -41,11 +41,11 @@ const CAPS: &[(Key, &str)] = &[
     (Key::Pipe, "|"),
 ];
 
-/// What is held, in the order in which it is written.
+/// The modifiers, in the order in which they are written.
 const HELD: &[(&str, Modifiers)] =
     &[("Ctrl+", Modifiers::COMMAND), ("Alt+", Modifiers::ALT), ("Shift+", Modifiers::SHIFT)];
 
-/// `Ctrl+Shift+O`, with arrows and brackets as signs on keys.
+/// Returns a shortcut as text: `Ctrl+Shift+O`, with the signs on the keys for arrows and brackets.
 pub fn text(shortcut: &KeyboardShortcut) -> String {
     let held = |modifiers: Modifiers| {
         let wanted = shortcut.modifiers;
@@ -58,7 +58,7 @@ pub fn text(shortcut: &KeyboardShortcut) -> String {
     HELD.iter().filter(|(_, modifiers)| held(*modifiers)).map(|(name, _)| *name).chain([key]).collect()
 }
 
-/// The shortcut that [`text`] writes like this; `None` for anything else.
+/// Returns the shortcut that [`text`] writes like this; `None` for anything else.
 pub fn parse(mut text: &str) -> Option<KeyboardShortcut> {
     let mut modifiers = Modifiers::NONE;
     for (name, held) in HELD {

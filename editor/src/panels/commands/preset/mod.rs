@@ -1,7 +1,7 @@
-//! Keys as hands know them from other programs.
+//! Sets of keys that users know from other programs.
 //!
-//! A preset says only what differs from the table; a key that it gives to a command is taken from the command that has it
-//! in the table.
+//! A preset contains only what differs from the table; a key that it gives to a command is removed from the command that has
+//! it in the table.
 
 mod blender;
 mod game_engines;
@@ -12,28 +12,28 @@ use super::shortcut::{ALT, CTRL, NONE, SHIFT, key};
 use egui::{Key, KeyboardShortcut};
 use serde::{Deserialize, Serialize};
 
-/// What differs from the table.
+/// Commands with keys that differ from the table.
 type Table = &'static [(Id, &'static [KeyboardShortcut])];
 
-/// Whose keys.
+/// A set of keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Preset {
-    /// Those of the table.
+    /// The keys of the table.
     #[default]
     Dragonfly,
-    /// Blender's.
+    /// The keys of Blender.
     Blender,
-    /// Maya's.
+    /// The keys of Maya.
     Maya,
-    /// Those that Godot and Unity share, or one of them has.
+    /// The keys that Godot and Unity share, or that one of them has.
     GameEngines,
 }
 
 impl Preset {
-    /// All, in the order in which they are offered.
+    /// All presets, in the order in which they are offered.
     pub const ALL: &[Self] = &[Self::Dragonfly, Self::Blender, Self::Maya, Self::GameEngines];
 
-    /// Its name on the screen.
+    /// Returns its name on the screen.
     pub fn title(self) -> &'static str {
         match self {
             Self::Dragonfly => "Dragonfly",
@@ -43,7 +43,7 @@ impl Preset {
         }
     }
 
-    /// What differs from the table.
+    /// Returns the commands with keys that differ from the table.
     pub(super) fn table(self) -> Table {
         match self {
             Self::Dragonfly => &[],

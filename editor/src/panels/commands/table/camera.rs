@@ -1,4 +1,4 @@
-//! From where the picture is seen.
+//! The camera.
 
 use super::*;
 use crate::panels::actions::framing;

@@ -1,4 +1,4 @@
-//! What was done, undone and done again.
+//! Undo, redo, copy and paste.
 
 use super::*;
 use crate::panels::actions::clipboard;

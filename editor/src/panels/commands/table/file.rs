@@ -1,4 +1,4 @@
-//! Files: what is opened, saved, left.
+//! Files: open, save, quit.
 
 use super::*;
 use crate::panels::actions::files;

@@ -1,4 +1,4 @@
-//! Where to find what.
+//! Help.
 
 use super::*;
 use crate::panels::prompts::Overlay;

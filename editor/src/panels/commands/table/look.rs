@@ -1,4 +1,4 @@
-//! How the picture is drawn.
+//! How the viewport is drawn.
 
 use super::*;
 use dragonfly_picture::BoneLook;

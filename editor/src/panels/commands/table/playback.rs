@@ -1,4 +1,4 @@
-//! Time: what plays, and where it stands.
+//! Playback: play, step, and which take is shown.
 
 use super::*;
 use crate::panels::actions::playback;

@@ -1,4 +1,4 @@
-//! Which bones are chosen.
+//! Selected and hidden bones.
 
 use super::*;
 use crate::panels::actions::bones;

@@ -1,4 +1,4 @@
-//! Takes: made, named, cut, put in order.
+//! Takes: created, named, split, ordered.
 
 use super::*;
 use crate::panels::actions::takes;

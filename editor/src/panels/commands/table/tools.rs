@@ -1,4 +1,4 @@
-//! What the mouse does in the picture.
+//! Tools of the viewport.
 
 use super::*;
 use crate::control::Catch;
