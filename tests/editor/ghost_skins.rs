@@ -84,6 +84,6 @@ fn a_part_that_is_turned_inside_out_at_one_time_only_is_so_in_that_ghost_only() 
 fn how_ghosts_are_drawn_is_remembered_and_they_begin_as_skeletons() {
     assert!(!GhostSettings::default().skin);
     let text = "{\"hand\":{\"ghosts\":{\"skin\":true,\"step\":3}}}";
-    let ghosts = dragonfly::panels::Settings::parse(text).hand.ghosts;
+    let ghosts = dragonfly::panels::Settings::parse(text).tools.ghosts;
     assert_eq!((ghosts.skin, ghosts.step, ghosts.count), (true, 3, [3, 3]));
 }

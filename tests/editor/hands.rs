@@ -58,10 +58,10 @@ fn a_drag_begun_by_a_command_is_bound_typed_and_confirmed_without_a_button() {
     let mut hand = arm();
     let before = hand.rotation();
     hand.command(Id::RotateNow);
-    assert!(hand.state.read().hands.is_busy() && hand.steps().is_empty());
+    assert!(hand.state.read().tools.controls().is_busy() && hand.steps().is_empty());
     hand.keys("y45/2");
     hand.key(Key::Enter);
-    assert!(!hand.state.read().hands.is_busy());
+    assert!(!hand.state.read().tools.controls().is_busy());
     assert_turned(&hand, before, Quat::from_rotation_y(22.5f32.to_radians()));
     assert_eq!(hand.steps(), ["Rotate"]);
 }
@@ -119,7 +119,7 @@ fn moving_and_scaling_change_their_own_channel_alone() {
     for (tool, id, label) in [(Tool::Move, Id::ToolMove, "Move"), (Tool::Scale, Id::ToolScale, "Scale")] {
         let mut hand = arm();
         hand.command(id);
-        assert_eq!(hand.state.read().hands.gizmo().gizmo.tool, tool);
+        assert_eq!(hand.state.read().tools.controls().gizmo().gizmo.tool, tool);
         let arrow = hand.handle(Handle::Axis(Axis::Y));
         hand.press(arrow);
         hand.to(arrow - Vec2::Y * 20.0);
@@ -128,7 +128,7 @@ fn moving_and_scaling_change_their_own_channel_alone() {
     }
     let mut hand = arm();
     hand.command(Id::ToolSelect);
-    let gizmo = &hand.state.read().hands.gizmo().gizmo;
+    let gizmo = &hand.state.read().tools.controls().gizmo().gizmo;
     assert_eq!(
         crate::hands_rig::find(gizmo, hand.joint(), Handle::Centre),
         None,
@@ -184,7 +184,7 @@ fn of_several_bones_the_locked_ones_stay_and_one_that_is_locked_alone_is_not_dra
             hand.press(ring);
         }
         hand.to(ring + Vec2::new(9.0, 20.0));
-        assert!(!hand.state.read().hands.edits(), "by key: {by_key}");
+        assert!(!hand.state.read().tools.controls().edits(), "by key: {by_key}");
         hand.release();
         assert_eq!((hand.steps(), turns(&hand)), (vec!["Rotate"], after.clone()));
         let said = hand.state.read().status.last().expect("said why").text.clone();
@@ -193,7 +193,7 @@ fn of_several_bones_the_locked_ones_stay_and_one_that_is_locked_alone_is_not_dra
     lock(&mut hand, 1, false);
     let ring = hand.handle(Handle::Axis(Axis::X));
     hand.press(ring);
-    assert!(hand.state.read().hands.edits(), "free again");
+    assert!(hand.state.read().tools.controls().edits(), "free again");
 }
 
 #[test]
@@ -222,7 +222,7 @@ fn clicks_boxes_and_lassos_ask_for_bones_in_the_way_that_is_held() {
     hand.hold(Modifiers { ctrl: true, ..Modifiers::default() });
     hand.press(at);
     hand.to(at + Vec2::new(100.0, 50.0));
-    assert!(hand.state.read().hands.picture().catching().is_some());
+    assert!(hand.state.read().tools.controls().picture().catching().is_some());
     hand.release();
     let asked = std::mem::take(&mut hand.effects);
     assert!(

@@ -123,7 +123,7 @@ fn a_hundred_thousand_events_and_commands_leave_the_document_whole() {
     // The window loses the keyboard: everything is let go.
     let mut input = RawInput { events: vec![Event::WindowFocused(false)], ..RawInput::default() };
     hand.state.feed(&context, &mut input, 0, &mut effects);
-    assert!(!hand.state.read().hands.is_busy() && !hand.state.read().hands.edits());
+    assert!(!hand.state.read().tools.controls().is_busy() && !hand.state.read().tools.controls().edits());
 }
 
 #[test]

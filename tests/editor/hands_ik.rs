@@ -274,7 +274,7 @@ fn a_muted_bone_is_taken_hold_of_where_the_picture_shows_it() {
     hand.state.begin_frame(hand.state.read().now);
     assert!(place(&hand, 2).distance(Vec3::Y * 2.0) < 1e-6, "straight, not {}", place(&hand, 2));
     assert!(
-        hand.state.read().hands.gizmo().gizmo.handle_at(hand.joint()).is_some(),
+        hand.state.read().tools.controls().gizmo().gizmo.handle_at(hand.joint()).is_some(),
         "the gizmo stands there"
     );
     hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Mute, 1, false)));

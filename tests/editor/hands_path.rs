@@ -55,7 +55,7 @@ fn a_key_of_the_path_is_put_under_the_pointer_in_one_step() {
     let from = seen(&hand, place);
     let to = from + Vec2::new(37.0, -21.0);
     hand.press(from);
-    assert!(hand.state.read().hands.edits());
+    assert!(hand.state.read().tools.controls().edits());
     hand.to(from + Vec2::new(10.0, 0.0));
     hand.to(to);
     hand.release();
@@ -97,8 +97,8 @@ fn ghosts_stand_as_many_steps_before_and_after_as_the_take_has_room_for() {
     assert!(times.is_empty(), "not while time passes");
     let odd = GhostSettings { count: [9999, 0], step: 0, ..ghosts };
     hand.state.execute(Request::Ghosts(odd));
-    assert_eq!(hand.state.read().settings.hand.ghosts.count, [GhostSettings::MOST[0], 0]);
-    assert_eq!(hand.state.read().settings.hand.ghosts.step, 1);
+    assert_eq!(hand.state.read().settings.tools.ghosts.count, [GhostSettings::MOST[0], 0]);
+    assert_eq!(hand.state.read().settings.tools.ghosts.step, 1);
 }
 
 #[test]
@@ -165,8 +165,16 @@ fn a_key_under_a_handle_of_the_gizmo_is_taken_hold_of_but_not_in_its_middle() {
         near.clone().find(|(_, far)| (20.0..70.0).contains(far)).expect("a time near the key");
     at(&mut hand, beside);
     hand.to(key);
-    assert_eq!(hand.state.read().hands.path().hovered(), Some(time), "{far} points from the middle");
-    assert_eq!(hand.state.read().hands.gizmo().gizmo.hovered(), None, "one thing lies under the pointer");
+    assert_eq!(
+        hand.state.read().tools.controls().path().hovered(),
+        Some(time),
+        "{far} points from the middle"
+    );
+    assert_eq!(
+        hand.state.read().tools.controls().gizmo().gizmo.hovered(),
+        None,
+        "one thing lies under the pointer"
+    );
     hand.press(key);
     hand.to(key + Vec2::new(9.0, 6.0));
     hand.release();
@@ -187,7 +195,7 @@ fn keys_of_a_bone_can_be_dragged_when_it_is_free_whatever_was_selected_with_it()
     let select = |hand: &mut Hand, bones: &[u32]| {
         hand.state.execute(Request::SelectBones(bones.to_vec(), Choice::Replace));
         hand.state.begin_frame(hand.state.read().now);
-        hand.state.read().hands.path().editable
+        hand.state.read().tools.controls().path().editable
     };
     // The last one is the active one, of which the path is.
     for (bones, wanted) in [(&[2, 1][..], false), (&[2], true), (&[2, 1], false), (&[1, 2], true)] {

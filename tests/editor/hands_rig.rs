@@ -165,7 +165,7 @@ impl Hand {
     /// A place in the window where this handle is.
     pub(crate) fn handle(&self, wanted: Handle) -> Vec2 {
         let corner = Vec2::new(PICTURE[0], PICTURE[1]);
-        let at = find(&self.state.read().hands.gizmo().gizmo, self.joint(), wanted);
+        let at = find(&self.state.read().tools.controls().gizmo().gizmo, self.joint(), wanted);
         at.unwrap_or_else(|| panic!("{wanted:?} is nowhere")) + corner
     }
 

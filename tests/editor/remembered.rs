@@ -32,7 +32,7 @@ fn snap_listing_and_ik_are_as_they_were_left() {
     state.show(file("Crow.glb"));
     assert!(!state.read().keys.snap() && state.read().ik.on);
     let mended = Settings::parse("{\"hand\":{\"ik\":{\"on\":true,\"length\":0}}}");
-    assert_eq!(mended.hand.ik.length, 1);
+    assert_eq!(mended.tools.ik.length, 1);
 }
 
 #[test]

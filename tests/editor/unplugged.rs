@@ -39,11 +39,11 @@ fn nothing_is_held(animator: &Animator, round: usize) {
     let state = &animator.harness.state().state;
     assert!(!state.read().dragging.is_open(), "round {round}: a drag goes on");
     assert!(
-        !state.read().hands.is_busy() && !state.read().hands.edits(),
+        !state.read().tools.controls().is_busy() && !state.read().tools.controls().edits(),
         "round {round}: the hands are busy"
     );
     assert!(!state.read().keys.drag().is_some_and(|drag| drag.held()), "round {round}: keys are held");
-    assert_eq!(state.read().hands.modifiers(), Default::default(), "round {round}: a key is held");
+    assert_eq!(state.read().tools.controls().modifiers(), Default::default(), "round {round}: a key is held");
     let context = &animator.harness.ctx;
     assert_eq!(context.dragged_id(), None, "round {round}: a panel is dragged");
     context.input(|input| {

@@ -61,7 +61,7 @@ impl Inside {
         let skeleton = &self.state.read().loaded().expect("open").model.animation.skeleton;
         let animation = self.state.read().posed.animation().expect("posed");
         let mut gizmo = Gizmo::new(Tool::Rotate);
-        gizmo.settings.space = self.state.read().settings.hand.space;
+        gizmo.settings.space = self.state.read().settings.tools.space;
         gizmo.select(skeleton, animation.poses(), animation.to_root(), &[bone], None);
         gizmo.look(self.view());
         let joint = animation.to_root()[bone as usize].w_axis.truncate().as_dvec3();

@@ -73,8 +73,8 @@ impl GraphicsSync {
 
     /// Sends how the gizmo, the motion path, ghosts and IK look.
     fn controls(&mut self, graphics: &GraphicsHandle, state: &PanelContext<'_>) {
-        let gizmo = &state.hands.gizmo().gizmo;
-        let look = state.settings.hand.tool.map(|tool| GizmoLook {
+        let gizmo = &state.tools.controls().gizmo().gizmo;
+        let look = state.settings.tools.tool.map(|tool| GizmoLook {
             tool,
             settings: gizmo.settings,
             hovered: gizmo.hovered(),
@@ -83,7 +83,7 @@ impl GraphicsSync {
             self.gizmo = look;
             graphics.show_control(Appearance::Gizmo(look));
         }
-        let revision = state.hands.revision();
+        let revision = state.tools.controls().revision();
         if gizmo.is_dragging() {
             if !self.drags || self.revision != revision {
                 let mut shape = GizmoShape::default();
@@ -93,7 +93,7 @@ impl GraphicsSync {
         } else if self.drags {
             graphics.show_control(Appearance::Drag(None));
         }
-        let (path, hovered) = (state.tools.path().look(), state.hands.path().hovered());
+        let (path, hovered) = (state.tools.path().look(), state.tools.controls().path().hovered());
         let same = match (path, &self.path) {
             (Some(path), Some(sent)) => Arc::ptr_eq(path, sent),
             (path, sent) => path.is_none() && sent.is_none(),
@@ -103,8 +103,8 @@ impl GraphicsSync {
             self.path_hovered = hovered;
             graphics.show_control(Appearance::Path(self.path.clone(), hovered));
         }
-        if self.ghost_skins != state.settings.hand.ghosts.skin {
-            self.ghost_skins = state.settings.hand.ghosts.skin;
+        if self.ghost_skins != state.settings.tools.ghosts.skin {
+            self.ghost_skins = state.settings.tools.ghosts.skin;
             graphics.show_control(Appearance::GhostSkins(self.ghost_skins));
         }
         state.ghost_times(&mut self.spare_times);

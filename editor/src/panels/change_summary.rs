@@ -1,11 +1,10 @@
-//! What was done to the document, for the line at the bottom: each step once, when it begins, when it is taken back, and
-//! when it is done again.
+//! Summary of a change of the document for the status line: each step once, when it is added, undone or redone.
 
 use super::count_text::{count, grouped};
 use dragonfly_document::{HistoryView, View};
 use std::sync::Arc;
 
-/// What leads from one view of a model to a newer one; `None` where nothing was done, or a gesture just goes on.
+/// Describes the difference between a view of a model and a newer one; `None` where there is none, or a gesture continues.
 pub(super) fn describe_change(old: &View, new: &View) -> Option<String> {
     let (before, now) = (&*old.history, &*new.history);
     if same_steps(before, now) {
@@ -29,8 +28,8 @@ pub(super) fn describe_change(old: &View, new: &View) -> Option<String> {
     Some([Some(step(now, last)), keys(old, new)].into_iter().flatten().collect::<Vec<_>>().join("  ·  "))
 }
 
-/// What keys that were moved, copied or pasted came to, where they took the place of others; `None` where they did not.
-/// The take had `before` keys, was to get `brought` more, and has `now`.
+/// Describes the result of moved, copied or pasted keys where they replaced others; `None` where they did not. The take had
+/// `before` keys, was to get `brought` more, and has `now`.
 pub(super) fn replaced(view: &View, before: usize, brought: usize, now: usize) -> Option<String> {
     let replaced = (before + brought).checked_sub(now).filter(|&keys| keys > 0)?;
     let last = view.history.done.checked_sub(1)?;
@@ -45,17 +44,17 @@ pub(super) fn replaced(view: &View, before: usize, brought: usize, now: usize) -
     )
 }
 
-/// Are they the same steps, however many of them are done?
+/// Returns whether both histories have the same steps, however many of them are done.
 fn same_steps(before: &HistoryView, now: &HistoryView) -> bool {
     before.steps.len() == now.steps.len() && before.about.last().map(address) == now.about.last().map(address)
 }
 
-/// A step keeps the text of what it is about for as long as it is known, so the text's place tells it from all others.
+/// Returns the address of a step's text, which identifies the step: the text is kept as long as the step exists.
 fn address(about: &Arc<str>) -> *const u8 {
     about.as_ptr()
 }
 
-/// A step in a few words.
+/// Returns a step in a few words.
 fn step(history: &HistoryView, at: usize) -> String {
     let label = history.steps.get(at).copied().unwrap_or_default();
     match history.about.get(at) {
@@ -64,7 +63,7 @@ fn step(history: &HistoryView, at: usize) -> String {
     }
 }
 
-/// How many keys more or fewer there are, where the takes are the same ones.
+/// Describes how many keys more or fewer there are, where the takes are the same.
 fn keys(old: &View, new: &View) -> Option<String> {
     if !old.slots.iter().map(|slot| slot.id).eq(new.slots.iter().map(|slot| slot.id)) {
         return None;

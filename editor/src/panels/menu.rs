@@ -148,7 +148,7 @@ fn view(
         item(ui, state, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
         item(ui, state, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
     });
-    let hand = &state.settings.hand;
+    let hand = &state.settings.tools;
     item(ui, state, Id::TogglePath, hand.path, requests);
     ui.menu_button("Ghosts", |ui| ghosts(ui, state, requests));
     ui.menu_button("Shading", |ui| {
@@ -183,7 +183,7 @@ fn view(
 
 /// How the skeleton is shown before and after.
 fn ghosts(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let mut ghosts = state.settings.hand.ghosts;
+    let mut ghosts = state.settings.tools.ghosts;
     item(ui, state, Id::ToggleGhosts, ghosts.shown, requests);
     let number = |ui: &mut Ui, title: &str, value: &mut u32, range: std::ops::RangeInclusive<u32>| {
         ui.horizontal(|ui| {
@@ -201,7 +201,7 @@ fn ghosts(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.separator();
     ui.radio_value(&mut ghosts.skin, false, "as skeletons");
     ui.radio_value(&mut ghosts.skin, true, "as skins");
-    if ghosts != state.settings.hand.ghosts {
+    if ghosts != state.settings.tools.ghosts {
         requests.push(Request::Ghosts(ghosts));
     }
 }

@@ -3,7 +3,7 @@
 use super::motion_path::MotionPath;
 use super::posed::Posed;
 use super::tool_drag::ToolDrag;
-use crate::control::{Area, Hands, InputEvent};
+use crate::control::{Area, InputEvent, ViewportTools};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;
 use dragonfly_document::edit::BonePose;
@@ -31,7 +31,7 @@ pub(super) struct GizmoPlacement {
 /// The viewport tools, their drag, the motion path and IK.
 #[derive(Debug, Default)]
 pub struct ToolState {
-    controls: Hands,
+    controls: ViewportTools,
     drag: ToolDrag,
     path: MotionPath,
     ik: IkMode,
@@ -51,12 +51,12 @@ impl ToolState {
     }
 
     /// Returns the tools of the viewport.
-    pub fn controls(&self) -> &Hands {
+    pub fn controls(&self) -> &ViewportTools {
         &self.controls
     }
 
     /// Returns the tools of the viewport, to give them an input or take an answer.
-    pub(super) fn controls_mut(&mut self) -> &mut Hands {
+    pub(super) fn controls_mut(&mut self) -> &mut ViewportTools {
         &mut self.controls
     }
 

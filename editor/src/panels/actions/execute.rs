@@ -53,7 +53,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Keys(keys) => workspace.settings.keys = keys,
         Request::Camera(camera) => workspace.camera.set_camera(camera),
         Request::Viewport(rect) => framing::set_viewport(workspace, rect),
-        Request::Ghosts(ghosts) => workspace.settings.hand.ghosts = ghosts.sanitized(),
+        Request::Ghosts(ghosts) => workspace.settings.tools.ghosts = ghosts.sanitized(),
         Request::Shields(shields) => framing::set_shields(workspace, shields),
         Request::Wheel(by) => framing::wheel(workspace, by),
         Request::Point(pointer) => bones::point(workspace, pointer),
@@ -113,6 +113,6 @@ fn run(workspace: &mut Workspace, command: &commands::Command) -> Option<Effect>
 /// Copies the state that is remembered between runs into the settings.
 fn keep_settings(workspace: &mut Workspace) {
     let ik = workspace.tools.ik();
-    workspace.settings.hand.ik = IkSettings { on: ik.on, length: ik.length };
+    workspace.settings.tools.ik = IkSettings { on: ik.on, length: ik.length };
     workspace.settings.timeline = workspace.keys.settings();
 }

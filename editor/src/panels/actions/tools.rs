@@ -10,7 +10,7 @@ use std::time::Instant;
 
 /// Switches to the next axes: the bone's, its parent's, the scene's, the view's.
 pub(in crate::panels) fn next_space(workspace: &mut Workspace) {
-    let space = &mut workspace.settings.hand.space;
+    let space = &mut workspace.settings.tools.space;
     *space = match *space {
         Space::Local => Space::Parent,
         Space::Parent => Space::World,
@@ -29,7 +29,7 @@ pub(in crate::panels) fn drag_now(workspace: &mut Workspace, tool: Tool) {
     if workspace.tools.controls().is_busy() {
         return;
     }
-    workspace.settings.hand.tool = Some(tool);
+    workspace.settings.tools.tool = Some(tool);
     let time = workspace.player.time();
     playback::stop_at(workspace, time);
     sync_gizmo(workspace);
@@ -56,12 +56,12 @@ pub(super) fn sync_gizmo(workspace: &mut Workspace) {
     let panels = workspace.read();
     bones.extend(panels.bones_to_pose());
     let Some(view) = workspace.model.view() else { return };
-    let hand = &panels.settings.hand;
+    let hand = &panels.settings.tools;
     let settings = GizmoSettings {
         space: hand.space,
         pivot: hand.pivot,
         curl: hand.curl,
-        ..panels.hands.gizmo().gizmo.settings
+        ..panels.tools.controls().gizmo().gizmo.settings
     };
     let (take, active, flags) = (panels.playback.take, panels.selected(), panels.keys.flags());
     let editable = take.is_some() && !panels.selection_is_locked();
@@ -83,7 +83,7 @@ pub(super) fn sync_gizmo(workspace: &mut Workspace) {
 /// Computes the motion path again where something changed that it is computed from.
 pub(super) fn update_path(workspace: &mut Workspace) {
     let source = workspace.model.view().zip(workspace.player.take()).zip(workspace.bones.active());
-    let changed = match source.filter(|_| workspace.settings.hand.path) {
+    let changed = match source.filter(|_| workspace.settings.tools.path) {
         Some(((view, take), bone)) => {
             let (rate, flags) = (workspace.settings.frame_rate, workspace.keys.flags());
             workspace.tools.path_mut().update(view, take, bone, rate, flags)

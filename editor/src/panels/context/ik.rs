@@ -54,7 +54,7 @@ impl PanelContext<'_> {
 
     /// Returns the active bone and the number of bones above it that follow, where it is moved with IK.
     fn ik_chain(&self) -> Option<(BoneIndex, u32)> {
-        let moves = self.ik.on && self.settings.hand.tool == Some(Tool::Move);
+        let moves = self.ik.on && self.settings.tools.tool == Some(Tool::Move);
         let bone = self.selected().filter(|_| moves && self.playback.take.is_some())?;
         Some((bone, self.ik.length))
     }

@@ -104,7 +104,7 @@ impl<'a> PanelContext<'a> {
     /// negative before now. None while time passes.
     pub fn ghost_times(&self, out: &mut Vec<(f32, i32)>) {
         out.clear();
-        let ghosts = &self.settings.hand.ghosts;
+        let ghosts = &self.settings.tools.ghosts;
         let Some(take) = self.take().filter(|_| ghosts.shown && !self.playback.playing) else { return };
         let (start, end) = (take.start, take.start + take.length);
         for (direction, count) in [(-1, ghosts.count[0]), (1, ghosts.count[1])] {

@@ -15,7 +15,6 @@ use super::status::Status;
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
-use crate::control::Hands;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::adapter::Slot;
 use dragonfly_document::bones::{BoneSelection, HiddenBones};
@@ -65,9 +64,7 @@ pub struct PanelContext<'a> {
     pub camera: Camera,
     /// The viewport, points.
     pub viewport: Rect,
-    /// The tools of the viewport.
-    pub hands: &'a Hands,
-    /// Drag of the tools, motion path and IK.
+    /// The tools of the viewport, their drag, motion path and IK.
     pub tools: &'a ToolState,
     /// The drag in progress, whichever panel it belongs to.
     pub dragging: &'a Dragging,

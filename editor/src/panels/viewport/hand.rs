@@ -19,7 +19,7 @@ pub(super) fn toolbar(
     state: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) -> Option<Rect> {
-    let hand = &state.settings.hand;
+    let hand = &state.settings.tools;
     let top = rect.top() + 52.0;
     // The axes stand below.
     let room = rect.bottom() - top - 92.0;
@@ -96,7 +96,7 @@ fn choice(
     list: &[(Id, Option<Space>, Option<Pivot>)],
     requests: &mut Vec<Request>,
 ) {
-    let hand = &state.settings.hand;
+    let hand = &state.settings.tools;
     let response = icon_button(ui, icon, name, false);
     egui::Popup::menu(&response).align(egui::RectAlign::RIGHT_START).show(|ui| {
         ui.set_width(190.0);

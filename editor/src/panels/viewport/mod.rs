@@ -18,7 +18,7 @@ use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, CornerRadius, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 /// The picture and what lies over it. What the mouse does there is up to the controls of the scene
-/// ([`crate::control::Hands`]), which hear of it before the panels do.
+/// ([`crate::control::ViewportTools`]), which hear of it before the panels do.
 #[derive(Debug, Default)]
 pub struct Viewport;
 

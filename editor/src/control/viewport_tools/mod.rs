@@ -30,7 +30,7 @@ const EDGE: f32 = 3.0;
 
 /// What a person acts on the picture with.
 #[derive(Clone, Debug)]
-pub struct Hands {
+pub struct ViewportTools {
     framework: ControlFramework,
     owner: Owner,
     /// Where the mouse was last, points from the top left of the window.
@@ -65,7 +65,7 @@ impl Controls for Owner {
     }
 }
 
-impl Default for Hands {
+impl Default for ViewportTools {
     fn default() -> Self {
         let mut framework = ControlFramework::new(Vec2::ONE);
         let nowhere = Area::default();
@@ -83,7 +83,7 @@ impl Default for Hands {
     }
 }
 
-impl Hands {
+impl ViewportTools {
     /// The picture's own control.
     pub fn picture(&self) -> &ViewportControl {
         &self.owner.picture.1
