@@ -31,11 +31,6 @@ const fn command(
     Command { id, title, shortcuts, help, when, run }
 }
 
-/// Returns no effect, after a command that reaches no further than the workspace.
-fn done((): ()) -> Option<Effect> {
-    None
-}
-
 /// The commands of each category, in the order in which they are shown.
 pub const TABLE: &[(Category, &[Command])] = &[
     (Category::File, file::COMMANDS),

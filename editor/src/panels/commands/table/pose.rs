@@ -10,7 +10,7 @@ use dragonfly_document::edit::ResetTo;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const COMMANDS: &[Command] = &[
-    command(Id::AutoKey, When::Always, "Auto-key", &[key(SHIFT, Key::I)], "On: a changed pose becomes a key. Off: it is pending until it is keyed", |w| done(pose::toggle_auto_key(w))),
+    command(Id::AutoKey, When::Always, "Auto-key", &[key(SHIFT, Key::I)], "On: a changed pose becomes a key. Off: it is pending until it is keyed", |w| { pose::toggle_auto_key(w); None }),
     command(Id::Key, When::Take, "Key", &[key(NONE, Key::K), key(NONE, Key::I)], "Keys what is pending here; else adds keys of the selected bones, or of all", pose::key),
     command(Id::KeyAllPending, When::Pending, "Key all pending poses", &[key(SHIFT, Key::K)], "Keys what is pending anywhere in the take", pose::key_pending),
     command(Id::DropPending, When::Pending, "Drop pending poses", &[key(ALT, Key::K)], "Gives up what is pending in the take", pose::drop_pending),
@@ -21,13 +21,13 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::RestRotation, When::BoneInTake, "Rotation of the rest pose", &[key(ALT, Key::R)], "Turns the selected bones as they rest", |w| pose::reset(w, &[Property::Rotation], ResetTo::Rest)),
     command(Id::RestScale, When::BoneInTake, "Scale of the rest pose", &[key(ALT, Key::S)], "Makes the selected bones as large as they rest", |w| pose::reset(w, &[Property::Scale], ResetTo::Rest)),
     command(Id::ResetToRest, When::BoneInTake, "Reset to rest pose", &[], "Place, rotation and scale of the selected bones as they rest", |w| pose::reset(w, &Property::ALL, ResetTo::Rest)),
-    command(Id::ToggleIk, When::Always, "IK", &[key(SHIFT, Key::C)], "Moving a bone takes those above it along, as a hand takes the arm", |w| done(ik::toggle_ik(w))),
-    command(Id::LongerIk, When::Always, "One bone more follows", &[key(ALT, Key::CloseBracket)], "A longer chain for IK", |w| done(ik::lengthen_ik(w, 1))),
-    command(Id::ShorterIk, When::Always, "One bone less follows", &[key(ALT, Key::OpenBracket)], "A shorter chain for IK", |w| done(ik::lengthen_ik(w, -1))),
-    command(Id::IkPole, When::Bone, "Bend towards this bone", &[], "Elbows and knees of IK bend towards the active bone; again: as they are", |w| done(ik::toggle_pole(w))),
-    command(Id::Pin, When::Bone, "Pin / free", &[key(NONE, Key::N)], "The selected bones stay where and how they are while others move", |w| done(ik::toggle_pins(w))),
-    command(Id::FreePins, When::Pinned, "Free all pins", &[key(ALT, Key::N)], "No bone is pinned any more", |w| done(ik::free_pins(w))),
+    command(Id::ToggleIk, When::Always, "IK", &[key(SHIFT, Key::C)], "Moving a bone takes those above it along, as a hand takes the arm", |w| { ik::toggle_ik(w); None }),
+    command(Id::LongerIk, When::Always, "One bone more follows", &[key(ALT, Key::CloseBracket)], "A longer chain for IK", |w| { ik::lengthen_ik(w, 1); None }),
+    command(Id::ShorterIk, When::Always, "One bone less follows", &[key(ALT, Key::OpenBracket)], "A shorter chain for IK", |w| { ik::lengthen_ik(w, -1); None }),
+    command(Id::IkPole, When::Bone, "Bend towards this bone", &[], "Elbows and knees of IK bend towards the active bone; again: as they are", |w| { ik::toggle_pole(w); None }),
+    command(Id::Pin, When::Bone, "Pin / free", &[key(NONE, Key::N)], "The selected bones stay where and how they are while others move", |w| { ik::toggle_pins(w); None }),
+    command(Id::FreePins, When::Pinned, "Free all pins", &[key(ALT, Key::N)], "No bone is pinned any more", |w| { ik::free_pins(w); None }),
     command(Id::BakePins, When::PinnedInTake, "Hold pins over what plays", &[], "Keeps pinned bones where they are now at every frame of the play range, or of the take: the bones above get keys", baking::bake_pins),
     command(Id::LookAt, When::BoneInTake, "Look at", &[key(ALT, Key::L)], "Turns the selected bones towards the active one, which is the one selected last", ik::look),
-    command(Id::MirrorPairs, When::Model, "Mirror pairs…", &[], "Shows which bone is the other side of which", |w| done(w.prompts.toggle(Overlay::MirrorPairs))),
+    command(Id::MirrorPairs, When::Model, "Mirror pairs…", &[], "Shows which bone is the other side of which", |w| { w.prompts.toggle(Overlay::MirrorPairs); None }),
 ];
