@@ -6,13 +6,13 @@ use dragonfly_picture::camera::Side;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const COMMANDS: &[Command] = &[
-    command(Id::FrameSelected, When::Model, "Frame selected", &[key(NONE, Key::F)], "Moves the eye to what is selected", |w| { framing::frame_selected(w); None }),
-    command(Id::FrameAll, When::Model, "Frame all", &[key(SHIFT, Key::F)], "Moves the eye so that everything is seen", |w| { framing::frame_shown(w); None }),
+    command(Id::FrameSelected, When::Model, "Frame selected", &[key(NONE, Key::F)], "Frames the selected bone", |w| { framing::frame_selected(w); None }),
+    command(Id::FrameAll, When::Model, "Frame all", &[key(SHIFT, Key::F)], "Frames the whole model", |w| { framing::frame_shown(w); None }),
     command(Id::ViewFront, When::Model, "Front", &[key(NONE, Key::Num1)], "Looks from the front", |w| { w.camera.camera_mut().look_from(Side::Front); None }),
     command(Id::ViewBack, When::Always, "Back", &[key(CTRL, Key::Num1)], "Looks from behind", |w| { w.camera.camera_mut().look_from(Side::Back); None }),
     command(Id::ViewRight, When::Always, "Right", &[key(NONE, Key::Num3)], "Looks from the right", |w| { w.camera.camera_mut().look_from(Side::Right); None }),
     command(Id::ViewLeft, When::Always, "Left", &[key(CTRL, Key::Num3)], "Looks from the left", |w| { w.camera.camera_mut().look_from(Side::Left); None }),
     command(Id::ViewTop, When::Always, "Top", &[key(NONE, Key::Num7)], "Looks from above", |w| { w.camera.camera_mut().look_from(Side::Top); None }),
     command(Id::ViewBottom, When::Always, "Bottom", &[key(CTRL, Key::Num7)], "Looks from below", |w| { w.camera.camera_mut().look_from(Side::Bottom); None }),
-    command(Id::ToggleProjection, When::Always, "Perspective / parallel", &[key(NONE, Key::Num5)], "Far things smaller, or parallel lines parallel", |w| { w.camera.camera_mut().toggle_projection(); None }),
+    command(Id::ToggleProjection, When::Always, "Perspective / parallel", &[key(NONE, Key::Num5)], "Switches between perspective and orthographic projection", |w| { w.camera.camera_mut().toggle_projection(); None }),
 ];

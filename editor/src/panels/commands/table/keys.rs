@@ -22,8 +22,8 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::InterpolateStep, When::Keys, "Step between keys", &[], "Channels of the selected keys hold each key until the next", |w| keys::interpolate(w, Between::Step)),
     command(Id::InterpolateLinear, When::Keys, "Linear between keys", &[], "Channels of the selected keys run straight from key to key", |w| keys::interpolate(w, Between::Linear)),
     command(Id::InterpolateSpline, When::Keys, "Spline between keys", &[], "Channels of the selected keys run smoothly, with tangents that can be dragged", |w| keys::interpolate(w, Between::CubicSpline)),
-    command(Id::RippleOpen, When::Take, "Insert a frame", &[key(NONE, Key::F5)], "Moves everything behind the playhead one frame on", |w| keys::ripple(w, 1.0)),
-    command(Id::RippleClose, When::Take, "Remove a frame", &[key(SHIFT, Key::F5)], "Takes the frame behind the playhead away, and its keys", |w| keys::ripple(w, -1.0)),
+    command(Id::RippleOpen, When::Take, "Insert a frame", &[key(NONE, Key::F5)], "Moves all keys after the playhead one frame later", |w| keys::ripple(w, 1.0)),
+    command(Id::RippleClose, When::Take, "Remove a frame", &[key(SHIFT, Key::F5)], "Removes the frame after the playhead, and its keys", |w| keys::ripple(w, -1.0)),
     command(Id::FitKeys, When::Take, "Fit the timeline", &[key(SHIFT, Key::Home)], "Shows the selected keys, or the whole take", |w| { keys::fit_window(w); None }),
     command(Id::AddMarker, When::Take, "Add a marker", &[key(ALT, Key::M)], "Marks the time shown; markers stay out of the model's file", |w| { keys::add_marker(w); None }),
     command(Id::PreviousMarker, When::Take, "Previous marker", &[key(SHIFT, Key::PageUp)], "To the marker before", |w| { playback::step_marker(w, false); None }),
@@ -31,5 +31,5 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::RangeOfKeys, When::Take, "Play range of the selection", &[key(NONE, Key::P)], "Plays between the selected keys, or what is in sight", |w| { keys::range_of_keys(w); None }),
     command(Id::RangeFromHere, When::Take, "Play range begins here", &[key(ALT, Key::Home)], "Plays from the playhead on", |w| { keys::range_from_here(w); None }),
     command(Id::RangeToHere, When::Take, "Play range ends here", &[key(ALT, Key::End)], "Plays up to the playhead", |w| { keys::range_to_here(w); None }),
-    command(Id::RangeWhole, When::Take, "Play the whole take", &[key(ALT, Key::P)], "Takes the play range away", |w| { keys::clear_range(w); None }),
+    command(Id::RangeWhole, When::Take, "Play the whole take", &[key(ALT, Key::P)], "Clears the play range", |w| { keys::clear_range(w); None }),
 ];

@@ -6,7 +6,7 @@ use crate::panels::actions::playback;
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const COMMANDS: &[Command] = &[
     command(Id::PlayPause, When::Take, "Play / pause", &[key(NONE, Key::Space), key(ALT, Key::V)], "Starts or stops time", |w| { playback::play(w, 1.0); None }),
-    command(Id::PlayBackwards, When::Take, "Play backwards", &[key(SHIFT, Key::Space)], "Lets time run backwards", |w| { playback::play(w, -1.0); None }),
+    command(Id::PlayBackwards, When::Take, "Play backwards", &[key(SHIFT, Key::Space)], "Plays backwards", |w| { playback::play(w, -1.0); None }),
     command(Id::PreviousFrame, When::Take, "Previous frame", &[key(NONE, Key::ArrowLeft), key(NONE, Key::Comma)], "One frame back", |w| { playback::step_frame(w, -1); None }),
     command(Id::NextFrame, When::Take, "Next frame", &[key(NONE, Key::ArrowRight), key(NONE, Key::Period)], "One frame on", |w| { playback::step_frame(w, 1); None }),
     command(Id::PreviousKey, When::Take, "Previous key", &[key(NONE, Key::ArrowUp), key(ALT, Key::Comma)], "To the key before, of the selected bone or of all", |w| { playback::step_key(w, false); None }),

@@ -11,7 +11,7 @@ use dragonfly_picture::gizmo::Tool;
 pub(super) const COMMANDS: &[Command] = &[
     command(Id::ToolSelect, When::Always, "Select", &[key(NONE, Key::Q)], "No gizmo: the mouse only selects", |w| { w.settings.tools.tool = None; None }),
     command(Id::ToolMove, When::Always, "Move", &[key(NONE, Key::W)], "A gizmo that moves the selected bones", |w| { w.settings.tools.tool = Some(Tool::Move); None }),
-    command(Id::ToolRotate, When::Always, "Rotate", &[key(NONE, Key::E)], "A gizmo that turns the selected bones", |w| { w.settings.tools.tool = Some(Tool::Rotate); None }),
+    command(Id::ToolRotate, When::Always, "Rotate", &[key(NONE, Key::E)], "A gizmo that rotates the selected bones", |w| { w.settings.tools.tool = Some(Tool::Rotate); None }),
     command(Id::ToolScale, When::Always, "Scale", &[key(NONE, Key::R)], "A gizmo that scales the selected bones", |w| { w.settings.tools.tool = Some(Tool::Scale); None }),
     command(Id::MoveNow, When::BoneInTake, "Move now", &[], "Moves with the mouse at once: X, Y, Z bind, digits type, Enter ends", |w| { tools::drag_now(w, Tool::Move); None }),
     command(Id::RotateNow, When::BoneInTake, "Rotate now", &[], "Turns with the mouse at once: X, Y, Z bind, digits type, Enter ends", |w| { tools::drag_now(w, Tool::Rotate); None }),

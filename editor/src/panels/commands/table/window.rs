@@ -6,7 +6,7 @@ use crate::panels::settings::ThemeChoice;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const COMMANDS: &[Command] = &[
-    command(Id::ThemeSystem, When::Always, "Theme of the system", &[], "Light or dark, as the desktop says", |w| { w.settings.theme = ThemeChoice::System; None }),
+    command(Id::ThemeSystem, When::Always, "Theme of the system", &[], "Light or dark, as the desktop is set", |w| { w.settings.theme = ThemeChoice::System; None }),
     command(Id::ThemeDark, When::Always, "Dark theme", &[], "For dim rooms", |w| { w.settings.theme = ThemeChoice::Dark; None }),
     command(Id::ThemeLight, When::Always, "Light theme", &[], "For bright rooms", |w| { w.settings.theme = ThemeChoice::Light; None }),
     command(Id::ScaleUp, When::Always, "Larger", &[key(CTRL, Key::Plus), key(CTRL, Key::Equals), key(CTRL.plus(SHIFT), Key::Plus), key(CTRL.plus(SHIFT), Key::Equals)], "Everything in the window larger", |w| { look::scale_by(w, 0.1); None }),
