@@ -11,11 +11,11 @@ const TARGET: &str = "dragonfly::reader";
 
 /// The controls as they were logged last: only those that differ are logged again.
 #[derive(Debug, Default)]
-pub(super) struct AccessibilityTrace(HashMap<NodeId, Told>);
+pub(super) struct AccessibilityTrace(HashMap<NodeId, ControlRecord>);
 
 /// A control of the accessibility tree. Fields that are `None` are left out.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct Told {
+struct ControlRecord {
     id: u64,
     role: String,
     name: String,
@@ -49,13 +49,13 @@ impl AccessibilityTrace {
         }
         let mut gone = std::mem::take(&mut self.0);
         for (id, node) in &update.nodes {
-            let Some(told) = told(*id, node, *id == update.focus, pixels_per_point) else { continue };
-            if gone.remove(id).as_ref() != Some(&told)
-                && let Ok(line) = serde_json::to_string(&told)
+            let Some(record) = record(*id, node, *id == update.focus, pixels_per_point) else { continue };
+            if gone.remove(id).as_ref() != Some(&record)
+                && let Ok(line) = serde_json::to_string(&record)
             {
                 debug!(target: TARGET, "{line}");
             }
-            self.0.insert(*id, told);
+            self.0.insert(*id, record);
         }
         for id in gone.into_keys() {
             debug!(target: TARGET, "{{\"id\":{},\"gone\":true}}", id.0);
@@ -64,11 +64,11 @@ impl AccessibilityTrace {
 }
 
 /// Returns the record of a control; `None` for a control without name and value.
-fn told(id: NodeId, node: &Node, focused: bool, pixels_per_point: f32) -> Option<Told> {
+fn record(id: NodeId, node: &Node, focused: bool, pixels_per_point: f32) -> Option<ControlRecord> {
     let [name, value] = [node.label(), node.value()].map(|text| text.filter(|text| !text.is_empty()));
     let rect = node.bounds().filter(|_| name.or(value).is_some())?;
     let place = [rect.x0, rect.y0, rect.width(), rect.height()];
-    Some(Told {
+    Some(ControlRecord {
         id: id.0,
         role: format!("{:?}", node.role()),
         name: name.unwrap_or_default().to_owned(),

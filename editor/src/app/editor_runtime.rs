@@ -8,7 +8,7 @@ use super::interface::Interface;
 use super::options::{Options, Part};
 use super::replies::{Answers, Replies};
 use super::state_trace;
-use crate::panels::status::Level;
+use crate::panels::status::Severity;
 use crate::panels::window_status::Device;
 use crate::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
@@ -69,7 +69,7 @@ impl EditorRuntime {
             Some(document) => document.open(source),
             None => {
                 let mut interface = running.parts.interface.borrow_mut();
-                interface.state.say(Level::Error, "There is no document thread");
+                interface.state.say(Severity::Error, "There is no document thread");
             }
         }
     }
@@ -112,7 +112,7 @@ impl EditorRuntime {
             // Became other effects when they were let through.
             Effect::Changes(_) | Effect::Cut(..) | Effect::CancelDrag | Effect::ReleaseDrag => {}
             Effect::OpenDialog if interface.asking => {
-                interface.state.say(Level::Info, "The dialog for opening files is open already");
+                interface.state.say(Severity::Info, "The dialog for opening files is open already");
             }
             Effect::OpenDialog => {
                 let recent = interface.state.read().settings.recent.first();
@@ -121,7 +121,7 @@ impl EditorRuntime {
                     Ok(()) => interface.asking = true,
                     Err(error) => {
                         let text = format!("No dialog could be opened: {error}");
-                        interface.state.say(Level::Error, text);
+                        interface.state.say(Severity::Error, text);
                     }
                 }
             }
@@ -182,7 +182,7 @@ impl BaseRuntime for EditorRuntime {
             }
             Err(error) => {
                 let mut interface = parts.interface.borrow_mut();
-                interface.state.say(Level::Error, format!("No document thread could be started: {error}"));
+                interface.state.say(Severity::Error, format!("No document thread could be started: {error}"));
                 None
             }
         };
@@ -236,23 +236,23 @@ impl BaseRuntime for EditorRuntime {
             }
             GraphicsReply::Recovered { reason, losses } => {
                 let text = format!("The graphics device was lost and is back ({losses}): {reason}");
-                interface.state.say(Level::Info, text);
+                interface.state.say(Severity::Info, text);
             }
             GraphicsReply::Paused { .. } if self.options.never_pause => {
                 running.parts.graphics.resume();
             }
             GraphicsReply::Paused { reason } => {
-                interface.state.say(Level::Warning, format!("The viewport is paused: {reason}"));
+                interface.state.say(Severity::Warning, format!("The viewport is paused: {reason}"));
                 interface.state.set_device(Device::Paused { reason });
             }
             GraphicsReply::Captured(Ok(path)) => {
-                interface.state.say(Level::Info, format!("Wrote {}", path.display()));
+                interface.state.say(Severity::Info, format!("Wrote {}", path.display()));
             }
             GraphicsReply::Captured(Err(reason)) => {
-                interface.state.say(Level::Error, format!("No picture was written: {reason}"));
+                interface.state.say(Severity::Error, format!("No picture was written: {reason}"));
             }
             GraphicsReply::Fatal(reason) => {
-                interface.state.say(Level::Error, format!("Nothing can be drawn any more: {reason}"));
+                interface.state.say(Severity::Error, format!("Nothing can be drawn any more: {reason}"));
             }
         }
         interface.redraw();

@@ -10,7 +10,7 @@ use crate::panels::commands;
 use crate::panels::marks;
 use crate::panels::prompts::{Overlay, Question};
 use crate::panels::settings::ThemeChoice;
-use crate::panels::status::Level;
+use crate::panels::status::Severity;
 use crate::panels::{Desk, Effect, FileAction, Request, Settings, State, style};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::BoneSelection;
@@ -116,7 +116,7 @@ impl Interface {
         if for_good {
             self.given_up.get_or_insert_with(|| text.clone());
         }
-        self.state.say(Level::Error, format!("{text}. Nothing that you did is lost"));
+        self.state.say(Severity::Error, format!("{text}. Nothing that you did is lost"));
         self.redraw();
     }
 
@@ -295,7 +295,7 @@ impl Interface {
 
     fn keep(&mut self, name: &str, text: &str) {
         if let Err(error) = self.store.write(name, text) {
-            self.state.say(Level::Warning, format!("The settings could not be kept: {error}"));
+            self.state.say(Severity::Warning, format!("The settings could not be kept: {error}"));
         }
     }
 

@@ -27,10 +27,10 @@ pub(super) fn asked(change: &Change) {
 
 /// The state that was logged last: it is logged again only where it differs.
 #[derive(Debug, Default, PartialEq)]
-pub(super) struct StateTrace(Option<Told>);
+pub(super) struct StateTrace(Option<StateRecord>);
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Told {
+struct StateRecord {
     viewport: egui::Rect,
     bones: usize,
     bone: Option<BoneIndex>,
@@ -50,7 +50,7 @@ impl StateTrace {
         let animation = bone.and(state.posed.animation());
         let pose = animation.zip(bone).and_then(|(animation, bone)| animation.poses().get(bone as usize));
         let history = state.view.map(|view| [view.history.done, view.history.steps.len()]);
-        let told = Told {
+        let record = StateRecord {
             viewport: state.viewport,
             bones: state.selection.bones().len(),
             bone,
@@ -59,20 +59,20 @@ impl StateTrace {
             steps: history.unwrap_or_default(),
             pose: pose.map(|pose| (pose.translation, pose.rotation, pose.scale)),
         };
-        if self.0.replace(told) == Some(told) {
+        if self.0.replace(record) == Some(record) {
             return;
         }
         let name = bone.map_or(String::new(), |bone| state.bone_name(bone));
-        let rect = told.viewport;
-        let (translation, rotation, scale) = told.pose.unwrap_or_default();
+        let rect = record.viewport;
+        let (translation, rotation, scale) = record.pose.unwrap_or_default();
         debug!(
             target: TARGET,
             viewport = ?[rect.left(), rect.top(), rect.width(), rect.height()],
-            bones = told.bones,
+            bones = record.bones,
             bone = name,
-            time = told.time,
-            done = told.steps[0],
-            steps = told.steps[1],
+            time = record.time,
+            done = record.steps[0],
+            steps = record.steps[1],
             translation = ?translation.to_array(),
             rotation = ?rotation.to_array(),
             scale = ?scale.to_array(),

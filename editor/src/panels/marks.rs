@@ -66,14 +66,14 @@ struct Noted {
 #[derive(Serialize, Deserialize)]
 #[serde(default)]
 #[derive(Default)]
-struct Stored {
+struct StoredMarks {
     files: Vec<FileMarks>,
 }
 
 impl Marks {
     /// Reads the text of the file; a damaged text has no marks.
     pub(super) fn read(text: &str) -> Self {
-        let mut files = serde_json::from_str::<Stored>(text).unwrap_or_default().files;
+        let mut files = serde_json::from_str::<StoredMarks>(text).unwrap_or_default().files;
         files.truncate(FILES);
         Self { files, ..Self::default() }
     }
@@ -81,7 +81,7 @@ impl Marks {
     /// Returns the text of the file; where it would be too long the older files are forgotten.
     fn write(&mut self) -> String {
         loop {
-            let stored = Stored { files: self.files.clone() };
+            let stored = StoredMarks { files: self.files.clone() };
             // Plain data always has a text.
             let text = serde_json::to_string_pretty(&stored).unwrap_or_default();
             if text.len() <= LONGEST || self.files.is_empty() {

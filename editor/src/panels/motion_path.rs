@@ -17,14 +17,14 @@ use std::sync::Arc;
 const MOST: usize = 2000;
 
 /// What a path is computed from: generation of the view, take, bone, frame rate, version of the flags of bones.
-type Source = (u64, usize, BoneIndex, u32, u64);
+type PathSource = (u64, usize, BoneIndex, u32, u64);
 
 /// The path, its keys, and poses at the times of its keys.
 #[derive(Debug, Default)]
 pub struct MotionPath {
     /// Poses at other times than the one shown.
     posed: Posed,
-    source: Option<Source>,
+    source: Option<PathSource>,
     look: Option<Arc<PathLook>>,
     keys: Vec<PathKey>,
 }
@@ -72,7 +72,7 @@ impl MotionPath {
         }
         let takes = self.posed.takes(view);
         let Some(shown) = takes.get(take) else { return false };
-        let chain = Chain::of(view, take, shown, bone);
+        let chain = JointChain::of(view, take, shown, bone);
         let rate = frame_rate.max(1) as f32;
         let frames = (shown.length * rate).max(0.0);
         let step = (frames / MOST as f32).ceil().max(1.0) / rate;
@@ -111,14 +111,14 @@ impl MotionPath {
 }
 
 /// A bone and all above it, with their tracks: what the position of its joint is computed from.
-struct Chain<'a> {
+struct JointChain<'a> {
     view: &'a View,
     take: usize,
     /// From the root down.
     bones: Vec<(BoneIndex, Option<&'a Track>)>,
 }
 
-impl<'a> Chain<'a> {
+impl<'a> JointChain<'a> {
     fn of(view: &'a View, number: usize, take: &'a Take, bone: BoneIndex) -> Self {
         let skeleton = &view.loaded.model.animation.skeleton.bones;
         let parent = |bone: &BoneIndex| {

@@ -8,7 +8,7 @@ use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
 use super::request::{Effect, Request};
 use super::settings::Settings;
-use super::status::Level;
+use super::status::Severity;
 use super::window_status::Device;
 use super::workspace::Workspace;
 use crate::control::InputEvent;
@@ -149,7 +149,7 @@ impl State {
     }
 
     /// Adds a message to the status line.
-    pub fn say(&mut self, level: Level, text: impl Into<String>) {
+    pub fn say(&mut self, level: Severity, text: impl Into<String>) {
         self.workspace.say(level, text);
     }
 

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 /// Severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
+pub enum Severity {
     /// Information.
     Info,
     /// Something unexpected.
@@ -17,7 +17,7 @@ pub enum Level {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
     /// Severity.
-    pub level: Level,
+    pub level: Severity,
     /// The text, one sentence.
     pub text: String,
     /// Number of times that it was added in a row.
@@ -39,13 +39,13 @@ const KEPT: usize = 200;
 
 impl Status {
     /// Adds a message; a repeated one only increases its count.
-    pub fn say(&mut self, level: Level, text: impl Into<String>) {
+    pub fn say(&mut self, level: Severity, text: impl Into<String>) {
         let text = text.into();
         self.said += 1;
         match level {
-            Level::Info => tracing::info!(target: "dragonfly::status", "{text}"),
-            Level::Warning => tracing::info!(target: "dragonfly::status", level = "warning", "{text}"),
-            Level::Error => tracing::warn!(target: "dragonfly::status", "{text}"),
+            Severity::Info => tracing::info!(target: "dragonfly::status", "{text}"),
+            Severity::Warning => tracing::info!(target: "dragonfly::status", level = "warning", "{text}"),
+            Severity::Error => tracing::warn!(target: "dragonfly::status", "{text}"),
         }
         if let Some(last) = self.lines.back_mut()
             && last.text == text
@@ -73,7 +73,7 @@ impl Status {
     /// Adds a remark about a change, unless the last message is more detailed.
     pub(super) fn remark(&mut self, text: impl Into<String>) {
         if !std::mem::take(&mut self.weighs_more) {
-            self.say(Level::Info, text);
+            self.say(Severity::Info, text);
         }
     }
 

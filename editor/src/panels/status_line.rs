@@ -4,7 +4,7 @@ use super::commands::{self, Id};
 use super::context::PanelContext;
 use super::icons::Icon;
 use super::request::Request;
-use super::status::{Level, Line};
+use super::status::{Line, Severity};
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets;
@@ -76,10 +76,10 @@ fn message(ui: &mut Ui, state: &PanelContext<'_>) {
         (Some(loading), _) => {
             let percent = (loading.progress.done * 100.0) as u32;
             let text = format!("{} {}… {percent} %", loading.progress.stage.title(), loading.title);
-            (text, Level::Info)
+            (text, Severity::Info)
         }
         (None, Some(line)) => (sentence(line), line.level),
-        (None, None) => ("Ready".to_owned(), Level::Info),
+        (None, None) => ("Ready".to_owned(), Severity::Info),
     };
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Messages: {text}"))
@@ -87,7 +87,7 @@ fn message(ui: &mut Ui, state: &PanelContext<'_>) {
     let (icon, color) = tone(level, theme);
     let mark = Rect::from_center_size(pos2(rect.left() + 18.0, rect.center().y), vec2(16.0, 16.0));
     let color = if response.hovered() { theme.text } else { color };
-    icon.paint(ui.painter(), mark, if level == Level::Info { theme.faint } else { color });
+    icon.paint(ui.painter(), mark, if level == Severity::Info { theme.faint } else { color });
     let inside = Rect::from_min_max(pos2(rect.left() + 32.0, rect.top()), rect.max);
     widgets::text_in(ui, inside, &text, &TextStyle::Small, color);
     let response = response.on_hover_text("Shows all messages");
@@ -112,10 +112,10 @@ fn sentence(line: &Line) -> String {
     if line.times > 1 { format!("{} ({} times)", line.text, line.times) } else { line.text.clone() }
 }
 
-fn tone(level: Level, theme: &Theme) -> (Icon, Color32) {
+fn tone(level: Severity, theme: &Theme) -> (Icon, Color32) {
     match level {
-        Level::Info => (Icon::Info, theme.weak),
-        Level::Warning => (Icon::Warning, theme.warning),
-        Level::Error => (Icon::Error, theme.error),
+        Severity::Info => (Icon::Info, theme.weak),
+        Severity::Warning => (Icon::Warning, theme.warning),
+        Severity::Error => (Icon::Error, theme.error),
     }
 }

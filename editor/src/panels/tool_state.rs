@@ -14,7 +14,7 @@ use std::time::Instant;
 
 /// Everything that the placement of the gizmo is computed from.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct GizmoPlacement {
+pub(super) struct PlacedGizmo {
     pub(super) generation: u64,
     pub(super) take: Option<usize>,
     pub(super) time: f32,
@@ -35,7 +35,7 @@ pub struct ToolState {
     drag: ToolDrag,
     path: MotionPath,
     ik: IkMode,
-    placement: Option<GizmoPlacement>,
+    placement: Option<PlacedGizmo>,
     /// The list of the next placement; keeps its memory.
     spare: Vec<BoneIndex>,
     /// When a drag that a key asked for was refused: what is typed for it gives no commands.
@@ -115,7 +115,7 @@ impl ToolState {
         &mut self,
         view: &View,
         posed: &mut Posed,
-        now: GizmoPlacement,
+        now: PlacedGizmo,
         editable: bool,
         path_editable: bool,
     ) {

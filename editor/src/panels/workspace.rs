@@ -11,7 +11,7 @@ use super::posed::Posed;
 use super::prompts::Prompts;
 use super::selected_bones::SelectedBones;
 use super::settings::Settings;
-use super::status::{Level, Status};
+use super::status::{Severity, Status};
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
@@ -102,7 +102,7 @@ impl Workspace {
     }
 
     /// Adds a message to the status line.
-    pub(super) fn say(&mut self, level: Level, text: impl Into<String>) {
+    pub(super) fn say(&mut self, level: Severity, text: impl Into<String>) {
         self.status.say(level, text);
     }
 }

@@ -20,31 +20,31 @@ pub(in crate::panels) fn feed(
     from: usize,
     effects: &mut Vec<Effect>,
 ) -> bool {
-    let mut hears = false;
+    let mut changed = false;
     let mut index = from;
     while index < input.events.len() {
         let written = match input.events.get(index + 1) {
             Some(Event::Text(text)) => text.chars().next(),
             _ => None,
         };
-        let heard = hear(context, workspace, &input.events[index], written, effects);
-        hears |= heard != Heard::Nothing;
-        match heard {
-            Heard::Alone => {
+        let used = use_event(context, workspace, &input.events[index], written, effects);
+        changed |= used != EventUse::Nothing;
+        match used {
+            EventUse::Alone => {
                 input.events.remove(index);
             }
-            Heard::AloneWithText => {
+            EventUse::AloneWithText => {
                 input.events.drain(index..(index + 2).min(input.events.len()));
             }
             _ => index += 1,
         }
     }
-    hears
+    changed
 }
 
 /// The receiver of an event.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Heard {
+enum EventUse {
     /// The panels.
     Nothing,
     /// The viewport and the panels.
@@ -55,28 +55,28 @@ enum Heard {
     AloneWithText,
 }
 
-fn hear(
+fn use_event(
     context: &Context,
     workspace: &mut Workspace,
     event: &Event,
     written: Option<char>,
     effects: &mut Vec<Effect>,
-) -> Heard {
+) -> EventUse {
     match event {
         Event::PointerMoved(at) => {
             move_to(context, workspace, *at, effects);
-            if workspace.tools.controls().is_busy() { Heard::Both } else { Heard::Nothing }
+            if workspace.tools.controls().is_busy() { EventUse::Both } else { EventUse::Nothing }
         }
         Event::PointerGone => {
             send(workspace, InputEvent::MouseGone, effects);
-            Heard::Both
+            EventUse::Both
         }
         Event::ModifiersChanged(modifiers) => {
             hold(workspace, *modifiers, effects);
-            if workspace.tools.controls().is_busy() { Heard::Both } else { Heard::Nothing }
+            if workspace.tools.controls().is_busy() { EventUse::Both } else { EventUse::Nothing }
         }
         Event::PointerButton { pos, button, pressed, modifiers } => {
-            let Some(button) = button_of(*button) else { return Heard::Nothing };
+            let Some(button) = button_of(*button) else { return EventUse::Nothing };
             hold(workspace, *modifiers, effects);
             move_to(context, workspace, *pos, effects);
             let modal = workspace.tools.controls().is_modal();
@@ -86,9 +86,9 @@ fn hear(
                 false => send(workspace, InputEvent::MouseUp(button), effects),
             };
             match (taken, modal && *pressed) {
-                (true, true) => Heard::Alone,
-                (true, false) => Heard::Both,
-                (false, _) => Heard::Nothing,
+                (true, true) => EventUse::Alone,
+                (true, false) => EventUse::Both,
+                (false, _) => EventUse::Nothing,
             }
         }
         Event::Key { key, pressed: true, repeat, modifiers, .. } => {
@@ -96,54 +96,54 @@ fn hear(
             let drags = workspace.tools.controls().is_busy() || workspace.tools.controls().is_modal();
             let types = context.egui_wants_keyboard_input() || Popup::is_any_open(context);
             if types && !drags {
-                return Heard::Nothing;
+                return EventUse::Nothing;
             }
-            if let Some(heard) = typed_for_nothing(workspace, key_of(*key, written), written) {
-                return heard;
+            if let Some(used) = typed_for_nothing(workspace, key_of(*key, written), written) {
+                return used;
             }
             let Some(key) = key_of(*key, written) else {
-                return if drags { Heard::Alone } else { Heard::Nothing };
+                return if drags { EventUse::Alone } else { EventUse::Nothing };
             };
             // A letter held down would bind and free an axis in turn.
             let counts = !*repeat || key == Key::Backspace;
             let taken = counts && press(workspace, key, effects);
             match (drags || taken, written) {
-                (true, Some(_)) => Heard::AloneWithText,
-                (true, None) => Heard::Alone,
-                (false, _) => Heard::Nothing,
+                (true, Some(_)) => EventUse::AloneWithText,
+                (true, None) => EventUse::Alone,
+                (false, _) => EventUse::Nothing,
             }
         }
         // Ctrl and X, which mean an axis and a snap here.
         Event::Cut if workspace.tools.controls().is_busy() => {
             press(workspace, Key::letter('x'), effects);
-            Heard::Alone
+            EventUse::Alone
         }
-        Event::Copy | Event::Paste(_) if workspace.tools.controls().is_busy() => Heard::Alone,
+        Event::Copy | Event::Paste(_) if workspace.tools.controls().is_busy() => EventUse::Alone,
         // A letter that no key has a name for.
         Event::Text(text) if workspace.tools.controls().is_busy() => {
             for letter in text.chars() {
                 press(workspace, Key::letter(letter), effects);
             }
-            Heard::Alone
+            EventUse::Alone
         }
         Event::WindowFocused(false) => {
             send(workspace, InputEvent::Lost, effects);
             lose_input(workspace, context, effects);
-            Heard::Both
+            EventUse::Both
         }
-        _ => Heard::Nothing,
+        _ => EventUse::Nothing,
     }
 }
 
 /// Handles a key after a drag was refused that a key asked for: its axis, its number and the key that ends it have no other
 /// effect. Otherwise `R`, `X`, `30`, Enter would delete keys and change the view.
-fn typed_for_nothing(workspace: &mut Workspace, key: Option<Key>, written: Option<char>) -> Option<Heard> {
+fn typed_for_nothing(workspace: &mut Workspace, key: Option<Key>, written: Option<char>) -> Option<EventUse> {
     let at = workspace.tools.take_refused_drag()?;
     let goes_on = match key? {
         Key::Letter(letter) => "xyz0123456789.,-+*/()".contains(letter),
         Key::Backspace => true,
         Key::Enter | Key::Escape => {
-            return (at.elapsed() < PATIENCE).then_some(Heard::Alone);
+            return (at.elapsed() < PATIENCE).then_some(EventUse::Alone);
         }
         _ => false,
     };
@@ -151,7 +151,7 @@ fn typed_for_nothing(workspace: &mut Workspace, key: Option<Key>, written: Optio
         return None;
     }
     workspace.tools.refuse_drag(Instant::now());
-    Some(if written.is_some() { Heard::AloneWithText } else { Heard::Alone })
+    Some(if written.is_some() { EventUse::AloneWithText } else { EventUse::Alone })
 }
 
 /// Time after the last key within which more keys are expected.

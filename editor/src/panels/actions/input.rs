@@ -5,7 +5,7 @@ use crate::control::gizmo::GizmoAnswer;
 use crate::control::path::{PathAnswer, PathKey};
 use crate::control::{Button, InputEvent, Outcome};
 use crate::panels::request::Effect;
-use crate::panels::status::Level;
+use crate::panels::status::Severity;
 use crate::panels::tool_drag::Alone;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::Change;
@@ -77,7 +77,7 @@ pub(super) fn say_refused(workspace: &mut Workspace) {
     if let Some(bone) = workspace.bones.active().filter(|_| workspace.player.take().is_some()) {
         return locks::say_locked(workspace, bone);
     }
-    workspace.say(Level::Info, "The rest pose stays as it is: show a take to change a pose in it");
+    workspace.say(Severity::Info, "The rest pose stays as it is: show a take to change a pose in it");
 }
 
 fn gizmo_answered(workspace: &mut Workspace, answer: GizmoAnswer, effects: &mut Vec<Effect>) {

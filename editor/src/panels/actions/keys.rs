@@ -5,7 +5,7 @@ use super::{edit, locks};
 use crate::panels::keys::intervals::WHOLE;
 use crate::panels::keys::{ChannelId, KeyDragOp, MarkerAction, TimeWindow, channel};
 use crate::panels::request::Effect;
-use crate::panels::status::Level;
+use crate::panels::status::Severity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
@@ -155,7 +155,7 @@ pub(in crate::panels) fn add_marker(workspace: &mut Workspace) {
     if let Some(text) =
         added.map(|marker| format!("{} at {time:.3} s: double click its flag to name it", marker.name))
     {
-        workspace.say(Level::Info, text);
+        workspace.say(Severity::Info, text);
     }
 }
 

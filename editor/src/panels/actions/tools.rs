@@ -2,8 +2,8 @@
 
 use super::{input, playback};
 use crate::control::Catch;
-use crate::panels::status::Level;
-use crate::panels::tool_state::GizmoPlacement;
+use crate::panels::status::Severity;
+use crate::panels::tool_state::PlacedGizmo;
 use crate::panels::workspace::Workspace;
 use dragonfly_picture::gizmo::{GizmoSettings, Space, Tool};
 use std::time::Instant;
@@ -39,7 +39,7 @@ pub(in crate::panels) fn drag_now(workspace: &mut Workspace, tool: Tool) {
         return input::say_refused(workspace);
     }
     if !workspace.tools.controls_mut().begin_by_key() {
-        workspace.say(Level::Info, "The selected bone lies behind the eye");
+        workspace.say(Severity::Info, "The selected bone lies behind the eye");
     }
     // Nothing is changed before the mouse moves.
     workspace.tools.controls_mut().gizmo_mut().take_answer();
@@ -66,7 +66,7 @@ pub(super) fn sync_gizmo(workspace: &mut Workspace) {
     let (take, active, flags) = (panels.playback.take, panels.selected(), panels.keys.flags());
     let editable = take.is_some() && !panels.selection_is_locked();
     let free = active.is_none_or(|bone| !flags.locked(bone));
-    let placement = GizmoPlacement {
+    let placement = PlacedGizmo {
         generation: view.generation,
         take,
         time: panels.time(),

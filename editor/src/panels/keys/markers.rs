@@ -46,7 +46,7 @@ pub struct Markers {
 
 #[derive(Default, Serialize, Deserialize)]
 #[serde(default)]
-struct Stored {
+struct StoredMarkers {
     path: String,
     takes: BTreeMap<String, Vec<Marker>>,
 }
@@ -78,7 +78,7 @@ impl Markers {
     /// Reads the text of the file; a damaged text has no markers.
     pub fn read(&mut self, text: &str, slots: &[Arc<Slot>]) {
         self.names = slots.iter().map(|slot| (slot.id, slot.result.name.clone())).collect();
-        let stored: Stored = serde_json::from_str(text).unwrap_or_default();
+        let stored: StoredMarkers = serde_json::from_str(text).unwrap_or_default();
         if stored.path != self.path {
             return;
         }
@@ -105,7 +105,7 @@ impl Markers {
         // it now gets it.
         let old = self.names.iter().filter_map(|(take, name)| Some((name.clone(), of(*take)?)));
         let new = slots.iter().rev().filter_map(|slot| Some((slot.result.name.clone(), of(slot.id)?)));
-        let stored = Stored { path: self.path.clone(), takes: old.chain(new).collect() };
+        let stored = StoredMarkers { path: self.path.clone(), takes: old.chain(new).collect() };
         Some((self.file(), serde_json::to_string_pretty(&stored).unwrap_or_default()))
     }
 

@@ -3,7 +3,7 @@
 use super::*;
 
 #[rustfmt::skip] // A table is read in columns.
-pub(super) const TABLE: Table = &[
+pub(super) const TABLE: PresetKeys = &[
     // Dragging at once.
     (Id::MoveNow, &[key(NONE, Key::G)]),
     (Id::RotateNow, &[key(NONE, Key::R)]),

@@ -3,7 +3,7 @@
 use super::*;
 
 #[rustfmt::skip] // A table is read in columns.
-pub(super) const TABLE: Table = &[
+pub(super) const TABLE: PresetKeys = &[
     // Dragging; Q is the tool that selects in Godot, and the hand in Unity.
     (Id::ToolSelect, &[key(NONE, Key::Q)]),
     (Id::ToolMove, &[key(NONE, Key::W)]),

@@ -13,7 +13,7 @@ use egui::{Key, KeyboardShortcut};
 use serde::{Deserialize, Serialize};
 
 /// Commands with keys that differ from the table.
-type Table = &'static [(Id, &'static [KeyboardShortcut])];
+type PresetKeys = &'static [(Id, &'static [KeyboardShortcut])];
 
 /// A set of keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,7 +44,7 @@ impl Preset {
     }
 
     /// Returns the commands with keys that differ from the table.
-    pub(super) fn table(self) -> Table {
+    pub(super) fn table(self) -> PresetKeys {
         match self {
             Self::Dragonfly => &[],
             Self::Blender => blender::TABLE,
