@@ -6,7 +6,7 @@
 //! thread.
 
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::{Effect, Request, Settings, State, hands};
+use dragonfly::panels::{Effect, Request, Settings, State};
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
     AnimationData, Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
@@ -194,14 +194,14 @@ fn measure(name: &str, load: LoadFn, bone: &str) -> Duration {
         }
         came
     };
-    while turn(&mut state) == 0 && state.view.is_none() || *count.0.borrow() == 0 {
+    while turn(&mut state) == 0 && state.read().view.is_none() || *count.0.borrow() == 0 {
         std::thread::park_timeout(Duration::from_millis(1));
     }
-    let bones = &state.loaded().expect("open").model.animation.skeleton.bones;
+    let bones = &state.read().loaded().expect("open").model.animation.skeleton.bones;
     let bone = bones.iter().position(|other| other.name == bone).expect("there is such a bone");
-    state.playback.playing = false;
-    state.select(Some(bone as u32));
-    state.begin(Instant::now());
+    state.pause();
+    state.execute(Request::Select(Some(bone as u32)));
+    state.begin_frame(Instant::now());
     state.execute(Request::Command(Id::RotateNow));
 
     let context = egui::Context::default();
@@ -212,7 +212,7 @@ fn measure(name: &str, load: LoadFn, bone: &str) -> Duration {
         let at = rect.center() + egui::vec2(cos, sin) * 150.0;
         let mut input = egui::RawInput { events: vec![egui::Event::PointerMoved(at)], ..Default::default() };
         moved.push(Instant::now());
-        hands::feed(&context, &mut state, &mut input, 0, &mut effects);
+        state.feed(&context, &mut input, 0, &mut effects);
         for effect in effects.drain(..) {
             if let Effect::Change(change) = effect {
                 document.change(change);
@@ -228,7 +228,7 @@ fn measure(name: &str, load: LoadFn, bone: &str) -> Duration {
             std::thread::park_timeout(Duration::from_secs(1));
         }
         // The program draws its panels here; the bench only lets the viewport tools find the bone.
-        state.begin(Instant::now());
+        state.begin_frame(Instant::now());
         let end = moved[index] + PAUSE;
         while let Some(left) = end.checked_duration_since(Instant::now()) {
             std::thread::park_timeout(left);

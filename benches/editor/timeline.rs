@@ -90,7 +90,7 @@ fn drag_keys(
     let stretch = [from, from + frames as f32 / RATE];
     let choice = dragonfly_document::bones::Choice::Replace;
     window.state.execute(Request::Timeline(KeysRequest::Select { channels, stretch, choice }));
-    let selected = window.state.keys.selection.count(&take);
+    let selected = window.state.read().keys.selection().count(&take);
     let mut shown = Vec::new();
     let mut edits = 0;
     let label = format!("dragging {selected} keys, {name}");
@@ -165,7 +165,7 @@ impl PanelsWindow {
         style::install(&context);
         let mut state = State::new(Settings::default(), Instant::now());
         state.show(view.clone());
-        state.playback.playing = false;
+        state.pause();
         let choice = dragonfly_document::bones::Choice::Replace;
         state.execute(Request::SelectBones(bones.to_vec(), choice));
         let mut window = Self { context, desk: Desk::new(""), state, begin: Instant::now(), frame: 0 };
@@ -187,13 +187,13 @@ impl PanelsWindow {
             ..egui::RawInput::default()
         };
         let mut requests = Vec::from_iter(more);
-        self.state.begin(now);
-        let (desk, state) = (&mut self.desk, &self.state);
+        self.state.begin_frame(now);
+        let (desk, state) = (&mut self.desk, &self.state.read());
         let mut output = self.context.run_ui(input, |ui| desk.show(ui, state, &mut requests));
         let shapes = std::mem::take(&mut output.shapes);
         std::hint::black_box(self.context.tessellate(shapes, output.pixels_per_point));
         output.textures_delta.clear();
-        self.state.hovered = None;
+        self.state.end_frame();
         requests.into_iter().filter_map(|request| self.state.execute(request)).collect()
     }
 

@@ -1,6 +1,7 @@
 //! Who cannot see the window hears what is in it: every control of the whole desk has a name.
 
 use crate::workbench::{Window, Workbench};
+use dragonfly::panels::Request;
 use dragonfly_document::{Source, View, load_model};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -49,7 +50,7 @@ fn fox() -> View {
 #[test]
 fn every_control_of_the_whole_desk_has_a_name() {
     let mut bench = Workbench::new(Some(fox()));
-    bench.state.select(Some(5));
+    bench.state.execute(Request::Select(Some(5)));
     let mut window = bench.window_of(egui::vec2(1600.0, 1000.0), egui::Theme::Dark);
     assert_eq!(nameless(&window), [""; 0]);
     window.get_by_label("Show the quaternion").click();

@@ -1,6 +1,7 @@
 //! The right button at a bone.
 
 use crate::workbench::{Window, Workbench};
+use dragonfly::panels::Request;
 use dragonfly_document::Change;
 use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
 use egui::{Event, Key, Modifiers, PointerButton, Popup, Pos2};
@@ -20,22 +21,24 @@ fn right_click(window: &mut Window, pos: Pos2) {
 #[test]
 fn in_the_tree_it_is_about_the_bone_under_the_pointer() {
     let mut window = Workbench::full().window();
-    window.state_mut().state.select(Some(0));
+    window.state_mut().state.execute(Request::Select(Some(0)));
     window.run_steps(2);
-    let name = window.state().state.bone_name(2);
+    let name = window.state().state.read().bone_name(2);
     let row = window.get_by_label(&name).rect().center();
     right_click(&mut window, row);
-    assert_eq!(window.state().state.selected(), Some(2));
+    assert_eq!(window.state().state.read().selected(), Some(2));
     window.get_by_label_contains("Hide other bones").click();
     window.run_steps(3);
     assert!(!Popup::is_any_open(&window.ctx));
-    assert!(window.state().state.hidden.is_hidden(0) && !window.state().state.hidden.is_hidden(2));
+    assert!(
+        window.state().state.read().hidden.is_hidden(0) && !window.state().state.read().hidden.is_hidden(2)
+    );
 }
 
 #[test]
 fn the_tree_stays_as_it_is_under_a_menu_and_after_an_edit() {
     let mut window = Workbench::full().window_of(egui::vec2(1280.0, 500.0), egui::Theme::Dark);
-    window.state_mut().state.select(Some(0));
+    window.state_mut().state.execute(Request::Select(Some(0)));
     window.run_steps(3);
     window.get_by_label("Collapse rib_00_left_inner").click();
     window.run_steps(3);
@@ -45,47 +48,47 @@ fn the_tree_stays_as_it_is_under_a_menu_and_after_an_edit() {
     assert!(window.query_by_label("rib_00_left_tip").is_none());
     // The last row in sight.
     let area = window.get_by_label("Takes").rect();
-    let names: Vec<String> = (0..20).map(|bone| window.state().state.bone_name(bone)).collect();
+    let names: Vec<String> = (0..20).map(|bone| window.state().state.read().bone_name(bone)).collect();
     let seen = names.iter().flat_map(|name| window.query_all_by_label(name)).map(|row| row.rect());
     let rows_above = seen.filter(|row| row.left() < area.right() && row.bottom() < area.top());
     let last = rows_above.max_by(|a, b| a.top().total_cmp(&b.top()));
     right_click(&mut window, last.expect("a row").center());
     assert!(Popup::is_any_open(&window.ctx));
-    assert!(window.state().state.selected() != Some(0), "the row was selected");
+    assert!(window.state().state.read().selected() != Some(0), "the row was selected");
     assert_eq!(rows(&window), before, "and did not go away under the menu");
     window.key_press(Key::Escape);
     window.run_steps(3);
-    window.state_mut().state.select(Some(0));
+    window.state_mut().state.execute(Request::Select(Some(0)));
     window.run_steps(3);
-    let generation = window.state().state.view.as_ref().map(|view| view.generation);
+    let generation = window.state().state.read().view.map(|view| view.generation);
     window.state_mut().change(Change::Edit(
         Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: "Look around".to_owned() }),
         None,
     ));
     window.run_steps(3);
-    assert_ne!(window.state().state.view.as_ref().map(|view| view.generation), generation);
+    assert_ne!(window.state().state.read().view.map(|view| view.generation), generation);
     assert!(window.query_by_label("rib_00_left_tip").is_none(), "the branch is still folded");
 }
 
 #[test]
 fn in_the_picture_it_is_about_what_is_selected_and_escape_closes_it() {
     let mut window = Workbench::full().window();
-    window.state_mut().state.select(Some(3));
+    window.state_mut().state.execute(Request::Select(Some(3)));
     window.run_steps(2);
-    let place = window.state().state.viewport.center();
+    let place = window.state().state.read().viewport.center();
     right_click(&mut window, place);
     assert!(Popup::is_any_open(&window.ctx));
     window.get_by_label_contains("Frame selected");
     window.key_press(Key::Escape);
     window.run_steps(3);
     assert!(!Popup::is_any_open(&window.ctx));
-    assert!(window.state().state.selected().is_some(), "only the menu was meant");
+    assert!(window.state().state.read().selected().is_some(), "only the menu was meant");
 }
 
 #[test]
 fn taking_a_drag_back_opens_no_menu() {
     let mut window = Workbench::full().window();
-    let place = window.state().state.viewport.center();
+    let place = window.state().state.read().viewport.center();
     button(&mut window, place, PointerButton::Primary, true);
     right_click(&mut window, place);
     assert!(!Popup::is_any_open(&window.ctx));
@@ -116,7 +119,7 @@ fn a_menu_is_put_away_by_a_drag_beside_it_and_not_by_one_in_it() {
     window.get_by_label("View").click();
     window.run_steps(3);
     assert!(Popup::is_any_open(&window.ctx));
-    let place = window.state().state.viewport.center();
+    let place = window.state().state.read().viewport.center();
     drag(&mut window, place);
     assert!(!Popup::is_any_open(&window.ctx), "while the button is still held");
     button(&mut window, place, PointerButton::Primary, false);

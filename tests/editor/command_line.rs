@@ -250,6 +250,19 @@ fn a_full_disk_under_standard_output_is_told() {
 }
 
 #[test]
+fn the_table_of_commands_has_a_line_for_each_with_its_keys() {
+    let table = run(["--commands"]).expect(0);
+    let lines: Vec<&str> = table.text().lines().collect();
+    assert_eq!(lines.len(), dragonfly::panels::commands::all().count() + 1);
+    for (command, line) in dragonfly::panels::commands::all().zip(&lines[1..]) {
+        assert!(line.contains(&command.id.name()) && line.contains(command.title), "{line}");
+        let keys = command.shortcuts.first().map(dragonfly::panels::commands::text);
+        assert!(keys.is_none_or(|keys| line.contains(&keys)), "{line}");
+    }
+    assert!(run(["--help"]).expect(0).text().contains("--commands"));
+}
+
+#[test]
 fn help_shows_every_command_and_how_to_begin() {
     let help = run(["--help"]).expect(0);
     for word in ["info", "pose", "render", "demo", "Examples", "demo:", "Exit codes"] {

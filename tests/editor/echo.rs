@@ -119,9 +119,9 @@ fn a_model_that_was_opened_meanwhile_is_shown_as_it_is() {
 #[test]
 fn the_document_answers_a_numbered_change_that_it_refuses() {
     let mut hand = Hand::new(open_model);
-    let before = hand.state.view.clone().unwrap();
+    let before = hand.state.read().view.cloned().unwrap();
     hand.change_numbered(7, Change::Edit(Edit::ReverseTake(ReverseTake { take: TakeRef::Index(99) }), None));
     assert_eq!(hand.refused.len(), 1);
-    let after = hand.state.view.as_ref().unwrap();
+    let after = hand.state.read().view.unwrap();
     assert_eq!((after.answered, after.generation), (7, before.generation));
 }

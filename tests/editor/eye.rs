@@ -21,14 +21,14 @@ fn an_eye_hides_a_bone_and_shows_it_again_with_shift_all_below_it() {
     let mut animator = Animator::new(fixture::full());
     animator.request(Request::Select(Some(2)));
     let hidden = |animator: &Animator| -> Vec<u32> {
-        (0..12).filter(|&bone| animator.harness.state().state.hidden.is_hidden(bone)).collect()
+        (0..12).filter(|&bone| animator.harness.state().state.read().hidden.is_hidden(bone)).collect()
     };
     click(&mut animator, "Hide rib_00_left_inner");
     assert_eq!(hidden(&animator), [2]);
-    assert_eq!(animator.harness.state().state.selected(), None, "hidden bones are not selected");
+    assert_eq!(animator.harness.state().state.read().selected(), None, "hidden bones are not selected");
     click(&mut animator, "Show rib_00_left_inner");
     assert_eq!(hidden(&animator), [0; 0]);
-    assert_eq!(animator.harness.state().state.selected(), None, "an eye selects nothing");
+    assert_eq!(animator.harness.state().state.read().selected(), None, "an eye selects nothing");
     for modifiers in [Modifiers::SHIFT, Modifiers::ALT] {
         animator.hold(modifiers);
         click(&mut animator, "Hide rib_00_left_inner");
@@ -46,7 +46,7 @@ fn a_long_name_of_a_take_ends_before_the_buttons_of_the_picture() {
     let rename = Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: long.clone() });
     animator.request(Request::Change(Change::Edit(rename, None)));
     animator.steps(2);
-    let viewport = animator.harness.state().state.viewport;
+    let viewport = animator.harness.state().state.read().viewport;
     let tools = animator.harness.query_all_by_label(commands::get(Id::ToggleSurface).title);
     let tools = tools.map(|node| node.rect()).find(|rect| viewport.contains_rect(*rect)).unwrap();
     let names: Vec<egui::Rect> = animator
@@ -68,7 +68,7 @@ fn hidden_bones_long_names_and_the_menu_of_ghosts_are_drawn() {
         let view = fixture::view("Fox.glb", fixture::skeleton(9), &[(long.as_str(), 2.0, 12)]);
         let mut bench = Bench::new(Some(view));
         bench.state.execute(Request::Hide { bones: vec![3, 4], hide: true });
-        bench.state.select(Some(6));
+        bench.state.execute(Request::Select(Some(6)));
         let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
         let mut harness = shots::drawn(bench, [1280.0, 720.0], 1.0, theme, frame);
         harness.run_steps(6);

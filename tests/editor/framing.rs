@@ -26,13 +26,13 @@ fn all_is_framed_as_it_stands_now() {
     state.execute(Request::Viewport(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(size.x, size.y))));
     let mut evaluator = Evaluator::new(Arc::clone(&loaded.model));
     state.show(View::opened(1, Arc::new(loaded)));
-    state.playback.playing = false;
+    state.pause();
     state.execute(Request::ShowTake(Some(2)));
     state.execute(Request::Seek(0.1));
     state.execute(Request::Command(Id::ViewRight));
     state.execute(Request::Command(Id::FrameAll));
     evaluator.pose(Some(2), 0.1);
-    let view = GizmoView::new(&state.camera, size);
+    let view = GizmoView::new(&state.read().camera, size);
     let places = evaluator.all_positions();
     let seen: Vec<Vec2> =
         places.iter().filter_map(|place| view.to_screen(place.as_dvec3())).map(|at| at.as_vec2()).collect();
@@ -51,9 +51,9 @@ fn a_skeleton_without_any_surface_is_seen() {
 
     // The editor shows the bones, although its settings do not ask for them.
     let mut state = State::new(Settings::default(), Instant::now());
-    assert!(!state.settings.look.skeleton && !state.shows_skeleton());
+    assert!(!state.read().settings.look.skeleton && !state.read().shows_skeleton());
     state.show(View::opened(1, Arc::clone(&loaded)));
-    assert!(state.shows_skeleton());
+    assert!(state.read().shows_skeleton());
 
     let Some(mut studio) = studio::studio() else { return };
     let mut with = |skeleton| {

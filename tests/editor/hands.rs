@@ -20,8 +20,8 @@ fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedMod
 /// The middle bone of the arm is selected.
 fn arm() -> Hand {
     let mut hand = Hand::new(load);
-    hand.state.select(Some(1));
-    hand.state.begin(hand.state.now);
+    hand.state.execute(Request::Select(Some(1)));
+    hand.state.begin_frame(hand.state.read().now);
     hand
 }
 
@@ -58,10 +58,10 @@ fn a_drag_begun_by_a_command_is_bound_typed_and_confirmed_without_a_button() {
     let mut hand = arm();
     let before = hand.rotation();
     hand.command(Id::RotateNow);
-    assert!(hand.state.hands.is_busy() && hand.steps().is_empty());
+    assert!(hand.state.read().tools.controls().is_busy() && hand.steps().is_empty());
     hand.keys("y45/2");
     hand.key(Key::Enter);
-    assert!(!hand.state.hands.is_busy());
+    assert!(!hand.state.read().tools.controls().is_busy());
     assert_turned(&hand, before, Quat::from_rotation_y(22.5f32.to_radians()));
     assert_eq!(hand.steps(), ["Rotate"]);
 }
@@ -119,7 +119,7 @@ fn moving_and_scaling_change_their_own_channel_alone() {
     for (tool, id, label) in [(Tool::Move, Id::ToolMove, "Move"), (Tool::Scale, Id::ToolScale, "Scale")] {
         let mut hand = arm();
         hand.command(id);
-        assert_eq!(hand.state.hands.gizmo().gizmo.tool, tool);
+        assert_eq!(hand.state.read().tools.controls().gizmo().gizmo.tool, tool);
         let arrow = hand.handle(Handle::Axis(GizmoAxis::Y));
         hand.press(arrow);
         hand.to(arrow - Vec2::Y * 20.0);
@@ -128,7 +128,7 @@ fn moving_and_scaling_change_their_own_channel_alone() {
     }
     let mut hand = arm();
     hand.command(Id::ToolSelect);
-    let gizmo = &hand.state.hands.gizmo().gizmo;
+    let gizmo = &hand.state.read().tools.controls().gizmo().gizmo;
     assert_eq!(
         crate::hands_rig::find(gizmo, hand.joint(), Handle::Center),
         None,
@@ -140,13 +140,13 @@ fn moving_and_scaling_change_their_own_channel_alone() {
 fn the_rest_pose_is_not_edited_and_it_is_said_why() {
     let mut hand = arm();
     hand.state.execute(Request::ShowTake(None));
-    hand.state.begin(hand.state.now);
+    hand.state.begin_frame(hand.state.read().now);
     let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     hand.press(ring);
     hand.to(ring + Vec2::new(20.0, 30.0));
     hand.release();
     assert!(hand.steps().is_empty());
-    let said = hand.state.status.last().expect("it was said").text.clone();
+    let said = hand.state.read().status.last().expect("it was said").text.clone();
     assert!(said.contains("rest pose"), "{said}");
     // A box is not drawn either: the handle was meant.
     assert!(hand.effects.is_empty(), "{:?}", hand.effects);
@@ -157,10 +157,10 @@ fn of_several_bones_the_locked_ones_stay_and_one_that_is_locked_alone_is_not_dra
     let mut hand = arm();
     let lock = |hand: &mut Hand, bone, on| {
         hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, bone, on)));
-        hand.state.begin(hand.state.now);
+        hand.state.begin_frame(hand.state.read().now);
     };
     let turns = |hand: &Hand| {
-        let poses = hand.state.posed.animation().expect("posed").poses();
+        let poses = hand.state.read().posed.animation().expect("posed").poses();
         poses.iter().map(|pose| pose.rotation).collect::<Vec<_>>()
     };
     hand.state.execute(Request::SelectBones(vec![0, 1], Choice::Replace));
@@ -184,30 +184,30 @@ fn of_several_bones_the_locked_ones_stay_and_one_that_is_locked_alone_is_not_dra
             hand.press(ring);
         }
         hand.to(ring + Vec2::new(9.0, 20.0));
-        assert!(!hand.state.hands.edits(), "by key: {by_key}");
+        assert!(!hand.state.read().tools.controls().edits(), "by key: {by_key}");
         hand.release();
         assert_eq!((hand.steps(), turns(&hand)), (vec!["Rotate"], after.clone()));
-        let said = hand.state.status.last().expect("said why").text.clone();
+        let said = hand.state.read().status.last().expect("said why").text.clone();
         assert!(said.contains("is locked"), "{said}");
     }
     lock(&mut hand, 1, false);
     let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     hand.press(ring);
-    assert!(hand.state.hands.edits(), "free again");
+    assert!(hand.state.read().tools.controls().edits(), "free again");
 }
 
 #[test]
 fn taking_hold_of_the_gizmo_stops_time() {
     let mut hand = arm();
     hand.command(Id::PlayPause);
-    assert!(hand.state.playback.playing);
+    assert!(hand.state.read().playback.playing);
     let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     hand.press(ring);
-    assert!(!hand.state.playback.playing);
+    assert!(!hand.state.read().playback.playing);
     hand.to(ring + Vec2::new(4.0, 30.0));
-    let time = hand.state.time();
+    let time = hand.state.read().time();
     hand.to(ring + Vec2::new(9.0, 60.0));
-    assert_eq!(hand.state.time(), time);
+    assert_eq!(hand.state.read().time(), time);
     hand.release();
     assert_eq!(hand.steps(), ["Rotate"]);
 }
@@ -222,7 +222,7 @@ fn clicks_boxes_and_lassos_ask_for_bones_in_the_way_that_is_held() {
     hand.hold(Modifiers { ctrl: true, ..Modifiers::default() });
     hand.press(at);
     hand.to(at + Vec2::new(100.0, 50.0));
-    assert!(hand.state.hands.picture().catching().is_some());
+    assert!(hand.state.read().tools.controls().picture().catching().is_some());
     hand.release();
     let asked = std::mem::take(&mut hand.effects);
     assert!(
@@ -235,13 +235,13 @@ fn clicks_boxes_and_lassos_ask_for_bones_in_the_way_that_is_held() {
     let mut chosen = Vec::new();
     for _ in 0..4 {
         hand.state.picked(place, &[2, 0], Choice::Replace);
-        chosen.push(hand.state.selected());
+        chosen.push(hand.state.read().selected());
     }
     assert_eq!(chosen, [Some(2), Some(0), Some(2), Some(0)]);
     hand.state.picked(place, &[2, 0], Choice::Add);
-    assert_eq!(hand.state.selection.bones(), [0, 2]);
+    assert_eq!(hand.state.read().selection.bones(), [0, 2]);
     hand.state.caught(&[0, 1], Choice::Toggle);
-    assert_eq!(hand.state.selection.bones(), [2, 1]);
+    assert_eq!(hand.state.read().selection.bones(), [2, 1]);
 }
 
 #[test]
@@ -277,23 +277,23 @@ fn what_lies_over_the_picture_takes_precedence() {
 fn bones_are_hidden_shown_and_chosen_by_commands() {
     let mut hand = arm();
     hand.command(Id::HideSelected);
-    assert!(hand.state.hidden.is_hidden(1) && hand.state.selection.bones().is_empty());
+    assert!(hand.state.read().hidden.is_hidden(1) && hand.state.read().selection.bones().is_empty());
     hand.command(Id::SelectAll);
-    assert_eq!(hand.state.selection.bones(), [0, 2]);
+    assert_eq!(hand.state.read().selection.bones(), [0, 2]);
     hand.command(Id::ShowAll);
-    assert_eq!(hand.state.selection.bones(), [1]);
+    assert_eq!(hand.state.read().selection.bones(), [1]);
     hand.command(Id::SelectBranch);
-    assert_eq!(hand.state.selection.bones(), [1, 2]);
+    assert_eq!(hand.state.read().selection.bones(), [1, 2]);
     hand.command(Id::InvertSelection);
-    assert_eq!(hand.state.selection.bones(), [0]);
+    assert_eq!(hand.state.read().selection.bones(), [0]);
     hand.command(Id::ExtendChild);
-    assert_eq!(hand.state.selection.bones(), [0, 1]);
+    assert_eq!(hand.state.read().selection.bones(), [0, 1]);
 }
 
 /// A model of so many bones, of which one is dragged.
 fn allocations_of_a_move(load: crate::hands_rig::Load, bone: u32) -> (u64, u64) {
     let mut hand = Hand::new(load);
-    hand.state.select(Some(bone));
+    hand.state.execute(Request::Select(Some(bone)));
     hand.command(Id::RotateNow);
     hand.keys("x");
     let mut effects = Vec::with_capacity(64);

@@ -2,8 +2,8 @@
 
 use crate::hands_rig::{Hand, PICTURE};
 use crate::panels::{Bench, harness_of};
+use dragonfly::panels::Request;
 use dragonfly::panels::commands;
-use dragonfly::panels::{Request, hands};
 use dragonfly_document::{Cancel, LoadError, OpenedModel, Progress, Source};
 use dragonfly_kit::document::arm;
 use dragonfly_kit::document::fixture;
@@ -101,19 +101,20 @@ fn a_hundred_thousand_events_and_commands_leave_the_document_whole() {
         .collect();
     let mut effects = Vec::new();
     for _ in 0..if takes_long() { 10_000_000 } else { 100_000 } {
-        let joint = hand.state.selected().map_or(glam::Vec2::new(400.0, 300.0), |_| hand.joint_or_middle());
+        let joint =
+            hand.state.read().selected().map_or(glam::Vec2::new(400.0, 300.0), |_| hand.joint_or_middle());
         let middle = pos2(joint.x + PICTURE[0], joint.y + PICTURE[1]);
         let mut input = RawInput { events: vec![event(&mut random, middle)], ..RawInput::default() };
-        hands::feed(&context, &mut hand.state, &mut input, 0, &mut effects);
+        hand.state.feed(&context, &mut input, 0, &mut effects);
         hand.carry_some(&mut effects);
         match random.below(40) {
             0 => hand.command(all[random.below(all.len())]),
-            1 => hand.state.select(Some(random.below(arm::BONES) as u32)),
+            1 => _ = hand.state.execute(Request::Select(Some(random.below(arm::BONES) as u32))),
             2 => drop(hand.state.execute(Request::Wheel((random.unit() - 0.5) * 400.0))),
             3 => drop(hand.state.execute(Request::Seek(random.unit()))),
             _ => {}
         }
-        let camera = hand.state.camera;
+        let camera = hand.state.read().camera;
         assert!(camera.target.is_finite() && camera.distance.is_finite(), "{camera:?}");
         if hand.steps().len() > 200 {
             (0..200).for_each(|_| hand.command(commands::Id::Undo));
@@ -121,8 +122,8 @@ fn a_hundred_thousand_events_and_commands_leave_the_document_whole() {
     }
     // The window loses the keyboard: everything is let go.
     let mut input = RawInput { events: vec![Event::WindowFocused(false)], ..RawInput::default() };
-    hands::feed(&context, &mut hand.state, &mut input, 0, &mut effects);
-    assert!(!hand.state.hands.is_busy() && !hand.state.hands.edits());
+    hand.state.feed(&context, &mut input, 0, &mut effects);
+    assert!(!hand.state.read().tools.controls().is_busy() && !hand.state.read().tools.controls().edits());
 }
 
 #[test]
@@ -131,7 +132,7 @@ fn random_hands_over_the_whole_window_never_panic() {
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
     let mut bench = Bench::new(Some(fixture::full()));
-    bench.state.select(Some(3));
+    bench.state.execute(Request::Select(Some(3)));
     let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
     harness.run_steps(3);
     for step in 0..600 {

@@ -23,30 +23,30 @@ fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedMod
 fn arm(bone: BoneIndex, tool: Id) -> Hand {
     let mut hand = Hand::new(load);
     hand.state.execute(Request::Seek(0.5));
-    hand.state.select(Some(bone));
+    hand.state.execute(Request::Select(Some(bone)));
     hand.command(tool);
-    hand.state.begin(hand.state.now);
+    hand.state.begin_frame(hand.state.read().now);
     hand
 }
 
 fn poses(hand: &Hand) -> Vec<Transform> {
-    hand.state.posed.animation().expect("posed").poses().to_vec()
+    hand.state.read().posed.animation().expect("posed").poses().to_vec()
 }
 
 fn place(hand: &Hand, bone: usize) -> Vec3 {
-    hand.state.posed.animation().expect("posed").to_root()[bone].w_axis.truncate()
+    hand.state.read().posed.animation().expect("posed").to_root()[bone].w_axis.truncate()
 }
 
 fn facing(hand: &Hand, bone: usize) -> Quat {
-    hand.state.posed.animation().expect("posed").to_root()[bone].to_scale_rotation_translation().1
+    hand.state.read().posed.animation().expect("posed").to_root()[bone].to_scale_rotation_translation().1
 }
 
 /// Which channels of bones have a key at the time shown.
 fn keyed(hand: &Hand) -> Vec<(BoneIndex, Property)> {
-    let slot = hand.state.slot().expect("a take");
+    let slot = hand.state.read().slot().expect("a take");
     let bones = 0..arm::BONES as BoneIndex;
     let all = bones.flat_map(|bone| Property::ALL.into_iter().map(move |property| (bone, property)));
-    all.filter(|&(bone, property)| slot.key_at(bone, property, hand.state.time()).is_some()).collect()
+    all.filter(|&(bone, property)| slot.key_at(bone, property, hand.state.read().time()).is_some()).collect()
 }
 
 /// Takes hold of the middle of the gizmo and moves by so many points, in steps.
@@ -63,7 +63,7 @@ fn drag(hand: &mut Hand, handle: Handle, by: Vec2) -> Vec2 {
 fn the_tip_takes_its_chain_along_in_one_step_that_one_undo_takes_back() {
     let mut hand = arm(2, Id::ToolMove);
     hand.command(Id::ToggleIk);
-    let (before, takes) = (poses(&hand), hand.state.view.clone().expect("open").takes);
+    let (before, takes) = (poses(&hand), hand.state.read().view.cloned().expect("open").takes);
     let (tip, direction) = (place(&hand, 2), facing(&hand, 2));
     drag(&mut hand, Handle::Center, Vec2::new(30.0, 40.0));
     hand.release();
@@ -81,7 +81,7 @@ fn the_tip_takes_its_chain_along_in_one_step_that_one_undo_takes_back() {
     // Where the pointer is.
     hand.command(Id::Undo);
     assert_eq!(poses(&hand), before);
-    assert_eq!(hand.state.view.as_ref().expect("open").takes, takes, "bit for bit");
+    assert_eq!(hand.state.read().view.expect("open").takes, takes, "bit for bit");
     assert!(hand.steps().is_empty());
     // Without IK the same drag moves the bone alone.
     hand.command(Id::ToggleIk);
@@ -97,10 +97,10 @@ fn the_end_of_a_chain_comes_to_where_the_pointer_is() {
     let from = hand.joint();
     // Towards the root, so that it can be reached.
     let root = {
-        hand.state.select(Some(0));
+        hand.state.execute(Request::Select(Some(0)));
         let root = hand.joint();
-        hand.state.select(Some(2));
-        hand.state.begin(hand.state.now);
+        hand.state.execute(Request::Select(Some(2)));
+        hand.state.begin_frame(hand.state.read().now);
         root
     };
     let by = (root - from) * 0.3;
@@ -114,12 +114,10 @@ fn a_pinned_tip_is_held_at_every_frame_that_plays_in_one_step() {
     let mut hand = arm(2, Id::ToolMove);
     hand.command(Id::Pin);
     let (tip, direction) = (place(&hand, 2), facing(&hand, 2));
-    let takes = hand.state.view.clone().expect("open").takes;
+    let takes = hand.state.read().view.cloned().expect("open").takes;
     let at = |hand: &mut Hand, time: f32| {
         hand.state.execute(Request::Seek(time));
-        hand.state.begin(hand.state.now);
-        let view = hand.state.view.clone().expect("open");
-        hand.state.posed.update(&view, hand.state.playback.take, time);
+        hand.state.begin_frame(hand.state.read().now);
         (place(hand, 2).distance(tip), facing(hand, 2).angle_between(direction))
     };
     assert!(at(&mut hand, 0.3).0 > 0.05, "without it the tip moves");
@@ -139,7 +137,7 @@ fn a_pinned_tip_is_held_at_every_frame_that_plays_in_one_step() {
         assert!((at(&mut hand, time).0 - outside).abs() < 1e-5, "what does not play stays");
     }
     hand.command(Id::Undo);
-    assert_eq!(hand.state.view.as_ref().expect("open").takes, takes, "bit for bit");
+    assert_eq!(hand.state.read().view.expect("open").takes, takes, "bit for bit");
 }
 
 #[test]
@@ -148,7 +146,7 @@ fn what_cannot_hold_a_pin_is_said() {
     hand.command(Id::Pin);
     hand.command(Id::BakePins);
     assert!(hand.steps().is_empty());
-    let said = &hand.state.status.last().expect("a line").text;
+    let said = &hand.state.read().status.last().expect("a line").text;
     assert!(said.contains("Nothing above"), "{said}");
 }
 
@@ -161,8 +159,8 @@ fn a_pinned_tip_stays_while_the_root_is_moved_and_turned() {
     ] {
         let mut hand = arm(2, tool);
         hand.command(Id::Pin);
-        hand.state.select(Some(0));
-        hand.state.begin(hand.state.now);
+        hand.state.execute(Request::Select(Some(0)));
+        hand.state.begin_frame(hand.state.read().now);
         let (tip, direction, before) = (place(&hand, 2), facing(&hand, 2), poses(&hand));
         let from = hand.handle(handle);
         hand.press(from);
@@ -184,8 +182,8 @@ fn a_pinned_tip_stays_while_the_root_is_moved_and_turned() {
 fn numbers_typed_while_dragging_hold_pins_too() {
     let mut hand = arm(2, Id::ToolMove);
     hand.command(Id::Pin);
-    hand.state.select(Some(0));
-    hand.state.begin(hand.state.now);
+    hand.state.execute(Request::Select(Some(0)));
+    hand.state.begin_frame(hand.state.read().now);
     let (tip, root) = (place(&hand, 2), place(&hand, 0));
     hand.command(Id::MoveNow);
     hand.keys("y0.05");
@@ -203,9 +201,9 @@ fn escape_gives_chain_and_pins_back_bit_for_bit() {
             Some(_) => hand.command(Id::Pin),
             None => hand.command(Id::ToggleIk),
         }
-        hand.state.select(Some(bone));
-        hand.state.begin(hand.state.now);
-        let (before, takes) = (poses(&hand), hand.state.view.clone().expect("open").takes);
+        hand.state.execute(Request::Select(Some(bone)));
+        hand.state.begin_frame(hand.state.read().now);
+        let (before, takes) = (poses(&hand), hand.state.read().view.cloned().expect("open").takes);
         for end in
             [InputEvent::KeyDown(Key::Escape), InputEvent::MouseDown(dragonfly::control::Button::Right)]
         {
@@ -217,7 +215,7 @@ fn escape_gives_chain_and_pins_back_bit_for_bit() {
             hand.release();
             assert!(hand.steps().is_empty());
             assert_eq!(poses(&hand), before);
-            assert_eq!(hand.state.view.as_ref().expect("open").takes, takes);
+            assert_eq!(hand.state.read().view.expect("open").takes, takes);
         }
     }
 }
@@ -231,12 +229,12 @@ fn with_auto_key_off_the_whole_chain_is_pending() {
     drag(&mut hand, Handle::Center, Vec2::new(30.0, 40.0));
     hand.release();
     assert!(keyed(&hand).is_empty(), "{:?}", keyed(&hand));
-    let pending = hand.state.pending_here().expect("pending");
+    let pending = hand.state.read().pending_here().expect("pending");
     let bones: Vec<u32> = pending.poses.iter().map(|pose| pose.bone).collect();
     assert_eq!(bones, [0, 1, 2]);
     assert_ne!(poses(&hand), before, "and seen");
     hand.command(Id::Undo);
-    assert!(hand.state.pending_here().is_none());
+    assert!(hand.state.read().pending_here().is_none());
 }
 
 #[test]
@@ -254,30 +252,33 @@ fn what_is_switched_while_dragging_is_for_the_next_drag() {
 #[test]
 fn what_is_drawn_of_ik_follows_what_is_switched_on() {
     let mut hand = arm(2, Id::ToolMove);
-    assert_eq!(hand.state.ik_look(), None);
+    assert_eq!(hand.state.read().ik_look(), None);
     hand.command(Id::ToggleIk);
-    let look = hand.state.ik_look();
+    let look = hand.state.read().ik_look();
     assert_eq!(look, Some(IkLook { pins: vec![], chain: Some((2, 2)), pole: None }));
-    assert!(hand.state.shows_ik(look.as_ref()));
+    assert!(hand.state.read().shows_ik(look.as_ref()));
     hand.command(Id::LongerIk);
-    assert!(!hand.state.shows_ik(look.as_ref()));
+    assert!(!hand.state.read().shows_ik(look.as_ref()));
     hand.command(Id::Pin);
     hand.command(Id::ToggleIk);
-    let look = hand.state.ik_look();
+    let look = hand.state.read().ik_look();
     assert_eq!(look, Some(IkLook { pins: vec![2], chain: None, pole: None }));
-    assert!(hand.state.shows_ik(look.as_ref()) && !hand.state.shows_ik(None));
+    assert!(hand.state.read().shows_ik(look.as_ref()) && !hand.state.read().shows_ik(None));
 }
 
 #[test]
 fn a_muted_bone_is_taken_hold_of_where_the_picture_shows_it() {
     let mut hand = arm(2, Id::ToolMove);
     let bent = place(&hand, 2);
-    hand.state.keys.flags.set(BoneFlag::Mute, 1, true);
-    hand.state.begin(hand.state.now);
+    hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Mute, 1, true)));
+    hand.state.begin_frame(hand.state.read().now);
     assert!(place(&hand, 2).distance(Vec3::Y * 2.0) < 1e-6, "straight, not {}", place(&hand, 2));
-    assert!(hand.state.hands.gizmo().gizmo.handle_at(hand.joint()).is_some(), "the gizmo stands there");
-    hand.state.keys.flags.set(BoneFlag::Mute, 1, false);
-    hand.state.begin(hand.state.now);
+    assert!(
+        hand.state.read().tools.controls().gizmo().gizmo.handle_at(hand.joint()).is_some(),
+        "the gizmo stands there"
+    );
+    hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Mute, 1, false)));
+    hand.state.begin_frame(hand.state.read().now);
     assert_eq!(place(&hand, 2), bent);
 }
 
@@ -287,28 +288,28 @@ fn a_key_of_the_path_is_pending_with_auto_key_off() {
     hand.command(Id::TogglePath);
     hand.state.execute(Request::Seek(0.0));
     hand.command(Id::AutoKey);
-    let last = *hand.state.trail.look().expect("a path").keys.last().expect("a key");
-    let view = GizmoView::new(&hand.state.camera, Vec2::new(800.0, 600.0));
+    let last = *hand.state.read().tools.path().look().expect("a path").keys.last().expect("a key");
+    let view = GizmoView::new(&hand.state.read().camera, Vec2::new(800.0, 600.0));
     let from = view.to_screen(last.1.as_dvec3()).expect("seen").as_vec2() + Vec2::new(200.0, 50.0);
     hand.press(from);
     hand.to(from + Vec2::new(30.0, -20.0));
     hand.release();
-    assert_eq!(hand.state.pending_times().collect::<Vec<_>>(), [last.0]);
-    let now = *hand.state.trail.look().expect("a path").keys.last().expect("a key");
+    assert_eq!(hand.state.read().pending_times().collect::<Vec<_>>(), [last.0]);
+    let now = *hand.state.read().tools.path().look().expect("a path").keys.last().expect("a key");
     assert!(now.1.distance(last.1) > 0.05, "the path shows what is pending");
     hand.command(Id::Undo);
-    assert_eq!(hand.state.trail.look().expect("a path").keys.last(), Some(&last));
+    assert_eq!(hand.state.read().tools.path().look().expect("a path").keys.last(), Some(&last));
 }
 
 /// What the graphics thread has of the same, without bones drawn.
 fn scene(hand: &Hand) -> Scene {
-    let mut scene = Scene::new(hand.state.now);
+    let mut scene = Scene::new(hand.state.read().now);
     let [_, _, width, height] = PICTURE.map(|number| number as u32);
     scene.look.viewport = [0, 0, width, height];
-    scene.camera = hand.state.camera;
-    scene.playback = hand.state.playback;
-    scene.show(hand.state.view.as_ref().expect("open"));
-    scene.prepare(hand.state.now);
+    scene.camera = hand.state.read().camera;
+    scene.playback = hand.state.read().playback;
+    scene.show(hand.state.read().view.expect("open"));
+    scene.prepare(hand.state.read().now);
     scene
 }
 
@@ -318,7 +319,7 @@ fn pins_and_the_chain_are_drawn_where_the_bones_are() {
     let mut scene = scene(&hand);
     let look = IkLook { pins: vec![2, 77], chain: Some((2, 9)), pole: Some(77) };
     scene.appearances.set(IkAppearance(Some(look)));
-    scene.prepare(hand.state.now);
+    scene.prepare(hand.state.read().now);
     let shape = scene.controls.shape();
     let lines: Vec<Vec3> = shape.lines().iter().map(|corner| corner.position).collect();
     assert_eq!(lines[..4], [1, 2, 0, 1].map(|bone| place(&hand, bone)), "up the chain");
@@ -327,7 +328,7 @@ fn pins_and_the_chain_are_drawn_where_the_bones_are() {
     assert!(middle.distance(place(&hand, 2)) < 1e-5);
     assert_eq!(shape.triangles().len(), 2 * 6, "a dot at the root, and in the frame");
     scene.appearances.set(IkAppearance(None));
-    scene.prepare(hand.state.now);
+    scene.prepare(hand.state.read().now);
     assert!(scene.controls.shape().lines().is_empty());
 }
 
@@ -352,7 +353,7 @@ fn a_bone_that_is_locked_or_muted_is_a_stiff_joint_of_the_chain() {
     for flag in [BoneFlag::Lock, BoneFlag::Mute] {
         let mut hand = arm(2, Id::ToolMove);
         hand.state.execute(Request::Timeline(KeysRequest::Flag(flag, 1, true)));
-        hand.state.begin(hand.state.now);
+        hand.state.begin_frame(hand.state.read().now);
         hand.command(Id::ToggleIk);
         let (before, tip) = (poses(&hand), place(&hand, 2));
         drag(&mut hand, Handle::Center, Vec2::new(30.0, 40.0));

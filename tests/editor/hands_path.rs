@@ -20,52 +20,52 @@ fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedMod
 /// The tip of the arm is selected, and its path shown.
 fn tip() -> Hand {
     let mut hand = Hand::new(load);
-    hand.state.select(Some(2));
+    hand.state.execute(Request::Select(Some(2)));
     hand.command(Id::TogglePath);
     hand
 }
 
 /// Where in the window a place of the scene is.
 fn seen(hand: &Hand, place: Vec3) -> Vec2 {
-    let view = GizmoView::new(&hand.state.camera, Vec2::new(PICTURE[2], PICTURE[3]));
+    let view = GizmoView::new(&hand.state.read().camera, Vec2::new(PICTURE[2], PICTURE[3]));
     view.to_screen(place.as_dvec3()).expect("before the eye").as_vec2() + Vec2::new(PICTURE[0], PICTURE[1])
 }
 
 #[test]
 fn the_path_goes_where_the_joint_goes() {
     let mut hand = tip();
-    let path = Arc::clone(hand.state.trail.look().expect("a path"));
+    let path = Arc::clone(hand.state.read().tools.path().look().expect("a path"));
     assert_eq!(path.points.len(), 31, "a second at 30 frames");
     for &(time, place) in path.points.iter().chain(&path.keys) {
         hand.state.execute(Request::Seek(time));
-        hand.state.begin(hand.state.now);
-        let joint = hand.state.posed.animation().expect("posed").to_root()[2].w_axis.truncate();
+        hand.state.begin_frame(hand.state.read().now);
+        let joint = hand.state.read().posed.animation().expect("posed").to_root()[2].w_axis.truncate();
         assert!(joint.distance(place) < 1e-4, "at {time}: {place} is not {joint}");
     }
     let travelled: f32 = path.points.windows(2).map(|pair| pair[0].1.distance(pair[1].1)).sum();
     assert!(travelled > 0.1, "it moves: {travelled}");
     hand.command(Id::TogglePath);
-    assert!(hand.state.trail.look().is_none());
+    assert!(hand.state.read().tools.path().look().is_none());
 }
 
 #[test]
 fn a_key_of_the_path_is_put_under_the_pointer_in_one_step() {
     let mut hand = tip();
-    let (time, place) = *hand.state.trail.look().expect("a path").keys.last().expect("a key");
+    let (time, place) = *hand.state.read().tools.path().look().expect("a path").keys.last().expect("a key");
     let from = seen(&hand, place);
     let to = from + Vec2::new(37.0, -21.0);
     hand.press(from);
-    assert!(hand.state.hands.edits());
+    assert!(hand.state.read().tools.controls().edits());
     hand.to(from + Vec2::new(10.0, 0.0));
     hand.to(to);
     hand.release();
     assert!(hand.refused.is_empty(), "{:?}", hand.refused);
     assert_eq!(hand.steps(), ["Move"]);
-    let keys = &hand.state.trail.look().expect("a path").keys;
+    let keys = &hand.state.read().tools.path().look().expect("a path").keys;
     let now = keys.iter().find(|key| key.0 == time).expect("the key is there").1;
     assert!(seen(&hand, now).distance(to) < 0.1, "{} is not {to}", seen(&hand, now));
     hand.command(Id::Undo);
-    let keys = &hand.state.trail.look().expect("a path").keys;
+    let keys = &hand.state.read().tools.path().look().expect("a path").keys;
     let now = keys.iter().find(|key| key.0 == time).expect("the key is there").1;
     assert!(now.distance(place) < 1e-5);
     // Escape takes a drag back.
@@ -84,31 +84,31 @@ fn ghosts_stand_as_many_steps_before_and_after_as_the_take_has_room_for() {
     let ghosts = GhostSettings { shown: true, count: [2, 3], step: 6, keys: false, skin: false };
     hand.state.execute(Request::Ghosts(ghosts));
     hand.state.execute(Request::Seek(0.5));
-    hand.state.begin(hand.state.now);
+    hand.state.begin_frame(hand.state.read().now);
     let mut times = Vec::new();
-    hand.state.ghost_times(&mut times);
+    hand.state.read().ghost_times(&mut times);
     let places: Vec<i32> = times.iter().map(|time| time.1).collect();
     assert_eq!(places, [-1, -2, 1, 2]);
     for (time, place) in &times {
         assert!((time - (0.5 + *place as f32 * 0.2)).abs() < 1e-4, "{time} {place}");
     }
     hand.command(Id::PlayPause);
-    hand.state.ghost_times(&mut times);
+    hand.state.read().ghost_times(&mut times);
     assert!(times.is_empty(), "not while time passes");
     let odd = GhostSettings { count: [9999, 0], step: 0, ..ghosts };
     hand.state.execute(Request::Ghosts(odd));
-    assert_eq!(hand.state.settings.hand.ghosts.count, [GhostSettings::MOST[0], 0]);
-    assert_eq!(hand.state.settings.hand.ghosts.step, 1);
+    assert_eq!(hand.state.read().settings.tools.ghosts.count, [GhostSettings::MOST[0], 0]);
+    assert_eq!(hand.state.read().settings.tools.ghosts.step, 1);
 }
 
 #[test]
 fn a_key_of_the_path_takes_the_chain_along_with_ik_on_and_pins_hold() {
     let mut hand = tip();
     hand.command(Id::ToggleIk);
-    let (time, place) = *hand.state.trail.look().expect("a path").keys.last().expect("a key");
+    let (time, place) = *hand.state.read().tools.path().look().expect("a path").keys.last().expect("a key");
     let stood = at(&mut hand, time);
     let from = seen(&hand, place);
-    let root = hand.state.posed.animation().expect("posed").to_root()[0].w_axis.truncate();
+    let root = hand.state.read().posed.animation().expect("posed").to_root()[0].w_axis.truncate();
     // Away from the gizmo, which stands at the playhead.
     at(&mut hand, 0.0);
     // Towards the root, so that it can be reached.
@@ -122,23 +122,23 @@ fn a_key_of_the_path_takes_the_chain_along_with_ik_on_and_pins_hold() {
     let after = at(&mut hand, time);
     assert_eq!(after[2].translation, stood[2].translation, "not pulled off its parent");
     assert!(after[0].rotation != stood[0].rotation && after[1].rotation != stood[1].rotation, "they follow");
-    let keys = &hand.state.trail.look().expect("a path").keys;
+    let keys = &hand.state.read().tools.path().look().expect("a path").keys;
     let now = keys.iter().find(|key| key.0 == time).expect("the key is there").1;
     assert!(seen(&hand, now).distance(to) < 0.5, "{} is not {to}", seen(&hand, now));
     // The root moves along its path, and a pinned tip stays where it was at that time.
     let mut hand = Hand::new(load);
-    hand.state.select(Some(2));
+    hand.state.execute(Request::Select(Some(2)));
     hand.command(Id::Pin);
-    hand.state.select(Some(0));
+    hand.state.execute(Request::Select(Some(0)));
     at(&mut hand, 0.5);
     hand.command(Id::Key);
     hand.command(Id::ToolSelect);
     hand.command(Id::TogglePath);
-    let key = hand.state.trail.look().expect("a path").keys.last().copied();
+    let key = hand.state.read().tools.path().look().expect("a path").keys.last().copied();
     let (time, place) = key.expect("a key");
     let tip_at = |hand: &mut Hand| {
         at(hand, time);
-        hand.state.posed.animation().expect("posed").to_root()[2].w_axis.truncate()
+        hand.state.read().posed.animation().expect("posed").to_root()[2].w_axis.truncate()
     };
     let stood = tip_at(&mut hand);
     at(&mut hand, 0.0);
@@ -157,7 +157,7 @@ fn a_key_of_the_path_takes_the_chain_along_with_ik_on_and_pins_hold() {
 fn a_key_under_a_handle_of_the_gizmo_is_taken_hold_of_but_not_in_its_middle() {
     let mut hand = tip();
     hand.command(Id::ToolRotate);
-    let path = Arc::clone(hand.state.trail.look().expect("a path"));
+    let path = Arc::clone(hand.state.read().tools.path().look().expect("a path"));
     let &(time, place) = path.keys.last().expect("a key");
     let key = seen(&hand, place);
     let near = path.points.iter().map(|&(time, joint)| (time, seen(&hand, joint).distance(key)));
@@ -165,8 +165,16 @@ fn a_key_under_a_handle_of_the_gizmo_is_taken_hold_of_but_not_in_its_middle() {
         near.clone().find(|(_, far)| (20.0..70.0).contains(far)).expect("a time near the key");
     at(&mut hand, beside);
     hand.to(key);
-    assert_eq!(hand.state.hands.path().hovered(), Some(time), "{far} points from the middle");
-    assert_eq!(hand.state.hands.gizmo().gizmo.hovered(), None, "one thing lies under the pointer");
+    assert_eq!(
+        hand.state.read().tools.controls().path().hovered(),
+        Some(time),
+        "{far} points from the middle"
+    );
+    assert_eq!(
+        hand.state.read().tools.controls().gizmo().gizmo.hovered(),
+        None,
+        "one thing lies under the pointer"
+    );
     hand.press(key);
     hand.to(key + Vec2::new(9.0, 6.0));
     hand.release();
@@ -186,8 +194,8 @@ fn keys_of_a_bone_can_be_dragged_when_it_is_free_whatever_was_selected_with_it()
     hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 1, true)));
     let select = |hand: &mut Hand, bones: &[u32]| {
         hand.state.execute(Request::SelectBones(bones.to_vec(), Choice::Replace));
-        hand.state.begin(hand.state.now);
-        hand.state.hands.path().editable
+        hand.state.begin_frame(hand.state.read().now);
+        hand.state.read().tools.controls().path().editable
     };
     // The last one is the active one, of which the path is.
     for (bones, wanted) in [(&[2, 1][..], false), (&[2], true), (&[2, 1], false), (&[1, 2], true)] {
@@ -198,6 +206,6 @@ fn keys_of_a_bone_can_be_dragged_when_it_is_free_whatever_was_selected_with_it()
 /// The poses at a time.
 fn at(hand: &mut Hand, time: f32) -> Vec<dragonfly_anim::data::Transform> {
     hand.state.execute(Request::Seek(time));
-    hand.state.begin(hand.state.now);
-    hand.state.posed.animation().expect("posed").poses().to_vec()
+    hand.state.begin_frame(hand.state.read().now);
+    hand.state.read().posed.animation().expect("posed").poses().to_vec()
 }

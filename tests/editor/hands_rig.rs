@@ -72,11 +72,11 @@ impl Hand {
         hand.document.open(Source::BuiltIn);
         eventually(Duration::from_secs(30), || {
             hand.turn();
-            hand.state.view.is_some()
+            hand.state.read().view.is_some()
         });
-        hand.state.playback = hand.state.playback.with(false, 1.0, Default::default(), hand.state.now);
+        hand.state.pause();
         hand.state.execute(Request::Seek(0.0));
-        hand.state.begin(hand.state.now);
+        hand.state.begin_frame(hand.state.read().now);
         hand
     }
 
@@ -91,7 +91,7 @@ impl Hand {
                 _ => {}
             }
         }
-        self.state.begin(self.state.now);
+        self.state.begin_frame(self.state.read().now);
     }
 
     /// Sends a numbered change, and lets both threads do what waits.
@@ -129,10 +129,10 @@ impl Hand {
     /// Where the active bone's joint appears, or the middle of the picture where it does not.
     pub(crate) fn joint_or_middle(&self) -> Vec2 {
         let middle = Vec2::new(PICTURE[2], PICTURE[3]) / 2.0;
-        let bone = self.state.selected().unwrap_or_default();
-        let Some(animation) = self.state.posed.animation() else { return middle };
+        let bone = self.state.read().selected().unwrap_or_default();
+        let Some(animation) = self.state.read().posed.animation() else { return middle };
         let joint = animation.to_root()[bone as usize].w_axis;
-        let view = GizmoView::new(&self.state.camera, middle * 2.0);
+        let view = GizmoView::new(&self.state.read().camera, middle * 2.0);
         view.to_screen(joint.truncate().as_dvec3()).map_or(middle, |at| at.as_vec2())
     }
 
@@ -172,27 +172,27 @@ impl Hand {
     /// A place in the window where this handle is.
     pub(crate) fn handle(&self, wanted: Handle) -> Vec2 {
         let corner = Vec2::new(PICTURE[0], PICTURE[1]);
-        let at = find(&self.state.hands.gizmo().gizmo, self.joint(), wanted);
+        let at = find(&self.state.read().tools.controls().gizmo().gizmo, self.joint(), wanted);
         at.unwrap_or_else(|| panic!("{wanted:?} is nowhere")) + corner
     }
 
     /// Where the active bone's joint appears, points from the corner of the picture.
     pub(crate) fn joint(&self) -> Vec2 {
-        let bone = self.state.selected().expect("a bone is selected");
-        let joint = self.state.posed.animation().expect("posed").to_root()[bone as usize].w_axis;
-        let view = GizmoView::new(&self.state.camera, Vec2::new(PICTURE[2], PICTURE[3]));
+        let bone = self.state.read().selected().expect("a bone is selected");
+        let joint = self.state.read().posed.animation().expect("posed").to_root()[bone as usize].w_axis;
+        let view = GizmoView::new(&self.state.read().camera, Vec2::new(PICTURE[2], PICTURE[3]));
         view.to_screen(joint.truncate().as_dvec3()).expect("before the eye").as_vec2()
     }
 
     /// How the active bone is turned in what is shown.
     pub(crate) fn rotation(&self) -> Quat {
-        let bone = self.state.selected().expect("a bone is selected");
-        self.state.posed.animation().expect("posed").poses()[bone as usize].rotation
+        let bone = self.state.read().selected().expect("a bone is selected");
+        self.state.read().posed.animation().expect("posed").poses()[bone as usize].rotation
     }
 
     /// Names of the steps that are done.
     pub(crate) fn steps(&self) -> Vec<&'static str> {
-        let history = &self.state.view.as_ref().expect("open").history;
+        let history = &self.state.read().view.expect("open").history;
         history.steps[..history.done].to_vec()
     }
 }

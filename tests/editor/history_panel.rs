@@ -1,13 +1,14 @@
 //! Everything that was done stands in a list, and a click goes there.
 
 use crate::workbench::{Window, Workbench, type_into};
+use dragonfly::panels::Request;
 use egui::Key;
 use egui_kittest::kittest::{NodeT, Queryable};
 
 /// Three steps with bone 3, the history in front.
 fn window() -> Window {
     let mut bench = Workbench::full();
-    bench.state.select(Some(3));
+    bench.state.execute(Request::Select(Some(3)));
     let mut window = bench.window();
     type_into(&mut window, "Translation result X", "1", Key::Enter);
     type_into(&mut window, "Translation result Y", "2", Key::Enter);

@@ -3,7 +3,7 @@
 use crate::panels::{Bench, harness_of};
 use dragonfly::panels::Settings;
 use dragonfly::panels::commands::{self, Id, KeySettings, Keymap, Preset, parse, text};
-use dragonfly::panels::state::Overlay;
+use dragonfly::panels::prompts::Overlay;
 use dragonfly_kit::document::fixture;
 use egui::{Key, KeyboardShortcut, Modifiers};
 use egui_kittest::kittest::Queryable;
@@ -86,7 +86,7 @@ fn unknown_names_and_keys_in_the_settings_are_passed_over() {
 #[test]
 fn a_key_is_chosen_in_the_sheet_by_pressing_it() {
     let mut bench = Bench::new(Some(fixture::full()));
-    bench.state.overlay = Some(Overlay::Shortcuts);
+    bench.state.show_overlay(Some(Overlay::Shortcuts));
     let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
     harness.run_steps(4);
     harness.get_by_label("Undo: Ctrl+Z").click();
@@ -94,8 +94,8 @@ fn a_key_is_chosen_in_the_sheet_by_pressing_it() {
     harness.key_press(Key::Space);
     harness.run_steps(3);
     let state = &harness.state().state;
-    assert!(!state.playback.playing, "the key that is chosen does nothing else");
-    let keymap = Keymap::new(state.settings.keys.clone());
+    assert!(!state.read().playback.playing, "the key that is chosen does nothing else");
+    let keymap = Keymap::new(state.read().settings.keys.clone());
     assert_eq!(keymap.command_of(Key::Space, Modifiers::NONE), Some(Id::Undo));
     assert!(!keymap.shortcuts(Id::PlayPause).contains(&KeyboardShortcut::new(Modifiers::NONE, Key::Space)));
 
@@ -104,12 +104,12 @@ fn a_key_is_chosen_in_the_sheet_by_pressing_it() {
     harness.run_steps(3);
     harness.key_press(Key::Escape);
     harness.run_steps(3);
-    assert_eq!(harness.state().state.overlay, Some(Overlay::Shortcuts));
+    assert_eq!(harness.state().state.read().overlay, Some(Overlay::Shortcuts));
     harness.get_by_label("Redo: Ctrl+Shift+Z");
 
     harness.get_by_label("Blender").click();
     harness.run_steps(3);
-    assert_eq!(harness.state().state.settings.keys.preset, Preset::Blender);
+    assert_eq!(harness.state().state.read().settings.keys.preset, Preset::Blender);
     harness.get_by_label("Forget my own").click();
     harness.run_steps(3);
     harness.get_by_label("Undo: Ctrl+Z");
@@ -119,6 +119,6 @@ fn a_key_is_chosen_in_the_sheet_by_pressing_it() {
 fn the_palette_says_why_a_command_cannot_be_given() {
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.execute(dragonfly::panels::Request::Command(Id::Undo));
-    let line = bench.state.status.lines().last().map(|line| line.text.clone());
+    let line = bench.state.read().status.lines().last().map(|line| line.text.clone());
     assert_eq!(line.as_deref(), Some("Nothing was done yet"));
 }

@@ -21,7 +21,7 @@ fn lock(animator: &mut Animator, bone: u32, on: bool) {
 }
 
 fn said(animator: &Animator) -> String {
-    animator.harness.state().state.status.last().map(|line| line.text.clone()).unwrap_or_default()
+    animator.harness.state().state.read().status.last().map(|line| line.text.clone()).unwrap_or_default()
 }
 
 fn turned(bone: u32) -> BonePose {
@@ -53,15 +53,15 @@ fn what_is_typed_for_a_drag_that_was_refused_is_no_command() {
     assert!(animator.selected() > 0, "of the other bones");
     let viewport = animator.harness.get_by_label("Viewport").rect().center();
     animator.move_to(viewport);
-    let camera = animator.harness.state().state.camera;
+    let camera = animator.harness.state().state.read().camera;
     for key in [egui::Key::R, egui::Key::X, egui::Key::Num3, egui::Key::Num0, egui::Key::Enter] {
         animator.harness.key_press(key);
         animator.steps(2);
     }
     assert!(animator.said().contains("is locked"), "{}", animator.said());
     assert!(animator.edits().is_empty(), "{:?}", animator.edits());
-    assert_eq!(animator.harness.state().state.camera, camera);
-    assert_eq!(animator.harness.state().state.playback.take, Some(0));
+    assert_eq!(animator.harness.state().state.read().camera, camera);
+    assert_eq!(animator.harness.state().state.read().playback.take, Some(0));
     // Afterwards keys mean what they mean.
     animator.harness.key_press(egui::Key::X);
     animator.steps(2);
@@ -76,7 +76,7 @@ fn bones_are_muted_soloed_and_locked_by_commands_too() {
     {
         for on in [true, false] {
             animator.request(Request::Command(id));
-            assert_eq!(animator.harness.state().state.keys.flags.has(flag, 3), on, "{id:?}");
+            assert_eq!(animator.harness.state().state.read().keys.flags().has(flag, 3), on, "{id:?}");
         }
     }
 }
@@ -129,7 +129,7 @@ fn what_is_pending_of_a_locked_bone_is_neither_keyed_nor_dropped() {
 fn keys_are_added_to_all_that_is_free_and_nothing_is_keyed_that_did_not_move() {
     let mut animator = Animator::with_bone(LEFT);
     lock(&mut animator, LEFT, true);
-    animator.harness.state_mut().state.select(None);
+    animator.harness.state_mut().state.execute(Request::Select(None));
     animator.request(Request::Seek(0.05));
     let keys = |animator: &Animator, bone: u32| animator.times(bone as usize).len();
     let before = [LEFT, RIGHT].map(|bone| keys(&animator, bone));

@@ -24,8 +24,8 @@ fn the_palette_runs_what_is_found() {
     let mut harness = palette("ground");
     harness.key_press(egui::Key::Enter);
     harness.run_steps(4);
-    assert!(!harness.state().state.settings.look.grid);
-    assert_eq!(harness.state().state.overlay, None);
+    assert!(!harness.state().state.read().settings.look.grid);
+    assert_eq!(harness.state().state.read().overlay, None);
 }
 
 #[test]
@@ -36,8 +36,8 @@ fn the_palette_shows_a_take_that_is_searched() {
     harness.run_steps(4);
     harness.key_press(egui::Key::Enter);
     harness.run_steps(4);
-    assert_eq!(harness.state().state.playback.take, Some(1));
-    assert_eq!(harness.state().state.overlay, None);
+    assert_eq!(harness.state().state.read().playback.take, Some(1));
+    assert_eq!(harness.state().state.read().overlay, None);
 }
 
 #[test]
@@ -59,5 +59,5 @@ fn the_palette_finds_one_where_several_are_asked_for() {
     let mut harness = palette("shortcuts");
     harness.key_press(egui::Key::Enter);
     harness.run_steps(4);
-    assert_eq!(harness.state().state.overlay, Some(dragonfly::panels::state::Overlay::Shortcuts));
+    assert_eq!(harness.state().state.read().overlay, Some(dragonfly::panels::prompts::Overlay::Shortcuts));
 }

@@ -2,8 +2,8 @@
 
 use crate::shots::{self, PictureFolder};
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::state::{Device, Loading, Overlay};
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
+use dragonfly::panels::{open_model::Loading, prompts::Overlay, window_status::Device};
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, TakeRef};
 use dragonfly_document::{Change, FileView, LoadStage, Progress, View};
 use dragonfly_kit::document::fixture;
@@ -22,10 +22,10 @@ impl Bench {
     pub(crate) fn new(view: Option<View>) -> Self {
         let now = Instant::now();
         let mut state = State::new(Settings::default(), now);
-        state.device = Device::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() };
+        state.set_device(Device::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
         if let Some(view) = view {
             state.show(view);
-            state.playback.playing = false;
+            state.pause();
         }
         Self { desk: Desk::new(""), state, effects: Vec::new() }
     }
@@ -33,18 +33,17 @@ impl Bench {
     pub(crate) fn frame(&mut self, ui: &mut egui::Ui) {
         let mut requests = Vec::new();
         let mut input = ui.input(|input| input.raw.clone());
-        panels::hands::feed(ui.ctx(), &mut self.state, &mut input, 0, &mut self.effects);
+        self.state.feed(ui.ctx(), &mut input, 0, &mut self.effects);
         ui.input_mut(|state| state.events = input.events);
-        self.state.begin(self.state.now);
-        if self.state.question().is_none() && !self.state.dragging.is_open() {
+        self.state.begin_frame(self.state.read().now);
+        if self.state.read().question().is_none() && !self.state.read().dragging.is_open() {
             requests.extend(panels::commands::pressed(ui.ctx()).into_iter().map(Request::Command));
         }
-        self.desk.show(ui, &self.state, &mut requests);
-        self.state.hovered = None;
-        self.state.find = false;
+        self.desk.show(ui, &self.state.read(), &mut requests);
+        self.state.end_frame();
         self.effects.extend(requests.into_iter().filter_map(|request| self.state.execute(request)));
-        if self.state.dragging.is_open() && !ui.input(|input| input.pointer.any_down()) {
-            self.effects.push(Effect::HandsOff);
+        if self.state.read().dragging.is_open() && !ui.input(|input| input.pointer.any_down()) {
+            self.effects.push(Effect::ReleaseDrag);
         }
     }
 }
@@ -82,16 +81,16 @@ fn the_panels_are_drawn_empty_full_and_loading() {
     shoot("full_dark", full(), egui::Theme::Dark, 1.0);
     shoot("full_light", full(), egui::Theme::Light, 1.0);
     let mut bench = full();
-    bench.state.select(Some(3));
+    bench.state.execute(Request::Select(Some(3)));
     bench.state.execute(Request::Seek(1.3));
     shoot("bone_dark", bench, egui::Theme::Dark, 1.0);
     let mut bench = full();
-    bench.state.select(Some(0));
+    bench.state.execute(Request::Select(Some(0)));
     bench.state.execute(Request::Seek(1.3));
     shoot("bone_light_2x", bench, egui::Theme::Light, 2.0);
     for overlay in [Overlay::Palette, Overlay::Shortcuts, Overlay::About, Overlay::OpenPath] {
         let mut bench = full();
-        bench.state.overlay = Some(overlay);
+        bench.state.show_overlay(Some(overlay));
         shoot(&format!("overlay_{overlay:?}"), bench, egui::Theme::Dark, 1.0);
     }
     // A model of the person who looks, with keys selected, a marker and a range.
@@ -103,7 +102,7 @@ fn the_panels_are_drawn_empty_full_and_loading() {
         for (name, bones) in [("model", vec![]), ("model_bone", vec![5]), ("model_bones", vec![4, 5, 6, 7])] {
             let mut bench = Bench::new(Some(view.clone()));
             bench.state.execute(Request::SelectBones(bones, dragonfly_document::bones::Choice::Replace));
-            let (start, length) = bench.state.take_bounds();
+            let (start, length) = bench.state.read().take_bounds();
             bench.state.execute(Request::Seek(start + length * 0.4));
             bench.state.execute(Request::Command(dragonfly::panels::commands::Id::AddMarker));
             bench.state.execute(Request::Command(dragonfly::panels::commands::Id::SelectAllKeys));
@@ -112,10 +111,10 @@ fn the_panels_are_drawn_empty_full_and_loading() {
         }
     }
     let mut bench = Bench::new(None);
-    bench.state.loading = Some(Loading {
+    bench.state.set_loading(Some(Loading {
         title: "Fox.glb".to_owned(),
         progress: Progress { stage: LoadStage::Decoding, done: 0.6 },
-    });
+    }));
     shoot("loading", bench, egui::Theme::Dark, 1.0);
 }
 
@@ -134,8 +133,8 @@ fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
     assert_eq!(animator.said(), "Redone: Add keys  ·  Survey");
     // A drag is said when it begins, and when it is given up.
     let state = &animator.harness.state().state;
-    let gesture = state.new_gesture();
-    let lines = |animator: &Animator| animator.harness.state().state.status.lines().count();
+    let gesture = state.read().new_gesture();
+    let lines = |animator: &Animator| animator.harness.state().state.read().status.lines().count();
     let before = lines(&animator);
     for x in 1..20 {
         let poses = vec![BonePose {
@@ -144,7 +143,7 @@ fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
             rotation: None,
             scale: None,
         }];
-        let edit = animator.harness.state().state.pose_edit(poses).unwrap();
+        let edit = animator.harness.state().state.read().pose_edit(poses).unwrap();
         animator.request(Request::Change(Change::Edit(edit, Some(gesture))));
     }
     assert!(animator.said().starts_with("Move  ·  rib_00_left_middle  ·  Survey"), "{}", animator.said());
@@ -257,17 +256,17 @@ fn a_low_picture_has_all_tools_of_the_hand() {
 
 #[test]
 fn nothing_moves_behind_a_question() {
-    use dragonfly::panels::saving::Question;
+    use dragonfly::panels::prompts::Question;
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.execute(Request::Command(Id::PlayPause));
-    assert!(bench.state.playback.playing);
+    assert!(bench.state.read().playback.playing);
     bench.state.ask(Question::Where { copy: false, then: None });
-    assert!(!bench.state.playback.playing);
+    assert!(!bench.state.read().playback.playing);
     // Nor what is opened meanwhile.
     let mut other = State::new(Settings::default(), Instant::now());
     other.ask(Question::Where { copy: false, then: None });
     other.show(fixture::full());
-    assert!(!other.playback.playing);
+    assert!(!other.read().playback.playing);
 }
 
 #[test]
@@ -311,7 +310,7 @@ fn a_click_on_a_row_selects_the_bone_and_shows_its_numbers() {
     harness.run_steps(4);
     harness.get_by_label("spine_00").click();
     harness.run_steps(4);
-    assert_eq!(harness.state().state.selected(), Some(1));
+    assert_eq!(harness.state().state.read().selected(), Some(1));
     assert!(harness.query_by_label("Translation original Y: 0.100").is_some());
 }
 
@@ -324,7 +323,7 @@ fn the_button_for_bones_is_pressed_whenever_they_are_shown() {
         let found = harness.query_all_by_label("Skeleton");
         (
             found.filter(|node| node.accesskit_node().toggled() == on).count(),
-            harness.state().state.shows_skeleton(),
+            harness.state().state.read().shows_skeleton(),
         )
     };
     // The tab of the panel has the same name and is pressed as well.
@@ -339,10 +338,10 @@ fn a_click_on_a_take_shows_it() {
     harness.run_steps(4);
     harness.get_by_label("Walk").click();
     harness.run_steps(4);
-    assert_eq!(harness.state().state.playback.take, Some(1));
+    assert_eq!(harness.state().state.read().playback.take, Some(1));
     harness.get_by_label("Rest pose").click();
     harness.run_steps(4);
-    assert_eq!(harness.state().state.playback.take, None);
+    assert_eq!(harness.state().state.read().playback.take, None);
 }
 
 #[test]
@@ -372,7 +371,7 @@ fn enter_in_the_search_takes_the_bone_called_so_or_else_the_first() {
         harness.run_steps(4);
         harness.key_press(egui::Key::Enter);
         harness.run_steps(4);
-        harness.state().state.selected().map(|bone| harness.state().state.bone_name(bone))
+        harness.state().state.read().selected().map(|bone| harness.state().state.read().bone_name(bone))
     };
     assert_eq!(find("03_left_tip").as_deref(), Some("rib_03_left_tip"));
     assert_eq!(find("Spine_05").as_deref(), Some("spine_05"));
@@ -386,15 +385,15 @@ fn keys_that_are_typed_do_not_play() {
     harness.run_steps(4);
     harness.key_press(egui::Key::Space);
     harness.run_steps(2);
-    assert!(harness.state().state.playback.playing);
+    assert!(harness.state().state.read().playback.playing);
     harness.key_press(egui::Key::Space);
     harness.run_steps(2);
-    assert!(!harness.state().state.playback.playing);
+    assert!(!harness.state().state.read().playback.playing);
     harness.get_by_label("Find a bone").click();
     harness.run_steps(2);
     harness.key_press(egui::Key::Space);
     harness.run_steps(2);
-    assert!(!harness.state().state.playback.playing);
+    assert!(!harness.state().state.read().playback.playing);
 }
 
 #[test]
@@ -410,12 +409,12 @@ fn scrubbing_the_timeline_moves_the_time_and_gives_it_back() {
     harness.run_steps(2);
     harness.hover_at(middle);
     harness.run_steps(3);
-    assert!(!harness.state().state.playback.playing, "time stands while it is held");
-    let time = harness.state().state.time();
+    assert!(!harness.state().state.read().playback.playing, "time stands while it is held");
+    let time = harness.state().state.read().time();
     assert!((time - 3.417 / 2.0).abs() < 0.02, "{time}");
     harness.drop_at(middle);
     harness.run_steps(3);
-    assert!(harness.state().state.playback.playing, "and goes on afterwards");
+    assert!(harness.state().state.read().playback.playing, "and goes on afterwards");
 }
 
 /// On a slow frame a click lasts longer than a click may, and must not be lost for it.
@@ -429,7 +428,7 @@ fn a_press_on_the_timeline_moves_the_time_before_it_is_a_click_or_a_drag() {
     harness.run_steps(1);
     harness.drag_at(middle);
     harness.run_steps(1);
-    let time = harness.state().state.time();
+    let time = harness.state().state.read().time();
     assert!((time - 3.417 / 2.0).abs() < 0.02, "{time}");
     // Another button does nothing.
     harness.drop_at(middle);
@@ -444,7 +443,7 @@ fn a_press_on_the_timeline_moves_the_time_before_it_is_a_click_or_a_drag() {
         modifiers: egui::Modifiers::NONE,
     });
     harness.run_steps(2);
-    assert_eq!(harness.state().state.time(), time);
+    assert_eq!(harness.state().state.read().time(), time);
 }
 
 #[test]
@@ -464,7 +463,7 @@ fn a_drag_that_a_command_waits_for_is_announced_beside_the_pointer() {
 #[test]
 fn escape_closes_a_menu_and_leaves_what_is_selected() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
-    harness.state_mut().state.select(Some(3));
+    harness.state_mut().state.execute(Request::Select(Some(3)));
     harness.run_steps(4);
     harness.get_by_label("View").click();
     harness.run_steps(4);
@@ -472,25 +471,28 @@ fn escape_closes_a_menu_and_leaves_what_is_selected() {
     harness.key_press(egui::Key::Escape);
     harness.run_steps(4);
     assert!(!egui::Popup::is_any_open(&harness.ctx));
-    assert_eq!(harness.state().state.selected(), Some(3));
+    assert_eq!(harness.state().state.read().selected(), Some(3));
     harness.key_press(egui::Key::Escape);
     harness.run_steps(4);
-    assert_eq!(harness.state().state.selected(), None, "now it is for the bones");
+    assert_eq!(harness.state().state.read().selected(), None, "now it is for the bones");
 }
 
 #[test]
 fn keys_do_nothing_to_the_desk_behind_what_lies_over_it() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
-    harness.state_mut().state.select(Some(3));
+    harness.state_mut().state.execute(Request::Select(Some(3)));
     harness.state_mut().state.execute(Request::Command(dragonfly::panels::commands::Id::About));
     harness.run_steps(4);
-    let grid = harness.state().state.settings.look.grid;
+    let grid = harness.state().state.read().settings.look.grid;
     harness.key_press(egui::Key::G);
     harness.run_steps(4);
-    assert_eq!(harness.state().state.settings.look.grid, grid);
+    assert_eq!(harness.state().state.read().settings.look.grid, grid);
     harness.key_press(egui::Key::Escape);
     harness.run_steps(4);
-    assert_eq!((harness.state().state.overlay, harness.state().state.selected()), (None, Some(3)));
+    assert_eq!(
+        (harness.state().state.read().overlay, harness.state().state.read().selected()),
+        (None, Some(3))
+    );
 }
 
 #[test]
@@ -507,7 +509,7 @@ fn a_model_opens_with_its_first_take_that_moves_and_a_single_pose_stands() {
     let shown = |takes: &[(&str, f32, usize)]| {
         let mut state = State::new(Settings::default(), Instant::now());
         state.show(fixture::view("model", fixture::skeleton(3), takes));
-        (state.playback.take, state.playback.playing)
+        (state.read().playback.take, state.read().playback.playing)
     };
     assert_eq!(shown(&[("RESET", 0.0, 1), ("idle", 1.0, 5)]), (Some(1), true));
     assert_eq!(shown(&[("RESET", 0.0, 1), ("T-pose", 0.0, 1)]), (Some(0), false));
@@ -518,25 +520,36 @@ fn a_model_opens_with_its_first_take_that_moves_and_a_single_pose_stands() {
 fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
     let opened = fixture::full();
     let mut state = Bench::new(Some(opened.clone())).state;
-    let (selected, camera) = (Some(3), state.camera);
-    state.select(selected);
-    state.playback = state.playback.seek(1.5, state.now);
+    let (selected, camera) = (Some(3), state.read().camera);
+    state.execute(Request::Select(selected));
+    state.execute(Request::Seek(1.5));
     let with = |generation, length: f32| {
         let mut takes = opened.takes.to_vec();
         takes[0] = std::sync::Arc::new(dragonfly_anim::data::Take { length, ..(*takes[0]).clone() });
         View { generation, takes: takes.into(), ..opened.clone() }
     };
     state.show(with(2, 2.0));
-    assert_eq!((state.playback.take, state.playback.length, state.time()), (Some(0), 2.0, 1.5));
+    assert_eq!(
+        (state.read().playback.take, state.read().playback.length, state.read().time()),
+        (Some(0), 2.0, 1.5)
+    );
     state.show(with(3, 1.0));
-    assert_eq!((state.playback.length, state.time()), (1.0, 1.5), "though it ends before that now");
-    assert_eq!((state.selected(), state.camera), (selected, camera), "all else is as the person left it");
-    state.begin(state.now);
-    assert_eq!((state.digest.takes.len(), state.digest.takes[0].length), (3, 1.0));
+    assert_eq!(
+        (state.read().playback.length, state.read().time()),
+        (1.0, 1.5),
+        "though it ends before that now"
+    );
+    assert_eq!(
+        (state.read().selected(), state.read().camera),
+        (selected, camera),
+        "all else is as the person left it"
+    );
+    state.begin_frame(state.read().now);
+    assert_eq!((state.read().digest.takes.len(), state.read().digest.takes[0].length), (3, 1.0));
     state.show(View { generation: 4, takes: [].into(), ..opened });
-    assert_eq!((state.playback.take, state.time()), (None, 0.0));
-    state.begin(state.now);
-    assert!(state.digest.takes.is_empty());
+    assert_eq!((state.read().playback.take, state.read().time()), (None, 0.0));
+    state.begin_frame(state.read().now);
+    assert!(state.read().digest.takes.is_empty());
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use crate::nasty;
 use crate::workbench::{Window, Workbench, button};
+use dragonfly::panels::Request;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{CreateTake, Edit, RenameTake, SplitTake, TakeRef};
 use dragonfly_document::history::Edited;
@@ -13,7 +14,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 
 fn bench() -> Workbench {
     let mut bench = Workbench::full();
-    bench.state.select(Some(3));
+    bench.state.execute(Request::Select(Some(3)));
     bench
 }
 
@@ -56,7 +57,7 @@ fn any_text_in_any_field() {
         }
     }
     let bench = window.state();
-    for bone in 0..bench.state.selection.bone_count() as u32 {
+    for bone in 0..bench.state.read().selection.bone_count() as u32 {
         let pose = bench.pose(bone);
         assert!(pose.translation.is_finite() && pose.rotation.is_finite() && pose.scale.is_finite());
     }

@@ -176,7 +176,7 @@ fn the_clipboard_holds_text_and_anything_else_is_no_pose() {
 fn copying_and_pasting_between_the_panels_and_the_clipboard() {
     let mut bench = Bench::new(Some(fixture::full()));
     let state = &mut bench.state;
-    state.select(Some(1));
+    state.execute(Request::Select(Some(1)));
     let Some(Effect::Copy(text)) = state.execute(Request::Command(Id::CopyPose)) else { panic!("no text") };
     let copied = from_text(&text).unwrap();
     assert_eq!(copied.len(), 1);
@@ -192,17 +192,17 @@ fn copying_and_pasting_between_the_panels_and_the_clipboard() {
     };
     assert_eq!(poses, copied);
     assert_eq!(state.execute(Request::PastePose { text: "shopping list".to_owned(), mirrored: false }), None);
-    assert!(state.status.last().unwrap().text.contains("no pose"));
-    state.select(None);
+    assert!(state.read().status.last().unwrap().text.contains("no pose"));
+    state.execute(Request::Select(None));
     let Some(Effect::Copy(text)) = state.execute(Request::Command(Id::CopyPose)) else { panic!("no text") };
-    let bones = state.loaded().unwrap().model.animation.skeleton.len();
+    let bones = state.read().loaded().unwrap().model.animation.skeleton.len();
     assert_eq!(from_text(&text).unwrap().len(), bones, "of all bones where none is selected");
 }
 
 #[test]
 fn the_window_systems_copy_and_paste_are_the_commands() {
     let mut bench = Bench::new(Some(fixture::full()));
-    bench.state.select(Some(1));
+    bench.state.execute(Request::Select(Some(1)));
     let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
     harness.run_steps(2);
     harness.event(egui::Event::Copy);
@@ -220,7 +220,7 @@ fn the_window_systems_copy_and_paste_are_the_commands() {
 fn resetting_goes_back_to_the_original_or_to_rest_with_keys_or_without() {
     let mut bench = Bench::new(Some(fixture::full()));
     let state = &mut bench.state;
-    state.select(Some(1));
+    state.execute(Request::Select(Some(1)));
     state.execute(Request::Seek(0.0));
     let edit = |effect: Option<Effect>| match effect {
         Some(Effect::Change(Change::Edit(edit, None))) => edit,
@@ -230,8 +230,8 @@ fn resetting_goes_back_to_the_original_or_to_rest_with_keys_or_without() {
     let Edit::SetPose(SetPose { poses, .. }) = rest else { panic!("{rest:?}") };
     assert!(poses[0].rotation.is_some() && poses[0].translation.is_none());
     let keyed = {
-        let slot = state.slot().unwrap();
-        Property::ALL.into_iter().any(|property| slot.key_at(1, property, state.time()).is_some())
+        let slot = state.read().slot().unwrap();
+        Property::ALL.into_iter().any(|property| slot.key_at(1, property, state.read().time()).is_some())
     };
     let original = edit(state.execute(Request::Command(Id::ResetPose)));
     assert_eq!(
@@ -239,7 +239,7 @@ fn resetting_goes_back_to_the_original_or_to_rest_with_keys_or_without() {
         matches!(original, Edit::ResetPose(ResetPose { to: ResetTo::Original, .. })),
         "{original:?}"
     );
-    state.settings.auto_key = false;
+    state.settings_mut().auto_key = false;
     let original = edit(state.execute(Request::Command(Id::ResetPose)));
     assert!(matches!(original, Edit::SetPending(SetPending { .. })));
 }

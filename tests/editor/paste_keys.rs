@@ -187,7 +187,7 @@ fn put_in(animator: &mut Animator, text: &str) {
 }
 
 fn said(animator: &Animator) -> String {
-    animator.harness.state().state.status.last().map(|line| line.text.clone()).unwrap_or_default()
+    animator.harness.state().state.read().status.last().map(|line| line.text.clone()).unwrap_or_default()
 }
 
 #[test]
@@ -205,7 +205,7 @@ fn ctrl_c_copies_keys_where_the_timeline_has_the_hand_and_the_pose_elsewhere() {
     assert_eq!((channels.len(), channels[0].keys.len()), (1, 2));
     assert!(said(&animator).contains("Copied 2 keys"), "{}", said(&animator));
     // In the picture it is the pose.
-    let picture = animator.harness.state().state.viewport.center();
+    let picture = animator.harness.state().state.read().viewport.center();
     animator.press(picture);
     animator.button(picture, PointerButton::Primary, false);
     animator.harness.event(Event::Copy);
@@ -228,7 +228,7 @@ fn ctrl_c_copies_keys_where_the_timeline_has_the_hand_and_the_pose_elsewhere() {
     // A view of something else, which was on its way when they were pasted, does not take their place.
     let bench = animator.harness.state_mut();
     let effect = bench.state.execute(Request::PastePose { text, mirrored: false });
-    let mut view = bench.state.view.clone().expect("open");
+    let mut view = bench.state.read().view.cloned().expect("open");
     view.generation += 1;
     bench.state.show(view);
     bench.effects.extend(effect);

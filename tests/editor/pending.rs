@@ -3,7 +3,7 @@
 use crate::panels::{Bench, harness_of};
 use crate::shots::{self, PictureFolder};
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::state::Overlay;
+use dragonfly::panels::prompts::Overlay;
 use dragonfly::panels::{Effect, Request, State};
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::sample::sample_take;
@@ -202,16 +202,19 @@ fn panels_and_picture_show_the_same_pending_pose_where_time_stands() {
     let (view, _) = pending_view([0.0, 100.0, 0.0]);
     let mut bench = Bench::new(Some(view.clone()));
     let state = &mut bench.state;
-    let mut scene = Scene::new(state.now);
+    let mut scene = Scene::new(state.read().now);
     scene.show(&view);
     let mut place = |state: &mut State, time: f32, playing: bool| {
+        state.pause();
         state.execute(Request::Seek(time));
-        state.playback.playing = playing;
-        state.select(Some(1));
-        state.begin(state.now);
-        scene.playback = state.playback;
-        scene.prepare(state.now);
-        let panel = state.posed.animation().unwrap().to_root()[1].w_axis.y;
+        if playing {
+            state.execute(Request::Command(Id::PlayPause));
+        }
+        state.execute(Request::Select(Some(1)));
+        state.begin_frame(state.read().now);
+        scene.playback = state.read().playback;
+        scene.prepare(state.read().now);
+        let panel = state.read().posed.animation().unwrap().to_root()[1].w_axis.y;
         let picture = scene.model().unwrap().to_root()[1].w_axis.y;
         assert_eq!(panel, picture, "at {time} s, playing {playing}");
         panel
@@ -229,12 +232,12 @@ fn auto_key_decides_whether_a_pose_becomes_a_key() {
     let pose = || {
         vec![BonePose { bone: BoneRef::Index(1), translation: Some([1.0; 3]), rotation: None, scale: None }]
     };
-    assert!(matches!(state.pose_edit(pose()), Some(Edit::SetPose(SetPose { .. }))), "on at first");
+    assert!(matches!(state.read().pose_edit(pose()), Some(Edit::SetPose(SetPose { .. }))), "on at first");
     state.execute(Request::Command(Id::AutoKey));
-    assert!(matches!(state.pose_edit(pose()), Some(Edit::SetPending(SetPending { .. }))));
-    assert!(state.status.last().unwrap().text.contains("pending"));
+    assert!(matches!(state.read().pose_edit(pose()), Some(Edit::SetPending(SetPending { .. }))));
+    assert!(state.read().status.last().unwrap().text.contains("pending"));
     state.execute(Request::ShowTake(None));
-    assert_eq!(state.pose_edit(pose()), None, "the rest pose is not edited");
+    assert_eq!(state.read().pose_edit(pose()), None, "the rest pose is not edited");
 }
 
 #[test]
@@ -242,7 +245,7 @@ fn the_key_command_keys_what_is_pending_here_and_else_the_selected_bones() {
     let (view, _) = pending_view([0.0, 1.0, 0.0]);
     let mut bench = Bench::new(Some(view));
     let state = &mut bench.state;
-    state.select(Some(2));
+    state.execute(Request::Select(Some(2)));
     let given = |state: &mut State, time: f32| {
         state.execute(Request::Seek(time));
         match state.execute(Request::Command(Id::Key)) {
@@ -258,7 +261,7 @@ fn the_key_command_keys_what_is_pending_here_and_else_the_selected_bones() {
         matches!(&edit, Edit::AddKeys(AddKeys { bones, value: NewKey::Current, .. }) if *bones == [BoneRef::Index(2)]),
         "{edit:?}"
     );
-    assert_eq!(state.pending_times().collect::<Vec<_>>(), [0.4]);
+    assert_eq!(state.read().pending_times().collect::<Vec<_>>(), [0.4]);
 }
 
 #[test]
@@ -268,7 +271,7 @@ fn how_many_poses_wait_is_said_and_a_click_goes_there() {
     harness.run_steps(3);
     harness.get_by_label("1 pose pending").click();
     harness.run_steps(3);
-    assert!((harness.state().state.time() - 0.4).abs() < 1e-4);
+    assert!((harness.state().state.read().time() - 0.4).abs() < 1e-4);
     let mut harness =
         harness_of(Bench::new(Some(fixture::full())), egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
     harness.run_steps(3);
@@ -276,7 +279,7 @@ fn how_many_poses_wait_is_said_and_a_click_goes_there() {
     let auto = harness.get_by_label("Auto-key");
     auto.click();
     harness.run_steps(2);
-    assert!(!harness.state().state.settings.auto_key);
+    assert!(!harness.state().state.read().settings.auto_key);
 }
 
 #[test]
@@ -286,8 +289,8 @@ fn a_pending_pose_is_drawn() {
         for overlay in [None, Some(Overlay::MirrorPairs)] {
             let (view, _) = pending_view([0.0, 1.0, 0.0]);
             let mut bench = Bench::new(Some(view));
-            bench.state.settings.auto_key = overlay.is_some();
-            bench.state.overlay = overlay;
+            bench.state.settings_mut().auto_key = overlay.is_some();
+            bench.state.show_overlay(overlay);
             bench.state.execute(Request::Seek(0.4));
             let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
             let mut harness = shots::drawn(bench, [1280.0, 720.0], 1.0, theme, frame);

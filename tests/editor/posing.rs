@@ -278,26 +278,26 @@ fn commands_pin_free_and_turn() {
     let state = &mut bench.state;
     state.execute(Request::SelectBones(vec![3, 4], Choice::Replace));
     state.execute(Request::Command(Id::Pin));
-    assert!(state.is_pinned(3) && state.is_pinned(4));
+    assert!(state.read().is_pinned(3) && state.read().is_pinned(4));
     state.execute(Request::SelectBones(vec![4], Choice::Replace));
     state.execute(Request::Command(Id::Pin));
-    assert!(state.is_pinned(3) && !state.is_pinned(4));
+    assert!(state.read().is_pinned(3) && !state.read().is_pinned(4));
     state.execute(Request::Command(Id::FreePins));
-    assert!(state.pins.is_empty());
+    assert!(state.read().pins.is_empty());
     state.execute(Request::Command(Id::ToggleIk));
     state.execute(Request::Command(Id::LongerIk));
-    assert_eq!((state.ik.on, state.ik.length), (true, 3));
+    assert_eq!((state.read().ik.on, state.read().ik.length), (true, 3));
     for _ in 0..9 {
         state.execute(Request::Command(Id::ShorterIk));
     }
-    assert_eq!(state.ik.length, 1);
+    assert_eq!(state.read().ik.length, 1);
     state.execute(Request::Command(Id::IkPole));
-    assert_eq!(state.ik.pole, Some(4));
-    assert!(state.hold().unwrap().moves_by_chain(4));
+    assert_eq!(state.read().ik.pole, Some(4));
+    assert!(state.read().bones_follow());
     // One alone has nothing to look at.
     assert_eq!(state.execute(Request::Command(Id::LookAt)), None);
-    assert!(state.status.last().unwrap().text.contains("last the one they shall look at"));
-    state.selection.choose(&[6, 4], Choice::Replace);
+    assert!(state.read().status.last().unwrap().text.contains("last the one they shall look at"));
+    state.execute(Request::SelectBones(vec![6, 4], Choice::Replace));
     let effect = state.execute(Request::Command(Id::LookAt));
     let Some(Effect::Change(Change::Edit(Edit::SetPose(SetPose { poses, .. }), None))) = effect else {
         panic!("{effect:?}")

@@ -12,7 +12,7 @@ use glam::{Quat, Vec3};
 /// Bone 3 at a key of the first take.
 fn window() -> Window {
     let mut bench = Workbench::full();
-    bench.state.select(Some(3));
+    bench.state.execute(Request::Select(Some(3)));
     bench.window()
 }
 
@@ -157,7 +157,7 @@ fn a_drag_is_one_step() {
     window.key_press(Key::Escape);
     window.run_steps(2);
     assert_eq!(window.state().pose(3), after, "Escape takes the drag back");
-    assert_eq!(window.state().state.selected(), Some(3), "and nothing else");
+    assert_eq!(window.state().state.read().selected(), Some(3), "and nothing else");
     move_to(&mut window, from + vec2(60.0, 0.0), Modifiers::NONE);
     release(&mut window, from + vec2(60.0, 0.0));
     assert_eq!(window.state().pose(3), after);
@@ -200,7 +200,7 @@ fn a_drag_ends_where_something_else_is_shown() {
     let edits = |window: &Window| {
         window.state().changes.iter().filter(|change| matches!(change, Change::Edit(..))).count()
     };
-    let (sent, time) = (edits(&window), window.state().state.time());
+    let (sent, time) = (edits(&window), window.state().state.read().time());
     window.state_mut().state.execute(Request::Seek(time + 0.5));
     move_to(&mut window, from + vec2(80.0, 0.0), Modifiers::NONE);
     release(&mut window, from + vec2(80.0, 0.0));
@@ -212,9 +212,9 @@ fn time_stands_while_numbers_are_changed() {
     let mut window = window();
     window.key_press(Key::Space);
     window.run_steps(2);
-    assert!(window.state().state.playback.playing);
+    assert!(window.state().state.read().playback.playing);
     type_into(&mut window, "Translation result X", "1", Key::Enter);
-    assert!(!window.state().state.playback.playing);
+    assert!(!window.state().state.read().playback.playing);
     assert_eq!(window.state().steps(), (1, 1));
 }
 
@@ -223,7 +223,7 @@ fn a_wrong_number_is_refused_where_it_stands() {
     for wrong in ["", "abc", "1..2", "1/0", "(((", "45m", "1e99", "🦊", "שלום", "1,234"] {
         for key in [Key::Enter, Key::Tab] {
             let mut bench = Workbench::full();
-            bench.state.select(Some(3));
+            bench.state.execute(Request::Select(Some(3)));
             let mut window = bench.window_of_any_text();
             let before = window.state().pose(3);
             window.get_by_label("Rotation result Y").click();
@@ -242,7 +242,7 @@ fn a_wrong_number_is_refused_where_it_stands() {
             let field = window.get_by_label("Rotation result Y");
             assert!(!field.is_focused() && !is_marked(&field), "Escape takes it back");
             assert_eq!(value(&window, "Rotation result Y"), Some(0.0));
-            assert_eq!(window.state().state.selected(), Some(3), "and nothing else");
+            assert_eq!(window.state().state.read().selected(), Some(3), "and nothing else");
         }
     }
 }
@@ -335,9 +335,9 @@ fn typed_angles_stay_as_they_were_typed() {
     drag(&mut window, "Rotation result Y", vec2(40.0, 0.0), Modifiers::NONE);
     let shown = ["X", "Y", "Z"].map(|axis| value(&window, &format!("Rotation result {axis}")).unwrap());
     assert_eq!(shown, [30.0, 110.0, -45.0], "a drag through 90° turns no other angle");
-    window.state_mut().state.select(Some(4));
+    window.state_mut().state.execute(Request::Select(Some(4)));
     window.run_steps(2);
-    window.state_mut().state.select(Some(3));
+    window.state_mut().state.execute(Request::Select(Some(3)));
     window.run_steps(3);
     assert!(value(&window, "Rotation result Y").unwrap() <= 90.0, "later it is the usual form");
 }
@@ -345,7 +345,7 @@ fn typed_angles_stay_as_they_were_typed() {
 #[test]
 fn a_number_goes_to_all_selected_bones() {
     let mut bench = Workbench::full();
-    bench.state.selection.choose(&[1, 2, 3], Default::default());
+    bench.state.execute(Request::SelectBones(vec![1, 2, 3], Choice::Replace));
     let mut window = bench.window();
     assert_eq!(value(&window, "Translation result Y"), None, "they differ");
     assert_eq!(value(&window, "Translation change Y"), Some(0.0), "none is changed");
@@ -370,7 +370,7 @@ fn a_number_goes_to_all_selected_bones() {
 fn keys_are_shown_added_and_deleted() {
     let mut window = window();
     let keys =
-        |window: &Window| window.state().state.view.as_ref().unwrap().takes[0].tracks[3].rotation.times.len();
+        |window: &Window| window.state().state.read().view.unwrap().takes[0].tracks[3].rotation.times.len();
     assert_eq!(keys(&window), 41);
     window.state_mut().state.execute(Request::Seek(0.05));
     window.run_steps(2);
@@ -389,7 +389,7 @@ fn keys_are_shown_added_and_deleted() {
 #[test]
 fn without_auto_key_a_number_is_pending_until_it_is_keyed() {
     let mut window = window();
-    window.state_mut().state.settings.auto_key = false;
+    window.state_mut().state.settings_mut().auto_key = false;
     let before = window.state().pose(3);
     type_into(&mut window, "Scale result X", "2", Key::Enter);
     assert_eq!(value(&window, "Scale result X"), Some(2.0), "it is shown");
@@ -441,7 +441,7 @@ fn the_rest_pose_is_shown_and_not_changed() {
     drag(&mut window, "Rotation change X slider", vec2(50.0, 0.0), Modifiers::NONE);
     assert_eq!(window.state().changes, []);
     // Ctrl+A found no field to select in, and selected all bones.
-    window.state_mut().state.select(Some(3));
+    window.state_mut().state.execute(Request::Select(Some(3)));
     window.run_steps(2);
     assert_eq!(value(&window, "Translation result X"), Some(f64::from(-0.08_f32)));
 }
@@ -502,10 +502,10 @@ fn the_order_of_the_angles_is_chosen_and_remembered() {
     window.get_by_label("ZXY").click();
     window.run_steps(3);
     assert!(window.query_by_label("Order of rotation: ZXY").is_some());
-    let text = window.state().state.settings.to_text();
+    let text = window.state().state.read().settings.to_text();
     assert!(text.contains("\"ZXY\""), "{text}");
     let read = dragonfly::panels::Settings::parse(&text);
-    assert_eq!(read.properties, window.state().state.settings.properties);
+    assert_eq!(read.properties, window.state().state.read().settings.properties);
     let unknown = dragonfly::panels::Settings::parse(&text.replace("ZXY", "ABC"));
     assert_eq!(unknown.properties.euler, Default::default());
 }

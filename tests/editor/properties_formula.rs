@@ -18,10 +18,10 @@ const NEAR: f64 = 4e-6;
 
 fn original(window: &Window, bone: u32) -> Transform {
     let state = &window.state().state;
-    let view = state.view.as_ref().unwrap();
-    let slot = &view.slots[state.playback.take.unwrap()];
+    let view = state.read().view.unwrap();
+    let slot = &view.slots[state.read().playback.take.unwrap()];
     let rules = &view.loaded.model.animation.skeleton.bones[bone as usize];
-    dragonfly_anim::sample::sample_track(&slot.original.tracks[bone as usize], rules, state.time())
+    dragonfly_anim::sample::sample_track(&slot.original.tracks[bone as usize], rules, state.read().time())
 }
 
 fn shown(window: &Window, field: &str) -> [f64; 3] {
@@ -44,7 +44,7 @@ fn what_is_typed_is_the_pose_that_the_rules_say() {
     let seed = seed(0xF0);
     let mut random = Random::new(seed);
     let mut bench = Workbench::full();
-    bench.state.select(Some(3));
+    bench.state.execute(Request::Select(Some(3)));
     let mut window = bench.window_of(egui::vec2(1280.0, 1000.0), egui::Theme::Light);
     for round in 0..60 {
         let order = random.choice(&EulerOrder::ALL);

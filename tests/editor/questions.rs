@@ -2,7 +2,8 @@
 
 use crate::panels::{Bench, harness_of};
 use crate::shots::{self, PictureFolder};
-use dragonfly::panels::saving::{Deed, Question};
+use dragonfly::panels::FileAction;
+use dragonfly::panels::prompts::Question;
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::{Decision, Offer, SaveOrder, SaveTo, Source, Then};
 use dragonfly_kit::document::fixture;
@@ -138,11 +139,15 @@ fn a_file_is_asked_for_until_one_is_named() {
     ));
     let mut bench = bench(Question::Recover { offers: vec![(*fox).clone()], lost: false });
     bench.state.ask_where_it_is(fox.clone(), Some("Fox 2.glb".into()));
-    bench.state.execute(Request::Deed(Deed::Find(fox.clone())));
+    bench.state.execute(Request::Answer(FileAction::Find(fox.clone())));
     // The dialog for files may be closed without an answer.
-    assert!(matches!(bench.state.question(), Some(Question::Find { .. })), "{:?}", bench.state.question());
+    assert!(
+        matches!(bench.state.read().question(), Some(Question::Find { .. })),
+        "{:?}",
+        bench.state.read().question()
+    );
     bench.state.offer_is_answered(&fox);
-    assert_eq!(bench.state.question(), None);
+    assert_eq!(bench.state.read().question(), None);
 }
 
 #[test]
@@ -151,12 +156,13 @@ fn every_question_is_drawn_in_every_window_and_left_by_escape_without_a_deed() {
         for size in [egui::vec2(1280.0, 720.0), egui::vec2(480.0, 320.0), egui::vec2(40.0, 30.0)] {
             let mut harness = harness_of(bench(question.clone()), size, 1.0, egui::Theme::Dark);
             harness.run_steps(4);
-            assert!(harness.state().state.question().is_some(), "{name}");
+            assert!(harness.state().state.read().question().is_some(), "{name}");
             harness.key_press(egui::Key::Escape);
             harness.run_steps(4);
             let bench = harness.state();
-            assert!(bench.state.question().is_none() || name == "recover_several", "{name} at {size}");
-            let later = |effect: &Effect| matches!(effect, Effect::Deed(Deed::Decide(_, Decision::Later)));
+            assert!(bench.state.read().question().is_none() || name == "recover_several", "{name} at {size}");
+            let later =
+                |effect: &Effect| matches!(effect, Effect::File(FileAction::Decide(_, Decision::Later)));
             assert!(bench.effects.iter().all(later), "{name}: {:?}", bench.effects);
         }
     }
@@ -172,22 +178,22 @@ fn enter_does_what_is_meant_most_often() {
         harness.run_steps(4);
         let effects = &harness.state().effects;
         let expected = match name {
-            "unsaved" => Some(Deed::Save(SaveOrder::own(Some(Then::Quit)))),
-            "changed_save" => Some(Deed::Where { copy: false, then: None }),
-            "changed_focus" => Some(Deed::Reload),
-            "gone" => Some(Deed::Save(SaveOrder { anyway: true, ..SaveOrder::own(None) })),
-            "plan" => Some(Deed::Save(SaveOrder::own(None))),
+            "unsaved" => Some(FileAction::Save(SaveOrder::own(Some(Then::Quit)))),
+            "changed_save" => Some(FileAction::Where { copy: false, then: None }),
+            "changed_focus" => Some(FileAction::Reload),
+            "gone" => Some(FileAction::Save(SaveOrder { anyway: true, ..SaveOrder::own(None) })),
+            "plan" => Some(FileAction::Save(SaveOrder::own(None))),
             "exists" | "plan_long" => None,
-            "where_copy" => Some(Deed::Save(SaveOrder {
+            "where_copy" => Some(FileAction::Save(SaveOrder {
                 to: SaveTo::Copy("Fox copy.glb".into()),
                 anyway: false,
                 then: None,
             })),
             _ => continue,
         };
-        let expected: Vec<Effect> = expected.map(Effect::Deed).into_iter().collect();
+        let expected: Vec<Effect> = expected.map(Effect::File).into_iter().collect();
         assert_eq!(*effects, expected, "{name}");
-        assert!(harness.state().state.question().is_none(), "{name}");
+        assert!(harness.state().state.read().question().is_none(), "{name}");
     }
 }
 
@@ -206,12 +212,12 @@ fn each_button_of_the_unsaved_work_decides_about_the_one_that_is_shown() {
         harness.run_steps(2);
         harness.get_by_label(button).click();
         harness.run_steps(4);
-        let [Effect::Deed(Deed::Decide(offer, decided))] = &harness.state().effects[..] else {
+        let [Effect::File(FileAction::Decide(offer, decided))] = &harness.state().effects[..] else {
             panic!("{button}: {:?}", harness.state().effects)
         };
         assert!(offer.title.starts_with("A bear") && *decided == decision, "{button}");
         // What was put aside leaves the others to be decided about; what is opened comes first.
-        let left = match harness.state().state.question() {
+        let left = match harness.state().state.read().question() {
             Some(Question::Recover { offers, .. }) => offers.len(),
             _ => 0,
         };
@@ -226,9 +232,9 @@ fn a_question_keeps_the_keys_to_itself_and_the_next_one_follows() {
     state.ask(Question::Changed(FileState::Changed, None));
     // The same is not asked twice.
     state.ask(Question::Unsaved(Then::Quit));
-    assert_eq!(state.questions.len(), 2);
+    assert_eq!(state.read().prompts.questions().len(), 2);
     assert_eq!(state.execute(Request::Dismiss), None);
     assert_eq!(state.execute(Request::Dismiss), None);
-    assert_eq!(state.question(), None);
+    assert_eq!(state.read().question(), None);
     assert_eq!(state.execute(Request::Dismiss), None);
 }

@@ -20,19 +20,19 @@ fn flag(state: &mut State, flag: BoneFlag, bone: u32) {
 fn snap_listing_and_ik_are_as_they_were_left() {
     let mut state = State::new(Settings::default(), Instant::now());
     state.show(file("Fox.glb"));
-    assert!(state.keys.snap && state.keys.only_selected && !state.ik.on);
+    assert!(state.read().keys.snap() && state.read().keys.only_selected() && !state.read().ik.on);
     for id in [Id::ToggleSnap, Id::ToggleIk, Id::LongerIk, Id::LongerIk] {
         state.execute(Request::Command(id));
     }
     state.execute(Request::Timeline(KeysRequest::OnlySelected(false)));
-    let again = State::new(Settings::parse(&state.settings.to_text()), Instant::now());
-    assert!(!again.keys.snap && !again.keys.only_selected);
-    assert_eq!((again.ik.on, again.ik.length, again.ik.pole), (true, 4, None));
+    let again = State::new(Settings::parse(&state.read().settings.to_text()), Instant::now());
+    assert!(!again.read().keys.snap() && !again.read().keys.only_selected());
+    assert_eq!((again.read().ik.on, again.read().ik.length, again.read().ik.pole), (true, 4, None));
     // Another model does not change them, and a wrong number is mended.
     state.show(file("Crow.glb"));
-    assert!(!state.keys.snap && state.ik.on);
+    assert!(!state.read().keys.snap() && state.read().ik.on);
     let mended = Settings::parse("{\"hand\":{\"ik\":{\"on\":true,\"length\":0}}}");
-    assert_eq!(mended.hand.ik.length, 1);
+    assert_eq!(mended.tools.ik.length, 1);
 }
 
 #[test]
@@ -43,32 +43,36 @@ fn marks_and_pins_of_a_file_come_back_with_it() {
     flag(&mut state, BoneFlag::Mute, 2);
     flag(&mut state, BoneFlag::Solo, 3);
     flag(&mut state, BoneFlag::Lock, 4);
-    state.select(Some(5));
+    state.execute(Request::Select(Some(5)));
     state.execute(Request::Command(Id::Pin));
     state.execute(Request::Command(Id::IkPole));
     // Another file is opened before anything was written.
     state.show(file("Crow.glb"));
-    assert!(!state.keys.flags.any_locked() && state.pins.is_empty() && state.ik.pole.is_none());
+    assert!(
+        !state.read().keys.flags().any_locked()
+            && state.read().pins.is_empty()
+            && state.read().ik.pole.is_none()
+    );
     let text = state.unsaved_marks().expect("changed");
     assert_eq!(state.unsaved_marks(), None, "said once");
     let mut again = State::new(Settings::default(), Instant::now());
     again.read_marks(&text);
     again.show(file("Crow.glb"));
-    assert!(!again.keys.flags.any_locked());
+    assert!(!again.read().keys.flags().any_locked());
     again.show(file("Fox.glb"));
     let has = |state: &State| {
-        let flags = &state.keys.flags;
+        let flags = &state.read().keys.flags();
         [flags.has(BoneFlag::Mute, 2), flags.has(BoneFlag::Solo, 3), flags.has(BoneFlag::Lock, 4)]
     };
     assert_eq!(has(&again), [true; 3]);
-    assert_eq!((again.pins.clone(), again.ik.pole), (vec![5], Some(5)));
+    assert_eq!((again.read().pins.to_vec(), again.read().ik.pole), (vec![5], Some(5)));
     assert_eq!(again.unsaved_marks(), None, "as it was read");
     // Taken away, they are gone for good.
     for (flag, bone) in [(BoneFlag::Mute, 2), (BoneFlag::Solo, 3), (BoneFlag::Lock, 4)] {
         again.execute(Request::Timeline(KeysRequest::Flag(flag, bone, false)));
     }
     again.execute(Request::Command(Id::FreePins));
-    again.select(Some(5));
+    again.execute(Request::Select(Some(5)));
     again.execute(Request::Command(Id::IkPole));
     let text = again.unsaved_marks().expect("changed");
     assert!(!text.contains("Fox"), "{text}");
@@ -90,7 +94,7 @@ fn a_model_that_is_saved_elsewhere_takes_its_marks_along() {
         let mut again = State::new(Settings::default(), Instant::now());
         again.read_marks(&text);
         again.show(file(name));
-        assert!(again.keys.flags.has(BoneFlag::Lock, 4), "{name}");
+        assert!(again.read().keys.flags().has(BoneFlag::Lock, 4), "{name}");
     }
 }
 
@@ -108,13 +112,13 @@ fn only_so_many_files_are_remembered_and_a_damaged_text_holds_none() {
         let mut state = State::new(Settings::default(), Instant::now());
         state.read_marks(damaged);
         state.show(file("model 20.glb"));
-        assert!(!state.keys.flags.any_locked());
+        assert!(!state.read().keys.flags().any_locked());
     }
     // Bones that the file has no more are passed over.
     let mut state = State::new(Settings::default(), Instant::now());
     state.read_marks(&text.replace("\"spine_00\"", "\"gone\""));
     state.show(file("model 20.glb"));
-    assert!(!state.keys.flags.any_locked());
+    assert!(!state.read().keys.flags().any_locked());
 }
 
 #[test]
@@ -125,8 +129,8 @@ fn marks_that_come_back_are_told_from_those_of_the_model_before() {
     for (number, bone) in [(1, 2), (2, 3), (1, 2), (2, 3)] {
         state.show(file(&format!("model {number}.glb")));
         flag(&mut state, BoneFlag::Mute, bone);
-        assert_eq!(state.keys.flags.still(8), [bone]);
-        assert!(!versions.contains(&state.keys.flags.version()), "{versions:?}");
-        versions.push(state.keys.flags.version());
+        assert_eq!(state.read().keys.flags().still(8), [bone]);
+        assert!(!versions.contains(&state.read().keys.flags().version()), "{versions:?}");
+        versions.push(state.read().keys.flags().version());
     }
 }

@@ -78,6 +78,6 @@ fn the_store_replaces_files_and_bears_what_is_not_there() {
 fn how_ghosts_are_drawn_is_remembered_and_they_begin_as_skeletons() {
     assert!(!GhostSettings::default().skin);
     let text = "{\"hand\":{\"ghosts\":{\"skin\":true,\"step\":3}}}";
-    let ghosts = Settings::parse(text).hand.ghosts;
+    let ghosts = Settings::parse(text).tools.ghosts;
     assert_eq!((ghosts.skin, ghosts.step, ghosts.count), (true, 3, [3, 3]));
 }

@@ -4,6 +4,7 @@ use crate::workbench;
 use crate::workbench::Workbench;
 use dragonfly::panels::{Request, style};
 use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, ReverseTake, SetPose, TakeRef};
 use dragonfly_kit::document::fixture;
 use dragonfly_kit::folder::Folder;
@@ -67,7 +68,7 @@ pub(crate) fn drawn<T>(
 
 fn bench() -> Workbench {
     let mut bench = Workbench::full();
-    bench.state.select(Some(3));
+    bench.state.execute(Request::Select(Some(3)));
     bench.state.execute(Request::Seek(1.3));
     bench
 }
@@ -110,7 +111,7 @@ fn long_names() -> Workbench {
         skeleton,
         &[(name, 12_345.678, 41), ("Walk", 0.708, 18)],
     )));
-    bench.state.select(Some(5));
+    bench.state.execute(Request::Select(Some(5)));
     bench
 }
 
@@ -163,7 +164,7 @@ fn the_panels_that_edit_are_drawn_in_every_state() {
         "p_several",
         {
             let mut bench = edited();
-            bench.state.selection.choose(&[1, 2, 3], Default::default());
+            bench.state.execute(Request::SelectBones(vec![1, 2, 3], Choice::Replace));
             bench
         },
         true,

@@ -10,11 +10,11 @@ use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 
 fn names(window: &Window) -> Vec<String> {
-    window.state().state.view.as_ref().unwrap().takes.iter().map(|take| take.name.clone()).collect()
+    window.state().state.read().view.unwrap().takes.iter().map(|take| take.name.clone()).collect()
 }
 
 fn shown(window: &Window) -> Option<usize> {
-    window.state().state.playback.take
+    window.state().state.read().playback.take
 }
 
 fn give(window: &mut Window, id: Id) {
@@ -60,20 +60,20 @@ fn start_and_length_are_asked_for_by_a_command_too() {
     give(&mut window, Id::RetimeTake);
     assert!(window.query_by_label("Length").is_some());
     type_into(&mut window, "Length", "2", Key::Enter);
-    let view = window.state().state.view.clone().unwrap();
+    let view = window.state().state.read().view.cloned().unwrap();
     assert_eq!(view.takes[0].length, 2.0);
 }
 
 #[test]
 fn start_and_length_are_given_in_frames_too() {
     let mut window = Workbench::full().window();
-    window.state_mut().state.settings.frame_rate = 24;
+    window.state_mut().state.settings_mut().frame_rate = 24;
     give(&mut window, Id::RetimeTake);
     type_into(&mut window, "Length in frames", "48", Key::Enter);
-    let length = |window: &Window| window.state().state.view.as_ref().unwrap().takes[0].length;
+    let length = |window: &Window| window.state().state.read().view.unwrap().takes[0].length;
     assert_eq!(length(&window), 2.0);
     type_into(&mut window, "Start in frames", "12", Key::Enter);
-    let take = &window.state().state.view.as_ref().unwrap().takes[0];
+    let take = &window.state().state.read().view.unwrap().takes[0];
     assert_eq!((take.start, take.length), (0.5, 2.0));
     let shown = |window: &Window, field: &str| window.get_by_label(field).accesskit_node().numeric_value();
     assert_eq!(shown(&window, "Length"), Some(2.0), "both show the same");
@@ -110,7 +110,7 @@ fn many_takes_are_searched_and_the_one_that_is_shown_is_in_sight() {
     window.get_by_label("Clear search").click();
     window.run_steps(3);
     window.get_by_label("Rig|Run_21");
-    window.state_mut().state.show_take(Some(38));
+    window.state_mut().state.execute(Request::ShowTake(Some(38)));
     window.run_steps(3);
     let list = window.get_by_label("Rig|Walk_38").rect();
     assert!(
@@ -251,12 +251,12 @@ fn a_take_is_split_reversed_and_trimmed() {
     window.run_steps(3);
     assert_eq!(names(&window), ["Survey", "Survey 2", "Walk", "Run"]);
     assert_eq!(shown(&window), Some(0));
-    let takes = window.state().state.view.as_ref().unwrap().takes.clone();
+    let takes = window.state().state.read().view.unwrap().takes.clone();
     assert!((takes[0].length - 1.0).abs() < 1e-5 && (takes[1].length - 2.417).abs() < 1e-5);
     let first = takes[0].tracks[3].rotation.values[0];
     window.get_by_label("Reverse take").click();
     window.run_steps(3);
-    let last = window.state().state.view.as_ref().unwrap().takes[0].tracks[3].rotation.values.last().copied();
+    let last = window.state().state.read().view.unwrap().takes[0].tracks[3].rotation.values.last().copied();
     assert_eq!(last, Some(first));
     window.get_by_label("Start and length").click();
     window.run_steps(3);
@@ -265,18 +265,18 @@ fn a_take_is_split_reversed_and_trimmed() {
     type_into(&mut window, "To", "3/4", Key::Enter);
     window.get_by_label("Trim").click();
     window.run_steps(3);
-    let take = window.state().state.take().unwrap();
+    let take = window.state().state.read().take().unwrap();
     assert!(take.start == 0.0 && (take.length - 0.5).abs() < 1e-6, "{} {}", take.start, take.length);
     type_into(&mut window, "Start", "1/2", Key::Enter);
     type_into(&mut window, "Length", "2", Key::Enter);
-    let take = window.state().state.take().unwrap();
+    let take = window.state().state.read().take().unwrap();
     assert!(take.start == 0.5 && (take.length - 2.0).abs() < 1e-5);
     let steps = window.state().steps();
     drag(&mut window, "Length", vec2(50.0, 0.0), Modifiers::NONE);
-    assert!((window.state().state.take().unwrap().length - 2.5).abs() < 1e-3);
+    assert!((window.state().state.read().take().unwrap().length - 2.5).abs() < 1e-3);
     assert_eq!(window.state().steps(), (steps.0 + 1, steps.1 + 1), "a drag is one step");
     type_into(&mut window, "Length", "-1", Key::Enter);
-    assert!((window.state().state.take().unwrap().length - 2.5).abs() < 1e-3);
+    assert!((window.state().state.read().take().unwrap().length - 2.5).abs() < 1e-3);
     assert_eq!(window.state().refused, [""; 0], "what cannot be is not even asked for");
 }
 
@@ -296,20 +296,22 @@ fn the_list_is_there_without_takes() {
 fn trimming_leaves_what_is_in_the_play_range_whether_time_runs_or_stands() {
     for playing in [false, true] {
         let mut window = Workbench::full().window();
-        window.state_mut().state.playback.playing = playing;
+        if playing {
+            window.state_mut().state.execute(Request::Command(Id::PlayPause));
+        }
         let bounds = |window: &Window| {
-            let (start, length) = window.state().state.take_bounds();
+            let (start, length) = window.state().state.read().take_bounds();
             [start, start + length]
         };
         let whole = bounds(&window);
         give(&mut window, Id::TrimTake);
         assert_eq!(bounds(&window), whole, "no range is set");
-        assert!(window.state().state.status.last().unwrap().text.contains("play range"));
+        assert!(window.state().state.read().status.last().unwrap().text.contains("play range"));
         let range = KeysRequest::Range(Some([0.5, 1.25]));
         window.state_mut().state.execute(Request::Timeline(range));
         give(&mut window, Id::TrimTake);
         // What is left plays from where the take began.
         assert_eq!(bounds(&window), [0.0, 0.75], "playing: {playing}");
-        assert_eq!(window.state().state.keys.range(), None);
+        assert_eq!(window.state().state.read().keys.range(), None);
     }
 }

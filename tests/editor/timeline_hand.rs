@@ -97,7 +97,7 @@ fn a_dragged_key_goes_to_the_nearest_frame_as_one_step() {
     assert_eq!(animator.edited.steps().0.len(), 1, "one step, however many edits");
     assert_eq!(animator.selected(), 1, "what was dragged is selected where it is now");
     assert!(animator.edits().iter().all(|edit| matches!(edit, Edit::MoveKeys(MoveKeys { .. }))));
-    assert!(animator.harness.state().state.keys.drag().is_none());
+    assert!(animator.harness.state().state.read().keys.drag().is_none());
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn escape_and_the_right_button_take_a_drag_back() {
         animator.release(far);
         assert_eq!(animator.times(3), before);
         assert_eq!(animator.edited.steps().0.len(), 0);
-        assert_eq!(animator.harness.state().state.selected(), Some(3), "the bone stays selected");
+        assert_eq!(animator.harness.state().state.read().selected(), Some(3), "the bone stays selected");
         assert!(animator.harness.query_by_label("Duplicate keys").is_none(), "and no menu opens");
     }
 }
@@ -151,7 +151,7 @@ fn a_drag_that_comes_back_changes_nothing() {
     let before = animator.times(3);
     let from = animator.at(animator.key(8), 2);
     animator.drag(from, animator.at(animator.key(12), 2));
-    animator.harness.state_mut().state.keys.snap = false;
+    animator.harness.state_mut().state.execute(Request::Timeline(KeysRequest::Snap(false)));
     animator.move_to(from);
     animator.release(from);
     assert_eq!(animator.times(3), before);
@@ -186,7 +186,7 @@ fn alt_drags_a_copy_and_two_makes_room() {
 #[test]
 fn time_that_is_dragged_goes_to_keys_and_frames() {
     let mut animator = Animator::with_bone(3);
-    let time = |animator: &Animator| animator.harness.state().state.time();
+    let time = |animator: &Animator| animator.harness.state().state.read().time();
     let ruler = animator.harness.get_by_label("Time track").rect().center().y;
     let at = |animator: &Animator, time: f32| egui::pos2(animator.at(time, 0).x, ruler);
     // The keys of this model lie on no frames.
@@ -205,14 +205,13 @@ fn time_that_is_dragged_goes_to_keys_and_frames() {
 #[test]
 fn a_row_that_is_clicked_keeps_the_others_listed_until_something_else_is_selected() {
     let mut animator = Animator::new(fixture::full());
-    let rows =
-        |animator: &Animator| dragonfly::panels::keys::shown_bones(&animator.harness.state().state).len();
+    let rows = |animator: &Animator| animator.harness.state().state.read().listed_bones().len();
     let all = rows(&animator);
     assert!(all > 3);
     for name in ["spine_00", "rib_00_left_inner"] {
         let row = animator.harness.get_by_label(&format!("Keys of {name}")).rect().center();
         animator.click(row);
-        assert_eq!(animator.harness.state().state.selection.bones().len(), 1, "{name}");
+        assert_eq!(animator.harness.state().state.read().selection.bones().len(), 1, "{name}");
         assert_eq!(rows(&animator), all, "{name}");
     }
     animator.request(Request::Select(Some(3)));
@@ -222,13 +221,13 @@ fn a_row_that_is_clicked_keeps_the_others_listed_until_something_else_is_selecte
 #[test]
 fn a_take_grows_where_a_pose_is_keyed_behind_its_end() {
     let mut animator = Animator::with_bone(3);
-    animator.harness.state_mut().state.playback.playing = true;
+    animator.harness.state_mut().state.execute(Request::Command(Id::PlayPause));
     animator.request(Request::Command(Id::NewTake));
-    let state = |animator: &Animator| animator.harness.state().state.take_bounds();
-    let time = |animator: &Animator| animator.harness.state().state.time();
+    let state = |animator: &Animator| animator.harness.state().state.read().take_bounds();
+    let time = |animator: &Animator| animator.harness.state().state.read().time();
     assert_eq!(state(&animator), (0.0, 0.0), "one pose, and nothing to play");
     animator.request(Request::Command(Id::PlayPause));
-    assert!(!animator.harness.state().state.playback.playing);
+    assert!(!animator.harness.state().state.read().playback.playing);
     assert!(animator.said().ends_with("there is nothing to play"), "{}", animator.said());
     // By a click in the ruler, by frames, by a number.
     let ruler = animator.harness.get_by_label("Time track").rect();
@@ -246,7 +245,13 @@ fn a_take_grows_where_a_pose_is_keyed_behind_its_end() {
     assert!(animator.keys().x_range().contains(seen), "there is room to go on");
     assert_eq!(animator.x_in(animator.keys(), 0.0), x);
     animator.request(Request::Seek(20.0));
-    let window = animator.harness.state().state.keys.window(animator.harness.state().state.take().unwrap());
+    let window = animator
+        .harness
+        .state()
+        .state
+        .read()
+        .keys
+        .window(animator.harness.state().state.read().take().unwrap());
     assert!(
         window.start <= 0.0 && window.start + window.length > 20.0,
         "the playhead is in sight: {window:?}"
@@ -257,7 +262,7 @@ fn a_take_grows_where_a_pose_is_keyed_behind_its_end() {
     animator.request(Request::Command(Id::Undo));
     assert_eq!((state(&animator), time(&animator)), ((0.0, 1.0), 20.0));
     animator.request(Request::Command(Id::PlayPause));
-    assert!(animator.harness.state().state.playback.playing && time(&animator) < 1.0);
+    assert!(animator.harness.state().state.read().playback.playing && time(&animator) < 1.0);
     animator.request(Request::Command(Id::PlayPause));
     assert!(time(&animator) <= 1.0);
 }
@@ -271,7 +276,11 @@ fn the_edge_of_the_ruler_is_the_end_of_the_take() {
         animator.drag(middle, pos2(ruler.right() + beyond, middle.y));
         animator.release(pos2(ruler.right() + beyond, middle.y));
         let state = &animator.harness.state().state;
-        assert_eq!(state.time(), state.take().unwrap().end(), "{beyond} points beside the edge");
+        assert_eq!(
+            state.read().time(),
+            state.read().take().unwrap().end(),
+            "{beyond} points beside the edge"
+        );
     }
 }
 
@@ -347,7 +356,7 @@ fn a_locked_bone_is_not_edited_and_says_so() {
     assert_eq!(animator.times(3), before);
     assert_eq!(animator.selected(), 0);
     let said = |animator: &Animator| {
-        let line = animator.harness.state().state.status.last().map(|line| line.text.clone());
+        let line = animator.harness.state().state.read().status.last().map(|line| line.text.clone());
         line.unwrap_or_default()
     };
     assert!(said(&animator).contains("is locked"), "{}", said(&animator));
@@ -358,7 +367,7 @@ fn a_locked_bone_is_not_edited_and_says_so() {
         rotation: None,
         scale: None,
     }];
-    let edit = animator.harness.state().state.pose_edit(poses).unwrap();
+    let edit = animator.harness.state().state.read().pose_edit(poses).unwrap();
     animator.request(Request::Change(Change::Edit(edit, None)));
     assert!(animator.changes.is_empty());
 }
@@ -367,10 +376,10 @@ fn a_locked_bone_is_not_edited_and_says_so() {
 fn muted_bones_rest_in_the_picture_and_solo_rests_all_others() {
     let mut animator = Animator::new(dragonfly_kit::document::fixture::full());
     animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Mute, 3, true)));
-    assert_eq!(animator.harness.state().state.keys.flags.still(6), [3]);
+    assert_eq!(animator.harness.state().state.read().keys.flags().still(6), [3]);
     animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Solo, 1, true)));
-    assert_eq!(animator.harness.state().state.keys.flags.still(6), [0, 2, 3, 4, 5]);
-    let view = animator.harness.state().state.view.clone().unwrap();
+    assert_eq!(animator.harness.state().state.read().keys.flags().still(6), [0, 2, 3, 4, 5]);
+    let view = animator.harness.state().state.read().view.cloned().unwrap();
     let takes = view.takes_without(&[3]);
     assert!(takes[0].tracks[3].is_empty() && !takes[0].tracks[2].is_empty());
     assert!(!view.takes[0].tracks[3].is_empty(), "what is saved stays");
@@ -415,7 +424,7 @@ fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
     animator.wheel(at, vec2(0.0, 80.0));
     assert!((animator.at(time, 3).x - at.x).abs() < 1.0, "what is under the pointer stays");
     let state = &animator.harness.state().state;
-    let zoomed = state.keys.window(state.take().unwrap());
+    let zoomed = state.read().keys.window(state.read().take().unwrap());
     assert!(zoomed.length < 3.0, "{zoomed:?}");
     animator.move_to(at);
     animator.button(at, PointerButton::Middle, true);
@@ -426,7 +435,7 @@ fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
     assert!((animator.at(time, 3).x - at.x + 40.0).abs() < 1.5, "it follows the hand");
     animator.request(Request::Command(Id::FitKeys));
     let state = &animator.harness.state().state;
-    assert_eq!(state.keys.window(state.take().unwrap()).length, f64::from(3.417_f32));
+    assert_eq!(state.read().keys.window(state.read().take().unwrap()).length, f64::from(3.417_f32));
 }
 
 #[test]
@@ -434,16 +443,20 @@ fn the_range_plays_and_any_time_can_be_looked_at() {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Timeline(KeysRequest::Range(Some([1.0, 0.5]))));
     animator.request(Request::Seek(3.0));
-    assert_eq!(animator.harness.state().state.time(), 3.0, "outside of the range, too");
+    assert_eq!(animator.harness.state().state.read().time(), 3.0, "outside of the range, too");
     animator.request(Request::Command(Id::PlayPause));
     let state = &animator.harness.state().state;
-    assert_eq!((state.playback.start, state.playback.length), (0.5, 0.5));
-    let later = state.now + std::time::Duration::from_millis(725);
-    assert!((state.playback.time_at(later) - 0.725).abs() < 1e-3, "{}", state.playback.time_at(later));
+    assert_eq!((state.read().playback.start, state.read().playback.length), (0.5, 0.5));
+    let later = state.read().now + std::time::Duration::from_millis(725);
+    assert!(
+        (state.read().playback.time_at(later) - 0.725).abs() < 1e-3,
+        "{}",
+        state.read().playback.time_at(later)
+    );
     animator.request(Request::Command(Id::PlayPause));
     animator.request(Request::Command(Id::RangeWhole));
     let state = &animator.harness.state().state;
-    assert_eq!((state.playback.start, state.playback.length), (0.0, 3.417));
+    assert_eq!((state.read().playback.start, state.read().playback.length), (0.0, 3.417));
 }
 
 #[test]
@@ -454,7 +467,7 @@ fn a_refused_drag_leaves_everything_as_it_was() {
     animator.request(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(-5.0))));
     animator.request(Request::Timeline(KeysRequest::Release));
     assert_eq!(animator.times(3), before);
-    assert!(animator.harness.state().state.keys.drag().is_none(), "nothing is waited for");
+    assert!(animator.harness.state().state.read().keys.drag().is_none(), "nothing is waited for");
     assert_eq!(animator.selected(), 1);
 }
 
@@ -463,7 +476,7 @@ fn keys_that_are_not_listed_any_more_are_not_deleted_unseen() {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Command(Id::SelectAllKeys));
     assert_eq!(animator.selected(), 41);
-    animator.harness.state_mut().state.select(Some(2));
+    animator.harness.state_mut().state.execute(Request::Select(Some(2)));
     animator.steps(2);
     assert_eq!(animator.selected(), 0, "another bone is listed");
     animator.harness.key_press(Key::Delete);
@@ -473,7 +486,7 @@ fn keys_that_are_not_listed_any_more_are_not_deleted_unseen() {
     animator.request(Request::Timeline(KeysRequest::OnlySelected(false)));
     animator.request(Request::Command(Id::SelectAllKeys));
     let all = animator.selected();
-    let name = animator.harness.state().state.bone_name(3);
+    let name = animator.harness.state().state.read().bone_name(3);
     animator.request(Request::Timeline(KeysRequest::Filter(name)));
     assert!((1..all).contains(&animator.selected()), "{} of {all}", animator.selected());
 }
@@ -485,11 +498,14 @@ fn time_that_is_stopped_stands_on_a_frame_as_keys_do() {
         animator.request(Request::Timeline(KeysRequest::Snap(snaps)));
         // It plays, however slowly, when it is stopped.
         let state = &mut animator.harness.state_mut().state;
-        state.playback =
-            state.playback.with(true, state.settings.speed, Repeat::Loop, state.now).seek(0.345, state.now);
+        state.read().playback = state
+            .read()
+            .playback
+            .with(true, state.read().settings.speed, Repeat::Loop, state.read().now)
+            .seek(0.345, state.read().now);
         state.execute(Request::Command(Id::PlayPause));
         let state = &animator.harness.state().state;
-        assert!(!state.playback.playing);
-        assert!((state.time() - wanted).abs() < 1e-5, "{} s", state.time());
+        assert!(!state.read().playback.playing);
+        assert!((state.read().time() - wanted).abs() < 1e-5, "{} s", state.read().time());
     }
 }

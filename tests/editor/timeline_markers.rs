@@ -4,7 +4,7 @@ use crate::panels::Bench;
 use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::keys::{KeysRequest, MarkerDeed};
+use dragonfly::panels::keys::{KeysRequest, MarkerAction};
 use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
 use dragonfly_document::{Change, FileView};
 use dragonfly_kit::document::fixture;
@@ -12,12 +12,20 @@ use egui::{PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 
-fn marker(animator: &mut Animator, deed: MarkerDeed) {
+fn marker(animator: &mut Animator, deed: MarkerAction) {
     animator.request(Request::Timeline(KeysRequest::Marker(deed)));
 }
 
 fn names(animator: &Animator) -> Vec<(f32, String)> {
-    animator.harness.state().state.markers().iter().map(|marker| (marker.time, marker.name.clone())).collect()
+    animator
+        .harness
+        .state()
+        .state
+        .read()
+        .markers()
+        .iter()
+        .map(|marker| (marker.time, marker.name.clone()))
+        .collect()
 }
 
 #[test]
@@ -29,18 +37,18 @@ fn markers_are_added_named_moved_jumped_to_and_deleted() {
     assert_eq!(names(&animator).len(), 1, "one at a time is enough");
     animator.request(Request::Seek(1.0));
     animator.request(Request::Command(Id::AddMarker));
-    marker(&mut animator, MarkerDeed::Rename(0, "left contact".to_owned()));
+    marker(&mut animator, MarkerAction::Rename(0, "left contact".to_owned()));
     assert_eq!(names(&animator)[0], (1.0, "left contact".to_owned()), "ascending");
     animator.request(Request::Command(Id::NextMarker));
-    assert_eq!(animator.harness.state().state.time(), 2.0);
+    assert_eq!(animator.harness.state().state.read().time(), 2.0);
     let place = animator.harness.get_by_label("Marker left contact").rect().left_center() + vec2(6.0, 0.0);
     animator.click(place);
-    assert_eq!(animator.harness.state().state.time(), 1.0, "a click goes there");
+    assert_eq!(animator.harness.state().state.read().time(), 1.0, "a click goes there");
     animator.drag(place, place + vec2(60.0, 0.0));
     animator.release(place + vec2(60.0, 0.0));
     assert!(names(&animator)[0].0 > 1.2, "{:?}", names(&animator));
-    marker(&mut animator, MarkerDeed::Delete(7));
-    marker(&mut animator, MarkerDeed::Delete(0));
+    marker(&mut animator, MarkerAction::Delete(7));
+    marker(&mut animator, MarkerAction::Delete(0));
     assert_eq!(names(&animator).len(), 1);
     assert!(animator.changes.is_empty(), "the document knows nothing of it");
 }
@@ -48,7 +56,7 @@ fn markers_are_added_named_moved_jumped_to_and_deleted() {
 #[test]
 fn markers_come_back_with_the_file_and_a_damaged_text_brings_none() {
     let mut animator = Animator::with_bone(3);
-    marker(&mut animator, MarkerDeed::Add(0.5));
+    marker(&mut animator, MarkerAction::Add(0.5));
     let (file, text) = animator.harness.state_mut().state.unsaved_markers().unwrap();
     assert!(file.starts_with("markers/") && file.ends_with(".json"));
     assert_eq!(animator.harness.state_mut().state.unsaved_markers(), None, "said once");
@@ -56,11 +64,11 @@ fn markers_come_back_with_the_file_and_a_damaged_text_brings_none() {
     assert_eq!(again.wanted_markers(), Some(file));
     assert_eq!(again.wanted_markers(), None, "asked once");
     again.read_markers(&text);
-    assert_eq!(again.markers().len(), 1);
+    assert_eq!(again.read().markers().len(), 1);
     for damaged in ["", "{", "[1,2]", &text.replace("0.5", "1e999"), &text[..text.len() / 2]] {
         let mut other = Bench::new(Some(fixture::full())).state;
         other.read_markers(damaged);
-        assert!(other.markers().len() <= 1);
+        assert!(other.read().markers().len() <= 1);
     }
 }
 
@@ -69,14 +77,14 @@ fn a_copy_of_a_take_has_its_markers_and_the_second_part_of_one_those_behind_the_
     let times = |animator: &Animator| names(animator).iter().map(|(time, _)| *time).collect::<Vec<_>>();
     let mut animator = Animator::with_bone(3);
     for time in [0.5, 1.0, 2.0] {
-        marker(&mut animator, MarkerDeed::Add(time));
+        marker(&mut animator, MarkerAction::Add(time));
     }
-    marker(&mut animator, MarkerDeed::Rename(2, "turn".to_owned()));
+    marker(&mut animator, MarkerAction::Rename(2, "turn".to_owned()));
     animator.request(Request::Command(Id::DuplicateTake));
-    assert_eq!(animator.harness.state().state.playback.take, Some(1), "the copy is shown");
+    assert_eq!(animator.harness.state().state.read().playback.take, Some(1), "the copy is shown");
     assert_eq!(times(&animator), [0.5, 1.0, 2.0]);
     assert_eq!(names(&animator)[2].1, "turn");
-    marker(&mut animator, MarkerDeed::Delete(0));
+    marker(&mut animator, MarkerAction::Delete(0));
     animator.request(Request::ShowTake(Some(0)));
     assert_eq!(times(&animator).len(), 3, "each has its own");
     animator.request(Request::Seek(1.5));
@@ -91,7 +99,7 @@ fn a_copy_of_a_take_has_its_markers_and_the_second_part_of_one_those_behind_the_
 #[test]
 fn what_is_typed_takes_the_place_of_a_markers_name() {
     let mut animator = Animator::with_bone(3);
-    marker(&mut animator, MarkerDeed::Add(1.0));
+    marker(&mut animator, MarkerAction::Add(1.0));
     let place = animator.harness.get_by_label("Marker Marker 1").rect().left_center() + vec2(6.0, 0.0);
     animator.move_to(place);
     animator.button(place, PointerButton::Secondary, true);
@@ -114,13 +122,13 @@ fn markers_go_with_a_file_that_is_saved_elsewhere_and_with_a_take_that_is_rename
     let state = &mut animator.harness.state_mut().state;
     assert!(state.wanted_markers().is_some());
     state.read_markers("");
-    marker(&mut animator, MarkerDeed::Add(0.5));
+    marker(&mut animator, MarkerAction::Add(0.5));
     let first = animator.harness.state_mut().state.unsaved_markers().unwrap();
     let rename = Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: "March".to_owned() });
     animator.request(Request::Change(Change::Edit(rename, None)));
     animator.steps(2);
     let state = &mut animator.harness.state_mut().state;
-    let mut view = state.view.clone().unwrap();
+    let mut view = state.read().view.cloned().unwrap();
     let other = Arc::new(FileView { title: "other.glb".to_owned(), path: Some("other.glb".into()) });
     view.file = Arc::clone(&other);
     state.show(view);
@@ -133,6 +141,6 @@ fn markers_go_with_a_file_that_is_saved_elsewhere_and_with_a_take_that_is_rename
         let mut again = Bench::new(Some(opened)).state;
         assert_eq!(again.wanted_markers().as_ref(), Some(&file));
         again.read_markers(&text);
-        assert_eq!(again.markers().len(), 1);
+        assert_eq!(again.read().markers().len(), 1);
     }
 }

@@ -46,7 +46,7 @@ impl Animator {
     /// A model with a spine, each bone turned by 41 keys over 3.417 seconds; `bone` is selected.
     pub(crate) fn with_bone(bone: u32) -> Self {
         let mut animator = Self::new(fixture::full());
-        animator.harness.state_mut().state.select(Some(bone));
+        animator.harness.state_mut().state.execute(Request::Select(Some(bone)));
         animator.steps(2);
         animator
     }
@@ -81,7 +81,7 @@ impl Animator {
                 Change::Edit(edit, gesture) => match self.edited.ask(edit, gesture) {
                     Ok(()) => true,
                     Err(_) => {
-                        self.harness.state_mut().state.keys_refused();
+                        self.harness.state_mut().state.edit_refused();
                         false
                     }
                 },
@@ -191,14 +191,14 @@ impl Animator {
     /// Points of a time in a part that shows it.
     pub(crate) fn x_in(&self, part: Rect, time: f32) -> f32 {
         let state = &self.harness.state().state;
-        let window = state.keys.window(state.take().unwrap());
+        let window = state.read().keys.window(state.read().take().unwrap());
         part.left() + 16.0 + (time - window.start as f32) / window.length as f32 * (part.width() - 36.0)
     }
 
     /// How many keys are selected.
     pub(crate) fn selected(&self) -> usize {
         let state = &self.harness.state().state;
-        state.keys.selection.count(state.take().unwrap())
+        state.read().keys.selection().count(state.read().take().unwrap())
     }
 
     /// The time of a key of the fixture.
@@ -208,7 +208,7 @@ impl Animator {
 
     /// What the line at the bottom says.
     pub(crate) fn said(&self) -> String {
-        let line = self.harness.state().state.status.last();
+        let line = self.harness.state().state.read().status.last();
         line.map_or_else(String::new, |line| line.text.clone())
     }
 

@@ -2,8 +2,8 @@
 //! stays held, and what was half done is taken back. Nor is anything saved or undone in the middle of a drag.
 
 use crate::timeline_rig::Animator;
+use dragonfly::panels::FileAction;
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::saving::Deed;
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::edit::{Edit, RenameTake};
 use dragonfly_document::history::Edited;
@@ -18,7 +18,7 @@ fn lose(animator: &mut Animator) {
     loop {
         let mut input = RawInput::default();
         let context = animator.harness.ctx.clone();
-        let more = animator.harness.state_mut().state.dragging.tell(&context, &mut input);
+        let more = animator.harness.state_mut().state.prepend_events(&context, &mut input);
         input.events.into_iter().for_each(|event| animator.harness.event(event));
         animator.steps(1);
         if !more {
@@ -37,10 +37,13 @@ fn key(animator: &mut Animator, key: Key, modifiers: Modifiers) {
 #[track_caller]
 fn nothing_is_held(animator: &Animator, round: usize) {
     let state = &animator.harness.state().state;
-    assert!(!state.dragging.is_open(), "round {round}: a drag goes on");
-    assert!(!state.hands.is_busy() && !state.hands.edits(), "round {round}: the hands are busy");
-    assert!(!state.keys.drag().is_some_and(|drag| drag.held()), "round {round}: keys are held");
-    assert_eq!(state.hands.modifiers(), Default::default(), "round {round}: a key is held");
+    assert!(!state.read().dragging.is_open(), "round {round}: a drag goes on");
+    assert!(
+        !state.read().tools.controls().is_busy() && !state.read().tools.controls().edits(),
+        "round {round}: the hands are busy"
+    );
+    assert!(!state.read().keys.drag().is_some_and(|drag| drag.held()), "round {round}: keys are held");
+    assert_eq!(state.read().tools.controls().modifiers(), Default::default(), "round {round}: a key is held");
     let context = &animator.harness.ctx;
     assert_eq!(context.dragged_id(), None, "round {round}: a panel is dragged");
     context.input(|input| {
@@ -83,14 +86,14 @@ fn a_drag_whose_end_never_comes_leaves_nothing_held_and_nothing_half_done() {
         let from = place(&mut random, &animator);
         let mut before = animator.edited.clone();
         animator.press(from);
-        let mut open = animator.harness.state().state.dragging.is_open();
+        let mut open = animator.harness.state().state.read().dragging.is_open();
         for _ in 0..2 + random.below(5) {
             if !open {
                 before = animator.edited.clone();
             }
             let to = from + egui::vec2(random.between(-60.0, 60.0), random.between(-60.0, 60.0));
             animator.move_to(to);
-            let now = animator.harness.state().state.dragging.is_open();
+            let now = animator.harness.state().state.read().dragging.is_open();
             open = now;
             if open && random.below(3) == 0 {
                 // A command in the middle of it is not heard.
@@ -104,7 +107,7 @@ fn a_drag_whose_end_never_comes_leaves_nothing_held_and_nothing_half_done() {
                 deaf += 1;
             }
         }
-        open = animator.harness.state().state.dragging.is_open();
+        open = animator.harness.state().state.read().dragging.is_open();
         if random.below(4) == 0 {
             animator.release(from);
             ended += usize::from(open);
@@ -131,9 +134,12 @@ fn a_drag_whose_end_never_comes_leaves_nothing_held_and_nothing_half_done() {
         key(&mut animator, Key::Escape, Modifiers::NONE);
         let bench = animator.harness.state_mut();
         bench.effects.clear();
-        (bench.state.overlay, bench.state.playback.playing) = (None, false);
-        bench.state.questions.clear();
-        bench.state.select(Some(3));
+        while bench.state.read().question().is_some() {
+            bench.state.execute(Request::Dismiss);
+        }
+        bench.state.show_overlay(None);
+        bench.state.pause();
+        bench.state.execute(Request::Select(Some(3)));
         animator.steps(2);
         nothing_is_held(&animator, round);
     }
@@ -159,7 +165,7 @@ fn whoever_saves_closes_or_undoes_in_the_middle_of_a_drag_does_so_without_it() {
         || Request::Command(Id::SaveAs),
         || Request::Command(Id::Quit),
         || Request::Change(Change::Undo),
-        || Request::Deed(Deed::Leave(Then::Quit)),
+        || Request::Answer(FileAction::Leave(Then::Quit)),
         || Request::Open(dragonfly_document::Source::BuiltIn),
     ];
     for (number, way) in ways.into_iter().enumerate() {
@@ -173,7 +179,7 @@ fn whoever_saves_closes_or_undoes_in_the_middle_of_a_drag_does_so_without_it() {
         let keys = [animator.at(animator.key(4), 0), animator.at(animator.key(9), 0)];
         animator.drag(keys[0], keys[1]);
         animator.steps(2);
-        assert!(animator.harness.state().state.dragging.is_open(), "{number}: nothing is dragged");
+        assert!(animator.harness.state().state.read().dragging.is_open(), "{number}: nothing is dragged");
         assert_eq!(animator.edited.steps().1, 2, "{number}");
         animator.request(way());
         let undone = usize::from(number == 3);
@@ -186,7 +192,11 @@ fn whoever_saves_closes_or_undoes_in_the_middle_of_a_drag_does_so_without_it() {
         animator.move_to(keys[1]);
         animator.release(keys[1]);
         assert_eq!(animator.edited.steps().1, 1 - undone, "{number}");
-        animator.harness.state_mut().effects.retain(|effect| !matches!(effect, Effect::Open(_)));
+        animator
+            .harness
+            .state_mut()
+            .effects
+            .retain(|effect| !matches!(effect, Effect::File(FileAction::Leave(_))));
         animator.drag(keys[0], keys[1]);
         animator.release(keys[1]);
         assert_eq!(animator.edited.steps().1, 2 - undone, "{number}: it is stuck");

@@ -60,7 +60,7 @@ fn a_head_that_is_turned_by_hand_is_the_same_to_the_reader_to_stdio_and_to_three
     // About the parent's axes, in which the panel tells the change.
     visit.screen.press(key::T);
     let mut inside = visit.inside();
-    inside.state.settings.hand.space = GizmoSpace::Parent;
+    inside.state.settings_mut().tools.space = GizmoSpace::Parent;
     let ring = inside.handle("b_Head_05", Handle::Axis(GizmoAxis::X));
     visit.screen.point(ring.x as i16, ring.y as i16);
     visit.screen.hold();

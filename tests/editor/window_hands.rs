@@ -29,26 +29,26 @@ impl Inside {
         let rect = egui::Rect::from_min_size(egui::pos2(x, y), egui::vec2(width, height));
         state.execute(Request::Viewport(rect));
         state.show(View::opened(1, Arc::new(loaded)));
-        state.playback.playing = false;
+        state.pause();
         state.execute(Request::Seek(0.0));
         Self { state, corner: Vec2::new(x, y), size: Vec2::new(width, height) }
     }
 
     fn bone(&self, name: &str) -> u32 {
-        let bones = &self.state.loaded().expect("open").model.animation.skeleton.bones;
+        let bones = &self.state.read().loaded().expect("open").model.animation.skeleton.bones;
         bones.iter().position(|bone| bone.name == name).expect("a bone of Fox") as u32
     }
 
     fn view(&self) -> GizmoView {
-        GizmoView::new(&self.state.camera, self.size)
+        GizmoView::new(&self.state.read().camera, self.size)
     }
 
     /// Where in the window the middle of a bone is, from its joint to that of another.
     pub(crate) fn middle(&mut self, from: &str, to: &str) -> Vec2 {
         let bones = [self.bone(from), self.bone(to)];
-        self.state.select(Some(bones[0]));
-        self.state.begin(self.state.now);
-        let to_root = self.state.posed.animation().expect("posed").to_root();
+        self.state.execute(Request::Select(Some(bones[0])));
+        self.state.begin_frame(self.state.read().now);
+        let to_root = self.state.read().posed.animation().expect("posed").to_root();
         let place = bones.map(|bone| to_root[bone as usize].w_axis.truncate().as_dvec3());
         let at = self.view().to_screen((place[0] + place[1]) / 2.0).expect("before the eye");
         at.as_vec2() + self.corner
@@ -57,12 +57,12 @@ impl Inside {
     /// A place in the window where a handle of the gizmo at a bone is.
     pub(crate) fn handle(&mut self, bone: &str, wanted: Handle) -> Vec2 {
         let bone = self.bone(bone);
-        self.state.select(Some(bone));
-        self.state.begin(self.state.now);
-        let skeleton = &self.state.loaded().expect("open").model.animation.skeleton;
-        let animation = self.state.posed.animation().expect("posed");
+        self.state.execute(Request::Select(Some(bone)));
+        self.state.begin_frame(self.state.read().now);
+        let skeleton = &self.state.read().loaded().expect("open").model.animation.skeleton;
+        let animation = self.state.read().posed.animation().expect("posed");
         let mut gizmo = Gizmo::new(Tool::Rotate);
-        gizmo.settings.space = self.state.settings.hand.space;
+        gizmo.settings.space = self.state.read().settings.tools.space;
         gizmo.select(skeleton, animation.poses(), animation.to_root(), &[bone], None);
         gizmo.look(self.view());
         let joint = animation.to_root()[bone as usize].w_axis.truncate().as_dvec3();

@@ -1,6 +1,6 @@
 //! The whole window without a window, with a document behind it: what panels ask for is done, and seen in the next frame.
 
-use dragonfly::panels::state::Device;
+use dragonfly::panels::window_status::Device;
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
 use dragonfly_anim::data::Transform;
 use dragonfly_document::adapter::ModelAdapter;
@@ -28,11 +28,11 @@ pub(crate) type Window = Harness<'static, Workbench>;
 impl Workbench {
     pub(crate) fn new(view: Option<View>) -> Self {
         let mut state = State::new(Settings::default(), Instant::now());
-        state.device = Device::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() };
+        state.set_device(Device::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
         let edited = view.as_ref().map(|view| Edited::new(ModelAdapter::new(&view.loaded.model.animation)));
         if let Some(view) = view {
             state.show(view);
-            state.playback.playing = false;
+            state.pause();
         }
         Self { desk: Desk::new(""), state, edited, changes: Vec::new(), refused: Vec::new() }
     }
@@ -74,13 +74,12 @@ impl Workbench {
 
     pub(crate) fn frame(&mut self, ui: &mut egui::Ui) {
         let mut requests = Vec::new();
-        self.state.begin(self.state.now);
+        self.state.begin_frame(self.state.read().now);
         for id in panels::commands::pressed(ui.ctx()) {
             requests.push(Request::Command(id));
         }
-        self.desk.show(ui, &self.state, &mut requests);
-        self.state.hovered = None;
-        self.state.find = false;
+        self.desk.show(ui, &self.state.read(), &mut requests);
+        self.state.end_frame();
         for request in requests {
             match self.state.execute(request) {
                 Some(Effect::Change(change)) => self.change(change),
@@ -103,7 +102,7 @@ impl Workbench {
 
     fn answer(&mut self, answered: u64, change: Change) {
         self.changes.push(change.clone());
-        let (Some(edited), Some(view)) = (&mut self.edited, self.state.view.clone()) else { return };
+        let (Some(edited), Some(view)) = (&mut self.edited, self.state.read().view.cloned()) else { return };
         let _there_was_something_to_do = match change {
             Change::Edit(edit, gesture) => match edited.ask(edit, gesture) {
                 Ok(()) => true,
@@ -131,13 +130,13 @@ impl Workbench {
 
     /// The pose of a bone in the take and at the time shown, as the document has it.
     pub(crate) fn pose(&self, bone: u32) -> Transform {
-        let view = self.state.view.as_ref().unwrap();
-        let take = &view.takes[self.state.playback.take.unwrap()];
+        let view = self.state.read().view.unwrap();
+        let take = &view.takes[self.state.read().playback.take.unwrap()];
         let bones = &view.loaded.model.animation.skeleton.bones;
         dragonfly_anim::sample::sample_track(
             &take.tracks[bone as usize],
             &bones[bone as usize],
-            self.state.time(),
+            self.state.read().time(),
         )
     }
 

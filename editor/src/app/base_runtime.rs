@@ -1,4 +1,4 @@
-//! What a program built on [`super::MainRuntime`] provides (thesis §3.2.4.3).
+//! The interface between [`super::MainRuntime`] and the program that is built on it (thesis §3.2.4.3).
 
 use super::interface::Interface;
 use dragonfly_picture::{GraphicsHandle, GraphicsReply};
@@ -6,7 +6,7 @@ use dragonfly_runtime::Context;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// What the custom run-time gets to work with.
+/// The parts that the custom run-time works with.
 #[derive(Clone)]
 pub struct Parts {
     /// Window, panels, input.
@@ -17,18 +17,18 @@ pub struct Parts {
 
 /// A custom run-time: the editor's is [`super::EditorRuntime`].
 pub trait BaseRuntime {
-    /// Everything is there: begin. Called once, in the main thread.
+    /// Starts the run-time, when all parts exist. Called once, in the main thread.
     fn initialize(&mut self, parts: Parts, main: &mut Context);
 
-    /// The graphics thread said something else than that it is ready.
+    /// Handles a reply of the graphics thread, except that it is ready.
     fn graphics_said(&mut self, reply: GraphicsReply, main: &mut Context);
 
-    /// The window had input: what follows from it need not wait for the panels to be drawn.
-    fn hasten(&mut self) {}
+    /// Sends out what followed from input of the window, without waiting until the panels are drawn.
+    fn flush_effects(&mut self) {}
 
-    /// One turn of the main loop, after the window had its own.
+    /// Does one turn of the main loop, after the window's turn.
     fn update(&mut self, main: &mut Context);
 
-    /// The end is near: give back everything. Input is off already, graphics still there.
+    /// Releases everything. Input is off already, the graphics thread still runs.
     fn destroy(&mut self, main: &mut Context);
 }

@@ -1,19 +1,18 @@
-//! The editor: opens models, and carries what the person does to the threads that can do it (thesis §3.2.4.5).
+//! The editor's run-time: opens models, and passes what the user does to the threads that do it (thesis §3.2.4.5).
 
-use super::answers::{Answers, Replies};
 use super::base_runtime::{BaseRuntime, Parts};
 use super::file_dialog::{self, Answer, Purpose};
 use super::graphics_sync::GraphicsSync;
 use super::hover::{Hover, Place};
 use super::interface::Interface;
 use super::options::Options;
-use super::shown;
-use crate::panels::saving::Deed;
-use crate::panels::state::Device;
-use crate::panels::status::Level;
+use super::replies::{Answers, Replies};
+use super::state_trace;
+use crate::panels::status::Severity;
+use crate::panels::window_status::Device;
 use crate::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{Document, DocumentHandle, DocumentReply, Setup, Source, Then};
+use dragonfly_document::{Document, DocumentHandle, DocumentReply, Setup, Source};
 use dragonfly_picture::GraphicsReply;
 use dragonfly_runtime::{Address, Context, Outcome, Receiver, Thread};
 use dragonfly_store::{Autosave, RealFiles};
@@ -22,7 +21,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// How long the document may take to end: what is in its journal must come to the disk, and disks can be slow.
+/// Time limit for the document to end: its journal must reach the disk, and disks can be slow.
 const END: Duration = Duration::from_secs(10);
 
 /// The editor's custom run-time.
@@ -32,23 +31,23 @@ pub struct EditorRuntime {
     running: Option<Running>,
 }
 
-/// What it has between initialize and destroy.
+/// The run-time between initialize and destroy.
 pub(super) struct Running {
     pub(super) parts: Parts,
     pub(super) document: Option<DocumentHandle>,
-    /// The document was asked whether the program may end.
+    /// Whether the document was asked if the program may end.
     pub(super) leaving: bool,
     replies: Address<DocumentReply>,
     pub(super) answers: Address<Answer>,
     graphics_sync: GraphicsSync,
-    /// Questions asked so far.
+    /// Number of questions sent to the graphics thread.
     tickets: u64,
-    /// The newest question of a click or a box.
+    /// The newest question about a click or a box.
     asked: Option<(u64, Asked)>,
     hover: Hover,
 }
 
-/// What a click or a box asked about.
+/// A question about a click or a box.
 #[derive(Clone, Copy, Debug)]
 enum Asked {
     Click(egui::Pos2, Choice),
@@ -56,24 +55,24 @@ enum Asked {
 }
 
 impl EditorRuntime {
-    /// Inactive until [`BaseRuntime::initialize`]; raises `quit` when the person wants to leave.
+    /// Creates a run-time that is inactive until [`BaseRuntime::initialize`]; sets `quit` when the user ends the program.
     pub fn new(options: Options, quit: Rc<Cell<bool>>) -> Self {
         Self { options, quit, running: None }
     }
 
-    /// Opens a model: the document loads it, and what is open stays until then.
+    /// Opens a model: the document loads it, and the model that is open stays until then.
     pub fn open_model(&mut self, source: Source) {
         let Some(running) = &self.running else { return };
         match &running.document {
             Some(document) => document.open(source),
             None => {
                 let mut interface = running.parts.interface.borrow_mut();
-                interface.state.status.say(Level::Error, "There is no document thread");
+                interface.state.say(Severity::Error, "There is no document thread");
             }
         }
     }
 
-    /// Where the document records what is not saved: with settings of their own, beside them.
+    /// Returns where the document records unsaved changes: next to the settings where those have a folder of their own.
     fn setup(&self) -> Setup {
         let beside = self.options.settings_folder.as_ref().map(|folder| folder.join("autosave"));
         let folder = self.options.autosave_folder.clone().or(beside);
@@ -81,7 +80,7 @@ impl EditorRuntime {
         Setup { autosave, faults: self.options.faults.clone(), ..Setup::default() }
     }
 
-    /// Sends out what the person asked for, and what the graphics thread is to know of it.
+    /// Carries out the effects of the panels, and sends the graphics thread what changed.
     fn carry_out(&mut self) {
         let effects = match &self.running {
             Some(running) => running.parts.interface.borrow_mut().take_effects(),
@@ -97,13 +96,8 @@ impl EditorRuntime {
 
     fn effect(&mut self, effect: Effect) {
         let Some(running) = &mut self.running else { return };
-        let effect = match effect {
-            Effect::Open(source) => Effect::Deed(Deed::Leave(Then::Open(source))),
-            Effect::Quit => Effect::Deed(Deed::Leave(Then::Quit)),
-            other => other,
-        };
-        if let Effect::Deed(deed) = effect {
-            if running.deed(deed) {
+        if let Effect::File(action) = effect {
+            if running.file_action(action) {
                 self.quit.set(true);
             }
             return;
@@ -111,25 +105,25 @@ impl EditorRuntime {
         let graphics = &running.parts.graphics;
         let mut interface = running.parts.interface.borrow_mut();
         match effect {
-            Effect::Open(_) | Effect::Quit | Effect::Deed(_) => {}
-            // What these come to is what was let through.
+            // Done above.
+            Effect::File(_) => {}
+            // Became other effects when they were let through.
             Effect::Change(_)
             | Effect::Changes(_)
             | Effect::Cut(..)
-            | Effect::TakeBack
-            | Effect::HandsOff => {}
-            Effect::Stays => running.leaving = false,
+            | Effect::CancelDrag
+            | Effect::ReleaseDrag => {}
             Effect::OpenDialog if interface.asking => {
-                interface.state.status.say(Level::Info, "The dialog for opening files is open already");
+                interface.state.say(Severity::Info, "The dialog for opening files is open already");
             }
             Effect::OpenDialog => {
-                let recent = interface.state.settings.recent.first();
+                let recent = interface.state.read().settings.recent.first();
                 let folder = recent.and_then(|path| path.parent()).map(std::path::Path::to_owned);
                 match file_dialog::ask(Purpose::Open, folder, running.answers.clone()) {
                     Ok(()) => interface.asking = true,
                     Err(error) => {
                         let text = format!("No dialog could be opened: {error}");
-                        interface.state.status.say(Level::Error, text);
+                        interface.state.say(Severity::Error, text);
                     }
                 }
             }
@@ -140,7 +134,7 @@ impl EditorRuntime {
             }
             Effect::Send(number, change) => {
                 if let Some(document) = &running.document {
-                    shown::asked(&change);
+                    state_trace::asked(&change);
                     document.change_numbered(number, change);
                 }
             }
@@ -174,7 +168,7 @@ impl BaseRuntime for EditorRuntime {
     fn initialize(&mut self, parts: Parts, main: &mut Context) {
         {
             let mut interface = parts.interface.borrow_mut();
-            interface.state.passed_over = self.options.passed_over;
+            interface.state.pass_over(self.options.passed_over);
             interface.edits = std::mem::take(&mut self.options.edits);
             interface.faults = self.options.faults.clone();
         }
@@ -190,10 +184,7 @@ impl BaseRuntime for EditorRuntime {
             }
             Err(error) => {
                 let mut interface = parts.interface.borrow_mut();
-                interface
-                    .state
-                    .status
-                    .say(Level::Error, format!("No document thread could be started: {error}"));
+                interface.state.say(Severity::Error, format!("No document thread could be started: {error}"));
                 None
             }
         };
@@ -217,19 +208,16 @@ impl BaseRuntime for EditorRuntime {
         match reply {
             GraphicsReply::Ready { adapter, max_texture_side } => {
                 interface.set_max_texture_side(max_texture_side);
-                interface.state.device = Device::Ready { adapter };
+                interface.state.set_device(Device::Ready { adapter });
             }
             GraphicsReply::Picked { bone, ticket } => {
-                if running.hover.answered(ticket) {
-                    // A pointer that stays on its bone changes nothing, so nothing is drawn.
-                    if interface.state.pointed == bone || interface.state.pointer.is_none() {
-                        return;
-                    }
-                    interface.state.pointed = bone;
+                // A pointer that stays on its bone changes nothing, so nothing is drawn.
+                if running.hover.answered(ticket) && !interface.state.set_pointed(bone) {
+                    return;
                 }
             }
             GraphicsReply::PickedAll { bones, ticket } => {
-                // An answer to an older question is not what the person points at now.
+                // An answer to an older question is not about the newest click.
                 match running.asked.take_if(|asked| asked.0 == ticket) {
                     Some((_, Asked::Click(at, choice))) => interface.state.picked(at, &bones, choice),
                     Some((_, Asked::Region(choice))) => interface.state.caught(&bones, choice),
@@ -237,30 +225,30 @@ impl BaseRuntime for EditorRuntime {
                 }
             }
             GraphicsReply::Statistics { milliseconds, .. } => {
-                interface.state.frame_time = Some(milliseconds);
+                interface.state.set_frame_time(milliseconds);
             }
             GraphicsReply::Recovered { reason, losses } => {
                 let text = format!("The graphics device was lost and is back ({losses}): {reason}");
-                interface.state.status.say(Level::Info, text);
+                interface.state.say(Severity::Info, text);
             }
             GraphicsReply::Paused { reason } => {
-                interface.state.status.say(Level::Warning, format!("The viewport is paused: {reason}"));
-                interface.state.device = Device::Paused { reason };
+                interface.state.say(Severity::Warning, format!("The viewport is paused: {reason}"));
+                interface.state.set_device(Device::Paused { reason });
             }
             GraphicsReply::Captured(Ok(path)) => {
-                interface.state.status.say(Level::Info, format!("Wrote {}", path.display()));
+                interface.state.say(Severity::Info, format!("Wrote {}", path.display()));
             }
             GraphicsReply::Captured(Err(reason)) => {
-                interface.state.status.say(Level::Error, format!("No picture was written: {reason}"));
+                interface.state.say(Severity::Error, format!("No picture was written: {reason}"));
             }
             GraphicsReply::Fatal(reason) => {
-                interface.state.status.say(Level::Error, format!("Nothing can be drawn any more: {reason}"));
+                interface.state.say(Severity::Error, format!("Nothing can be drawn any more: {reason}"));
             }
         }
         interface.redraw();
     }
 
-    fn hasten(&mut self) {
+    fn flush_effects(&mut self) {
         self.carry_out();
     }
 
@@ -285,11 +273,11 @@ impl BaseRuntime for EditorRuntime {
 }
 
 impl Running {
-    /// Asks which bone is under the pointer, when that may have changed and no answer is on its way.
+    /// Asks which bone is under the pointer, where that may have changed and no answer is pending.
     fn ask_under_pointer(&mut self) {
         let interface = self.parts.interface.borrow();
-        let (state, scale) = (&interface.state, interface.pixels_per_point());
-        let place = state.pointer.zip(state.view.as_ref()).map(|(pointer, view)| Place {
+        let (state, scale) = (interface.state.read(), interface.pixels_per_point());
+        let place = state.pointer.zip(state.view).map(|(pointer, view)| Place {
             position: [pointer.x * scale, pointer.y * scale],
             camera: state.camera,
             generation: view.generation,
@@ -302,7 +290,7 @@ impl Running {
     }
 }
 
-/// Lets panics of another thread be seen in the status line.
+/// Shows panics of another thread in the status line.
 pub(super) fn report_faults(
     thread: &dragonfly_runtime::ThreadHandle,
     interface: &Rc<RefCell<Interface>>,
@@ -313,7 +301,7 @@ pub(super) fn report_faults(
     main.register_restartable_receiver_at(&address, move |_| Faults(Rc::clone(&shown)));
     thread.observe(move |fault| {
         let text = format!("{} in thread {} failed: {}", fault.object, fault.thread, fault.reason);
-        // The log has it in any case.
+        // The log has it also where nothing receives it.
         let _ = address.send((text, fault.outcome == Outcome::GivenUp));
     });
 }
@@ -321,7 +309,7 @@ pub(super) fn report_faults(
 struct Faults(Rc<RefCell<Interface>>);
 
 impl Receiver for Faults {
-    /// What failed, and whether it did for good.
+    /// The text of the failure, and whether the part stays ended.
     type Message = (String, bool);
 
     fn receive(&mut self, (text, for_good): (String, bool), _main: &mut Context) {

@@ -1,13 +1,13 @@
-//! What wakes the main loop besides the window.
+//! Events that wake the main loop, in addition to those of the window.
 
 /// An event that another thread or the accessibility bridge puts into the window system's queue.
 #[derive(Debug)]
 pub(super) enum UserEvent {
-    /// Messages wait for the main thread.
+    /// There are messages for the main thread.
     Wake,
     /// The system asks the program to end, by this signal.
     Signal(i32),
-    /// A screen reader.
+    /// An event of the accessibility bridge.
     AccessKit(accesskit_winit::Event),
 }
 

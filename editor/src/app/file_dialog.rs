@@ -1,43 +1,42 @@
-//! The system's dialogs for files, asked in a thread of their own: they may take minutes to answer.
+//! The system's dialogs for files, run in a thread of their own: they may take minutes to answer.
 
 use dragonfly_document::{Offer, Then, formats};
 use dragonfly_runtime::Address;
 use std::path::PathBuf;
 
-/// What a file is wanted for.
+/// The purpose of a file dialog.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Purpose {
     /// To open it.
     Open,
-    /// To go on with unsaved work of this file, which is not where it was.
+    /// To restore unsaved work of this file, which was moved.
     Find(Box<Offer>),
     /// To save there.
     Save {
-        /// Does the document stay that of its own file?
+        /// Whether the document keeps its own file.
         copy: bool,
-        /// What comes after.
+        /// What follows after saving.
         then: Option<Then>,
         /// The name that is proposed.
         name: String,
     },
 }
 
-/// What came of it.
+/// The answer of a file dialog.
 #[derive(Debug)]
 pub(super) struct Answer {
-    /// What it was wanted for.
+    /// The purpose of the dialog.
     pub purpose: Purpose,
-    /// The file; none where the person changed their mind, or where there is no such dialog: the system does not tell
-    /// which.
+    /// The file; `None` where the user cancelled, or where there is no such dialog: the system does not report which.
     pub file: Option<PathBuf>,
-    /// The answer came faster than a person can act: probably there is no dialog at all.
+    /// Whether the answer came faster than a user can act: probably there is no dialog at all.
     pub quick: bool,
 }
 
-/// No person closes a dialog in less time than this, seconds.
+/// No user closes a dialog in less time than this, seconds.
 const HUMAN: f32 = 0.25;
 
-/// Asks; the answer goes to `to`.
+/// Shows a dialog; the answer goes to `to`.
 pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>) -> std::io::Result<()> {
     std::thread::Builder::new().name("file dialog".to_owned()).spawn(move || {
         let begun = std::time::Instant::now();

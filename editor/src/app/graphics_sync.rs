@@ -1,7 +1,7 @@
 //! Keeping the graphics thread up to date: sends the state that it needs when that has changed.
 
 use super::interface::Interface;
-use crate::panels::State;
+use crate::panels::PanelContext;
 use crate::panels::theme::{Theme, linear};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::HiddenBones;
@@ -32,7 +32,7 @@ impl GraphicsSync {
     /// Sends the values that differ from those sent last. The view that these times and bones refer to comes from the
     /// document itself, which sent it before.
     pub(super) fn update(&mut self, graphics: &GraphicsHandle, interface: &Interface) {
-        let state = &interface.state;
+        let state = &interface.state.read();
         if self.playback != Some(state.playback) {
             self.playback = Some(state.playback);
             graphics.play(state.playback);
@@ -41,7 +41,7 @@ impl GraphicsSync {
             self.camera = Some(state.camera);
             graphics.set_camera(state.camera);
         }
-        let flags = &state.keys.flags;
+        let flags = state.keys.flags();
         if self.flags != flags.version() {
             self.flags = flags.version();
             let bones = state.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len());
@@ -50,7 +50,7 @@ impl GraphicsSync {
         let mut selected = std::mem::take(&mut self.spare);
         selected.clear();
         selected.extend_from_slice(state.selection.bones());
-        if *self.hidden != state.hidden {
+        if *self.hidden != *state.hidden {
             self.hidden = Arc::new(state.hidden.clone());
         }
         let hidden = Arc::clone(&self.hidden);
@@ -65,11 +65,11 @@ impl GraphicsSync {
     }
 
     /// Sends the data of controls and passes that has changed: one call per type.
-    fn send_appearances(&mut self, graphics: &GraphicsHandle, state: &State) {
-        let gizmo = &state.hands.gizmo().gizmo;
+    fn send_appearances(&mut self, graphics: &GraphicsHandle, state: &PanelContext<'_>) {
+        let gizmo = &state.tools.controls().gizmo().gizmo;
         let sender = &mut self.appearances;
         sender.update(graphics, |GizmoAppearance(look)| {
-            *look = state.settings.hand.tool.map(|tool| GizmoLook {
+            *look = state.settings.tools.tool.map(|tool| GizmoLook {
                 tool,
                 settings: gizmo.settings,
                 hovered: gizmo.hovered(),
@@ -85,11 +85,11 @@ impl GraphicsSync {
             }
         });
         sender.update(graphics, |path: &mut PathAppearance| {
-            path.path = state.trail.look().cloned();
-            path.hovered = state.hands.path().hovered();
+            path.path = state.tools.path().look().cloned();
+            path.hovered = state.tools.controls().path().hovered();
         });
         sender.update(graphics, |ghosts: &mut GhostAppearance| {
-            ghosts.skins = state.settings.hand.ghosts.skin;
+            ghosts.skins = state.settings.tools.ghosts.skin;
             state.ghost_times(&mut ghosts.times);
         });
         sender.update(graphics, |IkAppearance(ik)| {
@@ -102,7 +102,7 @@ impl GraphicsSync {
 
 /// The look of the viewport in this state.
 fn look(
-    state: &State,
+    state: &PanelContext<'_>,
     selected: Vec<BoneIndex>,
     hidden: Arc<HiddenBones>,
     pixels_per_point: f32,
@@ -128,7 +128,7 @@ fn look(
         bone_look: settings.bone_look,
         bones_in_front: settings.bones_in_front,
         selected,
-        hovered: state.bright(),
+        hovered: state.highlighted(),
         shading: settings.shading,
         surface: settings.surface,
         bone_color: linear(theme.bone),

@@ -1,32 +1,32 @@
-//! Which bone lies under a pointer that moves over the picture, asked one question at a time.
+//! Finds the bone under a pointer that moves over the viewport, with one question at a time.
 //!
-//! The pointer reports far more places than anybody can answer: while a question is on its way none follows, and then only
-//! the newest place is asked for. Where nothing changes nothing is asked, so a pointer at rest costs nothing.
+//! The pointer reports far more positions than can be answered: while a question is pending none follows, and then only the
+//! newest position is asked for. Nothing is asked where nothing changed, so a pointer at rest costs nothing.
 
 use dragonfly_picture::camera::Camera;
 
-/// A place in a picture: what the answer depends on, besides the time of the take.
+/// A position in the viewport, and what the answer depends on in addition to the time of the take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Physical pixels from the window's top left.
     pub position: [f32; 2],
-    /// From where the model is seen.
+    /// The camera.
     pub camera: Camera,
-    /// Which model.
+    /// Generation of the view.
     pub generation: u64,
 }
 
-/// See the module.
+/// The question that was asked last, and whether its answer is pending.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Hover {
-    /// What was asked last.
+    /// The position that was asked for last.
     asked: Option<Place>,
-    /// The question on its way.
+    /// Ticket of the pending question.
     ticket: Option<u64>,
 }
 
 impl Hover {
-    /// Must `place` be asked for now? Then it is to be asked with `ticket`, and no other until it is answered.
+    /// Returns whether `place` is to be asked for now, with `ticket`; then no other is until it is answered.
     pub fn asks(&mut self, place: Option<Place>, ticket: u64) -> bool {
         let Some(place) = place else {
             self.asked = None;
@@ -39,7 +39,7 @@ impl Hover {
         true
     }
 
-    /// Takes an answer. Is it one to a question asked here, about a pointer that is still over the picture?
+    /// Takes an answer. Returns whether it is to a question asked here, about a pointer that is still over the viewport.
     pub fn answered(&mut self, ticket: u64) -> bool {
         let own = self.ticket == Some(ticket);
         if own {

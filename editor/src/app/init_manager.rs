@@ -1,4 +1,4 @@
-//! Hides the messages by which the graphics thread and the custom run-time learn of each other (thesis §3.2.4.4).
+//! Handles the messages by which the graphics thread and the custom run-time learn of each other (thesis §3.2.4.4).
 
 use super::base_runtime::{BaseRuntime, Parts};
 use super::timeline::{Step, Timeline};
@@ -7,10 +7,10 @@ use dragonfly_runtime::{Context, Receiver, Worker};
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Makes a custom run-time, when the time has come.
+/// Creates a custom run-time.
 pub type MakeRuntime = Box<dyn FnOnce() -> Box<dyn BaseRuntime>>;
 
-/// Waits for the graphics thread, then lets the custom run-time begin.
+/// Waits for the graphics thread, then starts the custom run-time.
 pub struct InitManager {
     prepared: Option<MakeRuntime>,
     runtime: Option<Box<dyn BaseRuntime>>,
@@ -20,27 +20,27 @@ pub struct InitManager {
 }
 
 impl InitManager {
-    /// Keeps what is needed to begin.
+    /// Stores what is needed to start.
     pub fn new(prepared: MakeRuntime, timeline: Rc<RefCell<Timeline>>) -> Self {
         Self { prepared: Some(prepared), runtime: None, parts: None, timeline, fatal: None }
     }
 
-    /// What the run-time will get.
+    /// The parts that the run-time will get.
     pub(super) fn set_parts(&mut self, parts: Parts) {
         self.parts = Some(parts);
     }
 
-    /// Why nothing can be drawn, when nothing can.
+    /// Returns why nothing can be drawn, if so.
     pub(super) fn fatal(&self) -> Option<&str> {
         self.fatal.as_deref()
     }
 
-    /// Has the run-time begun?
+    /// Returns whether the run-time was started.
     pub(super) fn is_running(&self) -> bool {
         self.runtime.is_some()
     }
 
-    /// Lets the run-time begin; the graphics thread is ready.
+    /// Starts the run-time; the graphics thread is ready.
     fn initialize(&mut self, main: &mut Context) {
         let (Some(make), Some(parts)) = (self.prepared.take(), self.parts.take()) else { return };
         let reach = |step| self.timeline.borrow_mut().reach(step);
@@ -53,14 +53,14 @@ impl InitManager {
         reach(Step::RunTime);
     }
 
-    /// The window had input.
-    pub(super) fn hasten(&mut self) {
+    /// Sends out what followed from input of the window.
+    pub(super) fn flush_effects(&mut self) {
         if let Some(runtime) = &mut self.runtime {
-            runtime.hasten();
+            runtime.flush_effects();
         }
     }
 
-    /// Lets the run-time end, if it ever began.
+    /// Ends the run-time, if it was started.
     pub(super) fn destroy(&mut self, main: &mut Context) {
         self.prepared = None;
         self.parts = None;

@@ -1,28 +1,31 @@
 //! The two-dimensional side of the window: input goes to egui and the panels, drawings go to the graphics thread.
 //!
-//! It is there before the device and before any model, so the program answers at once (T-093).
+//! It exists before the device and before any model, so the program answers at once (T-093).
 
-use super::reader::Reader;
-use super::shown::Shown;
+use super::accessibility_trace::AccessibilityTrace;
+use super::state_trace::StateTrace;
 use super::store::{self, Store};
 use crate::panels::commands;
-use crate::panels::hands;
 use crate::panels::marks;
-use crate::panels::saving::Deed;
+use crate::panels::prompts::{Overlay, Question};
 use crate::panels::settings::ThemeChoice;
-use crate::panels::status::Level;
-use crate::panels::{Desk, Effect, Request, Settings, State, style};
+use crate::panels::status::Severity;
+use crate::panels::{Desk, Effect, FileAction, Request, Settings, State, style};
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::bones::BoneSelection;
 use dragonfly_document::edit::Edit;
 use dragonfly_document::{FaultInjection, FaultPoint};
+use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{GraphicsHandle, PanelsFrame};
 use dragonfly_runtime::{Context, Worker};
+use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::event::{InnerSizeWriter, WindowEvent};
 use winit::window::{Fullscreen, Window};
 
-/// Panels are drawn at most this often, however fast the mouse reports.
+/// Minimum time between two drawings of the panels, however fast the mouse reports.
 const FASTEST: Duration = Duration::from_millis(8);
 
 /// Window, egui, panels and their state.
@@ -30,37 +33,37 @@ pub struct Interface {
     window: Arc<Window>,
     egui: egui_winit::State,
     desk: Desk,
-    /// What the panels show.
+    /// State of the panels.
     pub state: State,
-    /// What they asked for and only others can do.
+    /// Effects that the panels asked for and that only the run-time can carry out.
     pub effects: Vec<Effect>,
-    /// The system's dialog for opening files is open: one is enough.
+    /// Whether the system's dialog for files is open: one is enough.
     pub(super) asking: bool,
     /// The window's title.
     title: String,
-    /// Done once the first model is there.
+    /// Edits that are applied once the first model is open.
     pub(super) edits: Vec<Edit>,
     graphics: Option<GraphicsHandle>,
     store: Store,
     saved: Settings,
-    /// Physical pixels a point, as the desktop says; the window's own answer is late (winit under X11 tells of a change
-    /// and goes on to answer with the scale before).
+    /// Physical pixels per point, as the desktop reports; the window's own answer is late (winit on X11 reports a change and
+    /// continues to answer with the old scale).
     desktop_scale: f64,
-    /// When the panels are to be drawn.
+    /// When the panels are to be drawn next.
     due: Option<Instant>,
     drawn: Instant,
     accepts_input: bool,
     occluded: bool,
-    /// A part of the program failed so often that nothing goes on; which.
+    /// The part of the program that failed too often, so that the program ends.
     pub(super) given_up: Option<String>,
     /// Faults that a test injects.
     pub(super) faults: FaultInjection,
-    shown: Shown,
-    reader: Reader,
+    state_trace: StateTrace,
+    accessibility_trace: AccessibilityTrace,
 }
 
 impl Interface {
-    /// For `window`, which must not be visible yet; `egui` has its accessibility bridge.
+    /// Creates the interface for `window`, which must not be visible yet; `egui` has its accessibility bridge.
     pub(super) fn new(window: Arc<Window>, egui: egui_winit::State, store: Store) -> Self {
         let now = Instant::now();
         let settings = Settings::parse(&store.read(store::SETTINGS));
@@ -88,18 +91,18 @@ impl Interface {
             occluded: false,
             given_up: None,
             faults: FaultInjection::default(),
-            shown: Shown::default(),
-            reader: Reader::default(),
+            state_trace: StateTrace::default(),
+            accessibility_trace: AccessibilityTrace::default(),
         }
     }
 
-    /// From now on drawings have somewhere to go.
+    /// Sets the graphics thread to which drawings go.
     pub(super) fn set_graphics(&mut self, graphics: GraphicsHandle) {
         graphics.resize(self.window_size());
         self.graphics = Some(graphics);
     }
 
-    /// What the panels asked for; before what would cut a drag in two, that it is taken back.
+    /// Returns the effects that the panels asked for; before an effect that would cut a drag in two, the cancelling of the drag.
     pub(super) fn take_effects(&mut self) -> Vec<Effect> {
         let mut passed = Vec::with_capacity(self.effects.len());
         for effect in self.effects.drain(..) {
@@ -108,18 +111,18 @@ impl Interface {
         passed
     }
 
-    /// A part of the program failed; for good?
+    /// Reports a part of the program that failed; with `for_good` the program ends.
     pub(super) fn failed(&mut self, text: String, for_good: bool) {
         if for_good {
             self.given_up.get_or_insert_with(|| text.clone());
         }
-        self.state.status.say(Level::Error, format!("{text}. Nothing that you did is lost"));
+        self.state.say(Severity::Error, format!("{text}. Nothing that you did is lost"));
         self.redraw();
     }
 
-    /// Number of steps done in the document; 0 before the first one is open.
+    /// Returns the number of steps done in the document; 0 before the first one is open.
     fn steps(&self) -> usize {
-        self.state.view.as_ref().map_or(0, |view| view.history.done)
+        self.state.read().view.map_or(0, |view| view.history.done)
     }
 
     /// Draws the panels soon.
@@ -131,43 +134,43 @@ impl Interface {
         self.due = Some(self.due.map_or(when, |due| due.min(when)));
     }
 
-    /// Physical pixels of the window.
+    /// Returns the size of the window, physical pixels.
     pub fn window_size(&self) -> [u32; 2] {
         let size = self.window.inner_size();
         if self.occluded { [0, 0] } else { [size.width, size.height] }
     }
 
-    /// Physical pixels a point.
+    /// Returns the number of physical pixels per point.
     pub fn pixels_per_point(&self) -> f32 {
         egui_winit::pixels_per_point(self.egui.egui_ctx(), &self.window)
     }
 
-    /// How much egui must enlarge what it takes for the usual size: what the person chose, and what the window does not
-    /// know yet.
+    /// Returns the zoom of egui: the scale that the user chose, and the part of the desktop's scale that the window does not
+    /// report yet.
     fn zoom(&self) -> f32 {
-        self.state.settings.scale * (self.desktop_scale / self.window.scale_factor()) as f32
+        self.state.read().settings.scale * (self.desktop_scale / self.window.scale_factor()) as f32
     }
 
-    /// Takes the desktop's new scale. Told the same scale again, winit would enlarge the window a second time.
+    /// Takes the desktop's new scale. Given the same scale again, winit would enlarge the window a second time.
     fn set_desktop_scale(&mut self, scale: f64, size: &InnerSizeWriter) {
         if self.desktop_scale == scale {
-            // Fails only when the size is settled already.
+            // Fails only when the size is already set.
             let _ = size.clone().request_inner_size(self.window.inner_size());
         }
         self.desktop_scale = scale;
     }
 
-    /// Is the dark theme shown?
+    /// Returns whether the dark theme is shown.
     pub fn is_dark(&self) -> bool {
         self.egui.egui_ctx().theme() == egui::Theme::Dark
     }
 
-    /// The longest side of a texture that the device takes.
+    /// Sets the longest side of a texture that the device supports.
     pub fn set_max_texture_side(&mut self, side: u32) {
         self.egui.set_max_texture_side(side as usize);
     }
 
-    /// Names the document in the window's title, with a dot before it while something is not saved.
+    /// Shows the document's name in the window's title, with a dot before it while there are unsaved changes.
     pub(super) fn set_title(&mut self, title: &str, saved: bool) {
         let text = format!("{}{title} – Dragonfly", if saved { "" } else { "• " });
         if text != self.title {
@@ -176,10 +179,9 @@ impl Interface {
         }
     }
 
-    /// Uses the whole screen, or a window again.
+    /// Switches between the whole screen and a window.
     pub fn toggle_full_screen(&mut self) {
-        self.state.full_screen = !self.state.full_screen;
-        let full = self.state.full_screen.then_some(Fullscreen::Borderless(None));
+        let full = self.state.toggle_full_screen().then_some(Fullscreen::Borderless(None));
         self.window.set_fullscreen(full);
     }
 
@@ -188,7 +190,7 @@ impl Interface {
         self.egui.set_clipboard_text(text);
     }
 
-    /// The text in the clipboard; empty where there is none.
+    /// Returns the text in the clipboard; empty where there is none.
     pub fn clipboard(&mut self) -> String {
         self.egui.clipboard_text().unwrap_or_default()
     }
@@ -198,12 +200,13 @@ impl Interface {
         self.desk.toggle_panel(id);
     }
 
-    /// Puts every panel where it was at first.
+    /// Moves every panel back to its first place.
     pub fn reset_layout(&mut self) {
         self.desk.reset_layout();
     }
 
-    /// Takes an event of the window. Tells whether the scene heard it: then what follows is not to wait for the panels.
+    /// Handles an event of the window. Returns whether the viewport tools used it: then its effects are flushed without waiting
+    /// for the panels.
     pub(super) fn window_event(&mut self, event: &WindowEvent) -> bool {
         if !self.accepts_input {
             return false;
@@ -217,7 +220,7 @@ impl Interface {
         match event {
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
                 self.tell_size();
-                // The old drawing does not fit: at once, whatever was drawn just now.
+                // The old drawing does not fit: draw at once, without the minimum time.
                 self.drawn = Instant::now() - FASTEST;
                 self.redraw();
             }
@@ -227,7 +230,7 @@ impl Interface {
                 self.redraw();
             }
             WindowEvent::Focused(true) => {
-                self.effects.push(Effect::Deed(Deed::LookAtFile));
+                self.effects.push(Effect::File(FileAction::LookAtFile));
                 self.redraw();
             }
             WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => {
@@ -238,14 +241,14 @@ impl Interface {
         }
         let context = self.egui.egui_ctx().clone();
         let input = self.egui.egui_input_mut();
-        let heard = hands::feed(&context, &mut self.state, input, before, &mut self.effects);
+        let heard = self.state.feed(&context, input, before, &mut self.effects);
         if heard {
             self.redraw();
         }
         heard
     }
 
-    /// Takes an event of the accessibility bridge.
+    /// Handles an event of the accessibility bridge.
     pub(super) fn accesskit_event(&mut self, event: accesskit_winit::WindowEvent) {
         match event {
             accesskit_winit::WindowEvent::InitialTreeRequested => self.egui.egui_ctx().enable_accesskit(),
@@ -265,7 +268,7 @@ impl Interface {
         }
     }
 
-    /// Input is not accepted any more, the window disappears, settings are kept.
+    /// Stops accepting input, hides the window and stores the settings.
     pub(super) fn close(&mut self) {
         self.accepts_input = false;
         self.window.set_visible(false);
@@ -274,9 +277,9 @@ impl Interface {
     }
 
     fn save(&mut self) {
-        if self.state.settings != self.saved {
-            self.keep(store::SETTINGS, &self.state.settings.to_text());
-            self.saved = self.state.settings.clone();
+        if *self.state.read().settings != self.saved {
+            self.saved = self.state.read().settings.clone();
+            self.keep(store::SETTINGS, &self.saved.to_text());
         }
         if let Some(layout) = self.desk.changed_layout() {
             self.keep(store::LAYOUT, &layout);
@@ -291,7 +294,7 @@ impl Interface {
 
     fn keep(&mut self, name: &str, text: &str) {
         if let Err(error) = self.store.write(name, text) {
-            self.state.status.say(Level::Warning, format!("The settings could not be kept: {error}"));
+            self.state.say(Severity::Warning, format!("The settings could not be kept: {error}"));
         }
     }
 
@@ -301,36 +304,36 @@ impl Interface {
         if context.zoom_factor() != zoom {
             context.set_zoom_factor(zoom);
         }
-        context.set_theme(match self.state.settings.theme {
+        context.set_theme(match self.state.read().settings.theme {
             ThemeChoice::System => egui::ThemePreference::System,
             ThemeChoice::Dark => egui::ThemePreference::Dark,
             ThemeChoice::Light => egui::ThemePreference::Light,
         });
-        // Asked before there are textures to deliver: asking panics when the window was destroyed behind our back.
+        // Read before there are textures to deliver: the call panics when the window was destroyed elsewhere.
         let size = self.window.inner_size();
         let mut input = self.egui.take_egui_input(&self.window);
-        let tells_more = self.state.dragging.tell(&context, &mut input);
+        let tells_more = self.state.prepend_events(&context, &mut input);
         let dropped: Vec<_> = input.dropped_files.iter().map(|file| file.path().to_owned()).collect();
-        self.reader.listen(&context);
+        self.accessibility_trace.listen(&context);
         let mut requests = Vec::new();
         if let Some(name) = self.state.wanted_markers() {
             let text = self.store.read(&name);
             self.state.read_markers(&text);
         }
-        self.state.begin(now);
+        self.state.begin_frame(now);
         let (steps, faults) = (self.steps(), &self.faults);
         let mut passes = 0;
-        let (desk, state) = (&mut self.desk, &self.state);
+        let (desk, state) = (&mut self.desk, self.state.read());
         let mut mistake = None;
         let output = context.run_ui(input, |ui| {
-            // Caught here, or egui would be left in the midst of its drawing.
+            // Caught here, so that egui finishes its frame.
             let drawn = catch_unwind(AssertUnwindSafe(|| {
-                // A frame may be run twice; what was asked for in the first run counts.
-                // Who is asked something answers that first, and who drags something means that.
+                // egui may run a frame twice; the requests of the first run count. Commands get no keys while a question is
+                // shown or something is dragged.
                 if state.question().is_none() && !state.dragging.is_open() {
                     requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
                 }
-                desk.show(ui, state, &mut requests);
+                desk.show(ui, &state, &mut requests);
                 // A frame may take two passes, but is one drawing.
                 passes += 1;
                 if passes == 1 {
@@ -341,7 +344,7 @@ impl Interface {
                 mistake.get_or_insert(panic);
             }
         });
-        // Sent before anything else can go wrong: egui aborts when textures are lost on the way.
+        // Sent before anything else can fail: egui aborts when textures are lost.
         let jobs = context.tessellate(output.shapes, output.pixels_per_point);
         let frame = PanelsFrame {
             size: [size.width, size.height],
@@ -353,49 +356,31 @@ impl Interface {
             graphics.show_panels(frame);
         }
         if let Some(mistake) = mistake {
-            // What was asked for before it is not done: it may be half of something.
+            // Requests made before the failure are dropped: they may be incomplete.
             self.redraw();
             resume_unwind(mistake);
         }
-        self.reader.tell(&output.platform_output, output.pixels_per_point);
+        self.accessibility_trace.tell(&output.platform_output, output.pixels_per_point);
         self.egui.handle_platform_output(&self.window, output.platform_output);
 
-        let before = (
-            self.state.playback,
-            self.state.selection.clone(),
-            self.state.bright(),
-            self.state.settings.clone(),
-        );
-        let (overlay, viewport) = (self.state.overlay, self.state.viewport);
-        let questions = self.state.questions.clone();
-        self.state.hovered = None;
-        self.state.find = false;
+        let before = Redrawn::of(&self.state);
+        self.state.end_frame();
         let files = dropped.len();
         if let Some(path) = dropped.into_iter().next() {
-            self.state.passed_over = files - 1;
+            self.state.pass_over(files - 1);
             requests.push(Request::Open(dragonfly_document::Source::File(path)));
         }
         for request in requests {
             let effect = self.state.execute(request);
             self.effects.extend(effect);
         }
-        if self.state.dragging.is_open() && !context.input(|input| input.pointer.any_down()) {
-            self.effects.push(Effect::HandsOff);
+        if self.state.read().dragging.is_open() && !context.input(|input| input.pointer.any_down()) {
+            self.effects.push(Effect::ReleaseDrag);
         }
-        // What was asked for is seen in the next drawing.
-        let after = (
-            self.state.playback,
-            self.state.selection.clone(),
-            self.state.bright(),
-            self.state.settings.clone(),
-        );
-        let changed = tells_more
-            || before != after
-            || overlay != self.state.overlay
-            || questions != self.state.questions
-            || viewport != self.state.viewport;
+        // The next drawing shows the effect of the requests.
+        let changed = tells_more || before != Redrawn::of(&self.state);
 
-        self.shown.tell(&self.state);
+        self.state_trace.tell(&self.state.read());
         self.drawn = now;
         self.due = None;
         let egui_wants =
@@ -407,8 +392,35 @@ impl Interface {
     }
 }
 
+/// The part of the state whose change by a request needs another drawing.
+#[derive(PartialEq)]
+struct Redrawn {
+    playback: PlaybackClock,
+    selection: BoneSelection,
+    highlighted: Option<BoneIndex>,
+    settings: Settings,
+    overlay: Option<Overlay>,
+    viewport: egui::Rect,
+    questions: VecDeque<(u64, Question)>,
+}
+
+impl Redrawn {
+    fn of(state: &State) -> Self {
+        let panels = state.read();
+        Self {
+            playback: panels.playback,
+            selection: panels.selection.clone(),
+            highlighted: panels.highlighted(),
+            settings: panels.settings.clone(),
+            overlay: panels.overlay,
+            viewport: panels.viewport,
+            questions: panels.prompts.questions().clone(),
+        }
+    }
+}
+
 impl Worker for Interface {
-    /// Draws the panels when it is time to.
+    /// Draws the panels when they are due.
     fn update(&mut self, main: &mut Context) -> bool {
         if !self.accepts_input || self.graphics.is_none() {
             return true;

@@ -1,4 +1,4 @@
-//! Window, captured main thread, graphics thread: what every program of this kind has (thesis §3.2.4.1).
+//! Window, captured main thread, graphics thread: the base of every program of this kind (thesis §3.2.4.1).
 
 use super::AppError;
 use super::base_runtime::Parts;
@@ -22,7 +22,7 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::Window;
 
-/// How long the graphics thread may take to end.
+/// Time limit for the graphics thread to end.
 const END: Duration = Duration::from_millis(1200);
 
 /// See the module.
@@ -33,7 +33,7 @@ pub struct MainRuntime {
     init: Rc<RefCell<InitManager>>,
     graphics: GraphicsHandle,
     timeline: Rc<RefCell<Timeline>>,
-    /// When inputs failed lately.
+    /// Times of the latest failures of input.
     mistakes: Vec<Instant>,
 }
 
@@ -47,7 +47,7 @@ impl MainRuntime {
         timeline: Rc<RefCell<Timeline>>,
         faults: FaultInjection,
     ) -> Result<Self, AppError> {
-        // Invisible until the accessibility bridge is there: it must see the window before the window is seen.
+        // Invisible until the accessibility bridge exists: the bridge must be created before the window is shown.
         let attributes = Window::default_attributes()
             .with_title("Dragonfly")
             .with_visible(false)
@@ -71,7 +71,7 @@ impl MainRuntime {
 
         let waker = proxy.clone();
         let mut main = Thread::capture("main", move || {
-            // The loop may have ended; then nobody needs to be woken.
+            // The loop may have ended; then it need not be woken.
             let _ = waker.send_event(UserEvent::Wake);
         });
         let interface = Rc::new(RefCell::new(Interface::new(Arc::clone(&window), egui, store)));
@@ -80,7 +80,7 @@ impl MainRuntime {
         let replies = main.handle().reserve_address();
         let hears = Rc::clone(&init);
         main.context().register_restartable_receiver_at(&replies, move |_| Rc::clone(&hears));
-        // Drawing the panels is the first work of every turn, and a mistake in a panel must not end it.
+        // Drawing the panels is the first work of every turn, and a bug in a panel must not end the turn.
         main.context().register_restartable_worker(move |_| Rc::clone(&seen));
         main.context().register_restartable_worker(move |_| Rc::clone(&kept));
         timeline.borrow_mut().reach(Step::MainRuntime);
@@ -101,18 +101,18 @@ impl MainRuntime {
         Ok(Self { main, window, interface, init, graphics, timeline, mistakes: Vec::new() })
     }
 
-    /// One turn of the main thread: messages, panels, custom run-time. Says when the next is due.
+    /// Does one turn of the main thread: messages, panels, custom run-time. Returns when the next is due.
     pub(super) fn iterate(&mut self) -> Next {
         self.main.iterate()
     }
 
-    /// Takes an event of the window.
+    /// Handles an event of the window.
     pub(super) fn window_event(&mut self, event: &WindowEvent) {
-        // Nobody else catches it: the window system is not made for that.
+        // Caught here: the window system does not support a panic.
         let taken = caught(|| {
             let heard = self.interface.borrow_mut().window_event(event);
             if heard {
-                self.init.borrow_mut().hasten();
+                self.init.borrow_mut().flush_effects();
             }
         });
         if let Err(reason) = taken {
@@ -120,27 +120,30 @@ impl MainRuntime {
         }
     }
 
-    /// The person wants to close the window: is there somebody to ask whether everything is saved? Then that one decides.
+    /// Handles a request to close the window. Returns whether the custom run-time runs: then it asks about unsaved changes and
+    /// decides.
     pub(super) fn may_ask_before_closing(&mut self) -> bool {
         let asks = self.init.borrow().is_running();
         if asks {
-            self.interface.borrow_mut().effects.push(crate::panels::Effect::Quit);
+            self.interface.borrow_mut().effects.push(crate::panels::Effect::File(
+                crate::panels::FileAction::Leave(dragonfly_document::Then::Quit),
+            ));
         }
         asks
     }
 
-    /// Takes an event of the accessibility bridge.
+    /// Handles an event of the accessibility bridge.
     pub(super) fn accesskit_event(&mut self, event: accesskit_winit::Event) {
         self.interface.borrow_mut().accesskit_event(event.window_event);
     }
 
-    /// Why nothing goes on, when nothing does.
+    /// Returns the error that ends the program, if there is one.
     pub(super) fn fatal(&self) -> Option<AppError> {
         let mistake = self.interface.borrow().given_up.clone().map(AppError::Mistake);
         mistake.or_else(|| self.init.borrow().fatal().map(|reason| AppError::Graphics(reason.to_owned())))
     }
 
-    /// Something went wrong in an input: only that one is lost. Where it goes on like that, nothing does.
+    /// Handles a failure of input: only that input is lost. After several in a short time the program ends.
     fn mistake(&mut self, reason: &str) {
         let now = Instant::now();
         self.mistakes.retain(|then| now.saturating_duration_since(*then) < RESTART_WINDOW);
@@ -158,7 +161,7 @@ impl MainRuntime {
         graphics.stop();
         match Thread::wait_for(std::slice::from_ref(graphics.thread()), Instant::now() + END) {
             Ok(()) => timeline.borrow_mut().reach(Step::GraphicsDestruction),
-            // The driver holds it. The process ends all the same, and nothing of the person's work is there.
+            // The driver blocks it. The process ends without it; the user's work is not in that thread.
             Err(late) => tracing::warn!(?late, "did not end in time"),
         }
         drop(graphics);

@@ -5,12 +5,13 @@
 //!                                     └─ graphics thread            EditorRuntime ── document thread ── load jobs
 //! ```
 //!
-//! [`timeline`] has the order in which all of this comes and goes.
+//! [`timeline`] defines the order in which all of this starts and ends.
 
-mod answers;
+mod accessibility_trace;
 mod base_runtime;
 mod editor_runtime;
 mod event;
+mod file_actions;
 mod file_dialog;
 mod graphics_sync;
 pub mod hover;
@@ -18,10 +19,9 @@ mod init_manager;
 mod interface;
 mod main_runtime;
 mod options;
-mod reader;
-mod saving;
-mod shown;
+mod replies;
 mod signals;
+mod state_trace;
 pub mod store;
 mod target_window;
 pub mod timeline;
@@ -48,22 +48,22 @@ use winit::window::WindowId;
 /// Why there is no window.
 #[derive(Debug, Error)]
 pub enum AppError {
-    /// There is no display to show it on.
+    /// There is no display for it.
     #[error("no display: {0}")]
     Display(String),
-    /// The display that it was shown on is gone.
+    /// The display on which it was shown is gone.
     #[error("the display is gone: {0}")]
     DisplayGone(String),
     /// The display refused it.
     #[error("no window: {0}")]
     Window(String),
-    /// The system gave no thread.
+    /// The system refused a thread.
     #[error("no thread: {0}")]
     Thread(String),
     /// The system asked the program to end, and it did, in order.
     #[error("ended by signal {0}")]
     Signal(i32),
-    /// A part of the program failed again and again, and without it nothing goes on.
+    /// A part of the program failed repeatedly, and the program cannot run without it.
     #[error(
         "a mistake in the program ended it: {0}\n  What you did is recorded, and offered when it is started again."
     )]
@@ -73,7 +73,7 @@ pub enum AppError {
     Graphics(String),
 }
 
-/// Shows the editor until the person leaves it. Must be called in the main thread, once.
+/// Shows the editor until the user ends it. Must be called in the main thread, once.
 pub fn run(options: Options) -> Result<(), AppError> {
     let timeline = Rc::new(RefCell::new(Timeline::default()));
     timeline.borrow_mut().reach(Step::MainFunction);
@@ -91,7 +91,7 @@ pub fn run(options: Options) -> Result<(), AppError> {
         timeline: Rc::clone(&timeline),
     };
     let ended = event_loop.run_app(&mut shell);
-    // Also when the loop ended by an error of the display, which calls nobody.
+    // Also when the loop ended by an error of the display, which calls no handler.
     shell.destroy();
     if let Some(error) = shell.error {
         return Err(error);
@@ -105,7 +105,7 @@ pub fn run(options: Options) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Passes winit's events on.
+/// Passes the events of winit on.
 struct Shell {
     options: Options,
     proxy: EventLoopProxy<UserEvent>,

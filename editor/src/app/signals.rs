@@ -1,12 +1,12 @@
-//! Signals by which the system asks the program to end: a session is left, a terminal is closed, Ctrl+C is pressed in one.
+//! Signals by which the system asks the program to end: a session ends, a terminal is closed, Ctrl+C is pressed in one.
 //!
-//! Nobody is asked anything then. There may be nobody to answer, and what does not end soon is killed. So the program ends
-//! in order, and what is not saved is in its journal and offered at the next start, as after a crash.
+//! No question is asked then. There may be no user to answer, and a program that does not end soon is killed. So the program
+//! ends in order; unsaved changes are in its journal and are offered at the next start, as after a crash.
 
 use super::event::UserEvent;
 use winit::event_loop::EventLoopProxy;
 
-/// Lets these signals end the loop behind `proxy`. Those that somebody had told the program to ignore stay ignored.
+/// Ends the loop of `proxy` on these signals. Signals that the program was started to ignore stay ignored.
 ///
 /// Does nothing on systems without signals.
 pub(super) fn watch(proxy: EventLoopProxy<UserEvent>) {
@@ -18,8 +18,8 @@ pub(super) fn watch(proxy: EventLoopProxy<UserEvent>) {
     drop(proxy);
 }
 
-/// Ends this process as `signal` ends one that does not listen to it, so that whoever started it sees why it ended.
-/// Returns only where that cannot be done.
+/// Ends this process as `signal` ends one that does not handle it, so that the parent process sees why it ended.
+/// Returns only where that is not possible.
 pub fn end_by(signal: i32) {
     #[cfg(unix)]
     let _ = signal_hook::low_level::emulate_default_handler(signal);
@@ -35,7 +35,7 @@ mod unix {
     use std::time::{Duration, Instant};
     use winit::event_loop::EventLoopProxy;
 
-    /// Systems send two signals at once to be sure; a person who sends a second one has waited longer than this.
+    /// Systems send two signals at once to be sure; a user who sends a second one has waited longer than this.
     const PATIENCE: Duration = Duration::from_secs(1);
 
     pub(super) fn watch(proxy: EventLoopProxy<UserEvent>) -> std::io::Result<()> {
@@ -49,7 +49,7 @@ mod unix {
                 if first.get_or_insert_with(Instant::now).elapsed() > PATIENCE {
                     super::end_by(signal);
                 }
-                // The loop may have ended, and the program is about to.
+                // The loop may have ended, and the program ends soon.
                 let _ = proxy.send_event(UserEvent::Signal(signal));
             }
         };
@@ -57,7 +57,7 @@ mod unix {
         Ok(())
     }
 
-    /// Which signals a process ignores, by its `status`: whoever starts it with `nohup` wants it to outlive the terminal.
+    /// Returns the signals that a process ignores, from its `status` file: a program started with `nohup` outlives the terminal.
     fn ignored(status: &str) -> impl Fn(i32) -> bool + use<> {
         let line = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
         let mask = line.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0);

@@ -1,4 +1,4 @@
-//! Settings and panel places on the disk. Failing to keep them is worth a line, never a stop.
+//! Settings and positions of panels on the disk. A failure to store them is reported and stops nothing.
 
 use etcetera::{AppStrategy, AppStrategyArgs, choose_app_strategy};
 use std::path::PathBuf;
@@ -11,13 +11,13 @@ pub struct Store {
 
 /// Settings.
 pub const SETTINGS: &str = "settings.json";
-/// Places of panels.
+/// Positions of panels.
 pub const LAYOUT: &str = "layout.json";
-/// A file larger than this was not written by us.
+/// A file larger than this was not written by this program.
 const LARGEST: u64 = 1 << 20;
 
 impl Store {
-    /// In `folder`, or where the system keeps such things; nowhere when it has no such place.
+    /// Uses `folder`, or the system's folder for settings; nothing is stored where there is neither.
     pub fn new(folder: Option<PathBuf>) -> Self {
         let usual = || {
             let app = AppStrategyArgs { app_name: "dragonfly".to_owned(), ..Default::default() };
@@ -26,7 +26,7 @@ impl Store {
         Self { folder: folder.or_else(usual) }
     }
 
-    /// The text of a file; empty when there is none or it cannot be read.
+    /// Returns the text of a file; empty when there is none or it cannot be read.
     pub fn read(&self, name: &str) -> String {
         let Some(folder) = &self.folder else { return String::new() };
         let path = folder.join(name);

@@ -1,23 +1,23 @@
-//! The order in which the program comes and goes (thesis §3.2.4.6), written down once, traced and checked.
+//! The order in which the parts of the program start and end (thesis §3.2.4.6), defined once, traced and checked.
 
-/// A step of the program's life, in its order.
+/// A step of the program's life, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Step {
-    /// The main function has begun.
+    /// The main function has started.
     MainFunction,
-    /// The main window is there, the main thread is captured, the custom run-time is prepared.
+    /// The main window exists, the main thread is captured, the custom run-time is prepared.
     MainRuntime,
-    /// The second thread is there.
+    /// The second thread runs.
     Graphics,
-    /// In the second thread, the device is there.
+    /// The device exists in the second thread.
     GraphicsInitialisation,
-    /// The custom run-time hears of it.
+    /// The custom run-time is notified of it.
     EditorRuntime,
     /// It has what it needs and opens the model.
     EditorRuntimeInitialisation,
-    /// Everything works.
+    /// All parts run.
     RunTime,
-    /// Input is off; the custom run-time has given back what it took.
+    /// Input is off; the custom run-time has released everything.
     EditorRuntimeDestruction,
     /// Scene, device and second thread are gone.
     GraphicsDestruction,
@@ -28,7 +28,7 @@ pub enum Step {
 }
 
 impl Step {
-    /// All of them, in their order.
+    /// All steps in order.
     pub const ALL: &[Self] = &[
         Self::MainFunction,
         Self::MainRuntime,
@@ -43,12 +43,12 @@ impl Step {
         Self::MainFunctionEnd,
     ];
 
-    /// The thesis's number, 1 … 11.
+    /// Returns the thesis's number, 1 … 11.
     pub fn number(self) -> usize {
         self as usize + 1
     }
 
-    /// In words, for the trace.
+    /// Returns the name for the trace.
     pub fn name(self) -> &'static str {
         match self {
             Self::MainFunction => "main function",
@@ -66,14 +66,14 @@ impl Step {
     }
 }
 
-/// Keeps the order. A start that fails leaves steps out, but never changes their order.
+/// Records the order. A start that fails skips steps, but never changes their order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Timeline {
     reached: Vec<Step>,
 }
 
 impl Timeline {
-    /// Says that `step` is reached.
+    /// Notes that `step` is reached.
     ///
     /// # Panics
     /// In debug builds, when a later step was reached before.
@@ -87,7 +87,7 @@ impl Timeline {
         self.reached.push(step);
     }
 
-    /// What was reached, in order.
+    /// Returns the steps that were reached, in order.
     pub fn reached(&self) -> &[Step] {
         &self.reached
     }

@@ -5,6 +5,7 @@
 
 mod check;
 mod choice;
+mod command_list;
 mod demo;
 mod diff;
 mod edit;
@@ -62,6 +63,7 @@ Examples:
                                     how one bone comes to stand where it stands
   dragonfly edit Fox.glb --edits changes.jsonl -o Fox2.glb
                                     edits without a window; the rest of the file stays
+  dragonfly --commands              the commands of the editor with their keys
 
 FILE may be `demo:` for the built-in model.
 Exit codes: 0 done, 1 a difference was found, 2 wrong input, 3 trouble of the machine.

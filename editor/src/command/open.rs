@@ -20,6 +20,9 @@ pub(super) struct Arguments {
     /// Talks instead of opening a window: one JSON edit or query a line in, one JSON answer a line out
     #[arg(long)]
     stdio: bool,
+    /// Prints the table of the editor's commands: id, title, tooltip, keys, and when each can be run
+    #[arg(long, conflicts_with = "stdio")]
+    commands: bool,
     /// Where settings are kept, instead of the usual place
     #[arg(long, value_name = "FOLDER")]
     settings: Option<PathBuf>,
@@ -31,6 +34,9 @@ pub(super) struct Arguments {
 impl Arguments {
     /// Opens the editor, with `base` for everything that the command line does not set.
     pub(super) fn open(self, base: Options) -> Result<(), Failure> {
+        if self.commands {
+            return super::command_list::print();
+        }
         if self.stdio {
             return super::stdio::talk(self.files.first());
         }

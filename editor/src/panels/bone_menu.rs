@@ -1,8 +1,9 @@
 //! What the right button offers at a bone, in the picture and in the tree: commands for what is selected.
 
 use super::commands::Id;
+use super::context::PanelContext;
 use super::menu;
-use super::state::{Request, State};
+use super::request::Request;
 use egui::{Popup, Response, SetOpenCommand, Ui};
 
 /// In groups, with a line between them.
@@ -17,7 +18,12 @@ const GROUPS: &[&[Id]] = &[
 
 /// Opens where the right button was clicked at `response`, and first selects the bone there, `at`, unless it is selected:
 /// a menu is about what is under the pointer. While the other button is down the right one takes a drag back, and no more.
-pub(super) fn show(response: &Response, state: &State, at: Option<u32>, requests: &mut Vec<Request>) {
+pub(super) fn show(
+    response: &Response,
+    state: &PanelContext<'_>,
+    at: Option<u32>,
+    requests: &mut Vec<Request>,
+) {
     let open = response.secondary_clicked() && !response.ctx.input(|input| input.pointer.primary_down());
     if open && let Some(bone) = at.filter(|&bone| !state.selection.contains(bone)) {
         requests.push(Request::Select(Some(bone)));
@@ -30,7 +36,7 @@ pub(super) fn show(response: &Response, state: &State, at: Option<u32>, requests
     Popup::menu(response).open_memory(command).at_pointer_fixed().show(|ui| entries(ui, state, requests));
 }
 
-fn entries(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn entries(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     for (index, group) in GROUPS.iter().enumerate() {
         if index > 0 {
             ui.separator();

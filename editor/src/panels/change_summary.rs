@@ -1,7 +1,7 @@
 //! Describes what was done to the document, for the status line: each step once when it begins, when it is undone, and
 //! when it is redone.
 
-use super::widgets::{count, grouped};
+use super::count_text::{count, grouped};
 use dragonfly_document::{HistoryView, View};
 use std::sync::Arc;
 

@@ -1,19 +1,18 @@
-//! The drag that goes on, whoever holds it: the gizmo, a number, keys, a curve.
+//! The drag in progress, whichever panel or tool it belongs to: the gizmo, a number, keys, a curve.
 //!
-//! What is half done is no step. It is not saved, nothing is undone under it, and nobody leaves with it. So while a drag
-//! goes on keys give no commands, as in other programs of this kind; and whatever asks for something of the document all
-//! the same, the window's cross or a screen reader, first has the drag taken back. The hand may still hold on to it
-//! afterwards: what it says then is about nothing, and is not heard.
+//! A drag that has not ended is no step. It is not saved, nothing is undone under it, and the program does not end with it.
+//! So while a drag goes on keys give no commands, as in other programs of this kind; and anything else that asks for
+//! something of the document, such as the close button of the window or a screen reader, first cancels the drag. The panel
+//! may still send edits of it afterwards: they are dropped.
 //!
-//! The end of a drag may never come: a mouse is unplugged, another window takes the keyboard. Then it is taken back, too,
-//! and the panels are told that the button is up.
+//! The end of a drag may never come: a mouse is unplugged, another window takes the keyboard. Then the drag is cancelled, too,
+//! and the panels get events that release the buttons.
 
 use super::echo::Echo;
-use super::saving::Deed;
-use super::state::{Effect, State};
 use dragonfly_document::Change;
 use dragonfly_document::history::Gesture;
-use egui::{Context, Event, Key, Modifiers, PointerButton, Popup, RawInput, pos2};
+use egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, pos2};
+use std::cell::Cell;
 use std::collections::VecDeque;
 
 /// Every button that can be held.
@@ -25,142 +24,104 @@ const BUTTONS: [PointerButton; 5] = [
     PointerButton::Extra2,
 ];
 
-/// See the module.
+/// The drag in progress, and the events that end it in the panels.
 #[derive(Clone, Debug, Default)]
 pub struct Dragging {
     /// The drag that changed something and has not ended.
     open: Option<Gesture>,
-    /// Gestures up to this one are over, whatever is still said of them.
+    /// Gestures up to this number are over; later edits of them are dropped.
     over: u64,
     /// Numbers of changes, and what is shown before the document answers them.
     pub echo: Echo,
-    /// Are the panels to let go of what they drag?
+    /// Whether the panels are to let go of what they drag.
     drops: bool,
-    /// What the panels are to hear in their next drawings, a list each.
-    told: VecDeque<Vec<Event>>,
+    /// Events for the panels in the next frames, one list for each frame.
+    events: VecDeque<Vec<Event>>,
+    /// Number of gestures begun so far.
+    gestures: Cell<u64>,
+}
+
+/// What to do with a change that was asked for while a drag may be going on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Admission {
+    /// The change belongs to a drag that is over.
+    Drop,
+    /// The change goes to the document.
+    Pass,
+    /// The drag is cancelled, then the change goes to the document.
+    CancelDragFirst,
 }
 
 impl Dragging {
-    /// Does a drag go on that changed something?
+    /// Returns whether a drag goes on that changed something.
     pub fn is_open(&self) -> bool {
         self.open.is_some()
     }
 
-    /// Gives the panels what they are to hear before `input`, and lets them drop what they drag; more follows in the next
-    /// drawing where `true` comes back.
-    pub fn tell(&mut self, context: &Context, input: &mut RawInput) -> bool {
+    /// Begins a gesture: a drag, or a slider that is held, whose edits are one step.
+    pub fn new_gesture(&self) -> Gesture {
+        self.gestures.set(self.gestures.get() + 1);
+        Gesture(self.gestures.get())
+    }
+
+    /// Inserts the events that end a drag before those of `input`, and lets egui drop what it drags. Returns whether more
+    /// events follow in the next frame.
+    pub(super) fn prepend_events(&mut self, context: &Context, input: &mut RawInput) -> bool {
         if std::mem::take(&mut self.drops) {
             context.stop_dragging();
         }
-        if let Some(events) = self.told.pop_front() {
+        if let Some(events) = self.events.pop_front() {
             input.events.splice(0..0, events);
         }
-        !self.told.is_empty()
-    }
-}
-
-impl State {
-    /// Gives `pass` what may go on to the document and further of an effect, and before it what takes a drag back that it
-    /// would cut in two.
-    pub fn let_through(&mut self, effect: Effect, pass: &mut impl FnMut(Effect)) {
-        match effect {
-            Effect::Change(change) => {
-                if let Some(change) = self.heard(change, pass) {
-                    self.send(change, pass);
-                }
-            }
-            Effect::Changes(changes) => {
-                for change in changes {
-                    if let Some(change) = self.heard(change, pass) {
-                        self.send(change, pass);
-                    }
-                }
-            }
-            Effect::Cut(text, change) => {
-                pass(Effect::Copy(text));
-                self.let_through(Effect::Change(change), pass);
-            }
-            Effect::TakeBack => self.take_back(pass),
-            Effect::HandsOff => self.hands_are_off(pass),
-            // These only look.
-            effect @ Effect::Deed(Deed::LookAtFile | Deed::Search) => pass(effect),
-            effect @ (Effect::Open(_) | Effect::Quit | Effect::Deed(_)) => {
-                self.take_back(pass);
-                pass(effect);
-            }
-            effect => pass(effect),
-        }
+        !self.events.is_empty()
     }
 
-    /// Numbers a change, shows it before the document answers where that is possible, and passes it on.
-    fn send(&mut self, change: Change, pass: &mut impl FnMut(Effect)) {
-        let number = self.dragging.echo.send(&change, &mut self.view);
-        if let Change::Edit(_, Some(gesture)) | Change::Cancel(gesture) = change {
-            self.keys.sent(gesture, number);
-        }
-        pass(Effect::Send(number, change));
-    }
-
-    /// The change, unless it is of a drag that is over.
-    fn heard(&mut self, change: Change, pass: &mut impl FnMut(Effect)) -> Option<Change> {
-        let own = &mut self.dragging;
-        match &change {
-            Change::Edit(_, Some(gesture)) if gesture.0 <= own.over => {
-                self.keys.forget_drag(*gesture);
-                return None;
-            }
-            Change::Edit(_, Some(gesture)) => own.open = Some(*gesture),
+    /// Notes a change that was asked for, and returns what to do with it.
+    pub(super) fn admit(&mut self, change: &Change) -> Admission {
+        match change {
+            Change::Edit(_, Some(gesture)) if gesture.0 <= self.over => return Admission::Drop,
+            Change::Edit(_, Some(gesture)) => self.open = Some(*gesture),
             Change::Release(gesture) | Change::Cancel(gesture) => {
-                own.open.take_if(|open| open == gesture);
+                self.open.take_if(|open| open == gesture);
             }
-            Change::Edit(_, None) | Change::Undo | Change::Redo | Change::GoTo(_) => self.take_back(pass),
+            Change::Edit(_, None) | Change::Undo | Change::Redo | Change::GoTo(_) => {
+                return Admission::CancelDragFirst;
+            }
         }
-        Some(change)
+        Admission::Pass
     }
 
-    /// Takes back what is dragged, as if it had never begun, whoever holds it.
-    pub fn take_back(&mut self, pass: &mut impl FnMut(Effect)) {
-        if self.hands.edits() {
-            self.drop_hold();
-        }
-        self.keys.drop_held();
-        if let Some(gesture) = self.dragging.open.take() {
-            self.dragging.over = self.dragging.over.max(gesture.0);
-            self.dragging.drops = true;
-            self.send(Change::Cancel(gesture), pass);
-        }
+    /// Ends the drag as cancelled. Returns its gesture.
+    pub(super) fn cancel(&mut self) -> Option<Gesture> {
+        let gesture = self.open.take()?;
+        self.over = self.over.max(gesture.0);
+        self.drops = true;
+        Some(gesture)
     }
 
-    /// Nobody holds anything any more, so a drag that did not say that it ended has.
-    pub fn hands_are_off(&mut self, pass: &mut impl FnMut(Effect)) {
-        if let Some(gesture) = self.dragging.open.filter(|_| !self.hands.is_busy()) {
-            self.dragging.open = None;
-            self.send(Change::Release(gesture), pass);
-        }
+    /// Ends the drag, which counts. Returns its gesture.
+    pub(super) fn release(&mut self) -> Option<Gesture> {
+        self.open.take()
     }
 
-    /// The window lost the keyboard: whatever is held, its end may not be told here. What is dragged is taken back, and the
-    /// panels hear of Escape and then of buttons that are up, far from everything so that none of them is pressed by it.
-    pub(super) fn lose_input(&mut self, context: &Context, effects: &mut Vec<Effect>) {
-        effects.push(Effect::TakeBack);
+    /// Prepares events that release all buttons that are held, far from everything so that they press nothing; with
+    /// `escape` the Escape key first.
+    pub(super) fn release_buttons(&mut self, context: &Context, escape: bool) {
         let held: Vec<PointerButton> = context
             .input(|input| BUTTONS.into_iter().filter(|button| input.pointer.button_down(*button)).collect());
         if held.is_empty() {
             return;
         }
         let modifiers = Modifiers::NONE;
-        let escape =
+        let key =
             |pressed| Event::Key { key: Key::Escape, physical_key: None, pressed, repeat: false, modifiers };
         let far = pos2(-1e4, -1e4);
         let up = |button| Event::PointerButton { pos: far, button, pressed: false, modifiers };
-        // A text that is being typed, and a question, are not what is dragged.
-        let escapes =
-            !context.text_edit_focused() && self.question().is_none() && !Popup::is_any_open(context);
-        self.dragging.told.clear();
-        self.dragging.told.push_back(escapes.then(|| escape(true)).into_iter().collect());
-        let mut rest = vec![escape(false), Event::PointerMoved(far)];
+        self.events.clear();
+        self.events.push_back(escape.then(|| key(true)).into_iter().collect());
+        let mut rest = vec![key(false), Event::PointerMoved(far)];
         rest.extend(held.into_iter().map(up));
         rest.push(Event::PointerGone);
-        self.dragging.told.push_back(rest);
+        self.events.push_back(rest);
     }
 }

@@ -1,52 +1,37 @@
-//! At how many frames a second the keys of a model were made, guessed from where they lie: files do not say it.
+//! Guesses the frame rate at which the keys of a model were made from their times: files do not contain it.
 
 use super::settings::FRAME_RATES;
-use super::state::State;
-use super::status::Level;
 use dragonfly_anim::data::Take;
 use std::sync::Arc;
 
-/// Parts of a frame: further from a whole one is not on it. Times are written in single precision, and often rounded.
+/// Maximum distance of a key to a frame, in frames. Times are stored in single precision, and often rounded.
 const ON: f64 = 0.02;
-/// Keys that are looked at, of a channel and of a take, and takes.
+/// Maximum number of keys that are read: of a channel and of a take; and of takes.
 const MOST: (usize, usize) = (500, 5_000);
 const MOST_TAKES: usize = 100;
-/// Keys that say something; fewer lie on frames by chance.
+/// Minimum number of keys; fewer are at frames by chance.
 const LEAST: usize = 3;
 
-impl State {
-    /// Counts in the frames that the keys of a model lie on, where they do not lie on those that are counted in.
-    pub(super) fn guess_frame_rate(&mut self) {
-        let Some(view) = &self.view else { return };
-        let now = self.settings.frame_rate;
-        if let Some(rate) = rate_of(&view.takes, now).filter(|&rate| rate != now) {
-            self.settings.frame_rate = rate;
-            let text = format!("Its keys lie on {rate} frames a second: the timeline counts in these now");
-            self.status.say(Level::Info, text);
-        }
-    }
-}
-
-/// The rate on whose frames the keys of most takes lie, and of at least half of them; that of earlier ones where as many lie
-/// on others. `None` where there are too few keys to tell, or they lie anywhere.
-fn rate_of(takes: &[Arc<Take>], now: u32) -> Option<u32> {
+/// Returns the rate at whose frames the keys of most takes are, and of at least half of them; that of the earlier takes where
+/// two rates have the same number. `None` where there are too few keys, or they are at no frames.
+pub(super) fn rate_of(takes: &[Arc<Take>], now: u32) -> Option<u32> {
     let told: Vec<Option<u32>> =
         takes.iter().take(MOST_TAKES).filter_map(|take| rate_of_take(take, now)).collect();
     let votes = |rate: u32| told.iter().filter(|&&other| other == Some(rate)).count();
-    // Of several that are greatest `max_by_key` takes the last one.
+    // Of several maxima `max_by_key` returns the last one.
     let most = told.iter().rev().copied().flatten().max_by_key(|&rate| votes(rate))?;
     (votes(most) * 2 >= told.len()).then_some(most)
 }
 
-/// The rate on whose frames nearly all keys of a take lie: `now`, or else the first that is usual, or none; `None` where
-/// there are too few keys to tell.
+/// Returns the rate at whose frames nearly all keys of a take are: `now`, otherwise the first usual one, or none; `None` where
+/// there are too few keys.
 fn rate_of_take(take: &Take, now: u32) -> Option<Option<u32>> {
     let columns = take.tracks.iter().flat_map(|track| [&track.translation.times, &track.rotation.times]);
     let keys = columns.flat_map(|times| times.iter().take(MOST.0)).take(MOST.1);
     let times: Vec<f64> = keys.map(|&time| f64::from(time)).filter(|time| *time > 0.0).collect();
     let fits = |rate: &u32| {
         let on = |time: &&f64| (*time * f64::from(*rate) - (*time * f64::from(*rate)).round()).abs() < ON;
-        // The last key of a take is often where somebody cut it.
+        // The last key of a take is often where the take was cut.
         times.iter().filter(on).count() * 100 >= times.len() * 95
     };
     let mut apart = times.clone();
@@ -55,7 +40,7 @@ fn rate_of_take(take: &Take, now: u32) -> Option<Option<u32>> {
     if apart.len() < LEAST {
         return None;
     }
-    // Of rates of which one holds the other's frames the lower one comes first.
+    // Of two rates of which one includes the other's frames the lower one comes first.
     Some([now].iter().chain(FRAME_RATES).copied().find(fits))
 }
 

@@ -1,8 +1,9 @@
 //! The skeleton as a tree, with a search field.
 
+use super::context::PanelContext;
 use super::digest::Row;
 use super::icons::Icon;
-use super::state::{Request, State};
+use super::request::Request;
 use super::style::ROW;
 use super::theme::Theme;
 use super::{Panel, Place, search_field, widgets};
@@ -38,8 +39,8 @@ impl Panel for Hierarchy {
         Place::Left
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-        let of = state.view.as_ref().map(|view| &view.loaded);
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let of = state.view.map(|view| &view.loaded);
         if self.of.as_ref().map(Arc::as_ptr) != of.map(Arc::as_ptr) {
             *self = Self { of: of.cloned(), query: std::mem::take(&mut self.query), ..Self::default() };
         }
@@ -64,7 +65,7 @@ impl Panel for Hierarchy {
 
 impl Hierarchy {
     /// What Enter takes: the bone that is called just so, else the first that is found.
-    fn best(&self, state: &State, rows: &[(Row, bool)]) -> Option<BoneIndex> {
+    fn best(&self, state: &PanelContext<'_>, rows: &[(Row, bool)]) -> Option<BoneIndex> {
         let query = self.query.trim().to_lowercase();
         let found = || rows.iter().filter(|(_, hit)| *hit).map(|(row, _)| row.bone);
         let exact = found().find(|&bone| state.bone_name(bone).to_lowercase() == query);
@@ -72,7 +73,7 @@ impl Hierarchy {
     }
 
     /// The rows to show: those that match and their ancestors, or those that no ancestor hides.
-    fn visible(&mut self, state: &State) -> Vec<(Row, bool)> {
+    fn visible(&mut self, state: &PanelContext<'_>) -> Vec<(Row, bool)> {
         let rows = &state.digest.rows;
         let query = self.query.trim().to_lowercase();
         if !query.is_empty() {
@@ -101,7 +102,13 @@ impl Hierarchy {
         out
     }
 
-    fn tree(&mut self, ui: &mut Ui, state: &State, rows: &[(Row, bool)], requests: &mut Vec<Request>) {
+    fn tree(
+        &mut self,
+        ui: &mut Ui,
+        state: &PanelContext<'_>,
+        rows: &[(Row, bool)],
+        requests: &mut Vec<Request>,
+    ) {
         ui.spacing_mut().item_spacing.y = 0.0;
         let mut area = ScrollArea::vertical().auto_shrink(false);
         if state.selected() != self.followed {
@@ -123,12 +130,19 @@ impl Hierarchy {
     }
 
     /// Draws a row; was it clicked?
-    fn row(&mut self, ui: &mut Ui, state: &State, row: Row, hit: bool, requests: &mut Vec<Request>) -> bool {
+    fn row(
+        &mut self,
+        ui: &mut Ui,
+        state: &PanelContext<'_>,
+        row: Row,
+        hit: bool,
+        requests: &mut Vec<Request>,
+    ) -> bool {
         let theme = Theme::of(ui);
         let hidden = state.hidden.is_hidden(row.bone);
         let name = state.bone_name(row.bone);
         let selected = state.selection.contains(row.bone);
-        let (rect, response) = widgets::row(ui, &name, selected, state.bright() == Some(row.bone));
+        let (rect, response) = widgets::row(ui, &name, selected, state.highlighted() == Some(row.bone));
         // Very deep skeletons stay readable: the indentation ends, the order goes on.
         let indent = 10.0 + (row.depth as f32 * 12.0).min(rect.width() * 0.5);
         let color = match (selected, hit) {
@@ -171,7 +185,7 @@ impl Hierarchy {
     }
 
     /// Folds or unfolds one bone; with `all`, everything below it too.
-    fn fold(&mut self, row: Row, state: &State, all: bool) {
+    fn fold(&mut self, row: Row, state: &PanelContext<'_>, all: bool) {
         let fold = !self.collapsed.contains(&row.bone);
         let count = if all { row.below as usize } else { 0 };
         let start = state.digest.rows.iter().position(|other| other.bone == row.bone).unwrap_or(0);
@@ -189,7 +203,7 @@ impl Hierarchy {
 /// that are seen it is faint, and only there while the row is under the pointer.
 fn eye(
     ui: &mut Ui,
-    state: &State,
+    state: &PanelContext<'_>,
     row: Row,
     name: &str,
     rect: Rect,
@@ -224,7 +238,13 @@ fn eye(
 }
 
 /// What a click on a row selects: with Ctrl it toggles, with Shift everything from the active bone to here is added.
-fn choose(ui: &Ui, state: &State, rows: &[(Row, bool)], bone: BoneIndex, requests: &mut Vec<Request>) {
+fn choose(
+    ui: &Ui,
+    state: &PanelContext<'_>,
+    rows: &[(Row, bool)],
+    bone: BoneIndex,
+    requests: &mut Vec<Request>,
+) {
     let modifiers = ui.input(|input| input.modifiers);
     let place = |bone: BoneIndex| rows.iter().position(|(row, _)| row.bone == bone);
     let from = state.selected().and_then(place).zip(place(bone)).filter(|_| modifiers.shift);

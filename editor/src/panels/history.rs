@@ -1,14 +1,14 @@
 //! The list of everything that was done: a click goes there, back or forth.
 
 use super::commands::Id;
+use super::context::PanelContext;
 use super::icons::Icon;
-use super::state::{Request, State};
+use super::request::Request;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
 use dragonfly_document::{Change, HistoryView};
 use egui::{Rect, ScrollArea, TextStyle, Ui, pos2, vec2};
-use std::borrow::Cow;
 
 /// The list of steps.
 #[derive(Debug, Default)]
@@ -30,8 +30,8 @@ impl Panel for History {
         Place::Right
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-        let Some(view) = &state.view else { return widgets::empty(ui, "", "What was done appears here") };
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let Some(view) = state.view else { return widgets::empty(ui, "", "What was done appears here") };
         let history = &view.history;
         buttons(ui, state, history, requests);
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -53,7 +53,7 @@ impl Panel for History {
     }
 }
 
-fn buttons(ui: &mut Ui, state: &State, history: &HistoryView, requests: &mut Vec<Request>) {
+fn buttons(ui: &mut Ui, state: &PanelContext<'_>, history: &HistoryView, requests: &mut Vec<Request>) {
     ui.add_space(GRID);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
@@ -122,16 +122,4 @@ fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
     let saved = if saved && done > 0 { "\nSaved like this" } else { "" };
     let about = if about.is_empty() { String::new() } else { format!("\n{about}") };
     response.on_hover_text(format!("{label}{about}\n{deed}{saved}"))
-}
-
-/// What a command is called now: undo and redo say what they would do.
-pub(super) fn title(state: &State, id: Id) -> Cow<'static, str> {
-    let title = super::commands::get(id).title;
-    let labels = state.view.as_ref().map_or([None, None], |view| view.history.labels());
-    let label = match id {
-        Id::Undo => labels[0],
-        Id::Redo => labels[1],
-        _ => None,
-    };
-    label.map_or(Cow::Borrowed(title), |label| Cow::Owned(format!("{title} {label}")))
 }

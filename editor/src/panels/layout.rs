@@ -1,6 +1,7 @@
 //! The layout of the panels: a tree of tiles that the user moves and resizes, saved between sessions.
 
-use super::state::{Request, State};
+use super::context::PanelContext;
+use super::request::Request;
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::{Panel, Place, VIEWPORT, timeline};
@@ -105,7 +106,7 @@ impl Layout {
         &mut self,
         ui: &mut Ui,
         panels: &mut [Box<dyn Panel>],
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let viewport = self.find(VIEWPORT);
@@ -139,7 +140,7 @@ fn sound(tree: &Tree<Pane>, panels: &[Box<dyn Panel>]) -> bool {
 /// Draws the tiles and follows their drags for egui_tiles.
 struct LayoutDrag<'a> {
     panels: &'a mut [Box<dyn Panel>],
-    state: &'a State,
+    state: &'a PanelContext<'a>,
     requests: &'a mut Vec<Request>,
     viewport: Option<TileId>,
     changed: bool,

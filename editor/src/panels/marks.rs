@@ -1,24 +1,23 @@
-//! What is remembered of each file that was open: which bones are muted, soloed, locked and pinned, and towards which one
-//! elbows bend. It lies beside the program's settings and never in the model's file.
+//! Marks of bones, remembered for each file: which bones are muted, soloed, locked and pinned, and towards which bone elbows
+//! bend. They are stored with the program's settings and never in the model's file.
 
+use super::keys::channel::named;
 use super::keys::{BoneFlag, BoneFlags};
-use super::pose_commands::named;
-use super::state::State;
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_document::View;
 use dragonfly_document::edit::BoneRef;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Its name in the program's own folder.
+/// Name of the file in the program's own folder.
 pub const FILE: &str = "marks.json";
-/// How many files are remembered: those in which marks were set last.
+/// Maximum number of files that are remembered: those in which marks were set last.
 pub const FILES: usize = 50;
-/// Bytes of the text at most; the older files go first.
+/// Maximum length of the text, bytes; the older files are forgotten first.
 const LONGEST: usize = 900_000;
 
-/// The marks of one file. Bones go by name where that names one alone, so that they are found again in a file that was
-/// exported anew.
+/// The marks of one file. Bones are stored by name where the name is unique, so that they are found again in a file that was
+/// exported again.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 struct FileMarks {
@@ -49,16 +48,16 @@ impl FileMarks {
 pub struct Marks {
     /// Newest first.
     files: Vec<FileMarks>,
-    /// What was looked at last.
+    /// The marks that were noted last.
     noted: Option<Noted>,
     unsaved: bool,
 }
 
 #[derive(Clone, Debug)]
 struct Noted {
-    /// Of the file; a model that is saved elsewhere takes its marks along.
+    /// Path of the file; a model that is saved elsewhere keeps its marks.
     path: Option<PathBuf>,
-    /// Of the flags.
+    /// Version of the flags.
     version: u64,
     pins: Vec<BoneIndex>,
     pole: Option<BoneIndex>,
@@ -67,22 +66,22 @@ struct Noted {
 #[derive(Serialize, Deserialize)]
 #[serde(default)]
 #[derive(Default)]
-struct Stored {
+struct StoredMarks {
     files: Vec<FileMarks>,
 }
 
 impl Marks {
-    /// From the text of a file; a damaged one holds none.
-    fn read(text: &str) -> Self {
-        let mut files = serde_json::from_str::<Stored>(text).unwrap_or_default().files;
+    /// Reads the text of the file; a damaged text has no marks.
+    pub(super) fn read(text: &str) -> Self {
+        let mut files = serde_json::from_str::<StoredMarks>(text).unwrap_or_default().files;
         files.truncate(FILES);
         Self { files, ..Self::default() }
     }
 
-    /// The text of a file; where it would be too long the older files are forgotten.
+    /// Returns the text of the file; where it would be too long the older files are forgotten.
     fn write(&mut self) -> String {
         loop {
-            let stored = Stored { files: self.files.clone() };
+            let stored = StoredMarks { files: self.files.clone() };
             // Plain data always has a text.
             let text = serde_json::to_string_pretty(&stored).unwrap_or_default();
             if text.len() <= LONGEST || self.files.is_empty() {
@@ -93,88 +92,99 @@ impl Marks {
     }
 }
 
-impl State {
-    /// Takes what was remembered, before a model is open.
-    pub fn read_marks(&mut self, text: &str) {
-        self.marks = Marks::read(text);
-    }
+/// The marks of the model that is open.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoneMarks<'a> {
+    /// Muted, soloed and locked bones.
+    pub(super) flags: &'a BoneFlags,
+    /// Pinned bones.
+    pub(super) pins: &'a [BoneIndex],
+    /// The bone towards which elbows and knees bend.
+    pub(super) pole: Option<BoneIndex>,
+}
 
-    /// What is to be remembered, when it changed since the last call.
-    pub fn unsaved_marks(&mut self) -> Option<String> {
-        self.note_marks();
-        std::mem::take(&mut self.marks.unsaved).then(|| self.marks.write())
+/// Marks that were found again for a model.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RecalledMarks {
+    /// Flags of bones.
+    pub(super) flags: Vec<(BoneFlag, BoneIndex)>,
+    /// Pinned bones.
+    pub(super) pins: Vec<BoneIndex>,
+    /// The bone towards which elbows and knees bend.
+    pub(super) pole: Option<BoneIndex>,
+}
+
+impl Marks {
+    /// Returns the text of the file when the marks changed since the last call.
+    pub(super) fn unsaved(&mut self) -> Option<String> {
+        std::mem::take(&mut self.unsaved).then(|| self.write())
     }
 
     /// Notes the marks of the model that is open, where they changed.
-    pub(super) fn note_marks(&mut self) {
-        let Some(view) = &self.view else { return };
-        let version = self.keys.flags.version();
+    pub(super) fn note(&mut self, view: &View, now: BoneMarks<'_>) {
         let same = |noted: &Noted| {
-            (&noted.path, noted.version, &noted.pins, noted.pole)
-                == (&view.file.path, version, &self.pins, self.ik.pole)
+            (&noted.path, noted.version, &noted.pins[..], noted.pole)
+                == (&view.file.path, now.flags.version(), now.pins, now.pole)
         };
-        if self.marks.noted.as_ref().is_some_and(same) {
+        if self.noted.as_ref().is_some_and(same) {
             return;
         }
-        let path = view.file.key();
-        // What was opened just now has what was remembered of it.
-        let first = self.marks.noted.replace(self.noted(view)).is_none();
-        let marks =
-            of(path, &view.loaded.model.animation.skeleton, &self.keys.flags, &self.pins, self.ik.pole);
-        let at = self.marks.files.iter().position(|file| file.path == marks.path);
-        if at.is_some_and(|at| self.marks.files[at] == marks) || (first && marks.is_empty() && at.is_none()) {
+        // A model that was just opened has the marks that were remembered of it.
+        let first = self.noted.replace(Noted::of(view, now)).is_none();
+        let marks = FileMarks::of(view.file.key(), &view.loaded.model.animation.skeleton, now);
+        let at = self.files.iter().position(|file| file.path == marks.path);
+        if at.is_some_and(|at| self.files[at] == marks) || (first && marks.is_empty() && at.is_none()) {
             return;
         }
-        at.map(|at| self.marks.files.remove(at));
+        at.map(|at| self.files.remove(at));
         if !marks.is_empty() {
-            self.marks.files.insert(0, marks);
-            self.marks.files.truncate(FILES);
+            self.files.insert(0, marks);
+            self.files.truncate(FILES);
         }
-        self.marks.unsaved = true;
+        self.unsaved = true;
     }
 
-    /// Gives the model that was opened just now the marks that its file had.
-    pub(super) fn recall_marks(&mut self) {
-        self.marks.noted = None;
-        let Some(view) = self.view.clone() else { return };
-        let path = view.file.key();
+    /// Returns the marks of the file of a model that was just opened; `None` where none are remembered.
+    pub(super) fn recall(&mut self, view: &View) -> Option<RecalledMarks> {
+        self.noted = None;
         let skeleton = &view.loaded.model.animation.skeleton;
         let index = |bone: &BoneRef| match bone {
             BoneRef::Index(bone) => Some(*bone).filter(|&bone| (bone as usize) < skeleton.len()),
             BoneRef::Name(name) => skeleton.find(name),
         };
-        let Some(marks) = self.marks.files.iter().find(|file| file.path == path) else { return };
-        for flag in BoneFlag::ALL {
-            for bone in marks.flag(flag).iter().filter_map(index) {
-                self.keys.flags.set(flag, bone, true);
-            }
-        }
-        self.pins = marks.pins.iter().filter_map(index).collect();
-        self.ik.pole = marks.pole.as_ref().and_then(index);
-        self.marks.noted = Some(self.noted(&view));
+        let path = view.file.key();
+        let marks = self.files.iter().find(|file| file.path == path)?;
+        let of = |flag| marks.flag(flag).iter().filter_map(index).map(move |bone| (flag, bone));
+        Some(RecalledMarks {
+            flags: BoneFlag::ALL.into_iter().flat_map(of).collect(),
+            pins: marks.pins.iter().filter_map(index).collect(),
+            pole: marks.pole.as_ref().and_then(index),
+        })
     }
 
-    fn noted(&self, view: &View) -> Noted {
-        let (pins, pole) = (self.pins.clone(), self.ik.pole);
-        Noted { path: view.file.path.clone(), version: self.keys.flags.version(), pins, pole }
+    /// Notes that a model has the marks that were found again for it.
+    pub(super) fn recalled(&mut self, view: &View, now: BoneMarks<'_>) {
+        self.noted = Some(Noted::of(view, now));
     }
 }
 
-/// What is marked now, as it is kept.
-fn of(
-    path: String,
-    skeleton: &Skeleton,
-    flags: &BoneFlags,
-    pins: &[BoneIndex],
-    pole: Option<BoneIndex>,
-) -> FileMarks {
-    let list = |flag| flags.of(flag).map(|bone| named(skeleton, bone)).collect();
-    FileMarks {
-        path,
-        mute: list(BoneFlag::Mute),
-        solo: list(BoneFlag::Solo),
-        lock: list(BoneFlag::Lock),
-        pins: pins.iter().map(|&bone| named(skeleton, bone)).collect(),
-        pole: pole.map(|bone| named(skeleton, bone)),
+impl Noted {
+    fn of(view: &View, BoneMarks { flags, pins, pole }: BoneMarks<'_>) -> Self {
+        Self { path: view.file.path.clone(), version: flags.version(), pins: pins.to_vec(), pole }
+    }
+}
+
+impl FileMarks {
+    /// Returns the marks of a model as they are stored.
+    fn of(path: String, skeleton: &Skeleton, BoneMarks { flags, pins, pole }: BoneMarks<'_>) -> Self {
+        let list = |flag| flags.of(flag).map(|bone| named(skeleton, bone)).collect();
+        Self {
+            path,
+            mute: list(BoneFlag::Mute),
+            solo: list(BoneFlag::Solo),
+            lock: list(BoneFlag::Lock),
+            pins: pins.iter().map(|&bone| named(skeleton, bone)).collect(),
+            pole: pole.map(|bone| named(skeleton, bone)),
+        }
     }
 }

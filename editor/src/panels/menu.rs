@@ -1,8 +1,9 @@
 //! The menu bar.
 
 use super::commands::{self, Category, Id};
+use super::context::PanelContext;
+use super::request::Request;
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
-use super::state::{Request, State};
 use super::style::{self, GRID};
 use super::theme::Theme;
 use dragonfly_document::Source;
@@ -12,7 +13,7 @@ use egui::{Align, Button, Layout, MenuBar, RichText, Slider, Ui};
 /// Draws the bar; `panels` are id, title and whether they are shown.
 pub fn show(
     ui: &mut Ui,
-    state: &State,
+    state: &PanelContext<'_>,
     panels: &[(&'static str, &'static str, bool)],
     requests: &mut Vec<Request>,
 ) {
@@ -40,11 +41,11 @@ pub fn show(
 }
 
 /// One line: title, shortcut, a mark when `on`.
-pub(super) fn item(ui: &mut Ui, state: &State, id: Id, on: bool, requests: &mut Vec<Request>) {
+pub(super) fn item(ui: &mut Ui, state: &PanelContext<'_>, id: Id, on: bool, requests: &mut Vec<Request>) {
     let command = commands::get(id);
     let shortcut =
         RichText::new(commands::shortcut_text(ui.ctx(), id)).size(style::SMALL).color(Theme::of(ui).faint);
-    let title = RichText::new(super::history::title(state, id)).color(if on {
+    let title = RichText::new(super::commands::title(state, id)).color(if on {
         Theme::of(ui).accent
     } else {
         Theme::of(ui).text
@@ -57,14 +58,14 @@ pub(super) fn item(ui: &mut Ui, state: &State, id: Id, on: bool, requests: &mut 
     }
 }
 
-fn list(ui: &mut Ui, state: &State, categories: &[Category], requests: &mut Vec<Request>) {
+fn list(ui: &mut Ui, state: &PanelContext<'_>, categories: &[Category], requests: &mut Vec<Request>) {
     for command in categories.iter().flat_map(|category| commands::of(*category)) {
-        let on = command.id == Id::ToggleSnap && state.keys.snap;
+        let on = command.id == Id::ToggleSnap && state.keys.snap();
         item(ui, state, command.id, on, requests);
     }
 }
 
-fn pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn pose(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     for command in commands::of(Category::Pose) {
         let on = match command.id {
             Id::AutoKey => state.settings.auto_key,
@@ -85,7 +86,7 @@ fn pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     }
 }
 
-fn file(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn file(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     item(ui, state, Id::Open, false, requests);
     item(ui, state, Id::OpenPath, false, requests);
     ui.menu_button("Open recent", |ui| {
@@ -120,7 +121,7 @@ fn file(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
 
 fn view(
     ui: &mut Ui,
-    state: &State,
+    state: &PanelContext<'_>,
     panels: &[(&'static str, &'static str, bool)],
     requests: &mut Vec<Request>,
 ) {
@@ -147,7 +148,7 @@ fn view(
         item(ui, state, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
         item(ui, state, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
     });
-    let hand = &state.settings.hand;
+    let hand = &state.settings.tools;
     item(ui, state, Id::TogglePath, hand.path, requests);
     ui.menu_button("Ghosts", |ui| ghosts(ui, state, requests));
     ui.menu_button("Shading", |ui| {
@@ -174,15 +175,15 @@ fn view(
             requests.push(Request::Scale(scale));
         }
     });
-    item(ui, state, Id::FullScreen, state.full_screen, requests);
-    if matches!(state.device, super::state::Device::Paused { .. }) {
+    item(ui, state, Id::FullScreen, state.window.is_full_screen(), requests);
+    if matches!(state.window.device(), super::window_status::Device::Paused { .. }) {
         item(ui, state, Id::RetryDevice, false, requests);
     }
 }
 
 /// How the skeleton is shown before and after.
-fn ghosts(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-    let mut ghosts = state.settings.hand.ghosts;
+fn ghosts(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let mut ghosts = state.settings.tools.ghosts;
     item(ui, state, Id::ToggleGhosts, ghosts.shown, requests);
     let number = |ui: &mut Ui, title: &str, value: &mut u32, range: std::ops::RangeInclusive<u32>| {
         ui.horizontal(|ui| {
@@ -200,7 +201,7 @@ fn ghosts(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     ui.separator();
     ui.radio_value(&mut ghosts.skin, false, "as skeletons");
     ui.radio_value(&mut ghosts.skin, true, "as skins");
-    if ghosts != state.settings.hand.ghosts {
+    if ghosts != state.settings.tools.ghosts {
         requests.push(Request::Ghosts(ghosts));
     }
 }

@@ -1,6 +1,7 @@
 //! Which bone is the other side of which: a list to look at, with what speaks for each pair.
 
-use super::state::{Request, State};
+use super::context::PanelContext;
+use super::request::Request;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::widgets;
@@ -11,7 +12,7 @@ use egui::{Rect, RichText, ScrollArea, TextStyle, Ui, pos2};
 use std::sync::Arc;
 
 /// Draws the list; a click on a pair selects both bones.
-pub(super) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.set_width(520.0);
     ui.label(RichText::new("Mirror pairs").heading());
     let Some(loaded) = state.loaded() else {

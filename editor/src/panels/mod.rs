@@ -1,11 +1,20 @@
-//! Everything around the picture: panels that read a [`State`] and push [`Request`]s, and never wait for an answer.
+//! Everything around the viewport: panels that read a [`PanelContext`] and push [`Request`]s, and never wait for an answer.
 //!
-//! A new panel is a file here and a line in [`all`].
+//! ```text
+//! panels ── Request ──► State ──► actions ──► Workspace: one owner for each part
+//!    ▲                                            │
+//!    └────────────── PanelContext ◄───────────────┘
+//! ```
+//!
+//! A new panel is a file here and a line in [`all`]. A new command is a row in [`commands::TABLE`].
 
-mod baking;
+mod actions;
 mod bone_menu;
+mod camera_state;
 mod change_summary;
 pub mod commands;
+pub mod context;
+mod count_text;
 pub mod curves;
 mod dialogs;
 pub mod digest;
@@ -13,33 +22,31 @@ mod dope;
 mod drag;
 pub mod dragging;
 pub mod echo;
-mod execute;
 mod frame_rate;
-mod framing;
-pub mod hands;
 pub mod hierarchy;
 pub mod history;
 pub mod icons;
-mod ik;
 pub mod keys;
 pub mod layout;
 pub mod marks;
 pub mod menu;
 mod mirror_pairs;
+pub mod motion_path;
 pub mod number_field;
 pub mod number_slider;
 pub mod number_text;
+pub mod open_model;
 pub mod overlays;
 mod palette;
-mod pose_commands;
-mod posed;
-mod posing;
+pub mod panel;
+mod player;
+pub mod posed;
+pub mod prompts;
 pub mod properties;
-mod request;
+pub mod request;
 pub mod ruler;
-pub mod saving;
 mod search_field;
-mod selecting;
+mod selected_bones;
 pub mod settings;
 mod shortcuts;
 pub mod state;
@@ -47,54 +54,26 @@ pub mod status;
 pub mod status_line;
 pub mod style;
 mod tab;
+pub mod take_list;
 pub mod takes;
 pub mod theme;
 pub mod timeline;
-
+pub mod tool_drag;
+pub mod tool_state;
 mod transport;
 pub mod viewport;
 mod widgets;
+pub mod window_status;
+mod workspace;
 
+pub use context::PanelContext;
 pub use layout::Layout;
+pub use panel::{Panel, Place, VIEWPORT};
+pub use request::{Effect, FileAction, Request};
 pub use settings::Settings;
-pub use state::{Effect, Request, State};
+pub use state::State;
 
 use egui::Ui;
-
-/// The name of the panel through which the picture shows.
-pub const VIEWPORT: &str = "viewport";
-
-/// Where a panel stands before anybody moves it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// Upper left.
-    Left,
-    /// Lower left.
-    LeftBelow,
-    /// The middle.
-    Middle,
-    /// The right edge.
-    Right,
-    /// Along the lower edge.
-    Below,
-    /// Beside it, at the right.
-    BelowRight,
-}
-
-/// A part of the window.
-pub trait Panel {
-    /// Its name in files; never changes.
-    fn id(&self) -> &'static str;
-
-    /// Its name on the screen.
-    fn title(&self) -> &'static str;
-
-    /// Where it stands at first.
-    fn place(&self) -> Place;
-
-    /// Draws it. What the person did is pushed to `requests`.
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>);
-}
 
 /// Every panel.
 pub fn all() -> Vec<Box<dyn Panel>> {
@@ -141,7 +120,7 @@ impl Desk {
     }
 
     /// Draws everything once.
-    pub fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    pub fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         commands::Keymap::install(&state.settings.keys, ui.ctx());
         close_menus_beside_a_drag(ui.ctx());
         let theme = theme::Theme::of(ui);

@@ -1,8 +1,10 @@
 //! What lies over the panels: command palette, shortcut sheet, about, path field.
 
+use super::context::PanelContext;
 use super::palette::Palette;
+use super::prompts::Overlay;
+use super::request::Request;
 use super::shortcuts::ShortcutSheet;
-use super::state::{Overlay, Request, State};
 use super::style::GRID;
 use super::theme::Theme;
 use super::widgets;
@@ -21,7 +23,7 @@ pub struct Overlays {
 
 impl Overlays {
     /// Draws the overlay that the state names.
-    pub fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    pub fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         let fresh = self.shown != state.overlay;
         if fresh {
             self.shown = state.overlay;
@@ -78,7 +80,7 @@ impl Overlays {
     }
 }
 
-fn about(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn about(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.set_width(420.0);
     title(ui, "Dragonfly", requests);
     let theme = Theme::of(ui);
@@ -91,7 +93,7 @@ fn about(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
             .small()
             .color(theme.weak),
     );
-    if let super::state::Device::Ready { adapter } = &state.device {
+    if let super::window_status::Device::Ready { adapter } = state.window.device() {
         ui.label(RichText::new(adapter).small().color(theme.faint));
     }
 }

@@ -1,7 +1,8 @@
 //! The command palette: finds every command and every take by typed text.
 
 use super::commands::{self, Command, Id};
-use super::state::{Request, State};
+use super::context::PanelContext;
+use super::request::Request;
 use super::style::{self, ROW};
 use super::theme::Theme;
 use super::widgets;
@@ -28,7 +29,13 @@ enum PaletteEntry<'a> {
 }
 
 impl Palette {
-    pub(super) fn show(&mut self, ui: &mut Ui, fresh: bool, state: &State, requests: &mut Vec<Request>) {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        fresh: bool,
+        state: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
         ui.set_width(460.0);
         let (up, down, enter) = ui.input_mut(|input| {
             let mut take = |key| input.consume_key(Modifiers::NONE, key);
@@ -79,7 +86,7 @@ impl Palette {
 
 /// Returns the commands whose title, category or help contains every word of `query`, and the takes whose names do;
 /// those with a match in the title first.
-fn search<'a>(query: &str, state: &'a State) -> Vec<PaletteEntry<'a>> {
+fn search<'a>(query: &str, state: &'a PanelContext<'a>) -> Vec<PaletteEntry<'a>> {
     let words: Vec<String> = query.to_lowercase().split_whitespace().map(str::to_owned).collect();
     let has = |text: &str| {
         let text = text.to_lowercase();
@@ -124,7 +131,7 @@ impl<'a> PaletteEntry<'a> {
         format!("{} {} {help}", self.category(), self.title())
     }
 
-    fn is_able(self, state: &State) -> bool {
+    fn is_able(self, state: &PanelContext<'_>) -> bool {
         match self {
             Self::Command(command) => command.when.holds(state),
             Self::Take(..) => true,
@@ -138,7 +145,7 @@ impl<'a> PaletteEntry<'a> {
         }
     }
 
-    fn row(self, ui: &mut Ui, state: &State, chosen: bool) -> egui::Response {
+    fn row(self, ui: &mut Ui, state: &PanelContext<'_>, chosen: bool) -> egui::Response {
         let theme = Theme::of(ui);
         let (rect, response) = widgets::row(ui, self.title(), chosen, false);
         let able = self.is_able(state);

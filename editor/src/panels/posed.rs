@@ -1,4 +1,4 @@
-//! Poses of what is open, computed when somebody reads them.
+//! Poses of the model that is open, computed when they are read.
 
 use super::keys::BoneFlags;
 use dragonfly_anim::animation::Animation;
@@ -6,19 +6,24 @@ use dragonfly_anim::data::{AnimationData, BoneIndex, Take};
 use dragonfly_document::{LoadedModel, View};
 use std::sync::Arc;
 
-/// Poses at the time shown, computed when somebody reads them.
+/// Poses at the time shown, computed when they are read.
 #[derive(Debug, Default)]
 pub struct Posed {
     animation: Option<(Arc<LoadedModel>, u64, Animation)>,
     at: Option<(Option<usize>, f32, bool)>,
-    /// Does time run? Then the keys are seen, and not what is pending.
-    pub(super) running: bool,
-    /// Bones that are seen at rest, and the version of the marks that say so.
+    /// Whether time passes. Then the keys are shown, without pending poses.
+    running: bool,
+    /// Version of the flags, and the bones that they show at rest.
     still: (u64, Vec<BoneIndex>),
 }
 
 impl Posed {
-    /// Shows bones at rest that the picture shows so, from the next update on.
+    /// Sets whether time passes, from the next update on.
+    pub(super) fn set_running(&mut self, running: bool) {
+        self.running = running;
+    }
+
+    /// Shows muted bones at rest, from the next update on.
     pub(super) fn hold_still(&mut self, flags: &BoneFlags, view: &View) {
         if self.still.0 == flags.version() {
             return;
@@ -31,13 +36,13 @@ impl Posed {
         self.still = (flags.version(), still);
     }
 
-    /// The takes of `view` as they are seen.
+    /// Returns the takes of `view` as they are shown: muted bones rest.
     pub(super) fn takes(&self, view: &View) -> Arc<[Arc<Take>]> {
         view.takes_without(&self.still.1)
     }
 
-    /// The poses of `view` in `take` at `time`, with what is pending there. Of the model that was posed last only the takes
-    /// are exchanged.
+    /// Computes the poses of `view` in `take` at `time`, with the pending poses there. For the model that was posed last only
+    /// the takes are replaced.
     pub fn update(&mut self, view: &View, take: Option<usize>, time: f32) -> &Animation {
         let is_same = |(loaded, ..): &(Arc<LoadedModel>, u64, Animation)| Arc::ptr_eq(loaded, &view.loaded);
         if !self.animation.as_ref().is_some_and(is_same) {
@@ -70,7 +75,7 @@ impl Posed {
         animation
     }
 
-    /// The poses computed last, if there is a model.
+    /// Returns the poses that were computed last, if there is a model.
     pub fn animation(&self) -> Option<&Animation> {
         self.animation.as_ref().map(|(_, _, animation)| animation)
     }

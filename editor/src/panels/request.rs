@@ -1,132 +1,186 @@
-//! What panels ask for, and what of it reaches further than the panels.
+//! What panels ask for, and what reaches further than the panels.
 
-use super::commands::{Id, KeySettings};
-use super::keys::KeysRequest;
-use super::saving::Deed;
+use super::commands::id::Id;
+use super::commands::key_settings::KeySettings;
+use super::keys::request::KeysRequest;
+use super::prompts::Overlay;
+use super::properties::look::PropertiesLook;
 use super::settings::GhostSettings;
-use super::state::Overlay;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{Change, Source};
+use dragonfly_document::{Change, Decision, Offer, SaveOrder, Source, Then};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::OwnedRegion;
+use std::path::PathBuf;
 
-/// What a panel asks for.
+/// A request of a panel.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
-    /// Does a command of the table.
+    /// Runs a command of the table.
     Command(Id),
     /// Selects a bone, or none.
     Select(Option<BoneIndex>),
     /// Selects bones, in this way.
     SelectBones(Vec<BoneIndex>, Choice),
-    /// Edits, undoes, does again.
+    /// Edits, undoes or redoes.
     Change(Change),
-    /// Puts bones out of sight, or shows them again.
+    /// Hides bones, or shows them again.
     Hide {
-        /// Which.
+        /// The bones.
         bones: Vec<BoneIndex>,
-        /// Else they are shown.
+        /// Whether they are hidden; otherwise they are shown.
         hide: bool,
     },
-    /// About keys: selects, drags, marks.
+    /// A request about keys.
     Timeline(KeysRequest),
-    /// Puts on the poses in a text from the clipboard, or in the keys.
+    /// Pastes the poses or the keys in a text from the clipboard.
     PastePose {
-        /// As it was there.
+        /// The text of the clipboard.
         text: String,
-        /// On the other side?
+        /// Whether the pose goes to the bones of the other side.
         mirrored: bool,
     },
-    /// The pointer is over this bone's row.
+    /// The pointer is over the row of this bone.
     Hover(BoneIndex),
     /// Shows a take, or the rest pose.
     ShowTake(Option<usize>),
     /// Goes to this time, seconds.
     Seek(f32),
-    /// Take seconds a second.
+    /// Sets the speed of playback, seconds of the take per second.
     Speed(f32),
-    /// At the end of the take.
+    /// Sets what happens at the end of the take.
     Repeat(dragonfly_picture::playback::Repeat),
-    /// Frames a second for the display.
+    /// Sets the frame rate of the timeline, frames per second.
     FrameRate(u32),
-    /// Scale of the window's content.
+    /// Sets the scale of the window's content.
     Scale(f32),
-    /// Other keys for commands.
+    /// Replaces the keys of commands.
     Keys(KeySettings),
-    /// From where.
+    /// Replaces the camera.
     Camera(Camera),
-    /// Where the picture is, in points.
+    /// Sets the rectangle of the viewport, points.
     Viewport(egui::Rect),
-    /// Tools that lie over the picture, in points.
+    /// Sets the rectangles of the tools over the viewport, points.
     Shields(Vec<egui::Rect>),
-    /// How ghosts are shown.
+    /// Sets how ghosts are shown.
     Ghosts(GhostSettings),
-    /// The wheel was turned over the picture: points, positive is nearer.
+    /// The wheel was turned over the viewport: points, positive is nearer.
     Wheel(f32),
-    /// The pointer is here over the picture, in points, and does nothing else; or it is not.
+    /// The pointer rests here over the viewport, points; `None` where it is elsewhere or holds a button.
     Point(Option<egui::Pos2>),
     /// Opens a model.
     Open(Source),
     /// Shows an overlay, or none.
     Overlay(Option<Overlay>),
-    /// Shows or hides the panel of this name.
+    /// Shows or hides the panel with this id.
     TogglePanel(&'static str),
-    /// Begins to rename a take, or ends it.
+    /// Starts to rename a take, or ends it.
     RenameTake(Option<usize>),
     /// Answers a question.
-    Deed(Deed),
-    /// Leaves a question without an answer.
+    Answer(FileAction),
+    /// Closes a question without an answer.
     Dismiss,
-    /// How the numbers of a bone are shown.
-    PropertiesLook(super::properties::PropertiesLook),
+    /// Sets how the numbers of a bone are shown.
+    PropertiesLook(PropertiesLook),
 }
 
-/// What only the surroundings of the panels can do.
+/// What only the program around the panels can do.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
     /// Shows the system's dialog for opening files.
     OpenDialog,
-    /// Opens a model.
-    Open(Source),
-    /// Takes back what is dragged, as if it had never begun.
-    TakeBack,
-    /// No button is held: what was dragged is over, said or not.
-    HandsOff,
-    /// Stops the job that loads.
+    /// Cancels the drag in progress, as if it had never begun.
+    CancelDrag,
+    /// Ends the drag in progress; no button is held any more.
+    ReleaseDrag,
+    /// Cancels loading.
     CancelLoading,
-    /// Tells the document.
+    /// Sends a change to the document.
     Change(Change),
-    /// Tells the document, under this number: what becomes of [`Self::Change`] and [`Self::Changes`] when a drag does not
-    /// stand in their way.
+    /// Sends a change to the document under this number: what [`Self::Change`] and [`Self::Changes`] become when they are let
+    /// through.
     Send(u64, Change),
-    /// Tells the document several things, each a step.
+    /// Sends several changes to the document, each a step.
     Changes(Vec<Change>),
     /// Puts a text into the clipboard.
     Copy(String),
-    /// The same, and tells the document: what was copied goes.
+    /// Puts a text into the clipboard, and sends the change that deletes what was copied.
     Cut(String, Change),
-    /// Asks for [`Request::PastePose`] with what is in the clipboard.
+    /// Executes [`Request::PastePose`] with the text of the clipboard.
     PastePose {
-        /// On the other side?
+        /// Whether the pose goes to the bones of the other side.
         mirrored: bool,
     },
-    /// Asks the graphics thread which bone lies there, in points from the window's top left, and selects it in this way.
+    /// Asks the graphics thread which bone is there, in points from the window's top left, and selects it in this way.
     Pick(egui::Pos2, Choice),
-    /// Asks which bones lie in there, in points from the picture's top left.
+    /// Asks the graphics thread which bones are in there, in points from the viewport's top left.
     Catch(OwnedRegion, Choice),
-    /// Uses the whole screen, or a window again.
+    /// Switches between the whole screen and a window.
     FullScreen,
     /// Shows or hides a panel.
     TogglePanel(&'static str),
-    /// Puts every panel where it was at first.
+    /// Moves every panel back to its first place.
     ResetLayout,
-    /// Tries the device again.
+    /// Tries the graphics device again.
     RetryDevice,
-    /// Ends the program.
-    Quit,
-    /// Saves, leaves, brings back.
-    Deed(Deed),
-    /// The program does not end, since something is not saved.
-    Stays,
+    /// Opens, saves, ends or recovers.
+    File(FileAction),
+}
+
+/// An action about files: what only the document, or the system's dialogs, can do.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FileAction {
+    /// Saves.
+    Save(SaveOrder),
+    /// Computes what a save would change.
+    Plan(Option<SaveOrder>),
+    /// Asks the user where to save.
+    Where {
+        /// Whether the document keeps its own file.
+        copy: bool,
+        /// What follows after saving.
+        then: Option<Then>,
+    },
+    /// Goes on without saving.
+    DoNotSave(Then),
+    /// Goes back to the saved state.
+    Revert,
+    /// Reads the file again; unsaved changes are lost.
+    Reload,
+    /// Decides about unsaved work of an earlier run.
+    Decide(Box<Offer>, Decision),
+    /// Asks the user where the file of unsaved work is now.
+    Find(Box<Offer>),
+    /// The file of unsaved work is here.
+    FoundAt(Box<Offer>, PathBuf),
+    /// Searches for unsaved work.
+    Search,
+    /// Opens another model or ends the program, unless there are unsaved changes.
+    Leave(Then),
+    /// Ends the program: nothing is unsaved.
+    QuitNow,
+    /// The program does not end: there are unsaved changes.
+    Stay,
+    /// Checks whether another program changed the file.
+    LookAtFile,
+}
+
+impl FileAction {
+    /// Returns whether the action only reads, so that a drag goes on.
+    pub(super) fn only_reads(&self) -> bool {
+        match self {
+            Self::LookAtFile | Self::Search | Self::Stay => true,
+            Self::Save(_)
+            | Self::Plan(_)
+            | Self::Where { .. }
+            | Self::DoNotSave(_)
+            | Self::Revert
+            | Self::Reload
+            | Self::Decide(..)
+            | Self::Find(_)
+            | Self::FoundAt(..)
+            | Self::Leave(_)
+            | Self::QuitNow => false,
+        }
+    }
 }

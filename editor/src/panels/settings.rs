@@ -1,7 +1,7 @@
-//! What the program remembers between runs.
+//! Settings that are remembered between runs.
 
-use super::commands::KeySettings;
-use super::properties::PropertiesLook;
+use super::commands::key_settings::KeySettings;
+use super::properties::look::PropertiesLook;
 use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
 use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
 use dragonfly_picture::playback::Repeat;
@@ -9,10 +9,10 @@ use dragonfly_picture::{BoneLook, Shading};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// Light, dark, or as the desktop says.
+/// Light, dark, or the theme of the desktop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ThemeChoice {
-    /// As the desktop says; dark where it says nothing.
+    /// The theme of the desktop; dark where it has none.
     #[default]
     System,
     /// For dim rooms.
@@ -21,7 +21,7 @@ pub enum ThemeChoice {
     Light,
 }
 
-/// How the picture is drawn.
+/// How the viewport is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LookSettings {
@@ -29,13 +29,13 @@ pub struct LookSettings {
     pub grid: bool,
     /// Bones.
     pub skeleton: bool,
-    /// Form of bones.
+    /// Shape of bones.
     pub bone_look: BoneLook,
-    /// Bones through the surface.
+    /// Whether bones are drawn in front of the surface.
     pub bones_in_front: bool,
     /// How surfaces are drawn.
     pub shading: Shading,
-    /// Is the surface drawn?
+    /// Whether the surface is drawn.
     pub surface: bool,
 }
 
@@ -53,33 +53,33 @@ impl Default for LookSettings {
     }
 }
 
-/// How the hands work.
+/// Settings of the viewport tools.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct HandSettings {
-    /// What the gizmo does; none: the mouse only selects.
+pub struct ToolSettings {
+    /// The active tool of the gizmo; `None`: the mouse only selects.
     pub tool: Option<Tool>,
-    /// Whose axes.
+    /// The axes of the gizmo.
     pub space: GizmoSpace,
-    /// What several bones turn and grow about.
+    /// The pivot about which several bones rotate and scale.
     pub pivot: Pivot,
-    /// Does every bone of a selected chain turn by the whole amount?
+    /// Whether every bone of a selected chain rotates by the whole amount.
     pub curl: bool,
-    /// The skeleton before and after.
+    /// Ghosts of the skeleton before and after the time shown.
     pub ghosts: GhostSettings,
-    /// Is the motion path of the selected bone shown?
+    /// Whether the motion path of the active bone is shown.
     pub path: bool,
-    /// Do the bones above follow one that is moved?
+    /// How the bones above follow one that is moved.
     pub ik: IkSettings,
 }
 
-/// How bones follow one that is moved.
+/// IK settings that are remembered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct IkSettings {
-    /// Do they?
+    /// Whether bones follow one that is moved.
     pub on: bool,
-    /// How many above it; 1 to [`LONGEST_CHAIN`].
+    /// Number of bones above it that follow; 1 to [`LONGEST_CHAIN`].
     pub length: u32,
 }
 
@@ -90,13 +90,13 @@ impl Default for IkSettings {
     }
 }
 
-/// How the timeline and the curves work.
+/// Settings of the timeline and the curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct TimelineSettings {
-    /// Do moved keys go to whole frames?
+    /// Whether moved keys go to whole frames.
     pub snap: bool,
-    /// Are only the selected bones listed, where any are selected?
+    /// Whether only the selected bones are listed, where any are selected.
     pub only_selected: bool,
 }
 
@@ -106,19 +106,19 @@ impl Default for TimelineSettings {
     }
 }
 
-/// How the skeleton is shown at other times than the one shown.
+/// How ghosts are shown: the skeleton at other times than the one shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct GhostSettings {
-    /// Is it?
+    /// Whether ghosts are shown.
     pub shown: bool,
-    /// How many before, and after.
+    /// Number of ghosts before and after.
     pub count: [u32; 2],
-    /// Frames from one to the next.
+    /// Number of frames from one ghost to the next.
     pub step: u32,
-    /// At keys of the selected bone (or of all), in place of frames.
+    /// Whether ghosts are shown at keys of the selected bone (or of all) instead of frames.
     pub keys: bool,
-    /// Is the skin shown, and not the skeleton?
+    /// Whether ghosts show the skin instead of the skeleton.
     pub skin: bool,
 }
 
@@ -129,18 +129,18 @@ impl Default for GhostSettings {
 }
 
 impl GhostSettings {
-    /// Most ghosts on either side, and most frames between two.
+    /// Maximum number of ghosts on either side, and of frames between two.
     pub const MOST: [u32; 2] = [10, 60];
 
-    /// The nearest right numbers.
-    pub fn mended(mut self) -> Self {
+    /// Returns the nearest valid numbers.
+    pub fn sanitized(mut self) -> Self {
         self.count = self.count.map(|count| count.min(Self::MOST[0]));
         self.step = self.step.clamp(1, Self::MOST[1]);
         self
     }
 }
 
-impl Default for HandSettings {
+impl Default for ToolSettings {
     fn default() -> Self {
         Self {
             tool: Some(Tool::Rotate),
@@ -154,42 +154,43 @@ impl Default for HandSettings {
     }
 }
 
-/// Frame rates that can be chosen for the display of time, ascending.
+/// Frame rates of the timeline that can be chosen, ascending.
 pub const FRAME_RATES: &[u32] = &[24, 25, 30, 48, 50, 60, 90, 100, 120];
 /// Smallest and largest scale of the window's content.
 pub const SCALES: std::ops::RangeInclusive<f32> = 0.75..=2.0;
 /// Slowest and fastest playback.
 pub const SPEEDS: std::ops::RangeInclusive<f32> = 0.05..=8.0;
-/// How many files are remembered.
+/// Maximum number of files that are remembered.
 pub const RECENT: usize = 10;
 
-/// Everything remembered, apart from the places of the panels.
+/// All settings, except the positions of the panels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
-    /// Light or dark.
+    /// The theme.
     pub theme: ThemeChoice,
-    /// 1 = usual size.
+    /// Scale of the window's content; 1 is the usual size.
     pub scale: f32,
-    /// How the picture is drawn.
+    /// How the viewport is drawn.
     pub look: LookSettings,
-    /// How the hands work.
-    pub hand: HandSettings,
-    /// How the timeline and the curves work.
+    /// Settings of the viewport tools.
+    #[serde(rename = "hand")]
+    pub tools: ToolSettings,
+    /// Settings of the timeline and the curves.
     pub timeline: TimelineSettings,
-    /// At the end of a take.
+    /// What happens at the end of a take.
     pub repeat: Repeat,
-    /// Take seconds a second.
+    /// Speed of playback, seconds of the take per second.
     pub speed: f32,
-    /// Frames a second, for display and stepping.
+    /// Frame rate of the timeline, frames per second.
     pub frame_rate: u32,
-    /// Which keys give which command.
+    /// Keys of commands.
     pub keys: KeySettings,
-    /// Does a changed pose become a key at once?
+    /// Whether a changed pose becomes a key at once.
     pub auto_key: bool,
-    /// Is it shown before each save what it will change?
+    /// Whether each save first shows what it will change.
     pub show_changes: bool,
-    /// Newest first.
+    /// Paths of the files opened last, newest first.
     pub recent: Vec<PathBuf>,
     /// How the numbers of a bone are shown.
     pub properties: PropertiesLook,
@@ -201,7 +202,7 @@ impl Default for Settings {
             theme: ThemeChoice::default(),
             scale: 1.0,
             look: LookSettings::default(),
-            hand: HandSettings::default(),
+            tools: ToolSettings::default(),
             timeline: TimelineSettings::default(),
             repeat: Repeat::default(),
             speed: 1.0,
@@ -216,18 +217,18 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// From the text of a settings file; a damaged one gives the defaults, a wrong number the nearest right one.
+    /// Parses the text of a settings file; a damaged text gives the defaults, an invalid number the nearest valid one.
     pub fn parse(text: &str) -> Self {
-        serde_json::from_str::<Self>(text).unwrap_or_default().mended()
+        serde_json::from_str::<Self>(text).unwrap_or_default().sanitized()
     }
 
-    /// As the text of a settings file.
+    /// Returns the text of the settings file.
     pub fn to_text(&self) -> String {
         // Plain data of strings and finite numbers always has a text.
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
 
-    fn mended(mut self) -> Self {
+    fn sanitized(mut self) -> Self {
         self.scale =
             if self.scale.is_finite() { self.scale.clamp(*SCALES.start(), *SCALES.end()) } else { 1.0 };
         self.speed =
@@ -235,13 +236,13 @@ impl Settings {
         if !FRAME_RATES.contains(&self.frame_rate) {
             self.frame_rate = 30;
         }
-        self.hand.ghosts = self.hand.ghosts.mended();
-        self.hand.ik.length = self.hand.ik.length.clamp(1, LONGEST_CHAIN);
+        self.tools.ghosts = self.tools.ghosts.sanitized();
+        self.tools.ik.length = self.tools.ik.length.clamp(1, LONGEST_CHAIN);
         self.recent.truncate(RECENT);
         self
     }
 
-    /// Remembers that `path` was opened.
+    /// Adds `path` to the files opened last.
     pub fn remember(&mut self, path: &Path) {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         self.recent.retain(|other| *other != path);

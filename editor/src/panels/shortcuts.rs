@@ -1,8 +1,9 @@
 //! The sheet of keys and mouse, in which keys can be chosen anew.
 
 use super::commands::{self, Category, Command, Id, KeySettings, Keymap, MOUSE, Preset};
+use super::context::PanelContext;
 use super::icons::Icon;
-use super::state::{Request, State};
+use super::request::Request;
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets;
@@ -25,7 +26,7 @@ impl ShortcutSheet {
         Keymap::set_asking(ui.ctx(), false);
     }
 
-    pub(super) fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    pub(super) fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         let room = ui.ctx().content_rect();
         ui.set_width((room.width() - 96.0).clamp(320.0, 860.0));
         super::overlays::title(ui, "Keys and mouse", requests);

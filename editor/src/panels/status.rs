@@ -1,51 +1,51 @@
-//! Quiet lines: the last one is shown at the bottom of the window, all of them on a click.
+//! Messages: the last one is shown at the bottom of the window, all of them on a click.
 
 use std::collections::VecDeque;
 
-/// How much a line matters.
+/// Severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
-    /// Good to know.
+pub enum Severity {
+    /// Information.
     Info,
-    /// Not quite right.
+    /// Something unexpected.
     Warning,
-    /// Failed.
+    /// Something failed.
     Error,
 }
 
-/// One line.
+/// A message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
-    /// How much it matters.
-    pub level: Level,
-    /// One sentence.
+    /// Severity.
+    pub level: Severity,
+    /// The text, one sentence.
     pub text: String,
-    /// How often it was said in a row.
+    /// Number of times that it was added in a row.
     pub times: u32,
 }
 
-/// The newest lines, oldest first.
+/// The newest messages, oldest first.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Status {
     lines: VecDeque<Line>,
-    /// Lines said so far.
+    /// Number of messages added so far.
     said: u64,
-    /// The last line says more than the next remark would.
+    /// Whether the last message says more than the next remark would.
     weighs_more: bool,
 }
 
-/// How many lines are kept.
+/// Maximum number of messages that are kept.
 const KEPT: usize = 200;
 
 impl Status {
-    /// Says `text`; the same again only counts.
-    pub fn say(&mut self, level: Level, text: impl Into<String>) {
+    /// Adds a message; a repeated one only increases its count.
+    pub fn say(&mut self, level: Severity, text: impl Into<String>) {
         let text = text.into();
         self.said += 1;
         match level {
-            Level::Info => tracing::info!(target: "dragonfly::status", "{text}"),
-            Level::Warning => tracing::info!(target: "dragonfly::status", level = "warning", "{text}"),
-            Level::Error => tracing::warn!(target: "dragonfly::status", "{text}"),
+            Severity::Info => tracing::info!(target: "dragonfly::status", "{text}"),
+            Severity::Warning => tracing::info!(target: "dragonfly::status", level = "warning", "{text}"),
+            Severity::Error => tracing::warn!(target: "dragonfly::status", "{text}"),
         }
         if let Some(last) = self.lines.back_mut()
             && last.text == text
@@ -60,29 +60,29 @@ impl Status {
         self.lines.push_back(Line { level, text, times: 1 });
     }
 
-    /// How many lines were said so far.
+    /// Returns the number of messages added so far.
     pub(super) fn said(&self) -> u64 {
         self.said
     }
 
-    /// The line that was said last is of what is done now and says more than a remark about it would.
+    /// Notes whether the last message is about the present change and more detailed than a remark about it would be.
     pub(super) fn keep_last(&mut self, keep: bool) {
         self.weighs_more = keep;
     }
 
-    /// Says what was done, unless the line that is there says more of it.
+    /// Adds a remark about a change, unless the last message is more detailed.
     pub(super) fn remark(&mut self, text: impl Into<String>) {
         if !std::mem::take(&mut self.weighs_more) {
-            self.say(Level::Info, text);
+            self.say(Severity::Info, text);
         }
     }
 
-    /// The newest line.
+    /// Returns the newest message.
     pub fn last(&self) -> Option<&Line> {
         self.lines.back()
     }
 
-    /// All lines, oldest first.
+    /// Returns all messages, oldest first.
     pub fn lines(&self) -> impl DoubleEndedIterator<Item = &Line> {
         self.lines.iter()
     }

@@ -1,17 +1,19 @@
 //! The line at the bottom: the newest message, all of them on a click, the device in the corner.
 
 use super::commands::{self, Id};
+use super::context::PanelContext;
 use super::icons::Icon;
-use super::state::{Device, Request, State};
-use super::status::{Level, Line};
+use super::request::Request;
+use super::status::{Line, Severity};
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets;
+use super::window_status::Device;
 use dragonfly_document::edit::SAME_TIME;
 use egui::{Align, Color32, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
 
 /// Draws the line.
-pub fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+pub fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.add_space(3.0 * GRID);
         corner(ui, state);
@@ -21,9 +23,9 @@ pub fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     });
 }
 
-fn corner(ui: &mut Ui, state: &State) {
+fn corner(ui: &mut Ui, state: &PanelContext<'_>) {
     let theme = Theme::of(ui);
-    match &state.device {
+    match state.window.device() {
         Device::Starting => {
             ui.label(RichText::new("Starting the graphics device…").small().color(theme.faint));
         }
@@ -31,7 +33,7 @@ fn corner(ui: &mut Ui, state: &State) {
             ui.label(RichText::new("Viewport paused").small().color(theme.warning));
         }
         Device::Ready { adapter } => {
-            let time = state.frame_time.map_or(String::new(), |time| format!("{time:>5.1} ms"));
+            let time = state.window.frame_time().map_or(String::new(), |time| format!("{time:>5.1} ms"));
             let font = egui::FontId::monospace(10.0);
             let label = ui.label(RichText::new(time).font(font).color(theme.faint));
             label.on_hover_text(format!("{adapter}\nTime that the last frame took"));
@@ -44,7 +46,7 @@ fn corner(ui: &mut Ui, state: &State) {
 }
 
 /// How many poses wait to be keyed; a click goes to the next one.
-fn pending(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn pending(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let (here, all) = state.pending_poses();
     if all == 0 {
         return;
@@ -66,18 +68,18 @@ fn pending(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     ui.add_space(2.0 * GRID);
 }
 
-fn message(ui: &mut Ui, state: &State) {
+fn message(ui: &mut Ui, state: &PanelContext<'_>) {
     let theme = Theme::of(ui);
     let size = vec2(ui.available_width(), ui.available_height());
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let (text, level) = match (&state.loading, state.status.last()) {
+    let (text, level) = match (state.loading, state.status.last()) {
         (Some(loading), _) => {
             let percent = (loading.progress.done * 100.0) as u32;
             let text = format!("{} {}… {percent} %", loading.progress.stage.title(), loading.title);
-            (text, Level::Info)
+            (text, Severity::Info)
         }
         (None, Some(line)) => (sentence(line), line.level),
-        (None, None) => ("Ready".to_owned(), Level::Info),
+        (None, None) => ("Ready".to_owned(), Severity::Info),
     };
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Messages: {text}"))
@@ -85,7 +87,7 @@ fn message(ui: &mut Ui, state: &State) {
     let (icon, color) = tone(level, theme);
     let mark = Rect::from_center_size(pos2(rect.left() + 18.0, rect.center().y), vec2(16.0, 16.0));
     let color = if response.hovered() { theme.text } else { color };
-    icon.paint(ui.painter(), mark, if level == Level::Info { theme.faint } else { color });
+    icon.paint(ui.painter(), mark, if level == Severity::Info { theme.faint } else { color });
     let inside = Rect::from_min_max(pos2(rect.left() + 32.0, rect.top()), rect.max);
     widgets::text_in(ui, inside, &text, &TextStyle::Small, color);
     let response = response.on_hover_text("Shows all messages");
@@ -110,10 +112,10 @@ fn sentence(line: &Line) -> String {
     if line.times > 1 { format!("{} ({} times)", line.text, line.times) } else { line.text.clone() }
 }
 
-fn tone(level: Level, theme: &Theme) -> (Icon, Color32) {
+fn tone(level: Severity, theme: &Theme) -> (Icon, Color32) {
     match level {
-        Level::Info => (Icon::Info, theme.weak),
-        Level::Warning => (Icon::Warning, theme.warning),
-        Level::Error => (Icon::Error, theme.error),
+        Severity::Info => (Icon::Info, theme.weak),
+        Severity::Warning => (Icon::Warning, theme.warning),
+        Severity::Error => (Icon::Error, theme.error),
     }
 }

@@ -1,7 +1,8 @@
 //! Time from left to right: transport, ruler, keys, playhead.
 
+use super::context::PanelContext;
 use super::dope::Dope;
-use super::state::{Request, State};
+use super::request::Request;
 use super::style;
 use super::theme::Theme;
 use super::{Panel, Place, transport, widgets};
@@ -26,7 +27,7 @@ impl Panel for Timeline {
         Place::Below
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.spacing_mut().item_spacing.y = 0.0;
         transport::show(ui, state, requests);
         let rect = ui.available_rect_before_wrap();

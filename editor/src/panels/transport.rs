@@ -1,10 +1,11 @@
 //! The bar over the timeline: buttons, repeat, speed, time.
 
 use super::commands::{self, Id};
+use super::context::PanelContext;
 use super::icons::Icon;
+use super::request::Request;
 use super::ruler;
 use super::settings::{FRAME_RATES, SPEEDS};
-use super::state::{Request, State};
 use super::style::{CONTROL, GRID};
 use super::theme::Theme;
 use super::widgets::{command_button, icon_button};
@@ -13,7 +14,7 @@ use dragonfly_picture::playback::{LATEST, Repeat};
 use egui::{Align, Button, DragValue, Layout, RichText, Ui, vec2};
 
 /// Draws the bar.
-pub(super) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let able = state.playback.take.is_some();
     ui.horizontal(|ui| {
         ui.set_height(32.0);
@@ -36,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     });
 }
 
-fn buttons(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn buttons(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let playing = state.playback.playing;
     let (forward, backward) = (playing && state.playback.speed >= 0.0, playing && state.playback.speed < 0.0);
     command_button(ui, Icon::First, Id::Start, false, requests);
@@ -53,7 +54,7 @@ fn buttons(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     command_button(ui, Icon::Last, Id::End, false, requests);
 }
 
-fn keying(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn keying(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     command_button(ui, Icon::AutoKey, Id::AutoKey, state.settings.auto_key, requests);
     let waits = state.pending_here().is_some();
     ui.add_enabled_ui(state.take().is_some(), |ui| {
@@ -61,7 +62,7 @@ fn keying(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     });
 }
 
-fn repeat(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn repeat(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let shortcut = commands::shortcut_text(ui.ctx(), Id::CycleRepeat);
     for (icon, repeat, name) in [
         (Icon::Loop, Repeat::Loop, "Loop"),
@@ -75,7 +76,7 @@ fn repeat(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     }
 }
 
-fn speed(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn speed(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let mut speed = state.settings.speed;
     let field = DragValue::new(&mut speed)
         .range(SPEEDS)
@@ -90,7 +91,7 @@ fn speed(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
     }
 }
 
-fn frame_rate(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn frame_rate(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let rate = state.settings.frame_rate;
     let button = Button::new(RichText::new(format!("{rate} fps")).color(Theme::of(ui).weak)).frame(false);
     let response = ui.add(button).on_hover_text("Frames a second, for display and stepping");
@@ -105,7 +106,7 @@ fn frame_rate(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
 }
 
 /// Right to left: frames, seconds.
-fn time(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn time(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
     let rate = state.settings.frame_rate;
     let (start, length) = state.take_bounds();

@@ -1,8 +1,9 @@
 //! Small widgets that several panels share.
 
 use super::commands::{self, Id};
+pub(super) use super::count_text::{count, grouped};
 use super::icons::Icon;
-use super::state::Request;
+use super::request::Request;
 use super::style::{self, GRID, RADIUS, ROW};
 use super::theme::Theme;
 use egui::accesskit::Role;
@@ -159,24 +160,6 @@ pub(super) fn empty(ui: &mut Ui, title: &str, hint: &str) {
 /// Joins facts on one line with dots.
 pub(super) fn dot_separated(parts: &[String]) -> String {
     parts.join("  ·  ")
-}
-
-/// Groups digits: `1 234 567`.
-pub(super) fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut out = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            out.push('\u{2009}');
-        }
-        out.push(digit);
-    }
-    out
-}
-
-/// Returns a number with its noun: `1 bone`, `2 bones`.
-pub(super) fn count(number: usize, one: &str, many: &str) -> String {
-    format!("{} {}", grouped(number), if number == 1 { one } else { many })
 }
 
 /// Shortens a text so that it fits into a tooltip or a menu.

@@ -1,6 +1,6 @@
-//! Where commands stand.
+//! Categories of commands.
 
-/// Where a command stands in menus and sheets.
+/// The category of a command in menus and sheets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)] // The titles say it.
 pub enum Category {
@@ -19,7 +19,7 @@ pub enum Category {
 }
 
 impl Category {
-    /// In the order in which they are shown.
+    /// All categories in the order in which they are shown.
     pub const ALL: &[Self] = &[
         Self::File,
         Self::Edit,

@@ -1,6 +1,6 @@
-//! The names of all commands.
+//! The ids of all commands.
 
-/// Names a command.
+/// The id of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)] // The table below says what each does.
 pub enum Id {
@@ -167,13 +167,8 @@ pub enum Id {
 }
 
 impl Id {
-    /// Its name in settings; never changes.
+    /// Returns its name in settings; never changes.
     pub fn name(self) -> String {
         format!("{self:?}")
-    }
-
-    /// The command of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        super::all().map(|command| command.id).find(|id| id.name() == name)
     }
 }

@@ -1,50 +1,23 @@
-//! Which keys give which command: those of a preset, and on top what the person chose.
+//! The keys of commands: those of the table, of a preset, and those that the user chose.
 
-use super::{Id, Preset, parse, text};
+use super::id::Id;
+use super::key_settings::KeySettings;
+use super::shortcut::parse;
 use egui::{Key, KeyboardShortcut, Modifiers};
-use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What is remembered of the keys.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct KeySettings {
-    /// The keys to begin with.
-    pub preset: Preset,
-    /// Names of commands with the keys that the person gave them, as [`text`] writes them; none: no key at all.
-    /// What is no name or no key (any more) is passed over.
-    pub own: BTreeMap<String, Vec<String>>,
-}
-
-impl KeySettings {
-    /// Gives a command these keys.
-    pub fn set(&mut self, id: Id, shortcuts: &[KeyboardShortcut]) {
-        self.own.insert(id.name(), shortcuts.iter().map(text).collect());
-    }
-
-    /// Gives a command the keys of the preset again.
-    pub fn reset(&mut self, id: Id) {
-        self.own.remove(&id.name());
-    }
-
-    /// Has the person given this command other keys?
-    pub fn is_own(&self, id: Id) -> bool {
-        self.own.contains_key(&id.name())
-    }
-}
-
-/// Which keys give which command. The one in use lies in the memory of egui, so that every tooltip can name its keys.
+/// The keys of commands. The keymap in use is in the memory of egui, so that every tooltip can name its keys.
 #[derive(Clone, Debug, Default)]
 pub struct Keymap {
     settings: KeySettings,
-    /// Only where they differ from the table.
+    /// Commands whose keys differ from the table.
     other: HashMap<Id, Vec<KeyboardShortcut>>,
 }
 
 impl Keymap {
-    /// What `settings` say. A key that is named for one command is taken from all that only have it by the layer below:
-    /// the preset takes from the table, the person from the preset.
+    /// Applies `settings`. A key of one command is removed from all commands that only have it by the layer below: the preset
+    /// overrides the table, the user overrides the preset.
     pub fn new(settings: KeySettings) -> Self {
         let mut keymap = Self { other: HashMap::new(), settings };
         for (id, shortcuts) in keymap.settings.preset.table() {
@@ -52,7 +25,7 @@ impl Keymap {
         }
         let own = keymap.settings.own.clone();
         for (name, shortcuts) in &own {
-            if let Some(id) = Id::named(name) {
+            if let Some(id) = super::named(name) {
                 keymap.give(id, shortcuts.iter().filter_map(|text| parse(text)).collect());
             }
         }
@@ -73,12 +46,12 @@ impl Keymap {
         self.other.insert(id, shortcuts);
     }
 
-    /// The one in use; the usual one before any was put there.
+    /// Returns the keymap in use; the default one before any was installed.
     pub fn of(context: &egui::Context) -> Arc<Self> {
         context.data(|data| data.get_temp::<Arc<Self>>(Self::place())).unwrap_or_default()
     }
 
-    /// Uses what these settings say from now on; free where they are in use already.
+    /// Uses these settings from now on; costs nothing where they are in use already.
     pub fn install(settings: &KeySettings, context: &egui::Context) {
         if Self::of(context).settings != *settings {
             let keymap = Arc::new(Self::new(settings.clone()));
@@ -86,12 +59,12 @@ impl Keymap {
         }
     }
 
-    /// The keys of a command; the first is the one that tooltips name.
+    /// Returns the keys of a command; tooltips name the first.
     pub fn shortcuts(&self, id: Id) -> &[KeyboardShortcut] {
         self.other.get(&id).map_or(super::get(id).shortcuts, Vec::as_slice)
     }
 
-    /// The command that these keys give.
+    /// Returns the command of these keys.
     pub fn command_of(&self, key: Key, modifiers: Modifiers) -> Option<Id> {
         let gives = |shortcut: &KeyboardShortcut| {
             shortcut.logical_key == key && modifiers.matches_exact(shortcut.modifiers)
@@ -99,12 +72,12 @@ impl Keymap {
         super::all().map(|command| command.id).find(|id| self.shortcuts(*id).iter().any(gives))
     }
 
-    /// Is a key being chosen for a command, so that it must not do what it usually does?
+    /// Returns whether a key is being chosen for a command, so that it must not run another one.
     pub fn is_asking(context: &egui::Context) -> bool {
         context.data(|data| data.get_temp::<bool>(Self::asking())).unwrap_or_default()
     }
 
-    /// See [`Self::is_asking`].
+    /// Sets whether a key is being chosen for a command.
     pub fn set_asking(context: &egui::Context, asking: bool) {
         context.data_mut(|data| data.insert_temp(Self::asking(), asking));
     }

@@ -1,7 +1,8 @@
-//! Everything the program can be told to do, once: menus, tooltips, keys, palette and shortcut sheet all read this table.
+//! All commands of the program in one table: menus, tooltips, keys, palette and shortcut sheet read it.
 
 mod category;
-mod id;
+pub(super) mod id;
+pub(super) mod key_settings;
 mod keymap;
 mod preset;
 mod shortcut;
@@ -10,46 +11,58 @@ mod when;
 
 pub use category::Category;
 pub use id::Id;
-pub use keymap::{KeySettings, Keymap};
+pub use key_settings::KeySettings;
+pub use keymap::Keymap;
 pub use preset::Preset;
 pub use shortcut::{parse, text};
 pub use table::TABLE;
 pub use when::When;
 
+use super::context::PanelContext;
+use super::request::Effect;
+use super::workspace::Workspace;
 use egui::{Key, KeyboardShortcut, Modifiers, Popup};
+use std::borrow::Cow;
 
-/// One thing the program can be told to do.
+/// A command.
 #[derive(Clone, Copy, Debug)]
 pub struct Command {
     /// Its name in the code.
     pub id: Id,
     /// Its name on the screen.
     pub title: &'static str,
-    /// The first is the one that tooltips name.
+    /// Its keys; tooltips name the first.
     pub shortcuts: &'static [KeyboardShortcut],
-    /// One sentence.
+    /// What it does, in one sentence.
     pub help: &'static str,
-    /// When it can be given.
+    /// Condition under which it can be run.
     pub when: When,
+    /// Runs the command. Returns what reaches further than the panels.
+    pub(super) run: fn(&mut Workspace) -> Option<Effect>,
 }
 
-/// Every command, in the order of the table.
+/// Returns every command, in the order of the table.
 pub fn all() -> impl Iterator<Item = &'static Command> {
     TABLE.iter().flat_map(|(_, commands)| commands.iter())
 }
 
-/// Where a command stands.
+/// Returns the command with this name in settings.
+pub fn named(name: &str) -> Option<Id> {
+    all().map(|command| command.id).find(|id| id.name() == name)
+}
+
+/// Returns the category of a command.
 pub fn category_of(id: Id) -> Category {
     let has = |commands: &[Command]| commands.iter().any(|command| command.id == id);
     TABLE.iter().find(|(_, commands)| has(commands)).map_or(Category::Help, |(category, _)| *category)
 }
 
-/// The commands of one category.
+/// Returns the commands of one category.
 pub fn of(category: Category) -> &'static [Command] {
     TABLE.iter().find(|(other, _)| *other == category).map_or(&[], |(_, commands)| commands)
 }
 
-/// What the mouse does in the viewport, for the shortcut sheet.
+/// The actions of the mouse in the viewport, for the shortcut sheet.
 pub const MOUSE: &[(&str, &str)] = &[
     ("Middle drag, Alt + left drag", "Orbit"),
     ("Shift + middle drag, Alt + middle drag", "Pan"),
@@ -66,18 +79,32 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Alt + wheel over the timeline", "Frame by frame"),
 ];
 
-/// The entry of `id`.
+/// Returns the row of `id`.
 pub fn get(id: Id) -> &'static Command {
-    // A test proves that every name has a line.
+    // A test proves that every id has a row.
     all().find(|command| command.id == id).unwrap_or(&TABLE[0].1[0])
 }
 
-/// The first shortcut as text, `Ctrl+O`; empty when there is none.
+/// Returns the title of a command as menus show it: undo and redo with the step that they are about.
+pub fn title(panels: &PanelContext<'_>, id: Id) -> Cow<'static, str> {
+    let title = get(id).title;
+    let [undo, redo] = panels.view.map_or([None, None], |view| view.history.labels());
+    let label = if id == Id::Undo {
+        undo
+    } else if id == Id::Redo {
+        redo
+    } else {
+        None
+    };
+    label.map_or(Cow::Borrowed(title), |label| Cow::Owned(format!("{title} {label}")))
+}
+
+/// Returns the first shortcut as text, `Ctrl+O`; empty when there is none.
 pub fn shortcut_text(context: &egui::Context, id: Id) -> String {
     Keymap::of(context).shortcuts(id).first().map(text).unwrap_or_default()
 }
 
-/// What a tooltip says: title and shortcut, then the help.
+/// Returns the tooltip: title and shortcut, then the help.
 pub fn tooltip(context: &egui::Context, id: Id) -> String {
     let command = get(id);
     let shortcut = shortcut_text(context, id);
@@ -89,22 +116,22 @@ pub fn tooltip(context: &egui::Context, id: Id) -> String {
     if command.help == command.title { title } else { format!("{title}\n{}", command.help) }
 }
 
-/// Commands whose keys were pressed in this frame, in order; what text fields need is left to them.
+/// Returns the commands whose keys were pressed in this frame, in order; keys that a text field needs stay for it.
 ///
-/// Held keys repeat only where that is wanted: stepping through time.
+/// Held keys repeat only for commands that step through time.
 pub fn pressed(context: &egui::Context) -> Vec<Id> {
-    // A key that is being chosen for a command gives none.
+    // A key that is being chosen for a command runs none.
     if Keymap::is_asking(context) {
         return Vec::new();
     }
-    // Over what is asked or told no command reaches the desk, but those that bring up such a thing and put it away.
+    // While a question or a sheet is shown, only the commands that open and close such a sheet have keys.
     let modal = context.memory(|memory| memory.top_modal_layer().is_some());
-    // Escape closes what is open first, and takes back what is dragged. Menus are asked for in egui's memory: what the
-    // pass knows of them it forgets when the next begins, and that is when this is called.
+    // Escape first closes what is open, and cancels what is dragged. Menus are looked up in egui's memory: their state in the
+    // pass is gone when the next pass starts, which is when this is called.
     let open = modal || Popup::is_any_open(context) || context.input(|input| input.pointer.any_down());
     let typing = context.text_edit_focused();
     let focused = context.memory(|memory| memory.focused().is_some());
-    // A field has lost the focus by its Escape when this is asked, and is the one that was meant all the same.
+    // A field has lost the focus by its Escape when this runs, and the Escape was meant for it.
     let place = egui::Id::unique("focused before");
     let open = open || context.data(|data| data.get_temp::<bool>(place)).unwrap_or_default();
     context.data_mut(|data| data.insert_temp(place, focused));
@@ -113,7 +140,7 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
     context.input_mut(|input| {
         input.events.retain(|event| {
             let Some((key, repeat, modifiers)) = key_of(event) else { return true };
-            // Keys that move or type inside a field, or press the button that has the focus, are not ours.
+            // Keys that move or type inside a field, or press the focused button, are not for commands.
             let plain = !modifiers.command && !modifiers.alt;
             if (typing && belongs_to_text(key, modifiers))
                 || (focused && plain && matches!(key, Key::Space | Key::Enter | Key::Tab | Key::Escape))
@@ -135,8 +162,8 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
     found
 }
 
-/// Is this key for the text field that has the focus? All are but function keys and those with Ctrl that mean nothing in
-/// a text.
+/// Returns whether a key is for the text field that has the focus: all are except function keys and those with Ctrl that
+/// mean nothing in a text.
 fn belongs_to_text(key: Key, modifiers: Modifiers) -> bool {
     use Key::{
         A, ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Backspace, C, Delete, End, Home, U, V, W, X, Y, Z,
@@ -163,8 +190,8 @@ fn belongs_to_text(key: Key, modifiers: Modifiers) -> bool {
     !function && (!modifiers.command || edits)
 }
 
-/// The key of an event. Copy, cut and paste come from the window system as such, not as keys; the text that is pasted is
-/// asked for by who wants it.
+/// Returns the key of an event. The window system reports copy, cut and paste as such, not as keys; the command that pastes
+/// reads the text.
 fn key_of(event: &egui::Event) -> Option<(Key, bool, Modifiers)> {
     match event {
         egui::Event::Key { key, pressed: true, repeat, modifiers, .. } => Some((*key, *repeat, *modifiers)),

@@ -1,6 +1,16 @@
-//! Shortcuts as text, as people read and settings keep them.
+//! Shortcuts as text, as users read them and settings store them.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
+
+pub(super) const NONE: Modifiers = Modifiers::NONE;
+pub(super) const CTRL: Modifiers = Modifiers::COMMAND;
+pub(super) const SHIFT: Modifiers = Modifiers::SHIFT;
+pub(super) const ALT: Modifiers = Modifiers::ALT;
+
+/// Returns a shortcut.
+pub(super) const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(modifiers, key)
+}
 
 /// Keys with a shorter name on their cap than in the library.
 const CAPS: &[(Key, &str)] = &[
@@ -31,11 +41,11 @@ const CAPS: &[(Key, &str)] = &[
     (Key::Pipe, "|"),
 ];
 
-/// What is held, in the order in which it is written.
+/// The modifiers, in the order in which they are written.
 const HELD: &[(&str, Modifiers)] =
     &[("Ctrl+", Modifiers::COMMAND), ("Alt+", Modifiers::ALT), ("Shift+", Modifiers::SHIFT)];
 
-/// `Ctrl+Shift+O`, with arrows and brackets as signs on keys.
+/// Returns a shortcut as text: `Ctrl+Shift+O`, with the signs on the keys for arrows and brackets.
 pub fn text(shortcut: &KeyboardShortcut) -> String {
     let held = |modifiers: Modifiers| {
         let wanted = shortcut.modifiers;
@@ -48,7 +58,7 @@ pub fn text(shortcut: &KeyboardShortcut) -> String {
     HELD.iter().filter(|(_, modifiers)| held(*modifiers)).map(|(name, _)| *name).chain([key]).collect()
 }
 
-/// The shortcut that [`text`] writes like this; `None` for anything else.
+/// Returns the shortcut that [`text`] writes like this; `None` for anything else.
 pub fn parse(mut text: &str) -> Option<KeyboardShortcut> {
     let mut modifiers = Modifiers::NONE;
     for (name, held) in HELD {

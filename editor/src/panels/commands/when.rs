@@ -1,9 +1,9 @@
-//! When a command can be given: menus grey out what cannot, keys and the palette say why not.
+//! When a command can be run: menus gray out the others, keys and the palette report the reason.
 
-use crate::panels::State;
-use crate::panels::state::Device;
+use crate::panels::context::PanelContext;
+use crate::panels::window_status::Device;
 
-/// What must be so for a command to have something to do.
+/// A condition under which a command can be run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum When {
     /// At any time.
@@ -20,48 +20,50 @@ pub enum When {
     BoneInTake,
     /// A key is selected.
     Keys,
-    /// Poses of the take that is shown are pending.
+    /// The take that is shown has pending poses.
     Pending,
     /// A bone is pinned.
     Pinned,
     /// A bone is pinned and a take is shown.
     PinnedInTake,
-    /// Something was done.
+    /// There is a step to undo.
     Undo,
-    /// Something was undone.
+    /// There is a step to redo.
     Redo,
-    /// Something is not saved.
+    /// There are unsaved changes.
     Unsaved,
-    /// A model is on its way.
+    /// A model is being loaded.
     Loading,
-    /// The picture stands still because the device failed.
+    /// The viewport is paused because the graphics device failed.
     Paused,
 }
 
 impl When {
-    /// Is it so?
-    pub fn holds(self, state: &State) -> bool {
-        let history = state.view.as_ref().map(|view| &view.history);
+    /// Returns whether the condition is met.
+    pub fn holds(self, panels: &PanelContext<'_>) -> bool {
+        let history = panels.view.map(|view| &view.history);
+        let (take, bone, pinned) =
+            (panels.take().is_some(), panels.selected().is_some(), !panels.pins.is_empty());
         match self {
             Self::Always => true,
-            Self::Model => state.view.is_some(),
-            Self::Take => state.take().is_some(),
-            Self::OtherTakes => state.take().is_some() && state.digest.takes.len() > 1,
-            Self::Bone => state.selected().is_some(),
-            Self::BoneInTake => state.selected().is_some() && state.take().is_some(),
-            Self::Keys => state.take().is_some() && !state.keys.selection.is_empty(),
-            Self::Pending => state.pending_times().next().is_some(),
-            Self::Pinned => !state.pins.is_empty(),
-            Self::PinnedInTake => !state.pins.is_empty() && state.take().is_some(),
+            Self::Model => panels.view.is_some(),
+            Self::Take => take,
+            Self::OtherTakes => take && panels.digest.takes.len() > 1,
+            Self::Bone => bone,
+            Self::BoneInTake => bone && take,
+            Self::Keys => take && !panels.keys.selection().is_empty(),
+            Self::Pending => panels.pending_times().next().is_some(),
+            Self::Pinned => pinned,
+            Self::PinnedInTake => pinned && take,
             Self::Undo => history.is_some_and(|history| history.done > 0),
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
             Self::Unsaved => history.is_some_and(|history| !history.saved),
-            Self::Loading => state.loading.is_some(),
-            Self::Paused => matches!(state.device, Device::Paused { .. }),
+            Self::Loading => panels.loading.is_some(),
+            Self::Paused => matches!(panels.window.device(), Device::Paused { .. }),
         }
     }
 
-    /// What is missing where it is not so, as a sentence.
+    /// Returns what is missing where the condition is not met, as a sentence.
     pub fn reason(self) -> &'static str {
         match self {
             Self::Always => "",

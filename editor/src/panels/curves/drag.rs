@@ -4,11 +4,12 @@ use super::axis::ValueScale;
 use super::curve::Curve;
 use super::tangents::{TangentHandle, Tangents};
 use super::values::{ValueKey, value_edit};
+use crate::panels::context::PanelContext;
 use crate::panels::dope::to_frame;
 use crate::panels::drag::{DragEvent, DragMachine, PointerInput, Press, SelectionBox, choice_of, readout};
 use crate::panels::keys::intervals::keys_between;
 use crate::panels::keys::{ChannelId, Drawn, KeyDragOp, KeysRequest, TimeScale};
-use crate::panels::state::{Request, State};
+use crate::panels::request::Request;
 use dragonfly_document::bones::Choice;
 use egui::{CursorIcon, Modifiers, Pos2, Response, Ui, pos2};
 use std::sync::Arc;
@@ -78,7 +79,7 @@ pub(super) struct CurveCanvas<'a> {
     /// A bit for each component that is shown.
     pub(super) components: u8,
     pub(super) tangents: &'a Tangents,
-    pub(super) state: &'a State,
+    pub(super) state: &'a PanelContext<'a>,
 }
 
 impl CurveKey {
@@ -185,7 +186,7 @@ impl CurveDragged {
         match self {
             Self::Times { grabbed, pressed, copies, requested } => {
                 let by = canvas.time.time_at(pointer.x) - *pressed;
-                let snap = state.keys.snap != input.modifiers.command;
+                let snap = state.keys.snap() != input.modifiers.command;
                 let by = if snap { to_frame(*grabbed + by, state) - *grabbed } else { by };
                 ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
                 let frames = by * state.settings.frame_rate as f32;

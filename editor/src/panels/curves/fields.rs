@@ -8,11 +8,12 @@ use super::paint::color;
 use super::toolbar::Chosen;
 use super::values::{ValueKey, value_edit};
 use crate::control::expression::Quantity;
+use crate::panels::context::PanelContext;
 use crate::panels::dope::to_frame;
 use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest};
 use crate::panels::number_field::{FieldEvent, NumberField};
 use crate::panels::number_text::Digits;
-use crate::panels::state::{Request, State};
+use crate::panels::request::Request;
 use crate::panels::style::{CONTROL, GRID};
 use crate::panels::theme::Theme;
 use dragonfly_document::Change;
@@ -55,7 +56,7 @@ pub(super) struct FieldsContext<'a> {
     pub(super) window: ValueWindow,
     /// Component of the key that was pressed on last: shown where there is no space for all.
     pub(super) component: usize,
-    pub(super) state: &'a State,
+    pub(super) state: &'a PanelContext<'a>,
 }
 
 impl Fields {
@@ -95,7 +96,7 @@ impl Fields {
             ..field(KeyNumber::Time)
         };
         let (event, _) = field.show(ui, rect);
-        let snap = about.state.keys.snap != ui.input(|input| input.modifiers.command);
+        let snap = about.state.keys.snap() != ui.input(|input| input.modifiers.command);
         let event = match event {
             FieldEvent::Dragged(by) if snap => {
                 FieldEvent::Dragged(f64::from(to_frame(key.time + by as f32, about.state) - key.time))

@@ -11,9 +11,10 @@ mod tangents;
 mod toolbar;
 mod values;
 
+use super::context::PanelContext;
 use super::dope::{self, Scrub};
 use super::keys::{Drawn, TimeScale};
-use super::state::{Request, State};
+use super::request::Request;
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
 use axis::{ValueScale, ValueWindow};
@@ -71,7 +72,7 @@ impl Panel for Curves {
         Place::BelowRight
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.spacing_mut().item_spacing.y = 0.0;
         let drawn = state.drawn_keys();
         if let Some(drawn) = &drawn {
@@ -105,14 +106,14 @@ impl Panel for Curves {
 
 impl Curves {
     /// Updates the numbers, and fits the range of values when other curves are shown.
-    fn follow(&mut self, ui: &Ui, state: &State, drawn: &Drawn) {
+    fn follow(&mut self, ui: &Ui, state: &PanelContext<'_>, drawn: &Drawn) {
         let ids = shown::wanted(state, drawn, self.chosen.properties);
         let more = self.shown.update(&drawn.take, &ids, self.chosen.form);
         if more {
             ui.ctx().request_repaint();
         }
         let fitted = Fitted {
-            model: state.view.as_ref().map_or(0, |view| std::sync::Arc::as_ptr(&view.loaded) as usize),
+            model: state.view.map_or(0, |view| std::sync::Arc::as_ptr(&view.loaded) as usize),
             take: state.playback.take,
             ids,
             chosen: (self.chosen.properties, self.chosen.components, self.chosen.form),
@@ -130,7 +131,14 @@ impl Curves {
         }
     }
 
-    fn body(&mut self, ui: &mut Ui, rect: Rect, state: &State, drawn: &Drawn, requests: &mut Vec<Request>) {
+    fn body(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        state: &PanelContext<'_>,
+        drawn: &Drawn,
+        requests: &mut Vec<Request>,
+    ) {
         let theme = Theme::of(ui);
         let strip = Rect::from_min_max(
             pos2(rect.left(), rect.top() + HEAD),
@@ -243,7 +251,14 @@ impl Curves {
     }
 
     /// Draws whose curves they are.
-    fn legend(&self, painter: &egui::Painter, canvas: Rect, state: &State, _drawn: &Drawn, theme: &Theme) {
+    fn legend(
+        &self,
+        painter: &egui::Painter,
+        canvas: Rect,
+        state: &PanelContext<'_>,
+        _drawn: &Drawn,
+        theme: &Theme,
+    ) {
         let mut bones: Vec<u32> = self.mesh.drawn.iter().map(|curve| curve.id.0).collect();
         bones.dedup();
         let text = match bones.as_slice() {

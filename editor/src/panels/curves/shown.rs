@@ -2,8 +2,8 @@
 
 use super::curve::{Curve, Extent};
 use super::form::RotationForm;
+use crate::panels::context::PanelContext;
 use crate::panels::keys::{ChannelId, Drawn, channel};
-use crate::panels::state::State;
 use dragonfly_anim::data::Take;
 use dragonfly_document::edit::Property;
 use std::sync::Arc;
@@ -99,7 +99,7 @@ impl ShownCurves {
 /// Returns the channels whose curves are wanted: of the selected bones, or those with selected keys.
 ///
 /// If the bones have none of the wanted properties, those that they have: an empty panel explains nothing.
-pub(super) fn wanted(state: &State, drawn: &Drawn, properties: u8) -> Vec<ChannelId> {
+pub(super) fn wanted(state: &PanelContext<'_>, drawn: &Drawn, properties: u8) -> Vec<ChannelId> {
     let of_bones: Vec<ChannelId> = state
         .selection
         .bones()

@@ -6,8 +6,9 @@ use super::form::RotationForm;
 use super::paint::color;
 use super::shown::bit;
 use crate::panels::commands::{self, Id};
+use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
-use crate::panels::state::{Request, State};
+use crate::panels::request::Request;
 use crate::panels::style::{CONTROL, GRID, RADIUS};
 use crate::panels::theme::Theme;
 use crate::panels::widgets::{self, icon_button};
@@ -41,7 +42,7 @@ pub(super) fn show(
     ui: &mut Ui,
     chosen: &mut Chosen,
     curves: &[Arc<Curve>],
-    state: &State,
+    state: &PanelContext<'_>,
     requests: &mut Vec<Request>,
     rest: impl FnOnce(&mut Ui, &Chosen, &mut Vec<Request>),
 ) -> bool {
@@ -133,8 +134,8 @@ fn form(ui: &mut Ui, chosen: &mut Chosen) {
 }
 
 /// Draws the buttons for the interpolation of the shown channels; one is pressed if all of them have it.
-fn between(ui: &mut Ui, curves: &[Arc<Curve>], state: &State, requests: &mut Vec<Request>) {
-    let able = !state.keys.selection.is_empty();
+fn between(ui: &mut Ui, curves: &[Arc<Curve>], state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let able = !state.keys.selection().is_empty();
     for (icon, id, kind, _) in [
         (Icon::Step, Id::InterpolateStep, Interpolation::Step, Between::Step),
         (Icon::Linear, Id::InterpolateLinear, Interpolation::Linear, Between::Linear),

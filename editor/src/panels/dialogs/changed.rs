@@ -1,8 +1,8 @@
 //! The question when another program changed or removed the file that is open.
 
 use super::{Ask, Tone};
-use crate::panels::saving::Deed;
-use crate::panels::state::Request;
+use crate::panels::request::FileAction;
+use crate::panels::request::Request;
 use dragonfly_document::SaveOrder;
 use dragonfly_store::FileState;
 
@@ -62,10 +62,10 @@ pub(super) fn show(ask: &mut Ask<'_>, file: FileState, order: Option<&SaveOrder>
     };
     let request = match pressed {
         Some(ChangedChoice::Overwrite) => {
-            Request::Deed(Deed::Save(SaveOrder { anyway: true, ..SaveOrder::own(then) }))
+            Request::Answer(FileAction::Save(SaveOrder { anyway: true, ..SaveOrder::own(then) }))
         }
-        Some(ChangedChoice::SaveAs) => Request::Deed(Deed::Where { copy: false, then }),
-        Some(ChangedChoice::Reload) => Request::Deed(Deed::Reload),
+        Some(ChangedChoice::SaveAs) => Request::Answer(FileAction::Where { copy: false, then }),
+        Some(ChangedChoice::Reload) => Request::Answer(FileAction::Reload),
         Some(ChangedChoice::Cancel) => Request::Dismiss,
         None => return,
     };

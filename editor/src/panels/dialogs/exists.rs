@@ -1,8 +1,8 @@
 //! The question when the typed name belongs to another file.
 
 use super::{Ask, Tone};
-use crate::panels::saving::Deed;
-use crate::panels::state::Request;
+use crate::panels::request::FileAction;
+use crate::panels::request::Request;
 use dragonfly_document::SaveOrder;
 use std::path::Path;
 
@@ -17,7 +17,7 @@ pub(super) fn show(ask: &mut Ask<'_>, path: &Path, order: &SaveOrder) {
     match ask.buttons(&[cancel, replace]) {
         Some(true) => {
             let order = SaveOrder { anyway: true, ..order.clone() };
-            ask.requests.push(Request::Deed(Deed::Save(order)));
+            ask.requests.push(Request::Answer(FileAction::Save(order)));
         }
         Some(false) => ask.requests.push(Request::Dismiss),
         None => {}

@@ -2,8 +2,8 @@
 //! and the question what to do with the work if the chosen file is a different one.
 
 use super::{Ask, Tone};
-use crate::panels::saving::Deed;
-use crate::panels::state::Request;
+use crate::panels::request::FileAction;
+use crate::panels::request::Request;
 use dragonfly_document::{Decision, Offer, Source};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
@@ -44,10 +44,10 @@ fn is_another(ask: &mut Ask<'_>, offer: &Offer, other: &Path) {
         ("Later", "Keep the work and ask again later", Tone::Plain, FindChoice::Later),
     ]);
     let request = match pressed {
-        Some(FindChoice::Another) => Request::Deed(Deed::Find(Box::new(offer.clone()))),
+        Some(FindChoice::Another) => Request::Answer(FileAction::Find(Box::new(offer.clone()))),
         Some(FindChoice::Beside) => {
             let offer = Offer { source: Some(Source::File(other.to_owned())), ..offer.clone() };
-            Request::Deed(Deed::Decide(Box::new(offer), Decision::Beside))
+            Request::Answer(FileAction::Decide(Box::new(offer), Decision::Beside))
         }
         Some(FindChoice::Later) => Request::Dismiss,
         None => return,
@@ -71,8 +71,8 @@ fn typed(ask: &mut Ask<'_>, offer: &Offer, path: &mut String) {
     ask.fresh = fresh;
     let wanted = path.trim().trim_matches('"');
     if (entered || pressed == Some(true)) && !wanted.is_empty() {
-        let deed = Deed::FoundAt(Box::new(offer.clone()), PathBuf::from(wanted));
-        ask.requests.push(Request::Deed(deed));
+        let deed = FileAction::FoundAt(Box::new(offer.clone()), PathBuf::from(wanted));
+        ask.requests.push(Request::Answer(deed));
     } else if pressed == Some(false) {
         ask.requests.push(Request::Dismiss);
     }

@@ -8,8 +8,9 @@ mod plan;
 mod recover;
 mod unsaved;
 
-use super::saving::Question;
-use super::state::{Request, State};
+use super::context::PanelContext;
+use super::prompts::Question;
+use super::request::Request;
 use super::style::{GRID, RADIUS};
 use super::theme::Theme;
 use egui::{Button, CornerRadius, Id, Modal, Response, RichText, Ui, vec2};
@@ -26,8 +27,8 @@ pub(super) struct Dialogs {
 
 impl Dialogs {
     /// Draws the question that is open.
-    pub(super) fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
-        let number = state.question_number();
+    pub(super) fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let number = state.prompts.question_number();
         let fresh = self.shown != number;
         self.shown = number;
         let Some(question) = state.question() else { return };
@@ -73,7 +74,7 @@ impl Dialogs {
 /// A question that is being drawn.
 struct Ask<'a> {
     ui: &'a mut Ui,
-    state: &'a State,
+    state: &'a PanelContext<'a>,
     /// Whether this is its first frame, in which the default button gets the focus.
     fresh: bool,
     requests: &'a mut Vec<Request>,

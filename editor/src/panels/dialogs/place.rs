@@ -1,15 +1,16 @@
 //! A field for the path to save at, for desktops without a file dialog.
 
 use super::{Ask, Tone};
-use crate::panels::saving::Deed;
-use crate::panels::state::{Request, State};
+use crate::panels::context::PanelContext;
+use crate::panels::request::FileAction;
+use crate::panels::request::Request;
 use dragonfly_document::{SaveOrder, SaveTo, Then};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
 /// Returns the name that the field contains at first.
-pub(super) fn proposal(state: &State, copy: bool) -> String {
-    let Some(view) = &state.view else { return String::new() };
+pub(super) fn proposal(state: &PanelContext<'_>, copy: bool) -> String {
+    let Some(view) = state.view else { return String::new() };
     let read = view.loaded.path.as_deref();
     let own = view.file.path.as_deref();
     let beside = |path: &Path, what: &str| {
@@ -50,7 +51,7 @@ pub(super) fn show(ask: &mut Ask<'_>, copy: bool, then: Option<&Then>, path: &mu
         let path = PathBuf::from(typed);
         let to = if copy { SaveTo::Copy(path) } else { SaveTo::As(path) };
         let order = SaveOrder { to, anyway: false, then: then.cloned() };
-        ask.requests.push(Request::Deed(Deed::Save(order)));
+        ask.requests.push(Request::Answer(FileAction::Save(order)));
     } else if pressed == Some(false) {
         ask.requests.push(Request::Dismiss);
     }

@@ -1,8 +1,8 @@
 //! The list of changes that a save would make, before it is written.
 
 use super::{Ask, Tone};
-use crate::panels::saving::Deed;
-use crate::panels::state::Request;
+use crate::panels::request::FileAction;
+use crate::panels::request::Request;
 use crate::panels::style::{self, GRID};
 use crate::panels::theme::Theme;
 use dragonfly_document::SaveOrder;
@@ -55,7 +55,7 @@ pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder
     let save = ("Save", "Write exactly these changes", Tone::First, true);
     let pressed = if order.is_some() { ask.buttons(&[save, cancel]) } else { ask.buttons(&[close]) };
     match (pressed, order) {
-        (Some(true), Some(order)) => ask.requests.push(Request::Deed(Deed::Save(order.clone()))),
+        (Some(true), Some(order)) => ask.requests.push(Request::Answer(FileAction::Save(order.clone()))),
         (Some(_), _) => ask.requests.push(Request::Dismiss),
         (None, _) => {}
     }

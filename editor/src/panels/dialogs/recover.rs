@@ -1,8 +1,8 @@
 //! The question what to do with unsaved work of an earlier session.
 
 use super::{Ask, Tone};
-use crate::panels::saving::Deed;
-use crate::panels::state::Request;
+use crate::panels::request::FileAction;
+use crate::panels::request::Request;
 use crate::panels::style::{GRID, ROW};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
@@ -46,7 +46,7 @@ pub(super) fn show(ask: &mut Ask<'_>, offers: &[Offer], lost: bool, chosen: &mut
         );
         let pressed = ask.buttons(&[find, some(later), some(discard)]);
         if pressed == Some(None) {
-            ask.requests.push(Request::Deed(Deed::Find(Box::new(offer.clone()))));
+            ask.requests.push(Request::Answer(FileAction::Find(Box::new(offer.clone()))));
         }
         pressed.flatten()
     } else {
@@ -54,7 +54,7 @@ pub(super) fn show(ask: &mut Ask<'_>, offers: &[Offer], lost: bool, chosen: &mut
         ask.buttons(&[later, discard])
     };
     if let Some(decision) = pressed {
-        ask.requests.push(Request::Deed(Deed::Decide(Box::new(offer.clone()), decision)));
+        ask.requests.push(Request::Answer(FileAction::Decide(Box::new(offer.clone()), decision)));
     }
 }
 

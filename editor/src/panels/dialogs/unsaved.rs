@@ -1,8 +1,8 @@
 //! The question when the user is about to leave unsaved changes.
 
 use super::{Ask, Tone};
-use crate::panels::saving::Deed;
-use crate::panels::state::Request;
+use crate::panels::request::FileAction;
+use crate::panels::request::Request;
 use dragonfly_document::{SaveOrder, Then};
 
 #[derive(Clone, Copy)]
@@ -14,7 +14,7 @@ enum UnsavedChoice {
 
 pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
     ask.ui.set_width(440.0);
-    let title = ask.state.view.as_ref().map_or(String::new(), |view| view.file.title.clone());
+    let title = ask.state.view.map_or(String::new(), |view| view.file.title.clone());
     ask.title(&format!("Save {title}?"));
     ask.says(match then {
         Then::Quit => "It has unsaved changes, and the program is about to close.".to_owned(),
@@ -22,7 +22,7 @@ pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
             format!("It has unsaved changes, and {} is about to be opened.", source.title())
         }
     });
-    if let Some(last) = ask.state.view.as_ref().and_then(|view| view.history.last_unsaved()) {
+    if let Some(last) = ask.state.view.and_then(|view| view.history.last_unsaved()) {
         ask.adds(last);
     }
     let save = ("Save", "Save, then continue", Tone::First, UnsavedChoice::Save);
@@ -34,8 +34,8 @@ pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
         UnsavedChoice::DoNotSave,
     );
     let request = match ask.buttons(&[save, cancel, lose]) {
-        Some(UnsavedChoice::Save) => Request::Deed(Deed::Save(SaveOrder::own(Some(then.clone())))),
-        Some(UnsavedChoice::DoNotSave) => Request::Deed(Deed::DoNotSave(then.clone())),
+        Some(UnsavedChoice::Save) => Request::Answer(FileAction::Save(SaveOrder::own(Some(then.clone())))),
+        Some(UnsavedChoice::DoNotSave) => Request::Answer(FileAction::DoNotSave(then.clone())),
         Some(UnsavedChoice::Cancel) => Request::Dismiss,
         None => return,
     };

@@ -1,6 +1,6 @@
 //! The areas of the dope sheet.
 
-use crate::panels::state::State;
+use crate::panels::context::PanelContext;
 use egui::{Rect, pos2};
 
 /// The areas of the dope sheet, points.
@@ -35,7 +35,7 @@ pub(super) const ROOM_RIGHT: f32 = 20.0;
 pub(super) const SCROLL: f32 = 8.0;
 
 impl DopeAreas {
-    pub(super) fn of(all: Rect, state: &State) -> Self {
+    pub(super) fn of(all: Rect, state: &PanelContext<'_>) -> Self {
         // A narrow panel keeps at least half of itself for keys.
         let gutter = if all.width() < 480.0 { (all.width() * 0.3).clamp(64.0, 120.0) } else { 192.0 };
         let left = all.left() + gutter;

@@ -6,7 +6,7 @@ use super::rows::RowKind;
 use super::{ROW, Sheet};
 use crate::panels::drag::{DragEvent, DragMachine, PointerInput, Press, SelectionBox, choice_of, readout};
 use crate::panels::keys::{ChannelId, KeyDragOp, KeysRequest, channel};
-use crate::panels::state::Request;
+use crate::panels::request::Request;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::SAME_TIME;
 use egui::{CursorIcon, Modifiers, Pos2, Response, Ui, pos2};
@@ -183,7 +183,7 @@ impl DraggedKeys {
     fn op(&self, ui: &Ui, pointer: Pos2, sheet: &Sheet<'_>, input: &PointerInput) -> KeyDragOp {
         let state = sheet.state;
         let by = sheet.scale.time_at(pointer.x) - self.pressed;
-        let snap = state.keys.snap != input.modifiers.command;
+        let snap = state.keys.snap() != input.modifiers.command;
         let by = if snap { to_frame(self.grabbed + by, state) - self.grabbed } else { by };
         ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
         let (verb, op) = match self.mode {

@@ -5,10 +5,11 @@ use super::rows::RowKind;
 use super::{ROW, Sheet};
 use crate::panels::bone_menu;
 use crate::panels::commands::{self, Id};
+use crate::panels::context::PanelContext;
 use crate::panels::drag::choice_of;
 use crate::panels::icons::Icon;
 use crate::panels::keys::{BoneFlag, KeysRequest};
-use crate::panels::state::{Request, State};
+use crate::panels::request::Request;
 use crate::panels::style::RADIUS;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
@@ -70,7 +71,14 @@ struct BoneLabel<'a> {
 impl BoneLabel<'_> {
     /// Draws it: the triangle opens and closes the bone, its name selects it, and at the right are its flags. Returns
     /// whether the triangle was clicked.
-    fn show(&self, ui: &mut Ui, rect: Rect, open: bool, state: &State, requests: &mut Vec<Request>) -> bool {
+    fn show(
+        &self,
+        ui: &mut Ui,
+        rect: Rect,
+        open: bool,
+        state: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) -> bool {
         let Self { bone, name } = *self;
         let theme = Theme::of(ui);
         let visible = rect.intersect(ui.clip_rect());
@@ -80,7 +88,7 @@ impl BoneLabel<'_> {
         let over = ui.rect_contains_pointer(visible);
         let wide = rect.width() > 150.0;
         // Flags that are not drawn leave their space to the name.
-        let marked = over || BoneFlag::ALL.into_iter().any(|flag| state.keys.flags.has(flag, bone));
+        let marked = over || BoneFlag::ALL.into_iter().any(|flag| state.keys.flags().has(flag, bone));
         let flags = if wide && marked { 3.0 * FLAG + 8.0 } else { 6.0 };
         let label = Rect::from_min_max(
             pos2(rect.left() + 28.0, rect.top()),
@@ -93,7 +101,7 @@ impl BoneLabel<'_> {
             .widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("Keys of {name}")));
         widgets::focus_ring(ui, &response, label);
         let color = match () {
-            () if state.keys.flags.locked(bone) => theme.faint,
+            () if state.keys.flags().locked(bone) => theme.faint,
             () if selected => theme.accent,
             () => theme.text,
         };
@@ -140,12 +148,12 @@ impl BoneLabel<'_> {
         rect: Rect,
         flag: BoneFlag,
         over: bool,
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let Self { bone, name } = *self;
         let theme = Theme::of(ui);
-        let on = state.keys.flags.has(flag, bone);
+        let on = state.keys.flags().has(flag, bone);
         let response = ui.interact(rect, ui.scope_id().with((flag.name(), bone)), Sense::click());
         response
             .widget_info(|| WidgetInfo::selected(Role::Button, true, on, format!("{} {name}", flag.name())));
@@ -180,7 +188,7 @@ pub(super) fn tools(
     ui: &mut Ui,
     areas: &DopeAreas,
     filter: &mut String,
-    state: &State,
+    state: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) {
     let rect = areas.tools;
@@ -192,8 +200,8 @@ pub(super) fn tools(
         pos2(rect.left() + 8.0, rect.top() + 2.0),
         pos2(rect.right() - buttons - 8.0, rect.bottom() - 2.0),
     );
-    if *filter != state.keys.filter {
-        filter.clone_from(&state.keys.filter);
+    if *filter != state.keys.filter() {
+        state.keys.filter().clone_into(filter);
     }
     let edit = TextEdit::singleline(filter)
         .font(TextStyle::Small)
@@ -226,7 +234,7 @@ pub(super) fn tools(
         widgets::focus_ring(ui, &response, place);
         response.on_hover_text(help).clicked()
     };
-    let only = state.keys.only_selected;
+    let only = state.keys.only_selected();
     if button(
         ui,
         Icon::Bone,
@@ -237,7 +245,7 @@ pub(super) fn tools(
         requests.push(Request::Timeline(KeysRequest::OnlySelected(!only)));
     }
     let snap = commands::tooltip(ui.ctx(), Id::ToggleSnap);
-    if button(ui, Icon::Snap, "Snap", snap, state.keys.snap) {
+    if button(ui, Icon::Snap, "Snap", snap, state.keys.snap()) {
         requests.push(Request::Command(Id::ToggleSnap));
     }
     let fit = commands::tooltip(ui.ctx(), Id::FitKeys);

@@ -3,9 +3,10 @@
 use super::Sheet;
 use super::areas::DopeAreas;
 use crate::panels::commands::Id;
+use crate::panels::context::PanelContext;
 use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
 use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest, TimeScale};
-use crate::panels::state::{Request, State};
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use egui::{
     Align2, CornerRadius, CursorIcon, FontId, Painter, PointerButton, Rect, Response, Sense, Stroke, Ui,
@@ -45,7 +46,13 @@ struct Scaling {
 }
 
 /// Draws the background of the ruler, its lines and numbers.
-pub(super) fn back(painter: &Painter, areas: &DopeAreas, scale: &TimeScale, state: &State, theme: &Theme) {
+pub(super) fn back(
+    painter: &Painter,
+    areas: &DopeAreas,
+    scale: &TimeScale,
+    state: &PanelContext<'_>,
+    theme: &Theme,
+) {
     let top = Rect::from_min_max(areas.all.min, pos2(areas.all.right(), areas.bar.bottom()));
     painter.rect_filled(top, CornerRadius::ZERO, theme.bar);
     painter.hline(top.x_range(), top.bottom(), Stroke::new(1.0, theme.line));
@@ -60,7 +67,7 @@ pub(in crate::panels) fn ticks(
     head: Rect,
     bottom: f32,
     scale: &TimeScale,
-    state: &State,
+    state: &PanelContext<'_>,
     theme: &Theme,
 ) {
     let rate = state.settings.frame_rate;
@@ -89,7 +96,7 @@ impl Scrub {
         head: Rect,
         name: &'static str,
         scale: &TimeScale,
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let response = ui.interact(head, ui.scope_id().with(name), Sense::click_and_drag());
@@ -113,7 +120,7 @@ impl Scrub {
             let window = scale.window;
             let time = f64::from(scale.time_at(pointer.x));
             let time = time.clamp(window.start, window.start + window.length) as f32;
-            let snap = state.keys.snap != modifiers.command;
+            let snap = state.keys.snap() != modifiers.command;
             requests.push(Request::Seek(if snap { to_key_or_frame(time, scale, state) } else { time }));
         }
         if !down && let Some(command) = self.resume.take() {
@@ -224,7 +231,7 @@ impl Scaling {
     /// Returns the operation that brings the dragged end to `x`; `None` if no factor does.
     fn op(&self, x: f32, input: &PointerInput, sheet: &Sheet<'_>) -> Option<KeyDragOp> {
         let state = sheet.state;
-        let snap = state.keys.snap != input.modifiers.command;
+        let snap = state.keys.snap() != input.modifiers.command;
         let time = sheet.scale.time_at(x);
         let time = if snap { to_frame(time, state) } else { time };
         // Read in every frame: Alt may be pressed in the middle of the drag.
@@ -240,22 +247,28 @@ impl Scaling {
 
 /// Returns the key or the end of the take under the pointer, or else the frame nearest to a time, seconds. A pose set
 /// slightly off a key would add a second key.
-fn to_key_or_frame(time: f32, scale: &TimeScale, state: &State) -> f32 {
+fn to_key_or_frame(time: f32, scale: &TimeScale, state: &PanelContext<'_>) -> f32 {
     let reach = scale.seconds(NEAR).min(state.frame_seconds() * 0.5);
-    let beside = [true, false].into_iter().filter_map(|forward| state.key_beside_of(time, forward));
+    let beside = [true, false].into_iter().filter_map(|forward| state.next_key_from(time, forward));
     let end = state.take().map(|take| take.end());
     let nearest = beside.chain(end).min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()));
     nearest.filter(|key| (key - time).abs() <= reach).unwrap_or_else(|| to_frame(time, state))
 }
 
 /// Returns the frame nearest to a time, seconds.
-pub(in crate::panels) fn to_frame(time: f32, state: &State) -> f32 {
+pub(in crate::panels) fn to_frame(time: f32, state: &PanelContext<'_>) -> f32 {
     let rate = state.settings.frame_rate;
     crate::panels::ruler::time_of(crate::panels::ruler::frame_of(time, rate), rate)
 }
 
 /// Draws the ends of the play range, which can be dragged.
-fn range_ends(ui: &Ui, areas: &DopeAreas, scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
+fn range_ends(
+    ui: &Ui,
+    areas: &DopeAreas,
+    scale: &TimeScale,
+    state: &PanelContext<'_>,
+    requests: &mut Vec<Request>,
+) {
     let Some([from, to]) = state.keys.range() else { return };
     let theme = Theme::of(ui);
     let painter = ui.painter().with_clip_rect(areas.head);

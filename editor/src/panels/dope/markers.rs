@@ -2,9 +2,10 @@
 
 use super::Sheet;
 use super::head::to_frame;
+use crate::panels::context::PanelContext;
 use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
-use crate::panels::keys::{KeysRequest, MarkerDeed, TimeScale};
-use crate::panels::state::{Request, State};
+use crate::panels::keys::{KeysRequest, MarkerAction, TimeScale};
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use egui::{
@@ -43,7 +44,7 @@ impl MarkerLane {
         ui.painter().rect_filled(lane, CornerRadius::ZERO, theme.bar);
         let painter = ui.painter().with_clip_rect(lane);
         let markers = state.markers();
-        let mut ask = |deed: MarkerDeed| requests.push(Request::Timeline(KeysRequest::Marker(deed)));
+        let mut ask = |deed: MarkerAction| requests.push(Request::Timeline(KeysRequest::Marker(deed)));
         let mut seek = None;
         for (index, marker) in markers.iter().enumerate() {
             let held = self.drag.drag().filter(|(held, _)| *held == index);
@@ -96,12 +97,12 @@ impl MarkerLane {
                 let input = PointerInput::of_widget(ui, &response);
                 match self.drag.step(&input, input.primary_down, |_| ()) {
                     DragEvent::Moved(pointer) => {
-                        let snap = state.keys.snap != input.modifiers.command;
+                        let snap = state.keys.snap() != input.modifiers.command;
                         let time = scale.time_at(pointer.x);
                         let time = if snap { to_frame(time, state) } else { time };
                         self.drag.begin((index, time));
                     }
-                    DragEvent::Dropped((index, time)) => ask(MarkerDeed::Move(index, time)),
+                    DragEvent::Dropped((index, time)) => ask(MarkerAction::Move(index, time)),
                     DragEvent::Cancelled(_)
                     | DragEvent::Nothing
                     | DragEvent::Pressed
@@ -116,7 +117,7 @@ impl MarkerLane {
                     ui.close();
                 }
                 if ui.add(Button::new("Delete marker").frame_when_inactive(false)).clicked() {
-                    ask(MarkerDeed::Delete(index));
+                    ask(MarkerAction::Delete(index));
                     ui.close();
                 }
             });
@@ -130,7 +131,13 @@ impl MarkerLane {
     }
 
     /// Draws the field for the name of a marker. Returns the action when the name is entered.
-    fn rename(&mut self, ui: &mut Ui, lane: Rect, scale: &TimeScale, state: &State) -> Option<MarkerDeed> {
+    fn rename(
+        &mut self,
+        ui: &mut Ui,
+        lane: Rect,
+        scale: &TimeScale,
+        state: &PanelContext<'_>,
+    ) -> Option<MarkerAction> {
         let (index, name, stage) = self.renaming.as_mut()?;
         let Some(marker) = state.markers().get(*index) else {
             self.renaming = None;
@@ -159,6 +166,6 @@ impl MarkerLane {
         }
         let (index, name, _) = self.renaming.take()?;
         let kept = !ui.input(|input| input.key_down(egui::Key::Escape));
-        kept.then_some(MarkerDeed::Rename(index, name))
+        kept.then_some(MarkerAction::Rename(index, name))
     }
 }

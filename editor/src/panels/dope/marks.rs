@@ -57,7 +57,7 @@ impl KeysMesh {
     /// Draws the keys in sight.
     pub(super) fn paint(&mut self, painter: &Painter, sheet: &Sheet<'_>) {
         let Sheet { areas, rows, scroll, scale, drawn, state, theme } = *sheet;
-        let live = &state.keys.selection;
+        let live = state.keys.selection();
         if let Some(take) = state.shared_take()
             && !self
                 .count
@@ -74,7 +74,7 @@ impl KeysMesh {
             scroll,
             pixels_per_point: painter.pixels_per_point(),
             dark: theme.dark,
-            flags: state.keys.flags.version(),
+            flags: state.keys.flags().version(),
         };
         let same = self.made_of.as_ref().is_some_and(|old| old.same(&made_of));
         if !same {
@@ -114,7 +114,7 @@ impl KeysMesh {
             let color = match row.kind {
                 RowKind::Summary => theme.weak,
                 RowKind::Morphs => theme.faint,
-                RowKind::Bone(bone) | RowKind::Channel(bone, _) if state.keys.flags.locked(bone) => {
+                RowKind::Bone(bone) | RowKind::Channel(bone, _) if state.keys.flags().locked(bone) => {
                     theme.faint
                 }
                 RowKind::Bone(_) => theme.key,

@@ -2,8 +2,9 @@
 
 use super::drag::DopeDrag;
 use crate::panels::commands::Id;
+use crate::panels::context::PanelContext;
 use crate::panels::menu::item;
-use crate::panels::state::{Request, State};
+use crate::panels::request::Request;
 use dragonfly_document::Change;
 use egui::{Button, Response, Ui};
 
@@ -16,7 +17,7 @@ impl KeyMenu {
         &self,
         canvas: &Response,
         drag: &DopeDrag,
-        state: &State,
+        state: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         // A right-click that cancels a drag opens no menu.
@@ -28,11 +29,11 @@ impl KeyMenu {
 }
 
 /// Draws the entries, for the dope sheet and for the curves.
-pub(in crate::panels) fn show(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+pub(in crate::panels) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let button = Button::new("Add keys at the playhead").frame_when_inactive(false);
     let hint = "Add keys that keep the motion, for the selected bones or for all";
     if ui.add_enabled(state.take().is_some(), button).on_hover_text(hint).clicked() {
-        requests.extend(state.added_keys().map(|edit| Request::Change(Change::Edit(edit, None))));
+        requests.extend(state.key_edit().map(|edit| Request::Change(Change::Edit(edit, None))));
         ui.close();
     }
     for id in [Id::CutKeys, Id::CopyKeys, Id::PastePose] {

@@ -12,8 +12,9 @@ mod overlay;
 mod rows;
 mod scroll;
 
+use super::context::PanelContext;
 use super::keys::{Drawn, TimeScale};
-use super::state::{Request, State};
+use super::request::Request;
 use super::theme::Theme;
 use areas::DopeAreas;
 use drag::DopeDrag;
@@ -53,13 +54,19 @@ struct Sheet<'a> {
     scroll: f32,
     scale: &'a TimeScale,
     drawn: &'a Drawn,
-    state: &'a State,
+    state: &'a PanelContext<'a>,
     theme: &'a Theme,
 }
 
 impl Dope {
     /// Draws the dope sheet into `rect`; a take must be shown.
-    pub(super) fn show(&mut self, ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        state: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
         let Some(drawn) = state.drawn_keys() else { return };
         self.rows.update(state, &drawn.take);
         let areas = DopeAreas::of(rect, state);
@@ -115,7 +122,7 @@ impl Dope {
 }
 
 /// Moves the window by a page when the playhead leaves it during playback.
-fn follow(scale: &TimeScale, state: &State, requests: &mut Vec<Request>) {
+fn follow(scale: &TimeScale, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     use super::keys::KeysRequest;
     if !state.playback.playing {
         return;

@@ -2,8 +2,8 @@
 
 use super::rows::RowKind;
 use super::{ROW, Sheet};
+use crate::panels::context::PanelContext;
 use crate::panels::keys::TimeScale;
-use crate::panels::state::State;
 use crate::panels::theme::Theme;
 use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, pos2, vec2};
 
@@ -33,7 +33,7 @@ pub(in crate::panels) fn shade(
     painter: &Painter,
     rect: Rect,
     scale: &TimeScale,
-    state: &State,
+    state: &PanelContext<'_>,
     theme: &Theme,
 ) {
     let (start, length) = state.take_bounds();
@@ -69,7 +69,7 @@ pub(in crate::panels) fn line(
     head: Rect,
     bottom: f32,
     scale: &TimeScale,
-    state: &State,
+    state: &PanelContext<'_>,
     theme: &Theme,
 ) {
     let right = Rect::from_min_max(head.min, pos2(head.right(), bottom));
@@ -102,7 +102,7 @@ pub(super) fn pending(painter: &Painter, sheet: &Sheet<'_>) {
 /// Draws the reason why there are no rows.
 pub(super) fn nothing(painter: &Painter, sheet: &Sheet<'_>) {
     let Sheet { areas, state, theme, .. } = *sheet;
-    let text = if !state.keys.filter.is_empty() {
+    let text = if !state.keys.filter().is_empty() {
         "No bone with keys matches the filter"
     } else if state.lists_only_selected() {
         "The selected bones have no keys in this take"

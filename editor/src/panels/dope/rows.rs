@@ -1,7 +1,7 @@
 //! The rows of the dope sheet, and the channels of each.
 
-use crate::panels::keys::{self, ChannelId, channel};
-use crate::panels::state::State;
+use crate::panels::context::PanelContext;
+use crate::panels::keys::{ChannelId, channel};
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::edit::Property;
 use std::collections::HashSet;
@@ -62,13 +62,13 @@ impl std::fmt::Debug for RowsKey {
 
 impl DopeRows {
     /// Rebuilds the rows if they are not those of `take`.
-    pub(super) fn update(&mut self, state: &State, take: &Arc<Take>) {
+    pub(super) fn update(&mut self, state: &PanelContext<'_>, take: &Arc<Take>) {
         let signature = match &self.looked_at {
             Some((looked_at, signature)) if Arc::ptr_eq(looked_at, take) => *signature,
             _ => signature(take),
         };
         self.looked_at = Some((Arc::clone(take), signature));
-        let model = state.view.as_ref().map_or(0, |view| Arc::as_ptr(&view.loaded) as usize);
+        let model = state.view.map_or(0, |view| Arc::as_ptr(&view.loaded) as usize);
         if self.made_of.as_ref().is_some_and(|made_of| made_of.model != model) {
             self.toggled.clear();
         }
@@ -76,8 +76,8 @@ impl DopeRows {
             made_of.model == model
                 && made_of.signature == signature
                 && made_of.selected == state.selection.bones()
-                && made_of.only_selected == state.keys.only_selected
-                && made_of.filter == state.keys.filter
+                && made_of.only_selected == state.keys.only_selected()
+                && made_of.filter == state.keys.filter()
                 && made_of.toggled == self.toggled.len()
         });
         if same {
@@ -87,15 +87,15 @@ impl DopeRows {
             model,
             signature,
             selected: state.selection.bones().to_vec(),
-            only_selected: state.keys.only_selected,
-            filter: state.keys.filter.clone(),
+            only_selected: state.keys.only_selected(),
+            filter: state.keys.filter().to_owned(),
             toggled: self.toggled.len(),
         });
         self.make(state, take);
     }
 
-    fn make(&mut self, state: &State, take: &Take) {
-        let bones = keys::shown_bones(state);
+    fn make(&mut self, state: &PanelContext<'_>, take: &Take) {
+        let bones = state.listed_bones();
         let channels: Vec<ChannelId> = bones.iter().flat_map(|&bone| channel::channels(take, bone)).collect();
         let mut list = Vec::new();
         let row = |kind, name: &str, open| DopeRow { kind, name: name.to_owned(), open };
@@ -122,7 +122,7 @@ impl DopeRows {
                 }
             }
         }
-        if !take.morphs.is_empty() && state.keys.filter.is_empty() {
+        if !take.morphs.is_empty() && state.keys.filter().is_empty() {
             list.push(row(RowKind::Morphs, "Shapes", false));
         }
         (self.list, self.channels) = (list.into(), channels.into());

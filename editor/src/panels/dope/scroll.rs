@@ -3,7 +3,7 @@
 use super::areas::{DopeAreas, SCROLL};
 use crate::panels::commands::Id;
 use crate::panels::keys::{KeysRequest, TimeScale};
-use crate::panels::state::Request;
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use dragonfly_anim::data::Take;
 use egui::{CornerRadius, PointerButton, Rect, Response, Sense, Ui, WidgetInfo, pos2};

@@ -1,25 +1,25 @@
 //! The channels of a take, by name.
 
-use dragonfly_anim::data::{BoneIndex, Interpolation, Take, Track};
-use dragonfly_document::edit::Property;
+use dragonfly_anim::data::{BoneIndex, Interpolation, Skeleton, Take, Track};
+use dragonfly_document::edit::{BoneRef, Property};
 use std::sync::Arc;
 
-/// A channel: of which bone, and what of it.
+/// A channel: a bone and one of its properties.
 pub type ChannelId = (BoneIndex, Property);
 
-/// The track of a bone.
+/// Returns the track of a bone.
 pub fn track(take: &Take, bone: BoneIndex) -> Option<&Track> {
-    // One a bone, in bone order; a take made elsewhere may differ.
+    // One track for each bone, in bone order; a take from another source may differ.
     let track = take.tracks.get(bone as usize).filter(|track| track.bone == bone);
     track.or_else(|| take.tracks.iter().find(|track| track.bone == bone))
 }
 
-/// Times of a channel's keys; empty where there is none.
+/// Returns the times of a channel's keys; empty where there is none.
 pub fn times(take: &Take, (bone, property): ChannelId) -> &[f32] {
     shared_times(take, (bone, property)).map_or(&[], |times| times)
 }
 
-/// The same, as it is shared.
+/// Returns the times of a channel's keys as they are shared.
 pub fn shared_times(take: &Take, (bone, property): ChannelId) -> Option<&Arc<[f32]>> {
     let track = track(take, bone)?;
     Some(match property {
@@ -29,7 +29,7 @@ pub fn shared_times(take: &Take, (bone, property): ChannelId) -> Option<&Arc<[f3
     })
 }
 
-/// How a channel finds what lies between its keys.
+/// Returns the interpolation of a channel.
 pub fn interpolation(take: &Take, (bone, property): ChannelId) -> Interpolation {
     track(take, bone).map_or(Interpolation::Linear, |track| match property {
         Property::Translation => track.translation.interpolation,
@@ -38,17 +38,27 @@ pub fn interpolation(take: &Take, (bone, property): ChannelId) -> Interpolation 
     })
 }
 
-/// The channels of a bone that have keys.
+/// Returns the channels of a bone that have keys.
 pub fn channels(take: &Take, bone: BoneIndex) -> impl Iterator<Item = ChannelId> + '_ {
     let of_bone = Property::ALL.into_iter().map(move |property| (bone, property));
     of_bone.filter(|&channel| !times(take, channel).is_empty())
 }
 
-/// The time of the key of `channel` nearest to `time`.
+/// Returns the time of the key of `channel` nearest to `time`.
 pub fn nearest(take: &Take, channel: ChannelId, time: f32) -> Option<f32> {
     let times = times(take, channel);
     let after = times.partition_point(|&key| key < time);
     let around =
         [after.checked_sub(1), Some(after)].into_iter().flatten().filter_map(|at| times.get(at).copied());
     around.min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))
+}
+
+/// Returns a bone by its name, so that text means the same in another model; by its index where the name is not unique.
+pub fn named(skeleton: &Skeleton, bone: BoneIndex) -> BoneRef {
+    match skeleton.bones.get(bone as usize) {
+        Some(rules) if !rules.name.is_empty() && skeleton.find(&rules.name) == Some(bone) => {
+            BoneRef::Name(rules.name.clone())
+        }
+        Some(_) | None => BoneRef::Index(bone),
+    }
 }

@@ -1,17 +1,17 @@
-//! Keys as columns of pixels: whatever the number of keys, a row costs as much as it is wide.
+//! Keys as columns of pixels: the cost of a row depends on its width, not on the number of keys.
 
 use super::intervals::Intervals;
 use super::shift::Shift;
 use super::window::TimeScale;
 use dragonfly_document::edit::SAME_TIME;
 
-/// Which columns of pixels have a key, and where in it the first one lies.
+/// The columns of pixels that have a key, with the position of the first key in each.
 ///
-/// Channel after channel is marked; a column that has a key already is not asked again, so many channels with the same
-/// dense keys cost little more than one.
+/// Channels are marked one after the other; a column that has a key already is skipped, so many channels with the same dense
+/// keys cost little more than one.
 #[derive(Debug, Default)]
 pub struct Columns {
-    /// Points; NaN where the column has no key.
+    /// Position of the first key, points; NaN where the column has no key.
     x: Vec<f32>,
     /// The first column at or after this one that has no key yet, as far as it is known.
     free: Vec<u32>,
@@ -21,12 +21,12 @@ pub struct Columns {
 #[derive(Clone, Copy, Debug)]
 struct Grid {
     left: f64,
-    /// Columns a point.
+    /// Number of columns per point.
     per_point: f64,
     scale: TimeScale,
 }
 
-/// column = first + slope · time
+/// A line: column = first + slope · time.
 #[derive(Clone, Copy, Debug)]
 struct Line {
     first: f64,
@@ -42,17 +42,17 @@ impl Line {
         self.place(time).max(0.0) as usize
     }
 
-    /// Where a column begins.
+    /// Returns the time at which a column starts.
     fn time(self, column: usize) -> f32 {
         ((column as f64 - self.first) / self.slope) as f32
     }
 }
 
-/// A screen has no more columns than this.
+/// Maximum number of columns; no screen has more.
 const WIDEST: f64 = 16_384.0;
 
 impl Columns {
-    /// No keys, in the columns from `left` points to `right`, each a pixel wide.
+    /// Clears all keys, for the columns from `left` points to `right`, each a pixel wide.
     pub fn reset(&mut self, scale: TimeScale, left: f32, right: f32, pixels_per_point: f32) {
         let per_point = f64::from(pixels_per_point).clamp(0.1, 16.0);
         let count = (f64::from(right - left) * per_point).ceil().clamp(0.0, WIDEST) as usize;
@@ -63,12 +63,12 @@ impl Columns {
         self.scale = Some(Grid { left: f64::from(left), per_point, scale });
     }
 
-    /// Points of the first key of each column that has one, ascending.
+    /// Returns the position of the first key of each column that has one, points, ascending.
     pub fn marks(&self) -> impl Iterator<Item = f32> + '_ {
         self.x.iter().copied().filter(|x| !x.is_nan())
     }
 
-    /// Marks the keys of a channel that are selected, or those that are not, where `shift` brings them.
+    /// Marks the keys of a channel that are selected, or those that are not, displaced by `shift`.
     pub fn mark(&mut self, times: &[f32], intervals: &Intervals, selected: bool, shift: Shift) {
         let Some(grid) = self.scale else { return };
         if times.is_empty() || self.x.is_empty() || (selected && intervals.is_empty()) {
@@ -91,8 +91,8 @@ impl Columns {
         }
     }
 
-    /// Channel and columns in the same order. What the stretches alone decide is decided without a look at the keys: of
-    /// many channels with the same selection, only the first is searched.
+    /// Marks keys where time and columns ascend together. Where the intervals alone decide, the keys are not read: of many
+    /// channels with the same selection, only the first is searched.
     fn forwards(&mut self, times: &[f32], intervals: &Intervals, selected: bool, line: Line, grid: Grid) {
         let (mut column, mut index) = (0, 0);
         while let Some(next) = self.next_free(column) {
@@ -102,7 +102,7 @@ impl Columns {
                 Some([first, last]) if selected => {
                     let (begin, end) = (from.max(first - SAME_TIME), last + SAME_TIME);
                     let first = line.column(begin).max(next);
-                    // Free columns before the stretch stay free; within it, the first free one is where to look.
+                    // Free columns before the interval stay free; within it, the search starts at the first free one.
                     if first > next {
                         column = first;
                         continue;
@@ -136,7 +136,7 @@ impl Columns {
         }
     }
 
-    /// Channel and columns in opposite orders: keys that are turned round.
+    /// Marks keys where columns descend as time ascends: keys that are reversed.
     fn backwards(&mut self, times: &[f32], intervals: &Intervals, selected: bool, line: Line, grid: Grid) {
         let mut column = 0;
         while let Some(next) = self.next_free(column) {
@@ -153,14 +153,14 @@ impl Columns {
         }
     }
 
-    /// Marks the column of a place that was found from column `next` on; `None` behind the last.
+    /// Marks the column of a position that was found from column `next` on; `None` after the last.
     fn hit(&mut self, at: f64, next: usize, grid: Grid) -> Option<usize> {
-        // Also `None` for what is no number.
+        // Also `None` for a position that is not a number.
         let inside = at < self.x.len() as f64;
         if !inside {
             return None;
         }
-        // What rounding puts before the column that was asked for is in it.
+        // A position that rounding puts before the column asked for is in that column.
         let hit = (at.max(0.0) as usize).max(next);
         if self.x[hit].is_nan() {
             self.x[hit] = (grid.left + at / grid.per_point) as f32;
@@ -169,13 +169,13 @@ impl Columns {
         Some(hit)
     }
 
-    /// The first column from `column` on without a key.
+    /// Returns the first column from `column` on without a key.
     fn next_free(&mut self, column: usize) -> Option<usize> {
         let mut found = column.min(self.x.len());
         while self.free[found] as usize != found {
             found = self.free[found] as usize;
         }
-        // The way is remembered.
+        // The columns on the way remember the result.
         let mut at = column.min(self.x.len());
         while self.free[at] as usize != at {
             at = std::mem::replace(&mut self.free[at], found as u32) as usize;
@@ -184,7 +184,7 @@ impl Columns {
     }
 }
 
-/// The first position from `index` on whose time is not before `time`: near ones are found at once.
+/// Returns the first index from `index` on whose time is not before `time`: near ones are found at once.
 pub fn gallop(times: &[f32], index: usize, time: f32) -> usize {
     let (mut low, mut step) = (index, 1);
     while times.get(low + step).is_some_and(|&at| at < time) {
@@ -202,7 +202,7 @@ mod tests {
     use dragonfly_kit::random::{Random, seed};
     use std::collections::BTreeSet;
 
-    /// The columns that looking at each key gives.
+    /// Returns the columns that result from reading each key.
     fn slow(
         channels: &[Vec<f32>],
         intervals: &Intervals,

@@ -5,22 +5,22 @@ use dragonfly_document::Change;
 use dragonfly_document::edit::EditedBones;
 use std::collections::BTreeSet;
 
-/// One of the marks of a bone.
+/// A flag of a bone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BoneFlag {
-    /// The picture shows it at rest.
+    /// The viewport shows the bone at rest.
     Mute,
-    /// The picture shows all others at rest.
+    /// The viewport shows all other bones at rest.
     Solo,
-    /// It is not edited.
+    /// The bone is not edited.
     Lock,
 }
 
 impl BoneFlag {
-    /// All three, in the order in which they are shown.
+    /// All flags, in the order in which they are shown.
     pub const ALL: [Self; 3] = [Self::Mute, Self::Solo, Self::Lock];
 
-    /// Its name.
+    /// Returns its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mute => "Mute",
@@ -29,7 +29,7 @@ impl BoneFlag {
         }
     }
 
-    /// What it does.
+    /// Returns its tooltip.
     pub fn help(self) -> &'static str {
         match self {
             Self::Mute => "The picture shows this bone at rest; its keys stay",
@@ -39,7 +39,7 @@ impl BoneFlag {
     }
 }
 
-/// See the module.
+/// The flags of all bones.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BoneFlags {
     sets: [BTreeSet<BoneIndex>; 3],
@@ -47,44 +47,44 @@ pub struct BoneFlags {
 }
 
 impl BoneFlags {
-    /// Has the bone this mark?
+    /// Returns whether the bone has this flag.
     pub fn has(&self, flag: BoneFlag, bone: BoneIndex) -> bool {
         self.sets[flag as usize].contains(&bone)
     }
 
-    /// Gives a bone a mark, or takes it.
+    /// Sets or clears a flag of a bone.
     pub fn set(&mut self, flag: BoneFlag, bone: BoneIndex, on: bool) {
         let set = &mut self.sets[flag as usize];
         let changed = if on { set.insert(bone) } else { set.remove(&bone) };
         self.version += u64::from(changed);
     }
 
-    /// The bones that have this mark, ascending.
+    /// Returns the bones that have this flag, ascending.
     pub fn of(&self, flag: BoneFlag) -> impl Iterator<Item = BoneIndex> + '_ {
         self.sets[flag as usize].iter().copied()
     }
 
-    /// None of a bone, for another model; the version still tells it from what was there.
+    /// Returns flags without any bone, for another model; the version differs from all before.
     pub fn emptied(&self) -> Self {
         Self { sets: Default::default(), version: self.version + 1 }
     }
 
-    /// Grows with every change.
+    /// Returns the version, which grows with every change.
     pub fn version(&self) -> u64 {
         self.version
     }
 
-    /// Is any bone locked?
+    /// Returns whether any bone is locked.
     pub fn any_locked(&self) -> bool {
         !self.sets[BoneFlag::Lock as usize].is_empty()
     }
 
-    /// Is this bone locked?
+    /// Returns whether this bone is locked.
     pub fn locked(&self, bone: BoneIndex) -> bool {
         self.has(BoneFlag::Lock, bone)
     }
 
-    /// The bones of `count` that the picture shows at rest.
+    /// Returns the bones of `count` that the viewport shows at rest.
     pub fn still(&self, count: usize) -> Vec<BoneIndex> {
         let solo = &self.sets[BoneFlag::Solo as usize];
         let still =
@@ -95,7 +95,7 @@ impl BoneFlags {
         (0..count as BoneIndex).filter(still).collect()
     }
 
-    /// The bones of `count` that do not turn when others are moved: locked, or shown at rest.
+    /// Returns the bones of `count` that no chain rotates: locked ones, and those shown at rest.
     pub fn fixed(&self, count: usize) -> Vec<BoneIndex> {
         let mut fixed = self.still(count);
         fixed.extend(self.sets[BoneFlag::Lock as usize].iter().filter(|&&bone| (bone as usize) < count));
@@ -106,9 +106,9 @@ impl BoneFlags {
 
     /// Returns a locked bone that `change` would edit, if there is one.
     ///
-    /// Every kind of edit says which bones it changes. Edits of a whole take (trim, split, reverse, retime, rename) apply to locked
-    /// bones, too: they would fall out of step with the others. Where several bones are selected, the caller leaves the locked ones
-    /// out, unless all of them are locked.
+    /// An edit of a whole take (trim, split, reverse, retime, rename) is not about bones: it includes locked ones, because their
+    /// keys would no longer match the others. Commands for several bones leave the locked ones out, unless all of them are
+    /// locked.
     pub fn locked_bone_in(&self, change: &Change, skeleton: &Skeleton) -> Option<BoneIndex> {
         let Change::Edit(edit, _) = change else { return None };
         if !self.any_locked() {

@@ -1,16 +1,16 @@
-//! Which keys of one channel are selected: stretches of time, so that a hundred thousand keys cost as much as two.
+//! The selected keys of one channel as intervals of time, so that a hundred thousand keys cost as much as two.
 
 use dragonfly_document::edit::SAME_TIME;
 use std::ops::Range;
 
-/// Closed stretches of time, ascending, none of which touch; a single key is one of no length.
+/// Closed intervals of time, ascending, none of which touch; a single key is an interval without length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Intervals(Vec<[f32; 2]>);
 
 /// All of time.
 pub const WHOLE: [f32; 2] = [f32::NEG_INFINITY, f32::INFINITY];
 
-/// Positions of the keys between two times, ends included.
+/// Returns the indices of the keys between two times, ends included.
 pub fn keys_between(times: &[f32], [from, to]: [f32; 2]) -> Range<usize> {
     let first = times.partition_point(|&time| time < from - SAME_TIME);
     let end = times.partition_point(|&time| time <= to + SAME_TIME);
@@ -18,17 +18,17 @@ pub fn keys_between(times: &[f32], [from, to]: [f32; 2]) -> Range<usize> {
 }
 
 impl Intervals {
-    /// One stretch; nothing where it ends before it begins or is no number.
+    /// Returns one interval; nothing where it ends before it starts or is not a number.
     pub fn one([from, to]: [f32; 2]) -> Self {
         if from <= to { Self(vec![[from, to]]) } else { Self::default() }
     }
 
-    /// Nothing.
+    /// Returns no interval.
     pub const fn none() -> Self {
         Self(Vec::new())
     }
 
-    /// Single keys, in any order.
+    /// Returns the intervals of single keys, in any order.
     pub fn singles(times: impl IntoIterator<Item = f32>) -> Self {
         let mut all: Vec<[f32; 2]> =
             times.into_iter().filter(|time| time.is_finite()).map(|time| [time, time]).collect();
@@ -37,7 +37,7 @@ impl Intervals {
         Self(all)
     }
 
-    /// From stretches in any order.
+    /// Returns the intervals that cover stretches in any order.
     pub fn of(stretches: impl IntoIterator<Item = [f32; 2]>) -> Self {
         let mut all: Vec<[f32; 2]> = stretches.into_iter().filter(|[from, to]| from <= to).collect();
         all.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -51,32 +51,32 @@ impl Intervals {
         Self(merged)
     }
 
-    /// Is nothing selected?
+    /// Returns whether nothing is selected.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The stretches.
+    /// Returns the intervals.
     pub fn stretches(&self) -> &[[f32; 2]] {
         &self.0
     }
 
-    /// The first stretch that does not end before `time`.
+    /// Returns the first interval that does not end before `time`.
     pub(super) fn at(&self, time: f32) -> Option<[f32; 2]> {
         self.0.get(self.0.partition_point(|[_, to]| to + SAME_TIME < time)).copied()
     }
 
-    /// Does a key at `time` seconds belong to it?
+    /// Returns whether a key at `time` seconds is selected.
     pub fn holds(&self, time: f32) -> bool {
         self.at(time).is_some_and(|[from, _]| time >= from - SAME_TIME)
     }
 
-    /// Adds a stretch.
+    /// Adds an interval.
     pub fn add(&mut self, stretch: [f32; 2]) {
         *self = Self::of(self.0.iter().copied().chain([stretch]));
     }
 
-    /// Takes the keys of a stretch out.
+    /// Removes the keys of an interval.
     pub fn remove(&mut self, stretch: [f32; 2], times: &[f32]) {
         let gone = keys_between(times, stretch);
         let mut kept = Vec::with_capacity(self.0.len() + 1);
@@ -86,7 +86,7 @@ impl Intervals {
                 kept.push([from, to]);
                 continue;
             }
-            // What is left ends at keys, so that it says the same whatever comes between later.
+            // The rest ends at keys, so that it means the same keys whatever is inserted between later.
             if keys.start < gone.start {
                 kept.push([from.max(times[keys.start]), times[gone.start - 1]]);
             }
@@ -97,17 +97,17 @@ impl Intervals {
         *self = Self(kept);
     }
 
-    /// Positions of the selected keys, ascending stretches of neighbours.
+    /// Returns the indices of the selected keys, as ascending ranges of neighbors.
     pub fn keys<'a>(&'a self, times: &'a [f32]) -> impl Iterator<Item = Range<usize>> + 'a {
         self.0.iter().map(|&stretch| keys_between(times, stretch)).filter(|range| !range.is_empty())
     }
 
-    /// How many keys are selected.
+    /// Returns the number of selected keys.
     pub fn count(&self, times: &[f32]) -> usize {
         self.keys(times).map(|range| range.len()).sum()
     }
 
-    /// Stretches without keys go, and those with nothing but selected keys between them become one.
+    /// Removes intervals without keys, and joins those with nothing but selected keys between them.
     pub fn tidy(&mut self, times: &[f32]) {
         let mut kept: Vec<([f32; 2], usize)> = Vec::with_capacity(self.0.len());
         for &stretch in &self.0 {
@@ -123,7 +123,7 @@ impl Intervals {
         self.0 = kept.into_iter().map(|(stretch, _)| stretch).collect();
     }
 
-    /// Position of the first key from `index` on that is selected, or that is not.
+    /// Returns the index of the first key from `index` on that is selected, or that is not.
     pub fn next(&self, times: &[f32], index: usize, selected: bool) -> Option<usize> {
         let time = *times.get(index)?;
         match (self.at(time), selected) {
@@ -139,7 +139,7 @@ impl Intervals {
             (Some([from, _]), false) if time < from - SAME_TIME => Some(index),
             (Some([_, to]), false) => {
                 let found = index + times[index..].partition_point(|&time| time <= to + SAME_TIME);
-                // Tidy stretches have an unselected key between them; others are walked, as few as there are.
+                // Tidy intervals have an unselected key between them; any others are few and are searched one by one.
                 let mut found = found;
                 while let Some(&time) = times.get(found) {
                     match self.at(time) {
@@ -154,7 +154,7 @@ impl Intervals {
         }
     }
 
-    /// The next selected key where the stretch in between held none.
+    /// Returns the next selected key where the interval in between had none.
     fn next_far(&self, times: &[f32], index: usize) -> Option<usize> {
         let first = self.0.partition_point(|[_, to]| to + SAME_TIME < times[index]);
         self.0[first..]
@@ -164,7 +164,7 @@ impl Intervals {
             .map(|keys| keys.start.max(index))
     }
 
-    /// Position of the last selected key up to `index`.
+    /// Returns the index of the last selected key up to `index`.
     pub fn previous(&self, times: &[f32], index: usize) -> Option<usize> {
         let time = *times.get(index)?;
         let end = self.0.partition_point(|[from, _]| from - SAME_TIME <= time);
@@ -176,7 +176,7 @@ impl Intervals {
             .map(|keys| (keys.end - 1).min(index))
     }
 
-    /// The first and the last selected key, seconds.
+    /// Returns the times of the first and the last selected key, seconds.
     pub fn extent(&self, times: &[f32]) -> Option<[f32; 2]> {
         let first = self.keys(times).next()?;
         let last =

@@ -1,4 +1,4 @@
-//! Markers: times with names, kept beside the program's settings and never in the model's file.
+//! Markers: times with names, stored with the program's settings and never in the model's file.
 
 use dragonfly_anim::data::{Take, Track};
 use dragonfly_document::adapter::{TakeId, TakeVersions};
@@ -9,36 +9,36 @@ use std::sync::Arc;
 /// A time with a name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Marker {
-    /// Seconds.
+    /// Time, seconds.
     pub time: f32,
-    /// May be empty.
+    /// Name; may be empty.
     pub name: String,
 }
 
-/// What is done to the markers of the take that is shown.
+/// A change of the markers of the take that is shown.
 #[derive(Clone, Debug, PartialEq)]
-pub enum MarkerDeed {
-    /// A new one, unless there is one already.
+pub enum MarkerAction {
+    /// Adds a marker, unless there is one already.
     Add(f32),
-    /// This one elsewhere.
+    /// Moves this marker.
     Move(usize, f32),
-    /// This one under another name.
+    /// Renames this marker.
     Rename(usize, String),
-    /// This one away.
+    /// Deletes this marker.
     Delete(usize),
 }
 
-/// Most markers of a take, and characters of a name.
+/// Maximum number of markers of a take, and of characters of a name.
 const MOST: usize = 1000;
 const LONGEST: usize = 200;
 
-/// Of all takes of the model that is open.
+/// The markers of all takes of the model that is open.
 #[derive(Clone, Debug, Default)]
 pub struct Markers {
     takes: BTreeMap<TakeId, Vec<Marker>>,
-    /// What the takes are called in the file that was opened.
+    /// Names of the takes in the file that was opened.
     names: BTreeMap<TakeId, String>,
-    /// What the model is called; empty before one is open.
+    /// Path of the model; empty before one is open.
     path: String,
     unsaved: bool,
     unread: bool,
@@ -46,18 +46,18 @@ pub struct Markers {
 
 #[derive(Default, Serialize, Deserialize)]
 #[serde(default)]
-struct Stored {
+struct StoredMarkers {
     path: String,
     takes: BTreeMap<String, Vec<Marker>>,
 }
 
 impl Markers {
-    /// For another model, called `path`: none until they are [read](Self::read).
+    /// Returns no markers, for another model at `path`, until they are [read](Self::read).
     pub fn open(path: String) -> Self {
         Self { path, unread: true, ..Self::default() }
     }
 
-    /// The model is called so from now on, as it was saved elsewhere; its markers go with it.
+    /// Sets the path of the model, which was saved elsewhere; its markers go with it.
     pub fn rename(&mut self, path: String) {
         if self.path != path {
             self.path = path;
@@ -65,25 +65,25 @@ impl Markers {
         }
     }
 
-    /// The file in the store.
+    /// Returns the name of the file in the store.
     fn file(&self) -> String {
         format!("markers/{:016x}.json", fingerprint(self.path.as_bytes()))
     }
 
-    /// The file that is to be read now; said once.
+    /// Returns the file that is to be read now; only once.
     pub fn wanted(&mut self) -> Option<String> {
         std::mem::take(&mut self.unread).then(|| self.file())
     }
 
-    /// Takes the text of the file; a damaged one holds no markers.
+    /// Reads the text of the file; a damaged text has no markers.
     pub fn read(&mut self, text: &str, slots: &[Arc<TakeVersions>]) {
         self.names = slots.iter().map(|slot| (slot.id, slot.result.name.clone())).collect();
-        let stored: Stored = serde_json::from_str(text).unwrap_or_default();
+        let stored: StoredMarkers = serde_json::from_str(text).unwrap_or_default();
         if stored.path != self.path {
             return;
         }
         for slot in slots {
-            // Of several takes with one name the first is meant.
+            // Of several takes with one name the first gets the markers.
             let first = slots.iter().find(|other| other.original.name == slot.original.name);
             if first.is_none_or(|first| first.id != slot.id) {
                 continue;
@@ -95,22 +95,23 @@ impl Markers {
         }
     }
 
-    /// The file and its text, when they changed since the last call.
+    /// Returns the file and its text, when they changed since the last call.
     pub fn unsaved(&mut self, slots: &[Arc<TakeVersions>]) -> Option<(String, String)> {
         if !std::mem::take(&mut self.unsaved) {
             return None;
         }
         let of = |take: TakeId| self.takes.get(&take).filter(|markers| !markers.is_empty()).cloned();
-        // Until the file is saved its takes are called as they were; where two want a name, it is theirs who have it now.
+        // Until the model is saved its takes keep their old names in the file; where two takes use a name, the one that has
+        // it now gets it.
         let old = self.names.iter().filter_map(|(take, name)| Some((name.clone(), of(*take)?)));
         let new = slots.iter().rev().filter_map(|slot| Some((slot.result.name.clone(), of(slot.id)?)));
-        let stored = Stored { path: self.path.clone(), takes: old.chain(new).collect() };
+        let stored = StoredMarkers { path: self.path.clone(), takes: old.chain(new).collect() };
         Some((self.file(), serde_json::to_string_pretty(&stored).unwrap_or_default()))
     }
 
-    /// Gives takes that are new the markers of those they were made of: copies all, the second part of a take that was
-    /// cut in two those behind the cut. Where the markers come from they stay, so nothing is lost when that is undone.
-    pub(super) fn take_along(&mut self, before: &[Arc<TakeVersions>], now: &[Arc<TakeVersions>]) {
+    /// Copies markers to new takes from the takes that they were made of: a copy gets all, the second part of a split take those
+    /// after the split. The source keeps its markers, so nothing is lost when that is undone.
+    pub(in crate::panels) fn take_along(&mut self, before: &[Arc<TakeVersions>], now: &[Arc<TakeVersions>]) {
         for (at, slot) in now.iter().enumerate() {
             let known = self.takes.contains_key(&slot.id) || before.iter().any(|old| old.id == slot.id);
             let Some((from, cut)) = made_of(before, now, at).filter(|_| !known) else { continue };
@@ -122,31 +123,31 @@ impl Markers {
         }
     }
 
-    /// Those of a take, ascending.
+    /// Returns the markers of a take, ascending.
     pub fn of(&self, take: TakeId) -> &[Marker] {
         self.takes.get(&take).map_or(&[], Vec::as_slice)
     }
 
-    /// Does it.
-    pub fn change(&mut self, take: TakeId, deed: MarkerDeed) {
+    /// Applies a change to the markers of a take.
+    pub fn change(&mut self, take: TakeId, action: MarkerAction) {
         let markers = self.takes.entry(take).or_default();
-        match deed {
-            MarkerDeed::Add(time) if time.is_finite() && markers.len() < MOST => {
+        match action {
+            MarkerAction::Add(time) if time.is_finite() && markers.len() < MOST => {
                 if markers.iter().any(|marker| (marker.time - time).abs() < 1e-4) {
                     return;
                 }
                 let name = format!("Marker {}", markers.len() + 1);
                 markers.push(Marker { time, name });
             }
-            MarkerDeed::Move(index, time) if time.is_finite() => match markers.get_mut(index) {
+            MarkerAction::Move(index, time) if time.is_finite() => match markers.get_mut(index) {
                 Some(marker) => marker.time = time,
                 None => return,
             },
-            MarkerDeed::Rename(index, name) => match markers.get_mut(index) {
+            MarkerAction::Rename(index, name) => match markers.get_mut(index) {
                 Some(marker) => marker.name = name.chars().take(LONGEST).collect(),
                 None => return,
             },
-            MarkerDeed::Delete(index) if index < markers.len() => {
+            MarkerAction::Delete(index) if index < markers.len() => {
                 markers.remove(index);
             }
             _ => return,
@@ -156,23 +157,23 @@ impl Markers {
     }
 }
 
-/// Of which take the new one at a place of the list was made, and where its begin lies in that.
+/// Returns the take that the new take at index `at` was made of, and the time in it at which the new take starts.
 fn made_of(before: &[Arc<TakeVersions>], now: &[Arc<TakeVersions>], at: usize) -> Option<(TakeId, f32)> {
     let new = now.get(at)?;
     let is_copied = |other: &&Arc<TakeVersions>| same_keys(&other.result, &new.result);
-    // It stands behind the one that it was made of, if nobody wanted it elsewhere.
+    // A copy follows its source in the list, unless an edit placed it elsewhere.
     let first = at.checked_sub(1).and_then(|at| now.get(at));
     if let Some(copied) = first.filter(is_copied).or_else(|| before.iter().find(is_copied)) {
         return Some((copied.id, 0.0));
     }
-    // The second part of one that was cut: that ends where this one begins.
+    // The second part of a split take: its first part ends where it starts.
     let first = first?;
     let whole = before.iter().find(|whole| whole.id == first.id)?;
     let is_cut = !Arc::ptr_eq(&whole.result, &first.result);
     is_cut.then(|| (first.id, first.result.end()))
 }
 
-/// Is one a copy of the other? Copies share the columns of their channels.
+/// Returns whether one take is a copy of the other. Copies share the columns of their channels.
 fn same_keys(a: &Take, b: &Take) -> bool {
     let shares = |(a, b): (&Track, &Track)| {
         (!a.rotation.is_empty() && Arc::ptr_eq(&a.rotation.values, &b.rotation.values))
@@ -187,7 +188,7 @@ fn sorted(mut markers: Vec<Marker>) -> Vec<Marker> {
     markers
 }
 
-/// FNV-1a: names a file by the path of another.
+/// FNV-1a hash: the name of a file for the path of another.
 fn fingerprint(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)

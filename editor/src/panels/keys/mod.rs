@@ -1,69 +1,67 @@
-//! Everything about keys that the timeline and the curves share: what is selected, what is dragged, which part of time
-//! is shown, markers, marks of bones, the range that plays. Nothing here draws.
+//! Editing of keys, as the timeline and the curves share it: the selected keys, the drag, the part of time that is shown,
+//! markers, flags of bones, and the range that plays. Nothing here draws.
 
 pub mod channel;
 pub mod clipboard;
 pub mod columns;
-mod commands;
 pub mod drag;
 pub mod flags;
 pub mod intervals;
 pub mod markers;
-mod range;
-mod request;
+pub mod request;
 pub mod selection;
 pub mod shift;
-mod shown;
-mod step;
 pub mod window;
 
 pub use channel::ChannelId;
 pub use drag::KeyDragOp;
 pub use flags::{BoneFlag, BoneFlags};
-pub use markers::{Marker, MarkerDeed, Markers};
+pub use markers::{Marker, MarkerAction, Markers};
 pub use request::KeysRequest;
 pub use selection::KeySelection;
 pub use shift::Shift;
-pub use shown::bones as shown_bones;
 pub use window::{TimeScale, TimeWindow};
 
-use super::change_summary;
+use super::echo::Echo;
 use super::settings::TimelineSettings;
-use super::state::State;
+use clipboard::Pasted;
 use drag::KeyDrag;
 use dragonfly_anim::data::{BoneIndex, Take};
-use dragonfly_document::View;
+use dragonfly_document::Change;
+use dragonfly_document::adapter::TakeVersions;
+use dragonfly_document::bones::{BoneSelection, Choice};
+use dragonfly_document::edit::SAME_TIME;
 use std::sync::Arc;
 
-/// See the module.
+/// Margin beyond the playhead when it is brought into sight, as a part of the window.
+const MARGIN: f64 = 0.1;
+
+/// The state of key editing.
 #[derive(Clone, Debug)]
 pub struct Keys {
-    /// Which keys are selected.
-    pub selection: KeySelection,
-    /// Do moved keys go to whole frames?
-    pub snap: bool,
-    /// Are only the selected bones listed, where any are selected?
-    pub only_selected: bool,
-    /// Bones that were listed when one of their rows was clicked, and what was selected by it: the others stay listed as long
-    /// as that is selected.
+    selection: KeySelection,
+    /// Whether moved keys go to whole frames.
+    snap: bool,
+    /// Whether only the selected bones are listed, where any are selected.
+    only_selected: bool,
+    /// Bones that were listed when one of their rows was clicked, and the selection that this made: the other bones stay
+    /// listed as long as that is selected.
     kept: Option<(Vec<BoneIndex>, Vec<BoneIndex>)>,
     /// Part of the names of the bones that are listed; empty for all.
-    pub filter: String,
-    /// Marks of bones.
-    pub flags: BoneFlags,
-    /// Markers of all takes.
-    pub markers: Markers,
-    /// The part of time that is shown; none for the whole take.
+    filter: String,
+    flags: BoneFlags,
+    markers: Markers,
+    /// The part of time that is shown; `None` for the whole take.
     window: Option<TimeWindow>,
-    /// Begin and end of the take when nothing was dragged last, seconds.
+    /// Start and end of the take when nothing was dragged last, seconds.
     seen: Option<[f32; 2]>,
-    /// The part that plays, seconds; none for the whole take.
+    /// The part that plays, seconds; `None` for the whole take.
     range: Option<[f32; 2]>,
     drag: Option<KeyDrag>,
-    /// Was the timeline, or were the curves, touched last? Then what is copied are keys.
-    pub has_hand: bool,
-    /// Keys that were pasted and are selected once they are there.
-    awaited: Option<clipboard::Awaited>,
+    /// Whether the timeline or the curves were used last. Then the command that copies takes keys.
+    has_focus: bool,
+    /// Keys that were pasted and are selected once the document has them.
+    pasted: Option<Pasted>,
 }
 
 impl Default for Keys {
@@ -80,8 +78,8 @@ impl Default for Keys {
             seen: None,
             range: None,
             drag: None,
-            has_hand: false,
-            awaited: None,
+            has_focus: false,
+            pasted: None,
         }
     }
 }
@@ -89,59 +87,357 @@ impl Default for Keys {
 /// The keys as they are to be drawn now.
 #[derive(Clone, Debug)]
 pub struct Drawn {
-    /// The take: as it is, or as it was when a drag began.
+    /// The take as it is, or as it was when a drag began.
     pub take: Arc<Take>,
-    /// The selected keys, of that take.
+    /// The selected keys of that take.
     pub selection: KeySelection,
-    /// Where they are drawn.
+    /// The displacement with which they are drawn.
     pub shift: Shift,
-    /// Are they drawn at their old places too?
+    /// Whether they are drawn at their old times too.
     pub copies: bool,
 }
 
+/// A drag of keys that ended, and the keys that the take had before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EndedDrag {
+    /// Number of keys before the drag.
+    pub(super) before: usize,
+    /// Number of keys that the drag was to add.
+    pub(super) added: usize,
+}
+
 impl Keys {
-    /// Nothing selected, as the settings say.
+    /// Returns the initial state with these settings.
     pub fn of(settings: TimelineSettings) -> Self {
         let TimelineSettings { snap, only_selected } = settings;
         Self { snap, only_selected, ..Self::default() }
     }
 
-    /// Lets go of a drag whose hand is still on it, as if it had never begun.
-    pub(in crate::panels) fn drop_held(&mut self) {
-        self.drag.take_if(|drag| drag.held());
+    /// Returns the settings that are remembered between runs.
+    pub(super) fn settings(&self) -> TimelineSettings {
+        TimelineSettings { snap: self.snap, only_selected: self.only_selected }
     }
 
-    /// The drag under way.
+    /// Returns the selected keys.
+    pub fn selection(&self) -> &KeySelection {
+        &self.selection
+    }
+
+    /// Returns whether moved keys go to whole frames.
+    pub fn snap(&self) -> bool {
+        self.snap
+    }
+
+    /// Sets whether moved keys go to whole frames.
+    pub fn set_snap(&mut self, snap: bool) {
+        self.snap = snap;
+    }
+
+    /// Returns whether only the selected bones are listed, where any are selected.
+    pub fn only_selected(&self) -> bool {
+        self.only_selected
+    }
+
+    /// Sets whether only the selected bones are listed.
+    pub(super) fn set_only_selected(&mut self, only: bool) {
+        self.only_selected = only;
+    }
+
+    /// Returns the part of the names of the bones that are listed; empty for all.
+    pub fn filter(&self) -> &str {
+        &self.filter
+    }
+
+    /// Sets the part of the names of the bones that are listed.
+    pub(super) fn set_filter(&mut self, filter: String) {
+        self.filter = filter;
+    }
+
+    /// Returns the flags of bones: muted, soloed, locked.
+    pub fn flags(&self) -> &BoneFlags {
+        &self.flags
+    }
+
+    /// Sets a flag of a bone. Keys of locked bones are deselected.
+    pub(super) fn set_flag(&mut self, flag: BoneFlag, bone: BoneIndex, on: bool) {
+        self.flags.set(flag, bone, on);
+        let flags = &self.flags;
+        self.selection.drop_bones(|bone| flags.locked(bone));
+    }
+
+    /// Returns the markers of all takes.
+    pub fn markers(&self) -> &Markers {
+        &self.markers
+    }
+
+    /// Returns the markers of all takes, to change, read or store them.
+    pub(super) fn markers_mut(&mut self) -> &mut Markers {
+        &mut self.markers
+    }
+
+    /// Returns the drag in progress.
     pub fn drag(&self) -> Option<&KeyDrag> {
         self.drag.as_ref()
     }
 
-    /// The part that plays, seconds.
+    /// Returns the part that plays, seconds; `None` for the whole take.
     pub fn range(&self) -> Option<[f32; 2]> {
         self.range
     }
 
-    /// The part of time that is shown of a take.
+    /// Sets the part of `take` that plays, its ends in any order; a range without length is none.
+    pub(super) fn set_range(&mut self, range: Option<[f32; 2]>, (start, length): (f32, f32)) {
+        let inside = |time: f32| time.clamp(start, start + length);
+        let ordered = range
+            .filter(|ends| ends.iter().all(|time| time.is_finite()))
+            .map(|[a, b]| [inside(a.min(b)), inside(a.max(b))]);
+        self.range = ordered.filter(|[from, to]| to - from > SAME_TIME);
+    }
+
+    /// Returns the part of time that is shown of a take.
     pub fn window(&self, take: &Take) -> TimeWindow {
         self.window.unwrap_or_else(|| TimeWindow::whole(take.start, take.length))
     }
 
-    /// Another model is open, or none.
-    fn forget(&mut self) {
+    /// Shows this part of time of `take`, or the whole take. A part of the take and the playhead at `time` stay in sight.
+    pub(super) fn show_window(&mut self, window: Option<TimeWindow>, take: &Take, time: f32) {
+        let (first, last) = (f64::from(take.start), f64::from(take.end().max(time)));
+        self.window = window.map(|window| window.sanitized().near(first, last));
+    }
+
+    /// Shows exactly this part of time.
+    pub(super) fn fit_window(&mut self, window: Option<TimeWindow>) {
+        self.window = window.map(TimeWindow::sanitized);
+    }
+
+    /// Shows a margin after a take that became longer while its end was in sight, so that an animator who appends keys
+    /// finds everything where it was.
+    pub(super) fn reserve_margin(&mut self, take: &Take, time: f32) {
+        if self.drag.is_some() {
+            return;
+        }
+        let (start, end) = (take.start, take.end());
+        let Some([first, last]) = self.seen.replace([start, end]).filter(|[_, last]| end > *last) else {
+            return;
+        };
+        let window = self.window.unwrap_or_else(|| TimeWindow::whole(first, last - first));
+        if (window.start..=window.start + window.length).contains(&f64::from(last)) {
+            let to = f64::from(end) + f64::from(end - start) * MARGIN;
+            let length = window.length.max(to - window.start);
+            self.show_window(Some(TimeWindow { length, ..window }), take, time);
+        }
+    }
+
+    /// Shows the part of time with the playhead at `time`, where it is out of sight.
+    pub(super) fn bring_into_sight(&mut self, take: &Take, time: f32) {
+        let (at, window) = (f64::from(time), self.window(take));
+        let end = window.start + window.length;
+        // Rounding to single precision does not put the playhead out of sight.
+        let slack = window.length * 1e-3;
+        if (window.start - slack..=end + slack).contains(&at) {
+            return;
+        }
+        let whole = window.start <= f64::from(take.start) && end >= f64::from(take.end());
+        let shown = if whole {
+            let (first, last) = (window.start.min(at), end.max(at));
+            TimeWindow { start: first, length: (last - first) * (1.0 + MARGIN) }
+        } else if at > end {
+            // The length of the window stays.
+            window.panned(at - end + window.length * MARGIN)
+        } else {
+            window.panned(at - window.start - window.length * MARGIN)
+        };
+        self.show_window(Some(shown), take, time);
+    }
+
+    /// Returns whether the timeline or the curves were used last.
+    pub(super) fn has_focus(&self) -> bool {
+        self.has_focus
+    }
+
+    /// Notes that the timeline or the curves were used last.
+    pub(super) fn gain_focus(&mut self) {
+        self.has_focus = true;
+    }
+
+    /// Notes that something else was used last.
+    pub(super) fn lose_focus(&mut self) {
+        self.has_focus = false;
+    }
+
+    /// Returns whether a bone is listed where only the selected bones are, or those whose rows were there when one of them
+    /// was clicked.
+    pub(super) fn lists(&self, bone: BoneIndex, selected: &BoneSelection) -> bool {
+        let kept = self.kept.as_ref().filter(|(_, by)| by == selected.bones());
+        kept.map_or_else(|| selected.contains(bone), |(listed, _)| listed.contains(&bone))
+    }
+
+    /// Keeps the rows that are listed as long as `selected` is the selection.
+    pub(super) fn keep_rows(&mut self, listed: Vec<BoneIndex>, selected: &[BoneIndex]) {
+        self.kept = Some((listed, selected.to_vec()));
+    }
+
+    /// Deselects the keys of bones that are not listed any more: only keys that are seen are deleted or moved. `selected` are
+    /// the selected bones.
+    pub(super) fn deselect_unlisted(&mut self, selected: &BoneSelection) {
+        if self.drag.is_none() && self.only_selected && selected.active().is_some() {
+            let mut keys = std::mem::take(&mut self.selection);
+            keys.drop_bones(|bone| !self.lists(bone, selected));
+            self.selection = keys;
+        }
+    }
+
+    /// Deselects the keys of all bones but these.
+    pub(super) fn deselect_all_but(&mut self, bones: &[BoneIndex]) {
+        self.selection.drop_bones(|bone| !bones.contains(&bone));
+    }
+
+    /// Deselects all keys.
+    pub(super) fn deselect(&mut self) {
+        self.selection = KeySelection::default();
+    }
+
+    /// Selects the keys of channels between two times. Returns a locked bone where all channels are of locked bones.
+    pub(super) fn select(
+        &mut self,
+        take: &Take,
+        channels: &[ChannelId],
+        stretch: [f32; 2],
+        choice: Choice,
+    ) -> Option<BoneIndex> {
+        self.has_focus = true;
+        // The keys of a drag that waits for its answer are selected when the answer is there.
+        if self.drag.is_some() {
+            return None;
+        }
+        let free: Vec<ChannelId> =
+            channels.iter().copied().filter(|&(bone, _)| !self.flags.locked(bone)).collect();
+        self.selection.choose(take, &free, stretch, choice);
+        channels.first().filter(|_| free.is_empty()).map(|&(bone, _)| bone)
+    }
+
+    /// Selects stretches of time of several channels.
+    pub(super) fn select_parts(
+        &mut self,
+        take: Option<&Take>,
+        parts: &[(ChannelId, Vec<[f32; 2]>)],
+        choice: Choice,
+    ) {
+        self.has_focus = true;
+        if choice == Choice::Replace {
+            self.deselect();
+        }
+        let choice = if choice == Choice::Toggle { Choice::Toggle } else { Choice::Add };
+        let Some(take) = take else { return };
+        for (channel, stretches) in parts.iter().filter(|((bone, _), _)| !self.flags.locked(*bone)) {
+            self.selection.choose_parts(take, *channel, stretches, choice);
+        }
+    }
+
+    /// Notes that a drag begins or goes on in the timeline. Returns whether it may: a drag that was released and waits for its
+    /// answer ends first.
+    pub(super) fn may_drag(&mut self) -> bool {
+        self.has_focus = true;
+        self.drag.as_ref().is_none_or(KeyDrag::held)
+    }
+
+    /// Begins a drag.
+    pub(super) fn begin_drag(&mut self, drag: KeyDrag) {
+        self.drag = Some(drag);
+    }
+
+    /// Continues the drag with its newest operation. Returns the change to send.
+    pub(super) fn continue_drag(&mut self, op: KeyDragOp, echo: &Echo) -> Option<Change> {
+        let drag = self.drag.as_mut()?;
+        drag.op = op;
+        drag.send(echo, false)
+    }
+
+    /// Releases the drag. Returns the changes to send; `None` where no drag is held.
+    pub(super) fn release_drag(&mut self, echo: &Echo) -> Option<Vec<Change>> {
+        let drag = self.drag.as_mut().filter(|drag| drag.held())?;
+        let change = drag.send(echo, true);
+        drag.release();
+        let over = drag.has_sent().then_some(Change::Release(drag.gesture));
+        Some(change.into_iter().chain(over).collect())
+    }
+
+    /// Cancels the drag that is held. Returns the change to send, if anything was sent.
+    pub(super) fn cancel_drag(&mut self) -> Option<Change> {
+        let drag = self.drag.take_if(|drag| drag.held())?;
+        drag.has_sent().then_some(Change::Cancel(drag.gesture))
+    }
+
+    /// Drops the drag that is held, as if it had never begun: the document undoes it elsewhere.
+    pub(super) fn drop_held(&mut self) {
+        self.drag.take_if(|drag| drag.held());
+    }
+
+    /// Drops any drag: its edits are refused.
+    pub(super) fn drop_drag(&mut self) {
+        self.drag = None;
+    }
+
+    /// Ends a drag that was released and is done, and selects the keys that it moved in `take`.
+    pub(super) fn settle(&mut self, take: Option<&Take>, echo: &Echo) -> Option<EndedDrag> {
+        let drag = self.drag.take_if(|drag| drag.is_settled(echo))?;
+        match (take, &drag.op) {
+            (
+                Some(take),
+                KeyDragOp::Move(_) | KeyDragOp::Scale { .. } | KeyDragOp::Duplicate(_) | KeyDragOp::Snap(_),
+            ) => {
+                self.selection = drag.moved(take);
+            }
+            (Some(take), KeyDragOp::Ripple { from, by }) => {
+                self.selection = self.selection.rippled(take, *from, *by);
+            }
+            (None, _) | (Some(_), KeyDragOp::Edit(_)) => {}
+        }
+        drag.brings().map(|added| EndedDrag { before: drag.base.keys(), added })
+    }
+
+    /// Notes that an edit was refused: nothing is on its way any more.
+    pub(super) fn refused(&mut self) {
+        self.pasted = None;
+        if let Some(drag) = &mut self.drag {
+            drag.refused();
+        }
+    }
+
+    /// Selects pasted keys once the document has them.
+    pub(super) fn await_pasted(&mut self, pasted: Pasted) {
+        self.pasted = Some(pasted);
+    }
+
+    /// Selects keys that were pasted, where `slot` has them now.
+    pub(super) fn select_pasted(
+        &mut self,
+        slot: &TakeVersions,
+        take: Option<&Take>,
+        generation: u64,
+    ) -> Option<EndedDrag> {
+        let pasted = self.pasted.take_if(|pasted| pasted.is_in(slot, generation))?;
+        self.select_parts(take, pasted.parts(), Choice::Replace);
+        Some(EndedDrag { before: pasted.before(), added: pasted.count() })
+    }
+
+    /// Forgets everything about the take: another one is shown.
+    pub(super) fn before_take_change(&mut self) {
+        self.deselect();
+        (self.window, self.range, self.drag) = (None, None, None);
+        self.seen = None;
+        self.pasted = None;
+    }
+
+    /// Forgets everything about the model: another one is open, whose markers are stored under `path`.
+    pub(super) fn open(&mut self, path: String) {
         let (snap, only_selected, flags) = (self.snap, self.only_selected, self.flags.emptied());
-        *self = Self { snap, only_selected, flags, ..Self::default() };
-    }
-}
-
-impl State {
-    /// The take that is shown, as it is shared.
-    pub fn shared_take(&self) -> Option<&Arc<Take>> {
-        self.view.as_ref()?.takes.get(self.playback.take?)
+        *self = Self { snap, only_selected, flags, markers: Markers::open(path), ..Self::default() };
     }
 
-    /// The keys as they are to be drawn now; none where no take is shown.
-    pub fn drawn_keys(&self) -> Option<Drawn> {
-        match &self.keys.drag {
+    /// Returns the keys as they are to be drawn: displaced while they are dragged.
+    pub(super) fn drawn(&self, take: Option<&Arc<Take>>) -> Option<Drawn> {
+        match &self.drag {
             Some(drag) if !matches!(drag.op, KeyDragOp::Edit(_)) => Some(Drawn {
                 take: Arc::clone(&drag.base),
                 selection: drag.moving.clone(),
@@ -149,103 +445,11 @@ impl State {
                 copies: matches!(drag.op, KeyDragOp::Duplicate(_)),
             }),
             _ => Some(Drawn {
-                take: Arc::clone(self.shared_take()?),
-                selection: self.keys.selection.clone(),
+                take: Arc::clone(take?),
+                selection: self.selection.clone(),
                 shift: Shift::NONE,
                 copies: false,
             }),
         }
-    }
-
-    /// Markers of the take that is shown.
-    pub fn markers(&self) -> &[Marker] {
-        self.slot().map_or(&[], |slot| self.keys.markers.of(slot.id))
-    }
-
-    /// The file in the program's own folder that holds the markers of the model that is open; said once.
-    pub fn wanted_markers(&mut self) -> Option<String> {
-        self.keys.markers.wanted()
-    }
-
-    /// Takes its text.
-    pub fn read_markers(&mut self, text: &str) {
-        if let Some(view) = &self.view {
-            self.keys.markers.read(text, &view.slots);
-        }
-    }
-
-    /// The file and what it is to hold, when the markers changed since the last call.
-    pub fn unsaved_markers(&mut self) -> Option<(String, String)> {
-        let view = self.view.as_ref()?;
-        self.keys.markers.unsaved(&view.slots)
-    }
-
-    /// Another model is shown.
-    pub(super) fn open_keys(&mut self) {
-        self.keys.forget();
-        if let Some(view) = &self.view {
-            self.keys.markers = Markers::open(view.file.key());
-        }
-    }
-
-    /// A newer view of the same model is shown, which may be saved elsewhere now and have other takes.
-    pub(super) fn keep_markers(&mut self, before: Option<&View>) {
-        let Some(view) = &self.view else { return };
-        if before.is_none_or(|before| before.file != view.file) {
-            self.keys.markers.rename(view.file.key());
-        }
-        if let Some(before) = before.filter(|before| before.slots.len() < view.slots.len()) {
-            self.keys.markers.take_along(&before.slots, &view.slots);
-        }
-    }
-
-    /// Another take is shown.
-    pub(super) fn leave_take(&mut self) {
-        self.keys.selection = KeySelection::default();
-        (self.keys.window, self.keys.range, self.keys.drag) = (None, None, None);
-        self.keys.seen = None;
-        self.keys.awaited = None;
-    }
-
-    /// A newer view is there, or time has passed: ends a drag that was let go and is done.
-    pub(super) fn settle_keys(&mut self) {
-        let Some(view) = &self.view else { return };
-        self.select_pasted(view.generation);
-        let echo = &self.dragging.echo;
-        if let Some(drag) = self.keys.drag.take_if(|drag| drag.is_settled(echo)) {
-            self.keys.selection = match (self.shared_take(), &drag.op) {
-                (
-                    Some(take),
-                    KeyDragOp::Move(_)
-                    | KeyDragOp::Scale { .. }
-                    | KeyDragOp::Duplicate(_)
-                    | KeyDragOp::Snap(_),
-                ) => drag.moved(take),
-                (Some(take), KeyDragOp::Ripple { from, by }) => self.keys.selection.rippled(take, *from, *by),
-                _ => self.keys.selection.clone(),
-            };
-            if let Some(brought) = drag.brings() {
-                self.tell_replaced(drag.base.keys(), brought);
-            }
-        }
-    }
-
-    /// Says how many keys of the take gave way to others.
-    fn tell_replaced(&mut self, before: usize, brought: usize) {
-        let now = self.take().map_or(0, Take::keys);
-        let told =
-            self.view.as_ref().and_then(|view| change_summary::describe_replaced(view, before, brought, now));
-        if let Some(text) = told {
-            self.status.remark(text);
-        }
-    }
-
-    /// An edit was refused.
-    pub fn keys_refused(&mut self) {
-        self.keys.awaited = None;
-        if let Some(drag) = &mut self.keys.drag {
-            drag.refused();
-        }
-        self.settle_keys();
     }
 }

@@ -1,4 +1,4 @@
-//! Which keys are selected: per channel a few stretches of time, never a list of keys.
+//! The selected keys: a few intervals of time for each channel, never a list of keys.
 
 use super::channel::{self, ChannelId};
 use super::intervals::{Intervals, WHOLE};
@@ -9,7 +9,7 @@ use dragonfly_document::edit::{BoneRef, KeySet, Property, SAME_TIME};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// See the module. A copy is cheap.
+/// The selected keys of all channels. A copy is cheap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KeySelection {
     channels: Arc<BTreeMap<ChannelId, Intervals>>,
@@ -18,41 +18,41 @@ pub struct KeySelection {
 static NONE: Intervals = Intervals::none();
 
 impl KeySelection {
-    /// Is nothing selected?
+    /// Returns whether nothing is selected.
     pub fn is_empty(&self) -> bool {
         self.channels.is_empty()
     }
 
-    /// What is selected of a channel.
+    /// Returns the selected intervals of a channel.
     pub fn of(&self, channel: ChannelId) -> &Intervals {
         self.channels.get(&channel).unwrap_or(&NONE)
     }
 
-    /// Every channel of which something is selected.
+    /// Returns every channel with selected keys.
     pub fn channels(&self) -> impl Iterator<Item = (ChannelId, &Intervals)> {
         self.channels.iter().map(|(&channel, intervals)| (channel, intervals))
     }
 
-    /// Do both hold the very same?
+    /// Returns whether both share the same data.
     pub fn same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.channels, &other.channels)
     }
 
-    /// How many keys.
+    /// Returns the number of selected keys.
     pub fn count(&self, take: &Take) -> usize {
         self.channels().map(|(channel, intervals)| intervals.count(channel::times(take, channel))).sum()
     }
 
-    /// The first and the last selected key, seconds.
+    /// Returns the times of the first and the last selected key, seconds.
     pub fn extent(&self, take: &Take) -> Option<[f32; 2]> {
         self.channels()
             .filter_map(|(channel, intervals)| intervals.extent(channel::times(take, channel)))
             .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 
-    /// Chooses the keys of `channels` between two times, ends included; all of them where [`WHOLE`] is given.
+    /// Selects the keys of `channels` between two times, ends included; all of them with [`WHOLE`].
     ///
-    /// A toggle takes out what is selected where all of it is, and adds it else.
+    /// A toggle deselects them where all of them are selected, and selects them otherwise.
     pub fn choose(&mut self, take: &Take, channels: &[ChannelId], stretch: [f32; 2], choice: Choice) {
         let all = choice == Choice::Toggle
             && channels.iter().all(|&channel| {
@@ -82,7 +82,7 @@ impl KeySelection {
         }
     }
 
-    /// Adds stretches of one channel to what is selected; a toggle takes each out that is selected already.
+    /// Selects intervals of one channel in addition; a toggle deselects those that are selected already.
     pub fn choose_parts(&mut self, take: &Take, channel: ChannelId, stretches: &[[f32; 2]], choice: Choice) {
         let times = channel::times(take, channel);
         let map = Arc::make_mut(&mut self.channels);
@@ -97,20 +97,20 @@ impl KeySelection {
         }
     }
 
-    /// Nothing of these bones any more.
+    /// Deselects the keys of these bones.
     pub fn drop_bones(&mut self, gone: impl Fn(BoneIndex) -> bool) {
         if self.channels.keys().any(|&(bone, _)| gone(bone)) {
             Arc::make_mut(&mut self.channels).retain(|&(bone, _), _| !gone(bone));
         }
     }
 
-    /// The same keys after they were moved: `old` is the take in which they were selected, `new` the one they are in.
+    /// Returns the same keys after they were moved: `old` is the take in which they were selected, `new` the one they are in.
     pub fn shifted(&self, old: &Take, new: &Take, shift: Shift) -> Self {
         let moved = self.channels().filter_map(|(channel, intervals)| {
             let (before, after) = (channel::times(old, channel), channel::times(new, channel));
             let mut moved =
                 Intervals::of(intervals.stretches().iter().map(|&stretch| shift.stretch(stretch)));
-            // A stretch may have come to lie around keys that were not selected: then each key is said by itself.
+            // An interval may include keys now that were not selected: then each key gets an interval of its own.
             if moved.count(after) != intervals.count(before) {
                 let keys = intervals.keys(before).flatten().map(|key| shift.apply(before[key]));
                 moved = Intervals::singles(keys);
@@ -121,14 +121,14 @@ impl KeySelection {
         Self { channels: Arc::new(moved.collect()) }
     }
 
-    /// The same keys after everything from a time on was moved: `new` is the take in which they are.
+    /// Returns the same keys after everything from a time on was moved: `new` is the take in which they are.
     pub fn rippled(&self, new: &Take, from: f32, by: f32) -> Self {
         let from = from - SAME_TIME;
         let late = |time: f32| if time.is_finite() { time + by } else { time };
         let moved = self.channels().filter_map(|(channel, intervals)| {
             let times = channel::times(new, channel);
             let stretches = intervals.stretches().iter().flat_map(|&[begin, end]| {
-                // What lay in a gap that was closed is gone, and other keys may lie there now.
+                // Keys in a gap that was closed are gone, and other keys may be there now.
                 let stays = end.min(from + by.min(0.0)).next_down();
                 let before = (begin < from).then_some([begin, stays]);
                 let behind = (end >= from).then(|| [late(begin.max(from)), late(end)]);
@@ -141,9 +141,9 @@ impl KeySelection {
         Self { channels: Arc::new(moved.collect()) }
     }
 
-    /// The same as edits name it, in as few sets as say it.
+    /// Returns the same keys as edits name them, in as few sets as possible.
     pub fn key_sets(&self, take: &Take) -> Vec<KeySet> {
-        // Channels that have the same stretches are said together: first the channels of a bone, then bones.
+        // Channels with the same intervals are grouped: first the channels of a bone, then bones.
         let mut bones: BTreeMap<(BoneIndex, Vec<[u32; 2]>), u8> = BTreeMap::new();
         for (&(bone, property), intervals) in self.channels.iter() {
             if intervals.keys(channel::times(take, (bone, property))).next().is_some() {
@@ -181,7 +181,7 @@ impl KeySelection {
         sets
     }
 
-    /// Everything of these channels.
+    /// Returns all keys of these channels.
     pub fn whole(take: &Take, channels: &[ChannelId]) -> Self {
         let mut all = Self::default();
         all.choose(take, channels, WHOLE, Choice::Replace);

@@ -1,26 +1,26 @@
-//! Where keys go that are moved or scaled: the same arithmetic as the document's, so that what is drawn is what comes.
+//! The times of keys that are moved or scaled, computed as the document does, so that the drawing matches the result.
 
 /// A change of times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shift {
-    /// Seconds later.
+    /// Moves keys later, seconds.
     Move(f32),
-    /// Distances to `about` seconds become `factor` times as long.
+    /// Multiplies distances to `about` seconds by `factor`.
     Scale {
-        /// Stays where it is.
+        /// Time that stays where it is, seconds.
         about: f32,
-        /// Not zero; a negative one turns round.
+        /// Not zero; a negative factor reverses the keys.
         factor: f32,
     },
-    /// To the nearest of so many frames a second.
+    /// Moves keys to the nearest frame, at this number of frames per second.
     Snap(f32),
 }
 
 impl Shift {
-    /// Nothing moves.
+    /// No change.
     pub const NONE: Self = Self::Move(0.0);
 
-    /// Where a key at `time` goes.
+    /// Returns the new time of a key at `time`.
     pub fn apply(self, time: f32) -> f32 {
         match self {
             Self::Move(by) => time + by,
@@ -29,7 +29,7 @@ impl Shift {
         }
     }
 
-    /// As `time * factor + offset`; snapping is too small to be drawn.
+    /// Returns the change as `time * factor + offset`; snapping is too small to be drawn.
     pub fn affine(self) -> (f64, f64) {
         match self {
             Self::Move(by) => (1.0, f64::from(by)),
@@ -40,7 +40,7 @@ impl Shift {
         }
     }
 
-    /// Where a stretch goes, its ends in order; all of time stays all of time.
+    /// Returns the new ends of an interval, in order; all of time stays all of time.
     pub fn stretch(self, [from, to]: [f32; 2]) -> [f32; 2] {
         let at = |time: f32| if time.is_finite() { self.apply(time) } else { time };
         match self {

@@ -1,91 +1,91 @@
-//! Which part of time the timeline and the curves show, and where each time lies.
+//! The part of time that the timeline and the curves show, and the position of each time.
 
 use crate::panels::ruler::Ruler;
 
 /// The part of time that is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeWindow {
-    /// Seconds at the left end.
+    /// Time at the left end, seconds.
     pub start: f64,
-    /// Seconds from the left to the right end.
+    /// Duration from the left to the right end, seconds.
     pub length: f64,
 }
 
-/// Seconds: the shortest and the longest part of time that can be shown.
+/// The shortest and the longest part of time that can be shown, seconds.
 const SHORTEST: f64 = 0.01;
 const LONGEST: f64 = 1e6;
-/// Seconds: so much can be shown of any take, however short it is.
+/// Duration that can be shown of any take, however short it is, seconds.
 const GROWS: f64 = 15.0;
 
 impl TimeWindow {
-    /// A whole take; one second where it is a single pose.
+    /// Returns the window of a whole take; one second for a single pose.
     pub fn whole(start: f32, length: f32) -> Self {
         let length = if length > 0.0 { f64::from(length) } else { 1.0 };
-        Self { start: f64::from(start), length }.mended()
+        Self { start: f64::from(start), length }.sanitized()
     }
 
-    /// Finite, neither too short nor too long.
-    pub fn mended(self) -> Self {
+    /// Returns the window with finite numbers, neither too short nor too long.
+    pub fn sanitized(self) -> Self {
         let start = if self.start.is_finite() { self.start.clamp(-LONGEST, LONGEST) } else { 0.0 };
         let length = if self.length.is_finite() { self.length.clamp(SHORTEST, LONGEST) } else { 1.0 };
         Self { start, length }
     }
 
-    /// `factor` times as much of time; what lies at `about` stays where it is.
+    /// Returns a window `factor` times as long; the time `about` keeps its position.
     pub fn zoomed(self, about: f64, factor: f64) -> Self {
         let length = (self.length * factor).clamp(SHORTEST, LONGEST);
         let part = (about - self.start) / self.length;
-        Self { start: about - part * length, length }.mended()
+        Self { start: about - part * length, length }.sanitized()
     }
 
-    /// The same length, `by` seconds later.
+    /// Returns a window of the same length, `by` seconds later.
     pub fn panned(self, by: f64) -> Self {
-        Self { start: self.start + by, ..self }.mended()
+        Self { start: self.start + by, ..self }.sanitized()
     }
 
-    /// At least a part of `first..=last` stays in sight, and no more than three times as much is shown, or what a short take
-    /// may grow to.
+    /// Returns the window moved so that at least a part of `first..=last` is in sight, and limited to three times that length, or
+    /// to what a short take may grow to.
     pub fn near(self, first: f64, last: f64) -> Self {
         let length = self.length.min(((last - first) * 3.0).max(GROWS)).max(SHORTEST);
         let start = self.start.clamp(first - length * 0.9, (last - length * 0.1).max(first - length * 0.9));
-        Self { start, length }.mended()
+        Self { start, length }.sanitized()
     }
 }
 
-/// Which time lies at which place.
+/// The position of each time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeScale {
-    /// Points: where the window begins.
+    /// Position of the left end of the window, points.
     pub left: f32,
-    /// Points: from there to where it ends; more than zero.
+    /// Width of the window, points; more than zero.
     pub width: f32,
-    /// What is shown.
+    /// The part of time that is shown.
     pub window: TimeWindow,
 }
 
 impl TimeScale {
-    /// Points a second.
+    /// Returns the number of points per second.
     pub fn per_second(&self) -> f64 {
         f64::from(self.width.max(1.0)) / self.window.length
     }
 
-    /// Points where `time` lies; far away rather than infinite.
+    /// Returns the position of `time`, points; limited to large finite numbers.
     pub fn x_of(&self, time: f32) -> f32 {
         let x = f64::from(self.left) + (f64::from(time) - self.window.start) * self.per_second();
         x.clamp(-1e6, 1e6) as f32
     }
 
-    /// Seconds at `x` points, also beside the ends.
+    /// Returns the time at `x` points, also outside of the window, seconds.
     pub fn time_at(&self, x: f32) -> f32 {
         (self.window.start + f64::from(x - self.left) / self.per_second()) as f32
     }
 
-    /// Seconds that `points` are long.
+    /// Returns the duration of a distance of `points`, seconds.
     pub fn seconds(&self, points: f32) -> f32 {
         (f64::from(points) / self.per_second()) as f32
     }
 
-    /// For lines and labels.
+    /// Returns the ruler for lines and labels.
     pub fn ruler(&self) -> Ruler {
         Ruler {
             left: self.left,
@@ -115,7 +115,7 @@ mod tests {
     fn no_number_makes_a_window_without_size() {
         for start in [f64::NAN, f64::INFINITY, -1e300, 0.0] {
             for length in [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e300] {
-                let window = TimeWindow { start, length }.mended().near(0.0, 3.0);
+                let window = TimeWindow { start, length }.sanitized().near(0.0, 3.0);
                 assert!(window.start.is_finite() && window.length >= SHORTEST, "{window:?}");
             }
         }

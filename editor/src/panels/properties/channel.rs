@@ -1,9 +1,10 @@
 //! One channel of a bone as a table: a row for each axis, and columns for original, change and result.
 
+use super::super::context::PanelContext;
 use super::super::number_field::{self, FieldEvent, NumberField};
 use super::super::number_slider::{NumberSlider, SliderScale};
 use super::super::number_text::{Digits, exact};
-use super::super::state::{Request, State};
+use super::super::request::Request;
 use super::super::style::{GRID, NUMBER, RADIUS};
 use super::super::theme::Theme;
 use super::drag::{FieldDrag, Spot};
@@ -23,7 +24,7 @@ const SLIDER: f32 = 14.0;
 
 /// The table of a bone.
 pub(super) struct ChannelTable<'a> {
-    pub(super) state: &'a State,
+    pub(super) state: &'a PanelContext<'a>,
     pub(super) bone: BoneIndex,
     pub(super) pair: Pair,
     /// Reason why nothing can be changed.

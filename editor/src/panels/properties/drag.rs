@@ -4,8 +4,9 @@
 //! same rotation.
 
 use super::super::commands::Id;
+use super::super::context::PanelContext;
 use super::super::number_field::FieldEvent;
-use super::super::state::{Request, State};
+use super::super::request::Request;
 use super::parts::{
     ChannelNumbers, Column, NumberForm, Pair, PosePart, is_same_turn, numbers, part, turn_of,
 };
@@ -101,7 +102,7 @@ enum NewNumber {
 
 impl FieldDrag {
     /// Begins a frame. `in_use` is whether a field of the panel has the focus or is dragged.
-    pub(super) fn begin(&mut self, state: &State, in_use: bool) {
+    pub(super) fn begin(&mut self, state: &PanelContext<'_>, in_use: bool) {
         let active = state.selected();
         self.typed
             .retain(|typed| Some(typed.bone) == active && (in_use || typed.form != NumberForm::Quaternion));
@@ -124,7 +125,7 @@ impl FieldDrag {
     /// bone.
     pub(super) fn shared(
         &self,
-        state: &State,
+        state: &PanelContext<'_>,
         active: BoneIndex,
         pair: &Pair,
         spot: Spot,
@@ -149,7 +150,7 @@ impl FieldDrag {
     /// Applies what the user did to one number. An error is the reason why the number is impossible.
     pub(super) fn apply(
         &mut self,
-        state: &State,
+        state: &PanelContext<'_>,
         spot: Spot,
         component: usize,
         event: FieldEvent,
@@ -194,7 +195,14 @@ impl FieldDrag {
         Ok(())
     }
 
-    fn drag(&mut self, state: &State, spot: Spot, component: usize, by: f64, requests: &mut Vec<Request>) {
+    fn drag(
+        &mut self,
+        state: &PanelContext<'_>,
+        spot: Spot,
+        component: usize,
+        by: f64,
+        requests: &mut Vec<Request>,
+    ) {
         let Some(mut held) = self.held.take() else { return };
         held.over |= (held.spot, held.component) != (spot, component) || held.moment != Moment::of(state);
         if !held.over {
@@ -207,7 +215,7 @@ impl FieldDrag {
         self.held = Some(held);
     }
 
-    fn begun(&self, state: &State, spot: Spot) -> Begun {
+    fn begun(&self, state: &PanelContext<'_>, spot: Spot) -> Begun {
         let starts = state
             .bones_to_pose()
             .filter_map(|bone| {
@@ -220,7 +228,7 @@ impl FieldDrag {
 
     fn send(
         &mut self,
-        state: &State,
+        state: &PanelContext<'_>,
         change: NumberChange,
         begun: &mut Begun,
         gesture: Option<Gesture>,
@@ -248,7 +256,7 @@ impl FieldDrag {
             }
             poses.push(part.pose(start.bone, spot.property));
         }
-        let poses = State::with_pins(&mut begun.hold, poses);
+        let poses = PanelContext::with_pins(&mut begun.hold, poses);
         let edit = state.pose_edit(poses);
         requests.extend(edit.map(|edit| Request::Change(Change::Edit(edit, gesture))));
         Ok(())
@@ -257,27 +265,27 @@ impl FieldDrag {
 
 /// Returns the change that gives all selected bones other parts of their pose, as a step of its own.
 pub(super) fn set(
-    state: &State,
+    state: &PanelContext<'_>,
     property: Property,
     of: impl Fn(&Pair, BoneIndex) -> Option<PosePart>,
 ) -> Option<Request> {
     let bones = state.bones_to_pose();
     let poses =
         bones.filter_map(|bone| Some(of(&pair_of(state, bone)?, bone)?.pose(bone, property))).collect();
-    let poses = State::with_pins(&mut state.hold_of_pins(), poses);
+    let poses = PanelContext::with_pins(&mut state.hold_of_pins(), poses);
     state.pose_edit(poses).map(|edit| Request::Change(Change::Edit(edit, None)))
 }
 
 impl Moment {
-    fn of(state: &State) -> Self {
+    fn of(state: &PanelContext<'_>) -> Self {
         let bones = state.selection.bones().to_vec();
         Self { take: state.playback.take, time: state.time().to_bits(), bones }
     }
 }
 
 /// Returns original and result of a bone at the time shown.
-pub(super) fn pair_of(state: &State, bone: BoneIndex) -> Option<Pair> {
-    let view = state.view.as_ref()?;
+pub(super) fn pair_of(state: &PanelContext<'_>, bone: BoneIndex) -> Option<Pair> {
+    let view = state.view?;
     let rules = view.loaded.model.animation.skeleton.bones.get(bone as usize)?;
     let result = *state.posed.animation()?.poses().get(bone as usize)?;
     let slot = state.playback.take.and_then(|take| view.slots.get(take));
@@ -289,7 +297,7 @@ pub(super) fn pair_of(state: &State, bone: BoneIndex) -> Option<Pair> {
 }
 
 /// Pauses playback while numbers are edited.
-fn stop(state: &State, requests: &mut Vec<Request>) {
+fn stop(state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     if state.playback.playing {
         let backwards = state.playback.speed < 0.0;
         requests.push(Request::Command(if backwards { Id::PlayBackwards } else { Id::PlayPause }));

@@ -1,7 +1,8 @@
 //! Whether the channels of the selected bones have a key at the time shown, and the button that adds or deletes it.
 
+use super::super::context::PanelContext;
 use super::super::icons::Icon;
-use super::super::state::{Request, State};
+use super::super::request::Request;
 use super::super::theme::Theme;
 use super::super::widgets;
 use super::drag;
@@ -28,7 +29,7 @@ pub(super) enum Keyed {
 }
 
 /// Returns the state of all selected bones: a key only if all of them have one.
-pub(super) fn at_time(state: &State, property: Property) -> Keyed {
+pub(super) fn at_time(state: &PanelContext<'_>, property: Property) -> Keyed {
     let bones = state.selection.bones();
     if bones.iter().any(|&bone| is_pending(state, bone, property)) {
         return Keyed::Pending;
@@ -47,12 +48,12 @@ pub(super) fn at_time(state: &State, property: Property) -> Keyed {
     if any { Keyed::Here } else { Keyed::Never }
 }
 
-fn is_pending(state: &State, bone: BoneIndex, property: Property) -> bool {
+fn is_pending(state: &PanelContext<'_>, bone: BoneIndex, property: Property) -> bool {
     state.pending_here().and_then(|at| at.of(bone)).is_some_and(|pose| pose.get(property).is_some())
 }
 
-fn of(state: &State, bone: BoneIndex, property: Property) -> Keyed {
-    let slot = state.view.as_ref().zip(state.playback.take).and_then(|(view, take)| view.slots.get(take));
+fn of(state: &PanelContext<'_>, bone: BoneIndex, property: Property) -> Keyed {
+    let slot = state.view.zip(state.playback.take).and_then(|(view, take)| view.slots.get(take));
     let Some(slot) = slot else { return Keyed::Never };
     let Some(track) = slot.original.tracks.get(bone as usize) else { return Keyed::Never };
     let keys = match property {
@@ -70,7 +71,7 @@ fn of(state: &State, bone: BoneIndex, property: Property) -> Keyed {
 /// Draws the button that shows whether there is a key, and adds or deletes it.
 pub(super) fn button(
     ui: &mut Ui,
-    state: &State,
+    state: &PanelContext<'_>,
     property: Property,
     locked: Option<&str>,
     requests: &mut Vec<Request>,
@@ -102,7 +103,7 @@ pub(super) fn button(
     }
 }
 
-fn toggled(state: &State, property: Property, keyed: Keyed) -> Option<Edit> {
+fn toggled(state: &PanelContext<'_>, property: Property, keyed: Keyed) -> Option<Edit> {
     let (take, time, bones) = (state.take_ref()?, state.time(), state.selected_refs());
     let properties = vec![property];
     Some(match keyed {
@@ -120,7 +121,7 @@ fn toggled(state: &State, property: Property, keyed: Keyed) -> Option<Edit> {
 
 /// Resets a channel of all selected bones to the original or to the rest pose.
 pub(super) fn reset(
-    state: &State,
+    state: &PanelContext<'_>,
     property: Property,
     to: ResetTo,
     has_key: bool,

@@ -3,14 +3,16 @@
 mod channel;
 mod drag;
 mod keys;
+pub mod look;
 mod model;
 pub mod parts;
 pub mod turn;
 
 use super::commands::{self, Id};
+use super::context::PanelContext;
 use super::icons::Icon;
 use super::number_text::Digits;
-use super::state::{Request, State};
+use super::request::Request;
 use super::style::GRID;
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
@@ -21,28 +23,9 @@ use dragonfly_anim::joint::EulerOrder;
 use dragonfly_document::edit::{Property, ResetTo};
 use egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
 use keys::Keyed;
+pub use look::PropertiesLook;
 use model::fact;
 use parts::NumberForm;
-use serde::{Deserialize, Serialize};
-
-/// How the numbers of a bone are shown; saved in the settings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct PropertiesLook {
-    /// Order of the three rotations.
-    #[serde(with = "turn::by_name")]
-    pub euler: EulerOrder,
-    /// Whether the quaternion is shown as well.
-    pub quaternion: bool,
-    /// Whether there are sliders for translation, rotation and scale.
-    pub sliders: [bool; 3],
-}
-
-impl Default for PropertiesLook {
-    fn default() -> Self {
-        Self { euler: EulerOrder::default(), quaternion: false, sliders: [false, true, false] }
-    }
-}
 
 /// The properties panel.
 #[derive(Debug, Default)]
@@ -65,7 +48,7 @@ impl Panel for Properties {
         Place::Right
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         if state.view.is_none() {
             return widgets::empty(ui, "", "Properties appear here");
         }
@@ -84,12 +67,12 @@ impl Panel for Properties {
 }
 
 impl Properties {
-    fn bone(&mut self, ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
+    fn bone(&mut self, ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, requests: &mut Vec<Request>) {
         let (Some(loaded), Some(pair)) = (state.loaded(), drag::pair_of(state, bone)) else { return };
         head(ui, state, bone, requests);
         let locked = match state.take_ref() {
             None => Some("The rest pose cannot be edited: show a take"),
-            Some(_) if state.keys.flags.locked(bone) => {
+            Some(_) if state.keys.flags().locked(bone) => {
                 Some("Locked in the timeline: its keys cannot be edited")
             }
             Some(_) => None,
@@ -188,7 +171,7 @@ impl Properties {
 }
 
 /// Draws the name of the bone, the size of the selection, and the parent.
-fn head(ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>) {
+fn head(ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, requests: &mut Vec<Request>) {
     let name = state.bone_name(bone);
     ui.add(Label::new(RichText::new(&name).heading()).truncate()).on_hover_text(widgets::shortened(&name));
     let theme = Theme::of(ui);
@@ -224,7 +207,7 @@ fn head(ui: &mut Ui, state: &State, bone: BoneIndex, requests: &mut Vec<Request>
 
 /// Returns the number of meters of the scene per unit of parent space of a bone; 1 if it cannot be computed. Files
 /// whose skeleton is in centimeters have a node above it with a scale of 0.01.
-fn meters(state: &State, bone: BoneIndex) -> f64 {
+fn meters(state: &PanelContext<'_>, bone: BoneIndex) -> f64 {
     let parent =
         state.loaded().and_then(|loaded| loaded.model.animation.skeleton.bones.get(bone as usize)?.parent);
     let to_root = state
@@ -266,7 +249,7 @@ fn quaternion_head(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request
 }
 
 /// Draws the position of the bone in the scene and its place in the skeleton.
-fn place(ui: &mut Ui, state: &State, bone: BoneIndex, size: f64) {
+fn place(ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, size: f64) {
     let to_root = state.posed.animation().and_then(|animation| animation.to_root().get(bone as usize));
     if let Some(to_root) = to_root {
         widgets::caption(ui, "In the scene");

@@ -1,13 +1,13 @@
 //! Statistics of a model.
 
+use super::super::context::PanelContext;
 use super::super::number_text::Digits;
-use super::super::state::State;
 use super::super::theme::Theme;
 use super::super::widgets;
 use egui::{RichText, Sense, TextStyle, Ui, vec2};
 
-pub(super) fn show(ui: &mut Ui, state: &State) {
-    let Some(view) = &state.view else { return };
+pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>) {
+    let Some(view) = state.view else { return };
     let (loaded, file) = (&view.loaded, &view.file);
     let theme = Theme::of(ui);
     let model = &loaded.model;

@@ -1,14 +1,12 @@
 //! The list of takes: a click shows a take; takes are renamed, reordered, created, split and deleted.
 
-mod commands;
 mod rename;
 mod time;
 
-pub use commands::TakesState;
-
 use super::commands::Id;
+use super::context::PanelContext;
 use super::icons::Icon;
-use super::state::{Request, State};
+use super::request::Request;
 use super::style::{GRID, RADIUS, ROW};
 use super::theme::Theme;
 use super::{Panel, Place, menu, search_field, widgets};
@@ -66,7 +64,7 @@ impl Panel for Takes {
         Place::LeftBelow
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         if state.view.is_none() {
             return widgets::empty(ui, "", "Takes appear here");
         }
@@ -110,7 +108,7 @@ impl Panel for Takes {
 }
 
 /// Draws the row of the rest pose.
-fn rest_pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn rest_pose(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let selected = state.playback.take.is_none();
     if row(ui, "Rest pose", "Rest pose", ["", ""], selected, Sense::click()).clicked() {
         requests.push(Request::ShowTake(None));
@@ -119,7 +117,12 @@ fn rest_pose(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
 
 impl Takes {
     /// Returns the takes that match the search; `None` if all are listed.
-    fn search(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) -> Option<Vec<usize>> {
+    fn search(
+        &mut self,
+        ui: &mut Ui,
+        state: &PanelContext<'_>,
+        requests: &mut Vec<Request>,
+    ) -> Option<Vec<usize>> {
         let takes = &state.digest.takes;
         if takes.len() < SEARCHED {
             self.query.clear();
@@ -128,7 +131,7 @@ impl Takes {
         let entered = search_field::show(ui, &mut self.query, "Find a take", false);
         let query = self.query.trim().to_lowercase();
         // A take that is being renamed may not match the search.
-        if query.is_empty() || state.takes.renaming.is_some() {
+        if query.is_empty() || state.takes.renaming().is_some() {
             return None;
         }
         let is_found = |&at: &usize| takes[at].name.to_lowercase().contains(&query);
@@ -139,7 +142,7 @@ impl Takes {
         Some(found)
     }
 
-    fn buttons(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    fn buttons(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.add_space(GRID);
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
@@ -159,7 +162,7 @@ impl Takes {
                 })
                 .inner
                 .on_hover_text("Change start and length of the take, or trim it");
-            let asked = state.takes.times_asked;
+            let asked = state.takes.times_asked();
             if std::mem::replace(&mut self.times_shown, asked) != asked {
                 egui::Popup::open_id(ui.ctx(), egui::Popup::default_response_id(&response));
             }
@@ -170,10 +173,10 @@ impl Takes {
         });
     }
 
-    fn take(&mut self, ui: &mut Ui, state: &State, index: usize, requests: &mut Vec<Request>) {
+    fn take(&mut self, ui: &mut Ui, state: &PanelContext<'_>, index: usize, requests: &mut Vec<Request>) {
         let Some(take) = state.digest.takes.get(index) else { return };
-        let id = state.view.as_ref().and_then(|view| view.slots.get(index)).map(|slot| slot.id);
-        if state.takes.renaming.is_some() && state.takes.renaming == id {
+        let id = state.view.and_then(|view| view.slots.get(index)).map(|slot| slot.id);
+        if state.takes.renaming().is_some() && state.takes.renaming() == id {
             return self.rename(ui, state, index, requests);
         }
         let (keys, length) = (widgets::grouped(take.keys), format!("{:.2} s", take.length));
@@ -212,8 +215,8 @@ impl Takes {
         }
     }
 
-    fn rename(&mut self, ui: &mut Ui, state: &State, index: usize, requests: &mut Vec<Request>) {
-        let Some(id) = state.takes.renaming else { return };
+    fn rename(&mut self, ui: &mut Ui, state: &PanelContext<'_>, index: usize, requests: &mut Vec<Request>) {
+        let Some(id) = state.takes.renaming() else { return };
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
         if self.rename.as_ref().is_none_or(|(of, _)| *of != id) {
             self.rename = Some((id, Rename::default()));
@@ -266,7 +269,7 @@ fn shared_prefix<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> usize 
 }
 
 /// Draws a button for a command, disabled if the command is not available.
-fn command(ui: &mut Ui, state: &State, icon: Icon, id: Id, requests: &mut Vec<Request>) {
+fn command(ui: &mut Ui, state: &PanelContext<'_>, icon: Icon, id: Id, requests: &mut Vec<Request>) {
     let when = super::commands::get(id).when;
     ui.add_enabled_ui(when.holds(state), |ui| {
         let _ = widgets::command_button(ui, icon, id, false, requests).on_disabled_hover_text(when.reason());

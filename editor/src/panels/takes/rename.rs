@@ -1,6 +1,7 @@
 //! The field that renames a take in its row.
 
-use super::super::state::{Request, State};
+use super::super::context::PanelContext;
+use super::super::request::Request;
 use super::super::style::RADIUS;
 use super::super::theme::Theme;
 use super::super::widgets;
@@ -38,11 +39,11 @@ impl Rename {
         &mut self,
         ui: &mut Ui,
         rect: Rect,
-        state: &State,
+        state: &PanelContext<'_>,
         index: usize,
         requests: &mut Vec<Request>,
     ) -> bool {
-        let Some(view) = &state.view else { return false };
+        let Some(view) = state.view else { return false };
         let Some(take) = view.takes.get(index) else { return false };
         let own = view.slots.get(index).map(|slot| slot.id);
         let id = Id::unique("name of a take");

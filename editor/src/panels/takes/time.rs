@@ -1,9 +1,10 @@
 //! A small sheet for start and length of a take, and for trimming it.
 
+use super::super::context::PanelContext;
 use super::super::drag::FieldGesture;
 use super::super::number_field::{FieldEvent, NumberField};
 use super::super::number_text::Digits;
-use super::super::state::{Request, State};
+use super::super::request::Request;
 use super::super::style::GRID;
 use super::super::theme::Theme;
 use super::super::widgets;
@@ -35,7 +36,7 @@ pub(super) struct TimeSheet {
 
 impl TimeSheet {
     /// Draws the fields for the take that is shown.
-    pub(super) fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    pub(super) fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.set_width(240.0);
         let rate = f64::from(state.settings.frame_rate.max(1));
         ui.spacing_mut().item_spacing.y = GRID;

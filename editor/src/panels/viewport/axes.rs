@@ -2,15 +2,21 @@
 
 use crate::control;
 use crate::panels::commands::{self, Id};
+use crate::panels::context::PanelContext;
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
-use crate::panels::{Request, State};
 use egui::accesskit::Role;
 use egui::{Align2, FontId, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 use glam::{Vec2, Vec3};
 
 /// Draws the axes of the scene as seen from the camera. Dragging them orbits; a click on an end looks from there.
 /// Returns their area.
-pub(super) fn axes(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Option<Rect> {
+pub(super) fn axes(
+    ui: &mut Ui,
+    rect: Rect,
+    state: &PanelContext<'_>,
+    requests: &mut Vec<Request>,
+) -> Option<Rect> {
     let radius = 30.0;
     let center = pos2(rect.left() + radius + 18.0, rect.bottom() - radius - 18.0);
     if rect.height() < 200.0 || rect.width() < 200.0 {

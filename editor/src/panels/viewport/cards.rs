@@ -1,16 +1,17 @@
 //! Cards in the middle of the viewport: no model is open, a model is loading, the graphics device failed.
 
 use crate::panels::commands::{self, Id};
-use crate::panels::state::Device;
+use crate::panels::context::PanelContext;
+use crate::panels::request::Request;
 use crate::panels::style::{CARD_RADIUS, GRID};
 use crate::panels::theme::Theme;
-use crate::panels::{Request, State};
+use crate::panels::window_status::Device;
 use dragonfly_document::Source;
 use egui::{Align2, CornerRadius, Frame, Margin, Rect, RichText, Stroke, Ui, vec2};
 
 /// Draws the card for the present state, if there is one.
-pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
-    if let Some(loading) = &state.loading {
+pub(super) fn show(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    if let Some(loading) = state.loading {
         card(ui, rect, |ui| {
             ui.label(RichText::new(format!("Opening {}", loading.title)).heading());
             ui.label(RichText::new(loading.progress.stage.title()).color(Theme::of(ui).weak));
@@ -22,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Re
                 requests.push(Request::Command(Id::CancelLoading));
             }
         });
-    } else if let Device::Paused { reason } = &state.device {
+    } else if let Device::Paused { reason } = state.window.device() {
         card(ui, rect, |ui| {
             ui.label(RichText::new("The viewport is paused").heading());
             let text = "The graphics device failed several times. Everything else works.";
@@ -39,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Re
 }
 
 /// Draws the card when no model is open.
-fn welcome(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) {
+fn welcome(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     card(ui, rect, |ui| {
         ui.label(RichText::new("Nothing is open").heading());
         ui.label(RichText::new("Drop a glTF file here, or").color(Theme::of(ui).weak));

@@ -1,16 +1,18 @@
 //! The buttons for IK on the left of the viewport: on and off, chain length, pins.
 
 use crate::panels::commands::{self, Id};
+use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
+use crate::panels::menu;
+use crate::panels::request::Request;
 use crate::panels::style::{self, RADIUS};
 use crate::panels::theme::Theme;
 use crate::panels::widgets::{column_button, count, focus_ring, hint_beside};
-use crate::panels::{Request, State, menu};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, CornerRadius, FontId, Response, Sense, Ui, WidgetInfo};
 
 /// Draws three buttons, one above the other.
-pub(super) fn tools(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+pub(super) fn tools(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     column_button(ui, Icon::Ik, Id::ToggleIk, state.ik.on, requests);
     length(ui, state, requests);
     let pinned = state.selected().is_some_and(|bone| state.is_pinned(bone));
@@ -18,7 +20,7 @@ pub(super) fn tools(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
 }
 
 /// Draws the button for the chain length, which opens a menu for IK and pins.
-fn length(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn length(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let bones = count(state.ik.length as usize, "bone", "bones");
     let name = format!("IK chain: {bones}");
     let response = number_button(ui, state.ik.length, &name, state.ik.on);

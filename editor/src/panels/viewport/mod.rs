@@ -8,7 +8,8 @@ mod readout;
 mod toolbar;
 mod tools;
 
-use super::state::{Request, State};
+use super::context::PanelContext;
+use super::request::Request;
 use super::style;
 use super::theme::Theme;
 use super::{Panel, Place, widgets};
@@ -34,7 +35,7 @@ impl Panel for Viewport {
         Place::Middle
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         let rect = ui.max_rect();
         requests.push(Request::Viewport(rect));
         let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
@@ -59,8 +60,8 @@ impl Panel for Viewport {
 }
 
 /// Draws the names of model and take at the top left, as far as `right`; long names are truncated.
-fn caption(ui: &Ui, rect: Rect, right: f32, state: &State) {
-    let Some(view) = &state.view else { return };
+fn caption(ui: &Ui, rect: Rect, right: f32, state: &PanelContext<'_>) {
+    let Some(view) = state.view else { return };
     let theme = Theme::of(ui);
     let take = match state.playback.take {
         Some(take) => state.digest.takes.get(take).map_or("", |take| take.name.as_str()),

@@ -1,21 +1,22 @@
 //! Mouse feedback in the viewport that the panels draw: cursor, box, lasso.
 
 use crate::control::ViewportControl;
+use crate::panels::context::PanelContext;
+use crate::panels::request::Request;
 use crate::panels::theme::Theme;
-use crate::panels::{Request, State};
 use dragonfly_picture::pick::Region;
 use egui::{CursorIcon, Pos2, Rect, Response, Shape, Stroke, StrokeKind, Ui, pos2};
 use glam::Vec2;
 
 /// Requests picking and zooming at the pointer, and sets the cursor.
-pub(super) fn pointer(ui: &Ui, response: &Response, state: &State, requests: &mut Vec<Request>) {
+pub(super) fn pointer(ui: &Ui, response: &Response, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let (at, held, focused, wheel, pinch) = ui.input(|input| {
         let pointer = &input.pointer;
         let wheel = input.smooth_scroll_delta().y;
         (pointer.latest_pos(), pointer.any_down(), input.focused, wheel, input.zoom_delta())
     });
-    let hands = &state.hands;
-    let rests = response.hovered() && !held && focused && !hands.is_busy() && !hands.over_handle();
+    let tools = state.tools.controls();
+    let rests = response.hovered() && !held && focused && !tools.is_busy() && !tools.over_handle();
     requests.push(Request::Point(at.filter(|_| rests)));
     if response.hovered() {
         let by = wheel + ViewportControl::wheel_of_pinch(pinch);
@@ -23,24 +24,24 @@ pub(super) fn pointer(ui: &Ui, response: &Response, state: &State, requests: &mu
             requests.push(Request::Wheel(by));
         }
     }
-    let picture = hands.picture();
-    let icon = if hands.edits() || picture.moves_camera() {
+    let picture = tools.picture();
+    let icon = if tools.edits() || picture.moves_camera() {
         Some(CursorIcon::Grabbing)
     } else if picture.armed().is_some() || picture.catching().is_some() {
         Some(CursorIcon::Crosshair)
-    } else if response.hovered() && hands.over_handle() {
+    } else if response.hovered() && tools.over_handle() {
         Some(CursorIcon::Grab)
     } else {
         None
     };
-    if let Some(icon) = icon.filter(|_| response.hovered() || hands.is_busy()) {
+    if let Some(icon) = icon.filter(|_| response.hovered() || tools.is_busy()) {
         ui.ctx().set_cursor_icon(icon);
     }
 }
 
 /// Draws the box or lasso selection in progress.
-pub(super) fn drawn(ui: &Ui, rect: Rect, state: &State) {
-    let Some(region) = state.hands.picture().catching() else { return };
+pub(super) fn drawn(ui: &Ui, rect: Rect, state: &PanelContext<'_>) {
+    let Some(region) = state.tools.controls().picture().catching() else { return };
     let theme = Theme::of(ui);
     let painter = ui.painter().with_clip_rect(rect);
     let (line, fill) = (Stroke::new(1.0, theme.accent), theme.accent.gamma_multiply(0.12));

@@ -2,17 +2,24 @@
 
 use super::{divider, glass};
 use crate::panels::commands::Id;
+use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
+use crate::panels::menu;
+use crate::panels::request::Request;
 use crate::panels::style::GRID;
 use crate::panels::widgets::{command_button, icon_button};
-use crate::panels::{Request, State, menu};
 use dragonfly_picture::camera::Projection;
 use dragonfly_picture::{BoneLook, Shading};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
 /// Draws a button for everything about camera and shading, so that nothing needs a numeric keypad or a middle button.
 /// Returns its area.
-pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Rect {
+pub(super) fn toolbar(
+    ui: &mut Ui,
+    rect: Rect,
+    state: &PanelContext<'_>,
+    requests: &mut Vec<Request>,
+) -> Rect {
     let look = &state.settings.look;
     // A narrow viewport keeps the buttons that have no alternative nearby; the menus contain all of them.
     let wide = rect.width() > 430.0;
@@ -54,7 +61,7 @@ pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec
     at
 }
 
-fn views(ui: &mut Ui, state: &State, requests: &mut Vec<Request>) {
+fn views(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let response = icon_button(ui, Icon::View, "Views", false).on_hover_text("Views");
     egui::Popup::menu(&response).show(|ui| {
         ui.set_width(160.0);

@@ -2,17 +2,24 @@
 
 use super::{divider_across, glass, ik};
 use crate::panels::commands::Id;
+use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
+use crate::panels::menu;
+use crate::panels::request::Request;
 use crate::panels::style::GRID;
 use crate::panels::widgets::{column_button, hint_beside, icon_button};
-use crate::panels::{Request, State, menu};
 use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
 /// Draws the toolbar and returns its area. A low viewport gets two columns, a narrow one fewer buttons, and a very low
 /// one none: keys and menus have all of them.
-pub(super) fn toolbar(ui: &mut Ui, rect: Rect, state: &State, requests: &mut Vec<Request>) -> Option<Rect> {
-    let hand = &state.settings.hand;
+pub(super) fn toolbar(
+    ui: &mut Ui,
+    rect: Rect,
+    state: &PanelContext<'_>,
+    requests: &mut Vec<Request>,
+) -> Option<Rect> {
+    let hand = &state.settings.tools;
     let top = rect.top() + 52.0;
     // The axes of the scene are below.
     let room = rect.bottom() - top - 92.0;
@@ -83,13 +90,13 @@ const PIVOTS: [(Id, Option<GizmoSpace>, Option<Pivot>); 3] = [
 /// Draws a button that shows the chosen entry and opens the list.
 fn choice(
     ui: &mut Ui,
-    state: &State,
+    state: &PanelContext<'_>,
     icon: Icon,
     name: &str,
     list: &[(Id, Option<GizmoSpace>, Option<Pivot>)],
     requests: &mut Vec<Request>,
 ) {
-    let hand = &state.settings.hand;
+    let hand = &state.settings.tools;
     let response = icon_button(ui, icon, name, false);
     egui::Popup::menu(&response).align(egui::RectAlign::RIGHT_START).show(|ui| {
         ui.set_width(190.0);

@@ -3,8 +3,8 @@
 use super::*;
 
 #[rustfmt::skip] // A table is read in columns.
-pub(super) const TABLE: Table = &[
-    // What is dragged, at once.
+pub(super) const TABLE: PresetKeys = &[
+    // Dragging at once.
     (Id::MoveNow, &[key(NONE, Key::G)]),
     (Id::RotateNow, &[key(NONE, Key::R)]),
     (Id::ScaleNow, &[key(NONE, Key::S)]),
@@ -13,7 +13,7 @@ pub(super) const TABLE: Table = &[
     (Id::ToolRotate, &[key(SHIFT.plus(CTRL), Key::R)]),
     (Id::ToolScale, &[key(ALT.plus(SHIFT), Key::S)]),
     (Id::NextSpace, &[key(NONE, Key::Comma)]),
-    // What is selected.
+    // Selection.
     (Id::SelectAll, &[key(NONE, Key::A)]),
     (Id::ClearSelection, &[key(ALT, Key::A), key(NONE, Key::Escape)]),
     (Id::InvertSelection, &[key(CTRL, Key::I)]),
@@ -35,7 +35,7 @@ pub(super) const TABLE: Table = &[
     (Id::PreviousKey, &[key(NONE, Key::ArrowDown)]),
     (Id::NextKey, &[key(NONE, Key::ArrowUp)]),
     (Id::PlayBackwards, &[key(SHIFT.plus(CTRL), Key::Space)]),
-    // The picture.
+    // The viewport.
     (Id::FrameAll, &[key(NONE, Key::Home)]),
     (Id::FrameSelected, &[key(NONE, Key::Period)]),
     (Id::ToggleXRay, &[key(ALT, Key::Z)]),

@@ -3,8 +3,8 @@
 use super::*;
 
 #[rustfmt::skip] // A table is read in columns.
-pub(super) const TABLE: Table = &[
-    // What is dragged; Q is the tool that selects in Godot, and the hand in Unity.
+pub(super) const TABLE: PresetKeys = &[
+    // Dragging; Q is the tool that selects in Godot, and the hand in Unity.
     (Id::ToolSelect, &[key(NONE, Key::Q)]),
     (Id::ToolMove, &[key(NONE, Key::W)]),
     (Id::ToolRotate, &[key(NONE, Key::E)]),
@@ -26,7 +26,7 @@ pub(super) const TABLE: Table = &[
     (Id::NextKey, &[key(ALT, Key::Period)]),
     (Id::PlayPause, &[key(NONE, Key::Space), key(NONE, Key::D)]),
     (Id::PlayBackwards, &[key(SHIFT, Key::Space), key(NONE, Key::A)]),
-    // The picture.
+    // The viewport.
     (Id::FrameSelected, &[key(NONE, Key::F)]),
     (Id::Palette, &[key(CTRL, Key::K), key(CTRL.plus(SHIFT), Key::P), key(NONE, Key::F3), key(CTRL, Key::P)]),
 ];

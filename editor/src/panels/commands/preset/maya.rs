@@ -3,8 +3,8 @@
 use super::*;
 
 #[rustfmt::skip] // A table is read in columns.
-pub(super) const TABLE: Table = &[
-    // What is dragged.
+pub(super) const TABLE: PresetKeys = &[
+    // Dragging.
     (Id::ToolSelect, &[key(NONE, Key::Q)]),
     (Id::ToolMove, &[key(NONE, Key::W)]),
     (Id::ToolRotate, &[key(NONE, Key::E)]),
@@ -20,7 +20,7 @@ pub(super) const TABLE: Table = &[
     (Id::NextFrame, &[key(ALT, Key::Period), key(NONE, Key::ArrowRight)]),
     (Id::PreviousKey, &[key(NONE, Key::Comma)]),
     (Id::NextKey, &[key(NONE, Key::Period)]),
-    // What is selected.
+    // Selection.
     (Id::SelectParent, &[key(NONE, Key::ArrowUp), key(NONE, Key::OpenBracket)]),
     (Id::SelectChild, &[key(NONE, Key::ArrowDown), key(NONE, Key::CloseBracket)]),
     (Id::InvertSelection, &[key(CTRL.plus(SHIFT), Key::I), key(CTRL, Key::I)]),
@@ -29,7 +29,7 @@ pub(super) const TABLE: Table = &[
     (Id::ShowAll, &[key(CTRL.plus(SHIFT), Key::H)]),
     (Id::Undo, &[key(CTRL, Key::Z), key(NONE, Key::Z)]),
     (Id::Redo, &[key(CTRL, Key::Y), key(SHIFT, Key::Z), key(CTRL.plus(SHIFT), Key::Z)]),
-    // The picture.
+    // The viewport.
     (Id::FrameAll, &[key(NONE, Key::A)]),
     (Id::FrameSelected, &[key(NONE, Key::F)]),
     (Id::ShadeUnlit, &[key(NONE, Key::Num4)]),

@@ -1,39 +1,39 @@
-//! Keys as hands know them from other programs.
+//! Sets of keys that users know from other programs.
 //!
-//! A preset says only what differs from the table; a key that it gives to a command is taken from the command that has it
-//! in the table.
+//! A preset contains only what differs from the table; a key that it gives to a command is removed from the command that has
+//! it in the table.
 
 mod blender;
 mod game_engines;
 mod maya;
 
-use super::Id;
-use super::table::{ALT, CTRL, NONE, SHIFT, key};
+use super::id::Id;
+use super::shortcut::{ALT, CTRL, NONE, SHIFT, key};
 use egui::{Key, KeyboardShortcut};
 use serde::{Deserialize, Serialize};
 
-/// What differs from the table.
-type Table = &'static [(Id, &'static [KeyboardShortcut])];
+/// Commands with keys that differ from the table.
+type PresetKeys = &'static [(Id, &'static [KeyboardShortcut])];
 
-/// Whose keys.
+/// A set of keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Preset {
-    /// Those of the table.
+    /// The keys of the table.
     #[default]
     Dragonfly,
-    /// Blender's.
+    /// The keys of Blender.
     Blender,
-    /// Maya's.
+    /// The keys of Maya.
     Maya,
-    /// Those that Godot and Unity share, or one of them has.
+    /// The keys that Godot and Unity share, or that one of them has.
     GameEngines,
 }
 
 impl Preset {
-    /// All, in the order in which they are offered.
+    /// All presets, in the order in which they are offered.
     pub const ALL: &[Self] = &[Self::Dragonfly, Self::Blender, Self::Maya, Self::GameEngines];
 
-    /// Its name on the screen.
+    /// Returns its name on the screen.
     pub fn title(self) -> &'static str {
         match self {
             Self::Dragonfly => "Dragonfly",
@@ -43,8 +43,8 @@ impl Preset {
         }
     }
 
-    /// What differs from the table.
-    pub(super) fn table(self) -> Table {
+    /// Returns the commands with keys that differ from the table.
+    pub(super) fn table(self) -> PresetKeys {
         match self {
             Self::Dragonfly => &[],
             Self::Blender => blender::TABLE,

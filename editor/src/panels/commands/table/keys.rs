@@ -1,31 +1,35 @@
 //! Keys: selected, moved, copied; markers; the range that plays.
 
 use super::*;
+use crate::panels::actions::clipboard;
+use crate::panels::actions::keys;
+use crate::panels::actions::playback;
+use dragonfly_document::edit::Between;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const COMMANDS: &[Command] = &[
-    command(Id::SelectAllKeys, When::Take, "Select all keys", &[key(CTRL.plus(SHIFT), Key::A)], "Every key that the timeline lists"),
-    command(Id::DeleteKeys, When::Keys, "Delete keys", &[key(NONE, Key::Delete), key(NONE, Key::Backspace)], "Deletes the selected keys"),
-    command(Id::DuplicateKeys, When::Keys, "Duplicate keys", &[key(CTRL, Key::D), key(SHIFT, Key::D)], "Copies the selected keys to the playhead"),
-    command(Id::CopyKeys, When::Keys, "Copy keys", &[], "Copies the selected keys with all they hold; pasted, they begin at the playhead"),
-    command(Id::KeysEarlier, When::Keys, "Keys a frame earlier", &[key(ALT, Key::ArrowLeft)], "Moves the selected keys one frame back"),
-    command(Id::KeysLater, When::Keys, "Keys a frame later", &[key(ALT, Key::ArrowRight)], "Moves the selected keys one frame on"),
-    command(Id::KeysSlower, When::Keys, "Keys twice as slow", &[], "Doubles the distances of the selected keys to the playhead"),
-    command(Id::KeysFaster, When::Keys, "Keys twice as fast", &[], "Halves the distances of the selected keys to the playhead"),
-    command(Id::KeysReverse, When::Keys, "Mirror keys about the playhead", &[key(CTRL, Key::M)], "Turns the selected keys round in time"),
-    command(Id::SnapKeys, When::Keys, "Snap keys to frames", &[key(SHIFT, Key::S)], "Moves the selected keys to whole frames"),
-    command(Id::ToggleSnap, When::Always, "Snap while dragging keys", &[], "Dragged keys go to whole frames; Ctrl inverts that"),
-    command(Id::InterpolateStep, When::Keys, "Step between keys", &[], "Channels of the selected keys hold each key until the next"),
-    command(Id::InterpolateLinear, When::Keys, "Linear between keys", &[], "Channels of the selected keys run straight from key to key"),
-    command(Id::InterpolateSpline, When::Keys, "Spline between keys", &[], "Channels of the selected keys run smoothly, with tangents that can be dragged"),
-    command(Id::RippleOpen, When::Take, "Insert a frame", &[key(NONE, Key::F5)], "Moves everything behind the playhead one frame on"),
-    command(Id::RippleClose, When::Take, "Remove a frame", &[key(SHIFT, Key::F5)], "Takes the frame behind the playhead away, and its keys"),
-    command(Id::FitKeys, When::Take, "Fit the timeline", &[key(SHIFT, Key::Home)], "Shows the selected keys, or the whole take"),
-    command(Id::AddMarker, When::Take, "Add a marker", &[key(ALT, Key::M)], "Marks the time shown; markers stay out of the model's file"),
-    command(Id::PreviousMarker, When::Take, "Previous marker", &[key(SHIFT, Key::PageUp)], "To the marker before"),
-    command(Id::NextMarker, When::Take, "Next marker", &[key(SHIFT, Key::PageDown)], "To the marker after"),
-    command(Id::RangeOfKeys, When::Take, "Play range of the selection", &[key(NONE, Key::P)], "Plays between the selected keys, or what is in sight"),
-    command(Id::RangeFromHere, When::Take, "Play range begins here", &[key(ALT, Key::Home)], "Plays from the playhead on"),
-    command(Id::RangeToHere, When::Take, "Play range ends here", &[key(ALT, Key::End)], "Plays up to the playhead"),
-    command(Id::RangeWhole, When::Take, "Play the whole take", &[key(ALT, Key::P)], "Takes the play range away"),
+    command(Id::SelectAllKeys, When::Take, "Select all keys", &[key(CTRL.plus(SHIFT), Key::A)], "Every key that the timeline lists", |w| { keys::select_all(w); None }),
+    command(Id::DeleteKeys, When::Keys, "Delete keys", &[key(NONE, Key::Delete), key(NONE, Key::Backspace)], "Deletes the selected keys", keys::delete),
+    command(Id::DuplicateKeys, When::Keys, "Duplicate keys", &[key(CTRL, Key::D), key(SHIFT, Key::D)], "Copies the selected keys to the playhead", keys::duplicate),
+    command(Id::CopyKeys, When::Keys, "Copy keys", &[], "Copies the selected keys with all they hold; pasted, they begin at the playhead", clipboard::copy_keys),
+    command(Id::KeysEarlier, When::Keys, "Keys a frame earlier", &[key(ALT, Key::ArrowLeft)], "Moves the selected keys one frame back", |w| keys::nudge(w, -1.0)),
+    command(Id::KeysLater, When::Keys, "Keys a frame later", &[key(ALT, Key::ArrowRight)], "Moves the selected keys one frame on", |w| keys::nudge(w, 1.0)),
+    command(Id::KeysSlower, When::Keys, "Keys twice as slow", &[], "Doubles the distances of the selected keys to the playhead", |w| keys::scale(w, 2.0)),
+    command(Id::KeysFaster, When::Keys, "Keys twice as fast", &[], "Halves the distances of the selected keys to the playhead", |w| keys::scale(w, 0.5)),
+    command(Id::KeysReverse, When::Keys, "Mirror keys about the playhead", &[key(CTRL, Key::M)], "Turns the selected keys round in time", |w| keys::scale(w, -1.0)),
+    command(Id::SnapKeys, When::Keys, "Snap keys to frames", &[key(SHIFT, Key::S)], "Moves the selected keys to whole frames", keys::snap),
+    command(Id::ToggleSnap, When::Always, "Snap while dragging keys", &[], "Dragged keys go to whole frames; Ctrl inverts that", |w| { w.keys.set_snap(!w.keys.snap()); None }),
+    command(Id::InterpolateStep, When::Keys, "Step between keys", &[], "Channels of the selected keys hold each key until the next", |w| keys::interpolate(w, Between::Step)),
+    command(Id::InterpolateLinear, When::Keys, "Linear between keys", &[], "Channels of the selected keys run straight from key to key", |w| keys::interpolate(w, Between::Linear)),
+    command(Id::InterpolateSpline, When::Keys, "Spline between keys", &[], "Channels of the selected keys run smoothly, with tangents that can be dragged", |w| keys::interpolate(w, Between::CubicSpline)),
+    command(Id::RippleOpen, When::Take, "Insert a frame", &[key(NONE, Key::F5)], "Moves all keys after the playhead one frame later", |w| keys::ripple(w, 1.0)),
+    command(Id::RippleClose, When::Take, "Remove a frame", &[key(SHIFT, Key::F5)], "Removes the frame after the playhead, and its keys", |w| keys::ripple(w, -1.0)),
+    command(Id::FitKeys, When::Take, "Fit the timeline", &[key(SHIFT, Key::Home)], "Shows the selected keys, or the whole take", |w| { keys::fit_window(w); None }),
+    command(Id::AddMarker, When::Take, "Add a marker", &[key(ALT, Key::M)], "Marks the time shown; markers stay out of the model's file", |w| { keys::add_marker(w); None }),
+    command(Id::PreviousMarker, When::Take, "Previous marker", &[key(SHIFT, Key::PageUp)], "To the marker before", |w| { playback::step_marker(w, false); None }),
+    command(Id::NextMarker, When::Take, "Next marker", &[key(SHIFT, Key::PageDown)], "To the marker after", |w| { playback::step_marker(w, true); None }),
+    command(Id::RangeOfKeys, When::Take, "Play range of the selection", &[key(NONE, Key::P)], "Plays between the selected keys, or what is in sight", |w| { keys::range_of_keys(w); None }),
+    command(Id::RangeFromHere, When::Take, "Play range begins here", &[key(ALT, Key::Home)], "Plays from the playhead on", |w| { keys::range_from_here(w); None }),
+    command(Id::RangeToHere, When::Take, "Play range ends here", &[key(ALT, Key::End)], "Plays up to the playhead", |w| { keys::range_to_here(w); None }),
+    command(Id::RangeWhole, When::Take, "Play the whole take", &[key(ALT, Key::P)], "Clears the play range", |w| { keys::clear_range(w); None }),
 ];

@@ -1,5 +1,5 @@
-//! The table of all commands, a file a category. Adding one: a line in a file, its name in [`Id`], its deed in
-//! [`super::super::execute`].
+//! The table of all commands, a file a category. A new command is a row in a file and its name in [`Id`]: the row names the
+//! function that runs it.
 
 mod camera;
 mod edit;
@@ -14,17 +14,11 @@ mod takes;
 mod tools;
 mod window;
 
+use super::shortcut::{ALT, CTRL, NONE, SHIFT, key};
 use super::{Category, Command, Id, When};
-use egui::{Key, KeyboardShortcut, Modifiers};
-
-pub(super) const NONE: Modifiers = Modifiers::NONE;
-pub(super) const CTRL: Modifiers = Modifiers::COMMAND;
-pub(super) const SHIFT: Modifiers = Modifiers::SHIFT;
-pub(super) const ALT: Modifiers = Modifiers::ALT;
-
-pub(super) const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
-    KeyboardShortcut::new(modifiers, key)
-}
+use crate::panels::request::Effect;
+use crate::panels::workspace::Workspace;
+use egui::{Key, KeyboardShortcut};
 
 const fn command(
     id: Id,
@@ -32,8 +26,9 @@ const fn command(
     title: &'static str,
     shortcuts: &'static [KeyboardShortcut],
     help: &'static str,
+    run: fn(&mut Workspace) -> Option<Effect>,
 ) -> Command {
-    Command { id, title, shortcuts, help, when }
+    Command { id, title, shortcuts, help, when, run }
 }
 
 /// The commands of each category, in the order in which they are shown.

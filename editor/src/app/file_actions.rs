@@ -1,0 +1,158 @@
+//! Actions about files: saving, leaving, recovering, and the system's dialogs for them.
+
+use super::editor_runtime::Running;
+use super::file_dialog::{self, Purpose};
+use super::interface::Interface;
+use crate::panels::prompts::{Overlay, Question};
+use crate::panels::status::Severity;
+use crate::panels::{Effect, FileAction};
+use dragonfly_anim::format::gltf::GLB;
+use dragonfly_document::{DocumentMessage, Offer, SaveOrder, Source, Then};
+use std::path::Path;
+
+impl Running {
+    /// Carries an action out. Returns whether the program is to end.
+    pub(super) fn file_action(&mut self, action: FileAction) -> bool {
+        match action {
+            FileAction::Save(order) => self.tell(DocumentMessage::Save(order)),
+            FileAction::Plan(order) => self.tell(DocumentMessage::Plan(order)),
+            FileAction::Revert => self.tell(DocumentMessage::Revert),
+            FileAction::Decide(offer, decision) => self.tell(DocumentMessage::Decide(offer, decision)),
+            FileAction::Find(offer) => {
+                self.ask_where_it_is(offer);
+                true
+            }
+            FileAction::FoundAt(offer, path) => {
+                self.parts.interface.borrow_mut().state.offer_is_answered(&offer);
+                self.tell(DocumentMessage::FoundAt(offer, path))
+            }
+            FileAction::Search => self.tell(DocumentMessage::Search),
+            FileAction::LookAtFile => self.tell(DocumentMessage::LookAtFile),
+            FileAction::Where { copy, then } => {
+                self.ask_where(copy, then);
+                true
+            }
+            FileAction::Reload => {
+                let path = self.state_path();
+                path.is_none_or(|path| {
+                    self.tell(DocumentMessage::DoNotSave)
+                        && self.tell(DocumentMessage::Open { source: Source::File(path), anyway: true })
+                })
+            }
+            FileAction::Stay => {
+                self.leaving = false;
+                true
+            }
+            FileAction::Leave(then) => return self.leave(then),
+            FileAction::DoNotSave(then) => {
+                self.tell(DocumentMessage::DoNotSave);
+                match then {
+                    Then::Quit => return true,
+                    Then::Open(source) => self.tell(DocumentMessage::Open { source, anyway: true }),
+                }
+            }
+            FileAction::QuitNow => return true,
+        };
+        false
+    }
+
+    fn state_path(&self) -> Option<std::path::PathBuf> {
+        let interface = self.parts.interface.borrow();
+        interface.state.read().view.and_then(|view| view.file.path.clone())
+    }
+
+    /// Sends a message to the document. Returns whether there is a document.
+    fn tell(&self, message: DocumentMessage) -> bool {
+        self.document.as_ref().is_some_and(|document| document.send(message))
+    }
+
+    /// Opens a model or ends the program, unless the document has unsaved work. A second request to quit before the document has
+    /// replied, or one that no document can reply to, ends the program at once: recorded work is offered at the next start.
+    fn leave(&mut self, then: Then) -> bool {
+        match then {
+            Then::Open(source) => {
+                self.tell(DocumentMessage::Open { source, anyway: false });
+                false
+            }
+            Then::Quit => std::mem::replace(&mut self.leaving, true) || !self.tell(DocumentMessage::Quit),
+        }
+    }
+
+    fn ask_where_it_is(&mut self, offer: Box<Offer>) {
+        let mut interface = self.parts.interface.borrow_mut();
+        if interface.asking {
+            return interface.state.say(Severity::Info, "A dialog for files is open already");
+        }
+        let folder = offer.found.document.as_deref().and_then(Path::parent).map(Path::to_owned);
+        match file_dialog::ask(Purpose::Find(offer), folder, self.answers.clone()) {
+            Ok(()) => interface.asking = true,
+            Err(error) => {
+                interface.state.say(Severity::Error, format!("No dialog could be opened: {error}"));
+            }
+        }
+    }
+
+    fn ask_where(&mut self, copy: bool, then: Option<Then>) {
+        let mut interface = self.parts.interface.borrow_mut();
+        if interface.asking {
+            return interface.state.say(Severity::Info, "A dialog for files is open already");
+        }
+        let Some(view) = interface.state.read().view else { return };
+        let near = view.file.path.as_deref().or(view.loaded.path.as_deref());
+        let folder = near.and_then(Path::parent).map(Path::to_owned);
+        let ending = view.loaded.format.unwrap_or(GLB).extension();
+        let name = match (&view.file.path, copy) {
+            (Some(_), false) => view.file.title.clone(),
+            _ => {
+                let stem = Path::new(&view.loaded.title).file_stem().unwrap_or_default().to_string_lossy();
+                format!("{stem}{}.{ending}", if copy { " copy" } else { "" })
+            }
+        };
+        let purpose = Purpose::Save { copy, then, name };
+        match file_dialog::ask(purpose, folder, self.answers.clone()) {
+            Ok(()) => interface.asking = true,
+            Err(error) => {
+                interface.state.say(Severity::Error, format!("No dialog could be opened: {error}"));
+            }
+        }
+    }
+}
+
+/// Handles the answer of a file dialog.
+pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
+    interface.asking = false;
+    let file_dialog::Answer { purpose, file, quick } = answer;
+    match (purpose, file) {
+        (Purpose::Open, Some(path)) => {
+            interface.effects.push(Effect::File(FileAction::Leave(Then::Open(Source::File(path)))))
+        }
+        (Purpose::Save { copy, then, .. }, Some(path)) => {
+            use dragonfly_document::SaveTo::{As, Copy};
+            let to = if copy { Copy(path) } else { As(path) };
+            // The dialog asked before it returned the name of an existing file.
+            let order = SaveOrder { to, anyway: true, then };
+            interface.effects.push(Effect::File(FileAction::Save(order)));
+        }
+        (Purpose::Find(offer), Some(path)) => {
+            interface.effects.push(Effect::File(FileAction::FoundAt(offer, path)));
+        }
+        (Purpose::Find(offer), None) if quick => {
+            let text = "This desktop has no dialog for opening files; type the path instead";
+            interface.state.say(Severity::Warning, text);
+            interface.state.ask_where_it_is(offer, None);
+        }
+        (Purpose::Open, None) if quick => {
+            let text = "This desktop has no dialog for opening files; type the path instead";
+            interface.state.say(Severity::Warning, text);
+            interface.state.show_overlay(Some(Overlay::OpenPath));
+        }
+        (Purpose::Save { copy, then, .. }, None) if quick => {
+            let text = "This desktop has no dialog for saving files; type the path instead";
+            interface.state.say(Severity::Warning, text);
+            interface.state.ask(Question::Where { copy, then });
+        }
+        // A dialog that failed slowly cannot be told from one that was closed.
+        (Purpose::Open | Purpose::Find(_), None) => interface.state.say(Severity::Info, "No file was chosen"),
+        (Purpose::Save { .. }, None) => interface.state.say(Severity::Info, "Nothing was saved"),
+    }
+}

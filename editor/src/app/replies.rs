@@ -1,0 +1,157 @@
+//! Replies of the document and answers of file dialogs, shown in the window.
+
+use super::file_actions;
+use super::file_dialog::Answer;
+use super::interface::Interface;
+use crate::panels::open_model::Loading;
+use crate::panels::prompts::Question;
+use crate::panels::status::Severity;
+use crate::panels::{Effect, FileAction, State};
+use dragonfly_document::{Change, DocumentReply, LoadedModel, SavedFile, Source, View};
+use dragonfly_runtime::{Context, Receiver};
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Receives the replies of the document.
+pub(super) struct Replies {
+    /// The window in which they are shown.
+    pub interface: Rc<RefCell<Interface>>,
+}
+
+impl Receiver for Replies {
+    type Message = DocumentReply;
+
+    fn receive(&mut self, reply: DocumentReply, _main: &mut Context) {
+        let mut interface = self.interface.borrow_mut();
+        show(&mut interface, reply);
+        interface.redraw();
+    }
+}
+
+/// Shows a reply of the document: the one place that takes replies apart.
+fn show(interface: &mut Interface, reply: DocumentReply) {
+    let state = &mut interface.state;
+    match reply {
+        DocumentReply::Loading { title, progress } => state.set_loading(Some(Loading { title, progress })),
+        DocumentReply::Cancelled => {
+            state.take_passed_over();
+            state.set_loading(None);
+            state.say(Severity::Info, "Stopped loading");
+        }
+        DocumentReply::Failed { source, reason } => {
+            let passed_over = state.take_passed_over();
+            state.set_loading(None);
+            if let Source::File(path) = source {
+                state.settings_mut().recent.retain(|other| *other != path || path.exists());
+            }
+            say_passed_over(state, passed_over);
+            state.say(Severity::Error, reason);
+        }
+        DocumentReply::Refused(reason) => {
+            state.edit_refused();
+            state.say(Severity::Warning, reason);
+        }
+        DocumentReply::View(view) => show_view(interface, view),
+        DocumentReply::Opened(loaded) => opened(interface, &loaded),
+        DocumentReply::Saved(saved) => show_saved(interface, saved),
+        DocumentReply::NotSaved(order, reason) => {
+            let effect = state.not_saved(order, reason);
+            interface.effects.extend(effect);
+        }
+        DocumentReply::Plan(Ok(text), order) => {
+            let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+            state.ask(Question::Plan(Arc::from(lines), order));
+        }
+        DocumentReply::Plan(Err(reason), _) => {
+            state.say(Severity::Error, format!("It cannot be saved: {reason}"));
+        }
+        DocumentReply::Unsaved(then) => {
+            state.ask(Question::Unsaved(then));
+            interface.effects.push(Effect::File(FileAction::Stay));
+        }
+        DocumentReply::MayQuit => interface.effects.push(Effect::File(FileAction::QuitNow)),
+        DocumentReply::FileChanged(file) => state.ask(Question::Changed(file, None)),
+        DocumentReply::Offers(offers) => state.ask_to_recover(offers),
+        DocumentReply::OtherFile(offer, path) => state.ask_where_it_is(offer, Some(path)),
+        DocumentReply::NothingToOffer => {
+            state.say(Severity::Info, "There is no unsaved work of an earlier time");
+        }
+        DocumentReply::Notice(text) => state.say(Severity::Info, text),
+        DocumentReply::Warning(text) => state.say(Severity::Warning, text),
+        DocumentReply::Lost => {
+            state.document_lost();
+            state.say(Severity::Error, "A mistake in the program closed the document");
+        }
+    }
+}
+
+fn show_view(interface: &mut Interface, view: View) {
+    interface.state.set_now(Instant::now());
+    interface.state.show(view);
+    let Some(view) = interface.state.read().view else { return };
+    let (file, saved) = (Arc::clone(&view.file), view.history.saved);
+    interface.set_title(&file.title, saved);
+}
+
+/// Reports a model that was opened, and applies the edits of the command line to it.
+fn opened(interface: &mut Interface, loaded: &LoadedModel) {
+    let state = &mut interface.state;
+    let passed_over = state.take_passed_over();
+    state.set_loading(None);
+    if let Some(path) = &loaded.path {
+        state.settings_mut().remember(path);
+    }
+    for warning in &loaded.warnings {
+        state.say(Severity::Warning, format!("{}: {warning}", loaded.title));
+    }
+    state.say(Severity::Info, format!("Opened {}", loaded.title));
+    say_passed_over(state, passed_over);
+    let edits = std::mem::take(&mut interface.edits).into_iter();
+    interface.effects.extend(edits.map(|edit| Effect::Change(Change::Edit(edit, None))));
+}
+
+fn show_saved(interface: &mut Interface, saved: SavedFile) {
+    let state = &mut interface.state;
+    let name = saved.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    if !saved.copy {
+        state.settings_mut().remember(&saved.path);
+    }
+    for notice in &saved.notices {
+        state.say(Severity::Warning, format!("{name}: {notice}"));
+    }
+    let what = if saved.copy { "Saved a copy as" } else { "Saved" };
+    let others = match saved.beside {
+        0 => String::new(),
+        1 => " and a file beside it".to_owned(),
+        files => format!(" and {files} files beside it"),
+    };
+    state.say(Severity::Info, format!("{what} {name}{others}"));
+    if let Some(then) = saved.then {
+        interface.effects.push(Effect::File(FileAction::Leave(then)));
+    }
+}
+
+/// Reports the number of files that were given together with the open one and stay closed.
+fn say_passed_over(state: &mut State, files: usize) {
+    match files {
+        0 => {}
+        1 => state.say(Severity::Warning, "One model is open at a time: the second file stays closed"),
+        _ => state
+            .say(Severity::Warning, format!("One model is open at a time: {files} more files stay closed")),
+    }
+}
+
+/// Receives what the user chose in a file dialog.
+pub(super) struct Answers(pub Rc<RefCell<Interface>>);
+
+impl Receiver for Answers {
+    type Message = Answer;
+
+    fn receive(&mut self, answer: Answer, _main: &mut Context) {
+        let mut interface = self.0.borrow_mut();
+        file_actions::chosen(&mut interface, answer);
+        interface.redraw();
+    }
+}

@@ -1,0 +1,73 @@
+//! Pins held over time: keys that keep pinned bones where they are now, at every frame that plays.
+
+use super::{edit, ik};
+use crate::panels::request::Effect;
+use crate::panels::ruler::{frame_of, time_of};
+use crate::panels::status::Severity;
+use crate::panels::workspace::Workspace;
+use dragonfly_anim::data::{BoneIndex, Take, Transform};
+use dragonfly_anim::sample::sample_take;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, SAME_TIME, SetPoses};
+use dragonfly_document::posing::{PoseDragState, poses_of_pins};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+/// Maximum number of times at which one step makes poses.
+const MOST: usize = 20_000;
+
+/// Rotates the chains above the pins at every frame of what plays, so that pinned bones keep their position and rotation.
+/// The bones of the chains get keys at all frames, and at the keys that they have between the frames.
+pub(in crate::panels) fn bake_pins(workspace: &mut Workspace) -> Option<Effect> {
+    let here = ik::hold(workspace)?;
+    let panels = workspace.read();
+    let (name, view) = (panels.take_ref()?, panels.view?);
+    // As it is shown: muted bones rest.
+    let take = Arc::clone(panels.posed.takes(view).get(panels.playback.take?)?);
+    let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
+    let (fixed, mode) = (panels.fixed_bones(), panels.ik);
+    let (play, rate) = (panels.play_bounds(), panels.settings.frame_rate);
+    let mut poses = vec![Transform::IDENTITY; skeleton.len()];
+    let mut at_time = |time: f32| {
+        sample_take(Some(&take), &skeleton, time, &mut poses);
+        let hold = PoseDragState::new(Arc::clone(&skeleton), &poses, &[], mode, None);
+        poses_of_pins(&mut hold.with_fixed(&fixed).with_pins_of(&here))
+    };
+    let chains: BTreeSet<BoneIndex> = at_time(take.start).iter().filter_map(bone_of).collect();
+    if chains.is_empty() {
+        workspace.say(Severity::Info, "Nothing above the pinned bones can turn to hold them");
+        return None;
+    }
+    let times = times_to_bake(&take, &chains, play, rate);
+    if times.len() > MOST {
+        let text = format!("{} frames are too many at once: set a play range", times.len());
+        workspace.say(Severity::Info, text);
+        return None;
+    }
+    let at = times.into_iter().map(|time| PoseAt { time, poses: at_time(time) }).collect();
+    Some(edit(Edit::SetPoses(SetPoses { take: name, at, unstep: true })))
+}
+
+/// Returns the frames that play, with both ends, and the keys of `bones` between them; ascending.
+fn times_to_bake(
+    take: &Take,
+    bones: &BTreeSet<BoneIndex>,
+    (from, length): (f32, f32),
+    rate: u32,
+) -> Vec<f32> {
+    let to = from + length;
+    let inside = |time: &f32| (from..=to).contains(time);
+    // Limited, but to more than the maximum, which the caller reports.
+    let last = frame_of(to, rate).min(frame_of(from, rate).saturating_add(2 * MOST as i64));
+    let frames = (frame_of(from, rate)..=last).map(|frame| time_of(frame, rate));
+    let tracks = take.tracks.iter().filter(|track| bones.contains(&track.bone));
+    let keys = tracks.flat_map(|track| track.rotation.times.iter().copied());
+    // Keys before frames: of two at the same time, the key's exact time is kept.
+    let mut times: Vec<f32> = keys.chain(frames).chain([from, to]).filter(inside).collect();
+    times.sort_by(f32::total_cmp);
+    times.dedup_by(|later, earlier| *later - *earlier <= SAME_TIME);
+    times
+}
+
+fn bone_of(pose: &BonePose) -> Option<BoneIndex> {
+    if let BoneRef::Index(bone) = pose.bone { Some(bone) } else { None }
+}

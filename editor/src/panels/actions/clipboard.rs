@@ -1,0 +1,75 @@
+//! Keys through the clipboard.
+
+use super::{edit, keys, locks, pose};
+use crate::panels::count_text::{count, grouped};
+use crate::panels::keys::clipboard::{self, MOST, Pasted};
+use crate::panels::request::Effect;
+use crate::panels::status::Severity;
+use crate::panels::workspace::Workspace;
+use dragonfly_anim::data::{BoneIndex, Take};
+use dragonfly_document::edit::{BoneRef, CopiedChannel, Edit, PasteKeys};
+use std::sync::Arc;
+
+/// Copies the selected keys where the timeline was used last, otherwise the pose.
+pub(in crate::panels) fn copy(workspace: &mut Workspace) -> Option<Effect> {
+    let panels = workspace.read();
+    if panels.keys.has_focus() && panels.take().is_some() && !panels.keys.selection().is_empty() {
+        return copy_keys(workspace);
+    }
+    pose::copy(workspace)
+}
+
+/// Copies the selected keys.
+pub(in crate::panels) fn copy_keys(workspace: &mut Workspace) -> Option<Effect> {
+    Some(Effect::Copy(keys_text(workspace, "Copied")?))
+}
+
+/// Copies the selected keys and deletes them.
+pub(in crate::panels) fn cut_keys(workspace: &mut Workspace) -> Option<Effect> {
+    let text = keys_text(workspace, "Cut")?;
+    if let Effect::Change(change) = keys::delete(workspace)? { Some(Effect::Cut(text, change)) } else { None }
+}
+
+fn keys_text(workspace: &mut Workspace, verb: &str) -> Option<String> {
+    let take = Arc::clone(workspace.read().shared_take()?);
+    let number = workspace.keys.selection().count(&take);
+    if number > MOST {
+        let text = format!("{} keys are selected; at most {} are copied", grouped(number), grouped(MOST));
+        workspace.say(Severity::Warning, text);
+        return None;
+    }
+    let skeleton = &workspace.model.loaded()?.model.animation.skeleton;
+    let channels = clipboard::copied(&take, workspace.keys.selection(), skeleton);
+    if channels.is_empty() {
+        workspace.say(Severity::Info, "No key is selected");
+        return None;
+    }
+    workspace.say(Severity::Info, format!("{verb} {}", count(number, "key", "keys")));
+    Some(clipboard::to_text(channels))
+}
+
+/// Inserts copied keys at the time shown: on the bones they are of, or, where the same number of other bones is selected, on
+/// these in their order. Locked bones stay as they are.
+pub(super) fn paste_keys(workspace: &mut Workspace, mut channels: Vec<CopiedChannel>) -> Option<Effect> {
+    let Some(take) = workspace.read().take_ref() else {
+        workspace.say(Severity::Info, "The rest pose is not edited; show a take first");
+        return None;
+    };
+    let skeleton = &workspace.model.loaded()?.model.animation.skeleton;
+    clipboard::retarget(&mut channels, workspace.bones.bones(), skeleton);
+    if channels.is_empty() {
+        workspace.say(Severity::Info, "The keys in the clipboard are of bones that this model has not");
+        return None;
+    }
+    if !locks::remove_locked(workspace, &mut channels, |channel| match channel.bone {
+        BoneRef::Index(bone) => bone,
+        BoneRef::Name(_) => BoneIndex::MAX,
+    }) {
+        return None;
+    }
+    let panels = workspace.read();
+    let (generation, time) = (panels.view?.generation, panels.time());
+    let pasted = Pasted::new(generation, panels.take().map_or(0, Take::keys), &channels, time);
+    workspace.keys.await_pasted(pasted);
+    Some(edit(Edit::PasteKeys(PasteKeys { take, time, channels })))
+}

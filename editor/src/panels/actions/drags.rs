@@ -1,0 +1,176 @@
+//! Drags: of keys, and of whatever is dragged when something else is asked for.
+
+use crate::panels::change_summary;
+use crate::panels::dragging::Admission;
+use crate::panels::keys::drag::KeyDrag;
+use crate::panels::keys::{ChannelId, KeyDragOp, KeySelection, channel};
+use crate::panels::request::Effect;
+use crate::panels::workspace::Workspace;
+use dragonfly_anim::data::Take;
+use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
+use egui::{Context, Popup};
+use std::sync::Arc;
+
+/// Passes on what may go to the document and further, and before it what cancels a drag that it would cut in two.
+pub(in crate::panels) fn let_through(
+    workspace: &mut Workspace,
+    effect: Effect,
+    pass: &mut impl FnMut(Effect),
+) {
+    match effect {
+        Effect::Change(change) => pass_change(workspace, change, pass),
+        Effect::Changes(changes) => {
+            for change in changes {
+                pass_change(workspace, change, pass);
+            }
+        }
+        Effect::Cut(text, change) => {
+            pass(Effect::Copy(text));
+            pass_change(workspace, change, pass);
+        }
+        Effect::CancelDrag => cancel_drag(workspace, pass),
+        Effect::ReleaseDrag => release_drag(workspace, pass),
+        Effect::File(action) => {
+            if !action.only_reads() {
+                cancel_drag(workspace, pass);
+            }
+            pass(Effect::File(action));
+        }
+        effect @ (Effect::Send(..)
+        | Effect::OpenDialog
+        | Effect::CancelLoading
+        | Effect::Copy(_)
+        | Effect::PastePose { .. }
+        | Effect::Pick(..)
+        | Effect::Catch(..)
+        | Effect::FullScreen
+        | Effect::TogglePanel(_)
+        | Effect::ResetLayout
+        | Effect::RetryDevice) => pass(effect),
+    }
+}
+
+/// Passes a change on, unless it belongs to a drag that is over.
+fn pass_change(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)) {
+    match workspace.dragging.admit(&change) {
+        Admission::Drop => {
+            if let Change::Edit(_, Some(gesture)) = change {
+                workspace.keys.forget_drag(gesture);
+            }
+            return;
+        }
+        Admission::Pass => {}
+        Admission::CancelDragFirst => cancel_drag(workspace, pass),
+    }
+    send(workspace, change, pass);
+}
+
+/// Numbers a change, shows it before the document answers where that is possible, and passes it on.
+fn send(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)) {
+    let number = workspace.model.send(&change, &mut workspace.dragging.echo);
+    if let Change::Edit(_, Some(gesture)) | Change::Cancel(gesture) = change {
+        workspace.keys.sent(gesture, number);
+    }
+    pass(Effect::Send(number, change));
+}
+
+/// Cancels the drag in progress, whichever panel or tool it belongs to, as if it had never begun.
+fn cancel_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
+    if workspace.tools.controls().edits() {
+        workspace.tools.drop_drag();
+    }
+    workspace.keys.drop_held();
+    if let Some(gesture) = workspace.dragging.cancel() {
+        send(workspace, Change::Cancel(gesture), pass);
+    }
+}
+
+/// Ends a drag whose end was not reported: no button is held any more.
+fn release_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
+    if !workspace.tools.controls().is_busy()
+        && let Some(gesture) = workspace.dragging.release()
+    {
+        send(workspace, Change::Release(gesture), pass);
+    }
+}
+
+/// Handles a window that lost the keyboard: the end of a drag may not be reported. The drag is cancelled, and the panels get
+/// the Escape key and then events that release the buttons.
+pub(super) fn lose_input(workspace: &mut Workspace, context: &Context, effects: &mut Vec<Effect>) {
+    effects.push(Effect::CancelDrag);
+    // Text that is being typed, a question and a menu are not closed by it.
+    let escape = !context.text_edit_focused()
+        && workspace.prompts.question().is_none()
+        && !Popup::is_any_open(context);
+    workspace.dragging.release_buttons(context, escape);
+}
+
+/// Begins or continues a drag of keys.
+pub(in crate::panels) fn drag_keys(workspace: &mut Workspace, op: KeyDragOp) -> Option<Effect> {
+    if !workspace.keys.may_drag() {
+        return None;
+    }
+    if workspace.keys.drag().is_none() {
+        let panels = workspace.read();
+        let (take, base) = (panels.take_ref()?, Arc::clone(panels.shared_take()?));
+        let moving = match op {
+            KeyDragOp::Ripple { from, .. } => all_after(&base, from),
+            KeyDragOp::Move(_)
+            | KeyDragOp::Scale { .. }
+            | KeyDragOp::Duplicate(_)
+            | KeyDragOp::Snap(_)
+            | KeyDragOp::Edit(_) => panels.keys.selection().clone(),
+        };
+        if moving.is_empty() && !matches!(op, KeyDragOp::Edit(_)) {
+            return None;
+        }
+        let gesture = workspace.dragging.new_gesture();
+        workspace.keys.begin_drag(KeyDrag::begin(gesture, take, base, moving, op.clone()));
+    }
+    workspace.keys.continue_drag(op, &workspace.dragging.echo).map(Effect::Change)
+}
+
+/// Returns all keys of a take from a time on.
+fn all_after(take: &Take, from: f32) -> KeySelection {
+    let bones = take.tracks.iter().map(|track| track.bone);
+    let all: Vec<ChannelId> = bones.flat_map(|bone| channel::channels(take, bone)).collect();
+    let mut late = KeySelection::default();
+    late.choose(take, &all, [from, f32::INFINITY], Choice::Replace);
+    late
+}
+
+/// Releases a drag of keys.
+pub(in crate::panels) fn release_keys(workspace: &mut Workspace) -> Option<Effect> {
+    let changes = workspace.keys.release_drag(&workspace.dragging.echo)?;
+    settle_keys(workspace);
+    (!changes.is_empty()).then_some(Effect::Changes(changes))
+}
+
+/// Cancels a drag of keys; does nothing where there is none.
+pub(in crate::panels) fn cancel_keys(workspace: &mut Workspace) -> Option<Effect> {
+    workspace.keys.cancel_drag().map(Effect::Change)
+}
+
+/// Selects pasted keys that the document has now, and ends a drag that was released and is done.
+pub(super) fn settle_keys(workspace: &mut Workspace) {
+    let Some(generation) = workspace.model.view().map(|view| view.generation) else { return };
+    let take = workspace.read().shared_take().cloned();
+    let place = workspace.player.take().and_then(|index| workspace.model.slots().get(index));
+    let pasted = place.and_then(|slot| workspace.keys.select_pasted(slot, take.as_deref(), generation));
+    let moved = workspace.keys.settle(take.as_deref(), &workspace.dragging.echo);
+    for ended in [pasted, moved].into_iter().flatten() {
+        let now = take.as_ref().map_or(0, |take| take.keys());
+        if let Some(view) = workspace.model.view()
+            && let Some(text) = change_summary::describe_replaced(view, ended.before, ended.added, now)
+        {
+            workspace.status.remark(text);
+        }
+    }
+}
+
+/// Handles an edit that the document refused: keys that wait for it are not selected.
+pub(in crate::panels) fn refused(workspace: &mut Workspace) {
+    workspace.keys.refused();
+    settle_keys(workspace);
+}

@@ -1,0 +1,120 @@
+//! The one place where requests are executed.
+
+use super::{bones, drags, files, framing, keys, locks, look, playback, pose, takes};
+use crate::panels::commands;
+use crate::panels::keys::KeysRequest;
+use crate::panels::request::{Effect, FileAction, Request};
+use crate::panels::settings::IkSettings;
+use crate::panels::status::Severity;
+use crate::panels::workspace::Workspace;
+use dragonfly_document::edit::{Edit, TrimTake};
+use dragonfly_document::{Change, Then};
+
+/// Executes a request of a panel.
+pub(in crate::panels) fn execute(workspace: &mut Workspace, request: Request) -> Option<Effect> {
+    let said = workspace.status.said();
+    let effect = perform(workspace, request);
+    if let Some(Effect::Change(Change::Edit(Edit::TrimTake(TrimTake { from, to, to_start: true, .. }), _))) =
+        effect
+    {
+        // What played is the whole take then, and starts elsewhere; so does the time that is shown.
+        keys::set_range(workspace, None);
+        let time = workspace.player.time().clamp(from, to) - from + workspace.read().take_bounds().0;
+        playback::seek(workspace, time);
+    }
+    if matches!(effect, Some(Effect::Change(_))) {
+        workspace.status.keep_last(workspace.status.said() != said);
+    }
+    playback::bound_playback(workspace);
+    keep_settings(workspace);
+    locks::unlocked(workspace, effect?)
+}
+
+fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
+    match request {
+        Request::Command(id) => return run(workspace, commands::get(id)),
+        Request::Select(bone) => {
+            workspace.keys.lose_focus();
+            workspace.bones.select(bone);
+        }
+        Request::SelectBones(bones, choice) => {
+            workspace.keys.lose_focus();
+            workspace.bones.choose(&bones, choice);
+        }
+        Request::Hide { bones, hide } => workspace.bones.hide(&bones, hide),
+        Request::Timeline(request) => return keys_request(workspace, request),
+        Request::Change(change) => return Some(Effect::Change(change)),
+        Request::PastePose { text, mirrored } => return pose::paste(workspace, &text, mirrored),
+        Request::Hover(bone) => workspace.bones.hover(Some(bone)),
+        Request::ShowTake(take) => playback::show_take(workspace, take),
+        Request::Seek(time) => playback::seek(workspace, time),
+        Request::Speed(speed) => playback::set_speed(workspace, speed),
+        Request::Repeat(repeat) => playback::set_repeat(workspace, repeat),
+        Request::FrameRate(rate) => workspace.settings.frame_rate = rate,
+        Request::Scale(scale) => look::set_scale(workspace, scale),
+        Request::Keys(keys) => workspace.settings.keys = keys,
+        Request::Camera(camera) => workspace.camera.set_camera(camera),
+        Request::Viewport(rect) => framing::set_viewport(workspace, rect),
+        Request::Ghosts(ghosts) => workspace.settings.tools.ghosts = ghosts.sanitized(),
+        Request::Shields(shields) => framing::set_shields(workspace, shields),
+        Request::Wheel(by) => framing::wheel(workspace, by),
+        Request::Point(pointer) => bones::point(workspace, pointer),
+        Request::Open(source) => return Some(Effect::File(FileAction::Leave(Then::Open(source)))),
+        Request::Overlay(overlay) => workspace.prompts.show(overlay),
+        Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
+        Request::RenameTake(index) => takes::rename(workspace, index),
+        Request::Answer(action) => return files::answered(workspace, action),
+        Request::Dismiss => return files::dismiss(workspace),
+        Request::PropertiesLook(look) => workspace.settings.properties = look,
+    }
+    None
+}
+
+fn keys_request(workspace: &mut Workspace, request: KeysRequest) -> Option<Effect> {
+    match request {
+        KeysRequest::Select { channels, stretch, choice } => {
+            keys::select(workspace, &channels, stretch, choice)
+        }
+        KeysRequest::SelectKeys { parts, choice } => {
+            let take = workspace.read().shared_take().cloned();
+            workspace.keys.select_parts(take.as_deref(), &parts, choice);
+        }
+        KeysRequest::SelectRow(bone, choice) => {
+            let listed = workspace.read().listed_bones();
+            workspace.bones.choose(&[bone], choice);
+            workspace.keys.keep_rows(listed, workspace.bones.bones());
+        }
+        KeysRequest::Deselect => workspace.keys.deselect(),
+        KeysRequest::Window(window) => keys::show_window(workspace, window),
+        KeysRequest::Drag(op) => return drags::drag_keys(workspace, op),
+        KeysRequest::Release => return drags::release_keys(workspace),
+        KeysRequest::Cancel => return drags::cancel_keys(workspace),
+        KeysRequest::Flag(flag, bone, on) => workspace.keys.set_flag(flag, bone, on),
+        KeysRequest::Snap(on) => workspace.keys.set_snap(on),
+        KeysRequest::OnlySelected(on) => workspace.keys.set_only_selected(on),
+        KeysRequest::Filter(text) => {
+            workspace.keys.set_filter(text);
+            let listed = workspace.read().listed_bones();
+            workspace.keys.deselect_all_but(&listed);
+        }
+        KeysRequest::Marker(action) => keys::change_markers(workspace, action),
+        KeysRequest::Range(range) => keys::set_range(workspace, range),
+    }
+    None
+}
+
+/// Runs a command, or reports why it cannot be run.
+fn run(workspace: &mut Workspace, command: &commands::Command) -> Option<Effect> {
+    if !command.when.holds(&workspace.read()) {
+        workspace.say(Severity::Info, command.when.reason());
+        return None;
+    }
+    (command.run)(workspace)
+}
+
+/// Copies the state that is remembered between runs into the settings.
+fn keep_settings(workspace: &mut Workspace) {
+    let ik = workspace.tools.ik();
+    workspace.settings.tools.ik = IkSettings { on: ik.on, length: ik.length };
+    workspace.settings.timeline = workspace.keys.settings();
+}

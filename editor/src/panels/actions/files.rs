@@ -1,0 +1,106 @@
+//! Questions about files and their answers.
+
+use super::playback;
+use crate::panels::prompts::Question;
+use crate::panels::request::{Effect, FileAction};
+use crate::panels::status::Severity;
+use crate::panels::workspace::Workspace;
+use dragonfly_document::{Decision, NotSaved, Offer, SaveOrder, SaveTo};
+use dragonfly_store::FileState;
+use std::path::PathBuf;
+
+/// Asks a question after those that wait. Time stops while a question is shown.
+pub(in crate::panels) fn ask(workspace: &mut Workspace, question: Question) {
+    workspace.prompts.ask(question);
+    playback::pause(workspace);
+}
+
+/// Asks before all other questions where the file of unsaved work is, or reports that `other` is another file.
+pub(in crate::panels) fn ask_where_it_is(
+    workspace: &mut Workspace,
+    offer: Box<Offer>,
+    other: Option<PathBuf>,
+) {
+    workspace.prompts.ask_where_it_is(offer, other);
+    playback::pause(workspace);
+}
+
+/// Asks about unsaved work of an earlier run.
+pub(in crate::panels) fn ask_to_recover(workspace: &mut Workspace, offers: Vec<Offer>) {
+    workspace.prompts.ask_to_recover(offers);
+    playback::pause(workspace);
+}
+
+/// Removes the question that was answered, and returns the effect of the answer.
+pub(super) fn answered(workspace: &mut Workspace, action: FileAction) -> Option<Effect> {
+    let finds =
+        matches!(workspace.prompts.question(), Some(Question::Recover { .. } | Question::Find { .. }));
+    match &action {
+        FileAction::Decide(offer, Decision::Discard | Decision::Later) => workspace.prompts.decided(offer),
+        // The dialog for files that follows may be closed without an answer.
+        FileAction::Find(_) if finds => {}
+        FileAction::Save(_)
+        | FileAction::Plan(_)
+        | FileAction::Where { .. }
+        | FileAction::DoNotSave(_)
+        | FileAction::Revert
+        | FileAction::Reload
+        | FileAction::Decide(..)
+        | FileAction::Find(_)
+        | FileAction::FoundAt(..)
+        | FileAction::Search
+        | FileAction::Leave(_)
+        | FileAction::QuitNow
+        | FileAction::Stay
+        | FileAction::LookAtFile => workspace.prompts.pop(),
+    }
+    Some(if let FileAction::Save(order) = action { save_as(workspace, order) } else { Effect::File(action) })
+}
+
+/// Closes a question without an answer. Unsaved work stays where it is.
+pub(super) fn dismiss(workspace: &mut Workspace) -> Option<Effect> {
+    let (offer, decision) = workspace.prompts.dismiss()?;
+    Some(Effect::File(FileAction::Decide(Box::new(offer), decision)))
+}
+
+/// Saves to the document's own file; shows what will change first where the settings say so.
+pub(in crate::panels) fn save(workspace: &mut Workspace) -> Option<Effect> {
+    let order = SaveOrder::own(None);
+    if workspace.settings.show_changes && workspace.model.has_file() {
+        return Some(Effect::File(FileAction::Plan(Some(order))));
+    }
+    Some(save_as(workspace, order))
+}
+
+/// Saves as `order` says; asks where to save a document that has no file of its own.
+fn save_as(workspace: &Workspace, order: SaveOrder) -> Effect {
+    let asks = order.to == SaveTo::Own && !workspace.model.has_file();
+    Effect::File(if asks {
+        FileAction::Where { copy: false, then: order.then }
+    } else {
+        FileAction::Save(order)
+    })
+}
+
+/// Handles a save that failed: asks the user what to do, or reports the reason.
+pub(in crate::panels) fn not_saved(
+    workspace: &mut Workspace,
+    order: SaveOrder,
+    reason: NotSaved,
+) -> Option<Effect> {
+    match reason {
+        NotSaved::NoFile => {
+            return Some(Effect::File(FileAction::Where { copy: false, then: order.then }));
+        }
+        NotSaved::Changed => ask(workspace, Question::Changed(FileState::Changed, Some(order))),
+        NotSaved::Exists(path) => ask(workspace, Question::Exists(path, order)),
+        NotSaved::Failed(reason) => {
+            workspace.say(Severity::Error, format!("Not saved: {reason}"));
+            // A user who wanted to leave is asked again what to do with the changes.
+            if let Some(then) = order.then {
+                ask(workspace, Question::Unsaved(then));
+            }
+        }
+    }
+    None
+}

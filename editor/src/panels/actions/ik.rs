@@ -1,0 +1,98 @@
+//! Pins, IK and bones that look at another one.
+
+use super::{bones, edit, locks};
+use crate::panels::count_text::count;
+use crate::panels::request::Effect;
+use crate::panels::status::Severity;
+use crate::panels::workspace::Workspace;
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::posing::{PoseDragState, look_at};
+use std::sync::Arc;
+
+/// Returns what a drag at the time shown starts from: the poses as they are shown, the pins, the IK settings.
+pub(in crate::panels) fn hold(workspace: &mut Workspace) -> Option<PoseDragState> {
+    let (fixed, mode) = (workspace.read().fixed_bones(), workspace.tools.ik());
+    let view = workspace.model.view()?;
+    let (take, time) = (workspace.player.take(), workspace.player.time());
+    let poses = workspace.posed.update(view, take, time).poses();
+    let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
+    Some(PoseDragState::new(skeleton, poses, workspace.bones.pins(), mode, None).with_fixed(&fixed))
+}
+
+/// Pins the selected bones, or frees them where all of them are pinned.
+pub(in crate::panels) fn toggle_pins(workspace: &mut Workspace) {
+    let pinned = workspace.bones.toggle_pins();
+    let bones = workspace.bones.bones();
+    let stay = if bones.len() == 1 { "it stays" } else { "they stay" };
+    let what = bones::bones_text(workspace, bones);
+    let text =
+        if pinned { format!("Pinned {what}: {stay} while others move") } else { format!("Freed {what}") };
+    workspace.say(Severity::Info, text);
+}
+
+/// Frees all bones.
+pub(in crate::panels) fn free_pins(workspace: &mut Workspace) {
+    workspace.bones.set_pins(Vec::new());
+    workspace.say(Severity::Info, "No bone is pinned any more");
+}
+
+/// Turns IK on or off.
+pub(in crate::panels) fn toggle_ik(workspace: &mut Workspace) {
+    workspace.tools.toggle_ik();
+    say_ik(workspace);
+}
+
+/// Changes the number of bones that follow.
+pub(in crate::panels) fn lengthen_ik(workspace: &mut Workspace, by: i64) {
+    workspace.tools.lengthen_ik(by);
+    say_ik(workspace);
+}
+
+fn say_ik(workspace: &mut Workspace) {
+    let ik = workspace.tools.ik();
+    let bones = count(ik.length as usize, "bone", "bones");
+    let text = if ik.on {
+        format!("IK is on: {bones} above follow a bone that is moved")
+    } else {
+        format!("IK is off: a bone is moved alone ({bones} with it on)")
+    };
+    workspace.say(Severity::Info, text);
+}
+
+/// Makes the active bone the one towards which elbows and knees bend, or none where it was it.
+pub(in crate::panels) fn toggle_pole(workspace: &mut Workspace) {
+    let Some(active) = workspace.bones.active() else { return };
+    let pole = Some(active).filter(|_| workspace.tools.ik().pole != Some(active));
+    workspace.tools.set_pole(pole);
+    let text = match pole {
+        Some(bone) => format!("Elbows and knees bend towards {}", workspace.read().bone_name(bone)),
+        None => "Elbows and knees bend as they are".to_owned(),
+    };
+    workspace.say(Severity::Info, text);
+}
+
+/// Aims the selected bones at the active one.
+pub(in crate::panels) fn look(workspace: &mut Workspace) -> Option<Effect> {
+    let active = workspace.bones.active()?;
+    let others: Vec<BoneIndex> = workspace.read().bones_to_pose().filter(|&bone| bone != active).collect();
+    if others.is_empty() {
+        match workspace.bones.bones().iter().copied().find(|&bone| bone != active) {
+            Some(locked) => locks::say_locked(workspace, locked),
+            None => {
+                let text = "Select the bones that shall look, and last the one they shall look at";
+                workspace.say(Severity::Info, text);
+            }
+        }
+        return None;
+    }
+    let view = workspace.model.view()?;
+    let (take, time) = (workspace.player.take(), workspace.player.time());
+    let animation = workspace.posed.update(view, take, time);
+    let skeleton = &view.loaded.model.animation.skeleton;
+    let target = animation.to_root().get(active as usize)?.w_axis.truncate();
+    let poses = look_at(skeleton, animation.poses(), &others, target);
+    if poses.is_empty() {
+        workspace.say(Severity::Info, "There is nothing to turn to");
+    }
+    workspace.read().pose_edit(poses).map(edit)
+}

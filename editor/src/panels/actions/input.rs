@@ -1,0 +1,170 @@
+//! Input of the viewport: events reach the tools as they happen, and what follows goes out at once.
+
+use super::{ik, locks, playback, tools};
+use crate::control::gizmo::GizmoAnswer;
+use crate::control::path::{PathAnswer, PathKey};
+use crate::control::{Button, InputEvent, Outcome};
+use crate::panels::request::Effect;
+use crate::panels::status::Severity;
+use crate::panels::tool_drag::Alone;
+use crate::panels::workspace::Workspace;
+use dragonfly_document::Change;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::Edit;
+use dragonfly_document::posing;
+use egui::pos2;
+use glam::Vec2;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Gives an event to the tools of the viewport; what reaches further is added to `effects`. Returns whether a tool took it.
+///
+/// Allocates nothing that grows with the model.
+pub(in crate::panels) fn input(
+    workspace: &mut Workspace,
+    event: InputEvent,
+    effects: &mut Vec<Effect>,
+) -> bool {
+    let pressed = event == InputEvent::MouseDown(Button::Left);
+    if pressed && workspace.player.is_playing() && workspace.tools.controls().over_handle() {
+        // A handle that is grabbed stands still.
+        workspace.player.set_now(Instant::now());
+        playback::pause(workspace);
+        tools::sync_gizmo(workspace);
+    }
+    let taken = workspace.tools.input(event, workspace.camera.camera());
+    if taken && matches!(event, InputEvent::MouseDown(_)) {
+        // The viewport was used last: the command that copies takes the pose.
+        workspace.keys.lose_focus();
+    }
+    take_answers(workspace, effects);
+    taken
+}
+
+/// Carries out what the tools ask for.
+fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
+    workspace.camera.set_camera(workspace.tools.camera());
+    let corner = workspace.camera.viewport().min;
+    let controls = workspace.tools.controls_mut();
+    let (outcome, click) = (controls.picture_mut().take_outcome(), controls.gizmo_mut().take_click());
+    let refused = controls.gizmo_mut().take_refused();
+    let (gizmo, path) = (controls.gizmo_mut().take_answer(), controls.path_mut().take_answer());
+    match outcome {
+        Some(Outcome::Pick(at, choice)) => {
+            workspace.tools.set_clicked_handle(false);
+            effects.push(Effect::Pick(corner + egui::vec2(at.x, at.y), choice));
+        }
+        Some(Outcome::Catch(region, choice)) => effects.push(Effect::Catch(region, choice)),
+        None => {}
+    }
+    if let Some(mouse) = click {
+        workspace.tools.set_clicked_handle(true);
+        effects.push(Effect::Pick(pos2(mouse.at.x, mouse.at.y), Choice::from(mouse.modifiers)));
+    }
+    if refused {
+        say_refused(workspace);
+    }
+    if let Some(answer) = gizmo {
+        gizmo_answered(workspace, answer, effects);
+    }
+    if let Some(answer) = path {
+        path_answered(workspace, answer, effects);
+    }
+}
+
+/// Reports why a pose cannot be changed.
+pub(super) fn say_refused(workspace: &mut Workspace) {
+    if let Some(bone) = workspace.bones.active().filter(|_| workspace.player.take().is_some()) {
+        return locks::say_locked(workspace, bone);
+    }
+    workspace.say(Severity::Info, "The rest pose stays as it is: show a take to change a pose in it");
+}
+
+fn gizmo_answered(workspace: &mut Workspace, answer: GizmoAnswer, effects: &mut Vec<Effect>) {
+    let idle = workspace.tools.controls().gizmo().gizmo.is_identity();
+    match answer {
+        GizmoAnswer::Ignored => {}
+        GizmoAnswer::Changed => {
+            begin_following(workspace);
+            // A press that changes nothing yet is no edit.
+            if !idle || workspace.tools.drag().gesture().is_some() {
+                let poses = workspace.tools.dragged_poses();
+                if let Some(edit) = workspace.read().pose_edit(poses) {
+                    send(workspace, edit, effects);
+                }
+            }
+        }
+        GizmoAnswer::Confirmed => end_drag(workspace, idle, effects),
+        GizmoAnswer::Cancelled => end_drag(workspace, true, effects),
+    }
+}
+
+fn path_answered(workspace: &mut Workspace, answer: PathAnswer, effects: &mut Vec<Effect>) {
+    match answer {
+        PathAnswer::Moved(key) => {
+            if let Some(edit) = path_edit(workspace, key) {
+                send(workspace, edit, effects);
+            }
+        }
+        PathAnswer::Done => end_drag(workspace, false, effects),
+        PathAnswer::Cancelled => end_drag(workspace, true, effects),
+    }
+}
+
+/// Sends an edit of the drag, unless it edits a locked bone.
+fn send(workspace: &mut Workspace, edit: Edit, effects: &mut Vec<Effect>) {
+    let gesture = workspace.tools.drag().gesture().unwrap_or_else(|| workspace.dragging.new_gesture());
+    workspace.tools.drag_mut().begin(gesture);
+    let effect = locks::unlocked(workspace, Effect::Change(Change::Edit(edit, Some(gesture))));
+    effects.extend(effect);
+}
+
+fn end_drag(workspace: &mut Workspace, cancel: bool, effects: &mut Vec<Effect>) {
+    if let Some(gesture) = workspace.tools.drag_mut().end() {
+        let end = if cancel { Change::Cancel } else { Change::Release };
+        effects.push(Effect::Change(end(gesture)));
+    }
+}
+
+/// Notes the poses at the start of a drag of the gizmo. Does nothing while it goes on.
+pub(super) fn begin_following(workspace: &mut Workspace) {
+    if workspace.tools.drag().is_undecided() {
+        let hold = if workspace.read().bones_follow() { ik::hold(workspace) } else { None };
+        workspace.tools.drag_mut().follow(hold);
+    }
+}
+
+/// Notes the poses at the time of a key, at the start of a drag of the motion path.
+fn begin_following_path(workspace: &mut Workspace, time: f32) {
+    if !workspace.tools.drag().is_undecided() {
+        return;
+    }
+    let panels = workspace.read();
+    let (follow, fixed, mode) = (panels.bones_follow(), panels.fixed_bones(), panels.ik);
+    let hold = workspace.model.view().filter(|_| follow).map(|view| {
+        let poses = workspace.tools.path_mut().posed().update(view, workspace.player.take(), time).poses();
+        let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
+        posing::PoseDragState::new(skeleton, poses, workspace.bones.pins(), mode, None).with_fixed(&fixed)
+    });
+    workspace.tools.drag_mut().follow(hold);
+}
+
+/// Returns the edit that moves the joint of the active bone to a key of the motion path. As with the gizmo, the bones above
+/// follow with IK on, and pinned bones stay where they are at that time; without either the bone moves alone.
+fn path_edit(workspace: &mut Workspace, key: PathKey) -> Option<Edit> {
+    let (bone, take) = (workspace.bones.active()?, workspace.read().take_ref()?);
+    begin_following_path(workspace, key.time);
+    let poses = match workspace.tools.drag_mut().poses_of_path(bone, key.place) {
+        Ok(poses) => poses?,
+        Err(Alone) => {
+            let shown = workspace.player.take();
+            vec![workspace.tools.path_mut().pose_at(workspace.model.view()?, shown, bone, key)?]
+        }
+    };
+    Some(workspace.read().edit_of(take, key.time, poses))
+}
+
+/// Returns a position in points as the tools take it.
+pub(super) fn place(at: egui::Pos2) -> Vec2 {
+    Vec2::new(at.x, at.y)
+}

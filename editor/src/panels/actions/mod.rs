@@ -1,0 +1,32 @@
+//! What requests and commands do to the workspace. What reaches beyond the panels is returned as an effect.
+//!
+//! [`execute::execute`] is the one place where requests are taken apart; a command of the table calls the function that its
+//! row names.
+
+pub(super) mod baking;
+pub(super) mod bones;
+pub(super) mod clipboard;
+pub(super) mod drags;
+pub(super) mod execute;
+pub(super) mod feed;
+pub(super) mod files;
+pub(super) mod framing;
+pub(super) mod ik;
+pub(super) mod input;
+pub(super) mod keys;
+pub(super) mod locks;
+pub(super) mod look;
+pub(super) mod playback;
+pub(super) mod pose;
+pub(super) mod show;
+pub(super) mod takes;
+pub(super) mod tools;
+
+use super::request::Effect;
+use dragonfly_document::Change;
+use dragonfly_document::edit::Edit;
+
+/// Returns the effect of an edit that is a step of its own.
+fn edit(edit: Edit) -> Effect {
+    Effect::Change(Change::Edit(edit, None))
+}

@@ -1,0 +1,173 @@
+//! Playback: which time of which take is shown.
+
+use crate::panels::ruler;
+use crate::panels::settings::SPEEDS;
+use crate::panels::status::Severity;
+use crate::panels::workspace::Workspace;
+use dragonfly_document::View;
+use dragonfly_picture::playback::Repeat;
+
+/// Shows a take from its start; keeps playing or standing.
+pub(in crate::panels) fn show_take(workspace: &mut Workspace, index: Option<usize>) {
+    workspace.keys.before_take_change();
+    let take = index.and_then(|index| workspace.model.takes().get(index));
+    let bounds = take.map(|take| (take.start, take.length));
+    workspace.player.show(index, bounds);
+}
+
+/// Follows the take that is shown to its place in a newer view; where it is gone, shows its neighbor. A take that was just
+/// created on request is shown.
+pub(in crate::panels) fn follow_take(workspace: &mut Workspace, before: Option<&View>) {
+    let before = before.map_or(&[][..], |view| &view.slots);
+    if let Some(new) = workspace.takes.update(before, workspace.model.slots()) {
+        let time = workspace.player.time();
+        show_take(workspace, Some(new));
+        let (start, length) = workspace.read().take_bounds();
+        if (start..=start + length).contains(&time) {
+            workspace.player.seek(time);
+        }
+        return;
+    }
+    let Some(index) = workspace.player.take() else { return };
+    let slots = workspace.model.slots();
+    let place = before.get(index).and_then(|old| slots.iter().position(|slot| slot.id == old.id));
+    match place {
+        Some(place) => workspace.player.follow(place),
+        None => {
+            let neighbor = index.min(slots.len().saturating_sub(1));
+            show_take(workspace, Some(neighbor));
+        }
+    }
+}
+
+/// Goes on with the take that is shown, at the same time of it, where its bounds changed or it is gone.
+pub(in crate::panels) fn keep_take(workspace: &mut Workspace) {
+    let panels = workspace.read();
+    let bounds = panels
+        .take()
+        .map(|_| if panels.playback.playing { panels.play_bounds() } else { panels.take_bounds() });
+    workspace.player.keep(bounds);
+}
+
+/// Keeps the time within the play range while it passes; while it stands, any time of the take can be shown.
+pub(in crate::panels) fn bound_playback(workspace: &mut Workspace) {
+    let panels = workspace.read();
+    let bounds = if panels.playback.playing { panels.play_bounds() } else { panels.take_bounds() };
+    workspace.player.play_within(bounds);
+}
+
+/// Starts in `direction`, or stops when time already runs that way.
+pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
+    let speed = workspace.settings.speed * direction;
+    if workspace.player.is_playing() && workspace.player.playback().speed == speed {
+        let (time, rate) = (workspace.player.time(), workspace.settings.frame_rate);
+        // Keys will be made at the time where it stops, and with snapping on they go to whole frames.
+        let frame = ruler::time_of(ruler::frame_of(time, rate), rate);
+        return stop_at(workspace, if workspace.keys.snap() { frame } else { time });
+    }
+    let bounds = workspace.read().play_bounds();
+    if bounds.1 <= 0.0 {
+        return workspace.say(Severity::Info, "All keys are at one time: there is nothing to play");
+    }
+    workspace.player.play(bounds, speed);
+}
+
+/// Stops where time is, if it passes.
+pub(in crate::panels) fn pause(workspace: &mut Workspace) {
+    if workspace.player.is_playing() {
+        let time = workspace.player.time();
+        stop_at(workspace, time);
+    }
+}
+
+/// Goes to `time`; keeps playing or standing.
+pub(in crate::panels) fn seek(workspace: &mut Workspace, time: f32) {
+    workspace.player.seek(time);
+    bring_into_sight(workspace);
+}
+
+/// Goes to `time` and stops there.
+pub(in crate::panels) fn stop_at(workspace: &mut Workspace, time: f32) {
+    workspace.player.stop_at(time);
+    bring_into_sight(workspace);
+}
+
+/// Shows the part of time with the playhead, where that stands and is out of sight.
+fn bring_into_sight(workspace: &mut Workspace) {
+    if let Some(take) = workspace.read().shared_take().cloned().filter(|_| !workspace.player.is_playing()) {
+        workspace.keys.bring_into_sight(&take, workspace.player.time());
+    }
+}
+
+/// Goes to the first time that plays.
+pub(in crate::panels) fn go_to_start(workspace: &mut Workspace) {
+    let (start, _) = workspace.read().play_bounds();
+    seek(workspace, start);
+}
+
+/// Goes to the last time that plays.
+pub(in crate::panels) fn go_to_end(workspace: &mut Workspace) {
+    let (start, length) = workspace.read().play_bounds();
+    seek(workspace, start + length);
+}
+
+/// Goes on by this many seconds and stops.
+pub(in crate::panels) fn skip(workspace: &mut Workspace, seconds: f32) {
+    let time = workspace.player.time() + seconds;
+    stop_at(workspace, time);
+}
+
+/// Goes to the next or previous frame and stops.
+pub(in crate::panels) fn step_frame(workspace: &mut Workspace, direction: i64) {
+    let time = ruler::step_frame(workspace.player.time(), direction, workspace.settings.frame_rate);
+    stop_at(workspace, time);
+}
+
+/// Goes to the next or previous key and stops.
+pub(in crate::panels) fn step_key(workspace: &mut Workspace, forward: bool) {
+    if let Some(time) = workspace.read().next_key(forward) {
+        stop_at(workspace, time);
+    }
+}
+
+/// Goes to the next or previous marker and stops.
+pub(in crate::panels) fn step_marker(workspace: &mut Workspace, forward: bool) {
+    match workspace.read().next_marker(forward) {
+        Some(time) => stop_at(workspace, time),
+        None => workspace.say(Severity::Info, "There is no marker on that side"),
+    }
+}
+
+/// Shows the next or previous take.
+pub(in crate::panels) fn step_take(workspace: &mut Workspace, direction: isize) {
+    let count = workspace.model.digest().takes.len() as isize;
+    if count > 0 {
+        let none = if direction > 0 { -1 } else { count };
+        let current = workspace.player.take().map_or(none, |take| take as isize);
+        show_take(workspace, Some((current + direction).rem_euclid(count) as usize));
+    }
+}
+
+/// Sets the speed, without its direction.
+pub(in crate::panels) fn set_speed(workspace: &mut Workspace, speed: f32) {
+    if speed.is_finite() {
+        workspace.settings.speed = speed.clamp(*SPEEDS.start(), *SPEEDS.end());
+        workspace.player.set_speed(workspace.settings.speed);
+    }
+}
+
+/// Sets what happens at the end of the take.
+pub(in crate::panels) fn set_repeat(workspace: &mut Workspace, repeat: Repeat) {
+    workspace.settings.repeat = repeat;
+    workspace.player.set_repeat(repeat);
+}
+
+/// Sets the next of loop, back and forth, once.
+pub(in crate::panels) fn cycle_repeat(workspace: &mut Workspace) {
+    let repeat = match workspace.player.playback().repeat {
+        Repeat::Loop => Repeat::PingPong,
+        Repeat::PingPong => Repeat::Once,
+        Repeat::Once => Repeat::Loop,
+    };
+    set_repeat(workspace, repeat);
+}

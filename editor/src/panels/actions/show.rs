@@ -1,0 +1,128 @@
+//! The start of a frame, and a newer view of the document.
+
+use super::{drags, framing, keys, playback, tools};
+use crate::panels::change_summary;
+use crate::panels::frame_rate;
+use crate::panels::marks::{BoneMarks, RecalledMarks};
+use crate::panels::status::Severity;
+use crate::panels::workspace::Workspace;
+use dragonfly_document::View;
+use std::time::Instant;
+
+/// Starts a frame: computes what the panels read.
+pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
+    workspace.player.set_now(now);
+    workspace.player.stop_at_end();
+    drags::settle_keys(workspace);
+    if let Some(take) = workspace.read().shared_take().cloned() {
+        workspace.keys.reserve_margin(&take, workspace.player.time());
+    }
+    workspace.keys.deselect_unlisted(workspace.bones.selection());
+    let playback = workspace.player.playback();
+    workspace.posed.set_running(playback.moves(now));
+    workspace.model.update_digest(playback.take, workspace.bones.active());
+    if let Some(view) = workspace.model.view() {
+        workspace.posed.hold_still(workspace.keys.flags(), view);
+        workspace.tools.path_mut().hold_still(workspace.keys.flags(), view);
+        if workspace.bones.active().is_some() {
+            workspace.posed.update(view, playback.take, workspace.player.time());
+        }
+    }
+    tools::sync_gizmo(workspace);
+    tools::update_path(workspace);
+}
+
+/// Shows a newer view of the document. Of another model its first take that moves is shown, playing from the start.
+pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
+    let view = workspace.model.receive(view, &mut workspace.dragging.echo);
+    if workspace.model.is_replaced_by(&view) {
+        note_marks(workspace);
+        workspace.model.replace(view);
+        return show_model(workspace);
+    }
+    let before = workspace.model.replace(view);
+    playback::follow_take(workspace, before.as_ref());
+    keys::keep_markers(workspace, before.as_ref());
+    if let Some((old, new)) = before.as_ref().zip(workspace.model.view())
+        && let Some(summary) = change_summary::describe_change(old, new)
+    {
+        workspace.status.remark(summary);
+    }
+    drags::settle_keys(workspace);
+    playback::keep_take(workspace);
+}
+
+/// Shows a model that was just opened.
+fn show_model(workspace: &mut Workspace) {
+    workspace.tools.drop_drag();
+    workspace.bones.reset(workspace.model.bones());
+    workspace.tools.set_pole(None);
+    if let Some(view) = workspace.model.view() {
+        workspace.keys.open(view.file.key());
+    }
+    recall_marks(workspace);
+    guess_frame_rate(workspace);
+    let takes = workspace.model.takes();
+    // Some programs write a single pose before the takes that move.
+    let moving = takes.iter().position(|take| take.length > 0.0);
+    let first = moving.or((!takes.is_empty()).then_some(0));
+    playback::show_take(workspace, first);
+    // Restored work stays at the time where it was edited.
+    let restored = workspace.model.view().is_some_and(|view| !view.history.steps.is_empty());
+    let plays = moving.is_some() && !restored && workspace.prompts.question().is_none();
+    workspace.player.set_playing(plays, workspace.settings.speed, workspace.settings.repeat);
+    framing::frame_model(workspace);
+}
+
+fn marks(workspace: &Workspace) -> BoneMarks<'_> {
+    BoneMarks { flags: workspace.keys.flags(), pins: workspace.bones.pins(), pole: workspace.tools.ik().pole }
+}
+
+/// Notes the marks of the model that is open, where they changed.
+pub(in crate::panels) fn note_marks(workspace: &mut Workspace) {
+    let mut remembered = std::mem::take(&mut workspace.marks);
+    if let Some(view) = workspace.model.view() {
+        remembered.note(view, marks(workspace));
+    }
+    workspace.marks = remembered;
+}
+
+/// Gives the model that was just opened the marks that its file had.
+fn recall_marks(workspace: &mut Workspace) {
+    let mut remembered = std::mem::take(&mut workspace.marks);
+    let recalled = workspace.model.view().and_then(|view| remembered.recall(view));
+    if let Some(RecalledMarks { flags, pins, pole }) = recalled {
+        for (flag, bone) in flags {
+            workspace.keys.set_flag(flag, bone, true);
+        }
+        workspace.bones.set_pins(pins);
+        workspace.tools.set_pole(pole);
+        if let Some(view) = workspace.model.view() {
+            remembered.recalled(view, marks(workspace));
+        }
+    }
+    workspace.marks = remembered;
+}
+
+/// Sets the frame rate at which the keys of the model were made, where they are not at frames of the rate that is set.
+fn guess_frame_rate(workspace: &mut Workspace) {
+    let now = workspace.settings.frame_rate;
+    if let Some(rate) = frame_rate::rate_of(workspace.model.takes(), now).filter(|&rate| rate != now) {
+        workspace.settings.frame_rate = rate;
+        let text = format!("Its keys lie on {rate} frames a second: the timeline counts in these now");
+        workspace.say(Severity::Info, text);
+    }
+}
+
+/// Reads the text of the file of markers.
+pub(in crate::panels) fn read_markers(workspace: &mut Workspace, text: &str) {
+    if let Some(view) = workspace.model.view() {
+        workspace.keys.markers_mut().read(text, &view.slots);
+    }
+}
+
+/// Returns the file of markers and its text, when they changed since the last call.
+pub(in crate::panels) fn unsaved_markers(workspace: &mut Workspace) -> Option<(String, String)> {
+    let view = workspace.model.view()?;
+    workspace.keys.markers_mut().unsaved(&view.slots)
+}

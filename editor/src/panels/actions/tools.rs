@@ -1,0 +1,96 @@
+//! The tools of the viewport: which one is active, where the gizmo is, the motion path.
+
+use super::{input, playback};
+use crate::control::Catch;
+use crate::panels::status::Severity;
+use crate::panels::tool_state::PlacedGizmo;
+use crate::panels::workspace::Workspace;
+use dragonfly_picture::gizmo::{GizmoSettings, GizmoSpace, Tool};
+use std::time::Instant;
+
+/// Switches to the next axes: the bone's, its parent's, the scene's, the view's.
+pub(in crate::panels) fn next_space(workspace: &mut Workspace) {
+    let space = &mut workspace.settings.tools.space;
+    *space = match *space {
+        GizmoSpace::Local => GizmoSpace::Parent,
+        GizmoSpace::Parent => GizmoSpace::World,
+        GizmoSpace::World => GizmoSpace::View,
+        GizmoSpace::View => GizmoSpace::Local,
+    };
+}
+
+/// Selects in a box or lasso with the next drag.
+pub(in crate::panels) fn arm(workspace: &mut Workspace, catch: Catch) {
+    workspace.tools.controls_mut().picture_mut().arm(catch);
+}
+
+/// Begins to drag from where the mouse is, without a button.
+pub(in crate::panels) fn drag_now(workspace: &mut Workspace, tool: Tool) {
+    if workspace.tools.controls().is_busy() {
+        return;
+    }
+    workspace.settings.tools.tool = Some(tool);
+    let time = workspace.player.time();
+    playback::stop_at(workspace, time);
+    sync_gizmo(workspace);
+    workspace.tools.controls_mut().look(workspace.camera.camera());
+    if !workspace.tools.controls().gizmo().editable {
+        workspace.tools.refuse_drag(Instant::now());
+        return input::say_refused(workspace);
+    }
+    if !workspace.tools.controls_mut().begin_by_key() {
+        workspace.say(Severity::Info, "The selected bone lies behind the eye");
+    }
+    // Nothing is changed before the mouse moves.
+    workspace.tools.controls_mut().gizmo_mut().take_answer();
+    if workspace.tools.controls().edits() {
+        input::begin_following(workspace);
+    }
+}
+
+/// Places the gizmo at the selected bones, in the pose that is shown. Does nothing where nothing changed; a drag keeps its
+/// place.
+pub(super) fn sync_gizmo(workspace: &mut Workspace) {
+    workspace.tools.controls_mut().look(workspace.camera.camera());
+    let mut bones = workspace.tools.spare_list();
+    let panels = workspace.read();
+    bones.extend(panels.bones_to_pose());
+    let Some(view) = workspace.model.view() else { return };
+    let hand = &panels.settings.tools;
+    let settings = GizmoSettings {
+        space: hand.space,
+        pivot: hand.pivot,
+        curl: hand.curl,
+        ..panels.tools.controls().gizmo().gizmo.settings
+    };
+    let (take, active, flags) = (panels.playback.take, panels.selected(), panels.keys.flags());
+    let editable = take.is_some() && !panels.selection_is_locked();
+    let free = active.is_none_or(|bone| !flags.locked(bone));
+    let placement = PlacedGizmo {
+        generation: view.generation,
+        take,
+        time: panels.time(),
+        tool: hand.tool,
+        settings,
+        bones,
+        active,
+        flags: flags.version(),
+    };
+    let path_editable = take.is_some() && free;
+    workspace.tools.sync_gizmo(view, &mut workspace.posed, placement, editable, path_editable);
+}
+
+/// Computes the motion path again where something changed that it is computed from.
+pub(super) fn update_path(workspace: &mut Workspace) {
+    let source = workspace.model.view().zip(workspace.player.take()).zip(workspace.bones.active());
+    let changed = match source.filter(|_| workspace.settings.tools.path) {
+        Some(((view, take), bone)) => {
+            let (rate, flags) = (workspace.settings.frame_rate, workspace.keys.flags());
+            workspace.tools.path_mut().update(view, take, bone, rate, flags)
+        }
+        None => workspace.tools.path_mut().clear(),
+    };
+    if changed {
+        workspace.tools.show_path_keys();
+    }
+}

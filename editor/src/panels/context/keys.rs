@@ -1,0 +1,128 @@
+//! Keys of the take shown: which bones are listed, the next key, the bounds of playback, ghosts.
+
+use super::PanelContext;
+use crate::panels::keys::{Drawn, Marker, channel};
+use dragonfly_anim::data::BoneIndex;
+
+/// A key nearer to the time shown than this is the key that is left, seconds.
+const NEAR: f32 = 1e-4;
+
+impl<'a> PanelContext<'a> {
+    /// Returns the keys as they are to be drawn now; `None` where no take is shown.
+    pub fn drawn_keys(&self) -> Option<Drawn> {
+        self.keys.drawn(self.shared_take())
+    }
+
+    /// Returns the markers of the take that is shown.
+    pub fn markers(&self) -> &'a [Marker] {
+        self.slot().map_or(&[], |slot| self.keys.markers().of(slot.id))
+    }
+
+    /// Returns the duration of a frame, seconds.
+    pub(in crate::panels) fn frame_seconds(&self) -> f32 {
+        1.0 / self.settings.frame_rate.max(1) as f32
+    }
+
+    /// Returns start and length of the take that is shown.
+    pub fn take_bounds(&self) -> (f32, f32) {
+        self.take().map_or((0.0, 0.0), |take| (take.start, take.length))
+    }
+
+    /// Returns start and length of what plays, seconds: the range, or the whole take.
+    pub fn play_bounds(&self) -> (f32, f32) {
+        let (start, length) = self.take_bounds();
+        match self.keys.range() {
+            Some([from, to]) => {
+                let (from, to) = (from.clamp(start, start + length), to.clamp(start, start + length));
+                (from, to - from)
+            }
+            None => (start, length),
+        }
+    }
+
+    /// Returns what trimming keeps, seconds: the play range, or the whole take where none is set.
+    pub(in crate::panels) fn trim_range(&self) -> [f32; 2] {
+        let (start, length) = self.play_bounds();
+        [start, start + length]
+    }
+
+    /// Returns whether only the selected bones are listed; where none is selected all are.
+    pub(in crate::panels) fn lists_only_selected(&self) -> bool {
+        self.keys.only_selected() && self.selected().is_some()
+    }
+
+    /// Returns the bones that the timeline lists, in the order of the tree: those with keys, of these the selected ones where
+    /// only they are listed, and those whose names contain the filter.
+    pub fn listed_bones(&self) -> Vec<BoneIndex> {
+        let Some(take) = self.take() else { return Vec::new() };
+        let only = self.lists_only_selected();
+        let filter = self.keys.filter().to_lowercase();
+        let listed = |&bone: &BoneIndex| {
+            (!only || self.keys.lists(bone, self.selection))
+                && channel::channels(take, bone).next().is_some()
+                && (filter.is_empty() || self.bone_name(bone).to_lowercase().contains(&filter))
+        };
+        self.digest.rows.iter().map(|row| row.bone).filter(listed).collect()
+    }
+
+    /// Returns the next key after the time shown, or the last one before it: of the selected bones, or of all.
+    pub(in crate::panels) fn next_key(&self, forward: bool) -> Option<f32> {
+        self.next_key_from(self.time(), forward)
+    }
+
+    /// Returns the next key after a time, or the last one before it: of the selected bones, or of all. Each channel is searched,
+    /// so many keys cost little.
+    pub(in crate::panels) fn next_key_from(&self, now: f32, forward: bool) -> Option<f32> {
+        let take = self.take()?;
+        let next = |times: &[f32]| {
+            if forward {
+                times.get(times.partition_point(|&key| key <= now + NEAR)).copied()
+            } else {
+                times.partition_point(|&key| key < now - NEAR).checked_sub(1).map(|at| times[at])
+            }
+        };
+        let of_bone =
+            |bone: BoneIndex| channel::channels(take, bone).filter_map(|id| next(channel::times(take, id)));
+        let nearest = |found: &mut dyn Iterator<Item = f32>| {
+            found.reduce(|a, b| if (a < b) == forward { a } else { b })
+        };
+        if self.selected().is_some() {
+            return nearest(&mut self.selection.bones().iter().flat_map(|&bone| of_bone(bone)));
+        }
+        let bones = take.tracks.iter().flat_map(|track| of_bone(track.bone));
+        let morphs = take.morphs.iter().filter_map(|morph| next(&morph.times));
+        nearest(&mut bones.chain(morphs))
+    }
+
+    /// Returns the time of the next marker, or of the one before.
+    pub(in crate::panels) fn next_marker(&self, forward: bool) -> Option<f32> {
+        let (now, mut times) = (self.time(), self.markers().iter().map(|marker| marker.time));
+        if forward { times.find(|&time| time > now + NEAR) } else { times.rfind(|&time| time < now - NEAR) }
+    }
+
+    /// Computes at which times the skeleton is shown as a ghost: seconds, and the number of the ghost counted from now;
+    /// negative before now. None while time passes.
+    pub fn ghost_times(&self, out: &mut Vec<(f32, i32)>) {
+        out.clear();
+        let ghosts = &self.settings.tools.ghosts;
+        let Some(take) = self.take().filter(|_| ghosts.shown && !self.playback.playing) else { return };
+        let (start, end) = (take.start, take.start + take.length);
+        for (direction, count) in [(-1, ghosts.count[0]), (1, ghosts.count[1])] {
+            let mut time = self.time();
+            for index in 1..=count as i32 {
+                time = if ghosts.keys {
+                    match self.next_key_from(time, direction > 0) {
+                        Some(next) if (next - time) * direction as f32 > 0.0 => next,
+                        Some(_) | None => break,
+                    }
+                } else {
+                    time + (direction * ghosts.step as i32) as f32 / self.settings.frame_rate.max(1) as f32
+                };
+                if time < start - 1e-4 || time > end + 1e-4 {
+                    break;
+                }
+                out.push((time, direction * index));
+            }
+        }
+    }
+}

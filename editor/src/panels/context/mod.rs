@@ -1,0 +1,149 @@
+//! What panels read: references to the owners of the state, and questions that need several of them.
+
+mod ik;
+mod keys;
+mod pose;
+
+use super::digest::Digest;
+use super::dragging::Dragging;
+use super::keys::Keys;
+use super::open_model::Loading;
+use super::posed::Posed;
+use super::prompts::{Overlay, Prompts, Question};
+use super::settings::Settings;
+use super::status::Status;
+use super::take_list::TakeListState;
+use super::tool_state::ToolState;
+use super::window_status::WindowStatus;
+use dragonfly_anim::data::{BoneIndex, Take};
+use dragonfly_document::adapter::TakeVersions;
+use dragonfly_document::bones::{BoneSelection, HiddenBones};
+use dragonfly_document::history::Gesture;
+use dragonfly_document::posing::IkMode;
+use dragonfly_document::{LoadedModel, View};
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::playback::PlaybackClock;
+use egui::{Pos2, Rect};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Everything that a panel reads in one frame. A panel changes nothing of it: it pushes requests.
+#[derive(Clone, Copy)]
+pub struct PanelContext<'a> {
+    /// The newest view of the document; `None` before the first model is open.
+    pub view: Option<&'a View>,
+    /// Rows, totals and key times computed from the view.
+    pub digest: &'a Digest,
+    /// The model that is being loaded.
+    pub loading: Option<&'a Loading>,
+    /// Poses at the time shown.
+    pub posed: &'a Posed,
+    /// The selected bones.
+    pub selection: &'a BoneSelection,
+    /// The hidden bones.
+    pub hidden: &'a HiddenBones,
+    /// The pinned bones.
+    pub pins: &'a [BoneIndex],
+    /// The bone whose row is under the pointer.
+    pub hovered: Option<BoneIndex>,
+    /// The bone under the pointer in the viewport.
+    pub pointed: Option<BoneIndex>,
+    /// Position of the pointer over the viewport, points.
+    pub pointer: Option<Pos2>,
+    /// How bones follow one that is moved.
+    pub ik: IkMode,
+    /// Which time of which take is shown.
+    pub playback: PlaybackClock,
+    /// The moment of the frame that is drawn.
+    pub now: Instant,
+    /// Selection and drag of keys, flags, markers, the range that plays.
+    pub keys: &'a Keys,
+    /// The list of takes.
+    pub takes: &'a TakeListState,
+    /// The camera.
+    pub camera: Camera,
+    /// The viewport, points.
+    pub viewport: Rect,
+    /// The tools of the viewport, their drag, motion path and IK.
+    pub tools: &'a ToolState,
+    /// The drag in progress, whichever panel it belongs to.
+    pub dragging: &'a Dragging,
+    /// Settings that are remembered between runs.
+    pub settings: &'a Settings,
+    /// Messages of the status line.
+    pub status: &'a Status,
+    /// Questions and overlays.
+    pub prompts: &'a Prompts,
+    /// The overlay that is shown.
+    pub overlay: Option<Overlay>,
+    /// Whether the search field is to get the cursor.
+    pub find: bool,
+    /// Graphics device, frame time, full screen.
+    pub window: &'a WindowStatus,
+}
+
+impl<'a> PanelContext<'a> {
+    /// Returns the model that is open.
+    pub fn loaded(&self) -> Option<&'a LoadedModel> {
+        self.view.map(|view| &*view.loaded)
+    }
+
+    /// Returns the number of bones of the model; 0 where none is open.
+    pub(super) fn bone_count(&self) -> usize {
+        self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len())
+    }
+
+    /// Returns the take that is shown.
+    pub fn take(&self) -> Option<&'a Take> {
+        self.shared_take().map(|take| &**take)
+    }
+
+    /// Returns the take that is shown, as it is shared.
+    pub fn shared_take(&self) -> Option<&'a Arc<Take>> {
+        self.view?.takes.get(self.playback.take?)
+    }
+
+    /// Returns the take that is shown with its original and its pending poses.
+    pub fn slot(&self) -> Option<&'a TakeVersions> {
+        self.view?.slots.get(self.playback.take?).map(|slot| &**slot)
+    }
+
+    /// Returns the time shown, seconds in the take.
+    pub fn time(&self) -> f32 {
+        self.playback.time_at(self.now)
+    }
+
+    /// Returns the name of a bone, or `Bone 7` where it has none.
+    pub fn bone_name(&self, bone: BoneIndex) -> String {
+        let bones = self.loaded().map(|loaded| &loaded.model.animation.skeleton.bones);
+        let name = bones.and_then(|bones| bones.get(bone as usize)).map_or("", |bone| bone.name.as_str());
+        if name.is_empty() { format!("Bone {bone}") } else { name.to_owned() }
+    }
+
+    /// Returns whether bones are drawn: also when one is selected, when some are hidden, which is for seeing the others, and
+    /// where the model has no surface.
+    pub fn shows_skeleton(&self) -> bool {
+        let bare = self.loaded().is_some_and(|loaded| loaded.model.instances.is_empty());
+        self.settings.look.skeleton || self.selected().is_some() || !self.hidden.is_empty() || bare
+    }
+
+    /// Returns the active bone: the one selected last.
+    pub fn selected(&self) -> Option<BoneIndex> {
+        self.selection.active()
+    }
+
+    /// Begins a gesture: a drag, or a slider that is held, whose edits are one step.
+    pub fn new_gesture(&self) -> Gesture {
+        self.dragging.new_gesture()
+    }
+
+    /// Returns the bone that is highlighted: under the pointer, in the tree or in the viewport.
+    pub fn highlighted(&self) -> Option<BoneIndex> {
+        self.hovered.or(self.pointed)
+    }
+
+    /// Returns the question that is shown.
+    pub fn question(&self) -> Option<&'a Question> {
+        self.prompts.question()
+    }
+}

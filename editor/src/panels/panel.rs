@@ -1,0 +1,40 @@
+//! What a panel is: an id, a title, a place, and a function that draws it.
+
+use super::context::PanelContext;
+use super::request::Request;
+use egui::Ui;
+
+/// Id of the panel through which the viewport is seen.
+pub const VIEWPORT: &str = "viewport";
+
+/// Position of a panel before the user moves it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Upper left.
+    Left,
+    /// Lower left.
+    LeftBelow,
+    /// The middle.
+    Middle,
+    /// The right edge.
+    Right,
+    /// Along the lower edge.
+    Below,
+    /// Along the lower edge, at the right.
+    BelowRight,
+}
+
+/// A part of the window.
+pub trait Panel {
+    /// Returns its name in files; never changes.
+    fn id(&self) -> &'static str;
+
+    /// Returns its name on the screen.
+    fn title(&self) -> &'static str;
+
+    /// Returns its position before the user moves it.
+    fn place(&self) -> Place;
+
+    /// Draws it. What the user did is pushed to `requests`.
+    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>);
+}

@@ -1,0 +1,200 @@
+//! The viewport tools and what they hold between two inputs: the drag of the gizmo, the motion path, IK.
+
+use super::motion_path::MotionPath;
+use super::posed::Posed;
+use super::tool_drag::ToolDrag;
+use crate::control::{Area, InputEvent, ViewportTools};
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::View;
+use dragonfly_document::edit::BonePose;
+use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
+use dragonfly_picture::camera::Camera;
+use dragonfly_picture::gizmo::{GizmoSettings, Tool};
+use std::time::Instant;
+
+/// Everything that the placement of the gizmo is computed from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct PlacedGizmo {
+    pub(super) generation: u64,
+    pub(super) take: Option<usize>,
+    pub(super) time: f32,
+    pub(super) tool: Option<Tool>,
+    pub(super) settings: GizmoSettings,
+    /// The bones that the gizmo moves.
+    pub(super) bones: Vec<BoneIndex>,
+    /// The active bone, which may be one that is not moved.
+    pub(super) active: Option<BoneIndex>,
+    /// Version of the flags of bones: some are shown at rest.
+    pub(super) flags: u64,
+}
+
+/// The viewport tools, their drag, the motion path and IK.
+#[derive(Debug, Default)]
+pub struct ToolState {
+    controls: ViewportTools,
+    drag: ToolDrag,
+    path: MotionPath,
+    ik: IkMode,
+    placement: Option<PlacedGizmo>,
+    /// The list of the next placement; keeps its memory.
+    spare: Vec<BoneIndex>,
+    /// When a drag that a key asked for was refused: what is typed for it gives no commands.
+    refused_drag: Option<Instant>,
+    /// Whether the last click hit a handle of the gizmo. Then it is not a click next to all bones.
+    on_handle: bool,
+}
+
+impl ToolState {
+    /// Returns tools with these IK settings and no pole.
+    pub(super) fn new(on: bool, length: u32) -> Self {
+        Self { ik: IkMode { on, length, pole: None }, ..Self::default() }
+    }
+
+    /// Returns the tools of the viewport.
+    pub fn controls(&self) -> &ViewportTools {
+        &self.controls
+    }
+
+    /// Returns the tools of the viewport, to give them an input or take an answer.
+    pub(super) fn controls_mut(&mut self) -> &mut ViewportTools {
+        &mut self.controls
+    }
+
+    /// Sets the rectangle of the viewport and those over it.
+    pub(super) fn place(&mut self, viewport: Area, shields: impl Iterator<Item = Area>, camera: &Camera) {
+        self.controls.place(viewport, shields);
+        self.controls.look(camera);
+    }
+
+    /// Gives an input to the tools. Returns whether a tool took it.
+    pub(super) fn input(&mut self, event: InputEvent, camera: &Camera) -> bool {
+        self.controls.look(camera);
+        self.controls.input(event)
+    }
+
+    /// Returns the camera after the last input.
+    pub(super) fn camera(&self) -> Camera {
+        self.controls.picture().camera
+    }
+
+    /// Returns the drag of the gizmo or the motion path.
+    pub fn drag(&self) -> &ToolDrag {
+        &self.drag
+    }
+
+    /// Returns the drag of the gizmo or the motion path, to begin or end it.
+    pub(super) fn drag_mut(&mut self) -> &mut ToolDrag {
+        &mut self.drag
+    }
+
+    /// Returns the poses that the drag of the gizmo makes now.
+    pub(super) fn dragged_poses(&mut self) -> Vec<BonePose> {
+        let gizmo = &self.controls.gizmo().gizmo;
+        self.drag.poses(gizmo.tool, gizmo.drag().bones.iter().zip(gizmo.before()))
+    }
+
+    /// Cancels the drag without an answer: the model is another, or the drag was undone elsewhere.
+    pub(super) fn drop_drag(&mut self) {
+        self.controls.cancel();
+        self.controls.gizmo_mut().take_answer();
+        self.controls.path_mut().take_answer();
+        self.drag = ToolDrag::default();
+        self.placement = None;
+    }
+
+    /// Returns an empty list for the bones of the next placement.
+    pub(super) fn spare_list(&mut self) -> Vec<BoneIndex> {
+        let mut list = std::mem::take(&mut self.spare);
+        list.clear();
+        list
+    }
+
+    /// Places the gizmo at the bones of `now`. Does nothing where nothing changed; a drag keeps its place. With `editable`
+    /// the gizmo can be dragged, with `path_editable` the keys of the motion path.
+    pub(super) fn sync_gizmo(
+        &mut self,
+        view: &View,
+        posed: &mut Posed,
+        now: PlacedGizmo,
+        editable: bool,
+        path_editable: bool,
+    ) {
+        if self.placement.as_ref() == Some(&now) || self.controls.edits() {
+            self.spare = now.bones;
+            return;
+        }
+        let control = self.controls.gizmo_mut();
+        control.editable = editable;
+        control.gizmo.settings = now.settings;
+        control.gizmo.tool = now.tool.unwrap_or_default();
+        // The tool that only selects has no handles.
+        let bones = if now.tool.is_some() { &now.bones[..] } else { &[] };
+        let skeleton = &view.loaded.model.animation.skeleton;
+        if bones.is_empty() {
+            control.gizmo.select(skeleton, &[], &[], &[], None);
+        } else {
+            let animation = posed.update(view, now.take, now.time);
+            control.gizmo.select(skeleton, animation.poses(), animation.to_root(), bones, None);
+        }
+        let pivot = self.controls.gizmo().gizmo.pivot();
+        let path = self.controls.path_mut();
+        (path.editable, path.gizmo) = (path_editable, pivot);
+        self.spare = self.placement.replace(now).map(|placement| placement.bones).unwrap_or_default();
+        self.controls.update();
+    }
+
+    /// Returns the motion path.
+    pub fn path(&self) -> &MotionPath {
+        &self.path
+    }
+
+    /// Returns the motion path, to update it.
+    pub(super) fn path_mut(&mut self) -> &mut MotionPath {
+        &mut self.path
+    }
+
+    /// Gives the keys of the motion path to the control that drags them.
+    pub(super) fn show_path_keys(&mut self) {
+        self.controls.path_mut().show(self.path.keys());
+    }
+
+    /// Returns how bones follow one that is moved.
+    pub fn ik(&self) -> IkMode {
+        self.ik
+    }
+
+    /// Turns IK on or off.
+    pub(super) fn toggle_ik(&mut self) {
+        self.ik.on = !self.ik.on;
+    }
+
+    /// Changes the number of bones that follow.
+    pub(super) fn lengthen_ik(&mut self, by: i64) {
+        self.ik.length = (i64::from(self.ik.length) + by).clamp(1, i64::from(LONGEST_CHAIN)) as u32;
+    }
+
+    /// Sets the bone towards which elbows and knees bend.
+    pub(super) fn set_pole(&mut self, pole: Option<BoneIndex>) {
+        self.ik.pole = pole;
+    }
+
+    /// Notes that a drag that a key asked for was refused at this moment.
+    pub(super) fn refuse_drag(&mut self, at: Instant) {
+        self.refused_drag = Some(at);
+    }
+
+    /// Returns when a drag that a key asked for was refused, and forgets it.
+    pub(super) fn take_refused_drag(&mut self) -> Option<Instant> {
+        self.refused_drag.take()
+    }
+
+    /// Returns whether the last click hit a handle of the gizmo.
+    pub(super) fn clicked_handle(&self) -> bool {
+        self.on_handle
+    }
+
+    /// Notes whether the last click hit a handle of the gizmo.
+    pub(super) fn set_clicked_handle(&mut self, on_handle: bool) {
+        self.on_handle = on_handle;
+    }
+}

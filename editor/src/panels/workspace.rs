@@ -1,0 +1,108 @@
+//! Everything that panels show and commands change: one owner for each part.
+
+use super::camera_state::CameraState;
+use super::context::PanelContext;
+use super::dragging::Dragging;
+use super::keys::Keys;
+use super::marks::Marks;
+use super::open_model::OpenModel;
+use super::player::Player;
+use super::posed::Posed;
+use super::prompts::Prompts;
+use super::selected_bones::SelectedBones;
+use super::settings::Settings;
+use super::status::{Severity, Status};
+use super::take_list::TakeListState;
+use super::tool_state::ToolState;
+use super::window_status::WindowStatus;
+use std::time::Instant;
+
+/// The owners of the state. A command gets all of them and calls the methods of those that it is about.
+pub(super) struct Workspace {
+    /// The document's newest view, and the load in progress.
+    pub(super) model: OpenModel,
+    /// Poses at the time shown.
+    pub(super) posed: Posed,
+    /// Which time of which take is shown.
+    pub(super) player: Player,
+    /// Selected, hidden and pinned bones.
+    pub(super) bones: SelectedBones,
+    /// Selection and drag of keys, flags, markers, the range that plays.
+    pub(super) keys: Keys,
+    /// The list of takes.
+    pub(super) takes: TakeListState,
+    /// The tools of the viewport.
+    pub(super) tools: ToolState,
+    /// The camera and the viewport.
+    pub(super) camera: CameraState,
+    /// The drag in progress, whichever panel it belongs to.
+    pub(super) dragging: Dragging,
+    /// Questions and overlays.
+    pub(super) prompts: Prompts,
+    /// Messages of the status line.
+    pub(super) status: Status,
+    /// Settings that are remembered between runs.
+    pub(super) settings: Settings,
+    /// Marks of bones that are remembered for each file.
+    pub(super) marks: Marks,
+    /// Graphics device, frame time, full screen.
+    pub(super) window: WindowStatus,
+}
+
+impl Workspace {
+    /// Returns a workspace without a model.
+    pub(super) fn new(settings: Settings, now: Instant) -> Self {
+        Self {
+            model: OpenModel::default(),
+            posed: Posed::default(),
+            player: Player::new(settings.speed, settings.repeat, now),
+            bones: SelectedBones::default(),
+            keys: Keys::of(settings.timeline),
+            takes: TakeListState::default(),
+            tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
+            camera: CameraState::default(),
+            dragging: Dragging::default(),
+            prompts: Prompts::default(),
+            status: Status::default(),
+            settings,
+            marks: Marks::default(),
+            window: WindowStatus::default(),
+        }
+    }
+
+    /// Returns what panels read.
+    pub(super) fn read(&self) -> PanelContext<'_> {
+        PanelContext {
+            view: self.model.view(),
+            digest: self.model.digest(),
+            loading: self.model.loading(),
+            posed: &self.posed,
+            selection: self.bones.selection(),
+            hidden: self.bones.hidden(),
+            pins: self.bones.pins(),
+            hovered: self.bones.hovered(),
+            pointed: self.bones.pointed(),
+            pointer: self.bones.pointer(),
+            ik: self.tools.ik(),
+            playback: self.player.playback(),
+            now: self.player.now(),
+            keys: &self.keys,
+            takes: &self.takes,
+            camera: *self.camera.camera(),
+            viewport: self.camera.viewport(),
+            tools: &self.tools,
+            dragging: &self.dragging,
+            settings: &self.settings,
+            status: &self.status,
+            prompts: &self.prompts,
+            overlay: self.prompts.overlay(),
+            find: self.prompts.finds(),
+            window: &self.window,
+        }
+    }
+
+    /// Adds a message to the status line.
+    pub(super) fn say(&mut self, level: Severity, text: impl Into<String>) {
+        self.status.say(level, text);
+    }
+}
