@@ -137,7 +137,7 @@ fn document(first: View, asked: &Receiver<Change>, answer: &Sender<View>) {
 }
 
 fn show(state: &mut State, window: TimeWindow) {
-    state.execute(Request::Timeline(KeysRequest::PanelsWindow(Some(window))));
+    state.execute(Request::Timeline(KeysRequest::Window(Some(window))));
 }
 
 /// The panels without a window.
