@@ -114,6 +114,12 @@ const ABSENCES: &[Absence] = &[
         because: "no lock is shared by two threads: one owner for everything, and messages between them",
     },
     Absence {
+        within: &["anim/src/", "editor/src/", "editor/store/", "editor/document/", "editor/picture/"],
+        except: &[],
+        words: &["thread::Builder", "thread::spawn", "thread::scope"],
+        because: "background work is a job of the runtime, so that it is named, reported and joined",
+    },
+    Absence {
         within: &["editor/src/panels/", "editor/src/control/"],
         except: &[],
         words: &[".recv(", "block_on(", "wait_for(", "std::fs", "wgpu"],
@@ -174,6 +180,10 @@ fn what_the_architecture_promises_by_absence_is_absent() {
         "state: Arc<Mutex<State>>, // shared",
     )]));
     one(says_no_such_word(&[File::planted("editor/src/panels/takes.rs", "let answer = receiver.recv();")]));
+    one(says_no_such_word(&[File::planted(
+        "editor/src/app/dialog.rs",
+        "std::thread::Builder::new().spawn(ask)?;",
+    )]));
     one(says_no_such_word(&[File::planted("editor/src/app/window.rs", "device: wgpu::Device,")]));
     one(says_no_such_word(&[File::planted("tests/editor/light.rs", "let studio = Studio::new()?;")]));
     one(says_no_such_word(&[File::planted("runtime/src/thread.rs", "use winit::event_loop;")]));

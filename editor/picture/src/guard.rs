@@ -8,10 +8,5 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// Runs `work` and returns its result, or the message of its panic.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     // A half-done frame is dropped or drawn again, so no one observes inconsistent state.
-    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
-        let words = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-        words
-            .or_else(|| panic.downcast_ref::<String>().cloned())
-            .unwrap_or_else(|| "a panic without a message".to_owned())
-    })
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| dragonfly_runtime::panic_text(&*panic).to_owned())
 }

@@ -1,7 +1,7 @@
 //! The system's dialogs for files, run in a thread of their own: they may take minutes to answer.
 
 use dragonfly_document::{Offer, Then, formats};
-use dragonfly_runtime::Address;
+use dragonfly_runtime::{Address, Job, JobContext};
 use std::path::PathBuf;
 
 /// The purpose of a file dialog.
@@ -38,7 +38,8 @@ const HUMAN: f32 = 0.25;
 
 /// Shows a dialog; the answer goes to `to`.
 pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>) -> std::io::Result<()> {
-    std::thread::Builder::new().name("file dialog".to_owned()).spawn(move || {
+    let asked = purpose.clone();
+    let work = move |_: &JobContext<Answer>| {
         let begun = std::time::Instant::now();
         let mut dialog = rfd::AsyncFileDialog::new();
         if let Some(folder) = folder {
@@ -60,8 +61,10 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
         };
         let file = file.map(|file| file.path().to_owned());
         let quick = file.is_none() && begun.elapsed().as_secs_f32() < HUMAN;
-        // The window may be closed by now.
-        let _ = to.send(Answer { purpose, file, quick });
-    })?;
+        Answer { purpose, file, quick }
+    };
+    // Detached: a dialog of the system cannot be cancelled, and the program does not wait for it at its end.
+    Job::start(&to, "file dialog", work, move |_| Answer { purpose: asked, file: None, quick: true })?
+        .detach();
     Ok(())
 }

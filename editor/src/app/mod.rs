@@ -65,7 +65,7 @@ pub enum AppError {
     Signal(i32),
     /// A part of the program failed repeatedly, and the program cannot run without it.
     #[error(
-        "a mistake in the program ended it: {0}\n  What you did is recorded, and offered when it is started again."
+        "internal error, a bug of the program: {0}\n  Your work is recorded and will be offered at the next start."
     )]
     Mistake(String),
     /// Nothing can draw into it.

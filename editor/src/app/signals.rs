@@ -30,6 +30,7 @@ pub fn end_by(signal: i32) {
 #[cfg(unix)]
 mod unix {
     use super::UserEvent;
+    use dragonfly_runtime::Job;
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     use std::time::{Duration, Instant};
@@ -53,8 +54,7 @@ mod unix {
                 let _ = proxy.send_event(UserEvent::Signal(signal));
             }
         };
-        std::thread::Builder::new().name("signals".to_owned()).spawn(listen)?;
-        Ok(())
+        Job::start_detached("signals", listen)
     }
 
     /// Returns the signals that a process ignores, from its `status` file: a program started with `nohup` outlives the terminal.

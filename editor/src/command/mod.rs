@@ -26,7 +26,6 @@ pub use failure::{Failure, tell};
 
 use crate::app::Options;
 use clap::Parser;
-use std::any::Any;
 use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
@@ -103,9 +102,9 @@ pub fn main_with(arguments: impl IntoIterator<Item = OsString>, options: Options
         Ok(Err(failure)) => failure.report(),
         Err(panic) => {
             tell(format_args!(
-                "a mistake in the program, not in what you did: {}\n  Your files are as they were. \
+                "internal error, a bug of the program: {}\n  Your files were not changed. \
                  DRAGONFLY_LOG=debug shows what led to it.",
-                reason(&*panic)
+                dragonfly_runtime::panic_text(&*panic)
             ));
             ExitCode::from(3)
         }
@@ -124,10 +123,4 @@ fn run(command_line: CommandLine, options: Options) -> Result<(), Failure> {
         Some(Commands::Edit(arguments)) => arguments.run(),
         Some(Commands::Demo(arguments)) => arguments.run(),
     }
-}
-
-/// The words of a panic.
-fn reason(panic: &(dyn Any + Send)) -> &str {
-    let text = panic.downcast_ref::<String>().map(String::as_str);
-    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("it did not say why")
 }
