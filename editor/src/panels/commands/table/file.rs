@@ -19,6 +19,6 @@ pub(super) const COMMANDS: &[Command] = &[
     command(Id::Revert, When::Unsaved, "Revert to saved", &[], "Goes back to what is in the file; Redo brings the changes again", |_| Some(Effect::File(FileAction::Revert))),
     command(Id::WhatWillBeSaved, When::Model, "What will be saved…", &[], "Lists what a save would change in the file, and writes nothing", |_| Some(Effect::File(FileAction::Plan(None)))),
     command(Id::ToggleShowChanges, When::Always, "Show changes before saving", &[], "Lists what a save will change each time before it is written", |w| { w.settings.show_changes ^= true; None }),
-    command(Id::UnsavedWork, When::Always, "Unsaved work…", &[], "Searches for work that was not saved when the program ended", |_| Some(Effect::File(FileAction::Search))),
+    command(Id::UnsavedWork, When::Always, "Unsaved work…", &[], "Looks for work that was not saved when the program ended", |_| Some(Effect::File(FileAction::Search))),
     command(Id::Quit, When::Always, "Quit", &[key(CTRL, Key::Q)], "Ends the program", |_| Some(Effect::File(FileAction::Leave(Then::Quit)))),
 ];
