@@ -7,7 +7,6 @@ use dragonfly::panels::keys::{BoneFlag, KeyDragOp, KeysRequest};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{DuplicateKeys, Edit, MoveKeys, RippleKeys, ScaleKeys, SetInterpolation};
 use dragonfly_kit::document::fixture;
-use dragonfly_picture::playback::Repeat;
 use egui::{Key, Modifiers, PointerButton, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -498,11 +497,9 @@ fn time_that_is_stopped_stands_on_a_frame_as_keys_do() {
         animator.request(Request::Timeline(KeysRequest::Snap(snaps)));
         // It plays, however slowly, when it is stopped.
         let state = &mut animator.harness.state_mut().state;
-        state.read().playback = state
-            .read()
-            .playback
-            .with(true, state.read().settings.speed, Repeat::Loop, state.read().now)
-            .seek(0.345, state.read().now);
+        state.execute(Request::Seek(0.345));
+        state.execute(Request::Command(Id::PlayPause));
+        assert!(state.read().playback.playing);
         state.execute(Request::Command(Id::PlayPause));
         let state = &animator.harness.state().state;
         assert!(!state.read().playback.playing);

@@ -1,5 +1,7 @@
 //! Replies of the document and answers of file dialogs, shown in the window.
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
 use super::file_actions;
 use super::file_dialog::Answer;
 use super::interface::Interface;

@@ -1,5 +1,7 @@
 //! The one place where requests are executed.
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
 use super::{bones, drags, files, framing, keys, locks, look, playback, pose, takes};
 use crate::panels::commands;
 use crate::panels::keys::KeysRequest;
