@@ -244,7 +244,7 @@ fn a_node_that_nothing_moves_any_more_is_named_before_it_is_saved() {
     let delete = edits(&folder, delete);
     let plan = run(["edit", &text(&file), "--edits", &delete, "--dry-run"]).expect(0);
     let said = String::from_utf8_lossy(&plan.stdout).into_owned();
-    assert!(said.contains("\"fan\" (node 1): nothing moves it any more"), "{said}");
+    assert!(said.contains("\"fan\" (node 1): no take animates it any more"), "{said}");
     let saved = text(&folder.join("saved.gltf"));
     let report = run(["edit", &text(&file), "--edits", &delete, "-o", &saved, "--json"]).expect(0).json();
     assert_eq!(report["changes"]["bonesLost"], serde_json::json!([{"node": 1, "bone": "fan"}]));

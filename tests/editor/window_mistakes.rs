@@ -83,7 +83,7 @@ fn a_thread_that_fails_again_and_again_ends_the_program_in_order_and_the_next_st
         let log = visit.editor.log();
         assert_eq!(status.code(), Some(3), "{place}: {status}\n{log}");
         assert!(log.contains("internal error, a bug of the program: "), "{place}: {log}");
-        assert!(log.contains("What you did is recorded"), "{place}: {log}");
+        assert!(log.contains("Your work is recorded"), "{place}: {log}");
         visit.again(None);
         visit.editor.hears("offered unsaved work", 1, SOON);
         visit.screen.press(key::ENTER);

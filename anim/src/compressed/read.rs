@@ -86,7 +86,8 @@ fn check_preface(bytes: &[u8]) -> Result<usize> {
             format!("the stored length is {} bytes, but there are {}", word(8), bytes.len()),
         ));
     }
-    if word(12) != CRC_32.checksum(&bytes[SUMMED..]) {
+    // A fuzzer cannot guess a checksum; what follows must be safe without one.
+    if word(12) != CRC_32.checksum(&bytes[SUMMED..]) && !cfg!(fuzzing) {
         return Err(FormatError::new(12, "the checksum does not match: the bytes were changed"));
     }
     let end_of_keys = word(16) as usize;

@@ -220,7 +220,8 @@ fn read_header(reader: &mut impl BufRead, size: u64) -> Result<(JournalHeader, u
         return Err(short);
     }
     let (text, sum) = text.split_at(length);
-    if checksum_of(&[&fixed, text]) != number(sum) {
+    // A fuzzer cannot guess a checksum; what follows must be safe without one.
+    if checksum_of(&[&fixed, text]) != number(sum) && !cfg!(fuzzing) {
         return Err(ReadFailure::Damaged("the checksum of its header is wrong"));
     }
     if version == 0 {
@@ -258,7 +259,8 @@ fn read_record(
         return Ok(None);
     }
     let length = [frame[0], frame[1], frame[2], frame[3]];
-    let right = record_checksum(journal, record, length, frame[4], bytes) == number(&frame[5..]);
+    let right =
+        record_checksum(journal, record, length, frame[4], bytes) == number(&frame[5..]) || cfg!(fuzzing);
     Ok(right.then_some(tag))
 }
 

@@ -110,7 +110,7 @@ fn ending(bytes: &[u8]) -> Result<(usize, bool), ImportError> {
         return Err(invalid(at, DFM_ENDING, reason));
     }
     let computed = CRC_32.checksum(&bytes[directory_at..at + 8]);
-    if computed != checksum {
+    if computed != checksum && !cfg!(fuzzing) {
         return Err(altered(directory_at, "checksums", computed, checksum));
     }
     if major != VERSION.0 {
@@ -164,7 +164,7 @@ fn extent<'a>(
     }
     let name = PARTS.iter().find(|layout| layout.tag == tag).map_or("unknown elements", |layout| layout.name);
     let computed = hasher.finalize();
-    if computed != checksum {
+    if computed != checksum && !cfg!(fuzzing) {
         return Err(altered(at, name, computed, checksum));
     }
     Ok(part)
