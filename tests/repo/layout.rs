@@ -144,3 +144,21 @@ fn every_link_in_the_documents_at_the_top_leads_somewhere() {
         false
     }));
 }
+
+fn is_read_in_minutes(path: &str, text: &str) -> Vec<String> {
+    let (words, lines) = (text.split_whitespace().count(), text.lines().count());
+    match path {
+        "ARCHITECTURE.md" if words > 1500 => vec![format!("{path}: {words} words; a map has at most 1,500")],
+        "CHANGELOG.md" if lines > 40 => vec![format!("{path}: {lines} lines, at most 40 for a version")],
+        _ => Vec::new(),
+    }
+}
+
+#[test]
+fn the_map_and_the_change_log_stay_short() {
+    for path in ["ARCHITECTURE.md", "CHANGELOG.md"] {
+        none(is_read_in_minutes(path, &std::fs::read_to_string(root().join(path)).expect(path)));
+    }
+    one(is_read_in_minutes("ARCHITECTURE.md", &"word ".repeat(1501)));
+    one(is_read_in_minutes("CHANGELOG.md", &"line\n".repeat(41)));
+}

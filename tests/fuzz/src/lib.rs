@@ -31,7 +31,7 @@ mod tests {
         let seed = seed(0x6675_7a7a);
         println!("DRAGONFLY_SEED={seed}");
         for target in TARGETS {
-            let mut mutator = Mutator::new(seed, &[]);
+            let mut mutator = Mutator::new(seed, &[b"{}", b"\0\0\0\0", b"1e999"]);
             let files: Vec<Vec<u8>> = seeds(target)
                 .into_iter()
                 .map(|seed| seed.bytes)

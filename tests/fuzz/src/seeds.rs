@@ -1,7 +1,7 @@
 //! Seeds: the files of `tests/data`, and files made from them in formats of which none is stored.
 
 use super::Target;
-use dragonfly_anim::compressed::{CompressionSettings, compress};
+use dragonfly_anim::compressed::{CompressionSettings, Exactness, compress};
 use dragonfly_anim::format::{Formats, NoFiles, ReadOptions, WriteSupport};
 use dragonfly_kit::folder::data;
 use std::fs;
@@ -59,10 +59,11 @@ fn made(target: &str) -> Vec<Seed> {
         },
         "compressed" => {
             let animation = &fox.model.animation;
-            let takes = animation
-                .takes
-                .iter()
-                .filter_map(|take| compress(take, &animation.skeleton, &CompressionSettings::default()).ok());
+            // The fox is a hundred units long.
+            let everywhere = Exactness { tolerance: 0.01, shell: 3.0 };
+            let settings = CompressionSettings { everywhere, ..CompressionSettings::default() };
+            let takes =
+                animation.takes.iter().filter_map(|take| compress(take, &animation.skeleton, &settings).ok());
             takes
                 .map(|(take, _)| Seed { name: "Fox.dfc".to_owned(), bytes: take.as_bytes().to_vec() })
                 .collect()

@@ -59,13 +59,13 @@ pub(super) fn pictures() -> [Picture; 7] {
     let (w, h) = (WINGS.0 as u32, WINGS.1 as u32);
     let wings = veins::paint(w as usize, h as usize);
     [
-        jpeg("body_color", &colors(&skin), SKIN, 84),
+        jpeg("body_colour", &colors(&skin), SKIN, 84),
         jpeg("body_normal", &normals(&skin, SKIN), SKIN, 74),
         jpeg("body_surface", &halved(&skin, SKIN, gloss), half(SKIN), 82),
-        jpeg("eye_color", &halved(&eyes, EYES, |p| p.color), half(EYES), 90),
+        jpeg("eye_colour", &halved(&eyes, EYES, |p| p.color), half(EYES), 90),
         png("eye_normal", &normals(&eyes, EYES), EYES, ExtendedColorType::Rgb8),
         png("eye_surface", &glosses(&eyes), EYES, ExtendedColorType::Rgb8),
-        png("wing_color", &wings, WINGS, ExtendedColorType::Rgba8),
+        png("wing_colour", &wings, WINGS, ExtendedColorType::Rgba8),
     ]
 }
 
