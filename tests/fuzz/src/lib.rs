@@ -32,11 +32,7 @@ mod tests {
         println!("DRAGONFLY_SEED={seed}");
         for target in TARGETS {
             let mut mutator = Mutator::new(seed, &[b"{}", b"\0\0\0\0", b"1e999"]);
-            let files: Vec<Vec<u8>> = seeds(target)
-                .into_iter()
-                .map(|seed| seed.bytes)
-                .filter(|bytes| bytes.len() < 100_000)
-                .collect();
+            let files: Vec<Vec<u8>> = seeds(target).into_iter().take(4).map(|seed| seed.bytes).collect();
             for _ in 0..60 {
                 (target.run)(&mutator.mutant(&files));
             }
