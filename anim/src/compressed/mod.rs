@@ -111,7 +111,7 @@
 //! A version that stored every second key as its difference to the middle of its neighbors needed slightly fewer bytes,
 //! but three keys per pose, and about twice the instructions per bone.
 //!
-//! Not kept: morph weights ([`Report::morphs_left_out`]).
+//! Not kept: morph weights ([`CompressionReport::morphs_left_out`]).
 
 mod bits;
 mod compress;

@@ -47,7 +47,7 @@ pub struct FileData {
 /// An extended attribute: name and value.
 pub type Attribute = (Vec<u8>, Vec<u8>);
 
-/// The file system. Every call may fail; [`retry`] repeats a call that a signal interrupted.
+/// The file system. Every call may fail; `retry` repeats a call that a signal interrupted.
 pub trait Vfs: Debug + Send + Sync {
     /// Creates a new, empty file to read and write; an error when the name is in use. `private` denies access to
     /// other users.
