@@ -3,7 +3,7 @@
 use crate::shots::{self, PictureFolder};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
-use dragonfly::panels::{open_model::Loading, prompts::Overlay, window_status::Device};
+use dragonfly::panels::{open_model::Loading, prompts::Overlay, window_status::DeviceStatus};
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, TakeRef};
 use dragonfly_document::{Change, FileView, LoadStage, Progress, View};
 use dragonfly_kit::document::fixture;
@@ -22,7 +22,7 @@ impl Bench {
     pub(crate) fn new(view: Option<View>) -> Self {
         let now = Instant::now();
         let mut state = State::new(Settings::default(), now);
-        state.set_device(Device::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
+        state.set_device(DeviceStatus::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
         if let Some(view) = view {
             state.show(view);
             state.pause();

@@ -2,7 +2,7 @@
 
 use super::choice::{model_help, source};
 use super::output::{print, print_json, write_file};
-use super::{Command, Failure, tell};
+use super::{Failure, RunCommand, tell};
 use dragonfly_anim::format::SavePlan;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{EDITS, Edit, VERSION, parse_lines};
@@ -19,7 +19,7 @@ with the line, and nothing is written.\n\n\
 Examples:\n  dragonfly edit --list\n  \
 dragonfly edit Fox.glb --edits changes.jsonl -o Fox2.glb\n  \
 echo '{\"edit\":\"reverse_take\",\"take\":\"Run\"}' | dragonfly edit Fox.glb --edits - --dry-run")]
-pub(super) struct Arguments {
+pub(super) struct EditArguments {
     #[arg(value_name = "FILE", help = model_help(), required_unless_present_any = ["list", "schema"])]
     file: Option<PathBuf>,
     /// The edits, one JSON object a line; `-` is standard input
@@ -48,7 +48,7 @@ pub(super) struct Arguments {
 /// Most bytes of edits that are read.
 const EDITS_BYTES: u64 = 1 << 30;
 
-impl Command for Arguments {
+impl RunCommand for EditArguments {
     fn run(self) -> Result<(), Failure> {
         if self.list {
             return list(self.json);
@@ -82,7 +82,7 @@ impl Command for Arguments {
     }
 }
 
-impl Arguments {
+impl EditArguments {
     fn edits_name(&self) -> String {
         match &self.edits {
             Some(path) if path != Path::new("-") => path.display().to_string(),
@@ -101,7 +101,7 @@ impl Arguments {
         let to_stdout = !self.dry_run && self.output.as_deref() == Some(Path::new("-"));
         if self.json && !to_stdout {
             let changes = plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.json).ok());
-            return print_json(&Report { file: title.to_owned(), edits, changes, written });
+            return print_json(&EditReport { file: title.to_owned(), edits, changes, written });
         }
         if self.dry_run {
             return print(|out| write!(out, "{plan}"));
@@ -114,7 +114,7 @@ impl Arguments {
 }
 
 #[derive(Serialize)]
-struct Report {
+struct EditReport {
     file: String,
     edits: usize,
     /// Null where the whole file is written.

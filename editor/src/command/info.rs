@@ -3,7 +3,7 @@
 use super::choice::{File, plain};
 use super::output::{print, print_json};
 use super::table::{Side, Table, count};
-use super::{Command, Failure};
+use super::{Failure, RunCommand};
 use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_document::LoadedModel;
@@ -19,7 +19,7 @@ const BONES_SHOWN: usize = 80;
 #[command(
     after_help = "Examples:\n  dragonfly info Fox.glb\n  dragonfly info Fox.glb --json | jq '.takes[].name'"
 )]
-pub(super) struct Arguments {
+pub(super) struct InfoArguments {
     #[command(flatten)]
     file: File,
     /// One JSON document instead of text
@@ -27,7 +27,7 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-impl Command for Arguments {
+impl RunCommand for InfoArguments {
     fn run(self) -> Result<(), Failure> {
         let info = Info::of(self.file.load()?);
         if self.json { print_json(&info) } else { print(|out| info.write(out)) }
@@ -38,17 +38,17 @@ impl Command for Arguments {
 struct Info {
     file: String,
     format: &'static str,
-    bones: Vec<Bone>,
-    skins: Vec<Skin>,
-    takes: Vec<Take>,
-    meshes: Vec<Mesh>,
-    materials: Vec<Material>,
-    bounds: Bounds,
+    bones: Vec<InfoBone>,
+    skins: Vec<InfoSkin>,
+    takes: Vec<InfoTake>,
+    meshes: Vec<InfoMesh>,
+    materials: Vec<InfoMaterial>,
+    bounds: InfoBounds,
     warnings: Vec<String>,
 }
 
 #[derive(Serialize)]
-struct Bone {
+struct InfoBone {
     index: usize,
     name: String,
     parent: Option<BoneIndex>,
@@ -56,14 +56,14 @@ struct Bone {
 }
 
 #[derive(Serialize)]
-struct Skin {
+struct InfoSkin {
     index: usize,
     name: String,
     bones: Vec<BoneIndex>,
 }
 
 #[derive(Serialize)]
-struct Take {
+struct InfoTake {
     index: usize,
     name: String,
     start: f32,
@@ -73,7 +73,7 @@ struct Take {
 }
 
 #[derive(Serialize)]
-struct Mesh {
+struct InfoMesh {
     index: usize,
     name: String,
     vertices: usize,
@@ -84,20 +84,20 @@ struct Mesh {
 }
 
 #[derive(Serialize)]
-struct Material {
+struct InfoMaterial {
     index: usize,
     name: String,
 }
 
 #[derive(Serialize)]
-struct Bounds {
+struct InfoBounds {
     min: [f32; 3],
     max: [f32; 3],
-    sphere: Sphere,
+    sphere: InfoSphere,
 }
 
 #[derive(Serialize)]
-struct Sphere {
+struct InfoSphere {
     center: [f32; 3],
     radius: f32,
 }
@@ -115,7 +115,7 @@ impl Info {
                 .skins
                 .iter()
                 .enumerate()
-                .map(|(index, skin)| Skin { index, name: skin.name.clone(), bones: skin.bones.clone() })
+                .map(|(index, skin)| InfoSkin { index, name: skin.name.clone(), bones: skin.bones.clone() })
                 .collect(),
             takes: takes(&model),
             meshes: meshes(&model),
@@ -123,12 +123,12 @@ impl Info {
                 .materials
                 .iter()
                 .enumerate()
-                .map(|(index, material)| Material { index, name: material.name.clone() })
+                .map(|(index, material)| InfoMaterial { index, name: material.name.clone() })
                 .collect(),
-            bounds: Bounds {
+            bounds: InfoBounds {
                 min: bounds.min.to_array(),
                 max: bounds.max.to_array(),
-                sphere: Sphere { center: bounds.sphere.center.to_array(), radius: bounds.sphere.radius },
+                sphere: InfoSphere { center: bounds.sphere.center.to_array(), radius: bounds.sphere.radius },
             },
             warnings: loaded.warnings,
         }
@@ -226,8 +226,8 @@ impl Info {
     }
 }
 
-fn bones(skeleton: &Skeleton) -> Vec<Bone> {
-    let bone = |(index, bone): (usize, &dragonfly_anim::data::Bone)| Bone {
+fn bones(skeleton: &Skeleton) -> Vec<InfoBone> {
+    let bone = |(index, bone): (usize, &dragonfly_anim::data::Bone)| InfoBone {
         index,
         name: bone.name.clone(),
         parent: bone.parent,
@@ -236,8 +236,8 @@ fn bones(skeleton: &Skeleton) -> Vec<Bone> {
     skeleton.bones.iter().enumerate().map(bone).collect()
 }
 
-fn takes(model: &ModelData) -> Vec<Take> {
-    let take = |(index, take): (usize, &Arc<dragonfly_anim::data::Take>)| Take {
+fn takes(model: &ModelData) -> Vec<InfoTake> {
+    let take = |(index, take): (usize, &Arc<dragonfly_anim::data::Take>)| InfoTake {
         index,
         name: take.name.clone(),
         start: take.start,
@@ -248,7 +248,7 @@ fn takes(model: &ModelData) -> Vec<Take> {
     model.animation.takes.iter().enumerate().map(take).collect()
 }
 
-fn meshes(model: &ModelData) -> Vec<Mesh> {
+fn meshes(model: &ModelData) -> Vec<InfoMesh> {
     let skin_of = |mesh: usize| {
         model
             .instances
@@ -258,7 +258,7 @@ fn meshes(model: &ModelData) -> Vec<Mesh> {
     };
     let mesh = |(index, mesh): (usize, &dragonfly_anim::data::Mesh)| {
         let primitives = &mesh.primitives;
-        Mesh {
+        InfoMesh {
             index,
             name: mesh.name.clone(),
             vertices: primitives.iter().map(|primitive| primitive.vertices.len()).sum(),
@@ -272,7 +272,7 @@ fn meshes(model: &ModelData) -> Vec<Mesh> {
 }
 
 /// How deep each bone lies; parents come first, so one pass suffices.
-fn depths(bones: &[Bone]) -> Vec<usize> {
+fn depths(bones: &[InfoBone]) -> Vec<usize> {
     let mut depths: Vec<usize> = Vec::with_capacity(bones.len());
     for bone in bones {
         let depth = bone.parent.and_then(|parent| depths.get(parent as usize)).map_or(0, |depth| depth + 1);
@@ -282,7 +282,7 @@ fn depths(bones: &[Bone]) -> Vec<usize> {
 }
 
 /// Positions of all bones, each followed by its children; without recursion, as skeletons may be deep.
-fn tree_order(bones: &[Bone]) -> Vec<usize> {
+fn tree_order(bones: &[InfoBone]) -> Vec<usize> {
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); bones.len()];
     let mut stack = Vec::new();
     for (index, bone) in bones.iter().enumerate().rev() {

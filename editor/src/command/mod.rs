@@ -31,7 +31,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 
 /// Something that can be asked for on the command line.
-trait Command {
+trait RunCommand {
     /// Does it.
     fn run(self) -> Result<(), Failure>;
 }
@@ -39,14 +39,14 @@ trait Command {
 /// Every command; without one, the editor opens.
 #[derive(Debug, clap::Subcommand)]
 enum Commands {
-    Info(info::Arguments),
-    Check(check::Arguments),
-    Diff(diff::Arguments),
-    Pose(pose::Arguments),
-    Explain(explain::Arguments),
-    Render(render::Arguments),
-    Edit(edit::Arguments),
-    Demo(demo::Arguments),
+    Info(info::InfoArguments),
+    Check(check::CheckArguments),
+    Diff(diff::DiffArguments),
+    Pose(pose::PoseArguments),
+    Explain(explain::ExplainArguments),
+    Render(render::RenderArguments),
+    Edit(edit::EditArguments),
+    Demo(demo::DemoArguments),
 }
 
 const HELP: &str = "\
@@ -82,7 +82,7 @@ struct CommandLine {
     #[command(subcommand)]
     command: Option<Commands>,
     #[command(flatten)]
-    open: open::Arguments,
+    open: open::OpenArguments,
 }
 
 /// The whole program: reads the command line, does what it asks, and returns the exit code.

@@ -14,7 +14,7 @@ fn models_help() -> String {
 
 /// What the editor opens.
 #[derive(Clone, Debug, clap::Args)]
-pub(super) struct Arguments {
+pub(super) struct OpenArguments {
     #[arg(value_name = "FILE", help = models_help())]
     files: Vec<PathBuf>,
     /// Talks instead of opening a window: one JSON edit or query a line in, one JSON answer a line out
@@ -31,7 +31,7 @@ pub(super) struct Arguments {
     autosave: Option<PathBuf>,
 }
 
-impl Arguments {
+impl OpenArguments {
     /// Opens the editor, with `base` for everything that the command line does not set.
     pub(super) fn open(self, base: Options) -> Result<(), Failure> {
         if self.commands {
@@ -64,7 +64,7 @@ fn has_display() -> bool {
         || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(set)
 }
 
-impl Arguments {
+impl OpenArguments {
     fn options(&self, base: Options) -> Options {
         let built_in = Source::BuiltIn;
         Options {
@@ -83,7 +83,8 @@ impl Arguments {
         let file = self.files.first().unwrap_or(&built_in);
         let source = source(file);
         let loaded = load(&source)?;
-        let view = render::View { size: Size { width: 1280, height: 720 }, ..render::View::default() };
+        let view =
+            render::RenderView { size: Size { width: 1280, height: 720 }, ..render::RenderView::default() };
         let (title, take) = (loaded.title.clone(), loaded.model.animation.takes.first().cloned());
         // A third into the take something is on its way in most of them.
         let time = take.as_ref().map_or(0.0, |take| take.start + take.length / 3.0);

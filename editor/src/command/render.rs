@@ -1,7 +1,7 @@
 //! `dragonfly render FILE -o out.png`: one picture, no window needed.
 
 use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
-use super::{Command, Failure, output, quiet, tell};
+use super::{Failure, RunCommand, output, quiet, tell};
 use dragonfly_document::LoadedModel;
 use dragonfly_picture::{GraphicsError, PictureSettings, render_picture};
 use std::io::Cursor;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 Examples:\n  dragonfly render demo: -o dragonfly.png\n  \
 dragonfly render Fox.glb --take Run --time 0.35 --yaw 60 --pitch 10 --size 1920x1080 -o run.png\n  \
 dragonfly render Fox.glb --skeleton --background 00000000 -o - | display")]
-pub(super) struct Arguments {
+pub(super) struct RenderArguments {
     #[command(flatten)]
     file: File,
     #[command(flatten)]
@@ -26,12 +26,12 @@ pub(super) struct Arguments {
     #[arg(short, long, value_name = "out.png")]
     output: PathBuf,
     #[command(flatten)]
-    view: View,
+    view: RenderView,
 }
 
 /// From where, how large, and over what.
 #[derive(Clone, Debug, clap::Args)]
-pub(super) struct View {
+pub(super) struct RenderView {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720")]
     pub size: Size,
@@ -49,7 +49,7 @@ pub(super) struct View {
     pub background: Option<Color>,
 }
 
-impl Default for View {
+impl Default for RenderView {
     fn default() -> Self {
         Self {
             size: Size { width: 1280, height: 720 },
@@ -61,7 +61,7 @@ impl Default for View {
     }
 }
 
-impl Command for Arguments {
+impl RunCommand for RenderArguments {
     fn run(self) -> Result<(), Failure> {
         quiet::about_wayland();
         let loaded = self.file.load()?;
@@ -84,7 +84,7 @@ pub(super) fn draw(
     loaded: LoadedModel,
     take: Option<usize>,
     time: f32,
-    view: &View,
+    view: &RenderView,
 ) -> Result<Vec<u8>, Failure> {
     let settings = PictureSettings {
         size: [view.size.width, view.size.height],

@@ -1,12 +1,12 @@
 //! The skeleton as a tree, with a search field.
 
 use super::context::PanelContext;
-use super::digest::Row;
+use super::digest::HierarchyRow;
 use super::icons::Icon;
 use super::request::Request;
 use super::style::ROW;
 use super::theme::Theme;
-use super::{Panel, Place, search_field, widgets};
+use super::{Panel, PanelPlace, search_field, widgets};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::LoadedModel;
 use dragonfly_document::bones::Choice;
@@ -35,8 +35,8 @@ impl Panel for Hierarchy {
         "Skeleton"
     }
 
-    fn place(&self) -> Place {
-        Place::Left
+    fn place(&self) -> PanelPlace {
+        PanelPlace::Left
     }
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
@@ -65,7 +65,7 @@ impl Panel for Hierarchy {
 
 impl Hierarchy {
     /// What Enter takes: the bone that is called just so, else the first that is found.
-    fn best(&self, state: &PanelContext<'_>, rows: &[(Row, bool)]) -> Option<BoneIndex> {
+    fn best(&self, state: &PanelContext<'_>, rows: &[(HierarchyRow, bool)]) -> Option<BoneIndex> {
         let query = self.query.trim().to_lowercase();
         let found = || rows.iter().filter(|(_, hit)| *hit).map(|(row, _)| row.bone);
         let exact = found().find(|&bone| state.bone_name(bone).to_lowercase() == query);
@@ -73,7 +73,7 @@ impl Hierarchy {
     }
 
     /// The rows to show: those that match and their ancestors, or those that no ancestor hides.
-    fn visible(&mut self, state: &PanelContext<'_>) -> Vec<(Row, bool)> {
+    fn visible(&mut self, state: &PanelContext<'_>) -> Vec<(HierarchyRow, bool)> {
         let rows = &state.digest.rows;
         let query = self.query.trim().to_lowercase();
         if !query.is_empty() {
@@ -106,7 +106,7 @@ impl Hierarchy {
         &mut self,
         ui: &mut Ui,
         state: &PanelContext<'_>,
-        rows: &[(Row, bool)],
+        rows: &[(HierarchyRow, bool)],
         requests: &mut Vec<Request>,
     ) {
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -134,7 +134,7 @@ impl Hierarchy {
         &mut self,
         ui: &mut Ui,
         state: &PanelContext<'_>,
-        row: Row,
+        row: HierarchyRow,
         hit: bool,
         requests: &mut Vec<Request>,
     ) -> bool {
@@ -185,7 +185,7 @@ impl Hierarchy {
     }
 
     /// Folds or unfolds one bone; with `all`, everything below it too.
-    fn fold(&mut self, row: Row, state: &PanelContext<'_>, all: bool) {
+    fn fold(&mut self, row: HierarchyRow, state: &PanelContext<'_>, all: bool) {
         let fold = !self.collapsed.contains(&row.bone);
         let count = if all { row.below as usize } else { 0 };
         let start = state.digest.rows.iter().position(|other| other.bone == row.bone).unwrap_or(0);
@@ -204,7 +204,7 @@ impl Hierarchy {
 fn eye(
     ui: &mut Ui,
     state: &PanelContext<'_>,
-    row: Row,
+    row: HierarchyRow,
     name: &str,
     rect: Rect,
     id: egui::Id,
@@ -241,7 +241,7 @@ fn eye(
 fn choose(
     ui: &Ui,
     state: &PanelContext<'_>,
-    rows: &[(Row, bool)],
+    rows: &[(HierarchyRow, bool)],
     bone: BoneIndex,
     requests: &mut Vec<Request>,
 ) {
@@ -273,7 +273,7 @@ fn fold_mark(ui: &Ui, center: egui::Pos2, folded: bool, color: egui::Color32) {
 }
 
 /// Rows whose bone satisfies `hit`, and all their ancestors, in order; the flag tells the first from the second.
-fn matching(rows: &[Row], hit: impl Fn(BoneIndex) -> bool) -> Vec<(Row, bool)> {
+fn matching(rows: &[HierarchyRow], hit: impl Fn(BoneIndex) -> bool) -> Vec<(HierarchyRow, bool)> {
     let hits: Vec<bool> = rows.iter().map(|row| hit(row.bone)).collect();
     let mut kept = hits.clone();
     // From the end: what keeps a row keeps the nearest shallower row before it.

@@ -6,7 +6,7 @@ use super::icons::Icon;
 use super::request::Request;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
-use super::{Panel, Place, widgets};
+use super::{Panel, PanelPlace, widgets};
 use dragonfly_document::{Change, HistoryView};
 use egui::{Rect, ScrollArea, TextStyle, Ui, pos2, vec2};
 
@@ -26,8 +26,8 @@ impl Panel for History {
         "History"
     }
 
-    fn place(&self) -> Place {
-        Place::Right
+    fn place(&self) -> PanelPlace {
+        PanelPlace::Right
     }
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {

@@ -176,7 +176,7 @@ fn view(
         }
     });
     item(ui, state, Id::FullScreen, state.window.is_full_screen(), requests);
-    if matches!(state.window.device(), super::window_status::Device::Paused { .. }) {
+    if matches!(state.window.device(), super::window_status::DeviceStatus::Paused { .. }) {
         item(ui, state, Id::RetryDevice, false, requests);
     }
 }

@@ -68,7 +68,7 @@ mod workspace;
 
 pub use context::PanelContext;
 pub use layout::Layout;
-pub use panel::{Panel, Place, VIEWPORT};
+pub use panel::{Panel, PanelPlace, VIEWPORT};
 pub use request::{Effect, FileAction, Request};
 pub use settings::Settings;
 pub use state::State;
@@ -83,7 +83,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
         Box::<history::History>::default(),
-        Box::<timeline::Timeline>::default(),
+        Box::<timeline::TimelinePanel>::default(),
         Box::<curves::Curves>::default(),
     ]
 }

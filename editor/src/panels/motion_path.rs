@@ -1,7 +1,7 @@
 //! The motion path of the active bone: the position of its joint, frame by frame.
 
 use super::keys::BoneFlags;
-use super::posed::Posed;
+use super::posed::PoseCache;
 use crate::control::path::PathKey;
 use dragonfly_anim::animation::to_parent;
 use dragonfly_anim::data::{BoneIndex, Take, Track};
@@ -23,7 +23,7 @@ type PathSource = (u64, usize, BoneIndex, u32, u64);
 #[derive(Debug, Default)]
 pub struct MotionPath {
     /// Poses at other times than the one shown.
-    posed: Posed,
+    posed: PoseCache,
     source: Option<PathSource>,
     look: Option<Arc<PathLook>>,
     keys: Vec<PathKey>,
@@ -46,7 +46,7 @@ impl MotionPath {
     }
 
     /// Returns the poses at another time than the one shown.
-    pub(super) fn posed(&mut self) -> &mut Posed {
+    pub(super) fn posed(&mut self) -> &mut PoseCache {
         &mut self.posed
     }
 

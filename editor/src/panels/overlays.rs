@@ -93,7 +93,7 @@ fn about(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
             .small()
             .color(theme.weak),
     );
-    if let super::window_status::Device::Ready { adapter } = state.window.device() {
+    if let super::window_status::DeviceStatus::Ready { adapter } = state.window.device() {
         ui.label(RichText::new(adapter).small().color(theme.faint));
     }
 }

@@ -4,7 +4,7 @@ mod json;
 
 use super::choice::{File, TakeChoice, clamp_time, finite, plain};
 use super::output::{print, print_json};
-use super::{Command, Failure};
+use super::{Failure, RunCommand};
 use dragonfly_anim::data::{BoneIndex, ModelData};
 use dragonfly_anim::explain::{ExplainTarget, explain};
 use json::Document;
@@ -20,7 +20,7 @@ names bones, their parents, takes and nodes by the same numbers as `dragonfly in
 Examples:\n  dragonfly explain Fox.glb --take Run --time 0.35 --bone b_Head_05\n  \
 dragonfly explain demo: --time 0.4 --vertex 12"
 )]
-pub(super) struct Arguments {
+pub(super) struct ExplainArguments {
     #[command(flatten)]
     file: File,
     #[command(flatten)]
@@ -45,7 +45,7 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-impl Command for Arguments {
+impl RunCommand for ExplainArguments {
     fn run(self) -> Result<(), Failure> {
         let loaded = self.file.load()?;
         let take = self.take.index(&loaded.title, &loaded.model)?;
@@ -53,7 +53,7 @@ impl Command for Arguments {
         let time = clamp_time(&loaded.model, take, self.time);
         let explanation =
             explain(&loaded.model, take, time, what).map_err(|error| Failure::input(&loaded.title, error))?;
-        let document = Document::of(&loaded, &explanation);
+        let document = ExplainedDocument::of(&loaded, &explanation);
         // JSON has no word for such a number, and no reader a use for it.
         if !document.is_finite() {
             let reason = format_args!("the pose at {time} s is too large for numbers of single precision");
@@ -67,7 +67,7 @@ impl Command for Arguments {
     }
 }
 
-impl Arguments {
+impl ExplainArguments {
     fn what(&self, title: &str, model: &ModelData) -> Result<ExplainTarget, Failure> {
         let Some(wanted) = &self.bone else {
             let vertex = self.vertex.unwrap_or_default();

@@ -5,7 +5,7 @@ use crate::panels::commands;
 use crate::panels::keys::KeysRequest;
 use crate::panels::request::{Effect, FileAction, Request};
 use crate::panels::settings::IkSettings;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{Edit, TrimTake};
 use dragonfly_document::{Change, Then};
@@ -106,7 +106,7 @@ fn keys_request(workspace: &mut Workspace, request: KeysRequest) -> Option<Effec
 /// Runs a command, or reports why it cannot be run.
 fn run(workspace: &mut Workspace, command: &commands::Command) -> Option<Effect> {
     if !command.when.holds(&workspace.read()) {
-        workspace.say(Severity::Info, command.when.reason());
+        workspace.say(MessageSeverity::Info, command.when.reason());
         return None;
     }
     (command.run)(workspace)

@@ -5,7 +5,7 @@ use super::{edit, locks};
 use crate::panels::keys::intervals::WHOLE;
 use crate::panels::keys::{ChannelId, KeyDragOp, MarkerAction, TimeWindow, channel};
 use crate::panels::request::Effect;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
@@ -159,7 +159,7 @@ pub(in crate::panels) fn add_marker(workspace: &mut Workspace) {
     if let Some(text) =
         added.map(|marker| format!("{} at {time:.3} s: double click its flag to name it", marker.name))
     {
-        workspace.say(Severity::Info, text);
+        workspace.say(MessageSeverity::Info, text);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::panels::ruler;
 use crate::panels::settings::SPEEDS;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::View;
 use dragonfly_picture::playback::Repeat;
@@ -67,7 +67,7 @@ pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
     }
     let bounds = workspace.read().play_bounds();
     if bounds.1 <= 0.0 {
-        return workspace.say(Severity::Info, "All keys are at one time: there is nothing to play");
+        return workspace.say(MessageSeverity::Info, "All keys are at one time: there is nothing to play");
     }
     workspace.player.play(bounds, speed);
 }
@@ -134,7 +134,7 @@ pub(in crate::panels) fn step_key(workspace: &mut Workspace, forward: bool) {
 pub(in crate::panels) fn step_marker(workspace: &mut Workspace, forward: bool) {
     match workspace.read().next_marker(forward) {
         Some(time) => stop_at(workspace, time),
-        None => workspace.say(Severity::Info, "There is no marker on that side"),
+        None => workspace.say(MessageSeverity::Info, "There is no marker on that side"),
     }
 }
 

@@ -1,7 +1,7 @@
 //! When a command can be run: menus gray out the others, keys and the palette report the reason.
 
 use crate::panels::context::PanelContext;
-use crate::panels::window_status::Device;
+use crate::panels::window_status::DeviceStatus;
 
 /// A condition under which a command can be run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl When {
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
             Self::Unsaved => history.is_some_and(|history| !history.saved),
             Self::Loading => panels.loading.is_some(),
-            Self::Paused => matches!(panels.window.device(), Device::Paused { .. }),
+            Self::Paused => matches!(panels.window.device(), DeviceStatus::Paused { .. }),
         }
     }
 

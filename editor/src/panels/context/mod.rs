@@ -8,7 +8,7 @@ use super::digest::Digest;
 use super::dragging::Dragging;
 use super::keys::Keys;
 use super::open_model::Loading;
-use super::posed::Posed;
+use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
 use super::settings::Settings;
 use super::status::Status;
@@ -37,7 +37,7 @@ pub struct PanelContext<'a> {
     /// The model that is being loaded.
     pub loading: Option<&'a Loading>,
     /// Poses at the time shown.
-    pub posed: &'a Posed,
+    pub posed: &'a PoseCache,
     /// The selected bones.
     pub selection: &'a BoneSelection,
     /// The hidden bones.

@@ -4,7 +4,7 @@
 //! is sent only when the previous one was answered, so a slow edit makes the result coarse in time, and the pointer is
 //! never late.
 
-use super::Keys;
+use super::KeyEditing;
 use super::selection::KeySelection;
 use super::shift::Shift;
 use crate::panels::echo::Echo;
@@ -191,7 +191,7 @@ impl KeyDrag {
     }
 }
 
-impl Keys {
+impl KeyEditing {
     /// Notes the number under which a change of the drag was sent.
     pub(in crate::panels) fn sent(&mut self, gesture: Gesture, number: u64) {
         if let Some(drag) = self.drag.as_mut().filter(|drag| drag.gesture == gesture) {
