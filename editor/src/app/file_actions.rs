@@ -151,7 +151,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             interface.state.say(MessageSeverity::Warning, text);
             interface.state.ask(Question::Where { copy, then });
         }
-        // A dialog that failed slowly cannot be told from one that was closed.
+        // A dialog that failed slowly looks the same as one that the user closed.
         (Purpose::Open | Purpose::Find(_), None) => {
             interface.state.say(MessageSeverity::Info, "No file was chosen")
         }

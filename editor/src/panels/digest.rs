@@ -1,4 +1,4 @@
-//! What panels need to know about a view, computed once when it changes and not every frame.
+//! Data that the panels derive from a view, computed once when it changes instead of every frame.
 
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::{LoadedModel, View};
@@ -20,7 +20,7 @@ pub struct HierarchyRow {
 /// A line of the list of takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TakeRow {
-    /// As in the file, or a stand-in.
+    /// Name in the file, or a replacement for an empty name.
     pub name: String,
     /// Seconds.
     pub length: f32,
@@ -108,7 +108,7 @@ fn rows(loaded: &LoadedModel) -> Vec<HierarchyRow> {
         rows.push(HierarchyRow { bone, depth, parent: !below.is_empty(), below: 0 });
         stack.extend(below.iter().rev().map(|&child| (child, depth + 1)));
     }
-    // From the end, each row adds itself and what is below it to its parent, which stands before it.
+    // From the end, each row adds itself and its descendants to its parent, which comes before it in the list.
     let mut place = vec![0; bones.len()];
     for (index, row) in rows.iter().enumerate() {
         place[row.bone as usize] = index;

@@ -64,7 +64,7 @@ impl Panel for Hierarchy {
 }
 
 impl Hierarchy {
-    /// What Enter takes: the bone that is called just so, else the first that is found.
+    /// Returns the bone that Enter selects: the one with exactly this name, otherwise the first match.
     fn best(&self, state: &PanelContext<'_>, rows: &[(HierarchyRow, bool)]) -> Option<BoneIndex> {
         let query = self.query.trim().to_lowercase();
         let found = || rows.iter().filter(|(_, hit)| *hit).map(|(row, _)| row.bone);
@@ -143,7 +143,7 @@ impl Hierarchy {
         let name = state.bone_name(row.bone);
         let selected = state.selection.contains(row.bone);
         let (rect, response) = widgets::row(ui, &name, selected, state.highlighted() == Some(row.bone));
-        // Very deep skeletons stay readable: the indentation ends, the order goes on.
+        // Very deep skeletons stay readable: the indentation is limited, the order of the rows is not.
         let indent = 10.0 + (row.depth as f32 * 12.0).min(rect.width() * 0.5);
         let color = match (selected, hit) {
             (true, _) => theme.accent,
@@ -237,7 +237,7 @@ fn eye(
     response.on_hover_text(format!("{verb} {}{below}", widgets::shortened(name)));
 }
 
-/// What a click on a row selects: with Ctrl it toggles, with Shift everything from the active bone to here is added.
+/// Selects by a click on a row: with Ctrl it toggles, with Shift it adds all rows from the active bone to this one.
 fn choose(
     ui: &Ui,
     state: &PanelContext<'_>,
@@ -272,7 +272,7 @@ fn fold_mark(ui: &Ui, center: egui::Pos2, folded: bool, color: egui::Color32) {
     ui.painter().add(egui::Shape::convex_polygon(points, color, egui::Stroke::NONE));
 }
 
-/// Rows whose bone satisfies `hit`, and all their ancestors, in order; the flag tells the first from the second.
+/// Returns the rows whose bone satisfies `hit` (flag true) and all their ancestors (flag false), in order.
 fn matching(rows: &[HierarchyRow], hit: impl Fn(BoneIndex) -> bool) -> Vec<(HierarchyRow, bool)> {
     let hits: Vec<bool> = rows.iter().map(|row| hit(row.bone)).collect();
     let mut kept = hits.clone();

@@ -72,7 +72,7 @@ fn pose(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
             Id::ToggleIk => state.ik.on,
             _ => false,
         };
-        // The pose that is pasted as it is stands beside the one that is mirrored.
+        // Lists "paste" directly above "paste mirrored".
         if command.id == Id::PasteMirrored {
             item(ui, state, Id::PastePose, false, requests);
         }

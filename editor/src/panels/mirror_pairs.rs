@@ -1,4 +1,4 @@
-//! Which bone is the other side of which: a list to look at, with what speaks for each pair.
+//! Read-only list of the mirror pairs of bones, with the evidence for each pair.
 
 use super::context::PanelContext;
 use super::request::Request;

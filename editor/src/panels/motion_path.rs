@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// Maximum number of points of a path: a longer take is shown more coarsely.
 const MOST: usize = 2000;
 
-/// What a path is computed from: generation of the view, take, bone, frame rate, version of the flags of bones.
+/// The inputs of a path: generation of the view, take, bone, frame rate, version of the flags of bones.
 type PathSource = (u64, usize, BoneIndex, u32, u64);
 
 /// The path, its keys, and poses at the times of its keys.
@@ -84,7 +84,7 @@ impl MotionPath {
         let key_times = shown.tracks.iter().find(|track| track.bone == bone).map(Track::key_times);
         let times = key_times.unwrap_or_default();
         self.keys.clear();
-        // More keys could not be told from each other.
+        // More keys would overlap on the screen.
         self.keys.extend(times.iter().take(MOST).map(|&time| PathKey { time, place: chain.joint(time) }));
         self.keys.retain(|key| key.place.is_finite());
         let keys = self.keys.iter().map(|key| (key.time, key.place)).collect();

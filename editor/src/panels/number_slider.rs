@@ -9,7 +9,7 @@ use egui::{
     Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Sense, Stroke, Ui, WidgetInfo, pos2,
 };
 
-/// What a slider edits and shows.
+/// The number that a slider edits, and its display.
 #[derive(Clone, Debug)]
 pub struct NumberSlider<'a> {
     /// Identifies the slider between frames.

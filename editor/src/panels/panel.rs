@@ -1,4 +1,4 @@
-//! What a panel is: an id, a title, a place, and a function that draws it.
+//! The interface of a panel: an id, a title, a default position, and a function that draws it.
 
 use super::context::PanelContext;
 use super::request::Request;

@@ -30,7 +30,7 @@ pub struct Status {
     lines: VecDeque<StatusMessage>,
     /// Number of messages added so far.
     said: u64,
-    /// Whether the last message says more than the next remark would.
+    /// Whether the last message is more important than a remark that follows it.
     weighs_more: bool,
 }
 

@@ -139,7 +139,7 @@ fn time(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     }
 }
 
-/// What is typed into a field: numbers and sums, with or without the unit that the field shows.
+/// Parses the text of a field: a number or an expression, with or without the unit that the field shows.
 fn number(text: &str) -> Option<f64> {
     let text = text.trim().trim_end_matches(['s', '×']);
     evaluate(text, Quantity::Number).ok()

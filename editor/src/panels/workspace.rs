@@ -23,7 +23,7 @@ pub(super) struct Workspace {
     pub(super) model: OpenModel,
     /// Poses at the time shown.
     pub(super) posed: PoseCache,
-    /// Which time of which take is shown.
+    /// The take and the time that are shown.
     pub(super) player: Player,
     /// Selected, hidden and pinned bones.
     pub(super) bones: SelectedBones,

@@ -21,7 +21,7 @@ pub(in crate::panels) fn bake_pins(workspace: &mut Workspace) -> Option<Effect> 
     let here = ik::hold(workspace)?;
     let panels = workspace.read();
     let (name, view) = (panels.take_ref()?, panels.view?);
-    // As it is shown: muted bones rest.
+    // The take as the viewport shows it: muted bones are in the rest pose.
     let take = Arc::clone(panels.posed.takes(view).get(panels.playback.take?)?);
     let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
     let (fixed, mode) = (panels.fixed_bones(), panels.ik);

@@ -1,4 +1,4 @@
-//! Which bones are selected, hidden and flagged.
+//! Commands that select, hide and flag bones.
 
 use crate::panels::count_text::count;
 use crate::panels::keys::BoneFlag;

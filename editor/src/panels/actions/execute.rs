@@ -17,7 +17,7 @@ pub(in crate::panels) fn execute(workspace: &mut Workspace, request: Request) ->
     if let Some(Effect::Change(Change::Edit(Edit::TrimTake(TrimTake { from, to, to_start: true, .. }), _))) =
         effect
     {
-        // What played is the whole take then, and starts elsewhere; so does the time that is shown.
+        // The play range becomes the whole take, which starts at another time; the playhead moves there, too.
         keys::set_range(workspace, None);
         let time = workspace.player.time().clamp(from, to) - from + workspace.read().take_bounds().0;
         playback::seek(workspace, time);

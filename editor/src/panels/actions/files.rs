@@ -72,7 +72,7 @@ pub(in crate::panels) fn save(workspace: &mut Workspace) -> Option<Effect> {
     Some(save_as(workspace, order))
 }
 
-/// Saves as `order` says; asks where to save a document that has no file of its own.
+/// Saves according to `order`; asks for a path if the document has no file yet.
 fn save_as(workspace: &Workspace, order: SaveOrder) -> Effect {
     let asks = order.to == SaveTo::Own && !workspace.model.has_file();
     Effect::File(if asks {

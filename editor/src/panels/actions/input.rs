@@ -27,7 +27,7 @@ pub(in crate::panels) fn input(
 ) -> bool {
     let pressed = event == InputEvent::MouseDown(Button::Left);
     if pressed && workspace.player.is_playing() && workspace.tools.controls().over_handle() {
-        // A handle that is grabbed stands still.
+        // Playback must not move a handle that is being dragged.
         workspace.player.set_now(Instant::now());
         playback::pause(workspace);
         tools::sync_gizmo(workspace);
@@ -126,7 +126,7 @@ fn end_drag(workspace: &mut Workspace, cancel: bool, effects: &mut Vec<Effect>) 
     }
 }
 
-/// Notes the poses at the start of a drag of the gizmo. Does nothing while it goes on.
+/// Records the poses at the start of a drag of the gizmo. Does nothing during the drag.
 pub(super) fn begin_following(workspace: &mut Workspace) {
     if workspace.tools.drag().is_undecided() {
         let hold = if workspace.read().bones_follow() { ik::hold(workspace) } else { None };

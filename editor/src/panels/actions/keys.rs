@@ -104,7 +104,7 @@ pub(in crate::panels) fn ripple(workspace: &mut Workspace, frames: f32) -> Optio
     let step = frames * panels.frame_seconds();
     // Removing frames deletes the keys in them, so the keys after them move.
     let from = if frames < 0.0 { from - step } else { from };
-    // Where there is no key to move the document refuses the edit with its reason.
+    // If there is no key to move, the document refuses the edit and returns the reason.
     drag_at_once(workspace, KeyDragOp::Ripple { from, by: step })
         .or_else(|| Some(edit(Edit::RippleKeys(RippleKeys { take, from, by: step }))))
 }

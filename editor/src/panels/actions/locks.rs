@@ -1,4 +1,4 @@
-//! Locked bones: no edit reaches them, and a message says so.
+//! Locked bones: edits leave them unchanged and report that in a message.
 
 use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;

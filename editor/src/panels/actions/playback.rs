@@ -49,7 +49,7 @@ pub(in crate::panels) fn keep_take(workspace: &mut Workspace) {
     workspace.player.keep(bounds);
 }
 
-/// Keeps the time within the play range while it passes; while it stands, any time of the take can be shown.
+/// Keeps the time within the play range while playing; while paused, any time of the take can be shown.
 pub(in crate::panels) fn bound_playback(workspace: &mut Workspace) {
     let panels = workspace.read();
     let bounds = if panels.playback.playing { panels.play_bounds() } else { panels.take_bounds() };
@@ -92,7 +92,7 @@ pub(in crate::panels) fn stop_at(workspace: &mut Workspace, time: f32) {
     bring_into_sight(workspace);
 }
 
-/// Shows the part of time with the playhead, where that stands and is out of sight.
+/// Scrolls the timeline to the playhead if it is paused and out of sight.
 fn bring_into_sight(workspace: &mut Workspace) {
     if let Some(take) = workspace.read().shared_take().cloned().filter(|_| !workspace.player.is_playing()) {
         workspace.keys.bring_into_sight(&take, workspace.player.time());

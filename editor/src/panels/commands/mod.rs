@@ -33,7 +33,7 @@ pub struct Command {
     pub title: &'static str,
     /// Its keys; tooltips name the first.
     pub shortcuts: &'static [KeyboardShortcut],
-    /// What it does, in one sentence.
+    /// The tooltip: the action in one sentence.
     pub help: &'static str,
     /// Condition under which it can be run.
     pub when: When,

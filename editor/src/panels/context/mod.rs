@@ -1,4 +1,4 @@
-//! What panels read: references to the owners of the state, and questions that need several of them.
+//! Read access of the panels: references to the owners of the state, and queries that need several of them.
 
 mod ik;
 mod keys;
@@ -52,7 +52,7 @@ pub struct PanelContext<'a> {
     pub pointer: Option<Pos2>,
     /// How bones follow one that is moved.
     pub ik: IkMode,
-    /// Which time of which take is shown.
+    /// The take and the time that are shown.
     pub playback: PlaybackClock,
     /// The moment of the frame that is drawn.
     pub now: Instant,

@@ -7,7 +7,7 @@ use dragonfly_document::edit::SAME_TIME;
 
 /// The columns of pixels that have a key, with the position of the first key in each.
 ///
-/// Channels are marked one after the other; a column that has a key already is skipped, so many channels with the same dense
+/// Channels are marked one after the other; a column that has a key already is skipped. That way, many channels with the same dense
 /// keys cost little more than one.
 #[derive(Debug, Default)]
 pub struct Columns {

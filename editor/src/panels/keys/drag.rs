@@ -16,7 +16,7 @@ use dragonfly_document::edit::{
 use dragonfly_document::history::Gesture;
 use std::sync::Arc;
 
-/// What a drag does to keys, always relative to the start of the drag.
+/// The operation of a drag on keys, always relative to the start of the drag.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeyDragOp {
     /// Moves the selected keys by this many seconds.
@@ -122,7 +122,7 @@ impl KeyDrag {
         Self { gesture, base, moving, op, take, keys, requested: None, answer, released: false }
     }
 
-    /// Whether the drag goes on: it is not released yet.
+    /// Returns whether the drag is in progress, not released yet.
     pub fn held(&self) -> bool {
         !self.released
     }

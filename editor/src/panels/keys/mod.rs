@@ -334,7 +334,7 @@ impl KeyEditing {
         }
     }
 
-    /// Notes that a drag begins or goes on in the timeline. Returns whether it may: a drag that was released and waits for its
+    /// Starts or continues a drag in the timeline. Returns whether that is allowed: a drag that was released and waits for its
     /// answer ends first.
     pub(super) fn may_drag(&mut self) -> bool {
         self.has_focus = true;

@@ -1,6 +1,6 @@
-//! From what the user does to a number of the panel to edits.
+//! Converts drags and typed numbers of the panel into edits.
 //!
-//! Three typed angles stay those angles as long as the rotation is the one they stand for: many angles stand for the
+//! Typed Euler angles are kept as long as the rotation equals the one that they describe, as many angles describe the
 //! same rotation.
 
 use super::super::commands::Id;
