@@ -1,4 +1,4 @@
-//! `dragonfly check FILE…`: everything wrong with models, as a list with places.
+//! `dragonfly check FILE…`: lists all problems of models, with their paths in the file.
 
 use super::choice::{load, plain, source};
 use super::output::{print, print_json};
@@ -9,25 +9,25 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// Check models against 33 rules: broken data, probable mistakes, oddities
+/// Check models against 33 rules and list errors, warnings and notes
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
-Findings are errors (what is shown is a stand-in, or wrong), warnings (allowed, but probably not meant) and notes.\n\
-Warnings of the import are listed as well. Exit code 1: findings at or above --deny.\n\n\
+Findings are errors (shown wrong, or replaced by a placeholder), warnings (allowed, but probably unintended) and notes.\n\
+Import warnings are listed as well. Exit code 1: at least one finding has the severity of --deny or higher.\n\n\
 Examples:\n  dragonfly check Fox.glb\n  dragonfly check models/*.glb --deny warning --json")]
 pub(super) struct CheckArguments {
     /// Models (.glb, .gltf, .dfm), or `demo:` for the built-in dragonfly
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// Exit with 1 for findings of this severity or worse
+    /// Exit with code 1 on findings of this severity or higher
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     deny: Deny,
-    /// One JSON document instead of text
+    /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
 }
 
-/// The mildest severity that fails a check.
+/// The lowest severity that fails a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Deny {
     /// Errors and warnings fail.

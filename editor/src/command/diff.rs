@@ -1,4 +1,4 @@
-//! `dragonfly diff A B`: how far the takes of two files are apart.
+//! `dragonfly diff A B`: compares the takes of two files.
 
 use super::choice::{finite, load, plain, source};
 use super::info::named;
@@ -17,13 +17,13 @@ const BONES_SHOWN: usize = 5;
 const ANGLE_TOLERANCE: f32 = 0.01;
 /// Smaller differences of a morph weight count as equal.
 const WEIGHT_TOLERANCE: f32 = 1e-4;
-/// Millimetres in a unit of the scene, which is a metre.
+/// Millimeters in a unit of the scene, which is a meter.
 const MILLIMETRES: f32 = 1000.0;
 
-/// Compare the takes of two files: which differ, which bones, how far in mm and degrees, and when
+/// Compare the takes of two files and list the bones that differ, in mm and degrees
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
-Takes and bones are paired by name. Distances are between joints in scene space, where a unit counts as a metre; angles\n\
+Takes and bones are paired by name. Distances are between joints in scene space, where a unit counts as a meter; angles\n\
 are between rotations in scene space. Exit code 1: a take or bone has no counterpart, or a difference is above the tolerance.\n\n\
 Examples:\n  dragonfly diff Fox.glb Fox2.glb\n  dragonfly diff Fox.glb Fox2.glb --tolerance 0.5 --json")]
 pub(super) struct DiffArguments {
@@ -33,13 +33,13 @@ pub(super) struct DiffArguments {
     /// The model to compare it with
     #[arg(value_name = "B")]
     second: PathBuf,
-    /// Largest distance that counts as equal, millimetres
+    /// Largest distance that counts as equal, millimeters
     #[arg(long, value_name = "MM", default_value = "0.01", value_parser = finite)]
     tolerance: f32,
     /// Largest angle that counts as equal, degrees
     #[arg(long, value_name = "DEG", default_value_t = ANGLE_TOLERANCE, value_parser = finite)]
     angle: f32,
-    /// One JSON document instead of text
+    /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
 }

@@ -1,4 +1,4 @@
-//! `dragonfly info FILE`: what is in a file.
+//! `dragonfly info FILE`: lists the contents of a file.
 
 use super::choice::{File, plain};
 use super::output::{print, print_json};
@@ -11,10 +11,10 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// More bones than this are counted, not listed, in the text for people.
+/// Maximum number of bones listed in the text output; the others are only counted.
 const BONES_SHOWN: usize = 80;
 
-/// What is in a file: bones, skins, takes, meshes, materials, size, and what is odd about it
+/// List the contents of a file: bones, skins, takes, meshes, materials, size, and import warnings
 #[derive(Clone, Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  dragonfly info Fox.glb\n  dragonfly info Fox.glb --json | jq '.takes[].name'"
@@ -22,7 +22,7 @@ const BONES_SHOWN: usize = 80;
 pub(super) struct InfoArguments {
     #[command(flatten)]
     file: File,
-    /// One JSON document instead of text
+    /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
 }
@@ -105,7 +105,7 @@ struct InfoSphere {
 impl Info {
     fn of(loaded: LoadedModel) -> Self {
         let model = Arc::new(loaded.model);
-        // The model as it stands before anything moves it.
+        // The model in its rest pose.
         let bounds = Evaluator::new(Arc::clone(&model)).bounds();
         Self {
             file: loaded.title,
@@ -271,7 +271,7 @@ fn meshes(model: &ModelData) -> Vec<InfoMesh> {
     model.meshes.iter().enumerate().map(mesh).collect()
 }
 
-/// How deep each bone lies; parents come first, so one pass suffices.
+/// Returns the depth of each bone in the hierarchy; parents come first, so one pass suffices.
 fn depths(bones: &[InfoBone]) -> Vec<usize> {
     let mut depths: Vec<usize> = Vec::with_capacity(bones.len());
     for bone in bones {
@@ -281,7 +281,7 @@ fn depths(bones: &[InfoBone]) -> Vec<usize> {
     depths
 }
 
-/// Positions of all bones, each followed by its children; without recursion, as skeletons may be deep.
+/// Returns the indices of all bones, each followed by its children; without recursion, as skeletons may be deep.
 fn tree_order(bones: &[InfoBone]) -> Vec<usize> {
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); bones.len()];
     let mut stack = Vec::new();
@@ -299,12 +299,12 @@ fn tree_order(bones: &[InfoBone]) -> Vec<usize> {
     order
 }
 
-/// The name, or a word for none.
+/// Returns the name, or a placeholder if it is empty.
 pub(super) fn named(name: &str) -> String {
     if name.is_empty() { "(unnamed)".to_owned() } else { plain(name) }
 }
 
-/// A length in few digits.
+/// Formats a length with at most three decimals.
 fn short(number: f32) -> String {
     let text = format!("{number:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

@@ -1,4 +1,4 @@
-//! `dragonfly pose FILE --time S`: where every bone and vertex is at a time.
+//! `dragonfly pose FILE --time S`: prints the pose of every bone and vertex at a time.
 
 use super::choice::{File, TakeChoice, clamp_time, finite};
 use super::info::named;
@@ -12,11 +12,11 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Where every bone and vertex is at a time: bone matrices, skinning matrices, skinned positions
+/// Print poses: bone matrices, skinning matrices and skinned vertex positions at given times
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
 Matrices are column-major, for column vectors. `to_root` is bone space to scene space, `final` bind space to\n\
-scene space. Text shows positions, rotations and scales; --json has everything, exactly.\n\n\
+scene space. The text shows positions, rotations and scales; --json contains everything in full precision.\n\n\
 Examples:\n  dragonfly pose Fox.glb --take Run --time 0.35\n  \
 dragonfly pose Fox.glb --time 0 --time 0.5 --time 1 --vertices 8 --json")]
 pub(super) struct PoseArguments {
@@ -24,13 +24,13 @@ pub(super) struct PoseArguments {
     file: File,
     #[command(flatten)]
     take: TakeChoice,
-    /// Seconds, clamped to the take; repeat for more poses
+    /// Time in seconds, clamped to the take; repeat for more poses
     #[arg(long, value_name = "S", required = true, value_parser = finite, allow_negative_numbers = true)]
     time: Vec<f32>,
-    /// Only the first N positions of each mesh [default: all in JSON, none in text]
+    /// Number of vertex positions of each mesh [default: all in JSON, none in text]
     #[arg(long, value_name = "N")]
     vertices: Option<usize>,
-    /// One JSON document instead of text
+    /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
 }
@@ -47,10 +47,10 @@ impl RunCommand for PoseArguments {
             let time = clamp_time(&model, take, time);
             evaluator.pose(take, time);
             let pose = PoseRow::of(&evaluator, time, vertices);
-            // JSON has no word for such a number, and no reader a use for it.
+            // JSON cannot represent infinity or NaN.
             if !pose.is_finite() {
                 let reason =
-                    format_args!("the pose at {time} s is too large for numbers of single precision");
+                    format_args!("the pose at {time} s exceeds the range of single-precision numbers");
                 return Err(Failure::input(&loaded.title, reason));
             }
             poses.push(pose);
@@ -103,7 +103,7 @@ struct MeshPoseRow {
 }
 
 impl PoseRow {
-    /// What `evaluator` was put in last, with at most `vertices` positions a primitive.
+    /// Returns the current pose of `evaluator`, with at most `vertices` positions per primitive.
     fn of(evaluator: &Evaluator, time: f32, vertices: usize) -> Self {
         let model = evaluator.model();
         let bones = model.animation.skeleton.bones.iter().zip(evaluator.to_root());
@@ -160,10 +160,10 @@ impl PoseRow {
             ("x", Side::Right),
             ("y", Side::Right),
             ("z", Side::Right),
-            ("turned x", Side::Right),
+            ("rotation x", Side::Right),
             ("y", Side::Right),
             ("z", Side::Right),
-            ("scaled x", Side::Right),
+            ("scale x", Side::Right),
             ("y", Side::Right),
             ("z", Side::Right),
         ]);
@@ -199,7 +199,7 @@ impl MeshPoseRow {
     }
 }
 
-/// A number with so many digits; a zero has no sign.
+/// Formats a number with `digits` decimals; zero has no sign.
 fn fixed(number: f32, digits: usize) -> String {
     let text = format!("{number:.digits$}");
     let zero = text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
