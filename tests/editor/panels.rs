@@ -247,7 +247,7 @@ fn a_low_picture_has_all_tools_of_the_hand() {
         let mut harness = harness_of(bench, egui::vec2(1280.0, height), 1.0, egui::Theme::Dark);
         harness.run_steps(4);
         let picture = harness.get_by_label("Viewport").rect();
-        for tool in ["Rotate", "IK", "Pin / free", "Ghosts", "Motion path"] {
+        for tool in ["Rotate", "IK", "Pin / unpin", "Ghosts", "Motion path"] {
             let button = harness.get_by_label(tool).rect();
             assert!(picture.contains_rect(button), "{tool} at {height}: {button:?} in {picture:?}");
         }

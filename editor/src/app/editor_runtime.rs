@@ -67,7 +67,7 @@ impl EditorRuntime {
             Some(document) => document.open(source),
             None => {
                 let mut interface = running.parts.interface.borrow_mut();
-                interface.state.say(MessageSeverity::Error, "There is no document thread");
+                interface.state.say(MessageSeverity::Error, "Internal error: there is no document thread");
             }
         }
     }

@@ -76,13 +76,13 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::Offers(offers) => state.ask_to_recover(offers),
         DocumentReply::OtherFile(offer, path) => state.ask_where_it_is(offer, Some(path)),
         DocumentReply::NothingToOffer => {
-            state.say(MessageSeverity::Info, "There is no unsaved work of an earlier time");
+            state.say(MessageSeverity::Info, "There is no unsaved work of an earlier run");
         }
         DocumentReply::Notice(text) => state.say(MessageSeverity::Info, text),
         DocumentReply::Warning(text) => state.say(MessageSeverity::Warning, text),
         DocumentReply::Lost => {
             state.document_lost();
-            state.say(MessageSeverity::Error, "A mistake in the program closed the document");
+            state.say(MessageSeverity::Error, "An internal error closed the document");
         }
     }
 }

@@ -48,7 +48,7 @@ impl Panel for Hierarchy {
             return widgets::empty(ui, "", "Bones appear here");
         }
         if state.digest.rows.is_empty() {
-            return widgets::empty(ui, "No bones", "This model has nothing that moves");
+            return widgets::empty(ui, "No bones", "This model has no skeleton");
         }
         let entered = search_field::show(ui, &mut self.query, "Find a bone", state.find);
         let rows = self.visible(state);
@@ -57,7 +57,7 @@ impl Panel for Hierarchy {
             requests.extend(found.map(|bone| Request::Select(Some(bone))));
         }
         if rows.is_empty() {
-            return widgets::empty(ui, "No bone is called that", "");
+            return widgets::empty(ui, "No bone matches the search", "");
         }
         self.tree(ui, state, &rows, requests);
     }

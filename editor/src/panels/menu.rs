@@ -91,7 +91,7 @@ fn file(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     item(ui, state, Id::OpenPath, false, requests);
     ui.menu_button("Open recent", |ui| {
         if state.settings.recent.is_empty() {
-            ui.add_enabled(false, Button::new("Nothing yet").frame(false));
+            ui.add_enabled(false, Button::new("No recent files").frame(false));
         }
         for path in &state.settings.recent {
             let name = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
@@ -163,7 +163,7 @@ fn view(
         item(ui, state, Id::ThemeDark, theme == ThemeChoice::Dark, requests);
         item(ui, state, Id::ThemeLight, theme == ThemeChoice::Light, requests);
     });
-    ui.menu_button("Size of everything", |ui| {
+    ui.menu_button("Interface size", |ui| {
         item(ui, state, Id::ScaleUp, false, requests);
         item(ui, state, Id::ScaleDown, false, requests);
         item(ui, state, Id::ScaleReset, false, requests);

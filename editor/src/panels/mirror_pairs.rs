@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Req
     ui.label(RichText::new(widgets::dot_separated(&facts)).small().color(theme.weak));
     ui.add_space(GRID);
     if pairs.pairs.is_empty() {
-        ui.label(RichText::new("No name speaks of a left or right side").color(theme.weak));
+        ui.label(RichText::new("No bone name indicates a left or right side").color(theme.weak));
         return;
     }
     ui.spacing_mut().item_spacing.y = 0.0;

@@ -64,7 +64,7 @@ impl ShortcutSheet {
                     requests.push(Request::Keys(KeySettings { preset: *preset, ..keys.clone() }));
                 }
             }
-            if !keys.own.is_empty() && ui.button("Forget my own").clicked() {
+            if !keys.own.is_empty() && ui.button("Reset my shortcuts").clicked() {
                 let preset = keys.preset;
                 requests.push(Request::Keys(KeySettings { preset, ..KeySettings::default() }));
             }
@@ -124,7 +124,7 @@ impl ShortcutSheet {
         self.asks = asks;
         Keymap::set_asking(ui.ctx(), asks.is_some());
         if asks.is_some() {
-            self.note = "Press the key · Esc keeps the old one · Delete takes it away".to_owned();
+            self.note = "Press the key · Esc keeps the old one · Delete removes it".to_owned();
         }
     }
 
@@ -164,7 +164,7 @@ impl ShortcutSheet {
                 }
             });
             row.context_menu(|ui| {
-                if ui.button("One more key").clicked() {
+                if ui.button("Add a key").clicked() {
                     asks = Some((id, shortcuts.len()));
                 }
                 if ui.button("No key").clicked() {

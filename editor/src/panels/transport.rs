@@ -94,7 +94,7 @@ fn speed(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
 fn frame_rate(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let rate = state.settings.frame_rate;
     let button = Button::new(RichText::new(format!("{rate} fps")).color(Theme::of(ui).weak)).frame(false);
-    let response = ui.add(button).on_hover_text("Frames a second, for display and stepping");
+    let response = ui.add(button).on_hover_text("Frames per second, for display and stepping");
     egui::Popup::menu(&response).show(|ui| {
         ui.set_width(96.0);
         for &choice in FRAME_RATES {

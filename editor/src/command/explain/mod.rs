@@ -7,7 +7,7 @@ use super::output::{print, print_json};
 use super::{Failure, RunCommand};
 use dragonfly_anim::data::{BoneIndex, ModelData};
 use dragonfly_anim::explain::{ExplainTarget, explain};
-use json::Document;
+use json::ExplainedDocument;
 
 /// Print every value on the way from keys to a bone or a vertex, with the formula of each step
 #[derive(Clone, Debug, clap::Args)]

@@ -34,7 +34,8 @@ pub(in crate::panels) fn bake_pins(workspace: &mut Workspace) -> Option<Effect> 
     };
     let chains: BTreeSet<BoneIndex> = at_time(take.start).iter().filter_map(bone_of).collect();
     if chains.is_empty() {
-        workspace.say(MessageSeverity::Info, "Nothing above the pinned bones can turn to hold them");
+        workspace
+            .say(MessageSeverity::Info, "No parent of the pinned bones can rotate to keep them in place");
         return None;
     }
     let times = times_to_bake(&take, &chains, play, rate);

@@ -52,14 +52,16 @@ fn keys_text(workspace: &mut Workspace, verb: &str) -> Option<String> {
 /// these in their order. Locked bones stay as they are.
 pub(super) fn paste_keys(workspace: &mut Workspace, mut channels: Vec<CopiedChannel>) -> Option<Effect> {
     let Some(take) = workspace.read().take_ref() else {
-        workspace.say(MessageSeverity::Info, "The rest pose is not edited; show a take first");
+        workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
         return None;
     };
     let skeleton = &workspace.model.loaded()?.model.animation.skeleton;
     clipboard::retarget(&mut channels, workspace.bones.bones(), skeleton);
     if channels.is_empty() {
-        workspace
-            .say(MessageSeverity::Info, "The keys in the clipboard are of bones that this model has not");
+        workspace.say(
+            MessageSeverity::Info,
+            "The keys in the clipboard belong to bones that this model does not have",
+        );
         return None;
     }
     if !locks::remove_locked(workspace, &mut channels, |channel| match channel.bone {

@@ -33,7 +33,7 @@ pub(in crate::panels) fn toggle_pins(workspace: &mut Workspace) {
 /// Frees all bones.
 pub(in crate::panels) fn free_pins(workspace: &mut Workspace) {
     workspace.bones.set_pins(Vec::new());
-    workspace.say(MessageSeverity::Info, "No bone is pinned any more");
+    workspace.say(MessageSeverity::Info, "All bones are unpinned");
 }
 
 /// Turns IK on or off.
@@ -66,7 +66,7 @@ pub(in crate::panels) fn toggle_pole(workspace: &mut Workspace) {
     workspace.tools.set_pole(pole);
     let text = match pole {
         Some(bone) => format!("Elbows and knees bend towards {}", workspace.read().bone_name(bone)),
-        None => "Elbows and knees bend as they are".to_owned(),
+        None => "The pole target of IK is cleared".to_owned(),
     };
     workspace.say(MessageSeverity::Info, text);
 }
@@ -79,7 +79,7 @@ pub(in crate::panels) fn look(workspace: &mut Workspace) -> Option<Effect> {
         match workspace.bones.bones().iter().copied().find(|&bone| bone != active) {
             Some(locked) => locks::say_locked(workspace, locked),
             None => {
-                let text = "Select the bones that shall look, and last the one they shall look at";
+                let text = "Select the bones to rotate, and last the bone to look at";
                 workspace.say(MessageSeverity::Info, text);
             }
         }
@@ -92,7 +92,7 @@ pub(in crate::panels) fn look(workspace: &mut Workspace) -> Option<Effect> {
     let target = animation.to_root().get(active as usize)?.w_axis.truncate();
     let poses = look_at(skeleton, animation.poses(), &others, target);
     if poses.is_empty() {
-        workspace.say(MessageSeverity::Info, "There is nothing to turn to");
+        workspace.say(MessageSeverity::Info, "There is nothing to rotate");
     }
     workspace.read().pose_edit(poses).map(edit)
 }

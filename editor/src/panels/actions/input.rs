@@ -77,7 +77,7 @@ pub(super) fn say_refused(workspace: &mut Workspace) {
     if let Some(bone) = workspace.bones.active().filter(|_| workspace.player.take().is_some()) {
         return locks::say_locked(workspace, bone);
     }
-    workspace.say(MessageSeverity::Info, "The rest pose stays as it is: show a take to change a pose in it");
+    workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
 }
 
 fn gizmo_answered(workspace: &mut Workspace, answer: GizmoAnswer, effects: &mut Vec<Effect>) {

@@ -101,15 +101,15 @@ pub(super) fn paste(workspace: &mut Workspace, text: &str, mirrored: bool) -> Op
         match keys::clipboard::from_text(text) {
             Some(channels) if !mirrored => return key_clipboard::paste_keys(workspace, channels),
             Some(_) => {
-                let text = "The clipboard holds keys, and only poses are pasted mirrored";
+                let text = "The clipboard contains keys; only poses can be pasted mirrored";
                 workspace.say(MessageSeverity::Info, text);
             }
-            None => workspace.say(MessageSeverity::Info, "There is no pose in the clipboard, and no keys"),
+            None => workspace.say(MessageSeverity::Info, "The clipboard contains no pose and no keys"),
         }
         return None;
     };
     let Some(take) = workspace.read().take_ref() else {
-        workspace.say(MessageSeverity::Info, "The rest pose is not edited; show a take first");
+        workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
         return None;
     };
     if workspace.keys.flags().any_locked() {

@@ -68,7 +68,7 @@ pub(in crate::panels) fn trim(workspace: &mut Workspace) -> Option<Effect> {
     let (take, _) = shown(workspace)?;
     let ([from, to], (start, length)) = (workspace.read().trim_range(), workspace.read().take_bounds());
     if from <= start && to >= start + length {
-        workspace.say(MessageSeverity::Info, "Nothing lies outside of what plays: set a play range first");
+        workspace.say(MessageSeverity::Info, "Nothing to trim: set a play range first");
         return None;
     }
     Some(edit(Edit::TrimTake(TrimTake { take, from, to, to_start: true })))

@@ -39,7 +39,7 @@ pub(in crate::panels) fn drag_now(workspace: &mut Workspace, tool: Tool) {
         return input::say_refused(workspace);
     }
     if !workspace.tools.controls_mut().begin_by_key() {
-        workspace.say(MessageSeverity::Info, "The selected bone lies behind the eye");
+        workspace.say(MessageSeverity::Info, "The selected bone is behind the camera");
     }
     // Nothing is changed before the mouse moves.
     workspace.tools.controls_mut().gizmo_mut().take_answer();

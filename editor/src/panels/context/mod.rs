@@ -6,7 +6,7 @@ mod pose;
 
 use super::digest::Digest;
 use super::dragging::Dragging;
-use super::keys::Keys;
+use super::keys::KeyEditing;
 use super::open_model::Loading;
 use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
@@ -57,7 +57,7 @@ pub struct PanelContext<'a> {
     /// The moment of the frame that is drawn.
     pub now: Instant,
     /// Selection and drag of keys, flags, markers, the range that plays.
-    pub keys: &'a Keys,
+    pub keys: &'a KeyEditing,
     /// The list of takes.
     pub takes: &'a TakeListState,
     /// The camera.
