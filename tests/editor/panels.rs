@@ -221,7 +221,7 @@ fn a_line_that_says_more_of_what_was_done_stays() {
     let Some(Effect::Copy(both)) = copied else { panic!("{copied:?}") };
     animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 4, true)));
     animator.request(Request::PastePose { text: both, mirrored: false });
-    assert!(animator.said().ends_with("is locked and stays as it is"), "{}", animator.said());
+    assert!(animator.said().ends_with("is locked and stays unchanged"), "{}", animator.said());
     animator.request(Request::PastePose { text, mirrored: false });
     assert!(animator.said().starts_with("Paste pose"), "{}", animator.said());
 }

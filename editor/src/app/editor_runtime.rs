@@ -230,7 +230,7 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.set_frame_time(milliseconds);
             }
             GraphicsReply::Recovered { reason, losses } => {
-                let text = format!("The graphics device was lost and is back ({losses}): {reason}");
+                let text = format!("The graphics device was lost and recovered ({losses}): {reason}");
                 interface.state.say(MessageSeverity::Info, text);
             }
             GraphicsReply::Paused { reason } => {
@@ -244,9 +244,7 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.say(MessageSeverity::Error, format!("No picture was written: {reason}"));
             }
             GraphicsReply::Fatal(reason) => {
-                interface
-                    .state
-                    .say(MessageSeverity::Error, format!("Nothing can be drawn any more: {reason}"));
+                interface.state.say(MessageSeverity::Error, format!("Drawing has stopped: {reason}"));
             }
         }
         interface.redraw();

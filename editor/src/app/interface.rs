@@ -294,7 +294,7 @@ impl Interface {
 
     fn keep(&mut self, name: &str, text: &str) {
         if let Err(error) = self.store.write(name, text) {
-            self.state.say(MessageSeverity::Warning, format!("The settings could not be kept: {error}"));
+            self.state.say(MessageSeverity::Warning, format!("The settings could not be saved: {error}"));
         }
     }
 

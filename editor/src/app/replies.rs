@@ -124,8 +124,8 @@ fn show_saved(interface: &mut Interface, saved: SavedFile) {
     let what = if saved.copy { "Saved a copy as" } else { "Saved" };
     let others = match saved.beside {
         0 => String::new(),
-        1 => " and a file beside it".to_owned(),
-        files => format!(" and {files} files beside it"),
+        1 => " and one further file".to_owned(),
+        files => format!(" and {files} further files"),
     };
     state.say(MessageSeverity::Info, format!("{what} {name}{others}"));
     if let Some(then) = saved.then {
@@ -137,10 +137,12 @@ fn show_saved(interface: &mut Interface, saved: SavedFile) {
 fn say_passed_over(state: &mut State, files: usize) {
     match files {
         0 => {}
-        1 => state.say(MessageSeverity::Warning, "One model is open at a time: the second file stays closed"),
+        1 => {
+            state.say(MessageSeverity::Warning, "Only one model can be open: the second file was not opened")
+        }
         _ => state.say(
             MessageSeverity::Warning,
-            format!("One model is open at a time: {files} more files stay closed"),
+            format!("Only one model can be open: {files} further files were not opened"),
         ),
     }
 }

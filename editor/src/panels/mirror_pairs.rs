@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Req
     let facts = [
         widgets::count(pairs.pairs.len(), "pair", "pairs"),
         format!("{} in the middle", widgets::grouped(pairs.unpaired.len() - alone)),
-        format!("{} without other side", widgets::grouped(alone)),
+        format!("{} without a counterpart", widgets::grouped(alone)),
     ];
     ui.label(RichText::new(widgets::dot_separated(&facts)).small().color(theme.weak));
     ui.add_space(GRID);

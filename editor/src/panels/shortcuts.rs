@@ -84,14 +84,14 @@ impl ShortcutSheet {
                 if place < shortcuts.len() {
                     shortcuts.remove(place);
                 }
-                self.note = format!("“{}” lost a key", commands::get(id).title);
+                self.note = format!("Removed a shortcut of “{}”", commands::get(id).title);
             }
             _ => {
                 let chosen = KeyboardShortcut::new(modifiers, key);
                 let loser = keymap.command_of(key, modifiers).filter(|other| *other != id);
                 self.note = match loser {
                     Some(other) => format!(
-                        "{} gives “{}” now, and not “{}” any more",
+                        "{} now runs “{}” instead of “{}”",
                         commands::text(&chosen),
                         commands::get(id).title,
                         commands::get(other).title

@@ -45,7 +45,7 @@ fn corner(ui: &mut Ui, state: &PanelContext<'_>) {
     }
 }
 
-/// How many poses wait to be keyed; a click goes to the next one.
+/// Shows the number of pending poses; a click goes to the next one.
 fn pending(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let (here, all) = state.pending_poses();
     if all == 0 {

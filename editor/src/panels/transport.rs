@@ -120,7 +120,9 @@ fn time(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         .custom_parser(number);
     let response = ui.add_sized(vec2(48.0, CONTROL), field).accessible_name("Frame");
     if response
-        .on_hover_text("Frame\nDrag, or click to type; 3*30+12 is fine, and so is a frame behind the end")
+        .on_hover_text(
+            "Frame\nDrag, or click to type an expression such as 3*30+12; frames after the end are allowed",
+        )
         .changed()
     {
         requests.push(Request::Seek(ruler::time_of(frame, rate)));
@@ -134,7 +136,8 @@ fn time(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         .update_while_editing(false)
         .custom_parser(number);
     let response = ui.add_sized(vec2(72.0, CONTROL), field).accessible_name("Time");
-    if response.on_hover_text("Time in seconds\nDrag, or click to type; 45/30 is fine").changed() {
+    if response.on_hover_text("Time in seconds\nDrag, or click to type an expression such as 45/30").changed()
+    {
         requests.push(Request::Seek(seconds));
     }
 }

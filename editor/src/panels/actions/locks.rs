@@ -53,11 +53,11 @@ pub(super) fn remove_locked<T>(
         [] => {}
         [bone, ..] if list.is_empty() => say_locked(workspace, bone),
         [bone] => {
-            let text = format!("{} is locked and stays as it is", workspace.read().bone_name(bone));
+            let text = format!("{} is locked and stays unchanged", workspace.read().bone_name(bone));
             workspace.say(MessageSeverity::Info, text);
         }
         _ => {
-            let text = format!("{} bones are locked and stay as they are", locked.len());
+            let text = format!("{} bones are locked and stay unchanged", locked.len());
             workspace.say(MessageSeverity::Info, text);
         }
     }

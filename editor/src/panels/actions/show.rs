@@ -109,7 +109,7 @@ fn guess_frame_rate(workspace: &mut Workspace) {
     let now = workspace.settings.frame_rate;
     if let Some(rate) = frame_rate::rate_of(workspace.model.takes(), now).filter(|&rate| rate != now) {
         workspace.settings.frame_rate = rate;
-        let text = format!("Its keys lie on {rate} frames a second: the timeline counts in these now");
+        let text = format!("The keys are at {rate} frames per second: the timeline uses this frame rate now");
         workspace.say(MessageSeverity::Info, text);
     }
 }
