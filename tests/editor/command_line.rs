@@ -265,13 +265,13 @@ fn the_table_of_commands_has_a_line_for_each_with_its_keys() {
 #[test]
 fn help_shows_every_command_and_how_to_begin() {
     let help = run(["--help"]).expect(0);
-    for word in ["info", "pose", "render", "demo", "Examples", "demo:", "Exit codes"] {
+    for word in ["info", "check", "diff", "pose", "render", "demo", "Examples", "demo:", "Exit codes"] {
         assert!(help.text().contains(word), "{word} is missing in\n{}", help.text());
     }
     for switch in ["--lose-device", "--never-pause", "--fail", "--fail-at", "--edits"] {
         run([switch, "1"]).expect(2);
     }
-    for command in ["info", "pose", "render", "demo"] {
+    for command in ["info", "check", "diff", "pose", "render", "demo"] {
         let help = run([command, "--help"]).expect(0);
         assert!(help.text().contains("Example"), "{command} has no example");
     }

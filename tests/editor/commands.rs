@@ -30,7 +30,7 @@ fn every_name_has_one_line_and_words() {
 fn tooltips_name_the_shortcut() {
     assert_eq!(
         commands::tooltip(&egui::Context::default(), commands::Id::PlayPause),
-        "Play / pause (Space)\nStarts or stops time"
+        "Play / pause (Space)\nStarts or pauses playback"
     );
     assert_eq!(commands::shortcut_text(&egui::Context::default(), commands::Id::OpenPath), "Ctrl+Shift+O");
 }

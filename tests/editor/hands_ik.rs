@@ -147,7 +147,7 @@ fn what_cannot_hold_a_pin_is_said() {
     hand.command(Id::BakePins);
     assert!(hand.steps().is_empty());
     let said = &hand.state.read().status.last().expect("a line").text;
-    assert!(said.contains("Nothing above"), "{said}");
+    assert!(said.contains("No parent of the pinned bones"), "{said}");
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn the_list_says_what_was_done_to_what() {
             || window.get_by_label(SCALE).accesskit_node().toggled().is_some()
     );
     assert!(window.query_by_label("3 of 3 steps").is_some());
-    window.get_by_label("As it was opened").click();
+    window.get_by_label("Opened").click();
     window.run_steps(4);
     assert_eq!(window.state().steps(), (0, 3));
     assert!(
@@ -55,7 +55,7 @@ fn the_saved_place_is_marked() {
 #[test]
 fn the_list_is_used_with_the_keyboard() {
     let mut window = window();
-    window.get_by_label("As it was opened").focus();
+    window.get_by_label("Opened").focus();
     window.run_steps(2);
     window.key_press(Key::Enter);
     window.run_steps(3);
@@ -80,7 +80,7 @@ fn the_list_follows_and_draws_only_what_is_seen() {
     window.state_mut().change(dragonfly_document::Change::Undo);
     window.run_steps(4);
     assert!(window.query_by_label("Rename take, Take 2997 → Take 2998").is_some(), "the place is in sight");
-    assert!(window.query_by_label("As it was opened").is_none());
+    assert!(window.query_by_label("Opened").is_none());
     assert!(window.query_all_by_label_contains("Rename take").count() < 40);
 }
 

@@ -1,10 +1,10 @@
 //! The bone under a pointer that moves: one question at a time, and only the newest place counts.
 
-use dragonfly::app::hover::{Hover, Place};
+use dragonfly::app::hover::{Hover, HoverPoint};
 use dragonfly_picture::camera::Camera;
 
-fn at(x: f32) -> Option<Place> {
-    Some(Place { position: [x, 0.0], camera: Camera::default(), generation: 1 })
+fn at(x: f32) -> Option<HoverPoint> {
+    Some(HoverPoint { position: [x, 0.0], camera: Camera::default(), generation: 1 })
 }
 
 #[test]
@@ -28,7 +28,7 @@ fn a_pointer_at_rest_asks_once() {
     for _ in 0..10 {
         assert!(!hover.asks(at(5.0), 2));
     }
-    let moved = at(5.0).map(|place| Place { generation: 2, ..place });
+    let moved = at(5.0).map(|place| HoverPoint { generation: 2, ..place });
     assert!(hover.asks(moved, 2), "another model lies there now");
 }
 

@@ -110,7 +110,7 @@ fn a_key_is_chosen_in_the_sheet_by_pressing_it() {
     harness.get_by_label("Blender").click();
     harness.run_steps(3);
     assert_eq!(harness.state().state.read().settings.keys.preset, Preset::Blender);
-    harness.get_by_label("Forget my own").click();
+    harness.get_by_label("Reset my shortcuts").click();
     harness.run_steps(3);
     harness.get_by_label("Undo: Ctrl+Z");
 }
@@ -120,5 +120,5 @@ fn the_palette_says_why_a_command_cannot_be_given() {
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.execute(dragonfly::panels::Request::Command(Id::Undo));
     let line = bench.state.read().status.lines().last().map(|line| line.text.clone());
-    assert_eq!(line.as_deref(), Some("Nothing was done yet"));
+    assert_eq!(line.as_deref(), Some("There is nothing to undo"));
 }

@@ -1,6 +1,6 @@
 //! The order in which the program comes and goes.
 
-use dragonfly::app::timeline::{Step, Timeline};
+use dragonfly::app::timeline::{Step, StepTrace};
 
 #[test]
 fn the_steps_are_the_eleven_of_the_thesis() {
@@ -10,7 +10,7 @@ fn the_steps_are_the_eleven_of_the_thesis() {
 
 #[test]
 fn a_start_that_fails_may_leave_steps_out() {
-    let mut timeline = Timeline::default();
+    let mut timeline = StepTrace::default();
     timeline.reach(Step::MainFunction);
     timeline.reach(Step::MainRuntime);
     timeline.reach(Step::MainRuntimeDestruction);
@@ -21,7 +21,7 @@ fn a_start_that_fails_may_leave_steps_out() {
 #[cfg(debug_assertions)]
 #[should_panic(expected = "GraphicsDestruction")]
 fn the_window_does_not_go_before_the_device() {
-    let mut timeline = Timeline::default();
+    let mut timeline = StepTrace::default();
     timeline.reach(Step::GraphicsDestruction);
     timeline.reach(Step::EditorRuntimeDestruction);
 }

@@ -3,7 +3,7 @@
 use crate::shots::{self, PictureFolder};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
-use dragonfly::panels::{open_model::Loading, prompts::Overlay, window_status::Device};
+use dragonfly::panels::{open_model::Loading, prompts::Overlay, window_status::DeviceStatus};
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, TakeRef};
 use dragonfly_document::{Change, FileView, LoadStage, Progress, View};
 use dragonfly_kit::document::fixture;
@@ -22,7 +22,7 @@ impl Bench {
     pub(crate) fn new(view: Option<View>) -> Self {
         let now = Instant::now();
         let mut state = State::new(Settings::default(), now);
-        state.set_device(Device::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
+        state.set_device(DeviceStatus::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
         if let Some(view) = view {
             state.show(view);
             state.pause();
@@ -221,7 +221,7 @@ fn a_line_that_says_more_of_what_was_done_stays() {
     let Some(Effect::Copy(both)) = copied else { panic!("{copied:?}") };
     animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 4, true)));
     animator.request(Request::PastePose { text: both, mirrored: false });
-    assert!(animator.said().ends_with("is locked and stays as it is"), "{}", animator.said());
+    assert!(animator.said().ends_with("is locked and stays unchanged"), "{}", animator.said());
     animator.request(Request::PastePose { text, mirrored: false });
     assert!(animator.said().starts_with("Paste pose"), "{}", animator.said());
 }
@@ -247,7 +247,7 @@ fn a_low_picture_has_all_tools_of_the_hand() {
         let mut harness = harness_of(bench, egui::vec2(1280.0, height), 1.0, egui::Theme::Dark);
         harness.run_steps(4);
         let picture = harness.get_by_label("Viewport").rect();
-        for tool in ["Rotate", "IK", "Pin / free", "Ghosts", "Motion path"] {
+        for tool in ["Rotate", "IK", "Pin / unpin", "Ghosts", "Motion path"] {
             let button = harness.get_by_label(tool).rect();
             assert!(picture.contains_rect(button), "{tool} at {height}: {button:?} in {picture:?}");
         }

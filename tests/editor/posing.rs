@@ -296,7 +296,7 @@ fn commands_pin_free_and_turn() {
     assert!(state.read().bones_follow());
     // One alone has nothing to look at.
     assert_eq!(state.execute(Request::Command(Id::LookAt)), None);
-    assert!(state.read().status.last().unwrap().text.contains("last the one they shall look at"));
+    assert!(state.read().status.last().unwrap().text.contains("last the bone to look at"));
     state.execute(Request::SelectBones(vec![6, 4], Choice::Replace));
     let effect = state.execute(Request::Command(Id::LookAt));
     let Some(Effect::Change(Change::Edit(Edit::SetPose(SetPose { poses, .. }), None))) = effect else {

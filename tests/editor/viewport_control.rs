@@ -2,7 +2,7 @@
 
 use dragonfly::control::{
     Area, BaseControl, Button, Catch, ControlFramework, ControlId, ControlLookup, InputEvent, Key, Modifiers,
-    Outcome, ViewportControl,
+    ViewportControl, ViewportOutcome,
 };
 use dragonfly_document::bones::Choice;
 use dragonfly_kit::random::{Random, seed};
@@ -57,7 +57,7 @@ impl Picture {
     }
 
     /// From one place to another with a button held; what was asked for.
-    fn drag(&mut self, button: Button, held: Modifiers, ways: &[[f32; 2]]) -> Option<Outcome> {
+    fn drag(&mut self, button: Button, held: Modifiers, ways: &[[f32; 2]]) -> Option<ViewportOutcome> {
         self.send(InputEvent::Modifiers(held));
         self.to(ways[0][0], ways[0][1]);
         self.send(InputEvent::MouseDown(button));
@@ -71,10 +71,10 @@ impl Picture {
 fn a_click_picks_a_drag_draws_a_box_and_neither_moves_the_eye() {
     let mut picture = Picture::new();
     let click = picture.drag(Button::Left, NONE, &[[10.0, 20.0], [11.0, 20.0]]);
-    assert_eq!(click, Some(Outcome::Pick(Vec2::new(10.0, 20.0), Choice::Replace)));
+    assert_eq!(click, Some(ViewportOutcome::Pick(Vec2::new(10.0, 20.0), Choice::Replace)));
     let boxed = picture.drag(Button::Left, NONE, &[[10.0, 20.0], [60.0, 90.0]]);
     let region = OwnedRegion::Box(Vec2::new(10.0, 20.0), Vec2::new(60.0, 90.0));
-    assert_eq!(boxed, Some(Outcome::Catch(region, Choice::Replace)));
+    assert_eq!(boxed, Some(ViewportOutcome::Catch(region, Choice::Replace)));
     assert_eq!(picture.camera(), Camera::default());
 }
 
@@ -82,7 +82,7 @@ fn a_click_picks_a_drag_draws_a_box_and_neither_moves_the_eye() {
 fn shift_adds_ctrl_toggles_and_both_with_alt_draw_a_line() {
     let mut picture = Picture::new();
     let choice = |outcome| match outcome {
-        Some(Outcome::Pick(_, choice) | Outcome::Catch(_, choice)) => choice,
+        Some(ViewportOutcome::Pick(_, choice) | ViewportOutcome::Catch(_, choice)) => choice,
         None => panic!("nothing was asked for"),
     };
     for (held, wanted) in [(SHIFT, Choice::Add), (CTRL, Choice::Toggle)] {
@@ -90,7 +90,7 @@ fn shift_adds_ctrl_toggles_and_both_with_alt_draw_a_line() {
         assert_eq!(choice(picture.drag(Button::Left, held, &[[10.0, 20.0], [90.0, 90.0]])), wanted);
     }
     let ways = [[10.0, 20.0], [60.0, 90.0], [200.0, 30.0]];
-    let Some(Outcome::Catch(OwnedRegion::Lasso(line), Choice::Replace)) =
+    let Some(ViewportOutcome::Catch(OwnedRegion::Lasso(line), Choice::Replace)) =
         picture.drag(Button::Left, Modifiers { ctrl: true, ..ALT }, &ways)
     else {
         panic!("no lasso")
@@ -99,9 +99,12 @@ fn shift_adds_ctrl_toggles_and_both_with_alt_draw_a_line() {
     // Armed by a command, the next drag draws one too, and only that one.
     picture.control().arm(Catch::Lasso);
     let outcome = picture.drag(Button::Left, SHIFT, &ways);
-    assert!(matches!(outcome, Some(Outcome::Catch(OwnedRegion::Lasso(_), Choice::Add))), "{outcome:?}");
+    assert!(
+        matches!(outcome, Some(ViewportOutcome::Catch(OwnedRegion::Lasso(_), Choice::Add))),
+        "{outcome:?}"
+    );
     let outcome = picture.drag(Button::Left, NONE, &ways);
-    assert!(matches!(outcome, Some(Outcome::Catch(OwnedRegion::Box(..), _))), "{outcome:?}");
+    assert!(matches!(outcome, Some(ViewportOutcome::Catch(OwnedRegion::Box(..), _))), "{outcome:?}");
 }
 
 #[test]

@@ -50,7 +50,7 @@ fn a_model_that_is_dropped_is_opened_and_anything_else_is_refused() {
     assert!(drag.hold(window, &several.map(|path| address(&path))));
     drag.drop(window);
     editor.hears("Opened Fox.glb", 2, SOON);
-    editor.hears("One model is open at a time: 2 more files stay closed", 1, SOON);
+    editor.hears("Only one model can be open: 2 further files were not opened", 1, SOON);
     screen.window("Fox.glb", SOON);
 
     screen.close(window);

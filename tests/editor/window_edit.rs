@@ -137,7 +137,7 @@ fn work_done_in_the_panels_alone_is_what_stdio_does() {
 
     // Everything back with a click, and there again.
     visit.click_on("History");
-    visit.click_on("As it was opened");
+    visit.click_on("Opened");
     visit.until_steps(0, 4);
     visit.control("Survey");
     same_bytes(&visit.save(), &original, "with everything undone the file is another one");

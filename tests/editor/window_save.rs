@@ -228,7 +228,7 @@ fn a_mistake_in_the_program_costs_no_work_and_the_window_goes_on() {
     let bench = Bench::new("window-mistake");
     let mut screen = Screen::new("mistake", 1280, 800);
     let mut editor = bench.start(&mut screen, &["--edits", bench.edits.as_str(), "--fail-at", "3"]);
-    editor.hears("A mistake in the program closed the document", 1, SOON);
+    editor.hears("An internal error closed the document", 1, SOON);
     editor.hears("offered unsaved work", 1, SOON);
     screen.press(key::ENTER);
     editor.hears("Restored the unsaved work of Fox.glb: 2 steps", 1, SOON);

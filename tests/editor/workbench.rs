@@ -1,6 +1,6 @@
 //! The whole window without a window, with a document behind it: what panels ask for is done, and seen in the next frame.
 
-use dragonfly::panels::window_status::Device;
+use dragonfly::panels::window_status::DeviceStatus;
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
 use dragonfly_anim::data::Transform;
 use dragonfly_document::adapter::ModelAdapter;
@@ -28,7 +28,7 @@ pub(crate) type Window = Harness<'static, Workbench>;
 impl Workbench {
     pub(crate) fn new(view: Option<View>) -> Self {
         let mut state = State::new(Settings::default(), Instant::now());
-        state.set_device(Device::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
+        state.set_device(DeviceStatus::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
         let edited = view.as_ref().map(|view| Edited::new(ModelAdapter::new(&view.loaded.model.animation)));
         if let Some(view) = view {
             state.show(view);

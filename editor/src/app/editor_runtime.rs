@@ -3,13 +3,13 @@
 use super::base_runtime::{BaseRuntime, Parts};
 use super::file_dialog::{self, Answer, Purpose};
 use super::graphics_sync::GraphicsSync;
-use super::hover::{Hover, Place};
+use super::hover::{Hover, HoverPoint};
 use super::interface::Interface;
 use super::options::Options;
 use super::replies::{Answers, Replies};
 use super::state_trace;
-use crate::panels::status::Severity;
-use crate::panels::window_status::Device;
+use crate::panels::status::MessageSeverity;
+use crate::panels::window_status::DeviceStatus;
 use crate::panels::{Effect, Request};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{Document, DocumentHandle, DocumentReply, Setup, Source};
@@ -67,7 +67,7 @@ impl EditorRuntime {
             Some(document) => document.open(source),
             None => {
                 let mut interface = running.parts.interface.borrow_mut();
-                interface.state.say(Severity::Error, "There is no document thread");
+                interface.state.say(MessageSeverity::Error, "Internal error: there is no document thread");
             }
         }
     }
@@ -114,7 +114,7 @@ impl EditorRuntime {
             | Effect::CancelDrag
             | Effect::ReleaseDrag => {}
             Effect::OpenDialog if interface.asking => {
-                interface.state.say(Severity::Info, "The dialog for opening files is open already");
+                interface.state.say(MessageSeverity::Info, "The dialog for opening files is open already");
             }
             Effect::OpenDialog => {
                 let recent = interface.state.read().settings.recent.first();
@@ -123,7 +123,7 @@ impl EditorRuntime {
                     Ok(()) => interface.asking = true,
                     Err(error) => {
                         let text = format!("No dialog could be opened: {error}");
-                        interface.state.say(Severity::Error, text);
+                        interface.state.say(MessageSeverity::Error, text);
                     }
                 }
             }
@@ -184,7 +184,9 @@ impl BaseRuntime for EditorRuntime {
             }
             Err(error) => {
                 let mut interface = parts.interface.borrow_mut();
-                interface.state.say(Severity::Error, format!("No document thread could be started: {error}"));
+                interface
+                    .state
+                    .say(MessageSeverity::Error, format!("No document thread could be started: {error}"));
                 None
             }
         };
@@ -208,7 +210,7 @@ impl BaseRuntime for EditorRuntime {
         match reply {
             GraphicsReply::Ready { adapter, max_texture_side } => {
                 interface.set_max_texture_side(max_texture_side);
-                interface.state.set_device(Device::Ready { adapter });
+                interface.state.set_device(DeviceStatus::Ready { adapter });
             }
             GraphicsReply::Picked { bone, ticket } => {
                 // A pointer that stays on its bone changes nothing, so nothing is drawn.
@@ -228,21 +230,21 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.set_frame_time(milliseconds);
             }
             GraphicsReply::Recovered { reason, losses } => {
-                let text = format!("The graphics device was lost and is back ({losses}): {reason}");
-                interface.state.say(Severity::Info, text);
+                let text = format!("The graphics device was lost and recovered ({losses}): {reason}");
+                interface.state.say(MessageSeverity::Info, text);
             }
             GraphicsReply::Paused { reason } => {
-                interface.state.say(Severity::Warning, format!("The viewport is paused: {reason}"));
-                interface.state.set_device(Device::Paused { reason });
+                interface.state.say(MessageSeverity::Warning, format!("The viewport is paused: {reason}"));
+                interface.state.set_device(DeviceStatus::Paused { reason });
             }
             GraphicsReply::Captured(Ok(path)) => {
-                interface.state.say(Severity::Info, format!("Wrote {}", path.display()));
+                interface.state.say(MessageSeverity::Info, format!("Wrote {}", path.display()));
             }
             GraphicsReply::Captured(Err(reason)) => {
-                interface.state.say(Severity::Error, format!("No picture was written: {reason}"));
+                interface.state.say(MessageSeverity::Error, format!("No picture was written: {reason}"));
             }
             GraphicsReply::Fatal(reason) => {
-                interface.state.say(Severity::Error, format!("Nothing can be drawn any more: {reason}"));
+                interface.state.say(MessageSeverity::Error, format!("Drawing has stopped: {reason}"));
             }
         }
         interface.redraw();
@@ -277,7 +279,7 @@ impl Running {
     fn ask_under_pointer(&mut self) {
         let interface = self.parts.interface.borrow();
         let (state, scale) = (interface.state.read(), interface.pixels_per_point());
-        let place = state.pointer.zip(state.view).map(|(pointer, view)| Place {
+        let place = state.pointer.zip(state.view).map(|(pointer, view)| HoverPoint {
             position: [pointer.x * scale, pointer.y * scale],
             camera: state.camera,
             generation: view.generation,

@@ -4,7 +4,7 @@ use super::editor_runtime::Running;
 use super::file_dialog::{self, Purpose};
 use super::interface::Interface;
 use crate::panels::prompts::{Overlay, Question};
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction};
 use dragonfly_anim::format::gltf::GLB;
 use dragonfly_document::{DocumentMessage, Offer, SaveOrder, Source, Then};
@@ -81,13 +81,13 @@ impl Running {
     fn ask_where_it_is(&mut self, offer: Box<Offer>) {
         let mut interface = self.parts.interface.borrow_mut();
         if interface.asking {
-            return interface.state.say(Severity::Info, "A dialog for files is open already");
+            return interface.state.say(MessageSeverity::Info, "A dialog for files is open already");
         }
         let folder = offer.found.document.as_deref().and_then(Path::parent).map(Path::to_owned);
         match file_dialog::ask(Purpose::Find(offer), folder, self.answers.clone()) {
             Ok(()) => interface.asking = true,
             Err(error) => {
-                interface.state.say(Severity::Error, format!("No dialog could be opened: {error}"));
+                interface.state.say(MessageSeverity::Error, format!("No dialog could be opened: {error}"));
             }
         }
     }
@@ -95,7 +95,7 @@ impl Running {
     fn ask_where(&mut self, copy: bool, then: Option<Then>) {
         let mut interface = self.parts.interface.borrow_mut();
         if interface.asking {
-            return interface.state.say(Severity::Info, "A dialog for files is open already");
+            return interface.state.say(MessageSeverity::Info, "A dialog for files is open already");
         }
         let Some(view) = interface.state.read().view else { return };
         let near = view.file.path.as_deref().or(view.loaded.path.as_deref());
@@ -112,7 +112,7 @@ impl Running {
         match file_dialog::ask(purpose, folder, self.answers.clone()) {
             Ok(()) => interface.asking = true,
             Err(error) => {
-                interface.state.say(Severity::Error, format!("No dialog could be opened: {error}"));
+                interface.state.say(MessageSeverity::Error, format!("No dialog could be opened: {error}"));
             }
         }
     }
@@ -138,21 +138,23 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
         }
         (Purpose::Find(offer), None) if quick => {
             let text = "This desktop has no dialog for opening files; type the path instead";
-            interface.state.say(Severity::Warning, text);
+            interface.state.say(MessageSeverity::Warning, text);
             interface.state.ask_where_it_is(offer, None);
         }
         (Purpose::Open, None) if quick => {
             let text = "This desktop has no dialog for opening files; type the path instead";
-            interface.state.say(Severity::Warning, text);
+            interface.state.say(MessageSeverity::Warning, text);
             interface.state.show_overlay(Some(Overlay::OpenPath));
         }
         (Purpose::Save { copy, then, .. }, None) if quick => {
             let text = "This desktop has no dialog for saving files; type the path instead";
-            interface.state.say(Severity::Warning, text);
+            interface.state.say(MessageSeverity::Warning, text);
             interface.state.ask(Question::Where { copy, then });
         }
-        // A dialog that failed slowly cannot be told from one that was closed.
-        (Purpose::Open | Purpose::Find(_), None) => interface.state.say(Severity::Info, "No file was chosen"),
-        (Purpose::Save { .. }, None) => interface.state.say(Severity::Info, "Nothing was saved"),
+        // A dialog that failed slowly looks the same as one that the user closed.
+        (Purpose::Open | Purpose::Find(_), None) => {
+            interface.state.say(MessageSeverity::Info, "No file was chosen")
+        }
+        (Purpose::Save { .. }, None) => interface.state.say(MessageSeverity::Info, "Nothing was saved"),
     }
 }

@@ -15,7 +15,7 @@ pub(super) enum Purpose {
     Save {
         /// Whether the document keeps its own file.
         copy: bool,
-        /// What follows after saving.
+        /// The action to run after saving.
         then: Option<Then>,
         /// The name that is proposed.
         name: String,

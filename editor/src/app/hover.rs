@@ -7,7 +7,7 @@ use dragonfly_picture::camera::Camera;
 
 /// A position in the viewport, and what the answer depends on in addition to the time of the take.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct HoverPoint {
     /// Physical pixels from the window's top left.
     pub position: [f32; 2],
     /// The camera.
@@ -20,14 +20,14 @@ pub struct Place {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Hover {
     /// The position that was asked for last.
-    asked: Option<Place>,
+    asked: Option<HoverPoint>,
     /// Ticket of the pending question.
     ticket: Option<u64>,
 }
 
 impl Hover {
     /// Returns whether `place` is to be asked for now, with `ticket`; then no other is until it is answered.
-    pub fn asks(&mut self, place: Option<Place>, ticket: u64) -> bool {
+    pub fn asks(&mut self, place: Option<HoverPoint>, ticket: u64) -> bool {
         let Some(place) = place else {
             self.asked = None;
             return false;

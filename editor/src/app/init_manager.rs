@@ -1,7 +1,7 @@
 //! Handles the messages by which the graphics thread and the custom run-time learn of each other (thesis §3.2.4.4).
 
 use super::base_runtime::{BaseRuntime, Parts};
-use super::timeline::{Step, Timeline};
+use super::timeline::{Step, StepTrace};
 use dragonfly_picture::GraphicsReply;
 use dragonfly_runtime::{Context, Receiver, Worker};
 use std::cell::RefCell;
@@ -15,13 +15,13 @@ pub struct InitManager {
     prepared: Option<MakeRuntime>,
     runtime: Option<Box<dyn BaseRuntime>>,
     parts: Option<Parts>,
-    timeline: Rc<RefCell<Timeline>>,
+    timeline: Rc<RefCell<StepTrace>>,
     fatal: Option<String>,
 }
 
 impl InitManager {
     /// Stores what is needed to start.
-    pub fn new(prepared: MakeRuntime, timeline: Rc<RefCell<Timeline>>) -> Self {
+    pub fn new(prepared: MakeRuntime, timeline: Rc<RefCell<StepTrace>>) -> Self {
         Self { prepared: Some(prepared), runtime: None, parts: None, timeline, fatal: None }
     }
 

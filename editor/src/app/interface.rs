@@ -9,7 +9,7 @@ use crate::panels::commands;
 use crate::panels::marks;
 use crate::panels::prompts::{Overlay, Question};
 use crate::panels::settings::ThemeChoice;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::{Desk, Effect, FileAction, Request, Settings, State, style};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::BoneSelection;
@@ -116,7 +116,7 @@ impl Interface {
         if for_good {
             self.given_up.get_or_insert_with(|| text.clone());
         }
-        self.state.say(Severity::Error, format!("{text}. Nothing that you did is lost"));
+        self.state.say(MessageSeverity::Error, format!("{text}. Nothing that you did is lost"));
         self.redraw();
     }
 
@@ -294,7 +294,7 @@ impl Interface {
 
     fn keep(&mut self, name: &str, text: &str) {
         if let Err(error) = self.store.write(name, text) {
-            self.state.say(Severity::Warning, format!("The settings could not be kept: {error}"));
+            self.state.say(MessageSeverity::Warning, format!("The settings could not be saved: {error}"));
         }
     }
 

@@ -8,7 +8,7 @@ use super::init_manager::{InitManager, MakeRuntime};
 use super::interface::Interface;
 use super::store::Store;
 use super::target_window::WinitWindow;
-use super::timeline::{Step, Timeline};
+use super::timeline::{Step, StepTrace};
 use dragonfly_document::FaultInjection;
 use dragonfly_picture::guard::caught;
 use dragonfly_picture::{Connection, DeviceParameters, Graphics, GraphicsHandle, SurfaceSource};
@@ -32,7 +32,7 @@ pub struct MainRuntime {
     interface: Rc<RefCell<Interface>>,
     init: Rc<RefCell<InitManager>>,
     graphics: GraphicsHandle,
-    timeline: Rc<RefCell<Timeline>>,
+    timeline: Rc<RefCell<StepTrace>>,
     /// Times of the latest failures of input.
     mistakes: Vec<Instant>,
 }
@@ -44,7 +44,7 @@ impl MainRuntime {
         proxy: &EventLoopProxy<UserEvent>,
         store: Store,
         custom: MakeRuntime,
-        timeline: Rc<RefCell<Timeline>>,
+        timeline: Rc<RefCell<StepTrace>>,
         faults: FaultInjection,
     ) -> Result<Self, AppError> {
         // Invisible until the accessibility bridge exists: the bridge must be created before the window is shown.

@@ -39,7 +39,7 @@ use event::UserEvent;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use thiserror::Error;
-use timeline::{Step, Timeline};
+use timeline::{Step, StepTrace};
 use winit::application::ApplicationHandler;
 use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
@@ -75,7 +75,7 @@ pub enum AppError {
 
 /// Shows the editor until the user ends it. Must be called in the main thread, once.
 pub fn run(options: Options) -> Result<(), AppError> {
-    let timeline = Rc::new(RefCell::new(Timeline::default()));
+    let timeline = Rc::new(RefCell::new(StepTrace::default()));
     timeline.borrow_mut().reach(Step::MainFunction);
     let event_loop = EventLoop::<UserEvent>::with_user_event()
         .build()
@@ -112,7 +112,7 @@ struct Shell {
     runtime: Option<MainRuntime>,
     quit: Rc<Cell<bool>>,
     error: Option<AppError>,
-    timeline: Rc<RefCell<Timeline>>,
+    timeline: Rc<RefCell<StepTrace>>,
 }
 
 impl Shell {

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub struct Options {
     /// Document to open first.
     pub source: Source,
-    /// Number of further files on the command line. Only one document is open at a time; the user is told.
+    /// Number of further files on the command line. Only one document is open at a time; a message reports the others.
     pub passed_over: usize,
     /// Folder of the settings; the system's usual folder when `None`.
     pub settings_folder: Option<PathBuf>,

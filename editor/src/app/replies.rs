@@ -7,7 +7,7 @@ use super::file_dialog::Answer;
 use super::interface::Interface;
 use crate::panels::open_model::Loading;
 use crate::panels::prompts::Question;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction, State};
 use dragonfly_document::{Change, DocumentReply, LoadedModel, SavedFile, Source, View};
 use dragonfly_runtime::{Context, Receiver};
@@ -40,7 +40,7 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::Cancelled => {
             state.take_passed_over();
             state.set_loading(None);
-            state.say(Severity::Info, "Stopped loading");
+            state.say(MessageSeverity::Info, "Stopped loading");
         }
         DocumentReply::Failed { source, reason } => {
             let passed_over = state.take_passed_over();
@@ -49,11 +49,11 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
                 state.settings_mut().recent.retain(|other| *other != path || path.exists());
             }
             say_passed_over(state, passed_over);
-            state.say(Severity::Error, reason);
+            state.say(MessageSeverity::Error, reason);
         }
         DocumentReply::Refused(reason) => {
             state.edit_refused();
-            state.say(Severity::Warning, reason);
+            state.say(MessageSeverity::Warning, reason);
         }
         DocumentReply::View(view) => show_view(interface, view),
         DocumentReply::Opened(loaded) => opened(interface, &loaded),
@@ -67,7 +67,7 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
             state.ask(Question::Plan(Arc::from(lines), order));
         }
         DocumentReply::Plan(Err(reason), _) => {
-            state.say(Severity::Error, format!("It cannot be saved: {reason}"));
+            state.say(MessageSeverity::Error, format!("It cannot be saved: {reason}"));
         }
         DocumentReply::Unsaved(then) => {
             state.ask(Question::Unsaved(then));
@@ -78,13 +78,13 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::Offers(offers) => state.ask_to_recover(offers),
         DocumentReply::OtherFile(offer, path) => state.ask_where_it_is(offer, Some(path)),
         DocumentReply::NothingToOffer => {
-            state.say(Severity::Info, "There is no unsaved work of an earlier time");
+            state.say(MessageSeverity::Info, "There is no unsaved work of an earlier run");
         }
-        DocumentReply::Notice(text) => state.say(Severity::Info, text),
-        DocumentReply::Warning(text) => state.say(Severity::Warning, text),
+        DocumentReply::Notice(text) => state.say(MessageSeverity::Info, text),
+        DocumentReply::Warning(text) => state.say(MessageSeverity::Warning, text),
         DocumentReply::Lost => {
             state.document_lost();
-            state.say(Severity::Error, "A mistake in the program closed the document");
+            state.say(MessageSeverity::Error, "An internal error closed the document");
         }
     }
 }
@@ -106,9 +106,9 @@ fn opened(interface: &mut Interface, loaded: &LoadedModel) {
         state.settings_mut().remember(path);
     }
     for warning in &loaded.warnings {
-        state.say(Severity::Warning, format!("{}: {warning}", loaded.title));
+        state.say(MessageSeverity::Warning, format!("{}: {warning}", loaded.title));
     }
-    state.say(Severity::Info, format!("Opened {}", loaded.title));
+    state.say(MessageSeverity::Info, format!("Opened {}", loaded.title));
     say_passed_over(state, passed_over);
     let edits = std::mem::take(&mut interface.edits).into_iter();
     interface.effects.extend(edits.map(|edit| Effect::Change(Change::Edit(edit, None))));
@@ -121,15 +121,15 @@ fn show_saved(interface: &mut Interface, saved: SavedFile) {
         state.settings_mut().remember(&saved.path);
     }
     for notice in &saved.notices {
-        state.say(Severity::Warning, format!("{name}: {notice}"));
+        state.say(MessageSeverity::Warning, format!("{name}: {notice}"));
     }
     let what = if saved.copy { "Saved a copy as" } else { "Saved" };
     let others = match saved.beside {
         0 => String::new(),
-        1 => " and a file beside it".to_owned(),
-        files => format!(" and {files} files beside it"),
+        1 => " and one further file".to_owned(),
+        files => format!(" and {files} further files"),
     };
-    state.say(Severity::Info, format!("{what} {name}{others}"));
+    state.say(MessageSeverity::Info, format!("{what} {name}{others}"));
     if let Some(then) = saved.then {
         interface.effects.push(Effect::File(FileAction::Leave(then)));
     }
@@ -139,9 +139,13 @@ fn show_saved(interface: &mut Interface, saved: SavedFile) {
 fn say_passed_over(state: &mut State, files: usize) {
     match files {
         0 => {}
-        1 => state.say(Severity::Warning, "One model is open at a time: the second file stays closed"),
-        _ => state
-            .say(Severity::Warning, format!("One model is open at a time: {files} more files stay closed")),
+        1 => {
+            state.say(MessageSeverity::Warning, "Only one model can be open: the second file was not opened")
+        }
+        _ => state.say(
+            MessageSeverity::Warning,
+            format!("Only one model can be open: {files} further files were not opened"),
+        ),
     }
 }
 

@@ -68,11 +68,11 @@ impl Step {
 
 /// Records the order. A start that fails skips steps, but never changes their order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Timeline {
+pub struct StepTrace {
     reached: Vec<Step>,
 }
 
-impl Timeline {
+impl StepTrace {
     /// Notes that `step` is reached.
     ///
     /// # Panics

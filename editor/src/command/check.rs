@@ -1,33 +1,33 @@
-//! `dragonfly check FILE…`: everything wrong with models, as a list with places.
+//! `dragonfly check FILE…`: lists all problems of models, with their paths in the file.
 
 use super::choice::{load, plain, source};
 use super::output::{print, print_json};
 use super::table::count;
-use super::{Command, Failure};
+use super::{Failure, RunCommand};
 use dragonfly_anim::check::{Severity, check};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// Check models against 33 rules: broken data, probable mistakes, oddities
+/// Check models against 33 rules and list errors, warnings and notes
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
-Findings are errors (what is shown is a stand-in, or wrong), warnings (allowed, but probably not meant) and notes.\n\
-Warnings of the import are listed as well. Exit code 1: findings at or above --deny.\n\n\
+Findings are errors (shown wrong, or replaced by a placeholder), warnings (allowed, but probably unintended) and notes.\n\
+Import warnings are listed as well. Exit code 1: at least one finding has the severity of --deny or higher.\n\n\
 Examples:\n  dragonfly check Fox.glb\n  dragonfly check models/*.glb --deny warning --json")]
-pub(super) struct Arguments {
+pub(super) struct CheckArguments {
     /// Models (.glb, .gltf, .dfm), or `demo:` for the built-in dragonfly
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// Exit with 1 for findings of this severity or worse
+    /// Exit with code 1 on findings of this severity or higher
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     deny: Deny,
-    /// One JSON document instead of text
+    /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
 }
 
-/// The mildest severity that fails a check.
+/// The lowest severity that fails a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Deny {
     /// Errors and warnings fail.
@@ -46,12 +46,12 @@ impl Deny {
     }
 }
 
-impl Command for Arguments {
+impl RunCommand for CheckArguments {
     fn run(self) -> Result<(), Failure> {
         let mut reports = Vec::with_capacity(self.files.len());
         let mut failure = None;
         for file in &self.files {
-            match Report::of(file, self.deny) {
+            match CheckReport::of(file, self.deny) {
                 Ok(report) => reports.push(report),
                 // The files after it are checked too; the first unreadable one decides the exit code.
                 Err(error) => {
@@ -77,7 +77,7 @@ impl Command for Arguments {
 
 /// The findings in one file.
 #[derive(Serialize)]
-struct Report {
+struct CheckReport {
     file: String,
     errors: usize,
     warnings: usize,
@@ -85,19 +85,19 @@ struct Report {
     /// Findings at or above the severity that fails the check.
     #[serde(skip)]
     denied: usize,
-    findings: Vec<Row>,
+    findings: Vec<FindingRow>,
 }
 
 /// One finding.
 #[derive(Serialize)]
-struct Row {
+struct FindingRow {
     severity: &'static str,
     rule: &'static str,
     place: String,
     text: String,
 }
 
-impl Report {
+impl CheckReport {
     fn of(file: &std::path::Path, deny: Deny) -> Result<Self, Failure> {
         let loaded = load(&source(file))?;
         let mut report =
@@ -107,18 +107,22 @@ impl Report {
             report.add(
                 deny,
                 Severity::Warning,
-                Row { severity: "", rule: "IMPORT", place: String::new(), text },
+                FindingRow { severity: "", rule: "IMPORT", place: String::new(), text },
             );
         }
         for finding in check(&loaded.model) {
-            let row =
-                Row { severity: "", rule: finding.rule, place: finding.path.to_string(), text: finding.text };
+            let row = FindingRow {
+                severity: "",
+                rule: finding.rule,
+                place: finding.path.to_string(),
+                text: finding.text,
+            };
             report.add(deny, finding.severity, row);
         }
         Ok(report)
     }
 
-    fn add(&mut self, deny: Deny, severity: Severity, row: Row) {
+    fn add(&mut self, deny: Deny, severity: Severity, row: FindingRow) {
         let (number, name) = match severity {
             Severity::Error => (&mut self.errors, "error"),
             Severity::Warning => (&mut self.warnings, "warning"),
@@ -126,7 +130,7 @@ impl Report {
         };
         *number += 1;
         self.denied += usize::from(deny.denies(severity));
-        self.findings.push(Row { severity: name, ..row });
+        self.findings.push(FindingRow { severity: name, ..row });
     }
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -134,7 +138,7 @@ impl Report {
         let warnings = count(self.warnings, "warning", "warnings");
         let notes = count(self.notes, "note", "notes");
         writeln!(out, "{}: {errors}, {warnings}, {notes}", plain(&self.file))?;
-        for Row { severity, rule, place, text } in &self.findings {
+        for FindingRow { severity, rule, place, text } in &self.findings {
             let place = if place.is_empty() { String::new() } else { format!("{}: ", plain(place)) };
             writeln!(out, "  {severity}: {place}{} ({rule})", plain(text))?;
         }

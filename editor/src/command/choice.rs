@@ -1,4 +1,4 @@
-//! What the commands let one choose, and how each choice is read: a file, a take, times, a size, a colour.
+//! Arguments that several commands share, and their parsers: a file, a take, times, a size, a color.
 
 use super::{Failure, progress::Teller};
 use dragonfly_anim::data::{ModelData, Take};
@@ -6,7 +6,7 @@ use dragonfly_document::{Cancel, LoadedModel, Source, formats, load_model};
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// Stands for the built-in model where a file is expected.
+/// Name of the built-in model where a file is expected.
 pub(super) const BUILT_IN: &str = "demo:";
 
 /// Returns the help text of a model argument, with the extensions of all formats.
@@ -14,7 +14,7 @@ pub(super) fn model_help() -> String {
     format!("A model ({}), or `demo:` for the built-in dragonfly", formats().extension_list())
 }
 
-/// Which model.
+/// The model argument.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct File {
     #[arg(value_name = "FILE", help = model_help())]
@@ -22,33 +22,33 @@ pub(super) struct File {
 }
 
 impl File {
-    /// Reads it, with progress on stderr when that takes long.
+    /// Loads the model, with progress on stderr if that takes long.
     pub(super) fn load(&self) -> Result<LoadedModel, Failure> {
         load(&source(&self.path))
     }
 }
 
-/// What `path` stands for.
+/// Returns the source that `path` names.
 pub(super) fn source(path: &std::path::Path) -> Source {
     if path == std::path::Path::new(BUILT_IN) { Source::BuiltIn } else { Source::File(path.to_path_buf()) }
 }
 
-/// Reads `source`, with progress on stderr when that takes long.
+/// Loads `source`, with progress on stderr if that takes long.
 pub(super) fn load(source: &Source) -> Result<LoadedModel, Failure> {
     let mut teller = Teller::new(source.title());
     Ok(load_model(source, &mut |progress| teller.tell(progress), &Cancel::default())?)
 }
 
-/// Which take.
+/// The take argument.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct TakeChoice {
-    /// Which take, by name or by number from 0; a name wins over a number [default: the first]
+    /// Take, by name or by index from 0; a name has priority over an index [default: the first]
     #[arg(long, value_name = "TAKE", allow_hyphen_values = true)]
     take: Option<String>,
 }
 
 impl TakeChoice {
-    /// Its position; `None` for the rest pose of a model that has no takes.
+    /// Returns the index of the take; `None` for the rest pose of a model without takes.
     pub(super) fn index(&self, title: &str, model: &ModelData) -> Result<Option<usize>, Failure> {
         let takes = &model.animation.takes;
         let Some(wanted) = &self.take else {
@@ -68,7 +68,7 @@ impl TakeChoice {
     }
 }
 
-/// What there is to choose from.
+/// Returns the list of available takes for an error message.
 fn offer(takes: &[std::sync::Arc<Take>]) -> String {
     const SHOWN: usize = 12;
     if takes.is_empty() {
@@ -84,16 +84,16 @@ fn offer(takes: &[std::sync::Arc<Take>]) -> String {
     format!("there is {}{more}", names.join(", "))
 }
 
-/// `time` within the keys of take number `take`; as it is for the rest pose, which is the same at all times.
+/// Clamps `time` to take number `take`; unchanged for the rest pose, which is the same at all times.
 pub(super) fn clamp_time(model: &ModelData, take: Option<usize>, time: f32) -> f32 {
     match take.and_then(|take| model.animation.takes.get(take)) {
-        // Not `clamp`, which panics when the ends are the wrong way round.
+        // Not `clamp`, which panics if the start is after the end.
         Some(take) => time.min(take.end()).max(take.start),
         None => time,
     }
 }
 
-/// A finite number; "nan" and "inf" can be parsed but not be meant.
+/// Parses a finite number; refuses "nan" and "inf".
 pub(super) fn finite(text: &str) -> Result<f32, String> {
     match f32::from_str(text) {
         Ok(number) if number.is_finite() => Ok(number),
@@ -102,7 +102,7 @@ pub(super) fn finite(text: &str) -> Result<f32, String> {
     }
 }
 
-/// Longest side of a picture; what devices of today draw.
+/// Longest side of an image, pixels: the texture size limit of current devices.
 const LONGEST_SIDE: u32 = 16_384;
 
 /// Width and height in pixels.
@@ -129,7 +129,7 @@ impl FromStr for Size {
     }
 }
 
-/// A colour as written for the web: red, green, blue and, if wanted, opacity.
+/// A color in hexadecimal web notation: red, green, blue and optionally opacity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Color(pub [u8; 4]);
 
@@ -138,7 +138,7 @@ impl FromStr for Color {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let digits = text.strip_prefix('#').unwrap_or(text);
-        let usage = "is not a colour; write RRGGBB or RRGGBBAA, for example 202830ff";
+        let usage = "is not a color; write RRGGBB or RRGGBBAA, for example 202830ff";
         if !matches!(digits.len(), 6 | 8) || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
             return Err(usage.to_owned());
         }
@@ -151,7 +151,7 @@ impl FromStr for Color {
     }
 }
 
-/// `text` from a file, safe to show in a terminal: nothing in it can move the cursor or break the line.
+/// Returns `text` of a file with control characters escaped, so that it cannot move the cursor or break the line.
 pub(super) fn plain(text: &str) -> String {
     text.chars()
         .flat_map(|character| {

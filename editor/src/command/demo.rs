@@ -1,18 +1,18 @@
-//! `dragonfly demo -o FILE.glb`: the built-in model as a file, to open elsewhere or to learn from.
+//! `dragonfly demo -o FILE.glb`: writes the built-in model to a file, to open elsewhere or to learn from.
 
-use super::{Command, Failure, output, tell};
+use super::{Failure, RunCommand, output, tell};
 use std::path::PathBuf;
 
-/// Writes the built-in model, a dragonfly with three takes, as a GLB file
+/// Write the built-in model, a dragonfly with three takes, to a GLB file
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "Example:\n  dragonfly demo -o dragonfly.glb")]
-pub(super) struct Arguments {
-    /// Where to; `-` is standard output
+pub(super) struct DemoArguments {
+    /// GLB file to write; `-` is standard output
     #[arg(short, long, value_name = "FILE.glb")]
     output: PathBuf,
 }
 
-impl Command for Arguments {
+impl RunCommand for DemoArguments {
     fn run(self) -> Result<(), Failure> {
         output::write_file(&self.output, dragonfly_document::demo::DRAGONFLY_GLB)?;
         if self.output != *"-" {

@@ -1,10 +1,10 @@
-//! `dragonfly diff A B`: how far the takes of two files are apart.
+//! `dragonfly diff A B`: compares the takes of two files.
 
 use super::choice::{finite, load, plain, source};
 use super::info::named;
 use super::output::{print, print_json};
 use super::table::{Side, Table, count};
-use super::{Command, Failure};
+use super::{Failure, RunCommand};
 use dragonfly_anim::compare::{BoneDifference, Peak, TakeDifference, compare_takes, pair_bones};
 use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
 use serde::Serialize;
@@ -17,39 +17,39 @@ const BONES_SHOWN: usize = 5;
 const ANGLE_TOLERANCE: f32 = 0.01;
 /// Smaller differences of a morph weight count as equal.
 const WEIGHT_TOLERANCE: f32 = 1e-4;
-/// Millimetres in a unit of the scene, which is a metre.
+/// Millimeters in a unit of the scene, which is a meter.
 const MILLIMETRES: f32 = 1000.0;
 
-/// Compare the takes of two files: which differ, which bones, how far in mm and degrees, and when
+/// Compare the takes of two files and list the bones that differ, in mm and degrees
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
-Takes and bones are paired by name. Distances are between joints in scene space, where a unit counts as a metre; angles\n\
+Takes and bones are paired by name. Distances are between joints in scene space, where a unit counts as a meter; angles\n\
 are between rotations in scene space. Exit code 1: a take or bone has no counterpart, or a difference is above the tolerance.\n\n\
 Examples:\n  dragonfly diff Fox.glb Fox2.glb\n  dragonfly diff Fox.glb Fox2.glb --tolerance 0.5 --json")]
-pub(super) struct Arguments {
+pub(super) struct DiffArguments {
     /// A model, or `demo:` for the built-in dragonfly
     #[arg(value_name = "A")]
     first: PathBuf,
     /// The model to compare it with
     #[arg(value_name = "B")]
     second: PathBuf,
-    /// Largest distance that counts as equal, millimetres
+    /// Largest distance that counts as equal, millimeters
     #[arg(long, value_name = "MM", default_value = "0.01", value_parser = finite)]
     tolerance: f32,
     /// Largest angle that counts as equal, degrees
     #[arg(long, value_name = "DEG", default_value_t = ANGLE_TOLERANCE, value_parser = finite)]
     angle: f32,
-    /// One JSON document instead of text
+    /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
 }
 
-impl Command for Arguments {
+impl RunCommand for DiffArguments {
     fn run(self) -> Result<(), Failure> {
         let first = load(&source(&self.first))?;
         let second = load(&source(&self.second))?;
         let titles = [first.title.clone(), second.title.clone()];
-        let difference = Difference::of(titles, &first.model, &second.model, self.tolerance, self.angle);
+        let difference = FileDifference::of(titles, &first.model, &second.model, self.tolerance, self.angle);
         if self.json {
             print_json(&difference)?;
         } else {
@@ -61,12 +61,12 @@ impl Command for Arguments {
 
 /// The comparison of two files.
 #[derive(Serialize)]
-struct Difference {
+struct FileDifference {
     files: [String; 2],
     differs: bool,
     only_in_first: OnlyIn,
     only_in_second: OnlyIn,
-    takes: Vec<TakeRow>,
+    takes: Vec<DiffTake>,
 }
 
 /// Names without a counterpart in the other file.
@@ -84,19 +84,19 @@ impl OnlyIn {
 
 /// One take that both files have.
 #[derive(Serialize)]
-struct TakeRow {
+struct DiffTake {
     name: String,
     differs: bool,
     /// Start and end in the first and in the second file, seconds.
     ranges: [[f32; 2]; 2],
     largest_weight_difference: ValueAt,
     /// Bones that differ, the one with the largest distance first.
-    bones: Vec<BoneRow>,
+    bones: Vec<DiffBone>,
 }
 
 /// The largest differences of one bone.
 #[derive(Serialize)]
-struct BoneRow {
+struct DiffBone {
     name: String,
     distance_mm: ValueAt,
     angle_degrees: ValueAt,
@@ -115,7 +115,7 @@ impl ValueAt {
     }
 }
 
-impl Difference {
+impl FileDifference {
     fn of(files: [String; 2], first: &ModelData, second: &ModelData, tolerance: f32, angle: f32) -> Self {
         let (takes, others) = (&first.animation.takes, &second.animation.takes);
         let (skeleton, other_skeleton) = (&*first.animation.skeleton, &*second.animation.skeleton);
@@ -132,7 +132,7 @@ impl Difference {
             let other = &others[index];
             let difference = compare_takes((skeleton, take), (other_skeleton, other));
             let ranges = [[take.start, take.end()], [other.start, other.end()]];
-            rows.push(TakeRow::of(take.name.clone(), ranges, &difference, skeleton, tolerance, angle));
+            rows.push(DiffTake::of(take.name.clone(), ranges, &difference, skeleton, tolerance, angle));
         }
         let left = is_paired.iter().zip(others).filter(|(is_paired, _)| !**is_paired);
         let only_in_first = OnlyIn { takes: only_takes, bones: names(skeleton, &pairs.only_first) };
@@ -140,7 +140,7 @@ impl Difference {
             takes: left.map(|(_, take)| take.name.clone()).collect(),
             bones: names(other_skeleton, &pairs.only_second),
         };
-        let differs = rows.iter().any(|row: &TakeRow| row.differs)
+        let differs = rows.iter().any(|row: &DiffTake| row.differs)
             || !only_in_first.is_empty()
             || !only_in_second.is_empty();
         Self { files, differs, only_in_first, only_in_second, takes: rows }
@@ -167,7 +167,7 @@ impl Difference {
     }
 }
 
-impl TakeRow {
+impl DiffTake {
     fn of(
         name: String,
         ranges: [[f32; 2]; 2],
@@ -181,9 +181,9 @@ impl TakeRow {
         };
         let mut apart: Vec<&BoneDifference> = difference.bones.iter().filter(differs).collect();
         apart.sort_by(|a, b| b.distance.value.total_cmp(&a.distance.value));
-        let bones: Vec<BoneRow> = apart
+        let bones: Vec<DiffBone> = apart
             .into_iter()
-            .map(|bone| BoneRow {
+            .map(|bone| DiffBone {
                 name: bone_name(skeleton, bone.first),
                 distance_mm: ValueAt::of(bone.distance, MILLIMETRES),
                 angle_degrees: ValueAt::of(bone.angle, 1.0_f32.to_degrees()),

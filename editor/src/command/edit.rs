@@ -1,8 +1,8 @@
-//! `dragonfly edit FILE --edits EDITS -o OUT`: edits without a window, saved without touching the rest.
+//! `dragonfly edit FILE --edits EDITS -o OUT`: applies edits without a window, and saves without changing other data.
 
 use super::choice::{model_help, source};
 use super::output::{print, print_json, write_file};
-use super::{Command, Failure, tell};
+use super::{Failure, RunCommand, tell};
 use dragonfly_anim::format::SavePlan;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{EDITS, Edit, VERSION, parse_lines};
@@ -11,44 +11,44 @@ use serde::Serialize;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Edits takes and saves them; of a glTF file every byte that the edits do not concern stays as it is
+/// Edit takes and save them; in a glTF file, all data that the edits do not concern is unchanged
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
-Edits are JSON, one object a line; --list shows every edit with an example. What cannot be done stops the command\n\
-with the line, and nothing is written.\n\n\
+Edits are JSON, one object per line; --list shows every edit with an example. If an edit fails, the command stops, reports\n\
+its line, and writes nothing.\n\n\
 Examples:\n  dragonfly edit --list\n  \
 dragonfly edit Fox.glb --edits changes.jsonl -o Fox2.glb\n  \
 echo '{\"edit\":\"reverse_take\",\"take\":\"Run\"}' | dragonfly edit Fox.glb --edits - --dry-run")]
-pub(super) struct Arguments {
+pub(super) struct EditArguments {
     #[arg(value_name = "FILE", help = model_help(), required_unless_present_any = ["list", "schema"])]
     file: Option<PathBuf>,
-    /// The edits, one JSON object a line; `-` is standard input
+    /// File of edits, one JSON object per line; `-` is standard input
     #[arg(long, value_name = "EDITS")]
     edits: Option<PathBuf>,
-    /// Where to; may be FILE itself, which is replaced in one step
+    /// File to write; FILE itself is allowed and is replaced atomically
     #[arg(short, long, value_name = "OUT", required_unless_present_any = ["list", "schema", "dry_run"])]
     output: Option<PathBuf>,
-    /// Says what would change, and writes nothing
+    /// Print the changes without writing them
     #[arg(long)]
     dry_run: bool,
-    /// Takes away what earlier saves appended and nothing uses any more
+    /// Remove data that earlier saves appended and that is no longer used
     #[arg(long, conflicts_with = "edits")]
     compact: bool,
-    /// One JSON document instead of text
+    /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
-    /// Every edit with an example
+    /// List every edit with an example
     #[arg(long, conflicts_with_all = ["file", "edits", "output", "dry_run", "compact", "schema"])]
     list: bool,
-    /// A JSON schema of the edits
+    /// Print the JSON schema of the edits
     #[arg(long, conflicts_with_all = ["file", "edits", "output", "dry_run", "compact"])]
     schema: bool,
 }
 
-/// Most bytes of edits that are read.
+/// Maximum size of the edits, bytes.
 const EDITS_BYTES: u64 = 1 << 30;
 
-impl Command for Arguments {
+impl RunCommand for EditArguments {
     fn run(self) -> Result<(), Failure> {
         if self.list {
             return list(self.json);
@@ -56,7 +56,7 @@ impl Command for Arguments {
         if self.schema {
             return print_json(&schemars::schema_for!(Edit));
         }
-        let Some(file) = &self.file else { return Err(Failure::input("FILE", "is not given")) };
+        let Some(file) = &self.file else { return Err(Failure::input("FILE", "is missing")) };
         let editable = Editable::open(&source(file), &Cancel::default())?;
         let edits = self.edits.as_deref().map(read_edits).transpose()?.unwrap_or_default();
         let mut adapter = ModelAdapter::new(&editable.model.animation);
@@ -75,14 +75,14 @@ impl Command for Arguments {
         let pending = adapter.pending_poses();
         if pending > 0 {
             tell(format_args!(
-                "{pending} pending poses are in no key, and not in the file; \"key_pending\" keys them"
+                "{pending} pending poses are not keyed and were not written; the edit \"key_pending\" keys them"
             ));
         }
         self.report(&editable.title, edits.len(), &plan, written)
     }
 }
 
-impl Arguments {
+impl EditArguments {
     fn edits_name(&self) -> String {
         match &self.edits {
             Some(path) if path != Path::new("-") => path.display().to_string(),
@@ -97,11 +97,11 @@ impl Arguments {
         plan: &SavePlan,
         written: Vec<Written>,
     ) -> Result<(), Failure> {
-        // Bytes of a model on stdout leave no room for words.
+        // If the model is written to stdout, nothing else is.
         let to_stdout = !self.dry_run && self.output.as_deref() == Some(Path::new("-"));
         if self.json && !to_stdout {
             let changes = plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.json).ok());
-            return print_json(&Report { file: title.to_owned(), edits, changes, written });
+            return print_json(&EditReport { file: title.to_owned(), edits, changes, written });
         }
         if self.dry_run {
             return print(|out| write!(out, "{plan}"));
@@ -114,10 +114,10 @@ impl Arguments {
 }
 
 #[derive(Serialize)]
-struct Report {
+struct EditReport {
     file: String,
     edits: usize,
-    /// Null where the whole file is written.
+    /// Null if the whole file is written.
     changes: Option<serde_json::Value>,
     written: Vec<Written>,
 }
@@ -167,21 +167,21 @@ pub(super) fn read_edits(path: &Path) -> Result<Vec<(usize, Edit)>, Failure> {
     };
     let text = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        Failure::input(&name, format_args!("byte {at}: this is no text"))
+        Failure::input(&name, format_args!("byte {at}: this is not UTF-8 text"))
     })?;
     parse_lines(&text).map_err(|error| Failure::input(&name, error))
 }
 
-/// Writes what the plan says.
+/// Writes the files of the plan. Returns their paths and sizes.
 fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, Failure> {
     if output == Path::new("-") && editable.needs_others(plan) {
-        return Err(Failure::input("-", "the model needs files beside it; give it a name"));
+        return Err(Failure::input("-", "the model has further files; give -o a path"));
     }
     check_extension(output, &editable.ending()).map_err(Failure::Input)?;
     let mut written = Vec::new();
     let files = editable.files(plan, output).map_err(Failure::Input)?;
     for (at, (path, bytes)) in files.iter().enumerate() {
-        // The folder of the file itself is the person's to choose; those of what it needs are made.
+        // The folder of the model, the last file, must exist; folders of the files that it refers to are created.
         if at + 1 < files.len() {
             make_folder(path).map_err(Failure::Input)?;
         }

@@ -1,30 +1,30 @@
-//! How a command ends when it does not end well: one line on stderr and a code that scripts can rely on.
+//! Failures of commands: one line on stderr, and an exit code that scripts can rely on.
 
 use dragonfly_document::LoadError;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// Why a command stops.
+/// The reason why a command stops.
 #[derive(Debug)]
 pub enum Failure {
-    /// Code 2: a file or an argument is wrong. Says file, place and reason.
+    /// Exit code 2: a file or an argument is wrong. Contains the file, the position in it and the reason.
     Input(String),
-    /// Code 1: the check found something, or the comparison a difference. The result is on stdout already.
+    /// Exit code 1: the check found something, or the comparison a difference. The result is on stdout already.
     Difference,
-    /// Code 3: the machine cannot do it. Says what, and what to do about it.
+    /// Exit code 3: a system error. Contains what failed, and what to do about it.
     Machine(String),
-    /// Whoever read our output has gone: nothing is wrong, and nobody is left to tell.
-    NobodyListens,
+    /// Exit code 0: the process that read our output closed the pipe, which is no error.
+    OutputClosed,
 }
 
 impl Failure {
-    /// `place: reason`, where the input is wrong.
+    /// Returns a failure `place: reason` of wrong input.
     pub fn input(place: impl Display, reason: impl Display) -> Self {
         Self::Input(format!("{place}: {reason}"))
     }
 
-    /// Tells it, and gives the code to exit with.
+    /// Prints the message to stderr and returns the exit code.
     pub fn report(&self) -> ExitCode {
         match self {
             Self::Input(reason) => {
@@ -36,7 +36,7 @@ impl Failure {
                 tell(reason);
                 ExitCode::from(3)
             }
-            Self::NobodyListens => ExitCode::SUCCESS,
+            Self::OutputClosed => ExitCode::SUCCESS,
         }
     }
 }
@@ -47,7 +47,7 @@ impl From<LoadError> for Failure {
     }
 }
 
-/// One message for a person, on stderr. Unlike `eprintln!` it does not mind that stderr is closed.
+/// Prints a message for the user to stderr. Unlike `eprintln!`, it does not panic if stderr is closed.
 pub fn tell(message: impl Display) {
     let _ = writeln!(io::stderr(), "dragonfly: {message}");
 }

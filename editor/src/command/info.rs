@@ -1,9 +1,9 @@
-//! `dragonfly info FILE`: what is in a file.
+//! `dragonfly info FILE`: lists the contents of a file.
 
 use super::choice::{File, plain};
 use super::output::{print, print_json};
 use super::table::{Side, Table, count};
-use super::{Command, Failure};
+use super::{Failure, RunCommand};
 use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_document::LoadedModel;
@@ -11,23 +11,23 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// More bones than this are counted, not listed, in the text for people.
+/// Maximum number of bones listed in the text output; the others are only counted.
 const BONES_SHOWN: usize = 80;
 
-/// What is in a file: bones, skins, takes, meshes, materials, size, and what is odd about it
+/// List the contents of a file: bones, skins, takes, meshes, materials, size, and import warnings
 #[derive(Clone, Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  dragonfly info Fox.glb\n  dragonfly info Fox.glb --json | jq '.takes[].name'"
 )]
-pub(super) struct Arguments {
+pub(super) struct InfoArguments {
     #[command(flatten)]
     file: File,
-    /// One JSON document instead of text
+    /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
 }
 
-impl Command for Arguments {
+impl RunCommand for InfoArguments {
     fn run(self) -> Result<(), Failure> {
         let info = Info::of(self.file.load()?);
         if self.json { print_json(&info) } else { print(|out| info.write(out)) }
@@ -38,17 +38,17 @@ impl Command for Arguments {
 struct Info {
     file: String,
     format: &'static str,
-    bones: Vec<Bone>,
-    skins: Vec<Skin>,
-    takes: Vec<Take>,
-    meshes: Vec<Mesh>,
-    materials: Vec<Material>,
-    bounds: Bounds,
+    bones: Vec<InfoBone>,
+    skins: Vec<InfoSkin>,
+    takes: Vec<InfoTake>,
+    meshes: Vec<InfoMesh>,
+    materials: Vec<InfoMaterial>,
+    bounds: InfoBounds,
     warnings: Vec<String>,
 }
 
 #[derive(Serialize)]
-struct Bone {
+struct InfoBone {
     index: usize,
     name: String,
     parent: Option<BoneIndex>,
@@ -56,14 +56,14 @@ struct Bone {
 }
 
 #[derive(Serialize)]
-struct Skin {
+struct InfoSkin {
     index: usize,
     name: String,
     bones: Vec<BoneIndex>,
 }
 
 #[derive(Serialize)]
-struct Take {
+struct InfoTake {
     index: usize,
     name: String,
     start: f32,
@@ -73,7 +73,7 @@ struct Take {
 }
 
 #[derive(Serialize)]
-struct Mesh {
+struct InfoMesh {
     index: usize,
     name: String,
     vertices: usize,
@@ -84,20 +84,20 @@ struct Mesh {
 }
 
 #[derive(Serialize)]
-struct Material {
+struct InfoMaterial {
     index: usize,
     name: String,
 }
 
 #[derive(Serialize)]
-struct Bounds {
+struct InfoBounds {
     min: [f32; 3],
     max: [f32; 3],
-    sphere: Sphere,
+    sphere: InfoSphere,
 }
 
 #[derive(Serialize)]
-struct Sphere {
+struct InfoSphere {
     center: [f32; 3],
     radius: f32,
 }
@@ -105,7 +105,7 @@ struct Sphere {
 impl Info {
     fn of(loaded: LoadedModel) -> Self {
         let model = Arc::new(loaded.model);
-        // The model as it stands before anything moves it.
+        // The model in its rest pose.
         let bounds = Evaluator::new(Arc::clone(&model)).bounds();
         Self {
             file: loaded.title,
@@ -115,7 +115,7 @@ impl Info {
                 .skins
                 .iter()
                 .enumerate()
-                .map(|(index, skin)| Skin { index, name: skin.name.clone(), bones: skin.bones.clone() })
+                .map(|(index, skin)| InfoSkin { index, name: skin.name.clone(), bones: skin.bones.clone() })
                 .collect(),
             takes: takes(&model),
             meshes: meshes(&model),
@@ -123,12 +123,12 @@ impl Info {
                 .materials
                 .iter()
                 .enumerate()
-                .map(|(index, material)| Material { index, name: material.name.clone() })
+                .map(|(index, material)| InfoMaterial { index, name: material.name.clone() })
                 .collect(),
-            bounds: Bounds {
+            bounds: InfoBounds {
                 min: bounds.min.to_array(),
                 max: bounds.max.to_array(),
-                sphere: Sphere { center: bounds.sphere.center.to_array(), radius: bounds.sphere.radius },
+                sphere: InfoSphere { center: bounds.sphere.center.to_array(), radius: bounds.sphere.radius },
             },
             warnings: loaded.warnings,
         }
@@ -226,8 +226,8 @@ impl Info {
     }
 }
 
-fn bones(skeleton: &Skeleton) -> Vec<Bone> {
-    let bone = |(index, bone): (usize, &dragonfly_anim::data::Bone)| Bone {
+fn bones(skeleton: &Skeleton) -> Vec<InfoBone> {
+    let bone = |(index, bone): (usize, &dragonfly_anim::data::Bone)| InfoBone {
         index,
         name: bone.name.clone(),
         parent: bone.parent,
@@ -236,8 +236,8 @@ fn bones(skeleton: &Skeleton) -> Vec<Bone> {
     skeleton.bones.iter().enumerate().map(bone).collect()
 }
 
-fn takes(model: &ModelData) -> Vec<Take> {
-    let take = |(index, take): (usize, &Arc<dragonfly_anim::data::Take>)| Take {
+fn takes(model: &ModelData) -> Vec<InfoTake> {
+    let take = |(index, take): (usize, &Arc<dragonfly_anim::data::Take>)| InfoTake {
         index,
         name: take.name.clone(),
         start: take.start,
@@ -248,7 +248,7 @@ fn takes(model: &ModelData) -> Vec<Take> {
     model.animation.takes.iter().enumerate().map(take).collect()
 }
 
-fn meshes(model: &ModelData) -> Vec<Mesh> {
+fn meshes(model: &ModelData) -> Vec<InfoMesh> {
     let skin_of = |mesh: usize| {
         model
             .instances
@@ -258,7 +258,7 @@ fn meshes(model: &ModelData) -> Vec<Mesh> {
     };
     let mesh = |(index, mesh): (usize, &dragonfly_anim::data::Mesh)| {
         let primitives = &mesh.primitives;
-        Mesh {
+        InfoMesh {
             index,
             name: mesh.name.clone(),
             vertices: primitives.iter().map(|primitive| primitive.vertices.len()).sum(),
@@ -271,8 +271,8 @@ fn meshes(model: &ModelData) -> Vec<Mesh> {
     model.meshes.iter().enumerate().map(mesh).collect()
 }
 
-/// How deep each bone lies; parents come first, so one pass suffices.
-fn depths(bones: &[Bone]) -> Vec<usize> {
+/// Returns the depth of each bone in the hierarchy; parents come first, so one pass suffices.
+fn depths(bones: &[InfoBone]) -> Vec<usize> {
     let mut depths: Vec<usize> = Vec::with_capacity(bones.len());
     for bone in bones {
         let depth = bone.parent.and_then(|parent| depths.get(parent as usize)).map_or(0, |depth| depth + 1);
@@ -281,8 +281,8 @@ fn depths(bones: &[Bone]) -> Vec<usize> {
     depths
 }
 
-/// Positions of all bones, each followed by its children; without recursion, as skeletons may be deep.
-fn tree_order(bones: &[Bone]) -> Vec<usize> {
+/// Returns the indices of all bones, each followed by its children; without recursion, as skeletons may be deep.
+fn tree_order(bones: &[InfoBone]) -> Vec<usize> {
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); bones.len()];
     let mut stack = Vec::new();
     for (index, bone) in bones.iter().enumerate().rev() {
@@ -299,12 +299,12 @@ fn tree_order(bones: &[Bone]) -> Vec<usize> {
     order
 }
 
-/// The name, or a word for none.
+/// Returns the name, or a placeholder if it is empty.
 pub(super) fn named(name: &str) -> String {
     if name.is_empty() { "(unnamed)".to_owned() } else { plain(name) }
 }
 
-/// A length in few digits.
+/// Formats a length with at most three decimals.
 fn short(number: f32) -> String {
     let text = format!("{number:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

@@ -1,16 +1,16 @@
-//! What the program says about itself while it runs: warnings, and more when `DRAGONFLY_LOG` asks.
+//! Logging to stderr: warnings, and more if `DRAGONFLY_LOG` is set.
 
 use std::panic;
 use tracing_subscriber::EnvFilter;
 
-/// Chooses how much is told.
+/// Environment variable with the log filter.
 const VARIABLE: &str = "DRAGONFLY_LOG";
 
-/// Warnings of this program; of the libraries below it only errors, as theirs mean little to a person. What the driver
-/// says comes back as errors of our own, with what to do about it.
+/// Default filter: warnings of this program, and only errors of its libraries, whose warnings do not help the user. Errors
+/// of the driver are reported as errors of our own, with advice.
 const USUAL: &str = "error,wgpu_hal=off,dragonfly=warn,dragonfly_runtime=warn,dragonfly_anim=warn";
 
-/// Sends what is traced to stderr. Does nothing when somebody already listens.
+/// Installs the log subscriber that writes to stderr. Does nothing if one is already installed.
 pub(super) fn start() {
     let filter = std::env::var(VARIABLE)
         .ok()
@@ -24,10 +24,10 @@ pub(super) fn start() {
         .try_init();
 }
 
-/// Lets a panic be told once, by whoever catches it, instead of also at once by the standard library.
+/// Installs a panic hook that only logs at debug level. The code that catches the panic reports it to the user.
 ///
-/// Every thread of the program is guarded: the main thread by [`super::main`], the others by the runtime, the drawing
-/// of a frame by the graphics thread, where a panic of the driver means no more than "the device is lost".
+/// Panics are caught in every thread: in the main thread by [`super::main`], in the others by the runtime, and during the drawing
+/// of a frame by the graphics thread, where a panic of the driver is treated as a lost device.
 pub(super) fn quiet_panics() {
     panic::set_hook(Box::new(|panic| {
         let thread = std::thread::current();
@@ -37,7 +37,7 @@ pub(super) fn quiet_panics() {
             place,
             backtrace = %std::backtrace::Backtrace::capture(),
             "panic: {}",
-            panic.payload_as_str().unwrap_or("it did not say why")
+            panic.payload_as_str().unwrap_or("no reason given")
         );
     }));
 }

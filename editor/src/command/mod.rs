@@ -1,7 +1,7 @@
 //! The command line: one file a command, one line in [`Commands`].
 //!
-//! Results go to stdout, messages and progress to stderr. Exit codes: 0 done, 1 the comparison asked for found a
-//! difference, 2 wrong input, 3 trouble of the machine.
+//! Results go to stdout, messages and progress to stderr. Exit codes: 0 done, 1 the check or comparison found
+//! difference, 2 wrong input, 3 system error.
 
 mod check;
 mod choice;
@@ -30,45 +30,47 @@ use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 
-/// Something that can be asked for on the command line.
-trait Command {
-    /// Does it.
+/// A subcommand of the command line.
+trait RunCommand {
+    /// Runs the subcommand.
     fn run(self) -> Result<(), Failure>;
 }
 
-/// Every command; without one, the editor opens.
+/// All subcommands; without one, the editor opens.
 #[derive(Debug, clap::Subcommand)]
 enum Commands {
-    Info(info::Arguments),
-    Check(check::Arguments),
-    Diff(diff::Arguments),
-    Pose(pose::Arguments),
-    Explain(explain::Arguments),
-    Render(render::Arguments),
-    Edit(edit::Arguments),
-    Demo(demo::Arguments),
+    Info(info::InfoArguments),
+    Check(check::CheckArguments),
+    Diff(diff::DiffArguments),
+    Pose(pose::PoseArguments),
+    Explain(explain::ExplainArguments),
+    Render(render::RenderArguments),
+    Edit(edit::EditArguments),
+    Demo(demo::DemoArguments),
 }
 
 const HELP: &str = "\
 Examples:
-  dragonfly                         the editor, with the built-in dragonfly
-  dragonfly Fox.glb                 the editor, with a model of yours
-  dragonfly info Fox.glb            what is in a file
+  dragonfly                         open the editor with the built-in dragonfly
+  dragonfly Fox.glb                 open a model in the editor
+  dragonfly info Fox.glb            list the contents of a file
+  dragonfly check Fox.glb           find errors and suspicious data in a file
+  dragonfly diff Fox.glb Fox2.glb   compare the takes of two files
   dragonfly render demo: -o fly.png --take cruise --time 0.4
-                                    a picture, without any window
+                                    render an image without a window
   dragonfly pose Fox.glb --time 0.5 --json
-                                    exact numbers, for other programs
+                                    print exact poses for other programs
   dragonfly explain Fox.glb --time 0.5 --bone b_Head_05
-                                    how one bone comes to stand where it stands
+                                    print every step that leads to the pose of a bone
   dragonfly edit Fox.glb --edits changes.jsonl -o Fox2.glb
-                                    edits without a window; the rest of the file stays
-  dragonfly --commands              the commands of the editor with their keys
+                                    apply edits without a window; the rest of the file is unchanged
+  dragonfly --commands              list the commands of the editor with their shortcuts
 
-FILE may be `demo:` for the built-in model.
-Exit codes: 0 done, 1 a difference was found, 2 wrong input, 3 trouble of the machine.
-DRAGONFLY_LOG=info (or debug, trace) tells on stderr what the program does.";
+FILE can be `demo:` for the built-in model.
+Exit codes: 0 done, 1 the check or comparison found something, 2 wrong input, 3 system error.
+DRAGONFLY_LOG=info (or debug, trace) logs details to stderr.";
 
-/// Opens an animated model, shows it moving, and lets you look inside.
+/// The parsed command line.
 #[derive(Debug, Parser)]
 #[command(
     name = "dragonfly",
@@ -82,10 +84,10 @@ struct CommandLine {
     #[command(subcommand)]
     command: Option<Commands>,
     #[command(flatten)]
-    open: open::Arguments,
+    open: open::OpenArguments,
 }
 
-/// The whole program: reads the command line, does what it asks, and returns the exit code.
+/// Runs the program: parses the command line, carries it out, and returns the exit code.
 ///
 /// A panic inside does not escape: it is reported, and the exit code is 3.
 pub fn main() -> ExitCode {

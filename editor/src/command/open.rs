@@ -1,4 +1,4 @@
-//! `dragonfly [FILE…]`: the editor; where there is no display, a picture instead.
+//! `dragonfly [FILE…]`: opens the editor; without a display, renders an image instead.
 
 use super::choice::{Size, load, source};
 use super::{Failure, output, quiet, render, tell};
@@ -12,26 +12,26 @@ fn models_help() -> String {
     format!("Models to open ({}); without any, the built-in dragonfly", formats().extension_list())
 }
 
-/// What the editor opens.
+/// Arguments of the editor.
 #[derive(Clone, Debug, clap::Args)]
-pub(super) struct Arguments {
+pub(super) struct OpenArguments {
     #[arg(value_name = "FILE", help = models_help())]
     files: Vec<PathBuf>,
-    /// Talks instead of opening a window: one JSON edit or query a line in, one JSON answer a line out
+    /// Run without a window: read one JSON edit or query per line from stdin, write one JSON answer per line to stdout
     #[arg(long)]
     stdio: bool,
-    /// Prints the table of the editor's commands: id, title, tooltip, keys, and when each can be run
+    /// List the commands of the editor: id, title, tooltip, keys, and condition
     #[arg(long, conflicts_with = "stdio")]
     commands: bool,
-    /// Where settings are kept, instead of the usual place
+    /// Folder for settings, instead of the default one
     #[arg(long, value_name = "FOLDER")]
     settings: Option<PathBuf>,
-    /// Where unsaved work is recorded, instead of the usual place
+    /// Folder for journals of unsaved work, instead of the default one
     #[arg(long, value_name = "FOLDER")]
     autosave: Option<PathBuf>,
 }
 
-impl Arguments {
+impl OpenArguments {
     /// Opens the editor, with `base` for everything that the command line does not set.
     pub(super) fn open(self, base: Options) -> Result<(), Failure> {
         if self.commands {
@@ -57,14 +57,14 @@ impl Arguments {
     }
 }
 
-/// Is there anything to open a window on? Only asked where the environment says so; elsewhere there always is.
+/// Returns whether a display is available: on X11 and Wayland systems if the environment names one, elsewhere always.
 fn has_display() -> bool {
     let set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
     cfg!(not(all(unix, not(target_os = "macos"))))
         || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(set)
 }
 
-impl Arguments {
+impl OpenArguments {
     fn options(&self, base: Options) -> Options {
         let built_in = Source::BuiltIn;
         Options {
@@ -76,16 +76,17 @@ impl Arguments {
         }
     }
 
-    /// The main job without a window: a picture of the model in the current folder, and where to get more.
+    /// Renders an image of the model into the current folder, and prints the commands that need no display.
     fn draw(&self, why: &str) -> Result<(), Failure> {
-        tell(format_args!("no display to open a window on ({why}); drawing a picture instead"));
+        tell(format_args!("no display to open a window on ({why}); rendering an image instead"));
         let built_in = PathBuf::from(super::choice::BUILT_IN);
         let file = self.files.first().unwrap_or(&built_in);
         let source = source(file);
         let loaded = load(&source)?;
-        let view = render::View { size: Size { width: 1280, height: 720 }, ..render::View::default() };
+        let view =
+            render::RenderView { size: Size { width: 1280, height: 720 }, ..render::RenderView::default() };
         let (title, take) = (loaded.title.clone(), loaded.model.animation.takes.first().cloned());
-        // A third into the take something is on its way in most of them.
+        // Most takes show a characteristic pose at a third of their length.
         let time = take.as_ref().map_or(0.0, |take| take.start + take.length / 3.0);
         let picture = render::draw(loaded, take.is_some().then_some(0), time, &view)?;
         let path = output::write_new(Path::new("."), &stem(&source), "png", &picture)?;
@@ -93,10 +94,10 @@ impl Arguments {
         output::print(|out| {
             writeln!(out, "{}", path.display())?;
             let take = take.map_or_else(String::new, |take| format!(", take {}, {time:.2} s", take.name));
-            writeln!(out, "  a picture of {title}{take}, {} × {} pixels", view.size.width, view.size.height)?;
+            writeln!(out, "  an image of {title}{take}, {} × {} pixels", view.size.width, view.size.height)?;
             writeln!(out, "More without a display:")?;
-            writeln!(out, "  dragonfly render --help   other files, takes, times, views and sizes")?;
-            writeln!(out, "  dragonfly info, pose      what is in a file, exact numbers")?;
+            writeln!(out, "  dragonfly render --help   other files, takes, times, cameras and sizes")?;
+            writeln!(out, "  dragonfly info, pose      contents of a file, exact numbers")?;
             writeln!(
                 out,
                 "The editor itself opens in any desktop session, X11 or Wayland; over ssh, with `ssh -X`."
@@ -105,7 +106,7 @@ impl Arguments {
     }
 }
 
-/// What a picture of `source` is called.
+/// Returns the file stem of an image of `source`.
 fn stem(source: &Source) -> String {
     match source {
         Source::BuiltIn => "dragonfly".to_owned(),

@@ -1,4 +1,4 @@
-//! Where results go: stdout, or a file that is either whole or not there.
+//! Output of results: to stdout, or to a file that is written completely or not at all.
 
 use super::Failure;
 use dragonfly_store::{ExpectedFile, FileSaveError, RealFiles, SaveOptions};
@@ -6,7 +6,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes to stdout whatever `write` writes; a closed pipe ends quietly.
+/// Runs `write` on a buffered stdout; a closed pipe is no error.
 pub(super) fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
     let mut stdout = BufWriter::new(io::stdout().lock());
     write(&mut stdout).and_then(|()| stdout.flush()).map_err(|error| stdout_failure(&error))
@@ -22,16 +22,16 @@ pub(super) fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
 
 fn stdout_failure(error: &io::Error) -> Failure {
     if error.kind() == io::ErrorKind::BrokenPipe {
-        Failure::NobodyListens
+        Failure::OutputClosed
     } else {
         Failure::Machine(format!("standard output: {error}"))
     }
 }
 
-/// Puts `bytes` into the file at `path`, or on stdout for `-`.
+/// Writes `bytes` to the file at `path`, or to stdout for `-`.
 ///
-/// A file of that name is replaced in one step, so that a full disk or a crash leaves the old one whole. A link is
-/// followed, and what is no regular file (a device, a pipe) is written to as it is.
+/// An existing file is replaced atomically, so that a full disk or a crash leaves the old one intact. A link is
+/// followed, and a file that is not regular (a device, a pipe) is written to directly.
 pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if path == Path::new("-") {
         return print(|out| out.write_all(bytes));
@@ -46,7 +46,7 @@ pub(super) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         return Ok(());
     }
     match write_through(path, bytes) {
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(Failure::NobodyListens),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Err(Failure::OutputClosed),
         Err(error) => Err(Failure::input(path.display(), format_args!("cannot be written: {error}"))),
         Ok(()) => Ok(()),
     }
@@ -59,8 +59,8 @@ fn write_through(target: &Path, bytes: &[u8]) -> io::Result<()> {
     fs::OpenOptions::new().write(true).open(target)?.write_all(bytes)
 }
 
-/// Puts `bytes` into a new file `stem.extension` in `folder`; when that name is taken by something else, into
-/// `stem-2.extension` and so on. A file that already holds the same bytes is left as it is.
+/// Writes `bytes` to a new file `stem.extension` in `folder`; if a different file has that name, to
+/// `stem-2.extension` and so on. A file that already contains the same bytes is left unchanged.
 pub(super) fn write_new(
     folder: &Path,
     stem: &str,
@@ -74,7 +74,7 @@ pub(super) fn write_new(
         let options = SaveOptions { expected: ExpectedFile::Nothing, ..SaveOptions::default() };
         match dragonfly_store::save(&RealFiles, &path, bytes, &options) {
             Ok(_) => return Ok(path),
-            // A folder of that name is something else, too.
+            // A folder counts as a different file.
             Err(FileSaveError::Exists { .. } | FileSaveError::NotRegular { .. }) => {
                 let same = dragonfly_document::read_file(&path, bytes.len() as u64)
                     .is_ok_and(|existing| existing == bytes);
@@ -85,5 +85,5 @@ pub(super) fn write_new(
             Err(error) => return Err(Failure::Input(error.to_string())),
         }
     }
-    Err(Failure::input(folder.display(), format_args!("holds a thousand files called {stem} already")))
+    Err(Failure::input(folder.display(), format_args!("already contains a thousand files called {stem}")))
 }

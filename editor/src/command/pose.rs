@@ -1,10 +1,10 @@
-//! `dragonfly pose FILE --time S`: where every bone and vertex is at a time.
+//! `dragonfly pose FILE --time S`: prints the pose of every bone and vertex at a time.
 
 use super::choice::{File, TakeChoice, clamp_time, finite};
 use super::info::named;
 use super::output::{print, print_json};
 use super::table::{Side, Table};
-use super::{Command, Failure};
+use super::{Failure, RunCommand};
 use dragonfly_anim::data::{ModelData, Transform};
 use dragonfly_anim::evaluator::Evaluator;
 use glam::{EulerRot, Mat4, Vec3};
@@ -12,30 +12,30 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Where every bone and vertex is at a time: bone matrices, skinning matrices, skinned positions
+/// Print poses: bone matrices, skinning matrices and skinned vertex positions at given times
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
 Matrices are column-major, for column vectors. `to_root` is bone space to scene space, `final` bind space to\n\
-scene space. Text shows positions, rotations and scales; --json has everything, exactly.\n\n\
+scene space. The text shows positions, rotations and scales; --json contains everything in full precision.\n\n\
 Examples:\n  dragonfly pose Fox.glb --take Run --time 0.35\n  \
 dragonfly pose Fox.glb --time 0 --time 0.5 --time 1 --vertices 8 --json")]
-pub(super) struct Arguments {
+pub(super) struct PoseArguments {
     #[command(flatten)]
     file: File,
     #[command(flatten)]
     take: TakeChoice,
-    /// Seconds, clamped to the take; repeat for more poses
+    /// Time in seconds, clamped to the take; repeat for more poses
     #[arg(long, value_name = "S", required = true, value_parser = finite, allow_negative_numbers = true)]
     time: Vec<f32>,
-    /// Only the first N positions of each mesh [default: all in JSON, none in text]
+    /// Number of vertex positions of each mesh [default: all in JSON, none in text]
     #[arg(long, value_name = "N")]
     vertices: Option<usize>,
-    /// One JSON document instead of text
+    /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
 }
 
-impl Command for Arguments {
+impl RunCommand for PoseArguments {
     fn run(self) -> Result<(), Failure> {
         let loaded = self.file.load()?;
         let take = self.take.index(&loaded.title, &loaded.model)?;
@@ -46,11 +46,11 @@ impl Command for Arguments {
         for &time in &self.time {
             let time = clamp_time(&model, take, time);
             evaluator.pose(take, time);
-            let pose = Pose::of(&evaluator, time, vertices);
-            // JSON has no word for such a number, and no reader a use for it.
+            let pose = PoseRow::of(&evaluator, time, vertices);
+            // JSON cannot represent infinity or NaN.
             if !pose.is_finite() {
                 let reason =
-                    format_args!("the pose at {time} s is too large for numbers of single precision");
+                    format_args!("the pose at {time} s exceeds the range of single-precision numbers");
                 return Err(Failure::input(&loaded.title, reason));
             }
             poses.push(pose);
@@ -65,7 +65,7 @@ impl Command for Arguments {
 struct Poses {
     file: String,
     take: Option<TakeName>,
-    poses: Vec<Pose>,
+    poses: Vec<PoseRow>,
 }
 
 #[derive(Serialize)]
@@ -75,44 +75,44 @@ struct TakeName {
 }
 
 #[derive(Serialize)]
-struct Pose {
+struct PoseRow {
     time: f32,
-    bones: Vec<BonePose>,
-    skins: Vec<SkinPose>,
-    meshes: Vec<MeshPose>,
+    bones: Vec<BonePoseRow>,
+    skins: Vec<SkinPoseRow>,
+    meshes: Vec<MeshPoseRow>,
 }
 
 #[derive(Serialize)]
-struct BonePose {
+struct BonePoseRow {
     name: String,
     node: Option<u32>,
     to_root: [f32; 16],
 }
 
 #[derive(Serialize)]
-struct SkinPose {
+struct SkinPoseRow {
     index: usize,
     r#final: Vec<[f32; 16]>,
 }
 
 #[derive(Serialize)]
-struct MeshPose {
+struct MeshPoseRow {
     node: Option<u32>,
     primitive: usize,
     positions: Vec<[f32; 3]>,
 }
 
-impl Pose {
-    /// What `evaluator` was put in last, with at most `vertices` positions a primitive.
+impl PoseRow {
+    /// Returns the current pose of `evaluator`, with at most `vertices` positions per primitive.
     fn of(evaluator: &Evaluator, time: f32, vertices: usize) -> Self {
         let model = evaluator.model();
         let bones = model.animation.skeleton.bones.iter().zip(evaluator.to_root());
-        let bones = bones.map(|(bone, to_root)| BonePose {
+        let bones = bones.map(|(bone, to_root)| BonePoseRow {
             name: bone.name.clone(),
             node: bone.node,
             to_root: to_root.to_cols_array(),
         });
-        let skins = (0..model.skins.len()).map(|index| SkinPose {
+        let skins = (0..model.skins.len()).map(|index| SkinPoseRow {
             index,
             r#final: evaluator.final_poses(index).iter().map(Mat4::to_cols_array).collect(),
         });
@@ -121,7 +121,7 @@ impl Pose {
                 let mut positions = vec![Vec3::ZERO; data.vertices.len().min(vertices)];
                 evaluator.positions(index, primitive, &mut positions);
                 let positions = positions.iter().map(|position| position.to_array()).collect();
-                MeshPose { node: instance.node, primitive, positions }
+                MeshPoseRow { node: instance.node, primitive, positions }
             })
         });
         Self { time, bones: bones.collect(), skins: skins.collect(), meshes: meshes.collect() }
@@ -153,17 +153,17 @@ impl Poses {
     }
 }
 
-impl Pose {
+impl PoseRow {
     fn write_bones(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut table = Table::new(&[
             ("bone", Side::Left),
             ("x", Side::Right),
             ("y", Side::Right),
             ("z", Side::Right),
-            ("turned x", Side::Right),
+            ("rotation x", Side::Right),
             ("y", Side::Right),
             ("z", Side::Right),
-            ("scaled x", Side::Right),
+            ("scale x", Side::Right),
             ("y", Side::Right),
             ("z", Side::Right),
         ]);
@@ -179,7 +179,7 @@ impl Pose {
     }
 }
 
-impl MeshPose {
+impl MeshPoseRow {
     fn write(&self, model: &ModelData, out: &mut dyn Write) -> io::Result<()> {
         let instance = model.instances.iter().find(|instance| instance.node == self.node);
         let mesh = instance.and_then(|instance| model.meshes.get(instance.mesh as usize));
@@ -199,7 +199,7 @@ impl MeshPose {
     }
 }
 
-/// A number with so many digits; a zero has no sign.
+/// Formats a number with `digits` decimals; zero has no sign.
 fn fixed(number: f32, digits: usize) -> String {
     let text = format!("{number:.digits$}");
     let zero = text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));

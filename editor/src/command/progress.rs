@@ -1,28 +1,28 @@
-//! Says on stderr how far long work is; silent about work that is done before one would wonder.
+//! Progress of long operations on stderr; short ones print nothing.
 
 use dragonfly_document::{LoadStage, Progress};
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
-/// Shorter work is not worth a word.
+/// Operations shorter than this print no progress.
 const PATIENCE: Duration = Duration::from_millis(300);
 
-/// One piece of work.
+/// Progress of one operation.
 pub(super) struct Teller {
     title: String,
     began: Instant,
     terminal: bool,
-    /// What was said last, so that a log file gets a line a stage and not a line a percent.
+    /// The stage printed last, so that a log file gets one line per stage instead of one per percent.
     said: Option<LoadStage>,
 }
 
 impl Teller {
-    /// Work on `title` begins.
+    /// Starts an operation on `title`.
     pub(super) fn new(title: impl Into<String>) -> Self {
         Self { title: title.into(), began: Instant::now(), terminal: io::stderr().is_terminal(), said: None }
     }
 
-    /// The work is this far.
+    /// Prints the progress if the operation already takes long.
     pub(super) fn tell(&mut self, progress: Progress) {
         if self.began.elapsed() < PATIENCE || (!self.terminal && self.said == Some(progress.stage)) {
             return;
@@ -35,7 +35,7 @@ impl Teller {
             progress.done * 100.0
         );
         let mut stderr = io::stderr();
-        // Carriage return and "erase to the end of the line": the next word goes over this one.
+        // Carriage return and "erase to the end of the line": the next text overwrites this one.
         let _ = if self.terminal { write!(stderr, "\r{line}\x1b[K") } else { writeln!(stderr, "{line}") };
     }
 }

@@ -1,10 +1,10 @@
-//! Keeping other people's libraries from speaking on our stderr.
+//! Suppression of messages that libraries write to our stderr.
 
-/// Mesa asks a Wayland server which graphics device to take, even where there is none, and the library it asks with then
-/// complains on stderr ("error: XDG_RUNTIME_DIR is invalid"). Below a message of ours that looks like a failure.
+/// Prevents a misleading message of Mesa. Mesa asks a Wayland server for the graphics device, even if there is none, and
+/// libwayland then prints "error: XDG_RUNTIME_DIR is invalid" to stderr. Below a message of ours that looks like a failure.
 ///
-/// Its question can be forbidden by the environment alone, and that must be so when the process starts. So where
-/// there is no Wayland to ask, the program starts itself once more; it stays the same process.
+/// Only an environment variable disables this, and it must be set when the process starts. So where
+/// there is no Wayland server, the program executes itself again, in the same process.
 pub(super) fn about_wayland() {
     #[cfg(target_os = "linux")]
     {
@@ -21,7 +21,7 @@ pub(super) fn about_wayland() {
         if let Some(name) = arguments.next() {
             command.arg0(name);
         }
-        // Returns only when it failed, and then no more than silence is lost.
+        // Returns only if it failed; then the message appears, and nothing else changes.
         let _ = command.args(arguments).env(FORBID, "1").exec();
     }
 }

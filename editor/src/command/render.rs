@@ -1,55 +1,55 @@
-//! `dragonfly render FILE -o out.png`: one picture, no window needed.
+//! `dragonfly render FILE -o out.png`: renders one image without a window.
 
 use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
-use super::{Command, Failure, output, quiet, tell};
+use super::{Failure, RunCommand, output, quiet, tell};
 use dragonfly_document::LoadedModel;
 use dragonfly_picture::{GraphicsError, PictureSettings, render_picture};
 use std::io::Cursor;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Draws one picture of a model; no window and no display needed
+/// Render an image of a model, without a window or a display
 #[derive(Clone, Debug, clap::Args)]
 #[command(after_help = "\
 Examples:\n  dragonfly render demo: -o dragonfly.png\n  \
 dragonfly render Fox.glb --take Run --time 0.35 --yaw 60 --pitch 10 --size 1920x1080 -o run.png\n  \
 dragonfly render Fox.glb --skeleton --background 00000000 -o - | display")]
-pub(super) struct Arguments {
+pub(super) struct RenderArguments {
     #[command(flatten)]
     file: File,
     #[command(flatten)]
     take: TakeChoice,
-    /// Seconds, clamped to the take [default: its beginning]
+    /// Time in seconds, clamped to the take [default: its start]
     #[arg(long, value_name = "S", value_parser = finite, allow_negative_numbers = true)]
     time: Option<f32>,
-    /// The PNG file to write; `-` is standard output
+    /// PNG file to write; `-` is standard output
     #[arg(short, long, value_name = "out.png")]
     output: PathBuf,
     #[command(flatten)]
-    view: View,
+    view: RenderView,
 }
 
-/// From where, how large, and over what.
+/// Camera, size and background of the image.
 #[derive(Clone, Debug, clap::Args)]
-pub(super) struct View {
+pub(super) struct RenderView {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720")]
     pub size: Size,
-    /// Degrees around the model; 0 is its front, 90 its left side
+    /// Camera angle around the model, degrees; 0 is its front, 90 its left side
     #[arg(long, value_name = "DEG", value_parser = finite, default_value = "35", allow_negative_numbers = true)]
     pub yaw: f32,
-    /// Degrees from above; 90 looks straight down
+    /// Camera angle above the horizon, degrees; 90 looks straight down
     #[arg(long, value_name = "DEG", value_parser = finite, default_value = "15", allow_negative_numbers = true)]
     pub pitch: f32,
-    /// Draws the bones over the model
+    /// Draw the bones in front of the model
     #[arg(long)]
     pub skeleton: bool,
-    /// Colour behind the model, with opacity; 00000000 leaves it transparent [default: that of the editor]
+    /// Background color with opacity; 00000000 is transparent [default: the editor's]
     #[arg(long, value_name = "RRGGBBAA")]
     pub background: Option<Color>,
 }
 
-impl Default for View {
+impl Default for RenderView {
     fn default() -> Self {
         Self {
             size: Size { width: 1280, height: 720 },
@@ -61,7 +61,7 @@ impl Default for View {
     }
 }
 
-impl Command for Arguments {
+impl RunCommand for RenderArguments {
     fn run(self) -> Result<(), Failure> {
         quiet::about_wayland();
         let loaded = self.file.load()?;
@@ -79,12 +79,12 @@ impl Command for Arguments {
     }
 }
 
-/// The picture of `loaded` at `time` seconds of take number `take`, as the bytes of a PNG file.
+/// Renders `loaded` at `time` seconds of take number `take`. Returns the bytes of a PNG file.
 pub(super) fn draw(
     loaded: LoadedModel,
     take: Option<usize>,
     time: f32,
-    view: &View,
+    view: &RenderView,
 ) -> Result<Vec<u8>, Failure> {
     let settings = PictureSettings {
         size: [view.size.width, view.size.height],
@@ -94,7 +94,7 @@ pub(super) fn draw(
         pitch: view.pitch.to_radians(),
         background: view.background.map(|color| color.0),
         skeleton: view.skeleton,
-        // Ground under a transparent model would leave half of it behind glass.
+        // The ground grid would cover half of a model on a transparent background.
         grid: view.background.is_none(),
         ..PictureSettings::default()
     };
@@ -105,11 +105,11 @@ pub(super) fn draw(
     let mut png = Vec::new();
     picture
         .write_to(&mut Cursor::new(&mut png), image::ImageFormat::Png)
-        .map_err(|error| Failure::Machine(format!("the picture cannot be encoded: {error}")))?;
+        .map_err(|error| Failure::Machine(format!("the image cannot be encoded: {error}")))?;
     Ok(png)
 }
 
-/// What a person without graphics can do about it.
+/// Returns the failure of a system without graphics, with advice for the user.
 pub(super) fn no_graphics(reason: &str) -> Failure {
     let driver = "a Vulkan driver (Debian: mesa-vulkan-drivers)";
     let install = if reason.contains("driver") { String::new() } else { format!("; is there {driver}?") };

@@ -1,4 +1,4 @@
-//! `dragonfly --stdio FILE`: the editor as a conversation on standard input and output.
+//! `dragonfly --stdio FILE`: the editor as a line protocol on standard input and output.
 
 use super::choice::{BUILT_IN, source};
 use super::{Failure, tell};
@@ -30,20 +30,20 @@ pub(super) fn talk(file: Option<&PathBuf>) -> Result<(), Failure> {
         } else {
             match std::str::from_utf8(&line) {
                 Ok(text) => session.answer(text),
-                Err(_) => Some("{\"error\":\"the line is no text\"}".to_owned()),
+                Err(_) => Some("{\"error\":\"the line is not UTF-8 text\"}".to_owned()),
             }
         };
-        // Whoever asks waits for the answer, so it goes out at once.
+        // The client waits for the answer, so it is flushed immediately.
         let said = answer.map_or(Ok(()), |answer| writeln!(output, "{answer}").and_then(|()| output.flush()));
         match said {
-            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Err(Failure::NobodyListens),
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Err(Failure::OutputClosed),
             Err(error) => return Err(Failure::Machine(format!("standard output: {error}"))),
             Ok(()) => {}
         }
     }
 }
 
-/// Reads on to the end of a line without keeping it.
+/// Skips the rest of a line.
 fn skip_line(input: &mut impl BufRead) -> io::Result<()> {
     loop {
         let buffer = input.fill_buf()?;

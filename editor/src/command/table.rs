@@ -1,8 +1,8 @@
-//! Columns that line up, for people.
+//! Text tables with aligned columns.
 
 use std::io::{self, Write};
 
-/// On which side of its column a cell stands.
+/// Alignment of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     /// Words.
@@ -18,7 +18,7 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// A table with one column an entry of `headings`.
+    /// Returns a table with one column for each entry of `headings`.
     pub(super) fn new(headings: &[(&str, Side)]) -> Self {
         Self {
             sides: headings.iter().map(|(_, side)| *side).collect(),
@@ -26,14 +26,14 @@ impl Table {
         }
     }
 
-    /// Adds a row; as many cells as headings.
+    /// Adds a row. The number of cells must equal the number of headings.
     pub(super) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         let row: Vec<String> = cells.into_iter().collect();
         debug_assert_eq!(row.len(), self.sides.len());
         self.rows.push(row);
     }
 
-    /// Writes it, indented by two blanks, two blanks between columns, none at the end of a line.
+    /// Writes the table, indented by two spaces, with two spaces between columns and none at the end of a line.
     pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let widths: Vec<usize> = (0..self.sides.len())
             .map(|column| self.rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0))

@@ -16,5 +16,5 @@ pub use framework::ControlFramework;
 pub use input::{InputEvent, PlaceError};
 pub use key::{Key, Modifiers};
 pub(crate) use viewport::orbit;
-pub use viewport::{Button, Catch, Outcome, ViewportControl};
+pub use viewport::{Button, Catch, ViewportControl, ViewportOutcome};
 pub use viewport_tools::{ViewportTool, ViewportTools};

@@ -21,7 +21,7 @@ pub enum Button {
 
 /// A request of the viewport apart from moving the camera. Positions are points from its top left.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
+pub enum ViewportOutcome {
     /// Select the bone at a position.
     Pick(Vec2, Choice),
     /// Select the bones in a region.
@@ -81,7 +81,7 @@ pub struct ViewportControl {
     lasso: Lasso,
     /// The next press selects in this shape, whatever is under it.
     armed: Option<Catch>,
-    outcome: Option<Outcome>,
+    outcome: Option<ViewportOutcome>,
 }
 
 /// Radians per point.
@@ -123,7 +123,7 @@ impl ViewportControl {
     }
 
     /// Returns the request since the last call.
-    pub fn take_outcome(&mut self) -> Option<Outcome> {
+    pub fn take_outcome(&mut self) -> Option<ViewportOutcome> {
         self.outcome.take()
     }
 
@@ -177,7 +177,7 @@ impl ViewportControl {
         };
         // Ctrl and Alt together mean the lasso itself.
         let ctrl = modifiers.ctrl && !modifiers.alt;
-        self.outcome = Some(Outcome::Catch(region, Choice::from(Modifiers { ctrl, ..modifiers })));
+        self.outcome = Some(ViewportOutcome::Catch(region, Choice::from(Modifiers { ctrl, ..modifiers })));
     }
 }
 
@@ -215,7 +215,7 @@ impl BaseControl for ViewportControl {
         match self.mode {
             MouseMode::Pressed { at, .. } if button == Button::Left => {
                 self.mode = MouseMode::Idle;
-                self.outcome = Some(Outcome::Pick(at, Choice::from(mouse.modifiers)));
+                self.outcome = Some(ViewportOutcome::Pick(at, Choice::from(mouse.modifiers)));
             }
             MouseMode::Catching { from, to, catch } if button == Button::Left => {
                 self.mode = MouseMode::Idle;

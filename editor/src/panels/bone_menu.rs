@@ -1,4 +1,4 @@
-//! What the right button offers at a bone, in the picture and in the tree: commands for what is selected.
+//! The context menu of a bone, in the viewport and in the hierarchy: commands for the selection.
 
 use super::commands::Id;
 use super::context::PanelContext;

@@ -1,4 +1,4 @@
-//! What panels need to know about a view, computed once when it changes and not every frame.
+//! Data that the panels derive from a view, computed once when it changes instead of every frame.
 
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::{LoadedModel, View};
@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// A line of the skeleton's tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct HierarchyRow {
     /// Which bone.
     pub bone: BoneIndex,
     /// Number of ancestors.
@@ -20,7 +20,7 @@ pub struct Row {
 /// A line of the list of takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TakeRow {
-    /// As in the file, or a stand-in.
+    /// Name in the file, or a replacement for an empty name.
     pub name: String,
     /// Seconds.
     pub length: f32,
@@ -52,7 +52,7 @@ pub struct Lanes {
 #[derive(Clone, Debug, Default)]
 pub struct Digest {
     /// Depth first, as shown.
-    pub rows: Vec<Row>,
+    pub rows: Vec<HierarchyRow>,
     /// In file order.
     pub takes: Vec<TakeRow>,
     /// Totals.
@@ -91,7 +91,7 @@ impl Digest {
 }
 
 /// The tree in the order in which it is shown; without recursion, because files decide how deep it is.
-fn rows(loaded: &LoadedModel) -> Vec<Row> {
+fn rows(loaded: &LoadedModel) -> Vec<HierarchyRow> {
     let bones = &loaded.model.animation.skeleton.bones;
     let mut children: Vec<Vec<BoneIndex>> = vec![Vec::new(); bones.len()];
     let mut roots = Vec::new();
@@ -101,14 +101,14 @@ fn rows(loaded: &LoadedModel) -> Vec<Row> {
             None => roots.push(index as BoneIndex),
         }
     }
-    let mut rows: Vec<Row> = Vec::with_capacity(bones.len());
+    let mut rows: Vec<HierarchyRow> = Vec::with_capacity(bones.len());
     let mut stack: Vec<(BoneIndex, u32)> = roots.into_iter().rev().map(|bone| (bone, 0)).collect();
     while let Some((bone, depth)) = stack.pop() {
         let below = &children[bone as usize];
-        rows.push(Row { bone, depth, parent: !below.is_empty(), below: 0 });
+        rows.push(HierarchyRow { bone, depth, parent: !below.is_empty(), below: 0 });
         stack.extend(below.iter().rev().map(|&child| (child, depth + 1)));
     }
-    // From the end, each row adds itself and what is below it to its parent, which stands before it.
+    // From the end, each row adds itself and its descendants to its parent, which comes before it in the list.
     let mut place = vec![0; bones.len()];
     for (index, row) in rows.iter().enumerate() {
         place[row.bone as usize] = index;

@@ -1,12 +1,12 @@
 //! The drag in progress, whichever panel or tool it belongs to: the gizmo, a number, keys, a curve.
 //!
-//! A drag that has not ended is no step. It is not saved, nothing is undone under it, and the program does not end with it.
-//! So while a drag goes on keys give no commands, as in other programs of this kind; and anything else that asks for
-//! something of the document, such as the close button of the window or a screen reader, first cancels the drag. The panel
-//! may still send edits of it afterwards: they are dropped.
+//! A drag that has not ended is not yet an undo step. It is not saved, undo waits for it, and the program does not quit during it.
+//! So keyboard shortcuts are off during a drag, as in other animation programs, and any other request that concerns
+//! the document, such as the close button of the window or a screen reader, first cancels the drag. The panel
+//! may still send edits of that drag afterwards: they are dropped.
 //!
-//! The end of a drag may never come: a mouse is unplugged, another window takes the keyboard. Then the drag is cancelled, too,
-//! and the panels get events that release the buttons.
+//! The end of a drag may never arrive: a mouse is unplugged, or another window takes the focus. Then the drag is cancelled, too,
+//! and the panels receive events that release the buttons.
 
 use super::echo::Echo;
 use dragonfly_document::Change;
@@ -33,7 +33,7 @@ pub struct Dragging {
     over: u64,
     /// Numbers of changes, and what is shown before the document answers them.
     pub echo: Echo,
-    /// Whether the panels are to let go of what they drag.
+    /// Whether the panels must end their drags.
     drops: bool,
     /// Events for the panels in the next frames, one list for each frame.
     events: VecDeque<Vec<Event>>,
@@ -41,7 +41,7 @@ pub struct Dragging {
     gestures: Cell<u64>,
 }
 
-/// What to do with a change that was asked for while a drag may be going on.
+/// The treatment of a change that is requested while a drag may be in progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Admission {
     /// The change belongs to a drag that is over.
@@ -53,7 +53,7 @@ pub(super) enum Admission {
 }
 
 impl Dragging {
-    /// Returns whether a drag goes on that changed something.
+    /// Returns whether a drag is in progress that has changed something.
     pub fn is_open(&self) -> bool {
         self.open.is_some()
     }

@@ -1,4 +1,4 @@
-//! What the user sees of an edit before the document answers: the same edit, applied to a copy of the takes.
+//! Local preview of an edit until the document answers: the same edit, applied to a copy of the takes.
 //!
 //! Every change that is sent to the document gets a number. An edit whose result is shown at once is also carried out here,
 //! by the same code, on a copy that shares everything large with the document's view. The panels show that copy until a view
@@ -72,7 +72,7 @@ impl Echo {
             (None, None) => None,
         };
         let Some(mut local) = local else { return };
-        // The document refuses it as well, and says why.
+        // The document refuses it as well, and its answer gives the reason.
         if local.edited.ask(edit.clone(), gesture).is_ok() {
             local.number = self.sent;
             *shown = Some(local.view());

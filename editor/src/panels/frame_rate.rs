@@ -64,10 +64,10 @@ mod tests {
         for (rate, now) in [(24, 30), (25, 30), (30, 24), (60, 24), (60, 30), (100, 30), (120, 30)] {
             assert_eq!(rate_of(&every(rate as f32), now), Some(rate), "{rate}");
         }
-        // Where those that are counted in will do, they stay.
+        // The current frame rate stays if all keys are on its frames.
         assert_eq!(rate_of(&every(30.0), 60), Some(60));
         assert_eq!(rate_of(&take((0..9).map(|key| key as f32)), 30), Some(30));
-        // Rounded to milliseconds, as some exporters do; and with an end that somebody cut.
+        // Rounded to milliseconds, as some exporters do, and with an end that was trimmed between two frames.
         let rounded = (0..40).map(|key| (key as f32 / 24.0 * 1e3).round() / 1e3);
         assert_eq!(rate_of(&take(rounded.chain([1.6301])), 30), Some(24));
     }

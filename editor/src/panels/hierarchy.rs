@@ -1,12 +1,12 @@
 //! The skeleton as a tree, with a search field.
 
 use super::context::PanelContext;
-use super::digest::Row;
+use super::digest::HierarchyRow;
 use super::icons::Icon;
 use super::request::Request;
 use super::style::ROW;
 use super::theme::Theme;
-use super::{Panel, Place, search_field, widgets};
+use super::{Panel, PanelPlace, search_field, widgets};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::LoadedModel;
 use dragonfly_document::bones::Choice;
@@ -35,8 +35,8 @@ impl Panel for Hierarchy {
         "Skeleton"
     }
 
-    fn place(&self) -> Place {
-        Place::Left
+    fn place(&self) -> PanelPlace {
+        PanelPlace::Left
     }
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
@@ -48,7 +48,7 @@ impl Panel for Hierarchy {
             return widgets::empty(ui, "", "Bones appear here");
         }
         if state.digest.rows.is_empty() {
-            return widgets::empty(ui, "No bones", "This model has nothing that moves");
+            return widgets::empty(ui, "No bones", "This model has no skeleton");
         }
         let entered = search_field::show(ui, &mut self.query, "Find a bone", state.find);
         let rows = self.visible(state);
@@ -57,15 +57,15 @@ impl Panel for Hierarchy {
             requests.extend(found.map(|bone| Request::Select(Some(bone))));
         }
         if rows.is_empty() {
-            return widgets::empty(ui, "No bone is called that", "");
+            return widgets::empty(ui, "No bone matches the search", "");
         }
         self.tree(ui, state, &rows, requests);
     }
 }
 
 impl Hierarchy {
-    /// What Enter takes: the bone that is called just so, else the first that is found.
-    fn best(&self, state: &PanelContext<'_>, rows: &[(Row, bool)]) -> Option<BoneIndex> {
+    /// Returns the bone that Enter selects: the one with exactly this name, otherwise the first match.
+    fn best(&self, state: &PanelContext<'_>, rows: &[(HierarchyRow, bool)]) -> Option<BoneIndex> {
         let query = self.query.trim().to_lowercase();
         let found = || rows.iter().filter(|(_, hit)| *hit).map(|(row, _)| row.bone);
         let exact = found().find(|&bone| state.bone_name(bone).to_lowercase() == query);
@@ -73,7 +73,7 @@ impl Hierarchy {
     }
 
     /// The rows to show: those that match and their ancestors, or those that no ancestor hides.
-    fn visible(&mut self, state: &PanelContext<'_>) -> Vec<(Row, bool)> {
+    fn visible(&mut self, state: &PanelContext<'_>) -> Vec<(HierarchyRow, bool)> {
         let rows = &state.digest.rows;
         let query = self.query.trim().to_lowercase();
         if !query.is_empty() {
@@ -106,7 +106,7 @@ impl Hierarchy {
         &mut self,
         ui: &mut Ui,
         state: &PanelContext<'_>,
-        rows: &[(Row, bool)],
+        rows: &[(HierarchyRow, bool)],
         requests: &mut Vec<Request>,
     ) {
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -134,7 +134,7 @@ impl Hierarchy {
         &mut self,
         ui: &mut Ui,
         state: &PanelContext<'_>,
-        row: Row,
+        row: HierarchyRow,
         hit: bool,
         requests: &mut Vec<Request>,
     ) -> bool {
@@ -143,7 +143,7 @@ impl Hierarchy {
         let name = state.bone_name(row.bone);
         let selected = state.selection.contains(row.bone);
         let (rect, response) = widgets::row(ui, &name, selected, state.highlighted() == Some(row.bone));
-        // Very deep skeletons stay readable: the indentation ends, the order goes on.
+        // Very deep skeletons stay readable: the indentation is limited, the order of the rows is not.
         let indent = 10.0 + (row.depth as f32 * 12.0).min(rect.width() * 0.5);
         let color = match (selected, hit) {
             (true, _) => theme.accent,
@@ -185,7 +185,7 @@ impl Hierarchy {
     }
 
     /// Folds or unfolds one bone; with `all`, everything below it too.
-    fn fold(&mut self, row: Row, state: &PanelContext<'_>, all: bool) {
+    fn fold(&mut self, row: HierarchyRow, state: &PanelContext<'_>, all: bool) {
         let fold = !self.collapsed.contains(&row.bone);
         let count = if all { row.below as usize } else { 0 };
         let start = state.digest.rows.iter().position(|other| other.bone == row.bone).unwrap_or(0);
@@ -204,7 +204,7 @@ impl Hierarchy {
 fn eye(
     ui: &mut Ui,
     state: &PanelContext<'_>,
-    row: Row,
+    row: HierarchyRow,
     name: &str,
     rect: Rect,
     id: egui::Id,
@@ -237,11 +237,11 @@ fn eye(
     response.on_hover_text(format!("{verb} {}{below}", widgets::shortened(name)));
 }
 
-/// What a click on a row selects: with Ctrl it toggles, with Shift everything from the active bone to here is added.
+/// Selects by a click on a row: with Ctrl it toggles, with Shift it adds all rows from the active bone to this one.
 fn choose(
     ui: &Ui,
     state: &PanelContext<'_>,
-    rows: &[(Row, bool)],
+    rows: &[(HierarchyRow, bool)],
     bone: BoneIndex,
     requests: &mut Vec<Request>,
 ) {
@@ -272,8 +272,8 @@ fn fold_mark(ui: &Ui, center: egui::Pos2, folded: bool, color: egui::Color32) {
     ui.painter().add(egui::Shape::convex_polygon(points, color, egui::Stroke::NONE));
 }
 
-/// Rows whose bone satisfies `hit`, and all their ancestors, in order; the flag tells the first from the second.
-fn matching(rows: &[Row], hit: impl Fn(BoneIndex) -> bool) -> Vec<(Row, bool)> {
+/// Returns the rows whose bone satisfies `hit` (flag true) and all their ancestors (flag false), in order.
+fn matching(rows: &[HierarchyRow], hit: impl Fn(BoneIndex) -> bool) -> Vec<(HierarchyRow, bool)> {
     let hits: Vec<bool> = rows.iter().map(|row| hit(row.bone)).collect();
     let mut kept = hits.clone();
     // From the end: what keeps a row keeps the nearest shallower row before it.

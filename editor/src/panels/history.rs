@@ -6,7 +6,7 @@ use super::icons::Icon;
 use super::request::Request;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
-use super::{Panel, Place, widgets};
+use super::{Panel, PanelPlace, widgets};
 use dragonfly_document::{Change, HistoryView};
 use egui::{Rect, ScrollArea, TextStyle, Ui, pos2, vec2};
 
@@ -26,12 +26,14 @@ impl Panel for History {
         "History"
     }
 
-    fn place(&self) -> Place {
-        Place::Right
+    fn place(&self) -> PanelPlace {
+        PanelPlace::Right
     }
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let Some(view) = state.view else { return widgets::empty(ui, "", "What was done appears here") };
+        let Some(view) = state.view else {
+            return widgets::empty(ui, "", "The history of edits appears here");
+        };
         let history = &view.history;
         buttons(ui, state, history, requests);
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -67,7 +69,7 @@ fn buttons(ui: &mut Ui, state: &PanelContext<'_>, history: &HistoryView, request
         }
         ui.add_space(2.0 * GRID);
         let text = match history.steps.len() {
-            0 => "Nothing was done yet".to_owned(),
+            0 => "There is nothing to undo".to_owned(),
             steps => {
                 format!("{} of {}", widgets::grouped(history.done), widgets::count(steps, "step", "steps"))
             }
@@ -82,7 +84,7 @@ fn buttons(ui: &mut Ui, state: &PanelContext<'_>, history: &HistoryView, request
 fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
     let theme = Theme::of(ui);
     let (label, about) = match done.checked_sub(1) {
-        None => ("As it was opened", ""),
+        None => ("Opened", ""),
         Some(step) => (
             history.steps.get(step).copied().unwrap_or_default(),
             history.about.get(step).map_or("", |about| &**about),
@@ -115,8 +117,8 @@ fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
         widgets::text_in(ui, text, about, &TextStyle::Small, weak);
     }
     let deed = match () {
-        () if here => "It is like this now",
-        () if ahead => "Click to do again everything up to here",
+        () if here => "Current state",
+        () if ahead => "Click to redo everything up to here",
         () => "Click to undo everything after this",
     };
     let saved = if saved && done > 0 { "\nSaved like this" } else { "" };

@@ -4,7 +4,7 @@ use super::context::PanelContext;
 use super::request::Request;
 use super::style::{self, GRID};
 use super::theme::Theme;
-use super::{Panel, Place, VIEWPORT, timeline};
+use super::{Panel, PanelPlace, VIEWPORT, timeline};
 use egui::{Color32, Frame, Stroke, Ui, Visuals, WidgetText};
 use egui_tiles::{
     Behavior, Container, Linear, LinearDir, ResizeState, SimplificationOptions, TabState, Tabs, Tile, TileId,
@@ -36,17 +36,17 @@ impl Layout {
     /// Returns the default layout, as the panels define it.
     pub fn usual(panels: &[Box<dyn Panel>]) -> Self {
         let mut tiles = Tiles::default();
-        let mut column = |place: Place| -> Vec<TileId> {
+        let mut column = |place: PanelPlace| -> Vec<TileId> {
             let panes = panels.iter().filter(|panel| panel.place() == place);
             panes.map(|panel| tiles.insert_pane(Pane(panel.id().to_owned()))).collect()
         };
         let (left, left_below, middle, right, below, below_right) = (
-            column(Place::Left),
-            column(Place::LeftBelow),
-            column(Place::Middle),
-            column(Place::Right),
-            column(Place::Below),
-            column(Place::BelowRight),
+            column(PanelPlace::Left),
+            column(PanelPlace::LeftBelow),
+            column(PanelPlace::Middle),
+            column(PanelPlace::Right),
+            column(PanelPlace::Below),
+            column(PanelPlace::BelowRight),
         );
         let tabs = |tiles: &mut Tiles<Pane>, panes: Vec<TileId>| tiles.insert_tab_tile(panes);
         let (upper, lower) = (tabs(&mut tiles, left), tabs(&mut tiles, left_below));

@@ -72,7 +72,7 @@ fn pose(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
             Id::ToggleIk => state.ik.on,
             _ => false,
         };
-        // The pose that is pasted as it is stands beside the one that is mirrored.
+        // Lists "paste" directly above "paste mirrored".
         if command.id == Id::PasteMirrored {
             item(ui, state, Id::PastePose, false, requests);
         }
@@ -91,7 +91,7 @@ fn file(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     item(ui, state, Id::OpenPath, false, requests);
     ui.menu_button("Open recent", |ui| {
         if state.settings.recent.is_empty() {
-            ui.add_enabled(false, Button::new("Nothing yet").frame(false));
+            ui.add_enabled(false, Button::new("No recent files").frame(false));
         }
         for path in &state.settings.recent {
             let name = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
@@ -163,7 +163,7 @@ fn view(
         item(ui, state, Id::ThemeDark, theme == ThemeChoice::Dark, requests);
         item(ui, state, Id::ThemeLight, theme == ThemeChoice::Light, requests);
     });
-    ui.menu_button("Size of everything", |ui| {
+    ui.menu_button("Interface size", |ui| {
         item(ui, state, Id::ScaleUp, false, requests);
         item(ui, state, Id::ScaleDown, false, requests);
         item(ui, state, Id::ScaleReset, false, requests);
@@ -176,7 +176,7 @@ fn view(
         }
     });
     item(ui, state, Id::FullScreen, state.window.is_full_screen(), requests);
-    if matches!(state.window.device(), super::window_status::Device::Paused { .. }) {
+    if matches!(state.window.device(), super::window_status::DeviceStatus::Paused { .. }) {
         item(ui, state, Id::RetryDevice, false, requests);
     }
 }

@@ -1,4 +1,4 @@
-//! Which bone is the other side of which: a list to look at, with what speaks for each pair.
+//! Read-only list of the mirror pairs of bones, with the evidence for each pair.
 
 use super::context::PanelContext;
 use super::request::Request;
@@ -25,12 +25,12 @@ pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Req
     let facts = [
         widgets::count(pairs.pairs.len(), "pair", "pairs"),
         format!("{} in the middle", widgets::grouped(pairs.unpaired.len() - alone)),
-        format!("{} without other side", widgets::grouped(alone)),
+        format!("{} without a counterpart", widgets::grouped(alone)),
     ];
     ui.label(RichText::new(widgets::dot_separated(&facts)).small().color(theme.weak));
     ui.add_space(GRID);
     if pairs.pairs.is_empty() {
-        ui.label(RichText::new("No name speaks of a left or right side").color(theme.weak));
+        ui.label(RichText::new("No bone name indicates a left or right side").color(theme.weak));
         return;
     }
     ui.spacing_mut().item_spacing.y = 0.0;

@@ -68,7 +68,7 @@ mod workspace;
 
 pub use context::PanelContext;
 pub use layout::Layout;
-pub use panel::{Panel, Place, VIEWPORT};
+pub use panel::{Panel, PanelPlace, VIEWPORT};
 pub use request::{Effect, FileAction, Request};
 pub use settings::Settings;
 pub use state::State;
@@ -83,7 +83,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
         Box::<history::History>::default(),
-        Box::<timeline::Timeline>::default(),
+        Box::<timeline::TimelinePanel>::default(),
         Box::<curves::Curves>::default(),
     ]
 }
@@ -97,7 +97,7 @@ pub struct Desk {
 }
 
 impl Desk {
-    /// Panels in the places that `layout`, the text of a layout file, says; empty for the usual ones.
+    /// Creates the panels in the arrangement of `layout`, the text of a layout file; an empty text gives the default one.
     pub fn new(layout: &str) -> Self {
         let panels = all();
         let layout = Layout::parse(layout, &panels);
@@ -148,8 +148,8 @@ impl Desk {
     }
 }
 
-/// A click beside a menu closes it, which egui sees to; so does a drag, which is no click to egui: what is boxed or turned
-/// in the picture would lie under the menu.
+/// Closes menus when a drag starts outside of them. egui does so for clicks only; a selection box or an orbit in the
+/// viewport would be drawn under the menu.
 fn close_menus_beside_a_drag(context: &egui::Context) {
     let begun = context.input(|input| {
         let drags = input.pointer.is_decidedly_dragging();

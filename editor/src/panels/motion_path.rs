@@ -1,7 +1,7 @@
 //! The motion path of the active bone: the position of its joint, frame by frame.
 
 use super::keys::BoneFlags;
-use super::posed::Posed;
+use super::posed::PoseCache;
 use crate::control::path::PathKey;
 use dragonfly_anim::animation::to_parent;
 use dragonfly_anim::data::{BoneIndex, Take, Track};
@@ -16,14 +16,14 @@ use std::sync::Arc;
 /// Maximum number of points of a path: a longer take is shown more coarsely.
 const MOST: usize = 2000;
 
-/// What a path is computed from: generation of the view, take, bone, frame rate, version of the flags of bones.
+/// The inputs of a path: generation of the view, take, bone, frame rate, version of the flags of bones.
 type PathSource = (u64, usize, BoneIndex, u32, u64);
 
 /// The path, its keys, and poses at the times of its keys.
 #[derive(Debug, Default)]
 pub struct MotionPath {
     /// Poses at other times than the one shown.
-    posed: Posed,
+    posed: PoseCache,
     source: Option<PathSource>,
     look: Option<Arc<PathLook>>,
     keys: Vec<PathKey>,
@@ -46,7 +46,7 @@ impl MotionPath {
     }
 
     /// Returns the poses at another time than the one shown.
-    pub(super) fn posed(&mut self) -> &mut Posed {
+    pub(super) fn posed(&mut self) -> &mut PoseCache {
         &mut self.posed
     }
 
@@ -84,7 +84,7 @@ impl MotionPath {
         let key_times = shown.tracks.iter().find(|track| track.bone == bone).map(Track::key_times);
         let times = key_times.unwrap_or_default();
         self.keys.clear();
-        // More keys could not be told from each other.
+        // More keys would overlap on the screen.
         self.keys.extend(times.iter().take(MOST).map(|&time| PathKey { time, place: chain.joint(time) }));
         self.keys.retain(|key| key.place.is_finite());
         let keys = self.keys.iter().map(|key| (key.time, key.place)).collect();

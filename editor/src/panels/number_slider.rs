@@ -9,7 +9,7 @@ use egui::{
     Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Sense, Stroke, Ui, WidgetInfo, pos2,
 };
 
-/// What a slider edits and shows.
+/// The number that a slider edits, and its display.
 #[derive(Clone, Debug)]
 pub struct NumberSlider<'a> {
     /// Identifies the slider between frames.
@@ -62,7 +62,7 @@ impl SliderScale {
 
 /// The knob of a slider, while it is dragged.
 #[derive(Clone, Copy, Debug)]
-struct Grip {
+struct KnobDrag {
     /// Number when the drag began.
     start: f64,
     /// Position of the knob, −1 to 1.
@@ -71,7 +71,7 @@ struct Grip {
     beside: f64,
 }
 
-type GripDrag = DragMachine<(), Grip>;
+type GripDrag = DragMachine<(), KnobDrag>;
 
 impl NumberSlider<'_> {
     /// Draws the slider into `rect`; the line is as long as `rect` is wide.
@@ -122,7 +122,7 @@ impl NumberSlider<'_> {
         {
             let start = self.value.unwrap_or(self.scale.value(0.0));
             let place = self.scale.place(start);
-            let grip = Grip { start, place, beside: at(pointer.x) - place };
+            let grip = KnobDrag { start, place, beside: at(pointer.x) - place };
             ui.data_mut(|data| data.insert_temp(id, GripDrag::dragging(grip)));
             return FieldEvent::Touched;
         }

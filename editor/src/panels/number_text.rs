@@ -3,9 +3,9 @@
 /// Digits behind the point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Digits {
-    /// As many as make about seven characters: small things keep their digits, large ones lose them.
+    /// Enough decimals for about seven characters: small numbers keep their decimals, large ones lose them.
     Fitting,
-    /// Always so many, so that a column stands still.
+    /// Always this number of decimals, so that a column of numbers stays aligned.
     Fixed(usize),
 }
 

@@ -1,4 +1,4 @@
-//! What lies over the panels: command palette, shortcut sheet, about, path field.
+//! Overlays drawn over the panels: command palette, shortcut sheet, about, path field.
 
 use super::context::PanelContext;
 use super::palette::Palette;
@@ -12,7 +12,7 @@ use dragonfly_document::Source;
 use egui::{Align2, Id as WidgetId, Key, Modal, RichText, TextEdit, TextStyle, Ui, vec2};
 use std::path::PathBuf;
 
-/// What is typed into overlays.
+/// The text typed into overlays.
 #[derive(Debug, Default)]
 pub struct Overlays {
     palette: Palette,
@@ -60,7 +60,7 @@ impl Overlays {
         let response = response.accessible_name("Path of the model");
         if fresh {
             response.request_focus();
-            // What was typed last is there to be corrected, or to be typed over.
+            // The last path is selected, so that it can be corrected or typed over.
             widgets::select_all(ui.ctx(), response.id, &self.path);
         }
         let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
@@ -93,7 +93,7 @@ fn about(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
             .small()
             .color(theme.weak),
     );
-    if let super::window_status::Device::Ready { adapter } = state.window.device() {
+    if let super::window_status::DeviceStatus::Ready { adapter } = state.window.device() {
         ui.label(RichText::new(adapter).small().color(theme.faint));
     }
 }

@@ -1,4 +1,4 @@
-//! What a panel is: an id, a title, a place, and a function that draws it.
+//! The interface of a panel: an id, a title, a default position, and a function that draws it.
 
 use super::context::PanelContext;
 use super::request::Request;
@@ -9,7 +9,7 @@ pub const VIEWPORT: &str = "viewport";
 
 /// Position of a panel before the user moves it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum PanelPlace {
     /// Upper left.
     Left,
     /// Lower left.
@@ -33,7 +33,7 @@ pub trait Panel {
     fn title(&self) -> &'static str;
 
     /// Returns its position before the user moves it.
-    fn place(&self) -> Place;
+    fn place(&self) -> PanelPlace;
 
     /// Draws it. What the user did is pushed to `requests`.
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>);

@@ -1,4 +1,4 @@
-//! PlaybackClock: which time of which take is shown, and whether time passes.
+//! Playback: the take and the time that are shown, and whether the take is playing.
 
 use dragonfly_picture::playback::{PlaybackClock, Repeat};
 use std::time::{Duration, Instant};
@@ -99,8 +99,8 @@ impl Player {
         self.seek(time);
     }
 
-    /// Plays within `bounds`, start and length, from now on. A time outside of them goes to where playing begins; a time
-    /// that stands still stays.
+    /// Plays within `bounds`, start and length in seconds, from now on. While playing, a time outside of them jumps to the
+    /// start of playback; while paused, the time stays.
     pub(super) fn play_within(&mut self, bounds: (f32, f32)) {
         if self.bounds() == bounds {
             return;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// Poses at the time shown, computed when they are read.
 #[derive(Debug, Default)]
-pub struct Posed {
+pub struct PoseCache {
     animation: Option<(Arc<LoadedModel>, u64, Animation)>,
     at: Option<(Option<usize>, f32, bool)>,
     /// Whether time passes. Then the keys are shown, without pending poses.
@@ -17,7 +17,7 @@ pub struct Posed {
     still: (u64, Vec<BoneIndex>),
 }
 
-impl Posed {
+impl PoseCache {
     /// Sets whether time passes, from the next update on.
     pub(super) fn set_running(&mut self, running: bool) {
         self.running = running;

@@ -1,4 +1,4 @@
-//! What is shown over the panels: questions that wait for an answer, and overlays.
+//! Modal dialogs and overlays shown over the panels.
 
 use dragonfly_document::{Decision, Offer, SaveOrder, Then};
 use dragonfly_store::FileState;
@@ -21,16 +21,16 @@ pub enum Overlay {
     MirrorPairs,
 }
 
-/// A question that the user answers before anything else goes on.
+/// A modal question that the user must answer before working on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Question {
-    /// What to do with unsaved changes.
+    /// Asks whether to save or discard unsaved changes.
     Unsaved(Then),
     /// Another program changed or removed the file; with the save that this blocks.
     Changed(FileState, Option<SaveOrder>),
     /// The file that the order saves to exists already.
     Exists(PathBuf, SaveOrder),
-    /// What a save will change, one line for each change; confirming saves if there is an order.
+    /// Lists the changes that a save will make, one line for each; confirming saves if there is an order.
     Plan(Arc<[String]>, Option<SaveOrder>),
     /// Unsaved work of an earlier run.
     Recover {
@@ -39,7 +39,7 @@ pub enum Question {
         /// Whether the work was lost in this run, by an internal error.
         lost: bool,
     },
-    /// Where the file of unsaved work is now.
+    /// Asks for the current path of the file that unsaved work belongs to.
     Find {
         /// The work.
         offer: Box<Offer>,
@@ -50,7 +50,7 @@ pub enum Question {
     Where {
         /// Whether the document keeps its own file.
         copy: bool,
-        /// What follows after saving.
+        /// The action to run after saving.
         then: Option<Then>,
     },
 }

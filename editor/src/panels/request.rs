@@ -1,4 +1,4 @@
-//! What panels ask for, and what reaches further than the panels.
+//! Requests of the panels, and effects that reach beyond the panels.
 
 use super::commands::id::Id;
 use super::commands::key_settings::KeySettings;
@@ -84,7 +84,7 @@ pub enum Request {
     PropertiesLook(PropertiesLook),
 }
 
-/// What only the program around the panels can do.
+/// An action that only the application around the panels can carry out.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Effect {
     /// Shows the system's dialog for opening files.
@@ -138,7 +138,7 @@ pub enum FileAction {
     Where {
         /// Whether the document keeps its own file.
         copy: bool,
-        /// What follows after saving.
+        /// The action to run after saving.
         then: Option<Then>,
     },
     /// Goes on without saving.
@@ -166,7 +166,7 @@ pub enum FileAction {
 }
 
 impl FileAction {
-    /// Returns whether the action only reads, so that a drag goes on.
+    /// Returns whether the action only reads, so that a drag may continue.
     pub(super) fn only_reads(&self) -> bool {
         match self {
             Self::LookAtFile | Self::Search | Self::Stay => true,

@@ -1,11 +1,11 @@
 //! Time and place on the timeline: pure arithmetic, so that it can be tested without a window.
 
-/// Which time lies at which place.
+/// Mapping between time and horizontal position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ruler {
-    /// Points: where `start` lies.
+    /// Position of `start`, points.
     pub left: f32,
-    /// Points: from `left` to where the end lies.
+    /// Distance from `left` to the end, points.
     pub width: f32,
     /// Seconds.
     pub start: f32,
@@ -32,7 +32,7 @@ impl Ruler {
         }
     }
 
-    /// Points where `time` lies; a single pose lies at the left end.
+    /// Returns the position of `time`, points; a take of a single pose is at the left end.
     pub fn x_of(&self, time: f32) -> f32 {
         if self.length > 0.0 { self.left + (time - self.start) / self.length * self.width } else { self.left }
     }
@@ -70,7 +70,7 @@ impl Ruler {
         let pleasant =
             [0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0];
         let seconds = pleasant.into_iter().filter(whole).map(frames);
-        // So long that not even hours are far enough apart, or so short that single frames are.
+        // The range is so long that labels of whole hours would overlap, or so short that every frame can have one.
         let hours = (LABEL / points_a_frame / (3600.0 * rate)).ceil().max(1.0) * 3600.0 * rate;
         let major = [1.0, 2.0]
             .into_iter()
@@ -106,7 +106,7 @@ pub fn time_of(frame: i64, frame_rate: u32) -> f32 {
 /// The time of the next (`+1`) or previous (`-1`) whole frame.
 pub fn step_frame(time: f32, direction: i64, frame_rate: u32) -> f32 {
     let exact = f64::from(time) * f64::from(frame_rate);
-    // A time that is not on a frame goes to the frame beside it, not past it.
+    // A time between two frames goes to the nearest frame in that direction, not past it.
     let frame =
         if direction > 0 { (exact + 1e-3).floor() as i64 } else { (exact - 1e-3).ceil() as i64 } + direction;
     time_of(frame, frame_rate)

@@ -1,4 +1,4 @@
-//! Which bones are selected, hidden and pinned, and which one is under the pointer.
+//! The selected, hidden and pinned bones, and the one under the pointer.
 
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones, MirrorPairs};
@@ -44,7 +44,7 @@ pub(super) struct SelectedBones {
     pointer: Option<Pos2>,
     /// The bone under the pointer in the viewport, as far as the answer is known.
     pointed: Option<BoneIndex>,
-    /// Repeated clicks go through the bones behind each other.
+    /// Cycles through overlapping bones on repeated clicks at one position.
     cycle: ClickCycle,
 }
 
@@ -139,7 +139,7 @@ impl SelectedBones {
         self.selection != before
     }
 
-    /// Takes the bones under a click at `at`, the nearest first. A repeated click selects the bone behind.
+    /// Selects one of the bones under a click at `at`, sorted by depth. A repeated click selects the next one.
     pub(super) fn clicked(&mut self, at: Pos2, bones: &[BoneIndex], choice: Choice) {
         let bone = if choice == Choice::Replace {
             self.cycle.click(Vec2::new(at.x, at.y), bones)

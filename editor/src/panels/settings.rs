@@ -178,7 +178,7 @@ pub struct Settings {
     pub tools: ToolSettings,
     /// Settings of the timeline and the curves.
     pub timeline: TimelineSettings,
-    /// What happens at the end of a take.
+    /// Repeat mode at the end of a take.
     pub repeat: Repeat,
     /// Speed of playback, seconds of the take per second.
     pub speed: f32,

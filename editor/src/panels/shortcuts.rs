@@ -1,4 +1,4 @@
-//! The sheet of keys and mouse, in which keys can be chosen anew.
+//! The sheet of keyboard and mouse shortcuts, in which shortcuts can be changed.
 
 use super::commands::{self, Category, Command, Id, KeySettings, Keymap, MOUSE, Preset};
 use super::context::PanelContext;
@@ -9,13 +9,13 @@ use super::theme::Theme;
 use super::widgets;
 use egui::{Button, Event, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 
-/// What is being done in the sheet.
+/// State of the sheet.
 #[derive(Debug, Default)]
 pub(super) struct ShortcutSheet {
     query: String,
     /// The command whose key is being chosen, and which of its keys: one more than it has for a new one.
     asks: Option<(Id, usize)>,
-    /// What became of the last choice.
+    /// Result of the last change of a shortcut.
     note: String,
 }
 
@@ -64,7 +64,7 @@ impl ShortcutSheet {
                     requests.push(Request::Keys(KeySettings { preset: *preset, ..keys.clone() }));
                 }
             }
-            if !keys.own.is_empty() && ui.button("Forget my own").clicked() {
+            if !keys.own.is_empty() && ui.button("Reset my shortcuts").clicked() {
                 let preset = keys.preset;
                 requests.push(Request::Keys(KeySettings { preset, ..KeySettings::default() }));
             }
@@ -84,14 +84,14 @@ impl ShortcutSheet {
                 if place < shortcuts.len() {
                     shortcuts.remove(place);
                 }
-                self.note = format!("“{}” lost a key", commands::get(id).title);
+                self.note = format!("Removed a shortcut of “{}”", commands::get(id).title);
             }
             _ => {
                 let chosen = KeyboardShortcut::new(modifiers, key);
                 let loser = keymap.command_of(key, modifiers).filter(|other| *other != id);
                 self.note = match loser {
                     Some(other) => format!(
-                        "{} gives “{}” now, and not “{}” any more",
+                        "{} now runs “{}” instead of “{}”",
                         commands::text(&chosen),
                         commands::get(id).title,
                         commands::get(other).title
@@ -108,7 +108,7 @@ impl ShortcutSheet {
             }
         }
         let mut keys = keys.clone();
-        // What another command got by hand is taken from it by hand as well.
+        // A shortcut that the user assigned to another command is removed from that command.
         for other in commands::all().map(|command| command.id).filter(|other| *other != id) {
             let left: Vec<_> =
                 keymap.shortcuts(other).iter().filter(|taken| !shortcuts.contains(taken)).copied().collect();
@@ -124,7 +124,7 @@ impl ShortcutSheet {
         self.asks = asks;
         Keymap::set_asking(ui.ctx(), asks.is_some());
         if asks.is_some() {
-            self.note = "Press the key · Esc keeps the old one · Delete takes it away".to_owned();
+            self.note = "Press the key · Esc keeps the old one · Delete removes it".to_owned();
         }
     }
 
@@ -150,7 +150,7 @@ impl ShortcutSheet {
                         requests.push(Request::Keys(keys));
                     }
                 }
-                // Right to left, so that the first stands first.
+                // Drawn from right to left, so that the first shortcut is the leftmost.
                 let places = shortcuts.len().max(1) + usize::from(asked == Some(shortcuts.len().max(1)));
                 for place in (0..places.min(4)).rev() {
                     let text = match shortcuts.get(place) {
@@ -164,7 +164,7 @@ impl ShortcutSheet {
                 }
             });
             row.context_menu(|ui| {
-                if ui.button("One more key").clicked() {
+                if ui.button("Add a key").clicked() {
                     asks = Some((id, shortcuts.len()));
                 }
                 if ui.button("No key").clicked() {

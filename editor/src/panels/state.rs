@@ -8,8 +8,8 @@ use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
 use super::request::{Effect, Request};
 use super::settings::Settings;
-use super::status::Severity;
-use super::window_status::Device;
+use super::status::MessageSeverity;
+use super::window_status::DeviceStatus;
 use super::workspace::Workspace;
 use crate::control::InputEvent;
 use dragonfly_anim::data::BoneIndex;
@@ -150,7 +150,7 @@ impl State {
     }
 
     /// Adds a message to the status line.
-    pub fn say(&mut self, level: Severity, text: impl Into<String>) {
+    pub fn say(&mut self, level: MessageSeverity, text: impl Into<String>) {
         self.workspace.say(level, text);
     }
 
@@ -170,7 +170,7 @@ impl State {
     }
 
     /// Sets the state of the graphics device.
-    pub fn set_device(&mut self, device: Device) {
+    pub fn set_device(&mut self, device: DeviceStatus) {
         self.workspace.window.set_device(device);
     }
 

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 /// Severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Severity {
+pub enum MessageSeverity {
     /// Information.
     Info,
     /// Something unexpected.
@@ -15,9 +15,9 @@ pub enum Severity {
 
 /// A message.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Line {
+pub struct StatusMessage {
     /// Severity.
-    pub level: Severity,
+    pub level: MessageSeverity,
     /// The text, one sentence.
     pub text: String,
     /// Number of times that it was added in a row.
@@ -27,10 +27,10 @@ pub struct Line {
 /// The newest messages, oldest first.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Status {
-    lines: VecDeque<Line>,
+    lines: VecDeque<StatusMessage>,
     /// Number of messages added so far.
     said: u64,
-    /// Whether the last message says more than the next remark would.
+    /// Whether the last message is more important than a remark that follows it.
     weighs_more: bool,
 }
 
@@ -39,13 +39,15 @@ const KEPT: usize = 200;
 
 impl Status {
     /// Adds a message; a repeated one only increases its count.
-    pub fn say(&mut self, level: Severity, text: impl Into<String>) {
+    pub fn say(&mut self, level: MessageSeverity, text: impl Into<String>) {
         let text = text.into();
         self.said += 1;
         match level {
-            Severity::Info => tracing::info!(target: "dragonfly::status", "{text}"),
-            Severity::Warning => tracing::info!(target: "dragonfly::status", level = "warning", "{text}"),
-            Severity::Error => tracing::warn!(target: "dragonfly::status", "{text}"),
+            MessageSeverity::Info => tracing::info!(target: "dragonfly::status", "{text}"),
+            MessageSeverity::Warning => {
+                tracing::info!(target: "dragonfly::status", level = "warning", "{text}")
+            }
+            MessageSeverity::Error => tracing::warn!(target: "dragonfly::status", "{text}"),
         }
         if let Some(last) = self.lines.back_mut()
             && last.text == text
@@ -57,7 +59,7 @@ impl Status {
         if self.lines.len() == KEPT {
             self.lines.pop_front();
         }
-        self.lines.push_back(Line { level, text, times: 1 });
+        self.lines.push_back(StatusMessage { level, text, times: 1 });
     }
 
     /// Returns the number of messages added so far.
@@ -73,17 +75,17 @@ impl Status {
     /// Adds a remark about a change, unless the last message is more detailed.
     pub(super) fn remark(&mut self, text: impl Into<String>) {
         if !std::mem::take(&mut self.weighs_more) {
-            self.say(Severity::Info, text);
+            self.say(MessageSeverity::Info, text);
         }
     }
 
     /// Returns the newest message.
-    pub fn last(&self) -> Option<&Line> {
+    pub fn last(&self) -> Option<&StatusMessage> {
         self.lines.back()
     }
 
     /// Returns all messages, oldest first.
-    pub fn lines(&self) -> impl DoubleEndedIterator<Item = &Line> {
+    pub fn lines(&self) -> impl DoubleEndedIterator<Item = &StatusMessage> {
         self.lines.iter()
     }
 }

@@ -4,11 +4,11 @@ use super::commands::{self, Id};
 use super::context::PanelContext;
 use super::icons::Icon;
 use super::request::Request;
-use super::status::{Line, Severity};
+use super::status::{MessageSeverity, StatusMessage};
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets;
-use super::window_status::Device;
+use super::window_status::DeviceStatus;
 use dragonfly_document::edit::SAME_TIME;
 use egui::{Align, Color32, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
 
@@ -26,13 +26,13 @@ pub fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) 
 fn corner(ui: &mut Ui, state: &PanelContext<'_>) {
     let theme = Theme::of(ui);
     match state.window.device() {
-        Device::Starting => {
+        DeviceStatus::Starting => {
             ui.label(RichText::new("Starting the graphics device…").small().color(theme.faint));
         }
-        Device::Paused { .. } => {
+        DeviceStatus::Paused { .. } => {
             ui.label(RichText::new("Viewport paused").small().color(theme.warning));
         }
-        Device::Ready { adapter } => {
+        DeviceStatus::Ready { adapter } => {
             let time = state.window.frame_time().map_or(String::new(), |time| format!("{time:>5.1} ms"));
             let font = egui::FontId::monospace(10.0);
             let label = ui.label(RichText::new(time).font(font).color(theme.faint));
@@ -45,7 +45,7 @@ fn corner(ui: &mut Ui, state: &PanelContext<'_>) {
     }
 }
 
-/// How many poses wait to be keyed; a click goes to the next one.
+/// Shows the number of pending poses; a click goes to the next one.
 fn pending(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let (here, all) = state.pending_poses();
     if all == 0 {
@@ -76,10 +76,10 @@ fn message(ui: &mut Ui, state: &PanelContext<'_>) {
         (Some(loading), _) => {
             let percent = (loading.progress.done * 100.0) as u32;
             let text = format!("{} {}… {percent} %", loading.progress.stage.title(), loading.title);
-            (text, Severity::Info)
+            (text, MessageSeverity::Info)
         }
         (None, Some(line)) => (sentence(line), line.level),
-        (None, None) => ("Ready".to_owned(), Severity::Info),
+        (None, None) => ("Ready".to_owned(), MessageSeverity::Info),
     };
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, format!("Messages: {text}"))
@@ -87,7 +87,7 @@ fn message(ui: &mut Ui, state: &PanelContext<'_>) {
     let (icon, color) = tone(level, theme);
     let mark = Rect::from_center_size(pos2(rect.left() + 18.0, rect.center().y), vec2(16.0, 16.0));
     let color = if response.hovered() { theme.text } else { color };
-    icon.paint(ui.painter(), mark, if level == Severity::Info { theme.faint } else { color });
+    icon.paint(ui.painter(), mark, if level == MessageSeverity::Info { theme.faint } else { color });
     let inside = Rect::from_min_max(pos2(rect.left() + 32.0, rect.top()), rect.max);
     widgets::text_in(ui, inside, &text, &TextStyle::Small, color);
     let response = response.on_hover_text("Shows all messages");
@@ -108,14 +108,14 @@ fn message(ui: &mut Ui, state: &PanelContext<'_>) {
     });
 }
 
-fn sentence(line: &Line) -> String {
+fn sentence(line: &StatusMessage) -> String {
     if line.times > 1 { format!("{} ({} times)", line.text, line.times) } else { line.text.clone() }
 }
 
-fn tone(level: Severity, theme: &Theme) -> (Icon, Color32) {
+fn tone(level: MessageSeverity, theme: &Theme) -> (Icon, Color32) {
     match level {
-        Severity::Info => (Icon::Info, theme.weak),
-        Severity::Warning => (Icon::Warning, theme.warning),
-        Severity::Error => (Icon::Error, theme.error),
+        MessageSeverity::Info => (Icon::Info, theme.weak),
+        MessageSeverity::Warning => (Icon::Warning, theme.warning),
+        MessageSeverity::Error => (Icon::Error, theme.error),
     }
 }

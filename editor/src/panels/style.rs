@@ -40,7 +40,7 @@ pub fn install(context: &Context) {
     });
 }
 
-/// Inter for words, Hack for numbers (digits of one width, so that columns stand still while playing).
+/// Inter for words, Hack for numbers (digits of one width, so that columns do not jitter while playing).
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
     let inter = FontData::from_static(include_bytes!("../../fonts/Inter-Medium.otf"));

@@ -1,10 +1,10 @@
-//! Where Tab goes on when nothing has the keyboard any more.
+//! Keyboard navigation with Tab after the focus was lost.
 //!
-//! egui begins at the first thing in the window then, which after Enter in a number is a long way from the next number.
+//! egui starts at the first widget of the window then, which after Enter in a number is far from the next number.
 
 use egui::{Context, Event, Id, Key, Plugin, RawInput};
 
-/// Remembers what had the keyboard last, and lets Tab go on from there. A press of the mouse is a new begin.
+/// Remembers the widget that had the focus last, and lets Tab continue from there. A mouse press resets it.
 #[derive(Debug, Default)]
 pub(super) struct TabGoesOn {
     last: Option<Id>,
@@ -22,7 +22,7 @@ impl Plugin for TabGoesOn {
             self.last = None;
         } else if let Some(last) = self.last
             && input.events.iter().any(is_tab)
-            // What is not there any more would swallow the key, and so would what lies below a question.
+            // A widget that no longer exists would swallow the key, and so would one below a modal dialog.
             && let Some(there) = context.read_response(last)
             && context.memory(|memory| memory.allows_interaction(there.layer_id))
         {

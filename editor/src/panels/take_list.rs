@@ -3,7 +3,7 @@
 use dragonfly_document::adapter::{TakeId, TakeVersions};
 use std::sync::Arc;
 
-/// What the list of takes is about to do.
+/// Pending actions of the list of takes.
 #[derive(Clone, Debug, Default)]
 pub struct TakeListState {
     renaming: Option<TakeId>,

@@ -28,7 +28,7 @@ pub struct Theme {
     pub text: Color32,
     /// What is read second.
     pub weak: Color32,
-    /// What is hardly read: hints, ticks.
+    /// Least important text and lines: hints, ticks.
     pub faint: Color32,
     /// Selection, playhead, focus.
     pub accent: Color32,
@@ -56,7 +56,7 @@ pub struct Theme {
     pub bone: Color32,
     /// Shadow of cards.
     pub shadow: Color32,
-    /// Over everything that waits behind a sheet.
+    /// Dims the window under a dialog.
     pub backdrop: Color32,
 }
 

@@ -5,16 +5,16 @@ use super::dope::Dope;
 use super::request::Request;
 use super::style;
 use super::theme::Theme;
-use super::{Panel, Place, transport, widgets};
+use super::{Panel, PanelPlace, transport, widgets};
 use egui::{CornerRadius, Ui};
 
 /// Transport and dope sheet.
 #[derive(Debug, Default)]
-pub struct Timeline {
+pub struct TimelinePanel {
     dope: Dope,
 }
 
-impl Panel for Timeline {
+impl Panel for TimelinePanel {
     fn id(&self) -> &'static str {
         "timeline"
     }
@@ -23,8 +23,8 @@ impl Panel for Timeline {
         "Timeline"
     }
 
-    fn place(&self) -> Place {
-        Place::Below
+    fn place(&self) -> PanelPlace {
+        PanelPlace::Below
     }
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {

@@ -1,7 +1,7 @@
 //! The viewport tools and what they hold between two inputs: the drag of the gizmo, the motion path, IK.
 
 use super::motion_path::MotionPath;
-use super::posed::Posed;
+use super::posed::PoseCache;
 use super::tool_drag::ToolDrag;
 use crate::control::{Area, InputEvent, ViewportTools};
 use dragonfly_anim::data::BoneIndex;
@@ -114,7 +114,7 @@ impl ToolState {
     pub(super) fn sync_gizmo(
         &mut self,
         view: &View,
-        posed: &mut Posed,
+        posed: &mut PoseCache,
         now: PlacedGizmo,
         editable: bool,
         path_editable: bool,

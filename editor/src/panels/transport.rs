@@ -94,7 +94,7 @@ fn speed(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
 fn frame_rate(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let rate = state.settings.frame_rate;
     let button = Button::new(RichText::new(format!("{rate} fps")).color(Theme::of(ui).weak)).frame(false);
-    let response = ui.add(button).on_hover_text("Frames a second, for display and stepping");
+    let response = ui.add(button).on_hover_text("Frames per second, for display and stepping");
     egui::Popup::menu(&response).show(|ui| {
         ui.set_width(96.0);
         for &choice in FRAME_RATES {
@@ -120,7 +120,9 @@ fn time(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         .custom_parser(number);
     let response = ui.add_sized(vec2(48.0, CONTROL), field).accessible_name("Frame");
     if response
-        .on_hover_text("Frame\nDrag, or click to type; 3*30+12 is fine, and so is a frame behind the end")
+        .on_hover_text(
+            "Frame\nDrag, or click to type an expression such as 3*30+12; frames after the end are allowed",
+        )
         .changed()
     {
         requests.push(Request::Seek(ruler::time_of(frame, rate)));
@@ -134,12 +136,13 @@ fn time(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         .update_while_editing(false)
         .custom_parser(number);
     let response = ui.add_sized(vec2(72.0, CONTROL), field).accessible_name("Time");
-    if response.on_hover_text("Time in seconds\nDrag, or click to type; 45/30 is fine").changed() {
+    if response.on_hover_text("Time in seconds\nDrag, or click to type an expression such as 45/30").changed()
+    {
         requests.push(Request::Seek(seconds));
     }
 }
 
-/// What is typed into a field: numbers and sums, with or without the unit that the field shows.
+/// Parses the text of a field: a number or an expression, with or without the unit that the field shows.
 fn number(text: &str) -> Option<f64> {
     let text = text.trim().trim_end_matches(['s', '×']);
     evaluate(text, Quantity::Number).ok()

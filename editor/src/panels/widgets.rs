@@ -25,7 +25,7 @@ pub(super) fn command_button(
     command(ui, icon, id, on, requests).on_hover_text(hint)
 }
 
-/// Draws [`command_button`] in a column of buttons: the tooltip is beside it and does not cover the next one.
+/// Draws [`command_button`] in a column of buttons: the tooltip is at the right and does not cover the next one.
 pub(super) fn column_button(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request>) {
     let hint = commands::tooltip(ui.ctx(), id);
     hint_beside(&command(ui, icon, id, on, requests), hint);

@@ -2,7 +2,7 @@
 
 /// State of the graphics device.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Device {
+pub enum DeviceStatus {
     /// The device is being created.
     #[default]
     Starting,
@@ -21,19 +21,19 @@ pub enum Device {
 /// Graphics device, frame time and full screen.
 #[derive(Debug, Default)]
 pub struct WindowStatus {
-    device: Device,
+    device: DeviceStatus,
     frame_time: Option<f32>,
     full_screen: bool,
 }
 
 impl WindowStatus {
     /// Returns the state of the graphics device.
-    pub fn device(&self) -> &Device {
+    pub fn device(&self) -> &DeviceStatus {
         &self.device
     }
 
     /// Sets the state of the graphics device.
-    pub fn set_device(&mut self, device: Device) {
+    pub fn set_device(&mut self, device: DeviceStatus) {
         self.device = device;
     }
 

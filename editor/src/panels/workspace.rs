@@ -3,15 +3,15 @@
 use super::camera_state::CameraState;
 use super::context::PanelContext;
 use super::dragging::Dragging;
-use super::keys::Keys;
+use super::keys::KeyEditing;
 use super::marks::Marks;
 use super::open_model::OpenModel;
 use super::player::Player;
-use super::posed::Posed;
+use super::posed::PoseCache;
 use super::prompts::Prompts;
 use super::selected_bones::SelectedBones;
 use super::settings::Settings;
-use super::status::{Severity, Status};
+use super::status::{MessageSeverity, Status};
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
@@ -22,13 +22,13 @@ pub(super) struct Workspace {
     /// The document's newest view, and the load in progress.
     pub(super) model: OpenModel,
     /// Poses at the time shown.
-    pub(super) posed: Posed,
-    /// Which time of which take is shown.
+    pub(super) posed: PoseCache,
+    /// The take and the time that are shown.
     pub(super) player: Player,
     /// Selected, hidden and pinned bones.
     pub(super) bones: SelectedBones,
     /// Selection and drag of keys, flags, markers, the range that plays.
-    pub(super) keys: Keys,
+    pub(super) keys: KeyEditing,
     /// The list of takes.
     pub(super) takes: TakeListState,
     /// The tools of the viewport.
@@ -54,10 +54,10 @@ impl Workspace {
     pub(super) fn new(settings: Settings, now: Instant) -> Self {
         Self {
             model: OpenModel::default(),
-            posed: Posed::default(),
+            posed: PoseCache::default(),
             player: Player::new(settings.speed, settings.repeat, now),
             bones: SelectedBones::default(),
-            keys: Keys::of(settings.timeline),
+            keys: KeyEditing::of(settings.timeline),
             takes: TakeListState::default(),
             tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
             camera: CameraState::default(),
@@ -102,7 +102,7 @@ impl Workspace {
     }
 
     /// Adds a message to the status line.
-    pub(super) fn say(&mut self, level: Severity, text: impl Into<String>) {
+    pub(super) fn say(&mut self, level: MessageSeverity, text: impl Into<String>) {
         self.status.say(level, text);
     }
 }

@@ -7,19 +7,19 @@ use glam::{Mat4, Quat, Vec3};
 use serde::Serialize;
 
 #[derive(Serialize)]
-pub(super) struct Document {
+pub(super) struct ExplainedDocument {
     file: String,
-    take: Option<Take>,
+    take: Option<ExplainedTake>,
     time: f32,
-    bones: Vec<Bone>,
+    bones: Vec<ExplainedBone>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    bone: Option<BoneEnd>,
+    bone: Option<ExplainedBoneEnd>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    vertex: Option<Vertex>,
+    vertex: Option<ExplainedVertex>,
 }
 
 #[derive(Serialize)]
-struct Take {
+struct ExplainedTake {
     index: usize,
     name: String,
     start: f32,
@@ -27,36 +27,36 @@ struct Take {
 }
 
 #[derive(Serialize)]
-struct Bone {
+struct ExplainedBone {
     index: u32,
     name: String,
     node: Option<u32>,
     parent: Option<u32>,
-    translation: Channel,
-    rotation: Channel,
-    scale: Channel,
+    translation: ExplainedChannel,
+    rotation: ExplainedChannel,
+    scale: ExplainedChannel,
     to_parent: [f32; 16],
     to_root: [f32; 16],
 }
 
 #[derive(Serialize)]
-struct Channel {
+struct ExplainedChannel {
     rest: Vec<f32>,
-    keys: Option<Keys>,
+    keys: Option<ExplainedKeys>,
     value: Vec<f32>,
 }
 
 #[derive(Serialize)]
-struct Keys {
+struct ExplainedKeys {
     count: usize,
     interpolation: &'static str,
-    before: Key,
-    after: Key,
+    before: ExplainedKey,
+    after: ExplainedKey,
     mix: f32,
 }
 
 #[derive(Serialize)]
-struct Key {
+struct ExplainedKey {
     index: usize,
     time: f32,
     value: Vec<f32>,
@@ -64,14 +64,14 @@ struct Key {
 }
 
 #[derive(Serialize)]
-struct BoneEnd {
+struct ExplainedBoneEnd {
     index: u32,
     offset: [f32; 16],
     r#final: [f32; 16],
 }
 
 #[derive(Serialize)]
-struct Vertex {
+struct ExplainedVertex {
     instance: u32,
     node: Option<u32>,
     mesh: String,
@@ -79,12 +79,12 @@ struct Vertex {
     index: u32,
     position: [f32; 3],
     normal: Option<[f32; 3]>,
-    morph_keys: Option<MorphKeys>,
-    morphs: Vec<Morph>,
+    morph_keys: Option<ExplainedMorphKeys>,
+    morphs: Vec<ExplainedMorph>,
     morphed_position: [f32; 3],
     morphed_normal: Option<[f32; 3]>,
     skin: Option<u32>,
-    influences: Vec<Influence>,
+    influences: Vec<ExplainedInfluence>,
     carrier: Option<u32>,
     to_bone: Option<[f32; 16]>,
     matrix: [f32; 16],
@@ -94,22 +94,22 @@ struct Vertex {
 }
 
 #[derive(Serialize)]
-struct MorphKeys {
+struct ExplainedMorphKeys {
     count: usize,
     interpolation: &'static str,
-    before: MorphKey,
-    after: MorphKey,
+    before: ExplainedMorphKey,
+    after: ExplainedMorphKey,
     mix: f32,
 }
 
 #[derive(Serialize)]
-struct MorphKey {
+struct ExplainedMorphKey {
     index: usize,
     time: f32,
 }
 
 #[derive(Serialize)]
-struct Morph {
+struct ExplainedMorph {
     target: usize,
     name: String,
     weight: f32,
@@ -118,7 +118,7 @@ struct Morph {
 }
 
 #[derive(Serialize)]
-struct Influence {
+struct ExplainedInfluence {
     joint: u16,
     bone: Option<u32>,
     weight: f32,
@@ -128,17 +128,17 @@ struct Influence {
     contribution: [f32; 3],
 }
 
-impl Document {
+impl ExplainedDocument {
     pub(super) fn of(loaded: &LoadedModel, explanation: &Explanation) -> Self {
         let model = &loaded.model;
         let (bone, vertex) = match &explanation.subject {
             Subject::Bone(bone) => {
                 let (index, offset) = (bone.bone, bone.offset.to_cols_array());
-                (Some(BoneEnd { index, offset, r#final: bone.final_pose.to_cols_array() }), None)
+                (Some(ExplainedBoneEnd { index, offset, r#final: bone.final_pose.to_cols_array() }), None)
             }
-            Subject::Vertex(vertex) => (None, Some(Vertex::of(model, vertex))),
+            Subject::Vertex(vertex) => (None, Some(ExplainedVertex::of(model, vertex))),
         };
-        let take = explanation.take.as_ref().map(|take| Take {
+        let take = explanation.take.as_ref().map(|take| ExplainedTake {
             index: take.index,
             name: take.name.clone(),
             start: take.start,
@@ -148,20 +148,20 @@ impl Document {
             file: loaded.title.clone(),
             take,
             time: explanation.time,
-            bones: explanation.bones.iter().map(|step| Bone::of(model, step)).collect(),
+            bones: explanation.bones.iter().map(|step| ExplainedBone::of(model, step)).collect(),
             bone,
             vertex,
         }
     }
 
     pub(super) fn is_finite(&self) -> bool {
-        self.bones.iter().all(Bone::is_finite)
+        self.bones.iter().all(ExplainedBone::is_finite)
             && self.bone.as_ref().is_none_or(|bone| finite_all(&bone.offset) && finite_all(&bone.r#final))
-            && self.vertex.as_ref().is_none_or(Vertex::is_finite)
+            && self.vertex.as_ref().is_none_or(ExplainedVertex::is_finite)
     }
 }
 
-impl Bone {
+impl ExplainedBone {
     fn of(model: &ModelData, step: &BoneStep) -> Self {
         let bone = model.animation.skeleton.bones.get(step.bone as usize);
         Self {
@@ -179,15 +179,15 @@ impl Bone {
 
     fn is_finite(&self) -> bool {
         let channels = [&self.translation, &self.rotation, &self.scale];
-        channels.into_iter().all(Channel::is_finite)
+        channels.into_iter().all(ExplainedChannel::is_finite)
             && finite_all(&self.to_parent)
             && finite_all(&self.to_root)
     }
 }
 
-impl Channel {
+impl ExplainedChannel {
     fn is_finite(&self) -> bool {
-        let key = |key: &Key| {
+        let key = |key: &ExplainedKey| {
             key.time.is_finite() && finite_all(&key.value) && key.tangent.as_deref().is_none_or(finite_all)
         };
         finite_all(&self.rest)
@@ -209,24 +209,24 @@ fn method(interpolation: Interpolation) -> &'static str {
     }
 }
 
-fn channel<T: Copy>(step: &ChannelStep<T>, numbers: impl Fn(T) -> Vec<f32>) -> Channel {
-    let key = |key: &dragonfly_anim::explain::KeyStep<T>| Key {
+fn channel<T: Copy>(step: &ChannelStep<T>, numbers: impl Fn(T) -> Vec<f32>) -> ExplainedChannel {
+    let key = |key: &dragonfly_anim::explain::KeyStep<T>| ExplainedKey {
         index: key.index,
         time: key.time,
         value: numbers(key.value),
         tangent: key.tangent.map(&numbers),
     };
-    let keys = step.keys.as_ref().map(|keys| Keys {
+    let keys = step.keys.as_ref().map(|keys| ExplainedKeys {
         count: keys.count,
         interpolation: method(keys.interpolation),
         before: key(&keys.before),
         after: key(&keys.after),
         mix: keys.mix,
     });
-    Channel { rest: numbers(step.rest), keys, value: numbers(step.value) }
+    ExplainedChannel { rest: numbers(step.rest), keys, value: numbers(step.value) }
 }
 
-impl Vertex {
+impl ExplainedVertex {
     fn of(model: &ModelData, vertex: &VertexResult) -> Self {
         let (skin, influences, carrier, to_bone) = match &vertex.movement {
             MovementStep::Skin { skin, influences } => (Some(*skin), &influences[..], None, None),
@@ -242,12 +242,12 @@ impl Vertex {
             index: vertex.vertex,
             position: array(vertex.position),
             normal: vertex.normal.map(array),
-            morph_keys: vertex.morph_keys.map(MorphKeys::of),
-            morphs: vertex.morphs.iter().map(Morph::of).collect(),
+            morph_keys: vertex.morph_keys.map(ExplainedMorphKeys::of),
+            morphs: vertex.morphs.iter().map(ExplainedMorph::of).collect(),
             morphed_position: array(vertex.morphed_position),
             morphed_normal: vertex.morphed_normal.map(array),
             skin,
-            influences: influences.iter().map(Influence::of).collect(),
+            influences: influences.iter().map(ExplainedInfluence::of).collect(),
             carrier,
             to_bone: to_bone.map(Mat4::to_cols_array),
             matrix: vertex.matrix.to_cols_array(),
@@ -258,14 +258,14 @@ impl Vertex {
     }
 }
 
-impl Vertex {
+impl ExplainedVertex {
     fn is_finite(&self) -> bool {
         let vectors = [Some(self.position), self.normal, Some(self.morphed_position), self.morphed_normal];
         let results = [Some(self.final_position), self.final_normal];
-        let morph = |morph: &Morph| {
+        let morph = |morph: &ExplainedMorph| {
             morph.weight.is_finite() && finite_all(&morph.difference) && finite_all(&morph.contribution)
         };
-        let influence = |influence: &Influence| {
+        let influence = |influence: &ExplainedInfluence| {
             influence.weight.is_finite()
                 && finite_all(&influence.offset)
                 && finite_all(&influence.r#final)
@@ -281,9 +281,9 @@ impl Vertex {
     }
 }
 
-impl MorphKeys {
+impl ExplainedMorphKeys {
     fn of(keys: dragonfly_anim::explain::MorphKeys) -> Self {
-        let key = |(index, time): (usize, f32)| MorphKey { index, time };
+        let key = |(index, time): (usize, f32)| ExplainedMorphKey { index, time };
         Self {
             count: keys.count,
             interpolation: method(keys.interpolation),
@@ -294,7 +294,7 @@ impl MorphKeys {
     }
 }
 
-impl Morph {
+impl ExplainedMorph {
     fn of(step: &dragonfly_anim::explain::MorphStep) -> Self {
         Self {
             target: step.target,
@@ -306,7 +306,7 @@ impl Morph {
     }
 }
 
-impl Influence {
+impl ExplainedInfluence {
     fn of(step: &dragonfly_anim::explain::InfluenceStep) -> Self {
         Self {
             joint: step.joint,

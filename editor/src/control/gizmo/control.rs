@@ -22,7 +22,7 @@ pub struct GizmoControl {
     /// Whether a key began the drag, so that no button is held.
     by_key: bool,
     answer: Option<GizmoAnswer>,
-    /// A press on a handle, as long as the pointer has not moved: if released there, it is a click on what is behind.
+    /// A press on a handle, until the pointer moves: if released there, it is a click on the object behind the handle.
     pressed: Option<Pressed>,
     clicked: Option<Mouse>,
     refused: bool,
@@ -77,7 +77,7 @@ impl GizmoControl {
         self.answer.take()
     }
 
-    /// Returns a click on what is behind a handle, since the last call.
+    /// Returns and clears the last click that went through a handle to the object behind it.
     pub fn take_click(&mut self) -> Option<Mouse> {
         self.clicked.take()
     }

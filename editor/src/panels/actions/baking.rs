@@ -3,7 +3,7 @@
 use super::{edit, ik};
 use crate::panels::request::Effect;
 use crate::panels::ruler::{frame_of, time_of};
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{BoneIndex, Take, Transform};
 use dragonfly_anim::sample::sample_take;
@@ -21,7 +21,7 @@ pub(in crate::panels) fn bake_pins(workspace: &mut Workspace) -> Option<Effect> 
     let here = ik::hold(workspace)?;
     let panels = workspace.read();
     let (name, view) = (panels.take_ref()?, panels.view?);
-    // As it is shown: muted bones rest.
+    // The take as the viewport shows it: muted bones are in the rest pose.
     let take = Arc::clone(panels.posed.takes(view).get(panels.playback.take?)?);
     let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
     let (fixed, mode) = (panels.fixed_bones(), panels.ik);
@@ -34,13 +34,14 @@ pub(in crate::panels) fn bake_pins(workspace: &mut Workspace) -> Option<Effect> 
     };
     let chains: BTreeSet<BoneIndex> = at_time(take.start).iter().filter_map(bone_of).collect();
     if chains.is_empty() {
-        workspace.say(Severity::Info, "Nothing above the pinned bones can turn to hold them");
+        workspace
+            .say(MessageSeverity::Info, "No parent of the pinned bones can rotate to keep them in place");
         return None;
     }
     let times = times_to_bake(&take, &chains, play, rate);
     if times.len() > MOST {
         let text = format!("{} frames are too many at once: set a play range", times.len());
-        workspace.say(Severity::Info, text);
+        workspace.say(MessageSeverity::Info, text);
         return None;
     }
     let at = times.into_iter().map(|time| PoseAt { time, poses: at_time(time) }).collect();

@@ -1,9 +1,9 @@
-//! Which bones are selected, hidden and flagged.
+//! Commands that select, hide and flag bones.
 
 use crate::panels::count_text::count;
 use crate::panels::keys::BoneFlag;
 use crate::panels::selected_bones::SelectionCommand;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
@@ -34,7 +34,7 @@ pub(in crate::panels) fn select_child(workspace: &mut Workspace) {
 pub(in crate::panels) fn select_mirror(workspace: &mut Workspace, extend: bool) {
     let Some(loaded) = workspace.model.loaded() else { return };
     if !workspace.bones.mirror(&loaded.model.animation.skeleton, extend) {
-        workspace.say(Severity::Info, "No bone with the name of the other side was found");
+        workspace.say(MessageSeverity::Info, "No bone with the name of the other side was found");
     }
 }
 
@@ -47,7 +47,7 @@ pub(in crate::panels) fn toggle_flag(workspace: &mut Workspace, flag: BoneFlag) 
     }
     let what = bones_text(workspace, &bones);
     let verb = if on { "on" } else { "off" };
-    workspace.say(Severity::Info, format!("{} {verb}: {what}", flag.name()));
+    workspace.say(MessageSeverity::Info, format!("{} {verb}: {what}", flag.name()));
 }
 
 /// Returns the name of one bone, or the number of several.

@@ -4,7 +4,7 @@ use super::{edit, keys, locks, pose};
 use crate::panels::count_text::{count, grouped};
 use crate::panels::keys::clipboard::{self, MOST, Pasted};
 use crate::panels::request::Effect;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::edit::{BoneRef, CopiedChannel, Edit, PasteKeys};
@@ -35,16 +35,16 @@ fn keys_text(workspace: &mut Workspace, verb: &str) -> Option<String> {
     let number = workspace.keys.selection().count(&take);
     if number > MOST {
         let text = format!("{} keys are selected; at most {} are copied", grouped(number), grouped(MOST));
-        workspace.say(Severity::Warning, text);
+        workspace.say(MessageSeverity::Warning, text);
         return None;
     }
     let skeleton = &workspace.model.loaded()?.model.animation.skeleton;
     let channels = clipboard::copied(&take, workspace.keys.selection(), skeleton);
     if channels.is_empty() {
-        workspace.say(Severity::Info, "No key is selected");
+        workspace.say(MessageSeverity::Info, "No key is selected");
         return None;
     }
-    workspace.say(Severity::Info, format!("{verb} {}", count(number, "key", "keys")));
+    workspace.say(MessageSeverity::Info, format!("{verb} {}", count(number, "key", "keys")));
     Some(clipboard::to_text(channels))
 }
 
@@ -52,13 +52,16 @@ fn keys_text(workspace: &mut Workspace, verb: &str) -> Option<String> {
 /// these in their order. Locked bones stay as they are.
 pub(super) fn paste_keys(workspace: &mut Workspace, mut channels: Vec<CopiedChannel>) -> Option<Effect> {
     let Some(take) = workspace.read().take_ref() else {
-        workspace.say(Severity::Info, "The rest pose is not edited; show a take first");
+        workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
         return None;
     };
     let skeleton = &workspace.model.loaded()?.model.animation.skeleton;
     clipboard::retarget(&mut channels, workspace.bones.bones(), skeleton);
     if channels.is_empty() {
-        workspace.say(Severity::Info, "The keys in the clipboard are of bones that this model has not");
+        workspace.say(
+            MessageSeverity::Info,
+            "The keys in the clipboard belong to bones that this model does not have",
+        );
         return None;
     }
     if !locks::remove_locked(workspace, &mut channels, |channel| match channel.bone {

@@ -7,7 +7,7 @@ use crate::panels::commands;
 use crate::panels::keys::KeysRequest;
 use crate::panels::request::{Effect, FileAction, Request};
 use crate::panels::settings::IkSettings;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{Edit, TrimTake};
 use dragonfly_document::{Change, Then};
@@ -19,7 +19,7 @@ pub(in crate::panels) fn execute(workspace: &mut Workspace, request: Request) ->
     if let Some(Effect::Change(Change::Edit(Edit::TrimTake(TrimTake { from, to, to_start: true, .. }), _))) =
         effect
     {
-        // What played is the whole take then, and starts elsewhere; so does the time that is shown.
+        // The play range becomes the whole take, which starts at another time; the playhead moves there, too.
         keys::set_range(workspace, None);
         let time = workspace.player.time().clamp(from, to) - from + workspace.read().take_bounds().0;
         playback::seek(workspace, time);
@@ -108,7 +108,7 @@ fn keys_request(workspace: &mut Workspace, request: KeysRequest) -> Option<Effec
 /// Runs a command, or reports why it cannot be run.
 fn run(workspace: &mut Workspace, command: &commands::Command) -> Option<Effect> {
     if !command.when.holds(&workspace.read()) {
-        workspace.say(Severity::Info, command.when.reason());
+        workspace.say(MessageSeverity::Info, command.when.reason());
         return None;
     }
     (command.run)(workspace)

@@ -3,7 +3,7 @@
 use super::playback;
 use crate::panels::prompts::Question;
 use crate::panels::request::{Effect, FileAction};
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::{Decision, NotSaved, Offer, SaveOrder, SaveTo};
 use dragonfly_store::FileState;
@@ -72,7 +72,7 @@ pub(in crate::panels) fn save(workspace: &mut Workspace) -> Option<Effect> {
     Some(save_as(workspace, order))
 }
 
-/// Saves as `order` says; asks where to save a document that has no file of its own.
+/// Saves according to `order`; asks for a path if the document has no file yet.
 fn save_as(workspace: &Workspace, order: SaveOrder) -> Effect {
     let asks = order.to == SaveTo::Own && !workspace.model.has_file();
     Effect::File(if asks {
@@ -95,7 +95,7 @@ pub(in crate::panels) fn not_saved(
         NotSaved::Changed => ask(workspace, Question::Changed(FileState::Changed, Some(order))),
         NotSaved::Exists(path) => ask(workspace, Question::Exists(path, order)),
         NotSaved::Failed(reason) => {
-            workspace.say(Severity::Error, format!("Not saved: {reason}"));
+            workspace.say(MessageSeverity::Error, format!("Not saved: {reason}"));
             // A user who wanted to leave is asked again what to do with the changes.
             if let Some(then) = order.then {
                 ask(workspace, Question::Unsaved(then));

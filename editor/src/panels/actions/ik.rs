@@ -3,7 +3,7 @@
 use super::{bones, edit, locks};
 use crate::panels::count_text::count;
 use crate::panels::request::Effect;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::posing::{PoseDragState, look_at};
@@ -27,13 +27,13 @@ pub(in crate::panels) fn toggle_pins(workspace: &mut Workspace) {
     let what = bones::bones_text(workspace, bones);
     let text =
         if pinned { format!("Pinned {what}: {stay} while others move") } else { format!("Freed {what}") };
-    workspace.say(Severity::Info, text);
+    workspace.say(MessageSeverity::Info, text);
 }
 
 /// Frees all bones.
 pub(in crate::panels) fn free_pins(workspace: &mut Workspace) {
     workspace.bones.set_pins(Vec::new());
-    workspace.say(Severity::Info, "No bone is pinned any more");
+    workspace.say(MessageSeverity::Info, "All bones are unpinned");
 }
 
 /// Turns IK on or off.
@@ -56,7 +56,7 @@ fn say_ik(workspace: &mut Workspace) {
     } else {
         format!("IK is off: a bone is moved alone ({bones} with it on)")
     };
-    workspace.say(Severity::Info, text);
+    workspace.say(MessageSeverity::Info, text);
 }
 
 /// Makes the active bone the one towards which elbows and knees bend, or none where it was it.
@@ -66,9 +66,9 @@ pub(in crate::panels) fn toggle_pole(workspace: &mut Workspace) {
     workspace.tools.set_pole(pole);
     let text = match pole {
         Some(bone) => format!("Elbows and knees bend towards {}", workspace.read().bone_name(bone)),
-        None => "Elbows and knees bend as they are".to_owned(),
+        None => "The pole target of IK is cleared".to_owned(),
     };
-    workspace.say(Severity::Info, text);
+    workspace.say(MessageSeverity::Info, text);
 }
 
 /// Aims the selected bones at the active one.
@@ -79,8 +79,8 @@ pub(in crate::panels) fn look(workspace: &mut Workspace) -> Option<Effect> {
         match workspace.bones.bones().iter().copied().find(|&bone| bone != active) {
             Some(locked) => locks::say_locked(workspace, locked),
             None => {
-                let text = "Select the bones that shall look, and last the one they shall look at";
-                workspace.say(Severity::Info, text);
+                let text = "Select the bones to rotate, and last the bone to look at";
+                workspace.say(MessageSeverity::Info, text);
             }
         }
         return None;
@@ -92,7 +92,7 @@ pub(in crate::panels) fn look(workspace: &mut Workspace) -> Option<Effect> {
     let target = animation.to_root().get(active as usize)?.w_axis.truncate();
     let poses = look_at(skeleton, animation.poses(), &others, target);
     if poses.is_empty() {
-        workspace.say(Severity::Info, "There is nothing to turn to");
+        workspace.say(MessageSeverity::Info, "There is nothing to rotate");
     }
     workspace.read().pose_edit(poses).map(edit)
 }

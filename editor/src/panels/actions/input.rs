@@ -3,9 +3,9 @@
 use super::{ik, locks, playback, tools};
 use crate::control::gizmo::GizmoAnswer;
 use crate::control::path::{PathAnswer, PathKey};
-use crate::control::{Button, InputEvent, Outcome};
+use crate::control::{Button, InputEvent, ViewportOutcome};
 use crate::panels::request::Effect;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::tool_drag::Alone;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::Change;
@@ -27,7 +27,7 @@ pub(in crate::panels) fn input(
 ) -> bool {
     let pressed = event == InputEvent::MouseDown(Button::Left);
     if pressed && workspace.player.is_playing() && workspace.tools.controls().over_handle() {
-        // A handle that is grabbed stands still.
+        // Playback must not move a handle that is being dragged.
         workspace.player.set_now(Instant::now());
         playback::pause(workspace);
         tools::sync_gizmo(workspace);
@@ -50,11 +50,11 @@ fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
     let refused = controls.gizmo_mut().take_refused();
     let (gizmo, path) = (controls.gizmo_mut().take_answer(), controls.path_mut().take_answer());
     match outcome {
-        Some(Outcome::Pick(at, choice)) => {
+        Some(ViewportOutcome::Pick(at, choice)) => {
             workspace.tools.set_clicked_handle(false);
             effects.push(Effect::Pick(corner + egui::vec2(at.x, at.y), choice));
         }
-        Some(Outcome::Catch(region, choice)) => effects.push(Effect::Catch(region, choice)),
+        Some(ViewportOutcome::Catch(region, choice)) => effects.push(Effect::Catch(region, choice)),
         None => {}
     }
     if let Some(mouse) = click {
@@ -77,7 +77,7 @@ pub(super) fn say_refused(workspace: &mut Workspace) {
     if let Some(bone) = workspace.bones.active().filter(|_| workspace.player.take().is_some()) {
         return locks::say_locked(workspace, bone);
     }
-    workspace.say(Severity::Info, "The rest pose stays as it is: show a take to change a pose in it");
+    workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
 }
 
 fn gizmo_answered(workspace: &mut Workspace, answer: GizmoAnswer, effects: &mut Vec<Effect>) {
@@ -126,7 +126,7 @@ fn end_drag(workspace: &mut Workspace, cancel: bool, effects: &mut Vec<Effect>) 
     }
 }
 
-/// Notes the poses at the start of a drag of the gizmo. Does nothing while it goes on.
+/// Records the poses at the start of a drag of the gizmo. Does nothing during the drag.
 pub(super) fn begin_following(workspace: &mut Workspace) {
     if workspace.tools.drag().is_undecided() {
         let hold = if workspace.read().bones_follow() { ik::hold(workspace) } else { None };

@@ -5,7 +5,7 @@ use super::{edit, locks};
 use crate::panels::keys::intervals::WHOLE;
 use crate::panels::keys::{ChannelId, KeyDragOp, MarkerAction, TimeWindow, channel};
 use crate::panels::request::Effect;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
@@ -104,7 +104,7 @@ pub(in crate::panels) fn ripple(workspace: &mut Workspace, frames: f32) -> Optio
     let step = frames * panels.frame_seconds();
     // Removing frames deletes the keys in them, so the keys after them move.
     let from = if frames < 0.0 { from - step } else { from };
-    // Where there is no key to move the document refuses the edit with its reason.
+    // If there is no key to move, the document refuses the edit and returns the reason.
     drag_at_once(workspace, KeyDragOp::Ripple { from, by: step })
         .or_else(|| Some(edit(Edit::RippleKeys(RippleKeys { take, from, by: step }))))
 }
@@ -159,7 +159,7 @@ pub(in crate::panels) fn add_marker(workspace: &mut Workspace) {
     if let Some(text) =
         added.map(|marker| format!("{} at {time:.3} s: double click its flag to name it", marker.name))
     {
-        workspace.say(Severity::Info, text);
+        workspace.say(MessageSeverity::Info, text);
     }
 }
 

@@ -1,7 +1,7 @@
-//! Locked bones: no edit reaches them, and a message says so.
+//! Locked bones: edits leave them unchanged and report that in a message.
 
 use crate::panels::request::Effect;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::BoneIndex;
 
@@ -53,12 +53,12 @@ pub(super) fn remove_locked<T>(
         [] => {}
         [bone, ..] if list.is_empty() => say_locked(workspace, bone),
         [bone] => {
-            let text = format!("{} is locked and stays as it is", workspace.read().bone_name(bone));
-            workspace.say(Severity::Info, text);
+            let text = format!("{} is locked and stays unchanged", workspace.read().bone_name(bone));
+            workspace.say(MessageSeverity::Info, text);
         }
         _ => {
-            let text = format!("{} bones are locked and stay as they are", locked.len());
-            workspace.say(Severity::Info, text);
+            let text = format!("{} bones are locked and stay unchanged", locked.len());
+            workspace.say(MessageSeverity::Info, text);
         }
     }
     !list.is_empty()
@@ -67,5 +67,5 @@ pub(super) fn remove_locked<T>(
 /// Reports that a bone is locked.
 pub(super) fn say_locked(workspace: &mut Workspace, bone: BoneIndex) {
     let text = format!("{} is locked: its keys are not edited", workspace.read().bone_name(bone));
-    workspace.say(Severity::Warning, text);
+    workspace.say(MessageSeverity::Warning, text);
 }

@@ -1,6 +1,6 @@
-//! What requests and commands do to the workspace. What reaches beyond the panels is returned as an effect.
+//! Applies requests and commands to the workspace. Anything that reaches beyond the panels is returned as an effect.
 //!
-//! [`execute::execute`] is the one place where requests are taken apart; a command of the table calls the function that its
+//! [`execute::execute`] is the only function that dispatches requests; a command of the table calls the function that its
 //! row names.
 
 pub(super) mod baking;

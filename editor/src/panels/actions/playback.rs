@@ -2,7 +2,7 @@
 
 use crate::panels::ruler;
 use crate::panels::settings::SPEEDS;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::View;
 use dragonfly_picture::playback::Repeat;
@@ -49,7 +49,7 @@ pub(in crate::panels) fn keep_take(workspace: &mut Workspace) {
     workspace.player.keep(bounds);
 }
 
-/// Keeps the time within the play range while it passes; while it stands, any time of the take can be shown.
+/// Keeps the time within the play range while playing; while paused, any time of the take can be shown.
 pub(in crate::panels) fn bound_playback(workspace: &mut Workspace) {
     let panels = workspace.read();
     let bounds = if panels.playback.playing { panels.play_bounds() } else { panels.take_bounds() };
@@ -67,7 +67,7 @@ pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
     }
     let bounds = workspace.read().play_bounds();
     if bounds.1 <= 0.0 {
-        return workspace.say(Severity::Info, "All keys are at one time: there is nothing to play");
+        return workspace.say(MessageSeverity::Info, "All keys are at one time: there is nothing to play");
     }
     workspace.player.play(bounds, speed);
 }
@@ -92,7 +92,7 @@ pub(in crate::panels) fn stop_at(workspace: &mut Workspace, time: f32) {
     bring_into_sight(workspace);
 }
 
-/// Shows the part of time with the playhead, where that stands and is out of sight.
+/// Scrolls the timeline to the playhead if it is paused and out of sight.
 fn bring_into_sight(workspace: &mut Workspace) {
     if let Some(take) = workspace.read().shared_take().cloned().filter(|_| !workspace.player.is_playing()) {
         workspace.keys.bring_into_sight(&take, workspace.player.time());
@@ -134,7 +134,7 @@ pub(in crate::panels) fn step_key(workspace: &mut Workspace, forward: bool) {
 pub(in crate::panels) fn step_marker(workspace: &mut Workspace, forward: bool) {
     match workspace.read().next_marker(forward) {
         Some(time) => stop_at(workspace, time),
-        None => workspace.say(Severity::Info, "There is no marker on that side"),
+        None => workspace.say(MessageSeverity::Info, "There is no marker on that side"),
     }
 }
 

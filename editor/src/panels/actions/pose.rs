@@ -5,7 +5,7 @@ use crate::panels::count_text::count;
 use crate::panels::keys;
 use crate::panels::keys::channel::named;
 use crate::panels::request::Effect;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{BoneIndex, Take, Transform};
 use dragonfly_anim::sample::{rest_pose, sample_track};
@@ -25,7 +25,7 @@ pub(in crate::panels) fn toggle_auto_key(workspace: &mut Workspace) {
     } else {
         "Auto-key is off: a changed pose is pending until it is keyed"
     };
-    workspace.say(Severity::Info, text);
+    workspace.say(MessageSeverity::Info, text);
 }
 
 /// Keys what is pending at the time shown; where nothing is, adds keys there that keep the motion, of the selected bones or
@@ -91,7 +91,7 @@ pub(in crate::panels) fn copy(workspace: &mut Workspace) -> Option<Effect> {
     };
     let copied: Vec<BonePose> = bones.iter().filter_map(pose).collect();
     let bones = count(copied.len(), "bone", "bones");
-    workspace.say(Severity::Info, format!("Copied the pose of {bones}"));
+    workspace.say(MessageSeverity::Info, format!("Copied the pose of {bones}"));
     Some(Effect::Copy(clipboard::to_text(&copied)))
 }
 
@@ -101,15 +101,15 @@ pub(super) fn paste(workspace: &mut Workspace, text: &str, mirrored: bool) -> Op
         match keys::clipboard::from_text(text) {
             Some(channels) if !mirrored => return key_clipboard::paste_keys(workspace, channels),
             Some(_) => {
-                let text = "The clipboard holds keys, and only poses are pasted mirrored";
-                workspace.say(Severity::Info, text);
+                let text = "The clipboard contains keys; only poses can be pasted mirrored";
+                workspace.say(MessageSeverity::Info, text);
             }
-            None => workspace.say(Severity::Info, "There is no pose in the clipboard, and no keys"),
+            None => workspace.say(MessageSeverity::Info, "The clipboard contains no pose and no keys"),
         }
         return None;
     };
     let Some(take) = workspace.read().take_ref() else {
-        workspace.say(Severity::Info, "The rest pose is not edited; show a take first");
+        workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
         return None;
     };
     if workspace.keys.flags().any_locked() {

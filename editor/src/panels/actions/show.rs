@@ -4,7 +4,7 @@ use super::{drags, framing, keys, playback, tools};
 use crate::panels::change_summary;
 use crate::panels::frame_rate;
 use crate::panels::marks::{BoneMarks, RecalledMarks};
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::View;
 use std::time::Instant;
@@ -109,8 +109,8 @@ fn guess_frame_rate(workspace: &mut Workspace) {
     let now = workspace.settings.frame_rate;
     if let Some(rate) = frame_rate::rate_of(workspace.model.takes(), now).filter(|&rate| rate != now) {
         workspace.settings.frame_rate = rate;
-        let text = format!("Its keys lie on {rate} frames a second: the timeline counts in these now");
-        workspace.say(Severity::Info, text);
+        let text = format!("The keys are at {rate} frames per second: the timeline uses this frame rate now");
+        workspace.say(MessageSeverity::Info, text);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::edit;
 use crate::panels::request::Effect;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{
     CreateTake, DeleteTake, Edit, MoveTake, ReverseTake, SplitTake, TakeRef, TrimTake,
@@ -68,7 +68,7 @@ pub(in crate::panels) fn trim(workspace: &mut Workspace) -> Option<Effect> {
     let (take, _) = shown(workspace)?;
     let ([from, to], (start, length)) = (workspace.read().trim_range(), workspace.read().take_bounds());
     if from <= start && to >= start + length {
-        workspace.say(Severity::Info, "Nothing lies outside of what plays: set a play range first");
+        workspace.say(MessageSeverity::Info, "Nothing to trim: set a play range first");
         return None;
     }
     Some(edit(Edit::TrimTake(TrimTake { take, from, to, to_start: true })))

@@ -2,7 +2,7 @@
 
 use super::{input, playback};
 use crate::control::Catch;
-use crate::panels::status::Severity;
+use crate::panels::status::MessageSeverity;
 use crate::panels::tool_state::PlacedGizmo;
 use crate::panels::workspace::Workspace;
 use dragonfly_picture::gizmo::{GizmoSettings, GizmoSpace, Tool};
@@ -39,7 +39,7 @@ pub(in crate::panels) fn drag_now(workspace: &mut Workspace, tool: Tool) {
         return input::say_refused(workspace);
     }
     if !workspace.tools.controls_mut().begin_by_key() {
-        workspace.say(Severity::Info, "The selected bone lies behind the eye");
+        workspace.say(MessageSeverity::Info, "The selected bone is behind the camera");
     }
     // Nothing is changed before the mouse moves.
     workspace.tools.controls_mut().gizmo_mut().take_answer();

@@ -33,7 +33,7 @@ pub struct Command {
     pub title: &'static str,
     /// Its keys; tooltips name the first.
     pub shortcuts: &'static [KeyboardShortcut],
-    /// What it does, in one sentence.
+    /// The tooltip: the action in one sentence.
     pub help: &'static str,
     /// Condition under which it can be run.
     pub when: When,
@@ -67,14 +67,14 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Middle drag, Alt + left drag", "Orbit"),
     ("Shift + middle drag, Alt + middle drag", "Pan"),
     ("Wheel, Alt + right drag", "Zoom"),
-    ("Click", "Select the bone under the pointer; again: what lies behind it"),
-    ("Shift + click, Ctrl + click", "Add to the selection, take in or out"),
+    ("Click", "Select the bone under the pointer; again: the bone behind it"),
+    ("Shift + click, Ctrl + click", "Add to the selection, toggle"),
     ("Drag", "Select in a box"),
     ("Ctrl + Alt + left drag", "Select in a lasso"),
-    ("Drag a handle", "Move, rotate, scale; Shift precise, Ctrl in steps"),
-    ("X, Y, Z while dragging", "Bind to an axis, with Shift to a plane; again: other axes"),
-    ("Digits while dragging", "Type the amount"),
-    ("Enter, Esc while dragging", "Keep it, take it back (also: right button)"),
+    ("Drag a handle", "Move, rotate, scale; Shift for precision, Ctrl to snap"),
+    ("X, Y, Z while dragging", "Constrain to an axis, with Shift to a plane; again: other axes"),
+    ("Digits while dragging", "Enter the amount"),
+    ("Enter, Esc while dragging", "Confirm, cancel (also: right button)"),
     ("Drag the axes", "Orbit"),
     ("Alt + wheel over the timeline", "Frame by frame"),
 ];

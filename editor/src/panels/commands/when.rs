@@ -1,7 +1,7 @@
 //! When a command can be run: menus gray out the others, keys and the palette report the reason.
 
 use crate::panels::context::PanelContext;
-use crate::panels::window_status::Device;
+use crate::panels::window_status::DeviceStatus;
 
 /// A condition under which a command can be run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl When {
             Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
             Self::Unsaved => history.is_some_and(|history| !history.saved),
             Self::Loading => panels.loading.is_some(),
-            Self::Paused => matches!(panels.window.device(), Device::Paused { .. }),
+            Self::Paused => matches!(panels.window.device(), DeviceStatus::Paused { .. }),
         }
     }
 
@@ -69,14 +69,14 @@ impl When {
             Self::Always => "",
             Self::Model => "No model is open",
             Self::Take => "No take is shown",
-            Self::OtherTakes => "There is no other take, and a model keeps one",
+            Self::OtherTakes => "The last take of a model cannot be deleted or moved",
             Self::Bone => "No bone is selected",
-            Self::BoneInTake => "It takes a selected bone and a take",
+            Self::BoneInTake => "Requires a selected bone and a take",
             Self::Keys => "No key is selected",
             Self::Pending => "No pose is pending in this take",
             Self::Pinned => "No bone is pinned",
-            Self::PinnedInTake => "It takes a pinned bone and a take",
-            Self::Undo => "Nothing was done yet",
+            Self::PinnedInTake => "Requires a pinned bone and a take",
+            Self::Undo => "There is nothing to undo",
             Self::Redo => "Nothing was undone",
             Self::Unsaved => "Everything is saved",
             Self::Loading => "No model is being opened",

@@ -70,8 +70,8 @@ impl<'a> PanelContext<'a> {
         self.next_key_from(self.time(), forward)
     }
 
-    /// Returns the next key after a time, or the last one before it: of the selected bones, or of all. Each channel is searched,
-    /// so many keys cost little.
+    /// Returns the next key after a time, or the last one before it: of the selected bones, or of all. Uses a binary search in each
+    /// channel, so a large number of keys costs little.
     pub(in crate::panels) fn next_key_from(&self, now: f32, forward: bool) -> Option<f32> {
         let take = self.take()?;
         let next = |times: &[f32]| {

@@ -1,4 +1,4 @@
-//! What panels read: references to the owners of the state, and questions that need several of them.
+//! Read access of the panels: references to the owners of the state, and queries that need several of them.
 
 mod ik;
 mod keys;
@@ -6,9 +6,9 @@ mod pose;
 
 use super::digest::Digest;
 use super::dragging::Dragging;
-use super::keys::Keys;
+use super::keys::KeyEditing;
 use super::open_model::Loading;
-use super::posed::Posed;
+use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
 use super::settings::Settings;
 use super::status::Status;
@@ -37,7 +37,7 @@ pub struct PanelContext<'a> {
     /// The model that is being loaded.
     pub loading: Option<&'a Loading>,
     /// Poses at the time shown.
-    pub posed: &'a Posed,
+    pub posed: &'a PoseCache,
     /// The selected bones.
     pub selection: &'a BoneSelection,
     /// The hidden bones.
@@ -52,12 +52,12 @@ pub struct PanelContext<'a> {
     pub pointer: Option<Pos2>,
     /// How bones follow one that is moved.
     pub ik: IkMode,
-    /// Which time of which take is shown.
+    /// The take and the time that are shown.
     pub playback: PlaybackClock,
     /// The moment of the frame that is drawn.
     pub now: Instant,
     /// Selection and drag of keys, flags, markers, the range that plays.
-    pub keys: &'a Keys,
+    pub keys: &'a KeyEditing,
     /// The list of takes.
     pub takes: &'a TakeListState,
     /// The camera.

@@ -16,7 +16,7 @@ use super::dope::{self, Scrub};
 use super::keys::{Drawn, TimeScale};
 use super::request::Request;
 use super::theme::Theme;
-use super::{Panel, Place, widgets};
+use super::{Panel, PanelPlace, widgets};
 use axis::{ValueScale, ValueWindow};
 use drag::{CurveCanvas, CurveDrag};
 use egui::{
@@ -68,8 +68,8 @@ impl Panel for Curves {
         "Curves"
     }
 
-    fn place(&self) -> Place {
-        Place::BelowRight
+    fn place(&self) -> PanelPlace {
+        PanelPlace::BelowRight
     }
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {

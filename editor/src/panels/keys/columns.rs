@@ -7,7 +7,7 @@ use dragonfly_document::edit::SAME_TIME;
 
 /// The columns of pixels that have a key, with the position of the first key in each.
 ///
-/// Channels are marked one after the other; a column that has a key already is skipped, so many channels with the same dense
+/// Channels are marked one after the other; a column that has a key already is skipped. That way, many channels with the same dense
 /// keys cost little more than one.
 #[derive(Debug, Default)]
 pub struct Columns {
@@ -28,12 +28,12 @@ struct Grid {
 
 /// A line: column = first + slope · time.
 #[derive(Clone, Copy, Debug)]
-struct Line {
+struct ColumnLine {
     first: f64,
     slope: f64,
 }
 
-impl Line {
+impl ColumnLine {
     fn place(self, time: f32) -> f64 {
         self.first + self.slope * f64::from(time)
     }
@@ -83,7 +83,7 @@ impl Columns {
         if !(slope.is_finite() && first.is_finite()) || slope == 0.0 {
             return;
         }
-        let line = Line { first, slope };
+        let line = ColumnLine { first, slope };
         if slope > 0.0 {
             self.forwards(times, intervals, selected, line, grid);
         } else {
@@ -93,7 +93,14 @@ impl Columns {
 
     /// Marks keys where time and columns ascend together. Where the intervals alone decide, the keys are not read: of many
     /// channels with the same selection, only the first is searched.
-    fn forwards(&mut self, times: &[f32], intervals: &Intervals, selected: bool, line: Line, grid: Grid) {
+    fn forwards(
+        &mut self,
+        times: &[f32],
+        intervals: &Intervals,
+        selected: bool,
+        line: ColumnLine,
+        grid: Grid,
+    ) {
         let (mut column, mut index) = (0, 0);
         while let Some(next) = self.next_free(column) {
             let from = line.time(next);
@@ -137,7 +144,14 @@ impl Columns {
     }
 
     /// Marks keys where columns descend as time ascends: keys that are reversed.
-    fn backwards(&mut self, times: &[f32], intervals: &Intervals, selected: bool, line: Line, grid: Grid) {
+    fn backwards(
+        &mut self,
+        times: &[f32],
+        intervals: &Intervals,
+        selected: bool,
+        line: ColumnLine,
+        grid: Grid,
+    ) {
         let mut column = 0;
         while let Some(next) = self.next_free(column) {
             let before = times.partition_point(|&time| time <= line.time(next));

@@ -4,7 +4,7 @@
 //! is sent only when the previous one was answered, so a slow edit makes the result coarse in time, and the pointer is
 //! never late.
 
-use super::Keys;
+use super::KeyEditing;
 use super::selection::KeySelection;
 use super::shift::Shift;
 use crate::panels::echo::Echo;
@@ -16,7 +16,7 @@ use dragonfly_document::edit::{
 use dragonfly_document::history::Gesture;
 use std::sync::Arc;
 
-/// What a drag does to keys, always relative to the start of the drag.
+/// The operation of a drag on keys, always relative to the start of the drag.
 #[derive(Clone, Debug, PartialEq)]
 pub enum KeyDragOp {
     /// Moves the selected keys by this many seconds.
@@ -122,7 +122,7 @@ impl KeyDrag {
         Self { gesture, base, moving, op, take, keys, requested: None, answer, released: false }
     }
 
-    /// Whether the drag goes on: it is not released yet.
+    /// Returns whether the drag is in progress, not released yet.
     pub fn held(&self) -> bool {
         !self.released
     }
@@ -191,7 +191,7 @@ impl KeyDrag {
     }
 }
 
-impl Keys {
+impl KeyEditing {
     /// Notes the number under which a change of the drag was sent.
     pub(in crate::panels) fn sent(&mut self, gesture: Gesture, number: u64) {
         if let Some(drag) = self.drag.as_mut().filter(|drag| drag.gesture == gesture) {

@@ -32,9 +32,9 @@ impl BoneFlag {
     /// Returns its tooltip.
     pub fn help(self) -> &'static str {
         match self {
-            Self::Mute => "The picture shows this bone at rest; its keys stay",
-            Self::Solo => "The picture shows all other bones at rest",
-            Self::Lock => "This bone is not edited; what is done to the whole take includes it",
+            Self::Mute => "Shows this bone at rest in the viewport; its keys are unchanged",
+            Self::Solo => "Shows all other bones at rest in the viewport",
+            Self::Lock => "Locks this bone against editing; edits of the whole take still include it",
         }
     }
 }

@@ -38,7 +38,7 @@ const MARGIN: f64 = 0.1;
 
 /// The state of key editing.
 #[derive(Clone, Debug)]
-pub struct Keys {
+pub struct KeyEditing {
     selection: KeySelection,
     /// Whether moved keys go to whole frames.
     snap: bool,
@@ -64,7 +64,7 @@ pub struct Keys {
     pasted: Option<Pasted>,
 }
 
-impl Default for Keys {
+impl Default for KeyEditing {
     fn default() -> Self {
         Self {
             selection: KeySelection::default(),
@@ -106,7 +106,7 @@ pub(super) struct EndedDrag {
     pub(super) added: usize,
 }
 
-impl Keys {
+impl KeyEditing {
     /// Returns the initial state with these settings.
     pub fn of(settings: TimelineSettings) -> Self {
         let TimelineSettings { snap, only_selected } = settings;
@@ -334,7 +334,7 @@ impl Keys {
         }
     }
 
-    /// Notes that a drag begins or goes on in the timeline. Returns whether it may: a drag that was released and waits for its
+    /// Starts or continues a drag in the timeline. Returns whether that is allowed: a drag that was released and waits for its
     /// answer ends first.
     pub(super) fn may_drag(&mut self) -> bool {
         self.has_focus = true;

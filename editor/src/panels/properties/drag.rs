@@ -1,15 +1,13 @@
-//! From what the user does to a number of the panel to edits.
+//! Converts drags and typed numbers of the panel into edits.
 //!
-//! Three typed angles stay those angles as long as the rotation is the one they stand for: many angles stand for the
+//! Typed Euler angles are kept as long as the rotation equals the one that they describe, as many angles describe the
 //! same rotation.
 
 use super::super::commands::Id;
 use super::super::context::PanelContext;
 use super::super::number_field::FieldEvent;
 use super::super::request::Request;
-use super::parts::{
-    ChannelNumbers, Column, NumberForm, Pair, PosePart, is_same_turn, numbers, part, turn_of,
-};
+use super::parts::{Column, FieldNumbers, NumberForm, Pair, PosePart, is_same_turn, numbers, part, turn_of};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::sample::{rest_pose, sample_track};
 use dragonfly_document::Change;
@@ -72,7 +70,7 @@ struct Begun {
 struct Start {
     bone: BoneIndex,
     pair: Pair,
-    numbers: ChannelNumbers,
+    numbers: FieldNumbers,
 }
 
 /// Numbers of a rotation as they were typed.
@@ -81,7 +79,7 @@ struct TypedAngles {
     bone: BoneIndex,
     column: Column,
     form: NumberForm,
-    numbers: ChannelNumbers,
+    numbers: FieldNumbers,
     rotation: DQuat,
 }
 
@@ -109,7 +107,7 @@ impl FieldDrag {
     }
 
     /// Returns the numbers of a bone at `spot`.
-    pub(super) fn numbers(&self, bone: BoneIndex, pair: &Pair, spot: Spot) -> Option<ChannelNumbers> {
+    pub(super) fn numbers(&self, bone: BoneIndex, pair: &Pair, spot: Spot) -> Option<FieldNumbers> {
         let now = numbers(pair, spot.property, spot.column, spot.form)?;
         let typed = self.typed.iter().find(|typed| {
             spot.property == Property::Rotation

@@ -15,7 +15,7 @@ use super::number_text::Digits;
 use super::request::Request;
 use super::style::GRID;
 use super::theme::Theme;
-use super::{Panel, Place, widgets};
+use super::{Panel, PanelPlace, widgets};
 use channel::ChannelTable;
 use drag::FieldDrag;
 use dragonfly_anim::data::BoneIndex;
@@ -44,8 +44,8 @@ impl Panel for Properties {
         "Properties"
     }
 
-    fn place(&self) -> Place {
-        Place::Right
+    fn place(&self) -> PanelPlace {
+        PanelPlace::Right
     }
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {

@@ -65,10 +65,10 @@ pub struct Pair {
 }
 
 /// Numbers of a channel; if there are three, the last is 0.
-pub type ChannelNumbers = [f64; 4];
+pub type FieldNumbers = [f64; 4];
 
 /// Returns the numbers of a column; `None` if there are none, such as the change of a scale that was 0.
-pub fn numbers(pair: &Pair, property: Property, column: Column, form: NumberForm) -> Option<ChannelNumbers> {
+pub fn numbers(pair: &Pair, property: Property, column: Column, form: NumberForm) -> Option<FieldNumbers> {
     match property {
         Property::Rotation => {
             let [original, result] = [pair.original, pair.result].map(|pose| pose.rotation.as_dquat());
@@ -105,7 +105,7 @@ pub fn part(
     property: Property,
     column: Column,
     form: NumberForm,
-    numbers: ChannelNumbers,
+    numbers: FieldNumbers,
 ) -> Option<PosePart> {
     match property {
         Property::Rotation => {
@@ -187,7 +187,7 @@ impl PosePart {
 }
 
 /// Returns the numbers of a rotation.
-pub fn turn_numbers(form: NumberForm, rotation: DQuat) -> ChannelNumbers {
+pub fn turn_numbers(form: NumberForm, rotation: DQuat) -> FieldNumbers {
     match form {
         NumberForm::Euler(order) => {
             let [x, y, z] = turn::degrees(order, rotation);
@@ -200,7 +200,7 @@ pub fn turn_numbers(form: NumberForm, rotation: DQuat) -> ChannelNumbers {
 }
 
 /// Returns the rotation with these numbers; `None` if they are not a rotation.
-pub fn turn_of(form: NumberForm, numbers: ChannelNumbers) -> Option<DQuat> {
+pub fn turn_of(form: NumberForm, numbers: FieldNumbers) -> Option<DQuat> {
     match form {
         NumberForm::Euler(_) if numbers[..3] == [0.0; 3] => Some(DQuat::IDENTITY),
         NumberForm::Euler(order) => Some(turn::rotation(order, [numbers[0], numbers[1], numbers[2]])),
@@ -221,6 +221,6 @@ fn vector(pose: &Transform, property: Property) -> Vec3 {
     if property == Property::Scale { pose.scale } else { pose.translation }
 }
 
-fn finite(numbers: &ChannelNumbers) -> bool {
+fn finite(numbers: &FieldNumbers) -> bool {
     numbers.iter().all(|number| number.is_finite())
 }

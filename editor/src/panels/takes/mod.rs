@@ -9,7 +9,7 @@ use super::icons::Icon;
 use super::request::Request;
 use super::style::{GRID, RADIUS, ROW};
 use super::theme::Theme;
-use super::{Panel, Place, menu, search_field, widgets};
+use super::{Panel, PanelPlace, menu, search_field, widgets};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{Edit, MoveTake, TakeRef};
 use egui::accesskit::Role;
@@ -60,8 +60,8 @@ impl Panel for Takes {
         "Takes"
     }
 
-    fn place(&self) -> Place {
-        Place::LeftBelow
+    fn place(&self) -> PanelPlace {
+        PanelPlace::LeftBelow
     }
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {

@@ -5,7 +5,7 @@ use crate::panels::context::PanelContext;
 use crate::panels::request::Request;
 use crate::panels::style::{CARD_RADIUS, GRID};
 use crate::panels::theme::Theme;
-use crate::panels::window_status::Device;
+use crate::panels::window_status::DeviceStatus;
 use dragonfly_document::Source;
 use egui::{Align2, CornerRadius, Frame, Margin, Rect, RichText, Stroke, Ui, vec2};
 
@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>, requests: 
                 requests.push(Request::Command(Id::CancelLoading));
             }
         });
-    } else if let Device::Paused { reason } = state.window.device() {
+    } else if let DeviceStatus::Paused { reason } = state.window.device() {
         card(ui, rect, |ui| {
             ui.label(RichText::new("The viewport is paused").heading());
             let text = "The graphics device failed several times. Everything else works.";

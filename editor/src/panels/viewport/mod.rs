@@ -12,7 +12,7 @@ use super::context::PanelContext;
 use super::request::Request;
 use super::style;
 use super::theme::Theme;
-use super::{Panel, Place, widgets};
+use super::{Panel, PanelPlace, widgets};
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, CornerRadius, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
@@ -31,8 +31,8 @@ impl Panel for Viewport {
         "Viewport"
     }
 
-    fn place(&self) -> Place {
-        Place::Middle
+    fn place(&self) -> PanelPlace {
+        PanelPlace::Middle
     }
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {

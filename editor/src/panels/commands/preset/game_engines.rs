@@ -9,7 +9,7 @@ pub(super) const TABLE: PresetKeys = &[
     (Id::ToolMove, &[key(NONE, Key::W)]),
     (Id::ToolRotate, &[key(NONE, Key::E)]),
     (Id::ToolScale, &[key(NONE, Key::R)]),
-    // Own axes in Godot, and the choice of axes in Unity.
+    // Local axes in Godot, and the choice of axes in Unity.
     (Id::NextSpace, &[key(NONE, Key::T), key(NONE, Key::X)]),
     (Id::PivotMedian, &[key(NONE, Key::Z)]),
     (Id::ToggleXRay, &[key(ALT, Key::Z)]),

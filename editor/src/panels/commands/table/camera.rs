@@ -6,13 +6,13 @@ use dragonfly_picture::camera::ViewSide;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const COMMANDS: &[Command] = &[
-    command(Id::FrameSelected, When::Model, "Frame selected", &[key(NONE, Key::F)], "Frames the selected bone", |w| { framing::frame_selected(w); None }),
-    command(Id::FrameAll, When::Model, "Frame all", &[key(SHIFT, Key::F)], "Frames the whole model", |w| { framing::frame_shown(w); None }),
-    command(Id::ViewFront, When::Model, "Front", &[key(NONE, Key::Num1)], "Looks from the front", |w| { w.camera.camera_mut().look_from(ViewSide::Front); None }),
-    command(Id::ViewBack, When::Always, "Back", &[key(CTRL, Key::Num1)], "Looks from behind", |w| { w.camera.camera_mut().look_from(ViewSide::Back); None }),
-    command(Id::ViewRight, When::Always, "Right", &[key(NONE, Key::Num3)], "Looks from the right", |w| { w.camera.camera_mut().look_from(ViewSide::Right); None }),
-    command(Id::ViewLeft, When::Always, "Left", &[key(CTRL, Key::Num3)], "Looks from the left", |w| { w.camera.camera_mut().look_from(ViewSide::Left); None }),
-    command(Id::ViewTop, When::Always, "Top", &[key(NONE, Key::Num7)], "Looks from above", |w| { w.camera.camera_mut().look_from(ViewSide::Top); None }),
-    command(Id::ViewBottom, When::Always, "Bottom", &[key(CTRL, Key::Num7)], "Looks from below", |w| { w.camera.camera_mut().look_from(ViewSide::Bottom); None }),
-    command(Id::ToggleProjection, When::Always, "Perspective / parallel", &[key(NONE, Key::Num5)], "Switches between perspective and orthographic projection", |w| { w.camera.camera_mut().toggle_projection(); None }),
+    command(Id::FrameSelected, When::Model, "Frame selected", &[key(NONE, Key::F)], "Frames the selection in the viewport", |w| { framing::frame_selected(w); None }),
+    command(Id::FrameAll, When::Model, "Frame all", &[key(SHIFT, Key::F)], "Frames the whole model in the viewport", |w| { framing::frame_shown(w); None }),
+    command(Id::ViewFront, When::Model, "Front", &[key(NONE, Key::Num1)], "Sets the camera to the front view", |w| { w.camera.camera_mut().look_from(ViewSide::Front); None }),
+    command(Id::ViewBack, When::Always, "Back", &[key(CTRL, Key::Num1)], "Sets the camera to the back view", |w| { w.camera.camera_mut().look_from(ViewSide::Back); None }),
+    command(Id::ViewRight, When::Always, "Right", &[key(NONE, Key::Num3)], "Sets the camera to the right view", |w| { w.camera.camera_mut().look_from(ViewSide::Right); None }),
+    command(Id::ViewLeft, When::Always, "Left", &[key(CTRL, Key::Num3)], "Sets the camera to the left view", |w| { w.camera.camera_mut().look_from(ViewSide::Left); None }),
+    command(Id::ViewTop, When::Always, "Top", &[key(NONE, Key::Num7)], "Sets the camera to the top view", |w| { w.camera.camera_mut().look_from(ViewSide::Top); None }),
+    command(Id::ViewBottom, When::Always, "Bottom", &[key(CTRL, Key::Num7)], "Sets the camera to the bottom view", |w| { w.camera.camera_mut().look_from(ViewSide::Bottom); None }),
+    command(Id::ToggleProjection, When::Always, "Perspective / orthographic", &[key(NONE, Key::Num5)], "Switches between perspective and orthographic projection", |w| { w.camera.camera_mut().toggle_projection(); None }),
 ];
