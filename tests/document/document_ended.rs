@@ -1,17 +1,19 @@
 //! A document whose program is killed, in whatever way and at any moment, or whose power is cut, loses nothing that was
 //! said to be done; after a power cut, nothing that is older than a second.
 
-use crate::document_writer::{Deed, come_back, deed, done_to, is_writer, start, start_counting};
+use crate::document_writer::{
+    DocumentAction, action, apply_action, is_writer, recover, start, start_counting,
+};
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::history::{Edited, MAX_STEPS};
 use dragonfly_document::{Cancel, Change, HistoryView, Source, View, load_model};
-use dragonfly_kit::document::desk::fox_at;
+use dragonfly_kit::document::test_document::fox_at;
 use dragonfly_kit::folder::{data, takes_long};
 use dragonfly_kit::mounted::quick_folder;
 use dragonfly_kit::power::{cut, once_in_three, times};
 use dragonfly_kit::process::ignores;
 use dragonfly_kit::random::{Random, seed};
-use dragonfly_kit::writer::{Found, Said};
+use dragonfly_kit::writer::{Found, WriterReport};
 use rustix::process::{Pid, Signal, kill_process};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -29,9 +31,9 @@ fn is_shown(edited: &Edited, view: &View) -> bool {
 }
 
 /// A deed in a few words.
-fn told(number: u32) -> String {
-    let what = match deed(number) {
-        Deed::Change(Change::Edit(edit, gesture)) => format!("{} {gesture:?}", edit.label()),
+fn describe_action(number: u32) -> String {
+    let what = match action(number) {
+        DocumentAction::Change(Change::Edit(edit, gesture)) => format!("{} {gesture:?}", edit.label()),
         other => format!("{other:?}"),
     };
     format!("{number}: {what}")
@@ -76,19 +78,19 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
         let mut candidates = Vec::new();
         let mut edited = kept.clone();
         for at in number..said {
-            done_to(&mut edited, &deed(at));
+            apply_action(&mut edited, &action(at));
         }
         in_a_drag += usize::from(edited.steps().0.back().is_some_and(|step| step.gesture.is_some()));
         candidates.push((said, edited.clone()));
-        done_to(&mut edited, &deed(said));
+        apply_action(&mut edited, &action(said));
         candidates.push((said + 1, edited));
-        let (mut desk, _) = come_back(folder.path());
+        let (mut desk, _) = recover(folder.path());
         let view = desk.view();
-        let said_now = desk.said();
+        let said_now = desk.unread_replies();
         desk.end();
         let found = candidates.into_iter().find(|(_, edited)| is_shown(edited, &view));
         let Some((at, edited)) = found else {
-            let deeds: Vec<String> = (number.saturating_sub(8)..=said).map(told).collect();
+            let deeds: Vec<String> = (number.saturating_sub(8)..=said).map(describe_action).collect();
             panic!(
                 "kill {kill} with {signal:?}, after {number} and up to {said}: {deeds:#?}\nthere is {:?}, and was said {said_now:#?}",
                 view.history
@@ -111,8 +113,8 @@ fn a_power_cut_costs_a_document_at_most_a_second_of_edits() {
     let start = |folder: &Path| {
         start_counting("document_ended::a_power_cut_costs_a_document_at_most_a_second_of_edits", folder)
     };
-    let look = |folder: &Path, said: &Said, cut: usize| {
-        let (mut desk, number) = come_back(folder);
+    let look = |folder: &Path, said: &WriterReport, cut: usize| {
+        let (mut desk, number) = recover(folder);
         let view = desk.view();
         // Nothing is missing in between; of very many steps the oldest are forgotten.
         let steps = (number as usize).min(MAX_STEPS);

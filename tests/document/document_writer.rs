@@ -4,7 +4,7 @@
 use dragonfly_document::edit::{AddKeys, BonePose, BoneRef, Edit, NewKey, ReverseTake, SetPending, TakeRef};
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo};
-use dragonfly_kit::document::desk::{Desk, fox_at, rename, turn};
+use dragonfly_kit::document::test_document::{TestDocument, fox_at, rename, turn};
 use dragonfly_kit::random::Random;
 use dragonfly_kit::writer::{Writer, nanoseconds};
 use std::io::Write;
@@ -22,18 +22,18 @@ const LIMIT: Duration = Duration::from_secs(30);
 
 /// Something that is done to a document.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Deed {
+pub(crate) enum DocumentAction {
     Change(Change),
     Save,
 }
 
-/// Deed number `number` of the script: everything that a person does, drags of several edits among it.
-pub(crate) fn deed(number: u32) -> Deed {
+/// DocumentAction number `number` of the script: everything that a person does, drags of several edits among it.
+pub(crate) fn action(number: u32) -> DocumentAction {
     // Of five deeds in a row, some are one drag.
     let gesture = Gesture(u64::from(number / 5));
     if Random::new(u64::from(number / 5)).below(3) == 0 {
         let end = number % 5 == 4;
-        return Deed::Change(if end {
+        return DocumentAction::Change(if end {
             Change::Release(gesture)
         } else {
             Change::Edit(turn(number as f32 * 0.01), Some(gesture))
@@ -48,11 +48,11 @@ pub(crate) fn deed(number: u32) -> Deed {
         rotation: Some([0.0, 0.1, 0.0, 1.0]),
         scale: Some([1.0, 1.0, 1.0 + number as f32 * 1e-4]),
     };
-    Deed::Change(match random.below(16) {
+    DocumentAction::Change(match random.below(16) {
         0 => Change::Undo,
         1 => Change::Redo,
         2 => Change::GoTo(random.below(8)),
-        3 => return Deed::Save,
+        3 => return DocumentAction::Save,
         4 => Change::Cancel(gesture),
         5 | 6 => Change::Edit(rename(&format!("take {number}")), None),
         7 => {
@@ -73,15 +73,15 @@ pub(crate) fn deed(number: u32) -> Deed {
 }
 
 /// Does a deed to takes in memory, as the document does it to its own.
-pub(crate) fn done_to(edited: &mut Edited, deed: &Deed) {
-    match deed {
-        Deed::Save => edited.mark_saved(),
-        Deed::Change(Change::Edit(edit, gesture)) => drop(edited.apply(edit.clone(), *gesture)),
-        Deed::Change(Change::Release(_)) => {}
-        Deed::Change(Change::Cancel(gesture)) => drop(edited.cancel(*gesture)),
-        Deed::Change(Change::Undo) => drop(edited.undo()),
-        Deed::Change(Change::Redo) => drop(edited.redo()),
-        Deed::Change(Change::GoTo(steps)) => drop(edited.go_to(*steps)),
+pub(crate) fn apply_action(edited: &mut Edited, action: &DocumentAction) {
+    match action {
+        DocumentAction::Save => edited.mark_saved(),
+        DocumentAction::Change(Change::Edit(edit, gesture)) => drop(edited.apply(edit.clone(), *gesture)),
+        DocumentAction::Change(Change::Release(_)) => {}
+        DocumentAction::Change(Change::Cancel(gesture)) => drop(edited.cancel(*gesture)),
+        DocumentAction::Change(Change::Undo) => drop(edited.undo()),
+        DocumentAction::Change(Change::Redo) => drop(edited.redo()),
+        DocumentAction::Change(Change::GoTo(steps)) => drop(edited.go_to(*steps)),
     }
 }
 
@@ -102,19 +102,19 @@ fn edit_on(folder: &Path, first: Option<u32>) {
         out.write_all(line.as_bytes()).and_then(|()| out.flush()).is_ok()
     };
     say("\nstarted");
-    let (mut desk, names) = come_back(folder);
+    let (mut desk, names) = recover(folder);
     let mut number = first.unwrap_or(names);
     let began = Instant::now();
     while began.elapsed() < LIMIT {
         // Without a script the takes themselves count the deeds.
-        let done = if first.is_some() { deed(number) } else { named(number + 1) };
+        let done = if first.is_some() { action(number) } else { named(number + 1) };
         match &done {
-            Deed::Save => drop(desk.save(SaveTo::Own)),
-            Deed::Change(change) => {
+            DocumentAction::Save => drop(desk.save(SaveTo::Own)),
+            DocumentAction::Change(change) => {
                 desk.change(change.clone());
                 // Answered behind it, when it is done and recorded.
-                desk.tell(DocumentMessage::Quit);
-                desk.hears(|reply| {
+                desk.send(DocumentMessage::Quit);
+                desk.wait_for_reply(|reply| {
                     matches!(reply, DocumentReply::Unsaved(_) | DocumentReply::MayQuit).then_some(())
                 });
             }
@@ -127,19 +127,19 @@ fn edit_on(folder: &Path, first: Option<u32>) {
 }
 
 /// A deed whose number can be read in the takes.
-fn named(number: u32) -> Deed {
-    Deed::Change(Change::Edit(rename(&number.to_string()), None))
+fn named(number: u32) -> DocumentAction {
+    DocumentAction::Change(Change::Edit(rename(&number.to_string()), None))
 }
 
 /// Opens the document in `folder` as a person does who wants their work back; and the number in the name of its take.
-pub(crate) fn come_back(folder: &Path) -> (Desk, u32) {
-    let mut desk = Desk::new(&folder.join("autosave"));
+pub(crate) fn recover(folder: &Path) -> (TestDocument, u32) {
+    let mut desk = TestDocument::new(&folder.join("autosave"));
     let mut view = desk.open(&fox_at(&folder.join("Fox.glb")));
     // What is offered is said before the model is shown.
-    if let Some(offer) = desk.offered_already().into_iter().next() {
-        desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    if let Some(offer) = desk.offers_so_far().into_iter().next() {
+        desk.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
         let generation = view.generation;
-        view = desk.shows(|view| view.generation > generation);
+        view = desk.wait_for_view(|view| view.generation > generation);
     }
     let number = view.takes[0].name.parse().unwrap_or(0);
     (desk, number)

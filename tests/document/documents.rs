@@ -15,9 +15,9 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 #[derive(Clone, Default)]
-struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+struct ReplyRecorder(Rc<RefCell<Vec<DocumentReply>>>);
 
-impl Receiver for Heard {
+impl Receiver for ReplyRecorder {
     type Message = DocumentReply;
 
     fn receive(&mut self, reply: DocumentReply, _thread: &mut Context) {
@@ -53,7 +53,7 @@ fn the_built_in_model_opens_with_progress() {
 }
 
 #[test]
-fn a_cancelled_load_says_so() {
+fn a_cancelled_load_returns_the_cancelled_error() {
     let cancel = Cancel::default();
     cancel.cancel();
     let result = load_model(&Source::BuiltIn, &mut |_| {}, &cancel);
@@ -68,8 +68,8 @@ fn a_file_that_does_not_exist_is_named_in_the_error() {
 }
 
 #[test]
-fn what_is_open_stays_when_the_next_file_fails() {
-    let heard = Heard::default();
+fn the_open_model_stays_open_when_loading_another_file_fails() {
+    let heard = ReplyRecorder::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
     let picture = main.context().register_receiver(Picture::default());
@@ -111,7 +111,7 @@ fn crc(bytes: &[u8]) -> u32 {
 }
 
 #[test]
-fn an_image_that_claims_too_much_costs_a_warning_and_nothing_else() {
+fn an_image_with_an_oversized_header_only_causes_a_warning() {
     for (width, height) in [(60_000, 60_000), (16_385, 1), (12_000, 12_000), (u32::MAX, 1), (0, 0)] {
         let decoded = images::decode_all(&[claims(width, height)], &Cancel::default(), |_| {});
         assert_eq!(decoded.images, [None]);
@@ -153,8 +153,8 @@ fn panics_on_files(
 }
 
 #[test]
-fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays() {
-    let heard = Heard::default();
+fn a_hundred_importer_panics_are_reported_and_the_document_keeps_running() {
+    let heard = ReplyRecorder::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
     let picture = main.context().register_receiver(Picture::default());
@@ -202,13 +202,13 @@ struct Bench {
     thread: ThreadHandle,
     graphics: ThreadHandle,
     document: DocumentHandle,
-    heard: Heard,
+    heard: ReplyRecorder,
     picture: Picture,
 }
 
 impl Bench {
     fn new() -> Self {
-        let (mut stage, heard) = (Stage::default(), Heard::default());
+        let (mut stage, heard) = (Stage::default(), ReplyRecorder::default());
         let [main, thread, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
         let picture = Picture::default();
         let shown = stage.context(&graphics).register_receiver(picture.clone());
@@ -243,7 +243,7 @@ impl Bench {
 }
 
 #[test]
-fn a_hundred_changes_of_one_iteration_are_one_view_the_newest() {
+fn a_hundred_changes_in_one_iteration_send_only_the_newest_view() {
     let mut bench = Bench::new();
     let names: Vec<String> = (1..=100).map(|number| format!("{number}.glb")).collect();
     for name in &names {
@@ -261,7 +261,7 @@ fn a_hundred_changes_of_one_iteration_are_one_view_the_newest() {
 }
 
 #[test]
-fn views_do_not_pile_up_before_a_main_thread_that_is_busy() {
+fn views_do_not_accumulate_while_the_main_thread_is_busy() {
     let mut bench = Bench::new();
     for number in 1..=10 {
         bench.change(&format!("{number}.glb"));
@@ -276,7 +276,7 @@ fn views_do_not_pile_up_before_a_main_thread_that_is_busy() {
 }
 
 #[test]
-fn the_picture_gets_the_newest_view_while_the_main_thread_stands_still() {
+fn the_graphics_thread_receives_the_newest_view_while_the_main_thread_is_blocked() {
     let mut bench = Bench::new();
     for number in 1..=10 {
         bench.change(&format!("{number}.glb"));
@@ -293,8 +293,8 @@ fn the_picture_gets_the_newest_view_while_the_main_thread_stands_still() {
 }
 
 #[test]
-fn an_edit_is_shown_to_panels_and_picture_alike_and_a_wrong_one_is_refused_with_its_reason() {
-    let heard = Heard::default();
+fn an_edit_reaches_panels_and_viewport_and_an_invalid_one_is_refused_with_a_reason() {
+    let heard = ReplyRecorder::default();
     let shown = Picture::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());

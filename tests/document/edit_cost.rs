@@ -42,7 +42,7 @@ fn turned(bone: u32, by: f32) -> BonePose {
 }
 
 #[test]
-fn a_document_to_which_nothing_was_done_costs_next_to_nothing_beside_its_original() {
+fn an_unedited_document_needs_almost_no_memory_of_its_own() {
     let (original, data) = counting::peak(|| model(50, 2000));
     let (more, edited) = counting::peak(|| Edited::new(ModelAdapter::new(&data)));
     assert!(more * 5 < original, "{more} bytes beside {original}");
@@ -50,7 +50,7 @@ fn a_document_to_which_nothing_was_done_costs_next_to_nothing_beside_its_origina
 }
 
 #[test]
-fn an_edit_keeps_memory_in_proportion_to_what_it_touches() {
+fn the_memory_of_an_edit_is_proportional_to_the_keys_it_touches() {
     let kept = |bones: u32| {
         let data = model(bones, 2000);
         let mut edited = Edited::new(ModelAdapter::new(&data));
@@ -72,7 +72,7 @@ fn an_edit_keeps_memory_in_proportion_to_what_it_touches() {
 }
 
 #[test]
-fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
+fn a_mouse_move_in_a_drag_allocates_a_constant_amount() {
     let bytes = |bones: u32, keys: usize, time: f32| {
         let data = model(bones, keys);
         let mut edited = Edited::new(ModelAdapter::new(&data));
@@ -104,7 +104,7 @@ fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
 }
 
 #[test]
-fn a_hundred_thousand_keys_move_without_being_felt() {
+fn moving_a_hundred_thousand_keys_causes_no_visible_delay() {
     let data = model(200, 1500);
     let mut edited = Edited::new(ModelAdapter::new(&data));
     let set = |bone| KeySet {

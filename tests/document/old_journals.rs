@@ -5,7 +5,7 @@
 
 use dragonfly_document::edit::{EDITS, Edit, RenameTake, TakeRef};
 use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, View};
-use dragonfly_kit::document::desk::{Desk, fox};
+use dragonfly_kit::document::test_document::{TestDocument, fox};
 use dragonfly_kit::folder::{Folder, data};
 use dragonfly_kit::store::forged::forged_with;
 use dragonfly_store::{FileStamp, RealFiles};
@@ -19,18 +19,18 @@ fn first_edits() -> Vec<String> {
 }
 
 /// Opens Fox beside a journal with these records, and takes the work of so many steps back.
-fn had_back(name: &str, records: &[(u8, &[u8])], steps: usize) -> (Desk, View) {
+fn had_back(name: &str, records: &[(u8, &[u8])], steps: usize) -> (TestDocument, View) {
     let folder = Folder::new(name);
     let path = fox(&folder);
     let autosave = folder.join("autosave");
     fs::create_dir_all(autosave.join("journals")).unwrap();
     fs::write(autosave.join("journals/old.journal"), forged_with(&header(&path), 1, records)).unwrap();
-    let mut desk = Desk::new(&autosave);
+    let mut desk = TestDocument::new(&autosave);
     desk.open(&path);
-    let offer = desk.offered().remove(0);
+    let offer = desk.wait_for_offers().remove(0);
     assert_eq!(offer.warnings(), [""; 0]);
-    desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
-    let view = desk.shows(|view| view.history.done == steps);
+    desk.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    let view = desk.wait_for_view(|view| view.history.done == steps);
     (desk, view)
 }
 
@@ -70,7 +70,7 @@ fn recorded(edit: &str) -> Vec<u8> {
 }
 
 #[test]
-fn names_that_are_refused_now_are_had_back() {
+fn names_that_are_now_invalid_are_still_read_from_old_journals() {
     let rename = |take: u32, name: &str| {
         recorded(&format!(r#"{{"edit":"rename_take","take":{take},"name":"{name}"}}"#))
     };
@@ -79,8 +79,8 @@ fn names_that_are_refused_now_are_had_back() {
     let names: Vec<_> = takes(&view).into_iter().map(|take| take.0).collect();
     assert_eq!(names, ["", "Run", "Run"]);
     let again = Edit::RenameTake(RenameTake { take: TakeRef::Index(2), name: String::new() });
-    desk.tell(DocumentMessage::Change(Change::Edit(again, None)));
-    let refused = desk.hears(|reply| match reply {
+    desk.send(DocumentMessage::Change(Change::Edit(again, None)));
+    let refused = desk.wait_for_reply(|reply| match reply {
         DocumentReply::Refused(reason) => Some(reason.clone()),
         _ => None,
     });
@@ -88,7 +88,7 @@ fn names_that_are_refused_now_are_had_back() {
 }
 
 #[test]
-fn edits_of_every_version_are_done_again() {
+fn edits_of_every_version_are_replayed() {
     let begin = br#"{"do":"begin","version":1}"#.to_vec();
     let edits = first_edits().into_iter().map(|edit| recorded(&edit));
     let records: Vec<Vec<u8>> = std::iter::once(begin).chain(edits).collect();
@@ -101,7 +101,7 @@ fn edits_of_every_version_are_done_again() {
 }
 
 #[test]
-fn a_snapshot_of_every_version_is_had_back() {
+fn a_snapshot_of_every_version_is_restored() {
     let (edits, all) = (first_edits().join(","), first_edits().len());
     let about = r#"{"version":1}"#;
     let text = format!(r#"{{"about":{about},"steps":[{edits}],"done":{all},"saved":null,"has_base":false}}"#);
@@ -113,7 +113,7 @@ fn a_snapshot_of_every_version_is_had_back() {
 
 /// The file grows with the vocabulary until that is given out; after that a new one begins.
 #[test]
-fn no_edit_is_missing_among_those_that_are_kept() {
+fn every_edit_type_occurs_in_the_stored_records() {
     let kind = |json: &str| {
         serde_json::from_str::<serde_json::Value>(json).unwrap()["edit"].as_str().unwrap().to_owned()
     };

@@ -72,7 +72,7 @@ fn same_numbers(a: &[f32], b: &[f32]) -> bool {
 }
 
 #[test]
-fn whatever_was_done_undo_leads_back_to_the_bit_and_redo_forth_again() {
+fn undo_and_redo_of_random_edits_are_exact_to_the_bit() {
     let first = seed(900);
     let bones = BONES.map(|name| BoneRef::Name(name.to_owned()));
     for number in first..first + 200 {
@@ -108,7 +108,7 @@ fn whatever_was_done_undo_leads_back_to_the_bit_and_redo_forth_again() {
 }
 
 #[test]
-fn all_edits_of_a_gesture_are_one_step_and_each_begins_where_the_gesture_began() {
+fn all_edits_of_a_gesture_are_one_undo_step_and_each_starts_from_the_state_before_it() {
     let mut edited = Edited::new(model(15));
     let start = edited.adapter().clone();
     let gesture = Some(Gesture(1));
@@ -134,7 +134,7 @@ fn all_edits_of_a_gesture_are_one_step_and_each_begins_where_the_gesture_began()
 }
 
 #[test]
-fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
+fn a_dragged_pose_equals_its_last_edit_alone_to_the_bit() {
     let first = seed(930);
     for number in first..first + 300 {
         let mut random = Random::new(number);
@@ -200,7 +200,7 @@ fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
 }
 
 #[test]
-fn a_document_knows_whether_it_is_as_it_was_saved() {
+fn undo_back_to_the_saved_state_marks_the_document_as_saved() {
     let mut edited = Edited::new(model(16));
     let name = |name: &str| Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() });
     assert!(edited.is_saved());

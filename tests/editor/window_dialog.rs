@@ -4,7 +4,7 @@ use crate::drag::address;
 use crate::portal::{Answer, Bus, Portal};
 use crate::screen::{Screen, key, pass};
 use crate::window::{Editor, SOON, alone, eventually_shows_something, rest, same, settled};
-use dragonfly_kit::document::desk::{Desk, killed, turn};
+use dragonfly_kit::document::test_document::{TestDocument, killed, turn};
 use dragonfly_kit::eventually;
 use dragonfly_kit::folder::{Folder, data};
 use std::time::Duration;
@@ -94,7 +94,7 @@ fn work_on_a_file_that_was_renamed_goes_on_in_the_file_that_is_chosen() {
     let folder = Folder::new("renamed");
     let model = folder.join("Fox.glb");
     std::fs::copy(data("gltf/Fox.glb"), &model).expect("a file");
-    let mut desk = Desk::new(&folder.join("first"));
+    let mut desk = TestDocument::new(&folder.join("first"));
     desk.open(&model);
     desk.edit(turn(0.5));
     desk.edit(turn(0.9));

@@ -16,8 +16,8 @@ fn provoke(studio: &mut dragonfly_picture::Studio) {
 }
 
 #[test]
-fn an_error_of_ours_fails_the_test_that_made_it() {
-    const NAME: &str = "complaints::an_error_of_ours_fails_the_test_that_made_it";
+fn a_validation_error_fails_the_test_that_caused_it() {
+    const NAME: &str = "complaints::a_validation_error_fails_the_test_that_caused_it";
     // In a process of its own, as the error fails every test beside it, and must.
     dragonfly_kit::process::alone(NAME, || {
         let Some(mut studio) = studio::studio() else { return };
@@ -29,6 +29,6 @@ fn an_error_of_ours_fails_the_test_that_made_it() {
 
 #[test]
 #[should_panic(expected = "unexpected graphics error")]
-fn a_line_about_an_error_of_ours_fails_the_test_that_started_the_program() {
+fn a_validation_error_in_the_log_fails_the_test_that_started_the_program() {
     none_in("ERROR dragonfly_picture::fault: unexpected graphics error error=…", [OsStr::new("DISPLAY")]);
 }

@@ -9,7 +9,7 @@ use dragonfly_picture::losses::{LossRecord, LossTolerance, MAX_LOSSES, PATIENCE}
 use std::time::{Duration, Instant};
 
 #[test]
-fn the_same_picture_after_a_hundred_losses() {
+fn the_image_is_the_same_after_a_hundred_device_losses() {
     let Some(mut studio) = studio::studio() else { return };
     let loaded = arm::loaded();
     let settings = PictureSettings { size: [64, 48], skeleton: true, ..settings() };
@@ -29,8 +29,8 @@ fn the_same_picture_after_a_hundred_losses() {
 }
 
 #[test]
-fn a_hundred_losses_take_no_memory_with_them() {
-    alone("device_loss::a_hundred_losses_take_no_memory_with_them", || {
+fn a_hundred_device_losses_leak_no_memory() {
+    alone("device_loss::a_hundred_device_losses_leak_no_memory", || {
         let Some(mut studio) = studio::studio() else { return };
         let loaded = arm::loaded();
         let settings = PictureSettings { size: [64, 48], ..settings() };
@@ -50,7 +50,7 @@ fn a_hundred_losses_take_no_memory_with_them() {
 }
 
 #[test]
-fn losses_on_purpose_do_not_try_patience() {
+fn deliberate_device_losses_do_not_count_toward_the_limit() {
     let mut record = LossRecord::default();
     let now = Instant::now();
     for _ in 0..100 {
@@ -61,7 +61,7 @@ fn losses_on_purpose_do_not_try_patience() {
 }
 
 #[test]
-fn three_losses_within_a_minute_are_too_many() {
+fn three_device_losses_within_a_minute_exceed_the_limit() {
     let start = Instant::now();
     let after = |seconds| start + Duration::from_secs(seconds);
     let mut record = LossRecord::default();

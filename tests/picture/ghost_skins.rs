@@ -23,7 +23,7 @@ fn tinted(picture: &RgbaImage, before: &RgbaImage, red: bool) -> usize {
 }
 
 #[test]
-fn the_skin_is_seen_before_and_after_and_the_skeleton_in_its_place() {
+fn ghosts_show_the_skin_before_and_after_the_current_pose() {
     let Some(mut studio) = studio::studio() else { return };
     let source = Source::File(data("gltf/Fox.glb"));
     let loaded = Arc::new(load_model(&source, &mut |_| {}, &Cancel::default()).unwrap());
@@ -62,7 +62,7 @@ fn the_skin_is_seen_before_and_after_and_the_skeleton_in_its_place() {
 
 /// Each ghost knows for itself whether it is seen from inside.
 #[test]
-fn a_part_that_is_turned_inside_out_at_one_time_only_is_so_in_that_ghost_only() {
+fn a_mesh_mirrored_at_one_time_is_mirrored_in_that_ghost_only() {
     let loaded = Arc::into_inner(arm::loaded()).expect("the only one");
     let mut model = Arc::into_inner(loaded.model).expect("the only one");
     let mut take = (*model.animation.takes[0]).clone();

@@ -176,7 +176,7 @@ fn a_frame_is_drawn_only_when_something_changes() {
 }
 
 #[test]
-fn a_minimised_window_costs_nothing() {
+fn a_minimized_window_draws_nothing() {
     let Some(mut bench) = Bench::with_arm() else { return };
     bench.graphics.resize([0, 0]);
     bench.graphics.play(PlaybackClock {
@@ -191,7 +191,7 @@ fn a_minimised_window_costs_nothing() {
 }
 
 #[test]
-fn panels_come_back_after_a_loss_with_everything_else() {
+fn panels_are_restored_after_a_device_loss() {
     let Some(mut bench) = Bench::with_arm() else { return };
     let context = egui::Context::default();
     // The second frame brings no textures, and the first is never drawn: its textures must not be lost.
@@ -211,7 +211,7 @@ fn panels_come_back_after_a_loss_with_everything_else() {
 }
 
 #[test]
-fn panels_that_no_device_will_show_are_forgotten_in_peace() {
+fn panels_without_a_device_are_dropped_without_an_error() {
     let none = DeviceParameters { backends: wgpu::Backends::empty(), ..DeviceParameters::default() };
     let mut bench = Bench::begin(none);
     let context = egui::Context::default();
@@ -227,7 +227,7 @@ fn panels_that_no_device_will_show_are_forgotten_in_peace() {
 }
 
 #[test]
-fn a_question_gets_its_answer_and_the_newest_camera_wins() {
+fn a_request_is_answered_and_the_newest_camera_is_used() {
     let Some(mut bench) = Bench::with_arm() else { return };
     for distance in 1..50 {
         let camera = Camera {
@@ -268,7 +268,7 @@ impl Receiver for Panels {
 }
 
 #[test]
-fn a_model_is_shown_while_the_main_thread_stands_still() {
+fn a_model_is_shown_while_the_main_thread_is_blocked() {
     let Some(mut bench) = Bench::with_arm() else { return };
     let path = scratch("stalled.png");
     let before = bench.capture(&path);
@@ -294,7 +294,7 @@ fn a_model_is_shown_while_the_main_thread_stands_still() {
 }
 
 #[test]
-fn a_changed_take_is_shown_as_if_it_had_been_opened_like_that() {
+fn an_edited_take_looks_like_the_same_take_loaded_from_a_file() {
     let Some(mut bench) = Bench::with_arm() else { return };
     let opened = View::opened(1, arm::loaded());
     let still = Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) };
@@ -316,7 +316,7 @@ fn a_changed_take_is_shown_as_if_it_had_been_opened_like_that() {
 }
 
 #[test]
-fn a_changed_take_keeps_what_the_device_has_of_the_model() {
+fn an_edited_take_keeps_the_gpu_resources_of_the_model() {
     let opened = View::opened(1, arm::loaded());
     let mut scene = Scene::new(Instant::now());
     let mut shown = |view: &View| {

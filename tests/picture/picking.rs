@@ -33,7 +33,7 @@ fn window_position(scene: &Scene, point: Vec3) -> [f32; 2] {
 }
 
 #[test]
-fn the_bone_drawn_there_is_found() {
+fn a_click_on_a_drawn_bone_picks_it() {
     for bone_look in [BoneLook::Octahedra, BoneLook::Sticks, BoneLook::Lines] {
         for time in [0.0, 0.6, arm::LENGTH] {
             let scene = scene(time, bone_look);
@@ -49,7 +49,7 @@ fn the_bone_drawn_there_is_found() {
 }
 
 #[test]
-fn a_near_miss_gets_the_nearest_bone_and_a_far_one_none() {
+fn a_near_miss_picks_the_nearest_bone_and_a_far_miss_none() {
     let scene = scene(0.0, BoneLook::Lines);
     let [x, y] = window_position(&scene, Vec3::Y * 0.5);
     assert_eq!(pick(&scene, [x + 7.0, y]), Some(0));
@@ -57,7 +57,7 @@ fn a_near_miss_gets_the_nearest_bone_and_a_far_one_none() {
 }
 
 #[test]
-fn a_miss_is_as_near_on_a_screen_of_fine_pixels() {
+fn the_pick_distance_is_the_same_on_a_high_dpi_screen() {
     let mut scene = scene(0.0, BoneLook::Lines);
     let [x, y] = window_position(&scene, Vec3::Y * 0.5);
     assert_eq!(pick(&scene, [x + 17.0, y]), None);
@@ -67,7 +67,7 @@ fn a_miss_is_as_near_on_a_screen_of_fine_pixels() {
 }
 
 #[test]
-fn nothing_is_found_outside_the_viewport_and_hidden_bones_are_found() {
+fn picking_ignores_points_outside_the_viewport_and_includes_hidden_bones() {
     let mut scene = scene(0.0, BoneLook::Octahedra);
     let on_bone = window_position(&scene, Vec3::Y * 0.5);
     assert_eq!(pick(&scene, [99.0, 200.0]), None);

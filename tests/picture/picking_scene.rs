@@ -49,7 +49,7 @@ fn hidden_bones_are_neither_drawn_nor_picked() {
 }
 
 #[test]
-fn where_no_bone_is_shown_the_skin_is_met() {
+fn a_click_picks_the_skin_where_no_bone_is_drawn() {
     let mut scene = scene(false, &[]);
     // Beside the bones, on the tube around them.
     let aside = scene.camera.right() * 0.15;

@@ -37,7 +37,7 @@ fn towards(point: Vec3) -> CameraRay {
 }
 
 #[test]
-fn the_bone_with_most_influence_is_found_where_the_skin_is_now() {
+fn a_click_on_the_deformed_skin_picks_the_bone_with_most_influence() {
     let mut skin = Skin::at(0.0);
     let none = HiddenBones::default();
     // Weights change from one bone to the next between 0.5 and 1.5, and 1.5 and 2.5.
@@ -57,7 +57,7 @@ fn the_bone_with_most_influence_is_found_where_the_skin_is_now() {
 }
 
 #[test]
-fn bones_behind_follow_and_hidden_ones_are_looked_through() {
+fn bones_of_the_skin_behind_follow_and_hidden_bones_are_skipped() {
     let mut skin = Skin::at(0.0);
     // In at the tip's side, out at the other side near the root.
     let (enter, leave) = (Vec3::new(0.25, 2.8, 0.05), Vec3::new(-0.25, 0.2, 0.05));
@@ -76,7 +76,7 @@ fn bones_behind_follow_and_hidden_ones_are_looked_through() {
 }
 
 #[test]
-fn a_line_of_sight_that_is_none_meets_nothing() {
+fn an_invalid_ray_hits_nothing() {
     let mut skin = Skin::at(0.0);
     for (origin, direction) in
         [(Vec3::NAN, Vec3::Z), (Vec3::ZERO, Vec3::ZERO), (Vec3::ZERO, Vec3::NAN), (Vec3::INFINITY, Vec3::Z)]

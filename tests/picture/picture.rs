@@ -23,7 +23,7 @@ fn the_model_is_seen_and_moves_with_time() {
 }
 
 #[test]
-fn the_background_may_be_open_or_any_colour() {
+fn the_background_may_be_transparent_or_any_color() {
     let Some(mut studio) = studio::studio() else { return };
     let loaded = arm::loaded();
     let mut over = |background| {

@@ -173,17 +173,17 @@ fn the_built_in_dragonfly_flies_as_computed() {
 }
 
 #[test]
-fn four_bones_hold_a_vertex() {
+fn four_bones_can_influence_a_vertex() {
     check_made(column(4, |_| Transform { rotation: Quat::from_rotation_z(0.5), ..Transform::IDENTITY }));
 }
 
 #[test]
-fn eight_bones_hold_a_vertex() {
+fn eight_bones_can_influence_a_vertex() {
     check_made(column(8, |_| Transform { rotation: Quat::from_rotation_z(0.25), ..Transform::IDENTITY }));
 }
 
 #[test]
-fn bones_that_swell_and_shrink_keep_the_light_where_it_falls() {
+fn scaled_bones_keep_the_shading_correct() {
     check_made(column(4, |bone| Transform {
         scale: if bone % 2 == 0 { Vec3::new(2.5, 1.0, 0.6) } else { Vec3::new(0.2, 1.0, 1.5) },
         ..Transform::IDENTITY
@@ -241,7 +241,7 @@ fn a_bone_carries_a_rigid_mesh() {
 }
 
 #[test]
-fn a_mirrored_bone_turns_winding_and_light() {
+fn a_mirrored_bone_flips_winding_and_normals() {
     check_made(carried(Transform {
         rotation: Quat::from_rotation_z(0.4),
         scale: Vec3::new(-2.0, 1.0, 1.0),
@@ -250,7 +250,7 @@ fn a_mirrored_bone_turns_winding_and_light() {
 }
 
 #[test]
-fn mirrored_joints_turn_winding_and_light() {
+fn mirrored_joints_flip_winding_and_normals() {
     check_made(column(4, |bone| Transform {
         rotation: Quat::from_rotation_z(0.2),
         scale: if bone == 0 { Vec3::new(1.0, 1.0, -2.0) } else { Vec3::ONE },
@@ -259,7 +259,7 @@ fn mirrored_joints_turn_winding_and_light() {
 }
 
 #[test]
-fn every_instance_has_matrices_and_weights_of_its_own() {
+fn every_instance_has_its_own_matrices_and_weights() {
     let mut model = column(4, |_| Transform { rotation: Quat::from_rotation_z(0.4), ..Transform::IDENTITY });
     let mut ball = made::ball();
     let squeezed = |positions: &[Vec3]| positions.iter().map(|&at| at * Vec3::new(0.0, -0.8, 0.0)).collect();

@@ -85,7 +85,7 @@ fn brightness(pixel: &image::Rgba<u8>) -> u32 {
 }
 
 #[test]
-fn a_mask_cuts_out_what_lies_below_its_threshold() {
+fn a_mask_discards_pixels_below_its_threshold() {
     let Some(mut studio) = studio::studio() else { return };
     let image = four([RED, [0, 255, 0, 0], [0, 0, 255, 100], [255, 255, 255, 160]]);
     let mut under = |alpha_mode| {
@@ -102,7 +102,7 @@ fn a_mask_cuts_out_what_lies_below_its_threshold() {
 }
 
 #[test]
-fn a_mask_shows_what_is_behind() {
+fn surfaces_behind_a_mask_are_visible_through_its_holes() {
     let Some(mut studio) = studio::studio() else { return };
     let image = four([RED, [0, 255, 0, 0], [0, 0, 255, 100], WHITE]);
     let texture = Some(texture(TextureTransform::IDENTITY));
@@ -118,7 +118,7 @@ fn a_mask_shows_what_is_behind() {
 }
 
 #[test]
-fn texture_coordinates_are_scaled_then_turned_then_moved() {
+fn texture_coordinates_are_scaled_then_rotated_then_translated() {
     let Some(mut studio) = studio::studio() else { return };
     let mut under = |offset: [f32; 2], degrees: f32, scale: [f32; 2]| {
         let rotation = degrees.to_radians();
@@ -138,7 +138,7 @@ fn texture_coordinates_are_scaled_then_turned_then_moved() {
 }
 
 #[test]
-fn a_texture_may_use_the_second_coordinates() {
+fn a_texture_may_use_the_second_set_of_coordinates() {
     let Some(mut studio) = studio::studio() else { return };
     let mut sheet = made::sheet();
     let first = sheet.vertices.texture_coordinates[0].clone();
@@ -152,7 +152,7 @@ fn a_texture_may_use_the_second_coordinates() {
 }
 
 #[test]
-fn vertex_colours_mix_in_linear_light_and_multiply_the_base_colour() {
+fn vertex_colors_mix_in_linear_light_and_multiply_the_base_color() {
     let Some(mut studio) = studio::studio() else { return };
     let mut sheet = made::sheet();
     // Upper left, lower left, lower right, upper right.
@@ -204,7 +204,7 @@ fn phong_light_is_ambient_and_diffuse_and_a_highlight() {
 }
 
 #[test]
-fn a_back_face_is_seen_where_the_material_says_so_and_lit_like_the_front() {
+fn a_back_face_of_a_double_sided_material_is_drawn_and_lit_like_the_front() {
     let Some(mut studio) = studio::studio() else { return };
     for alpha_mode in [AlphaMode::Opaque, AlphaMode::Mask(0.5), AlphaMode::Blend] {
         let mut from = |yaw: f32, double_sided| {

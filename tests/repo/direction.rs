@@ -40,7 +40,7 @@ fn depends_on_little(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn nothing_points_back_and_the_libraries_know_no_window_and_no_gpu() {
+fn dependencies_have_one_direction_and_libraries_use_no_window_or_gpu() {
     let files = files();
     let found =
         files.iter().filter(|file| file.path == "anim/Cargo.toml").flat_map(|file| dependencies(&file.text));
@@ -73,7 +73,7 @@ fn versions_are_chosen_at_the_root(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn versions_are_chosen_once() {
+fn dependency_versions_are_declared_once() {
     none(versions_are_chosen_at_the_root(&files()));
     one(versions_are_chosen_at_the_root(&[File::planted(
         "anim/Cargo.toml",
@@ -172,7 +172,7 @@ fn says_no_such_word(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn what_the_architecture_promises_by_absence_is_absent() {
+fn forbidden_words_of_the_architecture_do_not_occur() {
     none(says_no_such_word(&files()));
     one(says_no_such_word(&[File::planted("anim/src/format/obj.rs", "let text = std::fs::read(path)?;")]));
     one(says_no_such_word(&[File::planted(
@@ -211,7 +211,7 @@ fn is_safe(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn nothing_is_unsafe_outside_the_named_files() {
+fn unsafe_code_occurs_only_in_the_listed_files() {
     none(is_safe(&files()));
     one(is_safe(&[File::planted("anim/src/fast.rs", "let x = unsafe { *pointer };")]));
     none(is_safe(&[File::planted("anim/src/lib.rs", "#![forbid(unsafe_code)]")]));

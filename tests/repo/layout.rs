@@ -36,7 +36,7 @@ fn stands_at_the_top_by_right(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn only_what_belongs_there_stands_at_the_top() {
+fn the_root_folder_contains_only_the_listed_entries() {
     none(stands_at_the_top_by_right(&files()));
     one(stands_at_the_top_by_right(&[File::planted("notes.txt", ""), File::planted("anim/src/lib.rs", "")]));
     one(stands_at_the_top_by_right(&[File::planted("scripts/do.sh", "")]));
@@ -81,7 +81,7 @@ fn is_named_in_its_list(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn every_module_and_every_test_is_named_in_the_list_beside_it() {
+fn every_module_and_test_file_is_declared() {
     none(is_named_in_its_list(&files()));
     let main = || File::planted("tests/anim/main.rs", "mod poses;\n// mod forgotten;");
     one(is_named_in_its_list(&[
@@ -104,7 +104,7 @@ fn is_short_enough(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn no_source_file_is_longer_than_one_reads() {
+fn no_source_file_exceeds_the_length_limit() {
     none(is_short_enough(&files()));
     one(is_short_enough(&[File::planted("anim/src/long.rs", &"\n".repeat(LONGEST + 1))]));
 }
@@ -135,7 +135,7 @@ fn points_at_something(path: &str, text: &str, exists: impl Fn(&str) -> bool) ->
 }
 
 #[test]
-fn every_link_in_the_documents_at_the_top_leads_somewhere() {
+fn every_link_in_the_root_documents_has_a_target() {
     for document in ["README.md", "ARCHITECTURE.md", "CHANGELOG.md"] {
         let text = std::fs::read_to_string(root().join(document)).expect(document);
         none(points_at_something(document, &text, |target| root().join(target).exists()));

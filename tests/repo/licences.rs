@@ -114,7 +114,7 @@ fn is_free(packages: &[(String, String)]) -> Vec<String> {
 }
 
 #[test]
-fn every_dependency_may_be_given_away_with_the_program() {
+fn every_dependency_has_an_allowed_license() {
     let packages = packages();
     assert!(packages.len() > 100, "only {} packages found", packages.len());
     none(is_free(&packages));
@@ -128,7 +128,7 @@ fn every_dependency_may_be_given_away_with_the_program() {
 }
 
 #[test]
-fn no_exception_outlives_its_reason() {
+fn no_license_exception_is_unused() {
     let packages = packages();
     for (name, term, _) in EXCEPTIONS.iter().filter(|(name, ..)| *name != "colored") {
         let used = packages.iter().any(|(package, licence)| package == name && licence.contains(term));

@@ -41,7 +41,7 @@ pub(crate) fn edits<'a>(texts: impl IntoIterator<Item = &'a str>) -> Vec<Journal
 }
 
 #[test]
-fn what_was_appended_is_had_back_in_order() {
+fn appended_records_are_read_back_in_order() {
     let folder = quick_folder("journal-order");
     let autosave = autosave(&folder, RealFiles);
     let mut journal = begin(&autosave, None, None);
@@ -93,7 +93,7 @@ fn a_record_is_due_after_a_fifth_of_a_second_or_at_the_end_of_the_gesture() {
 }
 
 #[test]
-fn a_snapshot_takes_the_place_of_all_before_it() {
+fn a_snapshot_replaces_all_records_before_it() {
     let folder = quick_folder("journal-compact");
     let autosave = autosave(&folder, RealFiles);
     let mut journal = begin(&autosave, None, None);
@@ -120,7 +120,7 @@ fn a_snapshot_takes_the_place_of_all_before_it() {
 }
 
 #[test]
-fn what_is_in_the_file_is_no_unsaved_work_and_its_history_stays() {
+fn saved_edits_are_not_unsaved_work_and_their_history_is_kept() {
     let folder = quick_folder("journal-saved");
     let autosave = autosave(&folder, RealFiles);
     let path = folder.join("fox.glb");
@@ -153,7 +153,7 @@ fn what_is_in_the_file_is_no_unsaved_work_and_its_history_stays() {
 }
 
 #[test]
-fn a_program_killed_between_file_and_journal_knows_that_it_saved() {
+fn a_save_counts_even_if_the_program_is_killed_before_the_journal_records_it() {
     let folder = quick_folder("journal-between");
     let autosave = autosave(&folder, RealFiles);
     let path = folder.join("fox.glb");
@@ -181,7 +181,7 @@ fn a_program_killed_between_file_and_journal_knows_that_it_saved() {
 }
 
 #[test]
-fn a_journal_without_work_leaves_nothing() {
+fn closing_an_empty_journal_deletes_its_file() {
     let folder = quick_folder("journal-nothing");
     let autosave = autosave(&folder, RealFiles);
     assert_eq!(autosave.recoverable().unwrap(), [], "there is no folder yet");
@@ -190,7 +190,7 @@ fn a_journal_without_work_leaves_nothing() {
 }
 
 #[test]
-fn a_failed_record_is_not_there_and_the_next_one_is() {
+fn a_failed_append_leaves_no_record_and_the_next_append_works() {
     let folder = quick_folder("journal-failed");
     for number in 1.. {
         let _ = fs::remove_dir_all(folder.join("autosave"));
@@ -216,7 +216,7 @@ fn a_failed_record_is_not_there_and_the_next_one_is() {
 }
 
 #[test]
-fn after_an_error_of_the_disk_nothing_is_recorded_before_a_snapshot() {
+fn after_a_disk_error_a_journal_refuses_records_until_a_snapshot() {
     let folder = quick_folder("journal-broken");
     let now = Instant::now();
     let mut met = 0;
@@ -258,7 +258,7 @@ fn appending_allocates_nothing() {
 }
 
 #[test]
-fn names_that_are_no_text_and_very_long_ones_are_documents_too() {
+fn documents_may_have_names_that_are_not_utf8_or_very_long() {
     use std::os::unix::ffi::OsStrExt;
     let folder = quick_folder("journal-names");
     let autosave = autosave(&folder, RealFiles);

@@ -175,7 +175,7 @@ fn read(bytes: &[u8]) -> (Recoverable, Result<Vec<JournalEntry>, JournalError>) 
 }
 
 #[test]
-fn every_truncation_gives_back_the_records_that_are_whole() {
+fn a_truncated_journal_returns_all_complete_records() {
     let sample = sample();
     let mut header = sample.bytes.len();
     for length in 0..sample.bytes.len() {
@@ -202,7 +202,7 @@ fn every_truncation_gives_back_the_records_that_are_whole() {
 }
 
 #[test]
-fn every_flipped_bit_is_found() {
+fn every_flipped_bit_is_detected() {
     let sample = sample();
     let mut refused = 0;
     for bit in 0..sample.bytes.len() * 8 {
@@ -225,7 +225,7 @@ fn every_flipped_bit_is_found() {
 }
 
 #[test]
-fn records_that_moved_or_came_from_elsewhere_are_not_taken() {
+fn records_out_of_order_or_from_another_journal_are_rejected() {
     let sample = sample();
     let record = |number: usize| &sample.bytes[sample.ends[number]..sample.ends[number + 1]];
     let put = |parts: &[&[u8]]| read(&parts.concat()).1.expect("a header");
@@ -244,7 +244,7 @@ fn records_that_moved_or_came_from_elsewhere_are_not_taken() {
 }
 
 #[test]
-fn random_damage_never_panics_and_never_invents() {
+fn random_damage_never_panics_and_never_invents_records() {
     let seed = seed(20);
     let sample = sample();
     let rest = &sample.bytes[sample.ends[0]..];
@@ -261,7 +261,7 @@ fn random_damage_never_panics_and_never_invents() {
 }
 
 #[test]
-fn a_disk_that_cannot_be_read_cuts_nothing_off() {
+fn a_read_error_truncates_nothing() {
     use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
     let folder = quick_folder("damage-unreadable");
     let sound = autosave(&folder, RealFiles);
@@ -287,7 +287,7 @@ fn a_disk_that_cannot_be_read_cuts_nothing_off() {
 }
 
 #[test]
-fn a_tail_that_is_cut_off_lies_in_the_bin() {
+fn a_damaged_tail_is_moved_to_the_bin() {
     let sample = sample();
     let folder = quick_folder("damage-tail");
     let autosave = autosave(&folder, RealFiles);

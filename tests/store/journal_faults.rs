@@ -59,7 +59,7 @@ fn count(folder: &Path) -> usize {
 }
 
 #[test]
-fn every_call_that_can_fail_costs_no_edit_that_counted_as_done() {
+fn a_failure_of_any_system_call_loses_no_recorded_edit() {
     let folder = quick_folder("journal-faults");
     let path = folder.join("fox.glb");
     let stamp = dragonfly_store::replace(&path, b"saved").unwrap().stamp;
@@ -135,7 +135,7 @@ const OPERATIONS: [(&str, Operation); 7] = [
 ];
 
 #[test]
-fn every_call_that_can_fail_while_recovering_loses_nothing() {
+fn a_failure_of_any_system_call_while_recovering_loses_nothing() {
     let folder = quick_folder("recovery-faults");
     let wanted = edits(["one", "two", "three"]);
     for (name, operation) in OPERATIONS {
@@ -169,7 +169,7 @@ fn every_call_that_can_fail_while_recovering_loses_nothing() {
 }
 
 #[test]
-fn a_journal_begun_anew_while_somebody_looks_at_it_is_still_in_use() {
+fn a_journal_restarted_while_another_program_reads_it_is_still_in_use() {
     let folder = quick_folder("journal-meddling");
     let sound = autosave(&folder, RealFiles);
     let mut journal = begin(&sound, None, None);

@@ -62,7 +62,7 @@ fn put(autosave: &Autosave, bytes: &[u8]) -> PathBuf {
 }
 
 #[test]
-fn after_a_crash_the_work_is_offered_and_kept_or_opened_beside_or_discarded() {
+fn work_from_a_crash_can_be_kept_or_opened_as_a_new_document_or_discarded() {
     let it = killed("scenario-crash");
     let found = only(&it.autosave);
     assert!(found.is_offered());
@@ -93,7 +93,7 @@ fn after_a_crash_the_work_is_offered_and_kept_or_opened_beside_or_discarded() {
 }
 
 #[test]
-fn a_second_program_is_told_whom_it_meets() {
+fn a_second_program_learns_which_process_has_the_document_open() {
     let it = killed("scenario-two");
     let found = only(&it.autosave);
     let kept = it.autosave.resume(&found, Claim::IfFree).unwrap().journal;
@@ -120,7 +120,7 @@ fn a_second_program_is_told_whom_it_meets() {
 }
 
 #[test]
-fn a_moved_document_is_missed_and_its_work_goes_on_where_it_is_now() {
+fn work_on_a_moved_document_continues_at_its_new_path() {
     let it = killed("scenario-moved");
     let moved = it.folder.join("moved.glb");
     fs::rename(&it.document, &moved).unwrap();
@@ -138,7 +138,7 @@ fn a_moved_document_is_missed_and_its_work_goes_on_where_it_is_now() {
 }
 
 #[test]
-fn what_was_saved_before_a_document_moved_stays_saved_where_it_is_now() {
+fn edits_saved_before_a_document_moved_still_count_as_saved() {
     let it = killed("scenario-moved-saved");
     let mut journal = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap().journal;
     save_document(&RealFiles, &mut journal, &it.document, b"saved", &SaveOptions::default()).unwrap();
@@ -177,7 +177,7 @@ fn what_was_saved_before_a_document_moved_stays_saved_where_it_is_now() {
 }
 
 #[test]
-fn a_save_that_failed_does_not_say_where_a_later_one_was() {
+fn a_failed_save_is_not_mistaken_for_a_later_one() {
     let it = killed("scenario-failed-save");
     let mut journal = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap().journal;
     let stamp = FileStamp::take(&RealFiles, &it.document).unwrap();
@@ -194,7 +194,7 @@ fn a_save_that_failed_does_not_say_where_a_later_one_was() {
 }
 
 #[test]
-fn a_document_changed_meanwhile_is_said_to_be() {
+fn a_document_changed_by_another_program_is_reported() {
     let it = killed("scenario-changed");
     fs::write(&it.document, "somebody else's work").unwrap();
     let found = only(&it.autosave);
@@ -225,7 +225,7 @@ fn a_deleted_document_can_be_saved_again() {
 }
 
 #[test]
-fn a_journal_last_had_on_another_machine_is_taken_only_on_request() {
+fn a_journal_owned_by_another_machine_is_claimed_only_on_request() {
     let folder = quick_folder("scenario-elsewhere");
     let autosave = autosave(&folder, RealFiles);
     let opened: (u8, &[u8]) = (3, br#"{"process":4711,"host":"the other machine"}"#);
@@ -249,7 +249,7 @@ fn a_journal_last_had_on_another_machine_is_taken_only_on_request() {
 }
 
 #[test]
-fn a_read_only_folder_takes_no_work_away() {
+fn a_read_only_folder_loses_no_work() {
     if !may_mount("read-only folder") {
         return;
     }
@@ -291,7 +291,7 @@ fn a_read_only_folder_takes_no_work_away() {
 }
 
 #[test]
-fn a_full_disk_is_said_to_be_full_and_nothing_counts_as_done() {
+fn a_full_disk_is_reported_and_no_edit_counts_as_done() {
     let folder = quick_folder("scenario-full");
     let error = autosave(&folder, FaultyFiles::from(1, Fault::Full)).begin(None, None).unwrap_err();
     assert!(error.to_string().ends_with("the disk is full"), "{error}");
@@ -321,7 +321,7 @@ fn a_journal_of_a_newer_program_is_left_alone() {
 }
 
 #[test]
-fn an_empty_journal_and_one_that_is_none_stop_nobody() {
+fn empty_or_invalid_journals_do_not_block_the_document() {
     let it = killed("scenario-empty");
     let path = only(&it.autosave).journal;
     fs::write(&path, "").unwrap();
@@ -348,7 +348,7 @@ fn an_empty_journal_and_one_that_is_none_stop_nobody() {
 }
 
 #[test]
-fn a_journal_cut_in_the_middle_of_a_record_gives_back_what_is_whole() {
+fn a_journal_cut_inside_a_record_returns_the_complete_records() {
     let it = killed("scenario-cut");
     let found = only(&it.autosave);
     let bytes = fs::read(&found.journal).unwrap();
@@ -361,7 +361,7 @@ fn a_journal_cut_in_the_middle_of_a_record_gives_back_what_is_whole() {
 }
 
 #[test]
-fn work_recovered_twice_is_all_there_and_only_once() {
+fn recovering_twice_returns_each_edit_once() {
     let it = killed("scenario-twice");
     for text in ["three", "four"] {
         let mut journal = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap().journal;
@@ -379,7 +379,7 @@ fn work_recovered_twice_is_all_there_and_only_once() {
 }
 
 #[test]
-fn the_format_is_the_one_that_is_described() {
+fn the_journal_format_matches_its_description() {
     let folder = quick_folder("scenario-format");
     let autosave = autosave(&folder, RealFiles);
     put(&autosave, &forged(1, &[(1, b"all"), (2, b"one"), (2, b"")]));
@@ -395,7 +395,7 @@ fn the_format_is_the_one_that_is_described() {
 }
 
 #[test]
-fn the_bin_and_the_journals_without_work_are_kept_to_a_bound() {
+fn the_bin_and_journals_without_work_are_limited_in_size() {
     let folder = quick_folder("scenario-bounds");
     let autosave = autosave(&folder, RealFiles);
     let stamp = replace(&folder.join("fox.glb"), b"saved").unwrap().stamp;

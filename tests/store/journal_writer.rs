@@ -3,7 +3,7 @@
 
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::random::Random;
-use dragonfly_kit::writer::{Found, LIMIT, Said, Writer, nanoseconds};
+use dragonfly_kit::writer::{Found, LIMIT, Writer, WriterReport, nanoseconds};
 use dragonfly_store::{
     Autosave, Claim, DocumentFileState, ExpectedFile, FileStamp, JournalEntry, Opening, RealFiles, Resumed,
     SaveOptions, save_document,
@@ -145,13 +145,13 @@ fn write_on(folder: &Path, say: &mut dyn FnMut(&str) -> bool) -> Worked {
 
 /// Looks at what there is after stop number `stop`, which must be whole and fit together.
 #[track_caller]
-pub(crate) fn check(folder: &Folder, said: &Said, stop: usize) -> Found {
+pub(crate) fn check(folder: &Folder, said: &WriterReport, stop: usize) -> Found {
     check_at(folder.path(), said, stop)
 }
 
 /// As [`check`].
 #[track_caller]
-pub(crate) fn check_at(folder: &Path, said: &Said, stop: usize) -> Found {
+pub(crate) fn check_at(folder: &Path, said: &WriterReport, stop: usize) -> Found {
     let path = folder.join("fox.glb");
     let Some(saved) = document_at(&path) else {
         assert_eq!((said.edits, said.saved), (0, 0), "stop {stop}: the document is gone");

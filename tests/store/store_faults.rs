@@ -87,7 +87,7 @@ fn prepared(all: &Folder, case: &Case) -> (PathBuf, PathBuf, Versions) {
 }
 
 #[test]
-fn every_call_that_can_fail_leaves_the_old_file_or_the_new_one() {
+fn a_failure_of_any_system_call_leaves_the_old_file_or_the_new_one() {
     let all = quick_folder("store-faults");
     let new = new();
     let mut runs = 0;
@@ -134,7 +134,7 @@ fn names_after(case: &Case, saved: &Result<dragonfly_store::SaveOutcome, FileSav
 }
 
 #[test]
-fn a_disk_that_fails_for_good_leaves_the_old_content_or_the_new_one_whole() {
+fn a_disk_that_keeps_failing_leaves_the_complete_old_or_new_content() {
     let all = quick_folder("store-faults-for-good");
     let new = new();
     for case in &CASES {
@@ -171,7 +171,7 @@ fn a_disk_that_fails_for_good_leaves_the_old_content_or_the_new_one_whole() {
 }
 
 #[test]
-fn what_another_program_writes_while_a_save_is_under_way_is_noticed_until_the_last_call() {
+fn writes_by_another_program_during_a_save_are_detected_until_the_last_call() {
     let all = quick_folder("store-meddling");
     let new = new();
     let theirs = b"what another program wrote meanwhile";
@@ -211,7 +211,7 @@ fn what_another_program_writes_while_a_save_is_under_way_is_noticed_until_the_la
 }
 
 #[test]
-fn what_another_program_makes_while_a_new_file_is_saved_is_never_overwritten() {
+fn a_file_that_another_program_creates_during_a_save_is_never_overwritten() {
     let all = quick_folder("store-meddling-new");
     let theirs = b"what another program made meanwhile";
     let mut met = 0;

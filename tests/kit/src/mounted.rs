@@ -30,7 +30,7 @@ impl Mounted {
 
     fn mount(at: &Path, arguments: &[&str]) -> Option<Self> {
         std::fs::create_dir_all(at).expect("a folder");
-        let is_mounted = said(Command::new("mount").args(arguments).arg(at));
+        let is_mounted = succeeds(Command::new("mount").args(arguments).arg(at));
         if !is_mounted {
             skip(TestNeed::FileSystem, format!("mount {arguments:?} is refused"));
         }
@@ -45,21 +45,21 @@ impl Mounted {
     /// Nothing can be written to it any more, or it can again.
     pub fn read_only(&self, read_only: bool) {
         let option = if read_only { "remount,ro" } else { "remount,rw" };
-        assert!(said(Command::new("mount").args(["-o", option]).arg(&self.0)));
+        assert!(succeeds(Command::new("mount").args(["-o", option]).arg(&self.0)));
     }
 }
 
 impl Drop for Mounted {
     fn drop(&mut self) {
-        if !said(Command::new("umount").arg(&self.0)) {
+        if !succeeds(Command::new("umount").arg(&self.0)) {
             // Something is still open: it goes when that is closed.
-            said(Command::new("umount").arg("-l").arg(&self.0));
+            succeeds(Command::new("umount").arg("-l").arg(&self.0));
         }
     }
 }
 
 /// Did the command succeed? What it complains of is printed.
-pub fn said(command: &mut Command) -> bool {
+pub fn succeeds(command: &mut Command) -> bool {
     match command.output() {
         Ok(output) if output.status.success() => true,
         Ok(output) => {

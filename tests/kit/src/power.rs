@@ -1,10 +1,10 @@
 //! Power cuts: a real file system of its own is stopped as if the machine had lost power, mounted again, and looked at.
 
 use crate::folder::{Folder, takes_long};
-use crate::mounted::{Mounted, may_mount, said};
+use crate::mounted::{Mounted, may_mount, succeeds};
 use crate::random::{Random, seed};
 use crate::skip::{TestNeed, skip};
-use crate::writer::{Found, Said, Writer, nanoseconds};
+use crate::writer::{Found, Writer, WriterReport, nanoseconds};
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -38,16 +38,16 @@ impl Cutter {
         let orders = child.stdin.take()?;
         let answers = BufReader::new(child.stdout.take()?);
         let mut cutter = Self { child, orders, answers };
-        cutter.hears("ready").then_some(cutter)
+        cutter.reads_answer("ready").then_some(cutter)
     }
 
-    fn hears(&mut self, word: &str) -> bool {
+    fn reads_answer(&mut self, word: &str) -> bool {
         let mut line = String::new();
         self.answers.read_line(&mut line).is_ok() && line.trim() == word
     }
 
     fn cut(&mut self, disk: &Mounted, flag: u32) -> bool {
-        writeln!(self.orders, "{flag} {}", disk.path().display()).is_ok() && self.hears("cut")
+        writeln!(self.orders, "{flag} {}", disk.path().display()).is_ok() && self.reads_answer("cut")
     }
 }
 
@@ -82,7 +82,7 @@ pub fn cut(
     name: &str,
     cuts: usize,
     work: fn(&Path) -> Writer,
-    look: fn(&Path, &Said, usize) -> Found,
+    look: fn(&Path, &WriterReport, usize) -> Found,
 ) -> Option<Cuts> {
     if !may_mount(name) {
         return None;
@@ -93,7 +93,7 @@ pub fn cut(
     let folder = Folder::new(name);
     let image = folder.join("disk.img");
     fs::File::create(&image).unwrap().set_len(64 << 20).unwrap();
-    if !said(Command::new("mkfs.ext4").args(["-q", "-F"]).arg(&image)) {
+    if !succeeds(Command::new("mkfs.ext4").args(["-q", "-F"]).arg(&image)) {
         skip(TestNeed::FileSystem, "no ext4 can be made");
         return None;
     }
@@ -114,7 +114,7 @@ pub fn cut(
         let began = nanoseconds(SystemTime::now());
         let flag = 1 + random.below(2) as u32;
         let is_cut = cutter.cut(&disk, flag);
-        let said = writer.kill_and_believe(began);
+        let said = writer.kill_and_read_until(began);
         drop(disk);
         if !is_cut {
             skip(TestNeed::FileSystem, "the power of this file system cannot be cut");

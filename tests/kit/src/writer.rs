@@ -23,7 +23,7 @@ pub fn nanoseconds(time: SystemTime) -> u128 {
 
 /// What the program said was done.
 #[derive(Debug, Default)]
-pub struct Said {
+pub struct WriterReport {
     /// Edits that counted as done.
     pub edits: u32,
     /// Of them, those said to be on the disk.
@@ -93,24 +93,24 @@ impl Writer {
     }
 
     /// Kills it; all that it said.
-    pub fn kill(self) -> Said {
-        self.kill_and_believe(u128::MAX)
+    pub fn kill(self) -> WriterReport {
+        self.kill_and_read_until(u128::MAX)
     }
 
     /// All that it said, once it ended because somebody else killed it.
-    pub fn ended(self) -> Said {
-        self.end_and_believe(u128::MAX)
+    pub fn ended(self) -> WriterReport {
+        self.end_and_read_until(u128::MAX)
     }
 
     /// Kills it; what it said was done before `end`, in [`nanoseconds`].
-    pub fn kill_and_believe(mut self, end: u128) -> Said {
+    pub fn kill_and_read_until(mut self, end: u128) -> WriterReport {
         self.child.kill().expect("it runs");
-        self.end_and_believe(end)
+        self.end_and_read_until(end)
     }
 
-    fn end_and_believe(mut self, end: u128) -> Said {
+    fn end_and_read_until(mut self, end: u128) -> WriterReport {
         self.child.wait().expect("it ends");
-        let mut said = Said::default();
+        let mut said = WriterReport::default();
         // What was in the pipe was said before it was killed.
         for line in self.early.drain(..).chain(self.lines.iter()) {
             let Some((rest, time)) = line.rsplit_once(' ') else { continue };

@@ -56,7 +56,7 @@ impl Subscriber for Listener {
     }
 
     fn event(&self, event: &Event<'_>) {
-        let mut said = Said(String::new());
+        let mut said = EventText(String::new());
         event.record(&mut said);
         if said.0.contains(WORDS) {
             COMPLAINTS.fetch_add(1, Ordering::Relaxed);
@@ -76,9 +76,9 @@ impl Subscriber for Listener {
 }
 
 /// Everything an event says, in a row.
-struct Said(String);
+struct EventText(String);
 
-impl Visit for Said {
+impl Visit for EventText {
     fn record_debug(&mut self, field: &Field, value: &dyn Debug) {
         let _ = write!(self.0, "{field}={value:?} ");
     }

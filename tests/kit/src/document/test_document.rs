@@ -17,9 +17,9 @@ use std::time::{Duration, Instant};
 const SOON: Duration = Duration::from_secs(60);
 
 #[derive(Clone, Default)]
-struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+struct RecordedReplies(Rc<RefCell<Vec<DocumentReply>>>);
 
-impl Receiver for Heard {
+impl Receiver for RecordedReplies {
     type Message = DocumentReply;
 
     fn receive(&mut self, reply: DocumentReply, _thread: &mut Context) {
@@ -28,9 +28,9 @@ impl Receiver for Heard {
 }
 
 #[derive(Clone, Default)]
-struct Shown(Rc<RefCell<Option<View>>>);
+struct LatestView(Rc<RefCell<Option<View>>>);
 
-impl Receiver for Shown {
+impl Receiver for LatestView {
     type Message = View;
 
     fn receive(&mut self, view: View, _thread: &mut Context) {
@@ -39,11 +39,11 @@ impl Receiver for Shown {
 }
 
 /// The document, and who listens to it.
-pub struct Desk {
+pub struct TestDocument {
     main: Captured,
     document: DocumentHandle,
-    heard: Heard,
-    shown: Shown,
+    heard: RecordedReplies,
+    shown: LatestView,
 }
 
 /// An autosave folder of a test.
@@ -104,7 +104,7 @@ pub fn rename(name: &str) -> Edit {
     Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() })
 }
 
-impl Desk {
+impl TestDocument {
     /// A document that keeps its journals in `autosave`.
     pub fn new(autosave: &Path) -> Self {
         Self::with(Setup { autosave: Some(autosave_in(autosave)), ..Setup::default() })
@@ -112,7 +112,7 @@ impl Desk {
 
     /// Starts a document with `setup`.
     pub fn with(setup: Setup) -> Self {
-        let (heard, shown) = (Heard::default(), Shown::default());
+        let (heard, shown) = (RecordedReplies::default(), LatestView::default());
         let mut main = Thread::capture("main", || {});
         let replies = main.context().register_receiver(heard.clone());
         let picture = main.context().register_receiver(shown.clone());
@@ -122,7 +122,7 @@ impl Desk {
 
     /// Waits for something that it says, and takes it.
     #[track_caller]
-    pub fn hears<T>(&mut self, mut what: impl FnMut(&DocumentReply) -> Option<T>) -> T {
+    pub fn wait_for_reply<T>(&mut self, mut what: impl FnMut(&DocumentReply) -> Option<T>) -> T {
         let mut found = None;
         let heard = Rc::clone(&self.heard.0);
         let deadline = Instant::now() + SOON;
@@ -133,21 +133,21 @@ impl Desk {
                 found = what(&heard.remove(place));
             }
             drop(heard);
-            assert!(found.is_some() || Instant::now() < deadline, "heard only {:#?}", self.said());
+            assert!(found.is_some() || Instant::now() < deadline, "heard only {:#?}", self.unread_replies());
             std::thread::park_timeout(Duration::from_millis(1));
         }
         found.expect("found")
     }
 
     /// Everything that it said so far and nobody took.
-    pub fn said(&mut self) -> Vec<String> {
+    pub fn unread_replies(&mut self) -> Vec<String> {
         self.main.iterate();
         let heard = self.heard.0.borrow();
         heard.iter().filter(|reply| !is_large(reply)).map(|reply| format!("{reply:?}")).collect()
     }
 
     /// Sends a message to the document.
-    pub fn tell(&self, message: DocumentMessage) {
+    pub fn send(&self, message: DocumentMessage) {
         assert!(self.document.send(message));
     }
 
@@ -161,22 +161,22 @@ impl Desk {
     #[track_caller]
     pub fn open_source(&mut self, source: Source) -> View {
         let before = self.shown.0.borrow().as_ref().map_or(0, |view| view.generation);
-        self.tell(DocumentMessage::Open { source, anyway: true });
-        self.hears(|reply| match reply {
+        self.send(DocumentMessage::Open { source, anyway: true });
+        self.wait_for_reply(|reply| match reply {
             DocumentReply::Opened(_) => Some(()),
             DocumentReply::Failed { reason, .. } => panic!("{reason}"),
             _ => None,
         });
-        self.shows(|view| view.generation > before)
+        self.wait_for_view(|view| view.generation > before)
     }
 
     /// Waits until this is shown.
     #[track_caller]
-    pub fn shows(&mut self, what: impl Fn(&View) -> bool) -> View {
+    pub fn wait_for_view(&mut self, what: impl Fn(&View) -> bool) -> View {
         let deadline = Instant::now() + SOON;
         while !self.shown.0.borrow().as_ref().is_some_and(&what) {
             self.main.iterate();
-            assert!(Instant::now() < deadline, "it is not shown; heard {:#?}", self.said());
+            assert!(Instant::now() < deadline, "it is not shown; heard {:#?}", self.unread_replies());
             std::thread::park_timeout(Duration::from_millis(1));
         }
         let view = self.shown.0.borrow().clone();
@@ -186,18 +186,18 @@ impl Desk {
     /// The newest view, behind everything that was told so far.
     #[track_caller]
     pub fn view(&mut self) -> View {
-        self.tell(DocumentMessage::Plan(None));
-        self.hears(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
+        self.send(DocumentMessage::Plan(None));
+        self.wait_for_reply(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
         // A view goes out at the end of the iteration, so another question is behind it.
-        self.tell(DocumentMessage::Plan(None));
-        self.hears(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
+        self.send(DocumentMessage::Plan(None));
+        self.wait_for_reply(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
         self.main.iterate();
         self.shown.0.borrow().clone().expect("something is open")
     }
 
     /// Sends a change to the document.
     pub fn change(&self, change: Change) {
-        self.tell(DocumentMessage::Change(change));
+        self.send(DocumentMessage::Change(change));
     }
 
     /// Sends an edit as a step of its own.
@@ -208,8 +208,8 @@ impl Desk {
     /// Saves, which must succeed.
     #[track_caller]
     pub fn save(&mut self, to: SaveTo) -> SavedFile {
-        self.tell(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
-        self.hears(|reply| match reply {
+        self.send(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
+        self.wait_for_reply(|reply| match reply {
             DocumentReply::Saved(saved) => Some(saved.clone()),
             DocumentReply::NotSaved(_, reason) => panic!("{reason:?}"),
             _ => None,
@@ -218,15 +218,15 @@ impl Desk {
 
     /// The unsaved work that it offers.
     #[track_caller]
-    pub fn offered(&mut self) -> Vec<Offer> {
-        self.hears(|reply| match reply {
+    pub fn wait_for_offers(&mut self) -> Vec<Offer> {
+        self.wait_for_reply(|reply| match reply {
             DocumentReply::Offers(offers) => Some(offers.clone()),
             _ => None,
         })
     }
 
     /// The unsaved work that it has offered so far.
-    pub fn offered_already(&mut self) -> Vec<Offer> {
+    pub fn offers_so_far(&mut self) -> Vec<Offer> {
         self.main.iterate();
         let mut heard = self.heard.0.borrow_mut();
         let place = heard.iter().position(|reply| matches!(reply, DocumentReply::Offers(_)));
@@ -238,8 +238,8 @@ impl Desk {
 
     /// Waits for a sentence with this in it.
     #[track_caller]
-    pub fn warned(&mut self, word: &str) -> String {
-        self.hears(|reply| match reply {
+    pub fn wait_for_warning(&mut self, word: &str) -> String {
+        self.wait_for_reply(|reply| match reply {
             DocumentReply::Warning(text) | DocumentReply::Notice(text) if text.contains(word) => {
                 Some(text.clone())
             }
@@ -253,7 +253,7 @@ impl Desk {
     }
 }
 
-impl Drop for Desk {
+impl Drop for TestDocument {
     fn drop(&mut self) {
         self.document.stop();
         let ended = Thread::wait_for(&[self.document.thread().clone()], Instant::now() + SOON);
