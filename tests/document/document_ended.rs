@@ -1,5 +1,5 @@
-//! A document whose program is killed, in whatever way and at any moment, or whose power is cut, loses nothing that was
-//! said to be done; after a power cut, nothing that is older than a second.
+//! A document whose program is killed in any way at any moment loses no edit that was reported as done; after a power
+//! cut it loses at most the edits of the last second.
 
 use crate::document_writer::{
     DocumentAction, action, apply_action, is_writer, recover, start, start_counting,
@@ -18,7 +18,7 @@ use rustix::process::{Pid, Signal, kill_process};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Is what is shown what these deeds make?
+/// Returns whether the view shows exactly the state of `edited`.
 fn is_shown(edited: &Edited, view: &View) -> bool {
     let slots = edited.adapter().slots();
     let history = HistoryView::of(edited);
@@ -30,7 +30,7 @@ fn is_shown(edited: &Edited, view: &View) -> bool {
             == (view.history.done, &view.history.steps, view.history.saved)
 }
 
-/// A deed in a few words.
+/// Describes action number `number` of the script in a few words.
 fn describe_action(number: u32) -> String {
     let what = match action(number) {
         DocumentAction::Change(Change::Edit(edit, gesture)) => format!("{} {gesture:?}", edit.label()),
@@ -53,7 +53,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
     let path = fox_at(&folder.join("Fox.glb"));
     let loaded = load_model(&Source::File(data("gltf/Fox.glb")), &mut |_| (), &Cancel::default()).unwrap();
     assert!(path.is_file());
-    // What was had back last, and how many deeds that was.
+    // The document recovered last, and the number of actions that led to it.
     let (mut kept, mut number) = (Edited::new(ModelAdapter::new(&loaded.model.animation)), 0);
     let began = Instant::now();
     let signals = [Signal::KILL, Signal::TERM, Signal::HUP, Signal::INT];
@@ -61,7 +61,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
     let mut in_a_drag = 0;
     for kill in 0..kills {
         let mut writer = start(test, folder.path(), number);
-        // Some while it starts, most while it works.
+        // Some kills come while it starts, most while it works.
         let patience = if random.below(6) == 0 {
             Duration::from_millis(random.below(150) as u64)
         } else {
@@ -74,7 +74,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
         kill_process(process, signal).expect("it runs");
         let said = writer.ended();
         let said = said.edits.max(number);
-        // All that was said, and of the one that was under way all or nothing.
+        // Every action that was reported must be there; the one in progress may be there or not.
         let mut candidates = Vec::new();
         let mut edited = kept.clone();
         for at in number..said {
@@ -97,7 +97,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
             );
         };
         (number, kept) = (at, edited);
-        // Of a drag before it nobody goes on.
+        // A drag that was in progress at the kill is over.
         kept.end_gesture();
     }
     println!("{kills} kills, {number} deeds, {in_a_drag} in the midst of a drag: {:?}", began.elapsed());
@@ -116,7 +116,7 @@ fn a_power_cut_costs_a_document_at_most_a_second_of_edits() {
     let look = |folder: &Path, said: &WriterReport, cut: usize| {
         let (mut desk, number) = recover(folder);
         let view = desk.view();
-        // Nothing is missing in between; of very many steps the oldest are forgotten.
+        // No step in between is missing; of very many steps the oldest are dropped.
         let steps = (number as usize).min(MAX_STEPS);
         assert_eq!(view.history.done, steps, "cut {cut}, said {} edits", said.edits);
         Found { edits: number, saved: 0 }

@@ -1,4 +1,4 @@
-//! The document thread opens, fails, gives up, and always says so.
+//! The document thread opens models, reports errors, can be cancelled, and always sends a reply.
 
 use dragonfly_anim::data::Image;
 use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
@@ -25,7 +25,7 @@ impl Receiver for ReplyRecorder {
     }
 }
 
-/// What is shown; in these tests by whichever thread.
+/// Records the views that are sent to the main or the graphics thread.
 #[derive(Clone, Default)]
 struct Picture(Rc<RefCell<Vec<View>>>);
 
@@ -91,7 +91,7 @@ fn the_open_model_stays_open_when_loading_another_file_fails() {
     Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
 }
 
-/// The head of a PNG that claims to be this large.
+/// Returns the header of a PNG that declares this size.
 fn claims(width: u32, height: u32) -> Image {
     let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec();
     bytes.extend(width.to_be_bytes());
@@ -178,7 +178,7 @@ fn a_hundred_importer_panics_are_reported_and_the_document_keeps_running() {
             heard.iter().filter(failed).count() == number
         });
     }
-    // It still opens what can be opened.
+    // The document still opens valid files.
     document.open(Source::BuiltIn);
     wait(&|heard| views(heard) == 2);
     document.stop();
@@ -195,7 +195,7 @@ fn opens_anything(
     Ok(LoadedModel { title: source.title(), ..loaded }.into())
 }
 
-/// The three threads, turned by hand.
+/// The three threads, whose iterations are run by the test.
 struct Bench {
     stage: Stage,
     main: ThreadHandle,
@@ -219,15 +219,15 @@ impl Bench {
         Self { stage, main, thread, graphics, document, heard, picture }
     }
 
-    /// Opens a file, up to the change that this is; the iteration of the document's thread goes on.
+    /// Opens a file and returns the change that reports it; the iteration of the document thread is not finished yet.
     fn change(&mut self, name: &str) {
         self.document.open(Source::File(name.into()));
         assert!(self.stage.deliver(&self.thread, 0), "what was asked for");
-        // The job answers from a thread of its own.
+        // The job replies from its own thread.
         eventually(Duration::from_secs(30), || self.stage.deliver(&self.thread, 0));
     }
 
-    /// Turns the main thread once: the views that came, and the models that were said to be open.
+    /// Runs one iteration of the main thread. Returns the received views and the models reported as open.
     fn deliver(&mut self) -> (Vec<(u64, String)>, Vec<String>) {
         self.stage.iterate(&self.main);
         let (mut views, mut opened) = (Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! What edits cost: memory and time in proportion to what they touch.
+//! Costs of edits: memory and time in proportion to the keys that they touch.
 
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
 use dragonfly_document::adapter::ModelAdapter;
@@ -10,7 +10,7 @@ use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A take of so many bones with so many keys in each of their channels; one column of times.
+/// Returns a take with `bones` bones and `keys` keys in each of their channels, which share one column of times.
 fn model(bones: u32, keys: usize) -> AnimationData {
     let bone = |bone: u32| Bone {
         name: format!("bone {bone}"),
@@ -65,7 +65,7 @@ fn the_memory_of_an_edit_is_proportional_to_the_keys_it_touches() {
         });
         peak
     };
-    // A column of rotations, and what says which columns there are: 128 bytes a bone.
+    // A column of rotations, and the table of columns: 128 bytes per bone.
     let (few, many) = (kept(10), kept(500));
     assert!(few < 3 * 2000 * 16, "{few}");
     assert!(many - few < 500 * 1000, "{few} with 10 bones, {many} with 500");
@@ -83,11 +83,11 @@ fn a_mouse_move_in_a_drag_allocates_a_constant_amount() {
             let edit = Edit::SetPose(SetPose { take: TakeRef::Index(0), time, poses, unstep: true });
             let (count, done) = counting::count(|| edited.apply(edit, Some(Gesture(1))));
             done.unwrap();
-            // Until there is memory for what is shown at the same time, it is asked for.
+            // Memory for the copies that are shown at the same time is allocated first.
             if step >= 8 {
                 most = most.max(count.bytes);
             }
-            // The panels and the picture show one state each.
+            // The panels and the viewport each show one state.
             if shown.len() == 2 {
                 shown.remove(0);
             }

@@ -1,4 +1,4 @@
-//! Edits: what each does.
+//! Tests of what each edit does.
 
 use dragonfly_anim::data::{Interpolation, Take, Transform};
 use dragonfly_anim::sample::sample_take;
@@ -23,7 +23,7 @@ fn sampled(model: &ModelAdapter, take: &Take, time: f32) -> Vec<Transform> {
     poses
 }
 
-/// Largest difference of two poses in any number; rotations with either sign.
+/// Returns the largest difference of two poses in any number; q and -q count as the same rotation.
 fn apart(a: &[Transform], b: &[Transform]) -> f32 {
     let of = |(a, b): (&Transform, &Transform)| {
         let turn = (a.rotation - b.rotation).length().min((a.rotation + b.rotation).length());
@@ -59,16 +59,16 @@ fn setting_a_value_changes_the_result_and_not_the_original() {
     let track = &slot.result.tracks[0];
     assert_eq!(track.translation.values[2], Vec3::new(1.0, 2.0, 3.0));
     assert!((track.rotation.values[2] - turn).length() < 1e-6);
-    // A product cannot reach every number; the nearest one is a last bit away.
+    // A product cannot reach every number; the nearest one differs in the last bit.
     assert!((track.scale.values[2] - Vec3::new(2.0, 0.5, 1.0)).abs().max_element() < 2e-7);
     assert_eq!(*slot.original, *before);
     assert_eq!(slot.changes(0, Property::Translation).len(), 1);
-    // What was not touched is the same memory.
+    // Untouched data is shared memory.
     assert!(Arc::ptr_eq(&track.translation.times, &before.tracks[0].translation.times));
     assert!(Arc::ptr_eq(&slot.result.tracks[1].rotation.values, &before.tracks[1].rotation.values));
 }
 
-/// In the take "stand": bone, seconds, metres along x.
+/// Returns an edit that poses a bone in the take "stand": bone, seconds, meters along x.
 fn stands(name: &str, time: f32, x: f32, unstep: bool) -> Edit {
     let wanted = BonePose { translation: Some([x, 0.0, 0.0]), ..pose(name) };
     Edit::SetPose(SetPose { take: TakeRef::Name("stand".to_owned()), time, poses: vec![wanted], unstep })
@@ -88,7 +88,7 @@ fn a_pose_on_a_constant_step_channel_is_interpolated() {
     let (at, middle) = between(&model, 1);
     assert_eq!(at, before);
     assert!((middle - (before + Vec3::new(9.0, 0.0, 0.0)) * 0.5).length() < 1e-5, "{middle}");
-    // Only the channel that got a pose; and only where the edit says so.
+    // Only the channel that got a pose is changed, and only if the edit requests it.
     let track = &model.slots()[2].result.tracks[1];
     assert_eq!(track.rotation.interpolation, Interpolation::Step);
     model.apply(&stands("root", 0.5, 9.0, false)).unwrap();
@@ -98,12 +98,12 @@ fn a_pose_on_a_constant_step_channel_is_interpolated() {
 
 #[test]
 fn deliberate_step_keys_stay_step_keys() {
-    // Keys one by one: a pose that holds, then another one.
+    // Keys set one at a time: a pose that holds, then another one.
     let mut model = model(41);
     model.apply(&stands("hip", 0.5, 9.0, false)).unwrap();
     model.apply(&stands("hip", 0.7, 3.0, true)).unwrap();
     assert_eq!(model.slots()[2].result.tracks[1].translation.interpolation, Interpolation::Step);
-    // More than two keys, however alike.
+    // More than two keys, even if they are equal.
     let hand = BonePose { translation: Some([1.0; 3]), ..pose("hand.L") };
     model
         .apply(&Edit::SetPose(SetPose { take: walk(), time: 0.3, poses: vec![hand], unstep: true }))
@@ -203,7 +203,7 @@ fn keys_added_on_the_curve_do_not_change_the_motion() {
     for step in 0..=100 {
         let time = step as f32 * 0.01;
         let (old, new) = (sampled(&model, &before, time), sampled(&model, &model.slots()[0].result, time));
-        // A rotation's spline is normalised between its keys, so a new key bends it a little.
+        // The spline of a rotation is normalized between its keys, so a new key changes the curve slightly.
         let bound = if (old[1].rotation - new[1].rotation).length() > 2e-5 { 0.05 } else { 2e-5 };
         assert!(apart(&old, &new) < bound, "{time}: {}", apart(&old, &new));
     }

@@ -1,4 +1,4 @@
-//! What is not saved is never lost: what a document's thread does with its journal.
+//! Unsaved work is never lost: how the document thread uses its journal.
 
 use dragonfly_document::history::Gesture;
 use dragonfly_document::{
@@ -43,7 +43,7 @@ fn work_of_a_killed_program_is_offered_and_recovered_with_its_history() {
     desk.edit(turn(0.5));
     desk.edit(rename("Look around"));
     desk.edit(turn(0.9));
-    // A drag is one step, however many edits it was.
+    // A drag is one step, however many edits it contains.
     for angle in 1..50 {
         desk.change(Change::Edit(turn(angle as f32 * 0.02), Some(Gesture(1))));
     }
@@ -60,7 +60,7 @@ fn work_of_a_killed_program_is_offered_and_recovered_with_its_history() {
     assert_eq!(
         offer.labels,
         ["Pose", "Rename take", "Pose"].map(|label| {
-            // Whatever a pose is called there, it is called here.
+            // All names of a pose edit count as one here.
             if label == "Pose" { before.history.steps[0] } else { label }
         })
     );
@@ -70,20 +70,20 @@ fn work_of_a_killed_program_is_offered_and_recovered_with_its_history() {
     same_takes(&before, &after);
     assert_eq!(before.history, after.history);
     assert!(!after.history.saved);
-    // Forth and back through all of it.
+    // Undo and redo through the whole history.
     desk.change(Change::Redo);
     assert_eq!(desk.view().history.done, 4);
     desk.change(Change::GoTo(0));
     same_takes(&desk.view(), &opened);
     assert!(desk.view().history.saved);
-    // A gesture of now is none of then.
+    // A gesture of this run is not one of the earlier run.
     desk.change(Change::GoTo(4));
     desk.change(Change::Edit(turn(0.3), Some(Gesture(1))));
     assert_eq!(desk.view().history.done, 5);
     assert_eq!(fs::read(&path).unwrap(), bytes, "the file itself was not touched");
     desk.end();
 
-    // Nothing was decided about saving, so it is offered once more.
+    // The user has not decided yet, so the work is offered again.
     let mut desk = TestDocument::new(&folder.join("second"));
     desk.open(&path);
     assert_eq!(desk.wait_for_offers()[0].steps, 5);
@@ -112,14 +112,14 @@ fn the_history_survives_saving_closing_and_starting_again() {
             "{round}"
         );
         same_takes(&before, &after);
-        // The first takes come back, although the file does not hold them any more.
+        // Undo restores the first takes, although the file no longer contains them.
         desk.change(Change::GoTo(0));
         let first = desk.view();
         same_takes(&first, &opened);
         assert!(!first.history.saved);
         desk.change(Change::GoTo(3));
         assert!(desk.view().history.saved);
-        // Back where it was saved nothing needs to be asked or offered.
+        // Back at the saved state, nothing is asked or offered.
         desk.send(DocumentMessage::Quit);
         assert!(!desk.wait_for_reply(|reply| match reply {
             DocumentReply::Unsaved(_) => Some(true),
@@ -128,7 +128,7 @@ fn the_history_survives_saving_closing_and_starting_again() {
         }));
         desk.end();
     }
-    // What is undone after all that is saved as the first file's takes again.
+    // After undoing everything, saving writes the takes of the first file again.
     let mut desk = TestDocument::new(&autosave);
     desk.open(&path);
     desk.change(Change::GoTo(0));
@@ -165,7 +165,7 @@ fn edits_of_the_built_in_model_are_recovered_without_a_file() {
     desk.edit(rename("Hang"));
     let before = desk.view();
     killed(&folder.join("first"), &folder.join("second"));
-    // Offered at the start, whatever is opened.
+    // Offered at the start, whichever file is opened.
     let mut desk = TestDocument::new(&folder.join("second"));
     let offer = desk.wait_for_offers().remove(0);
     assert_eq!((offer.title.as_str(), offer.steps), ("Dragonfly (recovered)", 2));
@@ -196,7 +196,7 @@ fn work_opened_separately_is_a_new_document_and_the_original_is_unchanged() {
     assert!(!desk.view().history.saved, "it is in no file");
     desk.change(Change::Redo);
     desk.view();
-    // Killed again, both can be had back, and the one beside is the same.
+    // After another kill both can be recovered, and the separate document is unchanged.
     killed(&folder.join("second"), &folder.join("third"));
     let mut third = TestDocument::new(&folder.join("third"));
     let offers = third.wait_for_offers();
@@ -206,7 +206,7 @@ fn work_opened_separately_is_a_new_document_and_the_original_is_unchanged() {
     let again = third.wait_for_view(|view| view.history.done == 1);
     same_takes(&before, &again);
     assert_eq!(again.file.path, None);
-    // It is saved where the person says, and the first file is as it was.
+    // It is saved to the path that the user chose, and the first file is unchanged.
     let bytes = fs::read(&path).unwrap();
     let copy = folder.join("Fox 2.glb");
     third.save(SaveTo::As(copy.clone()));
@@ -245,7 +245,7 @@ fn discarded_work_is_moved_to_the_bin_and_not_offered_again() {
     third.open(&path);
     let offer = third.wait_for_offers().remove(0);
     assert_eq!(offer.labels, ["Rename take"]);
-    // Of what was saved and then undone it is said that it was.
+    // Work that was saved and then undone is reported as such.
     third.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
     third.wait_for_view(|view| view.history.done == 1);
     third.save(SaveTo::Own);
@@ -298,7 +298,7 @@ fn two_programs_with_one_file_are_warned_and_both_record_their_edits() {
     killed(&autosave, &folder.join("second"));
     let mut third = TestDocument::new(&folder.join("second"));
     assert_eq!(third.wait_for_offers().len(), 2);
-    // Whoever saves last is warned.
+    // The program that saves last is warned.
     one.save(SaveTo::Own);
     two.send(DocumentMessage::Save(dragonfly_document::SaveOrder::own(None)));
     let reason = two.wait_for_reply(|reply| match reply {
@@ -308,7 +308,7 @@ fn two_programs_with_one_file_are_warned_and_both_record_their_edits() {
     assert_eq!(reason, dragonfly_document::NotSaved::Changed);
 }
 
-/// Fails at a change.
+/// A fault plan that panics at a change.
 #[derive(Debug)]
 struct FailAt(AtomicU32);
 
@@ -339,7 +339,7 @@ fn a_panic_in_the_document_thread_loses_no_work_and_offers_it() {
     desk.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
     let after = desk.wait_for_view(|view| view.generation > before.generation && view.history.done == 3);
     same_takes(&before, &after);
-    // It goes on as before.
+    // The document continues as before.
     desk.edit(turn(0.1));
     desk.save(SaveTo::Own);
     assert!(desk.view().history.saved);
@@ -396,7 +396,7 @@ fn a_temporary_disk_failure_at_any_call_loses_no_step() {
             let mut after = TestDocument::new(&second);
             after.open(&path);
             if troubled && !said.iter().any(|said| said.contains("not being recorded")) {
-                // It was said that nothing is recorded.
+                // A warning reported that nothing is recorded.
                 continue;
             }
             println!("{said:?}: {:?}", autosave_in(&second).recoverable());
@@ -407,7 +407,7 @@ fn a_temporary_disk_failure_at_any_call_loses_no_step() {
     }
 }
 
-/// Any edits, undos, saves; killed at any moment, what comes back is what was there.
+/// Random edits, undos and saves; after a kill at any moment, the recovered document equals the one before the kill.
 #[test]
 fn random_edits_are_recovered_after_a_kill_at_any_moment() {
     let seed = seed(11);
@@ -458,7 +458,7 @@ fn random_edits_are_recovered_after_a_kill_at_any_moment() {
     }
 }
 
-/// The name of a file is not what it is: where it holds what it held, the work goes on there.
+/// A file is identified by its content, not by its name: work continues on a moved file with the same content.
 #[test]
 fn work_on_a_moved_file_continues_at_its_new_path() {
     let folder = Folder::new("keeping-moved");
@@ -482,7 +482,7 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
     assert!(offer.warnings()[0].contains("The file is missing"), "{:?}", offer.warnings());
     let found_at =
         |path: &std::path::Path| DocumentMessage::FoundAt(Box::new(offer.clone()), path.to_owned());
-    // Another file is noticed, and one that is not there.
+    // A different file is detected, and so is a missing one.
     let other = folder.join("other.glb");
     fs::copy(dragonfly_kit::folder::data("gltf/Fox.glb"), &other).unwrap();
     desk.send(found_at(&other));
@@ -502,14 +502,14 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
     assert_eq!((after.file.title.as_str(), after.file.path.as_deref()), ("renamed.glb", Some(&*moved)));
     assert_eq!(fs::read(&moved).unwrap(), bytes, "nobody saved");
     desk.wait_for_warning("Restored the unsaved work of renamed.glb: 2 steps");
-    // Killed again it is offered for the file where it is now, and only once.
+    // After another kill it is offered for the new path of the file, and only once.
     let third = folder.join("third");
     killed(&second, &third);
     let mut again = TestDocument::new(&third);
     let offers = again.wait_for_offers();
     assert_eq!(offers.iter().map(|offer| &*offer.title).collect::<Vec<_>>(), ["renamed.glb"]);
     assert!(offers[0].can_be_kept());
-    // And what was saved before it was moved still counts as saved.
+    // Edits saved before the move still count as saved.
     again.send(DocumentMessage::Decide(Box::new(offers[0].clone()), Decision::Keep));
     assert_eq!(again.wait_for_view(|view| view.history.done == 3).history, before.history);
     again.end();
@@ -523,7 +523,7 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
     same_takes(&desk.view(), &opened);
 }
 
-/// Where the file is gone for good, the work is done again on another one that is like it, as a document of its own.
+/// If the file is deleted, the work can be applied to a similar file, as a new document.
 #[test]
 fn work_on_a_deleted_file_can_be_applied_to_a_similar_file() {
     let folder = Folder::new("keeping-gone");
@@ -533,7 +533,7 @@ fn work_on_a_deleted_file_can_be_applied_to_a_similar_file() {
     desk.edit(turn(0.5));
     let before = desk.view();
     killed(&folder.join("first"), &folder.join("second"));
-    // Another version of it.
+    // Another version of the file.
     let other = folder.join("older.glb");
     desk.edit(rename("An older one"));
     desk.change(Change::Undo);

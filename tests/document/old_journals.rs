@@ -1,7 +1,7 @@
-//! What an earlier version of the program recorded is had back for ever. The records are kept as text, and put into the
-//! format of their time by code of the tests' own.
+//! Work recorded by earlier versions of the program can always be recovered. The records are stored as text, and
+//! encoded in the format of their version by separate code in the tests.
 //!
-//! For each version of the vocabulary of edits that was given out there is a file, which is never changed again.
+//! There is one file for each released version of the vocabulary of edits; it is never changed again.
 
 use dragonfly_document::edit::{EDITS, Edit, RenameTake, TakeRef};
 use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, View};
@@ -12,13 +12,13 @@ use dragonfly_store::{FileStamp, RealFiles};
 use std::fs;
 use std::path::Path;
 
-/// Every edit of the first vocabulary, each of which changes something in Fox.
+/// Every edit of the first vocabulary. Each of them changes something in Fox.
 fn first_edits() -> Vec<String> {
     let text = fs::read_to_string(data("journals/edits-1.jsonl")).unwrap();
     text.lines().map(str::to_owned).collect()
 }
 
-/// Opens Fox beside a journal with these records, and takes the work of so many steps back.
+/// Opens Fox with a journal that contains these records, and recovers the given number of steps.
 fn had_back(name: &str, records: &[(u8, &[u8])], steps: usize) -> (TestDocument, View) {
     let folder = Folder::new(name);
     let path = fox(&folder);
@@ -40,7 +40,8 @@ fn header(path: &Path) -> String {
     serde_json::json!({"number": 77, "document": path, "stamp": stamp}).to_string()
 }
 
-/// Names of takes, milliseconds, keys; as `dragonfly info` told them when the edits were written down.
+/// Names of takes, lengths in milliseconds and numbers of keys, as `dragonfly info` printed them when the records
+/// were stored.
 fn takes(view: &View) -> Vec<(String, i32, usize)> {
     let keys = |take: &dragonfly_anim::data::Take| {
         let of = |track: &dragonfly_anim::data::Track| {
@@ -111,7 +112,7 @@ fn a_snapshot_of_every_version_is_restored() {
     assert_eq!(takes(&view), first_takes());
 }
 
-/// The file grows with the vocabulary until that is given out; after that a new one begins.
+/// Until a release the file grows with the vocabulary; after that a new file is started.
 #[test]
 fn every_edit_type_occurs_in_the_stored_records() {
     let kind = |json: &str| {
@@ -130,7 +131,7 @@ fn every_edit_type_occurs_in_the_stored_records() {
     }
 }
 
-/// The same, where a number may have become the nearest one of 32 bits.
+/// Returns whether two values are equal, where a number may have been rounded to 32 bits.
 fn alike(now: &serde_json::Value, was: &serde_json::Value) -> bool {
     use serde_json::Value::{Array, Number, Object};
     match (now, was) {

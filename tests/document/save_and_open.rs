@@ -1,4 +1,4 @@
-//! What was edited, saved and opened again is what was edited: every key of every take, to the bit.
+//! Saving and reopening preserves every key of every take to the bit.
 
 use crate::undo::{any_edit, same_take};
 use dragonfly_document::adapter::ModelAdapter;
@@ -33,7 +33,8 @@ fn models(folder: &Folder) -> Vec<PathBuf> {
     models
 }
 
-/// Tracks without keys say nothing, and a file does not keep them. Bones go by the number of their node: a node that is
+/// Tracks without keys have no effect, and a file does not store them. Bones are numbered by their nodes: a node that
+/// is
 /// no joint is a bone while something animates it, so deleting its last key moves the numbers of the others.
 fn with_keys(take: &Take, skeleton: &Skeleton) -> Take {
     let mut take = take.clone();
@@ -114,7 +115,7 @@ fn any_edits_saved_and_opened_again_give_the_same_takes() {
     assert!(saved_edits > 100, "only {saved_edits} edits could be done");
 }
 
-/// Where two takes part, in a line.
+/// Describes the first difference of two takes in one line.
 fn difference(now: &Take, then: &Take) -> String {
     if now.name != then.name || (now.start, now.length) != (then.start, then.length) {
         let range = |take: &Take| format!("{:?} {}+{}", take.name, take.start, take.length);

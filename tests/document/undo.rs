@@ -1,4 +1,4 @@
-//! Undo and redo: to the bit, whatever was done, and by the gesture.
+//! Undo and redo are exact to the bit for all edits, and work by gesture.
 
 use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
 use dragonfly_document::adapter::{ModelAdapter, TakeVersions};
@@ -12,12 +12,12 @@ use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// Any edit, sensible or not, of a model with this number of takes and these bones.
+/// Returns a random edit, valid or not, of a model with this number of takes and these bones.
 pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> Edit {
     Arbitrary::new(&mut || random.bits(), takes, bones).edit()
 }
 
-/// Are two documents the same in everything that can be seen, every number to the bit?
+/// Returns whether two documents are equal in all visible data, every number to the bit.
 fn same(a: &ModelAdapter, b: &ModelAdapter) -> bool {
     let slots = a.slots().len() == b.slots().len();
     slots && a.slots().iter().zip(b.slots()).all(|(a, b)| Arc::ptr_eq(a, b) || same_slot(a, b))
@@ -177,7 +177,7 @@ fn a_dragged_pose_equals_its_last_edit_alone_to_the_bit() {
             assert!(same(wanted, edited.adapter()), "seed {number}");
             assert_eq!(edited.adapter().check(), Ok(()), "seed {number}");
             drop((before, alone));
-            // What is still shown stays as it was.
+            // A view that is still shown does not change.
             let now = edited.adapter().slots().to_vec();
             let looks: Vec<TakeVersions> = now.iter().map(|slot| TakeVersions::clone(slot)).collect();
             shown.push((now, looks));
@@ -212,7 +212,7 @@ fn undo_back_to_the_saved_state_marks_the_document_as_saved() {
     assert!(edited.is_saved());
     edited.undo();
     edited.apply(name("c"), None).unwrap();
-    // The saved state cannot be reached any more, also with as many steps done.
+    // The saved state cannot be reached any more, even with the same number of steps.
     assert!(!edited.is_saved());
     assert_eq!(edited.labels(), [Some("Rename take"), None]);
 }

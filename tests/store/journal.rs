@@ -1,4 +1,5 @@
-//! The journal: what was appended can be had back, what is due is brought to the disk, and one program at a time has it.
+//! Journal: appended records are read back, due records are synced to the disk, and only one program at a time owns
+//! it.
 
 use dragonfly_kit::counting;
 use dragonfly_kit::folder::Folder;
@@ -14,12 +15,12 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// An autosave folder below `folder`.
+/// Returns an autosave folder below `folder`.
 pub(crate) fn autosave(folder: &Folder, files: impl Vfs + 'static) -> Autosave {
     Autosave::new(Arc::new(files), Some(folder.join("autosave"))).expect("the folder is given")
 }
 
-/// The new journal of a document.
+/// Starts the new journal of a document.
 #[track_caller]
 pub(crate) fn begin(autosave: &Autosave, document: Option<&Path>, stamp: Option<&FileStamp>) -> Journal {
     match autosave.begin(document, stamp).expect("a journal") {
@@ -28,7 +29,7 @@ pub(crate) fn begin(autosave: &Autosave, document: Option<&Path>, stamp: Option<
     }
 }
 
-/// The only journal there is.
+/// Returns the only journal there is.
 #[track_caller]
 pub(crate) fn only(autosave: &Autosave) -> Recoverable {
     let found = autosave.recoverable().expect("the folder can be read");
@@ -51,7 +52,7 @@ fn appended_records_are_read_back_in_order() {
     }
     let long = vec![7; 3 << 20];
     journal.append(&long, now).unwrap();
-    // Not even brought to the disk: dropped as a killed program drops it.
+    // Not even synced: the journal is dropped as a killed program drops it.
     drop(journal);
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, found.owner_status), (4, 4, OwnerStatus::Exited));
@@ -109,7 +110,7 @@ fn a_snapshot_replaces_all_records_before_it() {
     drop(journal);
     let wanted = [vec![JournalEntry::Snapshot(b"all of it".to_vec())], edits(["more"])].concat();
     assert_eq!(autosave.entries(&only(&autosave)).unwrap(), wanted);
-    // A program that was killed in the middle left one half done.
+    // A program that was killed during a compaction leaves a half-written file.
     let found = only(&autosave);
     fs::write(found.journal.with_extension("compact"), "half").unwrap();
     let mut journal = autosave.resume(&found, Claim::IfFree).unwrap().journal;
@@ -146,7 +147,7 @@ fn saved_edits_are_not_unsaved_work_and_their_history_is_kept() {
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, &found.file), (1, 0, &DocumentFileState::Same));
     assert!(!found.is_offered());
-    // Opened again, the history is there.
+    // After reopening, the history is still available.
     let Opening::Found(found) = autosave.begin(Some(&path), None).unwrap() else { panic!("its history") };
     let entries = autosave.resume(&found, Claim::IfFree).unwrap().entries;
     assert_eq!(entries, [JournalEntry::Snapshot(b"all".to_vec()), JournalEntry::Saved]);
@@ -174,7 +175,7 @@ fn a_save_counts_even_if_the_program_is_killed_before_the_journal_records_it() {
     drop(journal);
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &DocumentFileState::Same));
-    // It was written down, for the time when the file does not tell any more.
+    // The save was recorded in the journal, so it counts even when the file no longer shows it.
     fs::write(&path, "somebody else's").unwrap();
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &DocumentFileState::Changed));
@@ -201,7 +202,8 @@ fn a_failed_append_leaves_no_record_and_the_next_append_works() {
         let first = journal.append(b"first", now).is_ok();
         let error = journal.append(&[9; 100_000], now);
         drop(journal);
-        // A disk that is full for good: what could not be cut off is no work all the same.
+        // Even if the disk stays full: the part of the failed record that could not be cut off does not count as
+        // work.
         let sound = crate::journal::autosave(&folder, RealFiles);
         let found = only(&sound);
         assert_eq!(sound.entries(&found).unwrap().len(), usize::from(first) + usize::from(error.is_ok()));
@@ -230,7 +232,7 @@ fn after_a_disk_error_a_journal_refuses_records_until_a_snapshot() {
         met += 1;
         let error = journal.append(b"two", now).unwrap_err();
         assert!(matches!(error, JournalError::Broken { .. }), "{error}");
-        // The disk would say now that all is well. It is not asked.
+        // The disk would report success now, but the journal does not try again.
         assert!(matches!(journal.sync().unwrap_err(), JournalError::Broken { .. }));
         assert!(journal.broken().is_some());
         journal.compact(b"one, two").unwrap();

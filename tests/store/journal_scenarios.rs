@@ -1,5 +1,5 @@
-//! The twelve ways in which a person comes back to unsaved work. In none of them is the document's file written to, or
-//! anything deleted, before the person says so.
+//! Ways in which a user returns to unsaved work. In none of them is the file of the document written, or anything
+//! deleted, before the user decides.
 
 use crate::journal::{autosave, begin, edits, only};
 use dragonfly_kit::folder::Folder;
@@ -46,9 +46,10 @@ impl Killed {
     }
 }
 
-// The format, written a second time as it is described, so that other machines and other versions can be had.
+// A second implementation of the format, written from its description, to create journals of other machines and
+// versions.
 
-/// The journal 77 of `/nowhere/fox.glb` in format `version`, with records of these kinds and bytes.
+/// Returns the journal 77 of `/nowhere/fox.glb` in format `version`, with records of these kinds and bytes.
 fn forged(version: u32, records: &[(u8, &[u8])]) -> Vec<u8> {
     let text = r#"{"number":77,"document":"/nowhere/fox.glb","stamp":null,"later":"ignored"}"#;
     forged_with(text, version, records)
@@ -72,7 +73,7 @@ fn work_from_a_crash_can_be_kept_or_opened_as_a_new_document_or_discarded() {
         panic!("opening the document does not pass it over")
     };
     assert_eq!(*again, found);
-    // Beside: a document of its own, and the other one stays.
+    // Opened separately: it is a new document, and the other one stays.
     let beside = it.autosave.copy(&found, None).unwrap();
     assert_eq!((beside.entries, beside.journal.document()), (edits(["one", "two"]), None));
     drop(beside.journal);
@@ -81,7 +82,7 @@ fn work_from_a_crash_can_be_kept_or_opened_as_a_new_document_or_discarded() {
     let beside = all.iter().find(|other| other.journal != found.journal).unwrap();
     assert_eq!((beside.work, beside.unsaved), (2, 2));
     assert_eq!(it.autosave.entries(beside).unwrap(), edits(["one", "two"]));
-    // Discarded: in the bin, and brought back.
+    // Discarded: moved to the bin, and restored from there.
     let bin = it.autosave.discard(beside).unwrap();
     assert_eq!(it.autosave.discarded().unwrap(), std::slice::from_ref(&bin));
     assert_eq!(only(&it.autosave), found);
@@ -112,7 +113,7 @@ fn a_second_program_learns_which_process_has_the_document_open() {
         assert!(matches!(it.autosave.resume(&found, claim), Err(JournalError::Held { .. })));
     }
     assert!(matches!(it.autosave.discard(&found), Err(JournalError::Held { .. })));
-    // What it did so far can be looked at, and opened beside.
+    // The edits recorded so far can be read, and opened as a new document.
     assert_eq!(it.autosave.copy(&found, None).unwrap().entries, edits(["one", "two"]));
     kept.close().unwrap();
     it.autosave.resume(&found, Claim::IfFree).unwrap();
@@ -128,7 +129,7 @@ fn work_on_a_moved_document_continues_at_its_new_path() {
     assert_eq!(found.file, DocumentFileState::Missing);
     let resumed = it.autosave.copy(&found, Some(&moved)).unwrap();
     assert_eq!(resumed.entries, edits(["one", "two"]));
-    // The stamp is that of the file the edits were made on, so that it can be compared.
+    // The stamp is that of the file on which the edits were made, so that the two can be compared.
     let stamp = *resumed.journal.stamp().expect("a stamp");
     assert!(stamp.is_of(&fs::read(&moved).unwrap()));
     drop(resumed);
@@ -148,7 +149,7 @@ fn edits_saved_before_a_document_moved_still_count_as_saved() {
         (entries.len() - 1 - last.expect("a save")) as u64
     };
     for (word, after) in [("said", 1), ("unsaid", 0)] {
-        // Killed between the file's replacement and the word of it.
+        // Killed after the file was replaced and before the journal recorded it.
         if word == "unsaid" {
             journal.saving(b"saved again").unwrap();
             replace(&it.document, b"saved again").unwrap();
@@ -167,7 +168,7 @@ fn edits_saved_before_a_document_moved_still_count_as_saved() {
         assert_eq!(edits_after_save(&resumed.entries), after, "{word}: {:?}", resumed.entries);
         let place = resumed.journal.path().to_owned();
         drop(resumed);
-        // Looked at again, the new journal says the same.
+        // Reading the new journal again gives the same result.
         let again = found(&place);
         assert_eq!((again.unsaved, again.file.clone()), (after, DocumentFileState::Same), "{word}");
         assert_eq!(edits_after_save(&it.autosave.entries(&again).unwrap()), after, "{word}");
@@ -181,7 +182,7 @@ fn a_failed_save_is_not_mistaken_for_a_later_one() {
     let it = killed("scenario-failed-save");
     let mut journal = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap().journal;
     let stamp = FileStamp::take(&RealFiles, &it.document).unwrap();
-    // Nothing becomes of this one.
+    // This save fails before the file is written.
     journal.saving(b"what was never written").unwrap();
     journal.append(b"undone, back at what the file holds", Instant::now()).unwrap();
     journal.saved(&stamp).unwrap();
@@ -242,7 +243,7 @@ fn a_journal_owned_by_another_machine_is_claimed_only_on_request() {
     assert_eq!(resumed.entries, edits(["one"]));
     drop(resumed);
     assert_eq!(only(&autosave).owner, Some(JournalOwner::this()));
-    // It said that it ended.
+    // The journal records that its program ended.
     fs::write(&path, forged(1, &[opened, (2, b"one"), (6, b"")])).unwrap();
     assert_eq!(only(&autosave).owner_status, OwnerStatus::Exited);
     autosave.resume(&only(&autosave), Claim::IfFree).unwrap();
@@ -257,7 +258,7 @@ fn a_read_only_folder_loses_no_work() {
     let Some(disk) = Mounted::in_memory(&folder.join("disk"), 1 << 20) else { return };
     let document = disk.path().join("fox.glb");
     replace(&document, b"as it was read").unwrap();
-    // The document cannot be written: its journal can.
+    // The document cannot be written, but its journal can.
     disk.read_only(true);
     let sound = autosave(&folder, RealFiles);
     let mut journal = begin(&sound, Some(&document), None);
@@ -267,7 +268,7 @@ fn a_read_only_folder_loses_no_work() {
     assert_eq!(journal.unsaved(), 1);
     drop(journal);
     assert!(only(&sound).is_offered());
-    // The journals cannot be written: the work in them can be read.
+    // The journals cannot be written, but the work in them can be read.
     disk.read_only(false);
     let elsewhere =
         Autosave::new(std::sync::Arc::new(RealFiles), Some(disk.path().join("autosave"))).unwrap();
@@ -285,7 +286,7 @@ fn a_read_only_folder_loses_no_work() {
     ] {
         assert!(error.to_string().ends_with("the disk is read-only"), "{error}");
     }
-    // Read here, and gone on with there.
+    // The journal is read here, and the work continues in another folder.
     disk.read_only(false);
     assert_eq!(only(&elsewhere).work, 1);
 }
@@ -310,7 +311,7 @@ fn a_journal_of_a_newer_program_is_left_alone() {
     let error = it.autosave.resume(&found, Claim::Anyway).unwrap_err();
     assert!(error.to_string().contains("a newer version of this program"), "{error}");
     assert!(matches!(it.autosave.entries(&found), Err(JournalError::Newer { version: 2, .. })));
-    // The document can be edited all the same, with a journal beside.
+    // The document can still be edited, with a second journal.
     let mut journal = begin(&it.autosave, Some(&it.document), None);
     journal.append(b"three", Instant::now()).unwrap();
     assert!(matches!(it.autosave.begin(Some(&it.document), None), Err(JournalError::Held { .. })));
@@ -328,13 +329,13 @@ fn empty_or_invalid_journals_do_not_block_the_document() {
     let found = only(&it.autosave);
     assert_eq!(found.reading, Readability::Damaged("it is empty".to_owned()));
     assert!(!found.is_offered());
-    // Nothing is in it, so nothing is lost by filling it.
+    // The file is empty, so nothing is lost by filling it.
     let mut journal = begin(&it.autosave, Some(&it.document), None);
     assert_eq!(journal.path(), path);
     journal.append(b"three", Instant::now()).unwrap();
     drop(journal);
     assert_eq!(it.autosave.entries(&only(&it.autosave)).unwrap(), edits(["three"]));
-    // Something is in it, so it stays, and can be put away.
+    // The file is not empty, so it is kept; it can be moved to the bin.
     fs::write(&path, "a letter").unwrap();
     let error = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap_err();
     assert!(error.to_string().contains("is no journal that can be read"), "{error}");
@@ -370,7 +371,7 @@ fn recovering_twice_returns_each_edit_once() {
     let found = only(&it.autosave);
     let kept = it.autosave.resume(&found, Claim::IfFree).unwrap();
     assert_eq!(kept.entries, edits(["one", "two", "three", "four"]));
-    // An old list of what can be had is no key to it.
+    // An outdated list of recoverable journals does not allow claiming one.
     assert!(matches!(it.autosave.resume(&found, Claim::IfFree), Err(JournalError::Held { .. })));
     drop(kept);
     it.autosave.discard(&found).unwrap();
@@ -386,10 +387,10 @@ fn the_journal_format_matches_its_description() {
     let found = only(&autosave);
     assert_eq!(found.document, Some("/nowhere/fox.glb".into()));
     assert_eq!((found.work, &found.reading), (3, &Readability::Whole));
-    // A kind that nobody knows ends what can be read.
+    // A record of an unknown kind ends the readable part.
     put(&autosave, &forged(1, &[(2, b"one"), (7, b"unknown"), (2, b"two")]));
     assert_eq!(autosave.entries(&only(&autosave)).unwrap(), edits(["one"]));
-    // So does one whose text is not understood.
+    // So does a record whose text cannot be parsed.
     put(&autosave, &forged(1, &[(2, b"one"), (3, b"no JSON"), (2, b"two")]));
     assert_eq!(autosave.entries(&only(&autosave)).unwrap(), edits(["one"]));
 }

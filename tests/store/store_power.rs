@@ -1,4 +1,4 @@
-//! What a power cut may cost: a real file system is stopped as if the machine had lost power, mounted again and checked.
+//! Cost of a power cut: a real file system is stopped as if the machine had lost power, mounted again and checked.
 
 use crate::journal_writer::{check_at, document_at, is_writer, start, start_saving};
 use dragonfly_kit::power::{cut, once_in_three, times};

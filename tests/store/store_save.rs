@@ -1,4 +1,4 @@
-//! What a save keeps: links of both kinds, permissions, owner, attributes, and above all what others wrote meanwhile.
+//! A save keeps links of both kinds, permissions, owner and attributes, and above all changes made by other programs.
 
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mounted::{Mounted, may_mount, quick_folder, succeeds};
@@ -166,7 +166,7 @@ fn changes_by_another_program_are_detected_and_not_overwritten() {
     assert_eq!(late.state(&RealFiles, &path).unwrap(), FileState::Same);
     let time = fs::metadata(&path).unwrap().modified().unwrap();
     let modified = |time: SystemTime| fs::File::options().write(true).open(&path).unwrap().set_modified(time);
-    // Of the same length, and its time put back: the worst case.
+    // The hardest case: the same length, and the modification time restored.
     let others: [(&str, bool); 3] = [("someone else's", false), ("as it was Read", true), ("", true)];
     for (content, put_back) in others {
         fs::write(&path, content).unwrap();
@@ -174,7 +174,7 @@ fn changes_by_another_program_are_detected_and_not_overwritten() {
             modified(time).unwrap();
         }
         assert_eq!(stamp.state(&RealFiles, &path).unwrap(), FileState::Changed);
-        // Made long after the file, so that the times alone would do.
+        // Changed long after the file was read, so that the times alone are enough.
         let late = FileStamp { taken: i64::MAX, ..stamp };
         assert_eq!(late.state(&RealFiles, &path).unwrap(), FileState::Changed);
         let error = expecting(&path, b"mine", &stamp).unwrap_err();
@@ -182,7 +182,7 @@ fn changes_by_another_program_are_detected_and_not_overwritten() {
         assert_eq!(fs::read(&path).unwrap(), content.as_bytes());
         assert_eq!(count(folder.path()), 1);
     }
-    // Replaced by another file, and by a folder.
+    // The path is replaced by another file, and by a folder.
     fs::write(folder.join("other"), "another file").unwrap();
     fs::rename(folder.join("other"), &path).unwrap();
     assert!(expecting(&path, b"mine", &stamp).is_err());
@@ -204,7 +204,7 @@ fn a_file_with_a_new_time_but_the_same_content_is_not_changed() {
     fs::write(&path, "as it was read").unwrap();
     let saved = expecting(&path, b"mine", &stamp).unwrap();
     let again = expecting(&path, b"mine again", &saved.stamp).unwrap();
-    // It vanished: nobody's work is overwritten.
+    // The file was deleted, so no other work is overwritten.
     fs::remove_file(&path).unwrap();
     expecting(&path, b"mine once more", &again.stamp).unwrap();
     assert_eq!(fs::read(&path).unwrap(), b"mine once more");
@@ -216,13 +216,13 @@ fn a_change_within_a_tick_of_the_clock_is_detected() {
     let path = folder.join("model.glb");
     fs::write(&path, "as it was read").unwrap();
     let stamp = FileStamp::take(&RealFiles, &path).unwrap();
-    // Of a file of the same size and times, that held other bytes.
+    // The stamp of a file with the same size and times but other bytes.
     let newest = stamp.modified.max(stamp.changed);
     let other = |taken| FileStamp { hash: !stamp.hash, taken, ..stamp };
     for taken in [newest - 1, newest, newest + 1_900_000_000] {
         assert_eq!(other(taken).state(&RealFiles, &path).unwrap(), FileState::Changed);
     }
-    // Long after, the times would be others, and the file is not read for nothing.
+    // After more than two seconds the clock would show a change, so the file is not read again.
     assert_eq!(other(newest + 2_100_000_000).state(&RealFiles, &path).unwrap(), FileState::Same);
 }
 
@@ -235,7 +235,7 @@ fn a_new_file_never_replaces_an_existing_one() {
     let error = save(&RealFiles, &path, b"second", &options).unwrap_err();
     assert!(matches!(error, FileSaveError::Exists { .. }), "{error}");
     assert_eq!(fs::read(&path).unwrap(), b"first");
-    // Nor that of one made between looking and moving.
+    // Neither is a file that was created between the check and the rename.
     let error = RealFiles.rename_to_new(&path, &folder.join("model.glb")).unwrap_err();
     assert_eq!(error.kind(), std::io::ErrorKind::AlreadyExists);
     fs::write(folder.join("second.glb"), "second").unwrap();
@@ -341,24 +341,25 @@ fn old_versions_are_limited_but_at_least_three_are_kept() {
         save(&path, number.to_string().as_bytes());
     }
     assert_eq!(contents(&path), [b"8", b"7", b"6", b"5", b"4"], "newest first");
-    // The same content again is no new version.
+    // Saving the same content again adds no version.
     save(&path, b"9");
     save(&path, b"9");
     assert_eq!(contents(&path), [b"9", b"8", b"7", b"6", b"5"]);
-    // Large ones go first, but three stay.
+    // Large versions are deleted first, but three are kept.
     for number in 0..6_u8 {
         save(&path, &[number; 600]);
     }
     assert_eq!(contents(&path), [vec![4; 600], vec![3; 600], vec![2; 600]]);
     assert!(versions.of(&RealFiles, &path).unwrap()[0].path.to_string_lossy().ends_with(".glb"));
-    // All documents together: what was kept longest ago goes, and never of the one just saved.
+    // Limit for all documents together: the oldest versions are deleted first, but never those of the document just
+    // saved.
     let other = folder.join("other.glb");
     for number in 0..3_u8 {
         save(&other, &[number; 700]);
     }
     assert_eq!(contents(&other).len(), 2);
     assert_eq!(contents(&path), [vec![4; 600]]);
-    // Too large to be kept: saved all the same, and told.
+    // Too large to keep a version: the save succeeds, with a notice.
     save(&path, &[1; 1001]);
     let saved = save(&path, b"small");
     assert_eq!(saved.notices, ["the old version could not be kept: it is larger than 0 MiB"]);
@@ -372,7 +373,7 @@ fn temporary_files_of_a_killed_program_are_deleted_by_the_next_save() {
     let mut child = Command::new("true").spawn().unwrap();
     let dead = child.id();
     child.wait().unwrap();
-    // The name as this process makes it, of a process that is no more.
+    // The name of a temporary file as this process writes it, with the id of a process that has ended.
     let host = {
         let watched = dragonfly_kit::store::faulty_files::FaultyFiles::from(
             9,
