@@ -27,7 +27,7 @@ pub(crate) enum DocumentAction {
     Save,
 }
 
-/// DocumentAction number `number` of the script: everything that a person does, drags of several edits among it.
+/// Returns action number `number` of the script: edits, undo, saves, and drags of several edits.
 pub(crate) fn action(number: u32) -> DocumentAction {
     // Some groups of five consecutive actions are one drag.
     let gesture = Gesture(u64::from(number / 5));

@@ -33,9 +33,9 @@ fn models(folder: &Folder) -> Vec<PathBuf> {
     models
 }
 
-/// Tracks without keys have no effect, and a file does not store them. Bones are numbered by their nodes: a node that
-/// is
-/// no joint is a bone while something animates it, so deleting its last key moves the numbers of the others.
+/// Removes tracks without keys, which have no effect and are not stored in a file. Bones are numbered by their nodes:
+/// a node that is no joint is a bone while something animates it, so deleting its last key changes the numbers of the
+/// others.
 fn with_keys(take: &Take, skeleton: &Skeleton) -> Take {
     let mut take = take.clone();
     for track in &mut take.tracks {

@@ -1,4 +1,4 @@
-//! The camera does what hands expect.
+//! The camera moves as the user expects.
 
 use dragonfly_anim::bounds::Sphere;
 use dragonfly_picture::camera::{Camera, Projection, ViewSide};
@@ -18,7 +18,7 @@ fn cameras() -> Vec<Camera> {
     cameras
 }
 
-/// Where a point of the scene appears: pixels from the top left, and its depth.
+/// Returns where a point of the scene appears: pixels from the top left, and its depth.
 fn pixel_of(camera: &Camera, point: Vec3) -> (Vec2, f32) {
     let clip_from_world = camera.clip_from_view(SIZE.x / SIZE.y, &BOUNDS) * camera.view_from_world();
     let clip = clip_from_world * point.extend(1.0);

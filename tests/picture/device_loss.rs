@@ -1,4 +1,4 @@
-//! A lost device costs nothing: everything comes back from what the processor kept, however often.
+//! A lost device loses nothing: everything is restored from the data in main memory, however often.
 
 use dragonfly_kit::document::arm;
 use dragonfly_kit::picture::images::{difference, settings};
@@ -16,7 +16,7 @@ fn the_image_is_the_same_after_a_hundred_device_losses() {
     let before = studio.render(&loaded, &settings).unwrap();
     for loss in 1..=100 {
         studio.stage().device().lose();
-        // Most are lost before anything was drawn again, some after: both must work.
+        // Most devices are lost before anything was drawn again, some after; both must work.
         if loss % 10 == 0 {
             let after = studio.render(&loaded, &settings).unwrap();
             assert_eq!(difference(&before, &after), 0, "after {loss} losses");
@@ -41,7 +41,7 @@ fn a_hundred_device_losses_leak_no_memory() {
             }
             resident_bytes()
         };
-        // The first few fill the driver's own caches.
+        // The first few losses fill the caches of the driver.
         let before = lose(20);
         let after = lose(100);
         println!("{} KiB before, {} KiB after a hundred losses", before >> 10, after >> 10);

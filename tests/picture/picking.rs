@@ -9,7 +9,7 @@ use dragonfly_picture::{BoneLook, Look};
 use glam::Vec3;
 use std::time::Instant;
 
-/// The window is larger than the viewport, which does not begin at its corner.
+/// A window larger than the viewport, which does not start at its corner.
 const VIEWPORT: [u32; 4] = [100, 50, 640, 480];
 
 fn scene(time: f32, bone_look: BoneLook) -> Scene {
@@ -24,7 +24,7 @@ fn scene(time: f32, bone_look: BoneLook) -> Scene {
     scene
 }
 
-/// Where in the window a point of the scene appears.
+/// Returns where a point of the scene appears in the window.
 fn window_position(scene: &Scene, point: Vec3) -> [f32; 2] {
     let clip = scene.clip_from_world(&scene.bounds().sphere) * point.extend(1.0);
     let [x, y, width, height] = VIEWPORT.map(|value| value as f32);
@@ -39,7 +39,7 @@ fn a_click_on_a_drawn_bone_picks_it() {
             let scene = scene(time, bone_look);
             let to_root = scene.model().unwrap().to_root();
             for (bone, matrix) in to_root.iter().enumerate() {
-                // The last bone is a stub; a little way along is inside all of them.
+                // The last bone is short; a point near its start is inside all of them.
                 let along = matrix.transform_point3(Vec3::Y * 0.12);
                 let picked = pick(&scene, window_position(&scene, along));
                 assert_eq!(picked, Some(bone as u32), "{bone_look:?} at {time}");

@@ -26,7 +26,7 @@ fn scene(camera: Camera, bone_look: BoneLook) -> Scene {
     scene
 }
 
-/// Looks along the arm, a little from the side: its three bones lie one behind the other.
+/// Returns a camera that looks along the arm, slightly from the side: its three bones overlap in the view.
 fn from_the_tip() -> Camera {
     let camera = Camera { target: Vec3::Y * 1.5, distance: 8.0, yaw: 0.0, ..Camera::default() };
     Camera { pitch: 1.56, ..camera }

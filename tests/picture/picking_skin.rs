@@ -1,4 +1,4 @@
-//! A click on the skin means the bone that has most influence there, in the animated pose.
+//! A click on the skin picks the bone with the most influence there, in the animated pose.
 
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::hit::{HitPose, HitTree};
@@ -48,7 +48,7 @@ fn a_click_on_the_deformed_skin_picks_the_bone_with_most_influence() {
         assert!((hits[0].distance - 9.77).abs() < 0.05, "{}", hits[0].distance);
     }
     assert!(skin.hits(&towards(Vec3::X * 3.0), &none).is_empty());
-    // Bent, the tip is elsewhere.
+    // In the bent pose the tip is elsewhere.
     let tip = |skin: &Skin| skin.evaluator.to_root()[2].transform_point3(Vec3::Y * 0.8);
     let mut bent = Skin::at(arm::LENGTH);
     assert!(tip(&bent).distance(tip(&skin)) > 0.5);
@@ -59,7 +59,7 @@ fn a_click_on_the_deformed_skin_picks_the_bone_with_most_influence() {
 #[test]
 fn bones_of_the_skin_behind_follow_and_hidden_bones_are_skipped() {
     let mut skin = Skin::at(0.0);
-    // In at the tip's side, out at the other side near the root.
+    // The ray enters at the tip and leaves at the other side near the root.
     let (enter, leave) = (Vec3::new(0.25, 2.8, 0.05), Vec3::new(-0.25, 0.2, 0.05));
     let direction = (leave - enter).normalize();
     let ray = CameraRay { origin: enter - direction * 3.0, direction };
@@ -83,7 +83,7 @@ fn an_invalid_ray_hits_nothing() {
     {
         assert!(skin.hits(&CameraRay { origin, direction }, &HiddenBones::default()).is_empty());
     }
-    // From within, and from so far that numbers are coarse: an end all the same.
+    // From inside, and from far away where floats are coarse: the search ends in both cases.
     skin.hits(&CameraRay { origin: Vec3::Y, direction: Vec3::Y }, &HiddenBones::default());
     skin.hits(&CameraRay { origin: Vec3::new(0.0, 1.0, 1e8), direction: -Vec3::Z }, &HiddenBones::default());
 }

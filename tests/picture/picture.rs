@@ -1,4 +1,4 @@
-//! A picture without a window shows the model, at the time asked for, over the background asked for.
+//! An image rendered without a window shows the model at the requested time over the requested background.
 
 use dragonfly_kit::document::arm;
 use dragonfly_kit::picture::images::{difference, settings};

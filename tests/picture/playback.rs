@@ -1,4 +1,4 @@
-//! Which time is on screen, at any moment, whatever was pressed before.
+//! The time on screen, at any moment and after any sequence of commands.
 
 use dragonfly_kit::random::{Random, seed};
 use dragonfly_picture::playback::{PlaybackClock, Repeat};
@@ -81,7 +81,7 @@ fn no_playback_command_makes_the_time_jump() {
         let before = state.time_at(now);
         let speed = [-2.0, -1.0, 0.25, 1.0, 3.0][random.below(5)];
         let playing = random.below(2) == 0;
-        // Another repeat may mean another time only for a time that lies beyond the end, and none does.
+        // Another repeat mode may change only a time beyond the end, and there is none here.
         state = state.with(playing, speed, REPEATS[random.below(3)], now);
         let after = state.time_at(now);
         assert!((after - before).abs() < 1e-4, "{before} became {after}");

@@ -1,12 +1,13 @@
-//! Where things are: nothing stands at the top that does not belong there, and no file is forgotten by its list.
+//! Layout of the repository: only listed entries in the root folder, every file declared in a module, and no file too
+//! long.
 
 use crate::tree::{File, files, none, one, root};
 use std::collections::BTreeSet;
 
-/// Folders at the top.
+/// Folders in the root folder.
 const FOLDERS: &[&str] = &["runtime", "anim", "editor", "shaders", "tests", "benches", ".ci"];
 
-/// Files at the top.
+/// Files in the root folder.
 const FILES: &[&str] = &[
     ".gitignore",
     "ARCHITECTURE.md",
@@ -22,7 +23,7 @@ const FILES: &[&str] = &[
     "test",
 ];
 
-/// Longer files are read by nobody.
+/// Largest number of lines of a source file; longer files are hard to read.
 const LONGEST: usize = 600;
 
 fn stands_at_the_top_by_right(files: &[File]) -> Vec<String> {
@@ -42,7 +43,8 @@ fn the_root_folder_contains_only_the_listed_entries() {
     one(stands_at_the_top_by_right(&[File::planted("scripts/do.sh", "")]));
 }
 
-/// The file that must say `mod name;` for the module in `path`, and that name; `None` for the root of a crate.
+/// Returns the files that may declare `mod name;` for the module in `path`, and that name; `None` for the root of a
+/// crate.
 fn list_of(path: &str) -> Option<(Vec<String>, String)> {
     let (folder, file) = path.rsplit_once('/')?;
     let stem = file.strip_suffix(".rs")?;
@@ -52,7 +54,7 @@ fn list_of(path: &str) -> Option<(Vec<String>, String)> {
     }
     let (folder, name) = if stem == "mod" { folder.rsplit_once('/')? } else { (folder, stem) };
     let lists = ["mod.rs", "lib.rs", "main.rs"].iter().map(|list| format!("{folder}/{list}"));
-    // `panels.rs` beside the folder `panels`.
+    // `panels.rs` next to the folder `panels`.
     let lists = lists.chain([format!("{folder}.rs")]).collect();
     Some((lists, name.to_owned()))
 }
@@ -67,7 +69,7 @@ fn is_named_in_its_list(files: &[File]) -> Vec<String> {
             };
             lists.contains(&list.path) && list.code().lines().any(says)
         };
-        // A manifest, or an attribute before another name, may give the path itself.
+        // A manifest or a `path` attribute may contain the path itself.
         let end = file.path.rsplit('/').next().unwrap_or(&file.path);
         let points = |list: &File| {
             let points = |line: &str| line.contains("path = \"") && line.contains(&format!("{end}\""));

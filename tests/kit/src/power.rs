@@ -1,4 +1,4 @@
-//! Power cuts: a real file system of its own is stopped as if the machine had lost power, mounted again, and looked at.
+//! Power cuts: a real file system is stopped as if the machine had lost power, mounted again, and checked.
 
 use crate::folder::{Folder, takes_long};
 use crate::mounted::{Mounted, may_mount, succeeds};
@@ -11,8 +11,9 @@ use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::{Duration, SystemTime};
 
-/// Cuts the power of file systems: `EXT4_IOC_SHUTDOWN` on a folder in one, with flag 1 (what its own journal holds is
-/// still written) or 2 (nothing is written any more). It waits beside the test, so that a cut takes no time to begin.
+/// Script that cuts the power of file systems: `EXT4_IOC_SHUTDOWN` on a folder in one, with flag 1 (the file system's
+/// own journal is still written) or 2 (nothing is written any more). It runs while the test works, so that a cut
+/// starts without delay.
 const CUTTER: &str = r"
 import fcntl, os, struct, sys
 print('ready', flush=True)
@@ -65,15 +66,15 @@ pub struct Cuts {
     pub cuts: usize,
     /// Number of cuts before which at least one save was reported.
     pub with_saves: usize,
-    /// Edits in the journal after the last cut.
+    /// Number of edits in the journal after the last cut.
     pub edits: u32,
-    /// Edits in the saved file after the last cut.
+    /// Number of edits in the saved file after the last cut.
     pub saves: u32,
-    /// Edits reported as done that were lost.
+    /// Number of edits reported as done that were lost.
     pub lost: u32,
     /// Age of the oldest edit that was lost, in nanoseconds.
     pub oldest: u128,
-    /// Cuts in which something was said to be on the disk after the cut had begun, and was lost.
+    /// Number of cuts in which an edit was reported as synced after the cut had begun, and was lost.
     pub late: usize,
 }
 
@@ -110,7 +111,7 @@ pub fn cut(
         let mut writer = work(disk.path());
         writer.working();
         std::thread::park_timeout(Duration::from_micros(random.below(400_000) as u64));
-        // What is said to be done from here on may be said without power: a call that is under way may yet succeed.
+        // Reports from here on may be made without power: a call in progress may still succeed.
         let began = nanoseconds(SystemTime::now());
         let flag = 1 + random.below(2) as u32;
         let is_cut = cutter.cut(&disk, flag);
@@ -143,8 +144,8 @@ pub fn cut(
     Some(all)
 }
 
-/// What depends on the time that a program gets is asked up to three times: a machine that has much else to do may keep
-/// it waiting. What must hold always was asserted at each cut.
+/// Repeats timing-dependent cuts up to three times until `holds`, because a busy machine may delay the program. What
+/// must always hold was asserted at each cut.
 pub fn once_in_three(cuts: impl Fn() -> Option<Cuts>, otherwise: &str, holds: impl Fn(&Cuts) -> bool) {
     let mut seen = Vec::new();
     for _ in 0..3 {
@@ -157,7 +158,7 @@ pub fn once_in_three(cuts: impl Fn() -> Option<Cuts>, otherwise: &str, holds: im
     panic!("{otherwise}: {seen:?}");
 }
 
-/// How many cuts: `few`, or very many when asked to take long.
+/// Returns the number of cuts: `few`, or 500 for long runs.
 pub fn times(few: usize) -> usize {
     if takes_long() { 500 } else { few }
 }

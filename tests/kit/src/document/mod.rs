@@ -1,4 +1,4 @@
-//! Models made by code, and a document in its thread without a window.
+//! Models made in code, and a document in its thread without a window.
 
 pub mod arm;
 pub mod fixture;

@@ -1,4 +1,4 @@
-//! A document in its thread, as the window has it, without a window: what it is told, what it says, what it shows.
+//! A document in its thread, without a window: tests send messages to it and wait for its replies and views.
 
 use crate::folder::{Folder, data};
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, SetPose, TakeRef};
@@ -38,7 +38,7 @@ impl Receiver for LatestView {
     }
 }
 
-/// The document, and who listens to it.
+/// A running document with the replies and views that it sent.
 pub struct TestDocument {
     main: Captured,
     document: DocumentHandle,
@@ -46,35 +46,35 @@ pub struct TestDocument {
     shown: LatestView,
 }
 
-/// An autosave folder of a test.
+/// Returns the autosave of a test in `folder`.
 pub fn autosave_in(folder: &Path) -> Autosave {
     autosave_with(folder, RealFiles)
 }
 
-/// An autosave folder of a test on the file system `files`.
+/// Returns the autosave of a test in `folder` on the file system `files`.
 pub fn autosave_with(folder: &Path, files: impl Vfs + 'static) -> Autosave {
     Autosave::new(Arc::new(files), Some(folder.to_owned())).expect("the folder is given")
 }
 
-/// A copy of Fox in a folder of the test's own.
+/// Copies Fox into a folder of the test and returns the path of the copy.
 pub fn fox(folder: &Folder) -> PathBuf {
     let path = folder.join("Fox.glb");
     std::fs::copy(data("gltf/Fox.glb"), &path).expect("a file");
     path
 }
 
-/// Fox at a place of the test's own, copied there unless it is there already.
+/// Copies Fox to `path` unless there is a file already, and returns the path.
 pub fn fox_at(path: &Path) -> PathBuf {
     if !path.exists() {
         let bytes = std::fs::read(data("gltf/Fox.glb")).expect("a file");
-        // On the disk, whatever becomes of the machine.
+        // Synced to the disk, because the test may cut the power.
         dragonfly_store::replace(path, &bytes).expect("a file");
     }
     path.to_owned()
 }
 
-/// The program is killed: what is in its folders at this moment is all that is left, here in another folder. The file
-/// itself stays where it is, as it would.
+/// Simulates a killed program: copies its folders as they are at this moment to `to`. The file of the document itself
+/// stays where it is.
 pub fn killed(autosave: &Path, to: &Path) {
     std::fs::create_dir_all(to).expect("a folder");
     for entry in std::fs::read_dir(autosave).expect("the autosave folder").flatten() {
@@ -87,7 +87,7 @@ pub fn killed(autosave: &Path, to: &Path) {
     }
 }
 
-/// Turns the head of the fox in its first take.
+/// Returns an edit that rotates the head of the fox in its first take.
 pub fn turn(angle: f32) -> Edit {
     let (sine, cosine) = (angle / 2.0).sin_cos();
     let pose = BonePose {
@@ -99,13 +99,13 @@ pub fn turn(angle: f32) -> Edit {
     Edit::SetPose(SetPose { take: TakeRef::Index(0), time: 0.5, poses: vec![pose], unstep: false })
 }
 
-/// An edit that renames the first take.
+/// Returns an edit that renames the first take.
 pub fn rename(name: &str) -> Edit {
     Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() })
 }
 
 impl TestDocument {
-    /// A document that keeps its journals in `autosave`.
+    /// Starts a document with its journals in `autosave`.
     pub fn new(autosave: &Path) -> Self {
         Self::with(Setup { autosave: Some(autosave_in(autosave)), ..Setup::default() })
     }
@@ -120,7 +120,7 @@ impl TestDocument {
         Self { main, document, heard, shown }
     }
 
-    /// Waits for something that it says, and takes it.
+    /// Waits for a reply for which `what` returns a value, and removes it from the unread replies.
     #[track_caller]
     pub fn wait_for_reply<T>(&mut self, mut what: impl FnMut(&DocumentReply) -> Option<T>) -> T {
         let mut found = None;
@@ -139,7 +139,7 @@ impl TestDocument {
         found.expect("found")
     }
 
-    /// Everything that it said so far and nobody took.
+    /// Returns all unread replies as text, without the large ones.
     pub fn unread_replies(&mut self) -> Vec<String> {
         self.main.iterate();
         let heard = self.heard.0.borrow();
@@ -151,7 +151,7 @@ impl TestDocument {
         assert!(self.document.send(message));
     }
 
-    /// Opens a file, and waits until it is shown.
+    /// Opens a file and waits until it is shown.
     #[track_caller]
     pub fn open(&mut self, path: &Path) -> View {
         self.open_source(Source::File(path.to_owned()))
@@ -170,7 +170,7 @@ impl TestDocument {
         self.wait_for_view(|view| view.generation > before)
     }
 
-    /// Waits until this is shown.
+    /// Waits for a view for which `what` returns true.
     #[track_caller]
     pub fn wait_for_view(&mut self, what: impl Fn(&View) -> bool) -> View {
         let deadline = Instant::now() + SOON;
@@ -183,12 +183,12 @@ impl TestDocument {
         view.expect("shown")
     }
 
-    /// The newest view, behind everything that was told so far.
+    /// Returns the newest view, after all messages sent so far were processed.
     #[track_caller]
     pub fn view(&mut self) -> View {
         self.send(DocumentMessage::Plan(None));
         self.wait_for_reply(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
-        // A view goes out at the end of the iteration, so another question is behind it.
+        // A view is sent at the end of the iteration, so a second request makes sure that it has arrived.
         self.send(DocumentMessage::Plan(None));
         self.wait_for_reply(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
         self.main.iterate();
@@ -205,7 +205,7 @@ impl TestDocument {
         self.change(Change::Edit(edit, None));
     }
 
-    /// Saves, which must succeed.
+    /// Saves and waits for the result, which must be a success.
     #[track_caller]
     pub fn save(&mut self, to: SaveTo) -> SavedFile {
         self.send(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
@@ -216,7 +216,7 @@ impl TestDocument {
         })
     }
 
-    /// The unsaved work that it offers.
+    /// Waits for the offers of unsaved work.
     #[track_caller]
     pub fn wait_for_offers(&mut self) -> Vec<Offer> {
         self.wait_for_reply(|reply| match reply {
@@ -225,7 +225,7 @@ impl TestDocument {
         })
     }
 
-    /// The unsaved work that it has offered so far.
+    /// Returns the unsaved work offered so far, without waiting.
     pub fn offers_so_far(&mut self) -> Vec<Offer> {
         self.main.iterate();
         let mut heard = self.heard.0.borrow_mut();
@@ -236,7 +236,7 @@ impl TestDocument {
         }
     }
 
-    /// Waits for a sentence with this in it.
+    /// Waits for a warning or notice that contains `word`, and returns it.
     #[track_caller]
     pub fn wait_for_warning(&mut self, word: &str) -> String {
         self.wait_for_reply(|reply| match reply {
@@ -247,7 +247,7 @@ impl TestDocument {
         })
     }
 
-    /// Ends it in order.
+    /// Ends the document in order.
     pub fn end(self) {
         drop(self);
     }
@@ -261,12 +261,12 @@ impl Drop for TestDocument {
     }
 }
 
-/// Would it fill pages?
+/// Returns whether the text of the reply would fill pages.
 fn is_large(reply: &DocumentReply) -> bool {
     matches!(reply, DocumentReply::View(_) | DocumentReply::Opened(_) | DocumentReply::Loading { .. })
 }
 
-/// Are the takes the same, number by number, in their three forms?
+/// Asserts that the takes of two views are equal in all three versions, number by number.
 #[track_caller]
 pub fn same_takes(one: &View, other: &View) {
     assert_eq!(one.takes.len(), other.takes.len());

@@ -1,11 +1,11 @@
-//! A device for tests; they are skipped where there is no Vulkan adapter.
+//! Graphics devices for tests, which are skipped where there is no Vulkan adapter.
 
 use super::complaints::NoComplaints;
 use crate::skip::{TestNeed, skip};
 use dragonfly_picture::{DeviceParameters, GraphicsError, Studio};
 use std::ops::{Deref, DerefMut};
 
-/// A studio in which nothing may be done wrong.
+/// A studio whose use must cause no validation error.
 pub struct Watched {
     studio: Studio,
     // Dropped last, when the device is gone.
