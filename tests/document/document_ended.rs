@@ -84,15 +84,15 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
         candidates.push((said, edited.clone()));
         apply_action(&mut edited, &action(said));
         candidates.push((said + 1, edited));
-        let (mut desk, _) = recover(folder.path());
-        let view = desk.view();
-        let said_now = desk.unread_replies();
-        desk.end();
+        let (mut document, _) = recover(folder.path());
+        let view = document.view();
+        let said_now = document.unread_replies();
+        document.end();
         let found = candidates.into_iter().find(|(_, edited)| is_shown(edited, &view));
         let Some((at, edited)) = found else {
-            let deeds: Vec<String> = (number.saturating_sub(8)..=said).map(describe_action).collect();
+            let actions: Vec<String> = (number.saturating_sub(8)..=said).map(describe_action).collect();
             panic!(
-                "kill {kill} with {signal:?}, after {number} and up to {said}: {deeds:#?}\nthere is {:?}, and was said {said_now:#?}",
+                "kill {kill} with {signal:?}, after {number} and up to {said}: {actions:#?}\nthere is {:?}, and was said {said_now:#?}",
                 view.history
             );
         };
@@ -100,7 +100,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
         // A drag that was in progress at the kill is over.
         kept.end_gesture();
     }
-    println!("{kills} kills, {number} deeds, {in_a_drag} in the midst of a drag: {:?}", began.elapsed());
+    println!("{kills} kills, {number} actions, {in_a_drag} in the midst of a drag: {:?}", began.elapsed());
     assert!(number as usize > kills, "it was always killed before it did anything");
     assert!(in_a_drag > 0);
 }
@@ -114,8 +114,8 @@ fn a_power_cut_costs_a_document_at_most_a_second_of_edits() {
         start_counting("document_ended::a_power_cut_costs_a_document_at_most_a_second_of_edits", folder)
     };
     let look = |folder: &Path, said: &WriterReport, cut: usize| {
-        let (mut desk, number) = recover(folder);
-        let view = desk.view();
+        let (mut document, number) = recover(folder);
+        let view = document.view();
         // No step in between is missing; of very many steps the oldest are dropped.
         let steps = (number as usize).min(MAX_STEPS);
         assert_eq!(view.history.done, steps, "cut {cut}, said {} edits", said.edits);

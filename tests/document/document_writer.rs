@@ -102,19 +102,19 @@ fn edit_on(folder: &Path, first: Option<u32>) {
         out.write_all(line.as_bytes()).and_then(|()| out.flush()).is_ok()
     };
     say("\nstarted");
-    let (mut desk, names) = recover(folder);
+    let (mut document, names) = recover(folder);
     let mut number = first.unwrap_or(names);
     let began = Instant::now();
     while began.elapsed() < LIMIT {
         // Without a script, the name of the take contains the number of actions.
         let done = if first.is_some() { action(number) } else { named(number + 1) };
         match &done {
-            DocumentAction::Save => drop(desk.save(SaveTo::Own)),
+            DocumentAction::Save => drop(document.save(SaveTo::Own)),
             DocumentAction::Change(change) => {
-                desk.change(change.clone());
+                document.change(change.clone());
                 // The reply to this message comes after the change was applied and recorded.
-                desk.send(DocumentMessage::Quit);
-                desk.wait_for_reply(|reply| {
+                document.send(DocumentMessage::Quit);
+                document.wait_for_reply(|reply| {
                     matches!(reply, DocumentReply::Unsaved(_) | DocumentReply::MayQuit).then_some(())
                 });
             }
@@ -134,16 +134,16 @@ fn named(number: u32) -> DocumentAction {
 /// Opens the document in `folder` and restores its unsaved work. Also returns the number in the name of its first
 /// take.
 pub(crate) fn recover(folder: &Path) -> (TestDocument, u32) {
-    let mut desk = TestDocument::new(&folder.join("autosave"));
-    let mut view = desk.open(&fox_at(&folder.join("Fox.glb")));
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    let mut view = document.open(&fox_at(&folder.join("Fox.glb")));
     // Offers are sent before the model is shown.
-    if let Some(offer) = desk.offers_so_far().into_iter().next() {
-        desk.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    if let Some(offer) = document.offers_so_far().into_iter().next() {
+        document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
         let generation = view.generation;
-        view = desk.wait_for_view(|view| view.generation > generation);
+        view = document.wait_for_view(|view| view.generation > generation);
     }
     let number = view.takes[0].name.parse().unwrap_or(0);
-    (desk, number)
+    (document, number)
 }
 
 /// Starts `test`, which calls [`is_writer`] first, with the script from action `first` on.

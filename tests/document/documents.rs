@@ -136,7 +136,7 @@ fn images_of_one_source_are_decoded_once() {
     assert_eq!((first.width, first.height, first.pixels.len()), (3, 2, 24));
 }
 
-/// Panics in one of three ways on every file, and opens the built-in model.
+/// Importer that panics in one of three ways on every file, and opens the built-in model.
 fn panics_on_files(
     source: &Source,
     progress: &mut dyn FnMut(Progress),
@@ -185,7 +185,7 @@ fn a_hundred_importer_panics_are_reported_and_the_document_keeps_running() {
     Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
 }
 
-/// Opens every file at once, as the same small model with the file's name.
+/// Importer that opens every file at once, as the same small model with the name of the file.
 fn opens_anything(
     source: &Source,
     _: &mut dyn FnMut(Progress),
@@ -219,7 +219,8 @@ impl Bench {
         Self { stage, main, thread, graphics, document, heard, picture }
     }
 
-    /// Opens a file and returns the change that reports it; the iteration of the document thread is not finished yet.
+    /// Opens a file and delivers the messages up to its change; the iteration of the document thread is not finished
+    /// yet.
     fn change(&mut self, name: &str) {
         self.document.open(Source::File(name.into()));
         assert!(self.stage.deliver(&self.thread, 0), "what was asked for");

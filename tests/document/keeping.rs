@@ -20,11 +20,11 @@ use std::sync::atomic::{AtomicU32, Ordering};
 fn an_edit_is_recorded_in_the_journal_before_it_is_shown() {
     let folder = Folder::new("keeping-before");
     let autosave = folder.join("autosave");
-    let mut desk = TestDocument::new(&autosave);
-    desk.open(&fox(&folder));
+    let mut document = TestDocument::new(&autosave);
+    document.open(&fox(&folder));
     for number in 1..=20 {
-        desk.edit(turn(number as f32 * 0.1));
-        desk.wait_for_view(|view| view.history.done == number);
+        document.edit(turn(number as f32 * 0.1));
+        document.wait_for_view(|view| view.history.done == number);
         let keeper = autosave_in(&autosave);
         let found = keeper.recoverable().unwrap();
         let edits = |entry: &JournalEntry| matches!(entry, JournalEntry::Edit(bytes) if bytes.windows(6).any(|part| part == b"\"edit\""));
@@ -38,74 +38,74 @@ fn work_of_a_killed_program_is_offered_and_recovered_with_its_history() {
     let folder = Folder::new("keeping-killed");
     let path = fox(&folder);
     let bytes = fs::read(&path).unwrap();
-    let mut desk = TestDocument::new(&folder.join("first"));
-    let opened = desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.edit(rename("Look around"));
-    desk.edit(turn(0.9));
+    let mut document = TestDocument::new(&folder.join("first"));
+    let opened = document.open(&path);
+    document.edit(turn(0.5));
+    document.edit(rename("Look around"));
+    document.edit(turn(0.9));
     // A drag is one step, however many edits it contains.
     for angle in 1..50 {
-        desk.change(Change::Edit(turn(angle as f32 * 0.02), Some(Gesture(1))));
+        document.change(Change::Edit(turn(angle as f32 * 0.02), Some(Gesture(1))));
     }
-    desk.change(Change::Release(Gesture(1)));
-    desk.change(Change::Undo);
-    let before = desk.view();
+    document.change(Change::Release(Gesture(1)));
+    document.change(Change::Undo);
+    let before = document.view();
     assert_eq!((before.history.done, before.history.steps.len()), (3, 4));
     killed(&folder.join("first"), &folder.join("second"));
 
-    let mut desk = TestDocument::new(&folder.join("second"));
-    desk.open(&path);
-    let [offer] = &desk.wait_for_offers()[..] else { panic!("one document") };
+    let mut document = TestDocument::new(&folder.join("second"));
+    document.open(&path);
+    let [offer] = &document.wait_for_offers()[..] else { panic!("one document") };
     assert_eq!((offer.title.as_str(), offer.steps), ("Fox.glb", 3));
     assert_eq!(
         offer.labels,
         ["Pose", "Rename take", "Pose"].map(|label| {
-            // All names of a pose edit count as one here.
+            // The label of a pose edit is taken from the view, whatever its wording.
             if label == "Pose" { before.history.steps[0] } else { label }
         })
     );
     assert!(offer.age().is_some_and(|age| age.as_secs() < 600) && offer.warnings().is_empty());
-    desk.send(DocumentMessage::Decide(Box::new(offer.clone()), Decision::Keep));
-    let after = desk.wait_for_view(|view| view.history.done == 3);
+    document.send(DocumentMessage::Decide(Box::new(offer.clone()), Decision::Keep));
+    let after = document.wait_for_view(|view| view.history.done == 3);
     same_takes(&before, &after);
     assert_eq!(before.history, after.history);
     assert!(!after.history.saved);
     // Undo and redo through the whole history.
-    desk.change(Change::Redo);
-    assert_eq!(desk.view().history.done, 4);
-    desk.change(Change::GoTo(0));
-    same_takes(&desk.view(), &opened);
-    assert!(desk.view().history.saved);
+    document.change(Change::Redo);
+    assert_eq!(document.view().history.done, 4);
+    document.change(Change::GoTo(0));
+    same_takes(&document.view(), &opened);
+    assert!(document.view().history.saved);
     // A gesture of this run is not one of the earlier run.
-    desk.change(Change::GoTo(4));
-    desk.change(Change::Edit(turn(0.3), Some(Gesture(1))));
-    assert_eq!(desk.view().history.done, 5);
+    document.change(Change::GoTo(4));
+    document.change(Change::Edit(turn(0.3), Some(Gesture(1))));
+    assert_eq!(document.view().history.done, 5);
     assert_eq!(fs::read(&path).unwrap(), bytes, "the file itself was not touched");
-    desk.end();
+    document.end();
 
     // The user has not decided yet, so the work is offered again.
-    let mut desk = TestDocument::new(&folder.join("second"));
-    desk.open(&path);
-    assert_eq!(desk.wait_for_offers()[0].steps, 5);
+    let mut document = TestDocument::new(&folder.join("second"));
+    document.open(&path);
+    assert_eq!(document.wait_for_offers()[0].steps, 5);
 }
 
 #[test]
 fn the_history_survives_saving_closing_and_starting_again() {
     let folder = Folder::new("keeping-history");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let mut desk = TestDocument::new(&autosave);
-    let opened = desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.edit(rename("Look around"));
-    desk.save(SaveTo::Own);
-    desk.edit(turn(0.7));
-    desk.save(SaveTo::Own);
-    let before = desk.view();
+    let mut document = TestDocument::new(&autosave);
+    let opened = document.open(&path);
+    document.edit(turn(0.5));
+    document.edit(rename("Look around"));
+    document.save(SaveTo::Own);
+    document.edit(turn(0.7));
+    document.save(SaveTo::Own);
+    let before = document.view();
     assert!(before.history.saved);
-    desk.end();
+    document.end();
     for round in 0..3 {
-        let mut desk = TestDocument::new(&autosave);
-        let after = desk.open(&path);
+        let mut document = TestDocument::new(&autosave);
+        let after = document.open(&path);
         assert_eq!(
             (after.history.done, after.history.steps.len(), after.history.saved),
             (3, 3, true),
@@ -113,27 +113,27 @@ fn the_history_survives_saving_closing_and_starting_again() {
         );
         same_takes(&before, &after);
         // Undo restores the first takes, although the file no longer contains them.
-        desk.change(Change::GoTo(0));
-        let first = desk.view();
+        document.change(Change::GoTo(0));
+        let first = document.view();
         same_takes(&first, &opened);
         assert!(!first.history.saved);
-        desk.change(Change::GoTo(3));
-        assert!(desk.view().history.saved);
+        document.change(Change::GoTo(3));
+        assert!(document.view().history.saved);
         // Back at the saved state, nothing is asked or offered.
-        desk.send(DocumentMessage::Quit);
-        assert!(!desk.wait_for_reply(|reply| match reply {
+        document.send(DocumentMessage::Quit);
+        assert!(!document.wait_for_reply(|reply| match reply {
             DocumentReply::Unsaved(_) => Some(true),
             DocumentReply::MayQuit => Some(false),
             _ => None,
         }));
-        desk.end();
+        document.end();
     }
     // After undoing everything, saving writes the takes of the first file again.
-    let mut desk = TestDocument::new(&autosave);
-    desk.open(&path);
-    desk.change(Change::GoTo(0));
-    desk.save(SaveTo::Own);
-    desk.end();
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    document.change(Change::GoTo(0));
+    document.save(SaveTo::Own);
+    document.end();
     let mut fresh = TestDocument::with(Setup::default());
     same_takes(&fresh.open(&path), &opened);
 }
@@ -142,35 +142,35 @@ fn the_history_survives_saving_closing_and_starting_again() {
 fn a_history_of_another_state_of_the_file_is_reset_with_a_notice() {
     let folder = Folder::new("keeping-other");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let mut desk = TestDocument::new(&autosave);
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.save(SaveTo::Own);
-    desk.end();
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    document.edit(turn(0.5));
+    document.save(SaveTo::Own);
+    document.end();
     fs::copy(dragonfly_kit::folder::data("gltf/Fox.glb"), &path).unwrap();
-    let mut desk = TestDocument::new(&autosave);
-    let view = desk.open(&path);
-    desk.wait_for_warning("a new history was started");
+    let mut document = TestDocument::new(&autosave);
+    let view = document.open(&path);
+    document.wait_for_warning("a new history was started");
     assert!(view.history.steps.is_empty() && view.history.saved);
-    desk.edit(turn(0.1));
-    assert_eq!(desk.view().history.done, 1);
+    document.edit(turn(0.1));
+    assert_eq!(document.view().history.done, 1);
 }
 
 #[test]
 fn edits_of_the_built_in_model_are_recovered_without_a_file() {
     let folder = Folder::new("keeping-built-in");
-    let mut desk = TestDocument::new(&folder.join("first"));
-    desk.open_source(Source::BuiltIn);
-    desk.edit(rename("Hover"));
-    desk.edit(rename("Hang"));
-    let before = desk.view();
+    let mut document = TestDocument::new(&folder.join("first"));
+    document.open_source(Source::BuiltIn);
+    document.edit(rename("Hover"));
+    document.edit(rename("Hang"));
+    let before = document.view();
     killed(&folder.join("first"), &folder.join("second"));
     // Offered at the start, whichever file is opened.
-    let mut desk = TestDocument::new(&folder.join("second"));
-    let offer = desk.wait_for_offers().remove(0);
+    let mut document = TestDocument::new(&folder.join("second"));
+    let offer = document.wait_for_offers().remove(0);
     assert_eq!((offer.title.as_str(), offer.steps), ("Dragonfly (recovered)", 2));
-    desk.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
-    let after = desk.wait_for_view(|view| view.history.done == 2);
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    let after = document.wait_for_view(|view| view.history.done == 2);
     same_takes(&before, &after);
     assert_eq!(after.file.path, None);
 }
@@ -179,23 +179,23 @@ fn edits_of_the_built_in_model_are_recovered_without_a_file() {
 fn work_opened_separately_is_a_new_document_and_the_original_is_unchanged() {
     let folder = Folder::new("keeping-beside");
     let path = fox(&folder);
-    let mut desk = TestDocument::new(&folder.join("first"));
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    let before = desk.view();
+    let mut document = TestDocument::new(&folder.join("first"));
+    document.open(&path);
+    document.edit(turn(0.5));
+    let before = document.view();
     killed(&folder.join("first"), &folder.join("second"));
-    let mut desk = TestDocument::new(&folder.join("second"));
-    desk.open(&path);
-    let offer = desk.wait_for_offers().remove(0);
-    desk.send(DocumentMessage::Decide(Box::new(offer), Decision::Beside));
-    let beside = desk.wait_for_view(|view| view.history.done == 1);
+    let mut document = TestDocument::new(&folder.join("second"));
+    document.open(&path);
+    let offer = document.wait_for_offers().remove(0);
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Beside));
+    let beside = document.wait_for_view(|view| view.history.done == 1);
     same_takes(&before, &beside);
     assert_eq!((beside.file.title.as_str(), &beside.file.path), ("Fox.glb (recovered)", &None));
     assert!(!beside.history.saved);
-    desk.change(Change::Undo);
-    assert!(!desk.view().history.saved, "it is in no file");
-    desk.change(Change::Redo);
-    desk.view();
+    document.change(Change::Undo);
+    assert!(!document.view().history.saved, "it is in no file");
+    document.change(Change::Redo);
+    document.view();
     // After another kill both can be recovered, and the separate document is unchanged.
     killed(&folder.join("second"), &folder.join("third"));
     let mut third = TestDocument::new(&folder.join("third"));
@@ -219,18 +219,18 @@ fn work_opened_separately_is_a_new_document_and_the_original_is_unchanged() {
 fn discarded_work_is_moved_to_the_bin_and_not_offered_again() {
     let folder = Folder::new("keeping-bin");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let mut desk = TestDocument::new(&autosave);
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.send(DocumentMessage::DoNotSave);
-    desk.end();
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    document.edit(turn(0.5));
+    document.send(DocumentMessage::DoNotSave);
+    document.end();
     assert_eq!(autosave_in(&autosave).discarded().unwrap().len(), 1);
 
-    let mut desk = TestDocument::new(&autosave);
-    let view = desk.open(&path);
+    let mut document = TestDocument::new(&autosave);
+    let view = document.open(&path);
     assert!(view.history.steps.is_empty());
-    desk.edit(turn(0.6));
-    desk.view();
+    document.edit(turn(0.6));
+    document.view();
     killed(&autosave, &folder.join("second"));
     let mut second = TestDocument::new(&folder.join("second"));
     second.open(&path);
@@ -261,18 +261,18 @@ fn discarded_work_is_moved_to_the_bin_and_not_offered_again() {
 fn postponed_recovery_keeps_the_old_work_and_allows_new_work() {
     let folder = Folder::new("keeping-later");
     let path = fox(&folder);
-    let mut desk = TestDocument::new(&folder.join("first"));
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.view();
+    let mut document = TestDocument::new(&folder.join("first"));
+    document.open(&path);
+    document.edit(turn(0.5));
+    document.view();
     killed(&folder.join("first"), &folder.join("second"));
-    let mut desk = TestDocument::new(&folder.join("second"));
-    desk.open(&path);
-    let offer = desk.wait_for_offers().remove(0);
-    desk.send(DocumentMessage::Decide(Box::new(offer), Decision::Later));
-    desk.edit(rename("other work"));
-    desk.edit(rename("more of it"));
-    desk.view();
+    let mut document = TestDocument::new(&folder.join("second"));
+    document.open(&path);
+    let offer = document.wait_for_offers().remove(0);
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Later));
+    document.edit(rename("other work"));
+    document.edit(rename("more of it"));
+    document.view();
     killed(&folder.join("second"), &folder.join("third"));
     let mut third = TestDocument::new(&folder.join("third"));
     let mut steps: Vec<usize> = third.wait_for_offers().iter().map(|offer| offer.steps).collect();
@@ -326,23 +326,23 @@ fn a_panic_in_the_document_thread_loses_no_work_and_offers_it() {
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let faults = FaultInjection::new(Arc::new(FailAt(AtomicU32::new(4))));
     let setup = Setup { autosave: Some(autosave_in(&autosave)), faults, ..Setup::default() };
-    let mut desk = TestDocument::with(setup);
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.edit(rename("Look around"));
-    desk.edit(turn(0.9));
-    let before = desk.view();
-    desk.edit(rename("never"));
-    desk.wait_for_reply(|reply| matches!(reply, DocumentReply::Lost).then_some(()));
-    let offer = desk.wait_for_offers().remove(0);
+    let mut document = TestDocument::with(setup);
+    document.open(&path);
+    document.edit(turn(0.5));
+    document.edit(rename("Look around"));
+    document.edit(turn(0.9));
+    let before = document.view();
+    document.edit(rename("never"));
+    document.wait_for_reply(|reply| matches!(reply, DocumentReply::Lost).then_some(()));
+    let offer = document.wait_for_offers().remove(0);
     assert_eq!((offer.title.as_str(), offer.steps), ("Fox.glb", 3));
-    desk.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
-    let after = desk.wait_for_view(|view| view.generation > before.generation && view.history.done == 3);
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    let after = document.wait_for_view(|view| view.generation > before.generation && view.history.done == 3);
     same_takes(&before, &after);
     // The document continues as before.
-    desk.edit(turn(0.1));
-    desk.save(SaveTo::Own);
-    assert!(desk.view().history.saved);
+    document.edit(turn(0.1));
+    document.save(SaveTo::Own);
+    assert!(document.view().history.saved);
 }
 
 #[test]
@@ -351,18 +351,18 @@ fn an_unwritable_autosave_folder_is_reported_once_and_editing_continues() {
     let path = fox(&folder);
     let autosave = folder.join("autosave");
     fs::write(&autosave, "no folder").unwrap();
-    let mut desk = TestDocument::new(&autosave);
-    desk.open(&path);
-    desk.wait_for_warning("Unsaved work is not recorded, so a crash would lose it");
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    document.wait_for_warning("Unsaved work is not recorded, so a crash would lose it");
     for number in 0..10 {
-        desk.edit(turn(number as f32 * 0.1));
+        document.edit(turn(number as f32 * 0.1));
     }
-    desk.save(SaveTo::Own);
-    assert!(desk.view().history.saved);
+    document.save(SaveTo::Own);
+    assert!(document.view().history.saved);
     assert!(
-        !desk.unread_replies().iter().any(|said| said.contains("recorded")),
+        !document.unread_replies().iter().any(|said| said.contains("recorded")),
         "{:?}",
-        desk.unread_replies()
+        document.unread_replies()
     );
 }
 
@@ -376,18 +376,18 @@ fn a_temporary_disk_failure_at_any_call_loses_no_step() {
             let place = folder.join(&format!("{kind:?}-{call}"));
             let files = FaultyFiles::between(call, call + 3, kind);
             let setup = Setup { autosave: Some(autosave_with(&place, files)), ..Setup::default() };
-            let mut desk = TestDocument::with(setup);
-            desk.open(&path);
+            let mut document = TestDocument::with(setup);
+            document.open(&path);
             for number in 0..6 {
-                desk.edit(turn(number as f32 * 0.1));
+                document.edit(turn(number as f32 * 0.1));
             }
-            let before = desk.view();
-            let said = desk.unread_replies();
+            let before = document.view();
+            let said = document.unread_replies();
             let troubled =
                 said.iter().any(|said| said.contains("not recorded") || said.contains("not being recorded"));
             assert_eq!(before.history.done, 6, "{kind:?} {call}");
             if said.iter().any(|said| said.contains("not being recorded")) {
-                desk.wait_for_warning("Unsaved work is recorded again");
+                document.wait_for_warning("Unsaved work is recorded again");
             }
             let second = folder.join(&format!("{kind:?}-{call}-second"));
             if place.is_dir() {
@@ -417,40 +417,40 @@ fn random_edits_are_recovered_after_a_kill_at_any_moment() {
         let folder = Folder::new("keeping-random");
         let path = fox(&folder);
         let mut place = folder.join("autosave-0");
-        let mut desk = TestDocument::new(&place);
-        desk.open(&path);
+        let mut document = TestDocument::new(&place);
+        document.open(&path);
         for life in 1..4 {
             for _ in 0..random.below(25) {
                 match random.below(12) {
-                    0 => desk.change(Change::Undo),
-                    1 => desk.change(Change::Redo),
-                    2 => desk.change(Change::GoTo(random.below(6))),
+                    0 => document.change(Change::Undo),
+                    1 => document.change(Change::Redo),
+                    2 => document.change(Change::GoTo(random.below(6))),
                     3 => {
-                        desk.save(SaveTo::Own);
+                        document.save(SaveTo::Own);
                     }
-                    4 => desk.edit(rename(&format!("take {}", random.below(100)))),
-                    5 => desk.change(Change::Cancel(Gesture(random.below(3) as u64))),
+                    4 => document.edit(rename(&format!("take {}", random.below(100)))),
+                    5 => document.change(Change::Cancel(Gesture(random.below(3) as u64))),
                     6 | 7 => {
                         let gesture = Gesture(random.below(3) as u64);
-                        desk.change(Change::Edit(turn(random.unit()), Some(gesture)));
+                        document.change(Change::Edit(turn(random.unit()), Some(gesture)));
                     }
-                    _ => desk.edit(turn(random.unit())),
+                    _ => document.edit(turn(random.unit())),
                 }
             }
-            let before = desk.view();
+            let before = document.view();
             let next = folder.join(&format!("autosave-{life}"));
             killed(&place, &next);
-            drop(desk);
+            drop(document);
             place = next;
-            desk = TestDocument::new(&place);
-            let opened = desk.open(&path);
+            document = TestDocument::new(&place);
+            let opened = document.open(&path);
             let after = if before.history.saved {
-                desk.view()
+                document.view()
             } else {
-                let offer = desk.wait_for_offers().remove(0);
-                desk.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+                let offer = document.wait_for_offers().remove(0);
+                document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
                 let generation = opened.generation;
-                desk.wait_for_view(|view| view.generation > generation)
+                document.wait_for_view(|view| view.generation > generation)
             };
             same_takes(&before, &after);
             assert_eq!(before.history, after.history, "round {round}, life {life}");
@@ -463,21 +463,21 @@ fn random_edits_are_recovered_after_a_kill_at_any_moment() {
 fn work_on_a_moved_file_continues_at_its_new_path() {
     let folder = Folder::new("keeping-moved");
     let path = fox(&folder);
-    let mut desk = TestDocument::new(&folder.join("first"));
-    let opened = desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.save(SaveTo::Own);
-    desk.edit(rename("Look around"));
-    desk.edit(turn(0.9));
-    let before = desk.view();
+    let mut document = TestDocument::new(&folder.join("first"));
+    let opened = document.open(&path);
+    document.edit(turn(0.5));
+    document.save(SaveTo::Own);
+    document.edit(rename("Look around"));
+    document.edit(turn(0.9));
+    let before = document.view();
     let second = folder.join("second");
     killed(&folder.join("first"), &second);
     let moved = folder.join("renamed.glb");
     fs::rename(&path, &moved).unwrap();
     let bytes = fs::read(&moved).unwrap();
 
-    let mut desk = TestDocument::new(&second);
-    let offer = desk.wait_for_offers().remove(0);
+    let mut document = TestDocument::new(&second);
+    let offer = document.wait_for_offers().remove(0);
     assert!(offer.is_missing() && !offer.can_be_kept());
     assert!(offer.warnings()[0].contains("The file is missing"), "{:?}", offer.warnings());
     let found_at =
@@ -485,23 +485,23 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
     // A different file is detected, and so is a missing one.
     let other = folder.join("other.glb");
     fs::copy(dragonfly_kit::folder::data("gltf/Fox.glb"), &other).unwrap();
-    desk.send(found_at(&other));
-    let (back, at) = desk.wait_for_reply(|reply| match reply {
+    document.send(found_at(&other));
+    let (back, at) = document.wait_for_reply(|reply| match reply {
         DocumentReply::OtherFile(offer, path) => Some((offer.clone(), path.clone())),
         _ => None,
     });
     assert_eq!((&*back, &at), (&offer, &other));
-    desk.send(found_at(&folder.join("nowhere.glb")));
-    desk.wait_for_warning("nowhere.glb");
-    assert_eq!(desk.wait_for_offers(), std::slice::from_ref(&offer), "a wrong path is no answer");
+    document.send(found_at(&folder.join("nowhere.glb")));
+    document.wait_for_warning("nowhere.glb");
+    assert_eq!(document.wait_for_offers(), std::slice::from_ref(&offer), "a wrong path is no answer");
     // The right one.
-    desk.send(found_at(&moved));
-    let after = desk.wait_for_view(|view| view.history.done == 3);
+    document.send(found_at(&moved));
+    let after = document.wait_for_view(|view| view.history.done == 3);
     same_takes(&before, &after);
     assert_eq!(before.history, after.history);
     assert_eq!((after.file.title.as_str(), after.file.path.as_deref()), ("renamed.glb", Some(&*moved)));
     assert_eq!(fs::read(&moved).unwrap(), bytes, "nobody saved");
-    desk.wait_for_warning("Restored the unsaved work of renamed.glb: 2 steps");
+    document.wait_for_warning("Restored the unsaved work of renamed.glb: 2 steps");
     // After another kill it is offered for the new path of the file, and only once.
     let third = folder.join("third");
     killed(&second, &third);
@@ -513,14 +513,14 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
     again.send(DocumentMessage::Decide(Box::new(offers[0].clone()), Decision::Keep));
     assert_eq!(again.wait_for_view(|view| view.history.done == 3).history, before.history);
     again.end();
-    desk.save(SaveTo::Own);
+    document.save(SaveTo::Own);
     assert!(!path.exists(), "nothing is written where it was");
-    desk.end();
-    let mut desk = TestDocument::new(&second);
-    let view = desk.open(&moved);
+    document.end();
+    let mut document = TestDocument::new(&second);
+    let view = document.open(&moved);
     assert_eq!((view.history.done, view.history.saved), (3, true));
-    desk.change(Change::GoTo(0));
-    same_takes(&desk.view(), &opened);
+    document.change(Change::GoTo(0));
+    same_takes(&document.view(), &opened);
 }
 
 /// If the file is deleted, the work can be applied to a similar file, as a new document.
@@ -528,25 +528,25 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
 fn work_on_a_deleted_file_can_be_applied_to_a_similar_file() {
     let folder = Folder::new("keeping-gone");
     let path = fox(&folder);
-    let mut desk = TestDocument::new(&folder.join("first"));
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    let before = desk.view();
+    let mut document = TestDocument::new(&folder.join("first"));
+    document.open(&path);
+    document.edit(turn(0.5));
+    let before = document.view();
     killed(&folder.join("first"), &folder.join("second"));
     // Another version of the file.
     let other = folder.join("older.glb");
-    desk.edit(rename("An older one"));
-    desk.change(Change::Undo);
-    desk.change(Change::Undo);
-    desk.edit(rename("An older one"));
-    desk.save(SaveTo::Copy(other.clone()));
+    document.edit(rename("An older one"));
+    document.change(Change::Undo);
+    document.change(Change::Undo);
+    document.edit(rename("An older one"));
+    document.save(SaveTo::Copy(other.clone()));
     fs::remove_file(&path).unwrap();
     let bytes = fs::read(&other).unwrap();
-    let mut desk = TestDocument::new(&folder.join("second"));
-    let offer = desk.wait_for_offers().remove(0);
+    let mut document = TestDocument::new(&folder.join("second"));
+    let offer = document.wait_for_offers().remove(0);
     let there = dragonfly_document::Offer { source: Some(Source::File(other.clone())), ..offer };
-    desk.send(DocumentMessage::Decide(Box::new(there), Decision::Beside));
-    let view = desk.wait_for_view(|view| view.history.done == 1);
+    document.send(DocumentMessage::Decide(Box::new(there), Decision::Beside));
+    let view = document.wait_for_view(|view| view.history.done == 1);
     assert_eq!(view.file.path, None);
     assert_eq!(view.takes[0].name, "An older one");
     assert_eq!(view.takes[0].tracks, before.takes[0].tracks);
@@ -556,10 +556,10 @@ fn work_on_a_deleted_file_can_be_applied_to_a_similar_file() {
 #[test]
 fn opening_a_model_asks_first_while_something_is_unsaved() {
     let folder = Folder::new("opening-asks");
-    let mut desk = TestDocument::new(&folder.join("autosave"));
-    let open = |desk: &mut TestDocument, anyway| {
-        desk.send(DocumentMessage::Open { source: Source::BuiltIn, anyway });
-        desk.wait_for_reply(|reply| match reply {
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    let open = |document: &mut TestDocument, anyway| {
+        document.send(DocumentMessage::Open { source: Source::BuiltIn, anyway });
+        document.wait_for_reply(|reply| match reply {
             DocumentReply::Unsaved(then) => {
                 assert_eq!(*then, Then::Open(Source::BuiltIn));
                 Some(false)
@@ -568,11 +568,11 @@ fn opening_a_model_asks_first_while_something_is_unsaved() {
             _ => None,
         })
     };
-    assert!(open(&mut desk, false), "nothing was open");
-    assert!(open(&mut desk, false), "nothing is unsaved");
-    desk.edit(rename("Hover"));
-    assert!(!open(&mut desk, false), "an edit is unsaved");
-    assert_eq!(desk.view().history.done, 1, "the model stays open");
-    assert!(open(&mut desk, true), "the user has decided");
-    assert_eq!(desk.view().history.done, 0);
+    assert!(open(&mut document, false), "nothing was open");
+    assert!(open(&mut document, false), "nothing is unsaved");
+    document.edit(rename("Hover"));
+    assert!(!open(&mut document, false), "an edit is unsaved");
+    assert_eq!(document.view().history.done, 1, "the model stays open");
+    assert!(open(&mut document, true), "the user has decided");
+    assert_eq!(document.view().history.done, 0);
 }

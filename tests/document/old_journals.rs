@@ -19,19 +19,19 @@ fn first_edits() -> Vec<String> {
 }
 
 /// Opens Fox with a journal that contains these records, and recovers the given number of steps.
-fn had_back(name: &str, records: &[(u8, &[u8])], steps: usize) -> (TestDocument, View) {
+fn recovered(name: &str, records: &[(u8, &[u8])], steps: usize) -> (TestDocument, View) {
     let folder = Folder::new(name);
     let path = fox(&folder);
     let autosave = folder.join("autosave");
     fs::create_dir_all(autosave.join("journals")).unwrap();
     fs::write(autosave.join("journals/old.journal"), forged_with(&header(&path), 1, records)).unwrap();
-    let mut desk = TestDocument::new(&autosave);
-    desk.open(&path);
-    let offer = desk.wait_for_offers().remove(0);
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    let offer = document.wait_for_offers().remove(0);
     assert_eq!(offer.warnings(), [""; 0]);
-    desk.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
-    let view = desk.wait_for_view(|view| view.history.done == steps);
-    (desk, view)
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    let view = document.wait_for_view(|view| view.history.done == steps);
+    (document, view)
 }
 
 fn header(path: &Path) -> String {
@@ -76,12 +76,12 @@ fn names_that_are_now_invalid_are_still_read_from_old_journals() {
         recorded(&format!(r#"{{"edit":"rename_take","take":{take},"name":"{name}"}}"#))
     };
     let [nameless, same] = [rename(0, ""), rename(1, "Run")];
-    let (mut desk, view) = had_back("old-names", &[(2, &nameless), (2, &same)], 2);
+    let (mut document, view) = recovered("old-names", &[(2, &nameless), (2, &same)], 2);
     let names: Vec<_> = takes(&view).into_iter().map(|take| take.0).collect();
     assert_eq!(names, ["", "Run", "Run"]);
     let again = Edit::RenameTake(RenameTake { take: TakeRef::Index(2), name: String::new() });
-    desk.send(DocumentMessage::Change(Change::Edit(again, None)));
-    let refused = desk.wait_for_reply(|reply| match reply {
+    document.send(DocumentMessage::Change(Change::Edit(again, None)));
+    let refused = document.wait_for_reply(|reply| match reply {
         DocumentReply::Refused(reason) => Some(reason.clone()),
         _ => None,
     });
@@ -94,10 +94,10 @@ fn edits_of_every_version_are_replayed() {
     let edits = first_edits().into_iter().map(|edit| recorded(&edit));
     let records: Vec<Vec<u8>> = std::iter::once(begin).chain(edits).collect();
     let records: Vec<(u8, &[u8])> = records.iter().map(|record| (2, &record[..])).collect();
-    let (mut desk, view) = had_back("old-edits", &records, records.len() - 1);
+    let (mut document, view) = recovered("old-edits", &records, records.len() - 1);
     assert_eq!(takes(&view), first_takes());
-    desk.change(Change::GoTo(0));
-    let names: Vec<_> = takes(&desk.view()).into_iter().map(|take| take.0).collect();
+    document.change(Change::GoTo(0));
+    let names: Vec<_> = takes(&document.view()).into_iter().map(|take| take.0).collect();
     assert_eq!(names, ["Survey", "Walk", "Run"], "and undone");
 }
 
@@ -108,7 +108,7 @@ fn a_snapshot_of_every_version_is_restored() {
     let text = format!(r#"{{"about":{about},"steps":[{edits}],"done":{all},"saved":null,"has_base":false}}"#);
     let mut snapshot = (text.len() as u32).to_le_bytes().to_vec();
     snapshot.extend(text.bytes());
-    let (_, view) = had_back("old-snapshot", &[(1, &snapshot)], all);
+    let (_, view) = recovered("old-snapshot", &[(1, &snapshot)], all);
     assert_eq!(takes(&view), first_takes());
 }
 

@@ -33,8 +33,8 @@ fn models(folder: &Folder) -> Vec<PathBuf> {
     models
 }
 
-/// Removes tracks without keys, which have no effect and are not stored in a file. Bones are numbered by their nodes:
-/// a node that is no joint is a bone while something animates it, so deleting its last key changes the numbers of the
+/// Returns the take as a file stores it: without tracks that have no keys, and with bones numbered by their nodes. A
+/// node that is no joint is a bone while something animates it, so deleting its last key changes the numbers of the
 /// others.
 fn with_keys(take: &Take, skeleton: &Skeleton) -> Take {
     let mut take = take.clone();
@@ -53,7 +53,8 @@ fn with_keys(take: &Take, skeleton: &Skeleton) -> Take {
     take
 }
 
-/// q and -q are one rotation; reading a file chooses the one nearer to the key before, where no spline goes through them.
+/// Makes each rotation the one of q and -q that is nearer to the key before, as reading a file does where no spline
+/// goes through them.
 fn in_one_hemisphere(channel: &mut Channel<Quat>) {
     if channel.interpolation != Interpolation::CubicSpline {
         let mut values = channel.values.to_vec();
@@ -66,7 +67,7 @@ fn in_one_hemisphere(channel: &mut Channel<Quat>) {
     }
 }
 
-/// A spline has two keys at least (glTF 2.0, 3.11); of one key only the value counts.
+/// Converts channels with one key: a spline has two keys at least (glTF 2.0, 3.11), so only the value counts.
 fn of_one_key<T: Copy>(channel: &mut Channel<T>) {
     if channel.len() == 1 && channel.interpolation == Interpolation::CubicSpline {
         channel.values = [channel.values[1]].into();

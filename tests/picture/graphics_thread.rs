@@ -85,7 +85,7 @@ impl Bench {
         }
     }
 
-    /// Shows the model of the arm.
+    /// Creates both and shows the model of the arm.
     fn with_arm() -> Option<Self> {
         let mut bench = Self::new()?;
         bench.graphics.show(View::opened(1, arm::loaded()));

@@ -26,7 +26,7 @@ const FILES: &[&str] = &[
 /// Largest number of lines of a source file; longer files are hard to read.
 const LONGEST: usize = 600;
 
-fn stands_at_the_top_by_right(files: &[File]) -> Vec<String> {
+fn unlisted_root_entries(files: &[File]) -> Vec<String> {
     let allowed = |path: &str| match path.split_once('/') {
         Some((folder, _)) => FOLDERS.contains(&folder),
         None => FILES.contains(&path),
@@ -38,14 +38,14 @@ fn stands_at_the_top_by_right(files: &[File]) -> Vec<String> {
 
 #[test]
 fn the_root_folder_contains_only_the_listed_entries() {
-    none(stands_at_the_top_by_right(&files()));
-    one(stands_at_the_top_by_right(&[File::planted("notes.txt", ""), File::planted("anim/src/lib.rs", "")]));
-    one(stands_at_the_top_by_right(&[File::planted("scripts/do.sh", "")]));
+    none(unlisted_root_entries(&files()));
+    one(unlisted_root_entries(&[File::planted("notes.txt", ""), File::planted("anim/src/lib.rs", "")]));
+    one(unlisted_root_entries(&[File::planted("scripts/do.sh", "")]));
 }
 
 /// Returns the files that may declare `mod name;` for the module in `path`, and that name; `None` for the root of a
 /// crate.
-fn list_of(path: &str) -> Option<(Vec<String>, String)> {
+fn declaring_files(path: &str) -> Option<(Vec<String>, String)> {
     let (folder, file) = path.rsplit_once('/')?;
     let stem = file.strip_suffix(".rs")?;
     let root = matches!(stem, "lib" | "main" | "build");
@@ -59,10 +59,10 @@ fn list_of(path: &str) -> Option<(Vec<String>, String)> {
     Some((lists, name.to_owned()))
 }
 
-fn is_named_in_its_list(files: &[File]) -> Vec<String> {
+fn undeclared_files(files: &[File]) -> Vec<String> {
     let mut complaints = Vec::new();
     for file in files.iter().filter(|file| file.is_rust() && !file.path.contains("/bin/")) {
-        let Some((lists, name)) = list_of(&file.path) else { continue };
+        let Some((lists, name)) = declaring_files(&file.path) else { continue };
         let says = |list: &File| {
             let says = |line: &str| {
                 line.trim_end().ends_with(&format!("mod {name};")) || line.contains(&format!("mod {name} {{"))
@@ -84,14 +84,14 @@ fn is_named_in_its_list(files: &[File]) -> Vec<String> {
 
 #[test]
 fn every_module_and_test_file_is_declared() {
-    none(is_named_in_its_list(&files()));
+    none(undeclared_files(&files()));
     let main = || File::planted("tests/anim/main.rs", "mod poses;\n// mod forgotten;");
-    one(is_named_in_its_list(&[
+    one(undeclared_files(&[
         main(),
         File::planted("tests/anim/poses.rs", ""),
         File::planted("tests/anim/forgotten.rs", ""),
     ]));
-    one(is_named_in_its_list(&[
+    one(undeclared_files(&[
         File::planted("editor/src/lib.rs", "pub mod panels;"),
         File::planted("editor/src/panels/mod.rs", ""),
         File::planted("editor/src/panels/takes.rs", ""),

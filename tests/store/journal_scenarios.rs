@@ -15,7 +15,7 @@ use std::os::unix::fs::symlink;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// A document, and a journal with two edits of it, whose program was killed.
+/// A document, and a journal with two of its edits, after their program was killed.
 struct Killed {
     folder: Folder,
     autosave: Autosave,

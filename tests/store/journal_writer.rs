@@ -22,7 +22,7 @@ const CHILD: &str = "DRAGONFLY_STORE_CHILD";
 /// Set when the process only saves, without a journal: syncing a journal may also sync other data.
 const ONLY_SAVES: &str = "DRAGONFLY_STORE_CHILD_ONLY_SAVES";
 
-/// Returns the document after `count` edits.
+/// Returns the document after this number of edits.
 fn document(edits: u32) -> Vec<u8> {
     let mut bytes = format!("{edits}\n").into_bytes();
     let mut random = Random::new(u64::from(edits));

@@ -216,7 +216,7 @@ fn a_change_within_a_tick_of_the_clock_is_detected() {
     let path = folder.join("model.glb");
     fs::write(&path, "as it was read").unwrap();
     let stamp = FileStamp::take(&RealFiles, &path).unwrap();
-    // The stamp of a file with the same size and times but other bytes.
+    // Stamps as of a file with the same size and times but other bytes.
     let newest = stamp.modified.max(stamp.changed);
     let other = |taken| FileStamp { hash: !stamp.hash, taken, ..stamp };
     for taken in [newest - 1, newest, newest + 1_900_000_000] {
@@ -235,7 +235,7 @@ fn a_new_file_never_replaces_an_existing_one() {
     let error = save(&RealFiles, &path, b"second", &options).unwrap_err();
     assert!(matches!(error, FileSaveError::Exists { .. }), "{error}");
     assert_eq!(fs::read(&path).unwrap(), b"first");
-    // Neither is a file that was created between the check and the rename.
+    // A file that another program created between the check and the rename is not replaced either.
     let error = RealFiles.rename_to_new(&path, &folder.join("model.glb")).unwrap_err();
     assert_eq!(error.kind(), std::io::ErrorKind::AlreadyExists);
     fs::write(folder.join("second.glb"), "second").unwrap();

@@ -50,9 +50,9 @@ impl Fault {
 }
 
 /// An action of another program, performed before a chosen call.
-struct Meddling(Box<dyn Fn() + Send + Sync>);
+struct Interference(Box<dyn Fn() + Send + Sync>);
 
-impl Debug for Meddling {
+impl Debug for Interference {
     fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
         out.write_str("somebody else")
     }
@@ -65,7 +65,7 @@ struct Plan {
     from: u64,
     to: u64,
     fault: Fault,
-    meddling: Option<Meddling>,
+    meddling: Option<Interference>,
 }
 
 impl Plan {
@@ -75,7 +75,7 @@ impl Plan {
         if !(self.from..=self.to).contains(&call) {
             return Ok(false);
         }
-        if let Some(Meddling(act)) = &self.meddling {
+        if let Some(Interference(act)) = &self.meddling {
             act();
             return Ok(false);
         }
@@ -100,7 +100,7 @@ impl FaultyFiles {
 
     /// Returns a file system that runs `act` right before call `number`; no call fails.
     pub fn meddling(number: u64, act: impl Fn() + Send + Sync + 'static) -> Self {
-        let meddling = Some(Meddling(Box::new(act)));
+        let meddling = Some(Interference(Box::new(act)));
         let calls = AtomicU64::new(0);
         Self(Arc::new(Plan { calls, from: number, to: number, fault: Fault::Io, meddling }))
     }
