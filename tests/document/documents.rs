@@ -196,7 +196,7 @@ fn opens_anything(
 }
 
 /// The three threads, whose iterations are run by the test.
-struct Bench {
+struct DocumentBench {
     stage: Stage,
     main: ThreadHandle,
     thread: ThreadHandle,
@@ -206,7 +206,7 @@ struct Bench {
     picture: Picture,
 }
 
-impl Bench {
+impl DocumentBench {
     fn new() -> Self {
         let (mut stage, heard) = (Stage::default(), ReplyRecorder::default());
         let [main, thread, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
@@ -245,7 +245,7 @@ impl Bench {
 
 #[test]
 fn a_hundred_changes_in_one_iteration_send_only_the_newest_view() {
-    let mut bench = Bench::new();
+    let mut bench = DocumentBench::new();
     let names: Vec<String> = (1..=100).map(|number| format!("{number}.glb")).collect();
     for name in &names {
         bench.change(name);
@@ -263,7 +263,7 @@ fn a_hundred_changes_in_one_iteration_send_only_the_newest_view() {
 
 #[test]
 fn views_do_not_accumulate_while_the_main_thread_is_busy() {
-    let mut bench = Bench::new();
+    let mut bench = DocumentBench::new();
     for number in 1..=10 {
         bench.change(&format!("{number}.glb"));
         bench.stage.iterate(&bench.thread);
@@ -278,7 +278,7 @@ fn views_do_not_accumulate_while_the_main_thread_is_busy() {
 
 #[test]
 fn the_graphics_thread_receives_the_newest_view_while_the_main_thread_is_blocked() {
-    let mut bench = Bench::new();
+    let mut bench = DocumentBench::new();
     for number in 1..=10 {
         bench.change(&format!("{number}.glb"));
         bench.stage.iterate(&bench.thread);

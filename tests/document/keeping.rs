@@ -6,7 +6,7 @@ use dragonfly_document::{
     Source, Then,
 };
 use dragonfly_kit::document::test_document::{
-    TestDocument, autosave_in, autosave_with, fox, killed, rename, same_takes, turn,
+    TestDocument, autosave_in, autosave_with, copy_after_kill, fox, rename, same_takes, turn,
 };
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::random::{Random, seed};
@@ -51,7 +51,7 @@ fn work_of_a_killed_program_is_offered_and_recovered_with_its_history() {
     document.change(Change::Undo);
     let before = document.view();
     assert_eq!((before.history.done, before.history.steps.len()), (3, 4));
-    killed(&folder.join("first"), &folder.join("second"));
+    copy_after_kill(&folder.join("first"), &folder.join("second"));
 
     let mut document = TestDocument::new(&folder.join("second"));
     document.open(&path);
@@ -164,7 +164,7 @@ fn edits_of_the_built_in_model_are_recovered_without_a_file() {
     document.edit(rename("Hover"));
     document.edit(rename("Hang"));
     let before = document.view();
-    killed(&folder.join("first"), &folder.join("second"));
+    copy_after_kill(&folder.join("first"), &folder.join("second"));
     // Offered at the start, whichever file is opened.
     let mut document = TestDocument::new(&folder.join("second"));
     let offer = document.wait_for_offers().remove(0);
@@ -183,7 +183,7 @@ fn work_opened_separately_is_a_new_document_and_the_original_is_unchanged() {
     document.open(&path);
     document.edit(turn(0.5));
     let before = document.view();
-    killed(&folder.join("first"), &folder.join("second"));
+    copy_after_kill(&folder.join("first"), &folder.join("second"));
     let mut document = TestDocument::new(&folder.join("second"));
     document.open(&path);
     let offer = document.wait_for_offers().remove(0);
@@ -197,7 +197,7 @@ fn work_opened_separately_is_a_new_document_and_the_original_is_unchanged() {
     document.change(Change::Redo);
     document.view();
     // After another kill both can be recovered, and the separate document is unchanged.
-    killed(&folder.join("second"), &folder.join("third"));
+    copy_after_kill(&folder.join("second"), &folder.join("third"));
     let mut third = TestDocument::new(&folder.join("third"));
     let offers = third.wait_for_offers();
     assert_eq!(offers.len(), 2, "{offers:?}");
@@ -231,7 +231,7 @@ fn discarded_work_is_moved_to_the_bin_and_not_offered_again() {
     assert!(view.history.steps.is_empty());
     document.edit(turn(0.6));
     document.view();
-    killed(&autosave, &folder.join("second"));
+    copy_after_kill(&autosave, &folder.join("second"));
     let mut second = TestDocument::new(&folder.join("second"));
     second.open(&path);
     let offer = second.wait_for_offers().remove(0);
@@ -240,7 +240,7 @@ fn discarded_work_is_moved_to_the_bin_and_not_offered_again() {
     assert_eq!(second.view().history.done, 1);
     assert_eq!(autosave_in(&folder.join("second")).discarded().unwrap().len(), 2);
     // The new work has a journal of its own.
-    killed(&folder.join("second"), &folder.join("third"));
+    copy_after_kill(&folder.join("second"), &folder.join("third"));
     let mut third = TestDocument::new(&folder.join("third"));
     third.open(&path);
     let offer = third.wait_for_offers().remove(0);
@@ -251,7 +251,7 @@ fn discarded_work_is_moved_to_the_bin_and_not_offered_again() {
     third.save(SaveTo::Own);
     third.change(Change::Undo);
     third.view();
-    killed(&folder.join("third"), &folder.join("fourth"));
+    copy_after_kill(&folder.join("third"), &folder.join("fourth"));
     let mut fourth = TestDocument::new(&folder.join("fourth"));
     fourth.open(&path);
     assert_eq!(fourth.wait_for_offers()[0].labels, ["Rename take (undone)"]);
@@ -265,7 +265,7 @@ fn postponed_recovery_keeps_the_old_work_and_allows_new_work() {
     document.open(&path);
     document.edit(turn(0.5));
     document.view();
-    killed(&folder.join("first"), &folder.join("second"));
+    copy_after_kill(&folder.join("first"), &folder.join("second"));
     let mut document = TestDocument::new(&folder.join("second"));
     document.open(&path);
     let offer = document.wait_for_offers().remove(0);
@@ -273,7 +273,7 @@ fn postponed_recovery_keeps_the_old_work_and_allows_new_work() {
     document.edit(rename("other work"));
     document.edit(rename("more of it"));
     document.view();
-    killed(&folder.join("second"), &folder.join("third"));
+    copy_after_kill(&folder.join("second"), &folder.join("third"));
     let mut third = TestDocument::new(&folder.join("third"));
     let mut steps: Vec<usize> = third.wait_for_offers().iter().map(|offer| offer.steps).collect();
     steps.sort_unstable();
@@ -295,7 +295,7 @@ fn two_programs_with_one_file_are_warned_and_both_record_their_edits() {
     assert!(view.history.steps.is_empty());
     two.edit(rename("mine"));
     two.view();
-    killed(&autosave, &folder.join("second"));
+    copy_after_kill(&autosave, &folder.join("second"));
     let mut third = TestDocument::new(&folder.join("second"));
     assert_eq!(third.wait_for_offers().len(), 2);
     // The program that saves last is warned.
@@ -391,7 +391,7 @@ fn a_temporary_disk_failure_at_any_call_loses_no_step() {
             }
             let second = folder.join(&format!("{kind:?}-{call}-second"));
             if place.is_dir() {
-                killed(&place, &second);
+                copy_after_kill(&place, &second);
             }
             let mut after = TestDocument::new(&second);
             after.open(&path);
@@ -439,7 +439,7 @@ fn random_edits_are_recovered_after_a_kill_at_any_moment() {
             }
             let before = document.view();
             let next = folder.join(&format!("autosave-{life}"));
-            killed(&place, &next);
+            copy_after_kill(&place, &next);
             drop(document);
             place = next;
             document = TestDocument::new(&place);
@@ -471,7 +471,7 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
     document.edit(turn(0.9));
     let before = document.view();
     let second = folder.join("second");
-    killed(&folder.join("first"), &second);
+    copy_after_kill(&folder.join("first"), &second);
     let moved = folder.join("renamed.glb");
     fs::rename(&path, &moved).unwrap();
     let bytes = fs::read(&moved).unwrap();
@@ -504,7 +504,7 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
     document.wait_for_warning("Restored the unsaved work of renamed.glb: 2 steps");
     // After another kill it is offered for the new path of the file, and only once.
     let third = folder.join("third");
-    killed(&second, &third);
+    copy_after_kill(&second, &third);
     let mut again = TestDocument::new(&third);
     let offers = again.wait_for_offers();
     assert_eq!(offers.iter().map(|offer| &*offer.title).collect::<Vec<_>>(), ["renamed.glb"]);
@@ -532,7 +532,7 @@ fn work_on_a_deleted_file_can_be_applied_to_a_similar_file() {
     document.open(&path);
     document.edit(turn(0.5));
     let before = document.view();
-    killed(&folder.join("first"), &folder.join("second"));
+    copy_after_kill(&folder.join("first"), &folder.join("second"));
     // Another version of the file.
     let other = folder.join("older.glb");
     document.edit(rename("An older one"));

@@ -6,7 +6,7 @@ use dragonfly_document::{
     Change, DocumentMessage, DocumentReply, NotSaved, SaveOrder, SaveTo, Setup, Source, Then,
 };
 use dragonfly_kit::document::test_document::{
-    TestDocument, autosave_in, fox, killed, rename, same_takes, turn,
+    TestDocument, autosave_in, copy_after_kill, fox, rename, same_takes, turn,
 };
 use dragonfly_kit::folder::{Folder, data};
 use dragonfly_store::{FileState, RealFiles};
@@ -123,7 +123,7 @@ fn saved_as_another_file_it_is_that_file_and_the_first_one_has_nothing_unsaved()
     assert!(view.history.saved && fs::read(&path).unwrap() == before);
     desk.edit(rename("Sneak"));
     let edited = desk.view();
-    killed(&autosave, &folder.join("second"));
+    copy_after_kill(&autosave, &folder.join("second"));
     let mut second = TestDocument::new(&folder.join("second"));
     let offers = second.wait_for_offers();
     assert_eq!(
@@ -280,7 +280,7 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
     desk.save(SaveTo::Own);
     let before = desk.view();
     let second = folder.join("second");
-    killed(&autosave, &second);
+    copy_after_kill(&autosave, &second);
     let journal = fs::read_dir(second.join("journals")).unwrap().next().unwrap().unwrap().path();
     // The record that the save succeeded is the last one, and was not finished.
     let bytes = fs::read(&journal).unwrap();
@@ -305,7 +305,7 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
     desk.open(&path);
     desk.edit(turn(0.9));
     let before = desk.view();
-    killed(&second, &third);
+    copy_after_kill(&second, &third);
     let mut desk = TestDocument::new(&third);
     let opened = desk.open(&path);
     let offer = desk.wait_for_offers().remove(0);

@@ -4,7 +4,7 @@ use crate::drag::address;
 use crate::portal::{Answer, Bus, Portal};
 use crate::screen::{Screen, key, pass};
 use crate::window::{Editor, SOON, alone, eventually_shows_something, rest, same, settled};
-use dragonfly_kit::document::test_document::{TestDocument, killed, turn};
+use dragonfly_kit::document::test_document::{TestDocument, copy_after_kill, turn};
 use dragonfly_kit::eventually;
 use dragonfly_kit::folder::{Folder, data};
 use std::time::Duration;
@@ -100,7 +100,7 @@ fn work_on_a_file_that_was_renamed_goes_on_in_the_file_that_is_chosen() {
     desk.edit(turn(0.9));
     desk.view();
     let autosave = folder.join("second");
-    killed(&folder.join("first"), &autosave);
+    copy_after_kill(&folder.join("first"), &autosave);
     let moved = folder.join("Füchsin & mehr.glb");
     std::fs::rename(&model, &moved).expect("renamed");
     let other = data("gltf/Fox_skeleton.glb");

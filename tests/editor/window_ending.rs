@@ -6,7 +6,7 @@ use crate::window_hands::numbers;
 use crate::window_visit::Visit;
 use dragonfly_document::protocol::Session;
 use dragonfly_document::{Cancel, Decision, DocumentMessage, Editable, SaveTo, Source};
-use dragonfly_kit::document::test_document::{TestDocument, killed};
+use dragonfly_kit::document::test_document::{TestDocument, copy_after_kill};
 use dragonfly_kit::folder::data;
 use dragonfly_kit::process::ignores;
 use dragonfly_kit::random::{Random, seed};
@@ -158,7 +158,7 @@ fn saved_by_asking(visit: &Visit, asked: &[Value]) -> Vec<u8> {
 /// how many steps are done then.
 fn saved_by_keeping(visit: &Visit, life: usize) -> (Vec<u8>, usize) {
     let look = visit.folder.join(&format!("look-{life}"));
-    killed(&visit.folder.join("autosave"), &look);
+    copy_after_kill(&visit.folder.join("autosave"), &look);
     let mut desk = TestDocument::new(&look);
     let opened = desk.open(&visit.file);
     let offers = desk.wait_for_offers();

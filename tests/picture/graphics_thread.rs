@@ -46,7 +46,7 @@ impl FaultPlan for LoseDevice {
 }
 
 /// The main thread and the graphics thread, run by one OS thread.
-struct Bench {
+struct GraphicsBench {
     main: Captured,
     thread: Captured,
     graphics: GraphicsHandle,
@@ -56,7 +56,7 @@ struct Bench {
     _watch: NoComplaints,
 }
 
-impl Bench {
+impl GraphicsBench {
     /// Creates both, before the first iteration of the graphics thread.
     fn begin(parameters: DeviceParameters) -> Self {
         let losses = Arc::new(LoseDevice::default());
@@ -161,7 +161,7 @@ fn panels(context: &egui::Context, word: &str) -> PanelsFrame {
 
 #[test]
 fn a_frame_is_drawn_only_when_something_changes() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     assert_eq!(bench.turn(), Next::OnMessage, "nothing moves, so nothing wakes the thread");
     let now = Instant::now();
     let playing =
@@ -178,7 +178,7 @@ fn a_frame_is_drawn_only_when_something_changes() {
 
 #[test]
 fn a_minimized_window_draws_nothing() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     bench.graphics.resize([0, 0]);
     bench.graphics.play(PlaybackClock {
         take: Some(0),
@@ -193,7 +193,7 @@ fn a_minimized_window_draws_nothing() {
 
 #[test]
 fn panels_are_restored_after_a_device_loss() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     let context = egui::Context::default();
     // The second frame has no textures, and the first is never drawn; its textures must not be lost.
     bench.graphics.show_panels(panels(&context, "first"));
@@ -214,7 +214,7 @@ fn panels_are_restored_after_a_device_loss() {
 #[test]
 fn panels_without_a_device_are_dropped_without_an_error() {
     let none = DeviceParameters { backends: wgpu::Backends::empty(), ..DeviceParameters::default() };
-    let mut bench = Bench::begin(none);
+    let mut bench = GraphicsBench::begin(none);
     let context = egui::Context::default();
     // Before the missing device is detected, and after.
     bench.graphics.show_panels(panels(&context, "early"));
@@ -229,7 +229,7 @@ fn panels_without_a_device_are_dropped_without_an_error() {
 
 #[test]
 fn a_request_is_answered_and_the_newest_camera_is_used() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     for distance in 1..50 {
         let camera = Camera {
             target: Vec3::Y * 1.5,
@@ -270,7 +270,7 @@ impl Receiver for Panels {
 
 #[test]
 fn a_model_is_shown_while_the_main_thread_is_blocked() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     let path = scratch("stalled.png");
     let before = bench.capture(&path);
     let heard = Rc::new(RefCell::new(Vec::new()));
@@ -296,7 +296,7 @@ fn a_model_is_shown_while_the_main_thread_is_blocked() {
 
 #[test]
 fn an_edited_take_looks_like_the_same_take_loaded_from_a_file() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     let opened = View::opened(1, arm::loaded());
     let still = Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) };
     let changed = View { generation: 2, takes: [Arc::new(still.clone())].into(), ..opened.clone() };

@@ -75,12 +75,12 @@ pub fn fox_at(path: &Path) -> PathBuf {
 
 /// Simulates a killed program: copies its folders as they are at this moment to `to`. The file of the document itself
 /// stays where it is.
-pub fn killed(autosave: &Path, to: &Path) {
+pub fn copy_after_kill(autosave: &Path, to: &Path) {
     std::fs::create_dir_all(to).expect("a folder");
     for entry in std::fs::read_dir(autosave).expect("the autosave folder").flatten() {
         let target = to.join(entry.file_name());
         if entry.path().is_dir() {
-            killed(&entry.path(), &target);
+            copy_after_kill(&entry.path(), &target);
         } else {
             std::fs::copy(entry.path(), target).expect("a copy");
         }
