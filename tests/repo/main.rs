@@ -6,7 +6,7 @@
 mod crates;
 mod direction;
 mod layout;
-mod licences;
+mod licenses;
 mod skips;
 mod tree;
 mod words;
