@@ -1,22 +1,24 @@
-//! A document whose program is killed, in whatever way and at any moment, or whose power is cut, loses nothing that was
-//! said to be done; after a power cut, nothing that is older than a second.
+//! A document whose program is killed in any way at any moment loses no edit that was reported as done; after a power
+//! cut it loses at most the edits of the last second.
 
-use crate::document_writer::{Deed, come_back, deed, done_to, is_writer, start, start_counting};
+use crate::document_writer::{
+    DocumentAction, action, apply_action, is_writer, recover, start, start_counting,
+};
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::history::{Edited, MAX_STEPS};
 use dragonfly_document::{Cancel, Change, HistoryView, Source, View, load_model};
-use dragonfly_kit::document::desk::fox_at;
+use dragonfly_kit::document::test_document::fox_at;
 use dragonfly_kit::folder::{data, takes_long};
 use dragonfly_kit::mounted::quick_folder;
 use dragonfly_kit::power::{cut, once_in_three, times};
 use dragonfly_kit::process::ignores;
 use dragonfly_kit::random::{Random, seed};
-use dragonfly_kit::writer::{Found, Said};
+use dragonfly_kit::writer::{Found, WriterReport};
 use rustix::process::{Pid, Signal, kill_process};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Is what is shown what these deeds make?
+/// Returns whether the view shows exactly the state of `edited`.
 fn is_shown(edited: &Edited, view: &View) -> bool {
     let slots = edited.adapter().slots();
     let history = HistoryView::of(edited);
@@ -28,10 +30,10 @@ fn is_shown(edited: &Edited, view: &View) -> bool {
             == (view.history.done, &view.history.steps, view.history.saved)
 }
 
-/// A deed in a few words.
-fn told(number: u32) -> String {
-    let what = match deed(number) {
-        Deed::Change(Change::Edit(edit, gesture)) => format!("{} {gesture:?}", edit.label()),
+/// Describes action number `number` of the script in a few words.
+fn describe_action(number: u32) -> String {
+    let what = match action(number) {
+        DocumentAction::Change(Change::Edit(edit, gesture)) => format!("{} {gesture:?}", edit.label()),
         other => format!("{other:?}"),
     };
     format!("{number}: {what}")
@@ -51,7 +53,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
     let path = fox_at(&folder.join("Fox.glb"));
     let loaded = load_model(&Source::File(data("gltf/Fox.glb")), &mut |_| (), &Cancel::default()).unwrap();
     assert!(path.is_file());
-    // What was had back last, and how many deeds that was.
+    // The document recovered last, and the number of actions that led to it.
     let (mut kept, mut number) = (Edited::new(ModelAdapter::new(&loaded.model.animation)), 0);
     let began = Instant::now();
     let signals = [Signal::KILL, Signal::TERM, Signal::HUP, Signal::INT];
@@ -59,7 +61,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
     let mut in_a_drag = 0;
     for kill in 0..kills {
         let mut writer = start(test, folder.path(), number);
-        // Some while it starts, most while it works.
+        // Some kills come while it starts, most while it works.
         let patience = if random.below(6) == 0 {
             Duration::from_millis(random.below(150) as u64)
         } else {
@@ -72,33 +74,33 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
         kill_process(process, signal).expect("it runs");
         let said = writer.ended();
         let said = said.edits.max(number);
-        // All that was said, and of the one that was under way all or nothing.
+        // Every action that was reported must be there; the one in progress may be there or not.
         let mut candidates = Vec::new();
         let mut edited = kept.clone();
         for at in number..said {
-            done_to(&mut edited, &deed(at));
+            apply_action(&mut edited, &action(at));
         }
         in_a_drag += usize::from(edited.steps().0.back().is_some_and(|step| step.gesture.is_some()));
         candidates.push((said, edited.clone()));
-        done_to(&mut edited, &deed(said));
+        apply_action(&mut edited, &action(said));
         candidates.push((said + 1, edited));
-        let (mut desk, _) = come_back(folder.path());
-        let view = desk.view();
-        let said_now = desk.said();
-        desk.end();
+        let (mut document, _) = recover(folder.path());
+        let view = document.view();
+        let said_now = document.unread_replies();
+        document.end();
         let found = candidates.into_iter().find(|(_, edited)| is_shown(edited, &view));
         let Some((at, edited)) = found else {
-            let deeds: Vec<String> = (number.saturating_sub(8)..=said).map(told).collect();
+            let actions: Vec<String> = (number.saturating_sub(8)..=said).map(describe_action).collect();
             panic!(
-                "kill {kill} with {signal:?}, after {number} and up to {said}: {deeds:#?}\nthere is {:?}, and was said {said_now:#?}",
+                "kill {kill} with {signal:?}, after {number} and up to {said}: {actions:#?}\nthere is {:?}, and was said {said_now:#?}",
                 view.history
             );
         };
         (number, kept) = (at, edited);
-        // Of a drag before it nobody goes on.
+        // A drag that was in progress at the kill is over.
         kept.end_gesture();
     }
-    println!("{kills} kills, {number} deeds, {in_a_drag} in the midst of a drag: {:?}", began.elapsed());
+    println!("{kills} kills, {number} actions, {in_a_drag} in the midst of a drag: {:?}", began.elapsed());
     assert!(number as usize > kills, "it was always killed before it did anything");
     assert!(in_a_drag > 0);
 }
@@ -111,10 +113,10 @@ fn a_power_cut_costs_a_document_at_most_a_second_of_edits() {
     let start = |folder: &Path| {
         start_counting("document_ended::a_power_cut_costs_a_document_at_most_a_second_of_edits", folder)
     };
-    let look = |folder: &Path, said: &Said, cut: usize| {
-        let (mut desk, number) = come_back(folder);
-        let view = desk.view();
-        // Nothing is missing in between; of very many steps the oldest are forgotten.
+    let look = |folder: &Path, said: &WriterReport, cut: usize| {
+        let (mut document, number) = recover(folder);
+        let view = document.view();
+        // No step in between is missing; of very many steps the oldest are dropped.
         let steps = (number as usize).min(MAX_STEPS);
         assert_eq!(view.history.done, steps, "cut {cut}, said {} edits", said.edits);
         Found { edits: number, saved: 0 }

@@ -1,10 +1,10 @@
-//! A document in a program of its own, edited by a script that everybody knows, one deed after the other, and each said
-//! when it is done: to be killed, or to have its power cut. It runs the same test of this program again.
+//! A document in a separate process, edited by a script that both processes know. Each action is printed when it is
+//! done. The process is killed or has its power cut. It runs the same test of this program again.
 
 use dragonfly_document::edit::{AddKeys, BonePose, BoneRef, Edit, NewKey, ReverseTake, SetPending, TakeRef};
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, SaveTo};
-use dragonfly_kit::document::desk::{Desk, fox_at, rename, turn};
+use dragonfly_kit::document::test_document::{TestDocument, fox_at, rename, turn};
 use dragonfly_kit::random::Random;
 use dragonfly_kit::writer::{Writer, nanoseconds};
 use std::io::Write;
@@ -14,26 +14,26 @@ use std::time::{Duration, Instant, SystemTime};
 /// The folder to work in, for the program that is started.
 const CHILD: &str = "DRAGONFLY_DOCUMENT_CHILD";
 
-/// The number of the first deed that it does.
+/// Number of the first action to perform.
 const FIRST: &str = "DRAGONFLY_DOCUMENT_CHILD_FIRST";
 
-/// It ends by itself after so long, whatever becomes of the test.
+/// Time after which the process ends by itself, so that it does not outlive the test.
 const LIMIT: Duration = Duration::from_secs(30);
 
-/// Something that is done to a document.
+/// An action performed on a document.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Deed {
+pub(crate) enum DocumentAction {
     Change(Change),
     Save,
 }
 
-/// Deed number `number` of the script: everything that a person does, drags of several edits among it.
-pub(crate) fn deed(number: u32) -> Deed {
-    // Of five deeds in a row, some are one drag.
+/// Returns action number `number` of the script: edits, undo, saves, and drags of several edits.
+pub(crate) fn action(number: u32) -> DocumentAction {
+    // Some groups of five consecutive actions are one drag.
     let gesture = Gesture(u64::from(number / 5));
     if Random::new(u64::from(number / 5)).below(3) == 0 {
         let end = number % 5 == 4;
-        return Deed::Change(if end {
+        return DocumentAction::Change(if end {
             Change::Release(gesture)
         } else {
             Change::Edit(turn(number as f32 * 0.01), Some(gesture))
@@ -48,11 +48,11 @@ pub(crate) fn deed(number: u32) -> Deed {
         rotation: Some([0.0, 0.1, 0.0, 1.0]),
         scale: Some([1.0, 1.0, 1.0 + number as f32 * 1e-4]),
     };
-    Deed::Change(match random.below(16) {
+    DocumentAction::Change(match random.below(16) {
         0 => Change::Undo,
         1 => Change::Redo,
         2 => Change::GoTo(random.below(8)),
-        3 => return Deed::Save,
+        3 => return DocumentAction::Save,
         4 => Change::Cancel(gesture),
         5 | 6 => Change::Edit(rename(&format!("take {number}")), None),
         7 => {
@@ -72,21 +72,21 @@ pub(crate) fn deed(number: u32) -> Deed {
     })
 }
 
-/// Does a deed to takes in memory, as the document does it to its own.
-pub(crate) fn done_to(edited: &mut Edited, deed: &Deed) {
-    match deed {
-        Deed::Save => edited.mark_saved(),
-        Deed::Change(Change::Edit(edit, gesture)) => drop(edited.apply(edit.clone(), *gesture)),
-        Deed::Change(Change::Release(_)) => {}
-        Deed::Change(Change::Cancel(gesture)) => drop(edited.cancel(*gesture)),
-        Deed::Change(Change::Undo) => drop(edited.undo()),
-        Deed::Change(Change::Redo) => drop(edited.redo()),
-        Deed::Change(Change::GoTo(steps)) => drop(edited.go_to(*steps)),
+/// Applies an action to takes in memory, in the same way as the document thread does.
+pub(crate) fn apply_action(edited: &mut Edited, action: &DocumentAction) {
+    match action {
+        DocumentAction::Save => edited.mark_saved(),
+        DocumentAction::Change(Change::Edit(edit, gesture)) => drop(edited.apply(edit.clone(), *gesture)),
+        DocumentAction::Change(Change::Release(_)) => {}
+        DocumentAction::Change(Change::Cancel(gesture)) => drop(edited.cancel(*gesture)),
+        DocumentAction::Change(Change::Undo) => drop(edited.undo()),
+        DocumentAction::Change(Change::Redo) => drop(edited.redo()),
+        DocumentAction::Change(Change::GoTo(steps)) => drop(edited.go_to(*steps)),
     }
 }
 
-/// Returns whether this process is the one that is to be killed; if so, it has edited until now, and the test that calls
-/// this has nothing else to do.
+/// Returns whether this process is the one to be killed. If so, it has finished editing, and the calling test must
+/// return.
 pub(crate) fn is_writer() -> bool {
     let Some(folder) = std::env::var_os(CHILD) else { return false };
     let number = std::env::var(FIRST).ok().and_then(|first| first.parse().ok());
@@ -96,25 +96,25 @@ pub(crate) fn is_writer() -> bool {
 
 fn edit_on(folder: &Path, first: Option<u32>) {
     let mut out = std::io::stdout();
-    // With the time when it was done: when it is read says less.
+    // Printed with the time at which it was done, because the time of reading is later.
     let mut say = |what: &str| {
         let line = format!("{what} {}\n", nanoseconds(SystemTime::now()));
         out.write_all(line.as_bytes()).and_then(|()| out.flush()).is_ok()
     };
     say("\nstarted");
-    let (mut desk, names) = come_back(folder);
+    let (mut document, names) = recover(folder);
     let mut number = first.unwrap_or(names);
     let began = Instant::now();
     while began.elapsed() < LIMIT {
-        // Without a script the takes themselves count the deeds.
-        let done = if first.is_some() { deed(number) } else { named(number + 1) };
+        // Without a script, the name of the take contains the number of actions.
+        let done = if first.is_some() { action(number) } else { named(number + 1) };
         match &done {
-            Deed::Save => drop(desk.save(SaveTo::Own)),
-            Deed::Change(change) => {
-                desk.change(change.clone());
-                // Answered behind it, when it is done and recorded.
-                desk.tell(DocumentMessage::Quit);
-                desk.hears(|reply| {
+            DocumentAction::Save => drop(document.save(SaveTo::Own)),
+            DocumentAction::Change(change) => {
+                document.change(change.clone());
+                // The reply to this message comes after the change was applied and recorded.
+                document.send(DocumentMessage::Quit);
+                document.wait_for_reply(|reply| {
                     matches!(reply, DocumentReply::Unsaved(_) | DocumentReply::MayQuit).then_some(())
                 });
             }
@@ -126,31 +126,32 @@ fn edit_on(folder: &Path, first: Option<u32>) {
     }
 }
 
-/// A deed whose number can be read in the takes.
-fn named(number: u32) -> Deed {
-    Deed::Change(Change::Edit(rename(&number.to_string()), None))
+/// Returns an action whose number is the new name of the take.
+fn named(number: u32) -> DocumentAction {
+    DocumentAction::Change(Change::Edit(rename(&number.to_string()), None))
 }
 
-/// Opens the document in `folder` as a person does who wants their work back; and the number in the name of its take.
-pub(crate) fn come_back(folder: &Path) -> (Desk, u32) {
-    let mut desk = Desk::new(&folder.join("autosave"));
-    let mut view = desk.open(&fox_at(&folder.join("Fox.glb")));
-    // What is offered is said before the model is shown.
-    if let Some(offer) = desk.offered_already().into_iter().next() {
-        desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+/// Opens the document in `folder` and restores its unsaved work. Also returns the number in the name of its first
+/// take.
+pub(crate) fn recover(folder: &Path) -> (TestDocument, u32) {
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    let mut view = document.open(&fox_at(&folder.join("Fox.glb")));
+    // Offers are sent before the model is shown.
+    if let Some(offer) = document.offers_so_far().into_iter().next() {
+        document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
         let generation = view.generation;
-        view = desk.shows(|view| view.generation > generation);
+        view = document.wait_for_view(|view| view.generation > generation);
     }
     let number = view.takes[0].name.parse().unwrap_or(0);
-    (desk, number)
+    (document, number)
 }
 
-/// Starts `test`, which calls [`is_writer`] first, with the script from deed `first` on.
+/// Starts `test`, which calls [`is_writer`] first, with the script from action `first` on.
 pub(crate) fn start(test: &str, folder: &Path, first: u32) -> Writer {
     Writer::of(test, &[(CHILD, folder.as_os_str()), (FIRST, first.to_string().as_ref())])
 }
 
-/// Starts `test`, which calls [`is_writer`] first, with deeds that can be counted.
+/// Starts `test`, which calls [`is_writer`] first, with actions that are numbered by the name of the take.
 pub(crate) fn start_counting(test: &str, folder: &Path) -> Writer {
     Writer::of(test, &[(CHILD, folder.as_os_str())])
 }

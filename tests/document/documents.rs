@@ -1,4 +1,4 @@
-//! The document thread opens, fails, gives up, and always says so.
+//! The document thread opens models, reports errors, can be cancelled, and always sends a reply.
 
 use dragonfly_anim::data::Image;
 use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
@@ -15,9 +15,9 @@ use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 #[derive(Clone, Default)]
-struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+struct ReplyRecorder(Rc<RefCell<Vec<DocumentReply>>>);
 
-impl Receiver for Heard {
+impl Receiver for ReplyRecorder {
     type Message = DocumentReply;
 
     fn receive(&mut self, reply: DocumentReply, _thread: &mut Context) {
@@ -25,7 +25,7 @@ impl Receiver for Heard {
     }
 }
 
-/// What is shown; in these tests by whichever thread.
+/// Records the views that are sent to the main or the graphics thread.
 #[derive(Clone, Default)]
 struct Picture(Rc<RefCell<Vec<View>>>);
 
@@ -53,7 +53,7 @@ fn the_built_in_model_opens_with_progress() {
 }
 
 #[test]
-fn a_cancelled_load_says_so() {
+fn a_cancelled_load_returns_the_cancelled_error() {
     let cancel = Cancel::default();
     cancel.cancel();
     let result = load_model(&Source::BuiltIn, &mut |_| {}, &cancel);
@@ -68,8 +68,8 @@ fn a_file_that_does_not_exist_is_named_in_the_error() {
 }
 
 #[test]
-fn what_is_open_stays_when_the_next_file_fails() {
-    let heard = Heard::default();
+fn the_open_model_stays_open_when_loading_another_file_fails() {
+    let heard = ReplyRecorder::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
     let picture = main.context().register_receiver(Picture::default());
@@ -91,7 +91,7 @@ fn what_is_open_stays_when_the_next_file_fails() {
     Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
 }
 
-/// The head of a PNG that claims to be this large.
+/// Returns the header of a PNG that declares this size.
 fn claims(width: u32, height: u32) -> Image {
     let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec();
     bytes.extend(width.to_be_bytes());
@@ -111,7 +111,7 @@ fn crc(bytes: &[u8]) -> u32 {
 }
 
 #[test]
-fn an_image_that_claims_too_much_costs_a_warning_and_nothing_else() {
+fn an_image_with_an_oversized_header_only_causes_a_warning() {
     for (width, height) in [(60_000, 60_000), (16_385, 1), (12_000, 12_000), (u32::MAX, 1), (0, 0)] {
         let decoded = images::decode_all(&[claims(width, height)], &Cancel::default(), |_| {});
         assert_eq!(decoded.images, [None]);
@@ -136,7 +136,7 @@ fn images_of_one_source_are_decoded_once() {
     assert_eq!((first.width, first.height, first.pixels.len()), (3, 2, 24));
 }
 
-/// Panics in one of three ways on every file, and opens the built-in model.
+/// Importer that panics in one of three ways on every file, and opens the built-in model.
 fn panics_on_files(
     source: &Source,
     progress: &mut dyn FnMut(Progress),
@@ -153,8 +153,8 @@ fn panics_on_files(
 }
 
 #[test]
-fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays() {
-    let heard = Heard::default();
+fn a_hundred_importer_panics_are_reported_and_the_document_keeps_running() {
+    let heard = ReplyRecorder::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
     let picture = main.context().register_receiver(Picture::default());
@@ -178,14 +178,14 @@ fn a_hundred_panics_of_an_importer_are_a_hundred_messages_and_the_document_stays
             heard.iter().filter(failed).count() == number
         });
     }
-    // It still opens what can be opened.
+    // The document still opens valid files.
     document.open(Source::BuiltIn);
     wait(&|heard| views(heard) == 2);
     document.stop();
     Thread::wait_for(&[document.thread().clone()], Instant::now() + Duration::from_secs(5)).unwrap();
 }
 
-/// Opens every file at once, as the same small model with the file's name.
+/// Importer that opens every file at once, as the same small model with the name of the file.
 fn opens_anything(
     source: &Source,
     _: &mut dyn FnMut(Progress),
@@ -195,20 +195,20 @@ fn opens_anything(
     Ok(LoadedModel { title: source.title(), ..loaded }.into())
 }
 
-/// The three threads, turned by hand.
-struct Bench {
+/// The three threads, whose iterations are run by the test.
+struct DocumentBench {
     stage: Stage,
     main: ThreadHandle,
     thread: ThreadHandle,
     graphics: ThreadHandle,
     document: DocumentHandle,
-    heard: Heard,
+    heard: ReplyRecorder,
     picture: Picture,
 }
 
-impl Bench {
+impl DocumentBench {
     fn new() -> Self {
-        let (mut stage, heard) = (Stage::default(), Heard::default());
+        let (mut stage, heard) = (Stage::default(), ReplyRecorder::default());
         let [main, thread, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
         let picture = Picture::default();
         let shown = stage.context(&graphics).register_receiver(picture.clone());
@@ -219,15 +219,16 @@ impl Bench {
         Self { stage, main, thread, graphics, document, heard, picture }
     }
 
-    /// Opens a file, up to the change that this is; the iteration of the document's thread goes on.
+    /// Opens a file and delivers the messages up to its change; the iteration of the document thread is not finished
+    /// yet.
     fn change(&mut self, name: &str) {
         self.document.open(Source::File(name.into()));
         assert!(self.stage.deliver(&self.thread, 0), "what was asked for");
-        // The job answers from a thread of its own.
+        // The job replies from its own thread.
         eventually(Duration::from_secs(30), || self.stage.deliver(&self.thread, 0));
     }
 
-    /// Turns the main thread once: the views that came, and the models that were said to be open.
+    /// Runs one iteration of the main thread. Returns the received views and the models reported as open.
     fn deliver(&mut self) -> (Vec<(u64, String)>, Vec<String>) {
         self.stage.iterate(&self.main);
         let (mut views, mut opened) = (Vec::new(), Vec::new());
@@ -243,8 +244,8 @@ impl Bench {
 }
 
 #[test]
-fn a_hundred_changes_of_one_iteration_are_one_view_the_newest() {
-    let mut bench = Bench::new();
+fn a_hundred_changes_in_one_iteration_send_only_the_newest_view() {
+    let mut bench = DocumentBench::new();
     let names: Vec<String> = (1..=100).map(|number| format!("{number}.glb")).collect();
     for name in &names {
         bench.change(name);
@@ -261,8 +262,8 @@ fn a_hundred_changes_of_one_iteration_are_one_view_the_newest() {
 }
 
 #[test]
-fn views_do_not_pile_up_before_a_main_thread_that_is_busy() {
-    let mut bench = Bench::new();
+fn views_do_not_accumulate_while_the_main_thread_is_busy() {
+    let mut bench = DocumentBench::new();
     for number in 1..=10 {
         bench.change(&format!("{number}.glb"));
         bench.stage.iterate(&bench.thread);
@@ -276,8 +277,8 @@ fn views_do_not_pile_up_before_a_main_thread_that_is_busy() {
 }
 
 #[test]
-fn the_picture_gets_the_newest_view_while_the_main_thread_stands_still() {
-    let mut bench = Bench::new();
+fn the_graphics_thread_receives_the_newest_view_while_the_main_thread_is_blocked() {
+    let mut bench = DocumentBench::new();
     for number in 1..=10 {
         bench.change(&format!("{number}.glb"));
         bench.stage.iterate(&bench.thread);
@@ -293,8 +294,8 @@ fn the_picture_gets_the_newest_view_while_the_main_thread_stands_still() {
 }
 
 #[test]
-fn an_edit_is_shown_to_panels_and_picture_alike_and_a_wrong_one_is_refused_with_its_reason() {
-    let heard = Heard::default();
+fn an_edit_reaches_panels_and_viewport_and_an_invalid_one_is_refused_with_a_reason() {
+    let heard = ReplyRecorder::default();
     let shown = Picture::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());

@@ -1,4 +1,4 @@
-//! What edits cost: memory and time in proportion to what they touch.
+//! Costs of edits: memory and time in proportion to the keys that they touch.
 
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
 use dragonfly_document::adapter::ModelAdapter;
@@ -10,7 +10,7 @@ use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A take of so many bones with so many keys in each of their channels; one column of times.
+/// Returns a take with `bones` bones and `keys` keys in each of their channels, which share one column of times.
 fn model(bones: u32, keys: usize) -> AnimationData {
     let bone = |bone: u32| Bone {
         name: format!("bone {bone}"),
@@ -42,7 +42,7 @@ fn turned(bone: u32, by: f32) -> BonePose {
 }
 
 #[test]
-fn a_document_to_which_nothing_was_done_costs_next_to_nothing_beside_its_original() {
+fn an_unedited_document_needs_almost_no_memory_of_its_own() {
     let (original, data) = counting::peak(|| model(50, 2000));
     let (more, edited) = counting::peak(|| Edited::new(ModelAdapter::new(&data)));
     assert!(more * 5 < original, "{more} bytes beside {original}");
@@ -50,7 +50,7 @@ fn a_document_to_which_nothing_was_done_costs_next_to_nothing_beside_its_origina
 }
 
 #[test]
-fn an_edit_keeps_memory_in_proportion_to_what_it_touches() {
+fn the_memory_of_an_edit_is_proportional_to_the_keys_it_touches() {
     let kept = |bones: u32| {
         let data = model(bones, 2000);
         let mut edited = Edited::new(ModelAdapter::new(&data));
@@ -65,14 +65,14 @@ fn an_edit_keeps_memory_in_proportion_to_what_it_touches() {
         });
         peak
     };
-    // A column of rotations, and what says which columns there are: 128 bytes a bone.
+    // A column of rotations, and the table of columns: 128 bytes per bone.
     let (few, many) = (kept(10), kept(500));
     assert!(few < 3 * 2000 * 16, "{few}");
     assert!(many - few < 500 * 1000, "{few} with 10 bones, {many} with 500");
 }
 
 #[test]
-fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
+fn a_mouse_move_in_a_drag_allocates_a_constant_amount() {
     let bytes = |bones: u32, keys: usize, time: f32| {
         let data = model(bones, keys);
         let mut edited = Edited::new(ModelAdapter::new(&data));
@@ -83,11 +83,11 @@ fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
             let edit = Edit::SetPose(SetPose { take: TakeRef::Index(0), time, poses, unstep: true });
             let (count, done) = counting::count(|| edited.apply(edit, Some(Gesture(1))));
             done.unwrap();
-            // Until there is memory for what is shown at the same time, it is asked for.
+            // Memory for the copies that are shown at the same time is allocated first.
             if step >= 8 {
                 most = most.max(count.bytes);
             }
-            // The panels and the picture show one state each.
+            // The panels and the viewport each show one state.
             if shown.len() == 2 {
                 shown.remove(0);
             }
@@ -104,7 +104,7 @@ fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
 }
 
 #[test]
-fn a_hundred_thousand_keys_move_without_being_felt() {
+fn moving_a_hundred_thousand_keys_causes_no_visible_delay() {
     let data = model(200, 1500);
     let mut edited = Edited::new(ModelAdapter::new(&data));
     let set = |bone| KeySet {

@@ -1,4 +1,4 @@
-//! Edits: what each does.
+//! Tests of what each edit does.
 
 use dragonfly_anim::data::{Interpolation, Take, Transform};
 use dragonfly_anim::sample::sample_take;
@@ -23,7 +23,7 @@ fn sampled(model: &ModelAdapter, take: &Take, time: f32) -> Vec<Transform> {
     poses
 }
 
-/// Largest difference of two poses in any number; rotations with either sign.
+/// Returns the largest difference of two poses in any number; q and -q count as the same rotation.
 fn apart(a: &[Transform], b: &[Transform]) -> f32 {
     let of = |(a, b): (&Transform, &Transform)| {
         let turn = (a.rotation - b.rotation).length().min((a.rotation + b.rotation).length());
@@ -33,7 +33,7 @@ fn apart(a: &[Transform], b: &[Transform]) -> f32 {
 }
 
 #[test]
-fn a_document_to_which_nothing_was_done_shares_everything_with_what_was_read() {
+fn an_unedited_document_shares_all_memory_with_the_loaded_model() {
     let animation = animation(&mut Random::new(1));
     let model = ModelAdapter::new(&animation);
     for (slot, take) in model.slots().iter().zip(&animation.takes) {
@@ -43,7 +43,7 @@ fn a_document_to_which_nothing_was_done_shares_everything_with_what_was_read() {
 }
 
 #[test]
-fn a_value_that_is_set_is_what_the_result_holds_and_the_original_stays() {
+fn setting_a_value_changes_the_result_and_not_the_original() {
     let mut model = model(2);
     let before = Arc::clone(&model.slots()[0].original);
     let turn = Quat::from_rotation_y(0.7);
@@ -59,23 +59,23 @@ fn a_value_that_is_set_is_what_the_result_holds_and_the_original_stays() {
     let track = &slot.result.tracks[0];
     assert_eq!(track.translation.values[2], Vec3::new(1.0, 2.0, 3.0));
     assert!((track.rotation.values[2] - turn).length() < 1e-6);
-    // A product cannot reach every number; the nearest one is a last bit away.
+    // A product cannot reach every number; the nearest one differs in the last bit.
     assert!((track.scale.values[2] - Vec3::new(2.0, 0.5, 1.0)).abs().max_element() < 2e-7);
     assert_eq!(*slot.original, *before);
     assert_eq!(slot.changes(0, Property::Translation).len(), 1);
-    // What was not touched is the same memory.
+    // Untouched data is shared memory.
     assert!(Arc::ptr_eq(&track.translation.times, &before.tracks[0].translation.times));
     assert!(Arc::ptr_eq(&slot.result.tracks[1].rotation.values, &before.tracks[1].rotation.values));
 }
 
-/// In the take "stand": bone, seconds, metres along x.
+/// Returns an edit that poses a bone in the take "stand": bone, seconds, meters along x.
 fn stands(name: &str, time: f32, x: f32, unstep: bool) -> Edit {
     let wanted = BonePose { translation: Some([x, 0.0, 0.0]), ..pose(name) };
     Edit::SetPose(SetPose { take: TakeRef::Name("stand".to_owned()), time, poses: vec![wanted], unstep })
 }
 
 #[test]
-fn a_pose_put_on_what_stands_still_in_steps_is_moved_to_and_from() {
+fn a_pose_on_a_constant_step_channel_is_interpolated() {
     let mut model = model(40);
     let between = |model: &ModelAdapter, bone: usize| {
         let slot = &model.slots()[2];
@@ -88,7 +88,7 @@ fn a_pose_put_on_what_stands_still_in_steps_is_moved_to_and_from() {
     let (at, middle) = between(&model, 1);
     assert_eq!(at, before);
     assert!((middle - (before + Vec3::new(9.0, 0.0, 0.0)) * 0.5).length() < 1e-5, "{middle}");
-    // Only the channel that got a pose; and only where the edit says so.
+    // Only the channel that got a pose is changed, and only if the edit requests it.
     let track = &model.slots()[2].result.tracks[1];
     assert_eq!(track.rotation.interpolation, Interpolation::Step);
     model.apply(&stands("root", 0.5, 9.0, false)).unwrap();
@@ -97,13 +97,13 @@ fn a_pose_put_on_what_stands_still_in_steps_is_moved_to_and_from() {
 }
 
 #[test]
-fn steps_that_somebody_made_stay_steps() {
-    // Keys one by one: a pose that holds, then another one.
+fn deliberate_step_keys_stay_step_keys() {
+    // Keys set one at a time: a pose that holds, then another one.
     let mut model = model(41);
     model.apply(&stands("hip", 0.5, 9.0, false)).unwrap();
     model.apply(&stands("hip", 0.7, 3.0, true)).unwrap();
     assert_eq!(model.slots()[2].result.tracks[1].translation.interpolation, Interpolation::Step);
-    // More than two keys, however alike.
+    // More than two keys, even if they are equal.
     let hand = BonePose { translation: Some([1.0; 3]), ..pose("hand.L") };
     model
         .apply(&Edit::SetPose(SetPose { take: walk(), time: 0.3, poses: vec![hand], unstep: true }))
@@ -112,7 +112,7 @@ fn steps_that_somebody_made_stay_steps() {
 }
 
 #[test]
-fn the_change_is_what_was_added_turned_and_multiplied() {
+fn the_change_is_the_sum_of_offsets_and_the_product_of_rotations_and_scales() {
     let mut model = model(3);
     let wanted = BonePose {
         translation: Some([0.5, 0.0, 0.0]),
@@ -135,7 +135,7 @@ fn the_change_is_what_was_added_turned_and_multiplied() {
 }
 
 #[test]
-fn setting_what_is_there_changes_nothing_and_resetting_gives_the_original_back() {
+fn setting_the_current_value_changes_nothing_and_reset_restores_the_original() {
     let mut model = model(4);
     let value = model.slots()[0].original.tracks[0].translation.values[0];
     model.apply(&set(0.0, BonePose { translation: Some(value.to_array()), ..pose("root") })).unwrap();
@@ -182,7 +182,7 @@ fn a_new_key_is_an_exact_copy_of_its_predecessor_in_original_change_and_result()
 }
 
 #[test]
-fn keys_that_keep_the_motion_leave_every_curve_where_it_was() {
+fn keys_added_on_the_curve_do_not_change_the_motion() {
     let mut model = model(6);
     model.apply(&set(0.5, BonePose { translation: Some([1.0, 1.0, 1.0]), ..pose("hip") })).unwrap();
     let before = Arc::clone(&model.slots()[0].result);
@@ -203,14 +203,14 @@ fn keys_that_keep_the_motion_leave_every_curve_where_it_was() {
     for step in 0..=100 {
         let time = step as f32 * 0.01;
         let (old, new) = (sampled(&model, &before, time), sampled(&model, &model.slots()[0].result, time));
-        // A rotation's spline is normalised between its keys, so a new key bends it a little.
+        // The spline of a rotation is normalized between its keys, so a new key changes the curve slightly.
         let bound = if (old[1].rotation - new[1].rotation).length() > 2e-5 { 0.05 } else { 2e-5 };
         assert!(apart(&old, &new) < bound, "{time}: {}", apart(&old, &new));
     }
 }
 
 #[test]
-fn channels_with_one_column_of_times_have_one_afterwards() {
+fn channels_that_share_key_times_still_share_them_after_edits() {
     let mut model = model(7);
     model
         .apply(&Edit::AddKeys(AddKeys {
@@ -230,7 +230,7 @@ fn channels_with_one_column_of_times_have_one_afterwards() {
 }
 
 #[test]
-fn moved_keys_take_the_place_of_those_they_come_to_lie_on() {
+fn moved_keys_overwrite_keys_at_the_same_time() {
     let mut model = model(8);
     let values = model.slots()[0].original.tracks[0].translation.values.clone();
     let keys = vec![KeySet { bones: vec![bone("root")], at: Some(vec![0.25]), ..KeySet::default() }];
@@ -243,7 +243,7 @@ fn moved_keys_take_the_place_of_those_they_come_to_lie_on() {
 }
 
 #[test]
-fn a_take_keeps_a_key_and_a_model_a_take() {
+fn the_last_key_of_a_take_and_the_last_take_cannot_be_deleted() {
     let mut model = model(9);
     let all = Edit::DeleteKeys(DeleteKeys { take: walk(), keys: vec![KeySet::default()] });
     assert_eq!(model.apply(&all).unwrap_err(), EditError::LastKey);
@@ -255,7 +255,7 @@ fn a_take_keeps_a_key_and_a_model_a_take() {
 }
 
 #[test]
-fn ripple_makes_room_and_closing_it_again_gives_the_take_back() {
+fn inserting_time_and_removing_it_restores_the_take() {
     let mut model = model(10);
     let before = Arc::clone(&model.slots()[0].result);
     model.apply(&Edit::RippleKeys(RippleKeys { take: walk(), from: 0.5, by: 0.25 })).unwrap();
@@ -271,7 +271,7 @@ fn ripple_makes_room_and_closing_it_again_gives_the_take_back() {
 }
 
 #[test]
-fn of_a_take_that_is_trimmed_to_one_time_the_pose_is_left_that_it_had_there() {
+fn trimming_a_take_to_one_time_keeps_the_pose_at_that_time() {
     let mut model = model(12);
     let before = Arc::clone(&model.slots()[0].result);
     let trim = Edit::TrimTake(TrimTake { take: walk(), from: 0.3, to: 0.3, to_start: false });
@@ -283,7 +283,7 @@ fn of_a_take_that_is_trimmed_to_one_time_the_pose_is_left_that_it_had_there() {
 }
 
 #[test]
-fn what_a_trim_leaves_can_move_to_where_the_take_began() {
+fn a_trimmed_range_can_move_to_the_start_of_the_take() {
     let mut model = model(13);
     let before = Arc::clone(&model.slots()[0].result);
     model.apply(&Edit::TrimTake(TrimTake { take: walk(), from: 0.3, to: 0.8, to_start: true })).unwrap();
@@ -297,7 +297,7 @@ fn what_a_trim_leaves_can_move_to_where_the_take_began() {
 }
 
 #[test]
-fn a_take_reversed_twice_is_the_take_and_once_it_runs_backwards() {
+fn reversing_a_take_plays_it_backwards_and_reversing_twice_restores_it() {
     let mut model = model(11);
     let before = Arc::clone(&model.slots()[0].result);
     let reverse = Edit::ReverseTake(ReverseTake { take: walk() });
@@ -322,7 +322,7 @@ fn a_take_reversed_twice_is_the_take_and_once_it_runs_backwards() {
 }
 
 #[test]
-fn the_two_parts_of_a_split_take_play_what_the_whole_did() {
+fn the_two_parts_of_a_split_take_play_the_same_motion() {
     let mut model = model(12);
     let before = Arc::clone(&model.slots()[0].result);
     model.apply(&Edit::SplitTake(SplitTake { take: walk(), time: 0.44, name: "end".to_owned() })).unwrap();
@@ -345,7 +345,7 @@ fn the_two_parts_of_a_split_take_play_what_the_whole_did() {
 }
 
 #[test]
-fn a_channel_made_a_spline_runs_through_its_keys_and_back_it_is_what_it_was() {
+fn converting_a_channel_to_a_spline_and_back_restores_it() {
     let mut model = model(13);
     model
         .apply(&set(0.5, BonePose { rotation: Some(Quat::from_rotation_z(1.0).to_array()), ..pose("root") }))
@@ -384,7 +384,7 @@ fn a_channel_made_a_spline_runs_through_its_keys_and_back_it_is_what_it_was() {
 }
 
 #[test]
-fn numbers_that_are_none_and_things_that_are_not_there_are_refused_and_nothing_changes() {
+fn invalid_numbers_and_missing_targets_are_refused_and_nothing_changes() {
     let mut model = model(14);
     let before = Arc::clone(&model.slots()[0]);
     let translation = |x| BonePose { translation: Some([x, 0.0, 0.0]), ..pose("root") };

@@ -8,14 +8,14 @@ use image::{ImageFormat, RgbImage, RgbaImage};
 use std::io::Cursor;
 use std::time::{Duration, Instant};
 
-/// The program decodes on threads with 2 MiB; an eighth of that leaves room.
+/// Stack size: the program decodes on threads with 2 MiB, and an eighth of that leaves a margin.
 const STACK: usize = 256 << 10;
-/// Of one small image.
+/// Longest time for decoding one small image.
 const LONGEST: Duration = Duration::from_secs(2);
-/// Small images stay small: nothing that is decoded here may have more pixels.
+/// Largest number of pixels of an image that is decoded here.
 const PIXELS: u64 = 1 << 20;
 
-/// Small pictures of each kind that models carry.
+/// Returns small images of each format that models contain.
 fn seeds() -> Vec<Vec<u8>> {
     let rgba = RgbaImage::from_fn(9, 7, |x, y| image::Rgba([x as u8 * 20, y as u8 * 30, 128, 255 - x as u8]));
     let rgb = RgbImage::from_fn(17, 16, |x, y| image::Rgb([x as u8 * 15, y as u8 * 15, 40]));
@@ -36,7 +36,7 @@ fn seeds() -> Vec<Vec<u8>> {
     ]
 }
 
-/// Decodes, and says whether it could; what it gives is whole.
+/// Decodes an image. Returns whether that succeeded; a decoded image must be complete.
 fn try_decode(bytes: &[u8]) -> bool {
     let image = Image { bytes: bytes.into(), ..Image::default() };
     let begin = Instant::now();
@@ -54,7 +54,7 @@ fn try_decode(bytes: &[u8]) -> bool {
     }
 }
 
-/// Runs `work` on a stack as small as the promise says; its panic is ours.
+/// Runs `work` on a stack of the guaranteed minimum size and forwards its panic.
 fn on_small_stack(work: impl FnOnce() + Send + 'static) {
     let thread = std::thread::Builder::new().stack_size(STACK).spawn(work).unwrap();
     if let Err(panic) = thread.join() {
@@ -63,7 +63,7 @@ fn on_small_stack(work: impl FnOnce() + Send + 'static) {
 }
 
 #[test]
-fn twenty_thousand_damaged_images_are_pictures_or_reasons() {
+fn twenty_thousand_damaged_images_decode_or_return_an_error() {
     on_small_stack(|| {
         let seeds = seeds();
         assert!(seeds.iter().all(|bytes| try_decode(bytes)), "each is right before it is damaged");
@@ -82,7 +82,7 @@ fn twenty_thousand_damaged_images_are_pictures_or_reasons() {
 }
 
 #[test]
-fn an_image_cut_or_changed_at_any_byte_is_a_picture_or_a_reason() {
+fn an_image_cut_or_changed_at_any_byte_decodes_or_returns_an_error() {
     on_small_stack(|| {
         for bytes in seeds() {
             for length in 0..bytes.len() {

@@ -1,12 +1,12 @@
-//! What is not saved is never lost: what a document's thread does with its journal.
+//! Unsaved work is never lost: how the document thread uses its journal.
 
 use dragonfly_document::history::Gesture;
 use dragonfly_document::{
     Change, Decision, DocumentMessage, DocumentReply, FaultInjection, FaultPlan, FaultPoint, SaveTo, Setup,
     Source, Then,
 };
-use dragonfly_kit::document::desk::{
-    Desk, autosave_in, autosave_with, fox, killed, rename, same_takes, turn,
+use dragonfly_kit::document::test_document::{
+    TestDocument, autosave_in, autosave_with, copy_after_kill, fox, rename, same_takes, turn,
 };
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::random::{Random, seed};
@@ -17,14 +17,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 #[test]
-fn an_edit_is_in_the_journal_before_it_is_seen() {
+fn an_edit_is_recorded_in_the_journal_before_it_is_shown() {
     let folder = Folder::new("keeping-before");
     let autosave = folder.join("autosave");
-    let mut desk = Desk::new(&autosave);
-    desk.open(&fox(&folder));
+    let mut document = TestDocument::new(&autosave);
+    document.open(&fox(&folder));
     for number in 1..=20 {
-        desk.edit(turn(number as f32 * 0.1));
-        desk.shows(|view| view.history.done == number);
+        document.edit(turn(number as f32 * 0.1));
+        document.wait_for_view(|view| view.history.done == number);
         let keeper = autosave_in(&autosave);
         let found = keeper.recoverable().unwrap();
         let edits = |entry: &JournalEntry| matches!(entry, JournalEntry::Edit(bytes) if bytes.windows(6).any(|part| part == b"\"edit\""));
@@ -34,281 +34,281 @@ fn an_edit_is_in_the_journal_before_it_is_seen() {
 }
 
 #[test]
-fn work_of_a_program_that_was_killed_is_offered_and_comes_back_with_its_history() {
+fn work_of_a_killed_program_is_offered_and_recovered_with_its_history() {
     let folder = Folder::new("keeping-killed");
     let path = fox(&folder);
     let bytes = fs::read(&path).unwrap();
-    let mut desk = Desk::new(&folder.join("first"));
-    let opened = desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.edit(rename("Look around"));
-    desk.edit(turn(0.9));
-    // A drag is one step, however many edits it was.
+    let mut document = TestDocument::new(&folder.join("first"));
+    let opened = document.open(&path);
+    document.edit(turn(0.5));
+    document.edit(rename("Look around"));
+    document.edit(turn(0.9));
+    // A drag is one step, however many edits it contains.
     for angle in 1..50 {
-        desk.change(Change::Edit(turn(angle as f32 * 0.02), Some(Gesture(1))));
+        document.change(Change::Edit(turn(angle as f32 * 0.02), Some(Gesture(1))));
     }
-    desk.change(Change::Release(Gesture(1)));
-    desk.change(Change::Undo);
-    let before = desk.view();
+    document.change(Change::Release(Gesture(1)));
+    document.change(Change::Undo);
+    let before = document.view();
     assert_eq!((before.history.done, before.history.steps.len()), (3, 4));
-    killed(&folder.join("first"), &folder.join("second"));
+    copy_after_kill(&folder.join("first"), &folder.join("second"));
 
-    let mut desk = Desk::new(&folder.join("second"));
-    desk.open(&path);
-    let [offer] = &desk.offered()[..] else { panic!("one document") };
+    let mut document = TestDocument::new(&folder.join("second"));
+    document.open(&path);
+    let [offer] = &document.wait_for_offers()[..] else { panic!("one document") };
     assert_eq!((offer.title.as_str(), offer.steps), ("Fox.glb", 3));
     assert_eq!(
         offer.labels,
         ["Pose", "Rename take", "Pose"].map(|label| {
-            // Whatever a pose is called there, it is called here.
+            // The label of a pose edit is taken from the view, whatever its wording.
             if label == "Pose" { before.history.steps[0] } else { label }
         })
     );
     assert!(offer.age().is_some_and(|age| age.as_secs() < 600) && offer.warnings().is_empty());
-    desk.tell(DocumentMessage::Decide(Box::new(offer.clone()), Decision::Keep));
-    let after = desk.shows(|view| view.history.done == 3);
+    document.send(DocumentMessage::Decide(Box::new(offer.clone()), Decision::Keep));
+    let after = document.wait_for_view(|view| view.history.done == 3);
     same_takes(&before, &after);
     assert_eq!(before.history, after.history);
     assert!(!after.history.saved);
-    // Forth and back through all of it.
-    desk.change(Change::Redo);
-    assert_eq!(desk.view().history.done, 4);
-    desk.change(Change::GoTo(0));
-    same_takes(&desk.view(), &opened);
-    assert!(desk.view().history.saved);
-    // A gesture of now is none of then.
-    desk.change(Change::GoTo(4));
-    desk.change(Change::Edit(turn(0.3), Some(Gesture(1))));
-    assert_eq!(desk.view().history.done, 5);
+    // Undo and redo through the whole history.
+    document.change(Change::Redo);
+    assert_eq!(document.view().history.done, 4);
+    document.change(Change::GoTo(0));
+    same_takes(&document.view(), &opened);
+    assert!(document.view().history.saved);
+    // A gesture of this run is not one of the earlier run.
+    document.change(Change::GoTo(4));
+    document.change(Change::Edit(turn(0.3), Some(Gesture(1))));
+    assert_eq!(document.view().history.done, 5);
     assert_eq!(fs::read(&path).unwrap(), bytes, "the file itself was not touched");
-    desk.end();
+    document.end();
 
-    // Nothing was decided about saving, so it is offered once more.
-    let mut desk = Desk::new(&folder.join("second"));
-    desk.open(&path);
-    assert_eq!(desk.offered()[0].steps, 5);
+    // The user has not decided yet, so the work is offered again.
+    let mut document = TestDocument::new(&folder.join("second"));
+    document.open(&path);
+    assert_eq!(document.wait_for_offers()[0].steps, 5);
 }
 
 #[test]
 fn the_history_survives_saving_closing_and_starting_again() {
     let folder = Folder::new("keeping-history");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let mut desk = Desk::new(&autosave);
-    let opened = desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.edit(rename("Look around"));
-    desk.save(SaveTo::Own);
-    desk.edit(turn(0.7));
-    desk.save(SaveTo::Own);
-    let before = desk.view();
+    let mut document = TestDocument::new(&autosave);
+    let opened = document.open(&path);
+    document.edit(turn(0.5));
+    document.edit(rename("Look around"));
+    document.save(SaveTo::Own);
+    document.edit(turn(0.7));
+    document.save(SaveTo::Own);
+    let before = document.view();
     assert!(before.history.saved);
-    desk.end();
+    document.end();
     for round in 0..3 {
-        let mut desk = Desk::new(&autosave);
-        let after = desk.open(&path);
+        let mut document = TestDocument::new(&autosave);
+        let after = document.open(&path);
         assert_eq!(
             (after.history.done, after.history.steps.len(), after.history.saved),
             (3, 3, true),
             "{round}"
         );
         same_takes(&before, &after);
-        // The first takes come back, although the file does not hold them any more.
-        desk.change(Change::GoTo(0));
-        let first = desk.view();
+        // Undo restores the first takes, although the file no longer contains them.
+        document.change(Change::GoTo(0));
+        let first = document.view();
         same_takes(&first, &opened);
         assert!(!first.history.saved);
-        desk.change(Change::GoTo(3));
-        assert!(desk.view().history.saved);
-        // Back where it was saved nothing needs to be asked or offered.
-        desk.tell(DocumentMessage::Quit);
-        assert!(!desk.hears(|reply| match reply {
+        document.change(Change::GoTo(3));
+        assert!(document.view().history.saved);
+        // Back at the saved state, nothing is asked or offered.
+        document.send(DocumentMessage::Quit);
+        assert!(!document.wait_for_reply(|reply| match reply {
             DocumentReply::Unsaved(_) => Some(true),
             DocumentReply::MayQuit => Some(false),
             _ => None,
         }));
-        desk.end();
+        document.end();
     }
-    // What is undone after all that is saved as the first file's takes again.
-    let mut desk = Desk::new(&autosave);
-    desk.open(&path);
-    desk.change(Change::GoTo(0));
-    desk.save(SaveTo::Own);
-    desk.end();
-    let mut fresh = Desk::with(Setup::default());
+    // After undoing everything, saving writes the takes of the first file again.
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    document.change(Change::GoTo(0));
+    document.save(SaveTo::Own);
+    document.end();
+    let mut fresh = TestDocument::with(Setup::default());
     same_takes(&fresh.open(&path), &opened);
 }
 
 #[test]
-fn a_history_of_another_state_of_the_file_begins_anew_and_says_so() {
+fn a_history_of_another_state_of_the_file_is_reset_with_a_notice() {
     let folder = Folder::new("keeping-other");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let mut desk = Desk::new(&autosave);
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.save(SaveTo::Own);
-    desk.end();
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    document.edit(turn(0.5));
+    document.save(SaveTo::Own);
+    document.end();
     fs::copy(dragonfly_kit::folder::data("gltf/Fox.glb"), &path).unwrap();
-    let mut desk = Desk::new(&autosave);
-    let view = desk.open(&path);
-    desk.warned("a new history was started");
+    let mut document = TestDocument::new(&autosave);
+    let view = document.open(&path);
+    document.wait_for_warning("a new history was started");
     assert!(view.history.steps.is_empty() && view.history.saved);
-    desk.edit(turn(0.1));
-    assert_eq!(desk.view().history.done, 1);
+    document.edit(turn(0.1));
+    assert_eq!(document.view().history.done, 1);
 }
 
 #[test]
-fn the_built_in_model_needs_no_file_to_be_had_back() {
+fn edits_of_the_built_in_model_are_recovered_without_a_file() {
     let folder = Folder::new("keeping-built-in");
-    let mut desk = Desk::new(&folder.join("first"));
-    desk.open_source(Source::BuiltIn);
-    desk.edit(rename("Hover"));
-    desk.edit(rename("Hang"));
-    let before = desk.view();
-    killed(&folder.join("first"), &folder.join("second"));
-    // Offered at the start, whatever is opened.
-    let mut desk = Desk::new(&folder.join("second"));
-    let offer = desk.offered().remove(0);
+    let mut document = TestDocument::new(&folder.join("first"));
+    document.open_source(Source::BuiltIn);
+    document.edit(rename("Hover"));
+    document.edit(rename("Hang"));
+    let before = document.view();
+    copy_after_kill(&folder.join("first"), &folder.join("second"));
+    // Offered at the start, whichever file is opened.
+    let mut document = TestDocument::new(&folder.join("second"));
+    let offer = document.wait_for_offers().remove(0);
     assert_eq!((offer.title.as_str(), offer.steps), ("Dragonfly (recovered)", 2));
-    desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
-    let after = desk.shows(|view| view.history.done == 2);
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    let after = document.wait_for_view(|view| view.history.done == 2);
     same_takes(&before, &after);
     assert_eq!(after.file.path, None);
 }
 
 #[test]
-fn work_opened_beside_is_a_document_of_its_own_and_the_rest_stays() {
+fn work_opened_separately_is_a_new_document_and_the_original_is_unchanged() {
     let folder = Folder::new("keeping-beside");
     let path = fox(&folder);
-    let mut desk = Desk::new(&folder.join("first"));
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    let before = desk.view();
-    killed(&folder.join("first"), &folder.join("second"));
-    let mut desk = Desk::new(&folder.join("second"));
-    desk.open(&path);
-    let offer = desk.offered().remove(0);
-    desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Beside));
-    let beside = desk.shows(|view| view.history.done == 1);
+    let mut document = TestDocument::new(&folder.join("first"));
+    document.open(&path);
+    document.edit(turn(0.5));
+    let before = document.view();
+    copy_after_kill(&folder.join("first"), &folder.join("second"));
+    let mut document = TestDocument::new(&folder.join("second"));
+    document.open(&path);
+    let offer = document.wait_for_offers().remove(0);
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Beside));
+    let beside = document.wait_for_view(|view| view.history.done == 1);
     same_takes(&before, &beside);
     assert_eq!((beside.file.title.as_str(), &beside.file.path), ("Fox.glb (recovered)", &None));
     assert!(!beside.history.saved);
-    desk.change(Change::Undo);
-    assert!(!desk.view().history.saved, "it is in no file");
-    desk.change(Change::Redo);
-    desk.view();
-    // Killed again, both can be had back, and the one beside is the same.
-    killed(&folder.join("second"), &folder.join("third"));
-    let mut third = Desk::new(&folder.join("third"));
-    let offers = third.offered();
+    document.change(Change::Undo);
+    assert!(!document.view().history.saved, "it is in no file");
+    document.change(Change::Redo);
+    document.view();
+    // After another kill both can be recovered, and the separate document is unchanged.
+    copy_after_kill(&folder.join("second"), &folder.join("third"));
+    let mut third = TestDocument::new(&folder.join("third"));
+    let offers = third.wait_for_offers();
     assert_eq!(offers.len(), 2, "{offers:?}");
     let own = offers.iter().find(|offer| offer.found.document.is_none()).unwrap();
-    third.tell(DocumentMessage::Decide(Box::new(own.clone()), Decision::Keep));
-    let again = third.shows(|view| view.history.done == 1);
+    third.send(DocumentMessage::Decide(Box::new(own.clone()), Decision::Keep));
+    let again = third.wait_for_view(|view| view.history.done == 1);
     same_takes(&before, &again);
     assert_eq!(again.file.path, None);
-    // It is saved where the person says, and the first file is as it was.
+    // It is saved to the path that the user chose, and the first file is unchanged.
     let bytes = fs::read(&path).unwrap();
     let copy = folder.join("Fox 2.glb");
     third.save(SaveTo::As(copy.clone()));
     assert_eq!(fs::read(&path).unwrap(), bytes);
-    let mut fresh = Desk::with(Setup::default());
+    let mut fresh = TestDocument::with(Setup::default());
     same_takes(&fresh.open(&copy), &again);
 }
 
 #[test]
-fn what_is_discarded_or_not_to_be_saved_lies_in_the_bin_and_is_not_offered_again() {
+fn discarded_work_is_moved_to_the_bin_and_not_offered_again() {
     let folder = Folder::new("keeping-bin");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let mut desk = Desk::new(&autosave);
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.tell(DocumentMessage::DoNotSave);
-    desk.end();
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    document.edit(turn(0.5));
+    document.send(DocumentMessage::DoNotSave);
+    document.end();
     assert_eq!(autosave_in(&autosave).discarded().unwrap().len(), 1);
 
-    let mut desk = Desk::new(&autosave);
-    let view = desk.open(&path);
+    let mut document = TestDocument::new(&autosave);
+    let view = document.open(&path);
     assert!(view.history.steps.is_empty());
-    desk.edit(turn(0.6));
-    desk.view();
-    killed(&autosave, &folder.join("second"));
-    let mut second = Desk::new(&folder.join("second"));
+    document.edit(turn(0.6));
+    document.view();
+    copy_after_kill(&autosave, &folder.join("second"));
+    let mut second = TestDocument::new(&folder.join("second"));
     second.open(&path);
-    let offer = second.offered().remove(0);
-    second.tell(DocumentMessage::Decide(Box::new(offer), Decision::Discard));
+    let offer = second.wait_for_offers().remove(0);
+    second.send(DocumentMessage::Decide(Box::new(offer), Decision::Discard));
     second.edit(rename("after that"));
     assert_eq!(second.view().history.done, 1);
     assert_eq!(autosave_in(&folder.join("second")).discarded().unwrap().len(), 2);
     // The new work has a journal of its own.
-    killed(&folder.join("second"), &folder.join("third"));
-    let mut third = Desk::new(&folder.join("third"));
+    copy_after_kill(&folder.join("second"), &folder.join("third"));
+    let mut third = TestDocument::new(&folder.join("third"));
     third.open(&path);
-    let offer = third.offered().remove(0);
+    let offer = third.wait_for_offers().remove(0);
     assert_eq!(offer.labels, ["Rename take"]);
-    // Of what was saved and then undone it is said that it was.
-    third.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
-    third.shows(|view| view.history.done == 1);
+    // Work that was saved and then undone is reported as such.
+    third.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    third.wait_for_view(|view| view.history.done == 1);
     third.save(SaveTo::Own);
     third.change(Change::Undo);
     third.view();
-    killed(&folder.join("third"), &folder.join("fourth"));
-    let mut fourth = Desk::new(&folder.join("fourth"));
+    copy_after_kill(&folder.join("third"), &folder.join("fourth"));
+    let mut fourth = TestDocument::new(&folder.join("fourth"));
     fourth.open(&path);
-    assert_eq!(fourth.offered()[0].labels, ["Rename take (undone)"]);
+    assert_eq!(fourth.wait_for_offers()[0].labels, ["Rename take (undone)"]);
 }
 
 #[test]
-fn what_is_decided_later_stays_and_work_goes_on_beside_it() {
+fn postponed_recovery_keeps_the_old_work_and_allows_new_work() {
     let folder = Folder::new("keeping-later");
     let path = fox(&folder);
-    let mut desk = Desk::new(&folder.join("first"));
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.view();
-    killed(&folder.join("first"), &folder.join("second"));
-    let mut desk = Desk::new(&folder.join("second"));
-    desk.open(&path);
-    let offer = desk.offered().remove(0);
-    desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Later));
-    desk.edit(rename("other work"));
-    desk.edit(rename("more of it"));
-    desk.view();
-    killed(&folder.join("second"), &folder.join("third"));
-    let mut third = Desk::new(&folder.join("third"));
-    let mut steps: Vec<usize> = third.offered().iter().map(|offer| offer.steps).collect();
+    let mut document = TestDocument::new(&folder.join("first"));
+    document.open(&path);
+    document.edit(turn(0.5));
+    document.view();
+    copy_after_kill(&folder.join("first"), &folder.join("second"));
+    let mut document = TestDocument::new(&folder.join("second"));
+    document.open(&path);
+    let offer = document.wait_for_offers().remove(0);
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Later));
+    document.edit(rename("other work"));
+    document.edit(rename("more of it"));
+    document.view();
+    copy_after_kill(&folder.join("second"), &folder.join("third"));
+    let mut third = TestDocument::new(&folder.join("third"));
+    let mut steps: Vec<usize> = third.wait_for_offers().iter().map(|offer| offer.steps).collect();
     steps.sort_unstable();
     assert_eq!(steps, [1, 2]);
 }
 
 #[test]
-fn two_programs_with_one_file_are_told_of_each_other_and_both_are_recorded() {
+fn two_programs_with_one_file_are_warned_and_both_record_their_edits() {
     let folder = Folder::new("keeping-two");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let mut one = Desk::new(&autosave);
+    let mut one = TestDocument::new(&autosave);
     one.open(&path);
     one.edit(turn(0.5));
     one.view();
-    let mut two = Desk::new(&autosave);
+    let mut two = TestDocument::new(&autosave);
     let view = two.open(&path);
-    let text = two.warned("is open in another window");
+    let text = two.wait_for_warning("is open in another window");
     assert!(text.contains(&format!("process {}", std::process::id())), "{text}");
     assert!(view.history.steps.is_empty());
     two.edit(rename("mine"));
     two.view();
-    killed(&autosave, &folder.join("second"));
-    let mut third = Desk::new(&folder.join("second"));
-    assert_eq!(third.offered().len(), 2);
-    // Whoever saves last is warned.
+    copy_after_kill(&autosave, &folder.join("second"));
+    let mut third = TestDocument::new(&folder.join("second"));
+    assert_eq!(third.wait_for_offers().len(), 2);
+    // The program that saves last is warned.
     one.save(SaveTo::Own);
-    two.tell(DocumentMessage::Save(dragonfly_document::SaveOrder::own(None)));
-    let reason = two.hears(|reply| match reply {
+    two.send(DocumentMessage::Save(dragonfly_document::SaveOrder::own(None)));
+    let reason = two.wait_for_reply(|reply| match reply {
         DocumentReply::NotSaved(_, reason) => Some(reason.clone()),
         _ => None,
     });
     assert_eq!(reason, dragonfly_document::NotSaved::Changed);
 }
 
-/// Fails at a change.
+/// A fault plan that panics at a change.
 #[derive(Debug)]
 struct FailAt(AtomicU32);
 
@@ -321,49 +321,53 @@ impl FaultPlan for FailAt {
 }
 
 #[test]
-fn a_panic_in_the_document_loses_nothing_and_offers_the_work() {
+fn a_panic_in_the_document_thread_loses_no_work_and_offers_it() {
     let folder = Folder::new("keeping-panic");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let faults = FaultInjection::new(Arc::new(FailAt(AtomicU32::new(4))));
     let setup = Setup { autosave: Some(autosave_in(&autosave)), faults, ..Setup::default() };
-    let mut desk = Desk::with(setup);
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.edit(rename("Look around"));
-    desk.edit(turn(0.9));
-    let before = desk.view();
-    desk.edit(rename("never"));
-    desk.hears(|reply| matches!(reply, DocumentReply::Lost).then_some(()));
-    let offer = desk.offered().remove(0);
+    let mut document = TestDocument::with(setup);
+    document.open(&path);
+    document.edit(turn(0.5));
+    document.edit(rename("Look around"));
+    document.edit(turn(0.9));
+    let before = document.view();
+    document.edit(rename("never"));
+    document.wait_for_reply(|reply| matches!(reply, DocumentReply::Lost).then_some(()));
+    let offer = document.wait_for_offers().remove(0);
     assert_eq!((offer.title.as_str(), offer.steps), ("Fox.glb", 3));
-    desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
-    let after = desk.shows(|view| view.generation > before.generation && view.history.done == 3);
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    let after = document.wait_for_view(|view| view.generation > before.generation && view.history.done == 3);
     same_takes(&before, &after);
-    // It goes on as before.
-    desk.edit(turn(0.1));
-    desk.save(SaveTo::Own);
-    assert!(desk.view().history.saved);
+    // The document continues as before.
+    document.edit(turn(0.1));
+    document.save(SaveTo::Own);
+    assert!(document.view().history.saved);
 }
 
 #[test]
-fn an_autosave_folder_that_cannot_be_written_is_said_once_and_work_goes_on() {
+fn an_unwritable_autosave_folder_is_reported_once_and_editing_continues() {
     let folder = Folder::new("keeping-nowhere");
     let path = fox(&folder);
     let autosave = folder.join("autosave");
     fs::write(&autosave, "no folder").unwrap();
-    let mut desk = Desk::new(&autosave);
-    desk.open(&path);
-    desk.warned("Unsaved work is not recorded, so a crash would lose it");
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    document.wait_for_warning("Unsaved work is not recorded, so a crash would lose it");
     for number in 0..10 {
-        desk.edit(turn(number as f32 * 0.1));
+        document.edit(turn(number as f32 * 0.1));
     }
-    desk.save(SaveTo::Own);
-    assert!(desk.view().history.saved);
-    assert!(!desk.said().iter().any(|said| said.contains("recorded")), "{:?}", desk.said());
+    document.save(SaveTo::Own);
+    assert!(document.view().history.saved);
+    assert!(
+        !document.unread_replies().iter().any(|said| said.contains("recorded")),
+        "{:?}",
+        document.unread_replies()
+    );
 }
 
 #[test]
-fn a_disk_that_fails_at_any_call_and_is_well_again_loses_no_step() {
+fn a_temporary_disk_failure_at_any_call_loses_no_step() {
     let folder = Folder::new("keeping-faults");
     let path = fox(&folder);
     for kind in [Fault::Full, Fault::Io] {
@@ -372,40 +376,40 @@ fn a_disk_that_fails_at_any_call_and_is_well_again_loses_no_step() {
             let place = folder.join(&format!("{kind:?}-{call}"));
             let files = FaultyFiles::between(call, call + 3, kind);
             let setup = Setup { autosave: Some(autosave_with(&place, files)), ..Setup::default() };
-            let mut desk = Desk::with(setup);
-            desk.open(&path);
+            let mut document = TestDocument::with(setup);
+            document.open(&path);
             for number in 0..6 {
-                desk.edit(turn(number as f32 * 0.1));
+                document.edit(turn(number as f32 * 0.1));
             }
-            let before = desk.view();
-            let said = desk.said();
+            let before = document.view();
+            let said = document.unread_replies();
             let troubled =
                 said.iter().any(|said| said.contains("not recorded") || said.contains("not being recorded"));
             assert_eq!(before.history.done, 6, "{kind:?} {call}");
             if said.iter().any(|said| said.contains("not being recorded")) {
-                desk.warned("Unsaved work is recorded again");
+                document.wait_for_warning("Unsaved work is recorded again");
             }
             let second = folder.join(&format!("{kind:?}-{call}-second"));
             if place.is_dir() {
-                killed(&place, &second);
+                copy_after_kill(&place, &second);
             }
-            let mut after = Desk::new(&second);
+            let mut after = TestDocument::new(&second);
             after.open(&path);
             if troubled && !said.iter().any(|said| said.contains("not being recorded")) {
-                // It was said that nothing is recorded.
+                // A warning reported that nothing is recorded.
                 continue;
             }
             println!("{said:?}: {:?}", autosave_in(&second).recoverable());
-            let offer = after.offered().remove(0);
-            after.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
-            same_takes(&after.shows(|view| view.history.done == 6), &before);
+            let offer = after.wait_for_offers().remove(0);
+            after.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+            same_takes(&after.wait_for_view(|view| view.history.done == 6), &before);
         }
     }
 }
 
-/// Any edits, undos, saves; killed at any moment, what comes back is what was there.
+/// Random edits, undos and saves; after a kill at any moment, the recovered document equals the one before the kill.
 #[test]
-fn whatever_was_done_comes_back_from_a_kill_at_any_moment() {
+fn random_edits_are_recovered_after_a_kill_at_any_moment() {
     let seed = seed(11);
     let mut random = Random::new(seed);
     for round in 0..12 {
@@ -413,40 +417,40 @@ fn whatever_was_done_comes_back_from_a_kill_at_any_moment() {
         let folder = Folder::new("keeping-random");
         let path = fox(&folder);
         let mut place = folder.join("autosave-0");
-        let mut desk = Desk::new(&place);
-        desk.open(&path);
+        let mut document = TestDocument::new(&place);
+        document.open(&path);
         for life in 1..4 {
             for _ in 0..random.below(25) {
                 match random.below(12) {
-                    0 => desk.change(Change::Undo),
-                    1 => desk.change(Change::Redo),
-                    2 => desk.change(Change::GoTo(random.below(6))),
+                    0 => document.change(Change::Undo),
+                    1 => document.change(Change::Redo),
+                    2 => document.change(Change::GoTo(random.below(6))),
                     3 => {
-                        desk.save(SaveTo::Own);
+                        document.save(SaveTo::Own);
                     }
-                    4 => desk.edit(rename(&format!("take {}", random.below(100)))),
-                    5 => desk.change(Change::Cancel(Gesture(random.below(3) as u64))),
+                    4 => document.edit(rename(&format!("take {}", random.below(100)))),
+                    5 => document.change(Change::Cancel(Gesture(random.below(3) as u64))),
                     6 | 7 => {
                         let gesture = Gesture(random.below(3) as u64);
-                        desk.change(Change::Edit(turn(random.unit()), Some(gesture)));
+                        document.change(Change::Edit(turn(random.unit()), Some(gesture)));
                     }
-                    _ => desk.edit(turn(random.unit())),
+                    _ => document.edit(turn(random.unit())),
                 }
             }
-            let before = desk.view();
+            let before = document.view();
             let next = folder.join(&format!("autosave-{life}"));
-            killed(&place, &next);
-            drop(desk);
+            copy_after_kill(&place, &next);
+            drop(document);
             place = next;
-            desk = Desk::new(&place);
-            let opened = desk.open(&path);
+            document = TestDocument::new(&place);
+            let opened = document.open(&path);
             let after = if before.history.saved {
-                desk.view()
+                document.view()
             } else {
-                let offer = desk.offered().remove(0);
-                desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+                let offer = document.wait_for_offers().remove(0);
+                document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
                 let generation = opened.generation;
-                desk.shows(|view| view.generation > generation)
+                document.wait_for_view(|view| view.generation > generation)
             };
             same_takes(&before, &after);
             assert_eq!(before.history, after.history, "round {round}, life {life}");
@@ -454,95 +458,95 @@ fn whatever_was_done_comes_back_from_a_kill_at_any_moment() {
     }
 }
 
-/// The name of a file is not what it is: where it holds what it held, the work goes on there.
+/// A file is identified by its content, not by its name: work continues on a moved file with the same content.
 #[test]
-fn work_on_a_file_that_was_moved_goes_on_where_it_is_now() {
+fn work_on_a_moved_file_continues_at_its_new_path() {
     let folder = Folder::new("keeping-moved");
     let path = fox(&folder);
-    let mut desk = Desk::new(&folder.join("first"));
-    let opened = desk.open(&path);
-    desk.edit(turn(0.5));
-    desk.save(SaveTo::Own);
-    desk.edit(rename("Look around"));
-    desk.edit(turn(0.9));
-    let before = desk.view();
+    let mut document = TestDocument::new(&folder.join("first"));
+    let opened = document.open(&path);
+    document.edit(turn(0.5));
+    document.save(SaveTo::Own);
+    document.edit(rename("Look around"));
+    document.edit(turn(0.9));
+    let before = document.view();
     let second = folder.join("second");
-    killed(&folder.join("first"), &second);
+    copy_after_kill(&folder.join("first"), &second);
     let moved = folder.join("renamed.glb");
     fs::rename(&path, &moved).unwrap();
     let bytes = fs::read(&moved).unwrap();
 
-    let mut desk = Desk::new(&second);
-    let offer = desk.offered().remove(0);
+    let mut document = TestDocument::new(&second);
+    let offer = document.wait_for_offers().remove(0);
     assert!(offer.is_missing() && !offer.can_be_kept());
     assert!(offer.warnings()[0].contains("The file is missing"), "{:?}", offer.warnings());
     let found_at =
         |path: &std::path::Path| DocumentMessage::FoundAt(Box::new(offer.clone()), path.to_owned());
-    // Another file is noticed, and one that is not there.
+    // A different file is detected, and so is a missing one.
     let other = folder.join("other.glb");
     fs::copy(dragonfly_kit::folder::data("gltf/Fox.glb"), &other).unwrap();
-    desk.tell(found_at(&other));
-    let (back, at) = desk.hears(|reply| match reply {
+    document.send(found_at(&other));
+    let (back, at) = document.wait_for_reply(|reply| match reply {
         DocumentReply::OtherFile(offer, path) => Some((offer.clone(), path.clone())),
         _ => None,
     });
     assert_eq!((&*back, &at), (&offer, &other));
-    desk.tell(found_at(&folder.join("nowhere.glb")));
-    desk.warned("nowhere.glb");
-    assert_eq!(desk.offered(), std::slice::from_ref(&offer), "a wrong path is no answer");
+    document.send(found_at(&folder.join("nowhere.glb")));
+    document.wait_for_warning("nowhere.glb");
+    assert_eq!(document.wait_for_offers(), std::slice::from_ref(&offer), "a wrong path is no answer");
     // The right one.
-    desk.tell(found_at(&moved));
-    let after = desk.shows(|view| view.history.done == 3);
+    document.send(found_at(&moved));
+    let after = document.wait_for_view(|view| view.history.done == 3);
     same_takes(&before, &after);
     assert_eq!(before.history, after.history);
     assert_eq!((after.file.title.as_str(), after.file.path.as_deref()), ("renamed.glb", Some(&*moved)));
     assert_eq!(fs::read(&moved).unwrap(), bytes, "nobody saved");
-    desk.warned("Restored the unsaved work of renamed.glb: 2 steps");
-    // Killed again it is offered for the file where it is now, and only once.
+    document.wait_for_warning("Restored the unsaved work of renamed.glb: 2 steps");
+    // After another kill it is offered for the new path of the file, and only once.
     let third = folder.join("third");
-    killed(&second, &third);
-    let mut again = Desk::new(&third);
-    let offers = again.offered();
+    copy_after_kill(&second, &third);
+    let mut again = TestDocument::new(&third);
+    let offers = again.wait_for_offers();
     assert_eq!(offers.iter().map(|offer| &*offer.title).collect::<Vec<_>>(), ["renamed.glb"]);
     assert!(offers[0].can_be_kept());
-    // And what was saved before it was moved still counts as saved.
-    again.tell(DocumentMessage::Decide(Box::new(offers[0].clone()), Decision::Keep));
-    assert_eq!(again.shows(|view| view.history.done == 3).history, before.history);
+    // Edits saved before the move still count as saved.
+    again.send(DocumentMessage::Decide(Box::new(offers[0].clone()), Decision::Keep));
+    assert_eq!(again.wait_for_view(|view| view.history.done == 3).history, before.history);
     again.end();
-    desk.save(SaveTo::Own);
+    document.save(SaveTo::Own);
     assert!(!path.exists(), "nothing is written where it was");
-    desk.end();
-    let mut desk = Desk::new(&second);
-    let view = desk.open(&moved);
+    document.end();
+    let mut document = TestDocument::new(&second);
+    let view = document.open(&moved);
     assert_eq!((view.history.done, view.history.saved), (3, true));
-    desk.change(Change::GoTo(0));
-    same_takes(&desk.view(), &opened);
+    document.change(Change::GoTo(0));
+    same_takes(&document.view(), &opened);
 }
 
-/// Where the file is gone for good, the work is done again on another one that is like it, as a document of its own.
+/// If the file is deleted, the work can be applied to a similar file, as a new document.
 #[test]
-fn work_on_a_file_that_is_gone_is_had_on_another_one_beside_it() {
+fn work_on_a_deleted_file_can_be_applied_to_a_similar_file() {
     let folder = Folder::new("keeping-gone");
     let path = fox(&folder);
-    let mut desk = Desk::new(&folder.join("first"));
-    desk.open(&path);
-    desk.edit(turn(0.5));
-    let before = desk.view();
-    killed(&folder.join("first"), &folder.join("second"));
-    // Another version of it.
+    let mut document = TestDocument::new(&folder.join("first"));
+    document.open(&path);
+    document.edit(turn(0.5));
+    let before = document.view();
+    copy_after_kill(&folder.join("first"), &folder.join("second"));
+    // Another version of the file.
     let other = folder.join("older.glb");
-    desk.edit(rename("An older one"));
-    desk.change(Change::Undo);
-    desk.change(Change::Undo);
-    desk.edit(rename("An older one"));
-    desk.save(SaveTo::Copy(other.clone()));
+    document.edit(rename("An older one"));
+    document.change(Change::Undo);
+    document.change(Change::Undo);
+    document.edit(rename("An older one"));
+    document.save(SaveTo::Copy(other.clone()));
     fs::remove_file(&path).unwrap();
     let bytes = fs::read(&other).unwrap();
-    let mut desk = Desk::new(&folder.join("second"));
-    let offer = desk.offered().remove(0);
+    let mut document = TestDocument::new(&folder.join("second"));
+    let offer = document.wait_for_offers().remove(0);
     let there = dragonfly_document::Offer { source: Some(Source::File(other.clone())), ..offer };
-    desk.tell(DocumentMessage::Decide(Box::new(there), Decision::Beside));
-    let view = desk.shows(|view| view.history.done == 1);
+    document.send(DocumentMessage::Decide(Box::new(there), Decision::Beside));
+    let view = document.wait_for_view(|view| view.history.done == 1);
     assert_eq!(view.file.path, None);
     assert_eq!(view.takes[0].name, "An older one");
     assert_eq!(view.takes[0].tracks, before.takes[0].tracks);
@@ -552,10 +556,10 @@ fn work_on_a_file_that_is_gone_is_had_on_another_one_beside_it() {
 #[test]
 fn opening_a_model_asks_first_while_something_is_unsaved() {
     let folder = Folder::new("opening-asks");
-    let mut desk = Desk::new(&folder.join("autosave"));
-    let open = |desk: &mut Desk, anyway| {
-        desk.tell(DocumentMessage::Open { source: Source::BuiltIn, anyway });
-        desk.hears(|reply| match reply {
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    let open = |document: &mut TestDocument, anyway| {
+        document.send(DocumentMessage::Open { source: Source::BuiltIn, anyway });
+        document.wait_for_reply(|reply| match reply {
             DocumentReply::Unsaved(then) => {
                 assert_eq!(*then, Then::Open(Source::BuiltIn));
                 Some(false)
@@ -564,11 +568,11 @@ fn opening_a_model_asks_first_while_something_is_unsaved() {
             _ => None,
         })
     };
-    assert!(open(&mut desk, false), "nothing was open");
-    assert!(open(&mut desk, false), "nothing is unsaved");
-    desk.edit(rename("Hover"));
-    assert!(!open(&mut desk, false), "an edit is unsaved");
-    assert_eq!(desk.view().history.done, 1, "the model stays open");
-    assert!(open(&mut desk, true), "the user has decided");
-    assert_eq!(desk.view().history.done, 0);
+    assert!(open(&mut document, false), "nothing was open");
+    assert!(open(&mut document, false), "nothing is unsaved");
+    document.edit(rename("Hover"));
+    assert!(!open(&mut document, false), "an edit is unsaved");
+    assert_eq!(document.view().history.done, 1, "the model stays open");
+    assert!(open(&mut document, true), "the user has decided");
+    assert_eq!(document.view().history.done, 0);
 }

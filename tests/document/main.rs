@@ -1,4 +1,4 @@
-//! Promises, one module each.
+//! Tests of the document crate, one module for each guarantee.
 
 mod document_ended;
 mod document_writer;

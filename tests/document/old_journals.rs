@@ -1,37 +1,37 @@
-//! What an earlier version of the program recorded is had back for ever. The records are kept as text, and put into the
-//! format of their time by code of the tests' own.
+//! Work recorded by earlier versions of the program can always be recovered. The records are stored as text, and
+//! encoded in the format of their version by separate code in the tests.
 //!
-//! For each version of the vocabulary of edits that was given out there is a file, which is never changed again.
+//! There is one file for each released version of the vocabulary of edits; it is never changed again.
 
 use dragonfly_document::edit::{EDITS, Edit, RenameTake, TakeRef};
 use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, View};
-use dragonfly_kit::document::desk::{Desk, fox};
+use dragonfly_kit::document::test_document::{TestDocument, fox};
 use dragonfly_kit::folder::{Folder, data};
 use dragonfly_kit::store::forged::forged_with;
 use dragonfly_store::{FileStamp, RealFiles};
 use std::fs;
 use std::path::Path;
 
-/// Every edit of the first vocabulary, each of which changes something in Fox.
+/// Every edit of the first vocabulary. Each of them changes something in Fox.
 fn first_edits() -> Vec<String> {
     let text = fs::read_to_string(data("journals/edits-1.jsonl")).unwrap();
     text.lines().map(str::to_owned).collect()
 }
 
-/// Opens Fox beside a journal with these records, and takes the work of so many steps back.
-fn had_back(name: &str, records: &[(u8, &[u8])], steps: usize) -> (Desk, View) {
+/// Opens Fox with a journal that contains these records, and recovers the given number of steps.
+fn recovered(name: &str, records: &[(u8, &[u8])], steps: usize) -> (TestDocument, View) {
     let folder = Folder::new(name);
     let path = fox(&folder);
     let autosave = folder.join("autosave");
     fs::create_dir_all(autosave.join("journals")).unwrap();
     fs::write(autosave.join("journals/old.journal"), forged_with(&header(&path), 1, records)).unwrap();
-    let mut desk = Desk::new(&autosave);
-    desk.open(&path);
-    let offer = desk.offered().remove(0);
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    let offer = document.wait_for_offers().remove(0);
     assert_eq!(offer.warnings(), [""; 0]);
-    desk.tell(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
-    let view = desk.shows(|view| view.history.done == steps);
-    (desk, view)
+    document.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
+    let view = document.wait_for_view(|view| view.history.done == steps);
+    (document, view)
 }
 
 fn header(path: &Path) -> String {
@@ -40,7 +40,8 @@ fn header(path: &Path) -> String {
     serde_json::json!({"number": 77, "document": path, "stamp": stamp}).to_string()
 }
 
-/// Names of takes, milliseconds, keys; as `dragonfly info` told them when the edits were written down.
+/// Names of takes, lengths in milliseconds and numbers of keys, as `dragonfly info` printed them when the records
+/// were stored.
 fn takes(view: &View) -> Vec<(String, i32, usize)> {
     let keys = |take: &dragonfly_anim::data::Take| {
         let of = |track: &dragonfly_anim::data::Track| {
@@ -70,17 +71,17 @@ fn recorded(edit: &str) -> Vec<u8> {
 }
 
 #[test]
-fn names_that_are_refused_now_are_had_back() {
+fn names_that_are_now_invalid_are_still_read_from_old_journals() {
     let rename = |take: u32, name: &str| {
         recorded(&format!(r#"{{"edit":"rename_take","take":{take},"name":"{name}"}}"#))
     };
     let [nameless, same] = [rename(0, ""), rename(1, "Run")];
-    let (mut desk, view) = had_back("old-names", &[(2, &nameless), (2, &same)], 2);
+    let (mut document, view) = recovered("old-names", &[(2, &nameless), (2, &same)], 2);
     let names: Vec<_> = takes(&view).into_iter().map(|take| take.0).collect();
     assert_eq!(names, ["", "Run", "Run"]);
     let again = Edit::RenameTake(RenameTake { take: TakeRef::Index(2), name: String::new() });
-    desk.tell(DocumentMessage::Change(Change::Edit(again, None)));
-    let refused = desk.hears(|reply| match reply {
+    document.send(DocumentMessage::Change(Change::Edit(again, None)));
+    let refused = document.wait_for_reply(|reply| match reply {
         DocumentReply::Refused(reason) => Some(reason.clone()),
         _ => None,
     });
@@ -88,32 +89,32 @@ fn names_that_are_refused_now_are_had_back() {
 }
 
 #[test]
-fn edits_of_every_version_are_done_again() {
+fn edits_of_every_version_are_replayed() {
     let begin = br#"{"do":"begin","version":1}"#.to_vec();
     let edits = first_edits().into_iter().map(|edit| recorded(&edit));
     let records: Vec<Vec<u8>> = std::iter::once(begin).chain(edits).collect();
     let records: Vec<(u8, &[u8])> = records.iter().map(|record| (2, &record[..])).collect();
-    let (mut desk, view) = had_back("old-edits", &records, records.len() - 1);
+    let (mut document, view) = recovered("old-edits", &records, records.len() - 1);
     assert_eq!(takes(&view), first_takes());
-    desk.change(Change::GoTo(0));
-    let names: Vec<_> = takes(&desk.view()).into_iter().map(|take| take.0).collect();
+    document.change(Change::GoTo(0));
+    let names: Vec<_> = takes(&document.view()).into_iter().map(|take| take.0).collect();
     assert_eq!(names, ["Survey", "Walk", "Run"], "and undone");
 }
 
 #[test]
-fn a_snapshot_of_every_version_is_had_back() {
+fn a_snapshot_of_every_version_is_restored() {
     let (edits, all) = (first_edits().join(","), first_edits().len());
     let about = r#"{"version":1}"#;
     let text = format!(r#"{{"about":{about},"steps":[{edits}],"done":{all},"saved":null,"has_base":false}}"#);
     let mut snapshot = (text.len() as u32).to_le_bytes().to_vec();
     snapshot.extend(text.bytes());
-    let (_, view) = had_back("old-snapshot", &[(1, &snapshot)], all);
+    let (_, view) = recovered("old-snapshot", &[(1, &snapshot)], all);
     assert_eq!(takes(&view), first_takes());
 }
 
-/// The file grows with the vocabulary until that is given out; after that a new one begins.
+/// Until a release the file grows with the vocabulary; after that a new file is started.
 #[test]
-fn no_edit_is_missing_among_those_that_are_kept() {
+fn every_edit_type_occurs_in_the_stored_records() {
     let kind = |json: &str| {
         serde_json::from_str::<serde_json::Value>(json).unwrap()["edit"].as_str().unwrap().to_owned()
     };
@@ -130,7 +131,7 @@ fn no_edit_is_missing_among_those_that_are_kept() {
     }
 }
 
-/// The same, where a number may have become the nearest one of 32 bits.
+/// Returns whether two values are equal, where a number may have been rounded to 32 bits.
 fn alike(now: &serde_json::Value, was: &serde_json::Value) -> bool {
     use serde_json::Value::{Array, Number, Object};
     match (now, was) {

@@ -1,4 +1,4 @@
-//! What was edited, saved and opened again is what was edited: every key of every take, to the bit.
+//! Saving and reopening preserves every key of every take to the bit.
 
 use crate::undo::{any_edit, same_take};
 use dragonfly_document::adapter::ModelAdapter;
@@ -33,8 +33,9 @@ fn models(folder: &Folder) -> Vec<PathBuf> {
     models
 }
 
-/// Tracks without keys say nothing, and a file does not keep them. Bones go by the number of their node: a node that is
-/// no joint is a bone while something animates it, so deleting its last key moves the numbers of the others.
+/// Returns the take as a file stores it: without tracks that have no keys, and with bones numbered by their nodes. A
+/// node that is no joint is a bone while something animates it, so deleting its last key changes the numbers of the
+/// others.
 fn with_keys(take: &Take, skeleton: &Skeleton) -> Take {
     let mut take = take.clone();
     for track in &mut take.tracks {
@@ -52,7 +53,8 @@ fn with_keys(take: &Take, skeleton: &Skeleton) -> Take {
     take
 }
 
-/// q and -q are one rotation; reading a file chooses the one nearer to the key before, where no spline goes through them.
+/// Makes each rotation the one of q and -q that is nearer to the key before, as reading a file does where no spline
+/// goes through them.
 fn in_one_hemisphere(channel: &mut Channel<Quat>) {
     if channel.interpolation != Interpolation::CubicSpline {
         let mut values = channel.values.to_vec();
@@ -65,7 +67,7 @@ fn in_one_hemisphere(channel: &mut Channel<Quat>) {
     }
 }
 
-/// A spline has two keys at least (glTF 2.0, 3.11); of one key only the value counts.
+/// Converts channels with one key: a spline has two keys at least (glTF 2.0, 3.11), so only the value counts.
 fn of_one_key<T: Copy>(channel: &mut Channel<T>) {
     if channel.len() == 1 && channel.interpolation == Interpolation::CubicSpline {
         channel.values = [channel.values[1]].into();
@@ -114,7 +116,7 @@ fn any_edits_saved_and_opened_again_give_the_same_takes() {
     assert!(saved_edits > 100, "only {saved_edits} edits could be done");
 }
 
-/// Where two takes part, in a line.
+/// Describes the first difference of two takes in one line.
 fn difference(now: &Take, then: &Take) -> String {
     if now.name != then.name || (now.start, now.length) != (then.start, then.length) {
         let range = |take: &Take| format!("{:?} {}+{}", take.name, take.start, take.length);

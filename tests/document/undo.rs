@@ -1,4 +1,4 @@
-//! Undo and redo: to the bit, whatever was done, and by the gesture.
+//! Undo and redo are exact to the bit for all edits, and work by gesture.
 
 use dragonfly_anim::data::{Channel, MorphTrack, Take, Track};
 use dragonfly_document::adapter::{ModelAdapter, TakeVersions};
@@ -12,12 +12,12 @@ use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// Any edit, sensible or not, of a model with this number of takes and these bones.
+/// Returns a random edit, valid or not, of a model with this number of takes and these bones.
 pub(crate) fn any_edit(random: &mut Random, takes: usize, bones: &[BoneRef]) -> Edit {
     Arbitrary::new(&mut || random.bits(), takes, bones).edit()
 }
 
-/// Are two documents the same in everything that can be seen, every number to the bit?
+/// Returns whether two documents are equal in all visible data, every number to the bit.
 fn same(a: &ModelAdapter, b: &ModelAdapter) -> bool {
     let slots = a.slots().len() == b.slots().len();
     slots && a.slots().iter().zip(b.slots()).all(|(a, b)| Arc::ptr_eq(a, b) || same_slot(a, b))
@@ -72,7 +72,7 @@ fn same_numbers(a: &[f32], b: &[f32]) -> bool {
 }
 
 #[test]
-fn whatever_was_done_undo_leads_back_to_the_bit_and_redo_forth_again() {
+fn undo_and_redo_of_random_edits_are_exact_to_the_bit() {
     let first = seed(900);
     let bones = BONES.map(|name| BoneRef::Name(name.to_owned()));
     for number in first..first + 200 {
@@ -108,7 +108,7 @@ fn whatever_was_done_undo_leads_back_to_the_bit_and_redo_forth_again() {
 }
 
 #[test]
-fn all_edits_of_a_gesture_are_one_step_and_each_begins_where_the_gesture_began() {
+fn all_edits_of_a_gesture_are_one_undo_step_and_each_starts_from_the_state_before_it() {
     let mut edited = Edited::new(model(15));
     let start = edited.adapter().clone();
     let gesture = Some(Gesture(1));
@@ -134,7 +134,7 @@ fn all_edits_of_a_gesture_are_one_step_and_each_begins_where_the_gesture_began()
 }
 
 #[test]
-fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
+fn a_dragged_pose_equals_its_last_edit_alone_to_the_bit() {
     let first = seed(930);
     for number in first..first + 300 {
         let mut random = Random::new(number);
@@ -177,7 +177,7 @@ fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
             assert!(same(wanted, edited.adapter()), "seed {number}");
             assert_eq!(edited.adapter().check(), Ok(()), "seed {number}");
             drop((before, alone));
-            // What is still shown stays as it was.
+            // A view that is still shown does not change.
             let now = edited.adapter().slots().to_vec();
             let looks: Vec<TakeVersions> = now.iter().map(|slot| TakeVersions::clone(slot)).collect();
             shown.push((now, looks));
@@ -200,7 +200,7 @@ fn a_dragged_pose_is_to_the_bit_what_its_last_edit_alone_would_be() {
 }
 
 #[test]
-fn a_document_knows_whether_it_is_as_it_was_saved() {
+fn undo_back_to_the_saved_state_marks_the_document_as_saved() {
     let mut edited = Edited::new(model(16));
     let name = |name: &str| Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() });
     assert!(edited.is_saved());
@@ -212,7 +212,7 @@ fn a_document_knows_whether_it_is_as_it_was_saved() {
     assert!(edited.is_saved());
     edited.undo();
     edited.apply(name("c"), None).unwrap();
-    // The saved state cannot be reached any more, also with as many steps done.
+    // The saved state cannot be reached any more, even with the same number of steps.
     assert!(!edited.is_saved());
     assert_eq!(edited.labels(), [Some("Rename take"), None]);
 }

@@ -5,7 +5,9 @@ use dragonfly_document::edit::Edit;
 use dragonfly_document::{
     Change, DocumentMessage, DocumentReply, NotSaved, SaveOrder, SaveTo, Setup, Source, Then,
 };
-use dragonfly_kit::document::desk::{Desk, autosave_in, fox, killed, rename, same_takes, turn};
+use dragonfly_kit::document::test_document::{
+    TestDocument, autosave_in, copy_after_kill, fox, rename, same_takes, turn,
+};
 use dragonfly_kit::folder::{Folder, data};
 use dragonfly_store::{FileState, RealFiles};
 use std::fs;
@@ -13,9 +15,9 @@ use std::path::Path;
 
 /// Orders a save that is refused; why.
 #[track_caller]
-fn refused(desk: &mut Desk, to: SaveTo) -> NotSaved {
-    desk.tell(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
-    desk.hears(|reply| match reply {
+fn refused(desk: &mut TestDocument, to: SaveTo) -> NotSaved {
+    desk.send(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
+    desk.wait_for_reply(|reply| match reply {
         DocumentReply::NotSaved(_, reason) => Some(reason.clone()),
         DocumentReply::Saved(saved) => panic!("{saved:?}"),
         _ => None,
@@ -24,9 +26,9 @@ fn refused(desk: &mut Desk, to: SaveTo) -> NotSaved {
 
 /// Orders a save that is done whatever is there.
 #[track_caller]
-fn anyway(desk: &mut Desk, to: SaveTo) {
-    desk.tell(DocumentMessage::Save(SaveOrder { to, anyway: true, then: None }));
-    desk.hears(|reply| matches!(reply, DocumentReply::Saved(_)).then_some(()));
+fn anyway(desk: &mut TestDocument, to: SaveTo) {
+    desk.send(DocumentMessage::Save(SaveOrder { to, anyway: true, then: None }));
+    desk.wait_for_reply(|reply| matches!(reply, DocumentReply::Saved(_)).then_some(()));
 }
 
 fn written(folder: &Folder, edits: &[Edit]) -> String {
@@ -47,11 +49,11 @@ fn a_save_writes_what_the_command_line_writes_and_announces_the_same_changes() {
     run(["edit", file, "--edits", &lines, "-o", out.to_str().unwrap()]).expect(0);
     let announced = run(["edit", file, "--edits", &lines, "--dry-run"]).expect(0).text().to_owned();
 
-    let mut desk = Desk::new(&folder.join("autosave"));
+    let mut desk = TestDocument::new(&folder.join("autosave"));
     desk.open(&path);
     edits.into_iter().for_each(|edit| desk.edit(edit));
-    desk.tell(DocumentMessage::Plan(None));
-    let plan = desk.hears(|reply| match reply {
+    desk.send(DocumentMessage::Plan(None));
+    let plan = desk.wait_for_reply(|reply| match reply {
         DocumentReply::Plan(plan, None) => Some(plan.clone()),
         _ => None,
     });
@@ -60,8 +62,8 @@ fn a_save_writes_what_the_command_line_writes_and_announces_the_same_changes() {
     assert!(fs::read(&path).unwrap() == fs::read(&out).unwrap());
     assert_eq!((saved.copy, saved.beside), (false, 0));
     assert!(desk.view().history.saved);
-    desk.tell(DocumentMessage::Plan(None));
-    let plan = desk.hears(|reply| match reply {
+    desk.send(DocumentMessage::Plan(None));
+    let plan = desk.wait_for_reply(|reply| match reply {
         DocumentReply::Plan(plan, None) => Some(plan.clone()),
         _ => None,
     });
@@ -72,21 +74,23 @@ fn a_save_writes_what_the_command_line_writes_and_announces_the_same_changes() {
 fn a_file_that_somebody_else_changed_is_overwritten_only_when_asked_for_and_its_version_is_kept() {
     let folder = Folder::new("saving-changed");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let mut desk = Desk::new(&autosave);
+    let mut desk = TestDocument::new(&autosave);
     desk.open(&path);
     desk.edit(turn(0.5));
-    desk.tell(DocumentMessage::LookAtFile);
+    desk.send(DocumentMessage::LookAtFile);
     let other = fs::read(data("gltf/Fox_skeleton.glb")).unwrap();
     desk.view();
-    assert!(!desk.said().iter().any(|said| said.contains("FileChanged")), "nobody changed it");
+    assert!(!desk.unread_replies().iter().any(|said| said.contains("FileChanged")), "nobody changed it");
     fs::write(&path, &other).unwrap();
     // Said once, however often the window gets the focus.
     for _ in 0..3 {
-        desk.tell(DocumentMessage::LookAtFile);
+        desk.send(DocumentMessage::LookAtFile);
     }
-    desk.hears(|reply| matches!(reply, DocumentReply::FileChanged(FileState::Changed)).then_some(()));
+    desk.wait_for_reply(|reply| {
+        matches!(reply, DocumentReply::FileChanged(FileState::Changed)).then_some(())
+    });
     desk.view();
-    assert!(!desk.said().iter().any(|said| said.contains("FileChanged")));
+    assert!(!desk.unread_replies().iter().any(|said| said.contains("FileChanged")));
     assert_eq!(refused(&mut desk, SaveTo::Own), NotSaved::Changed);
     assert!(fs::read(&path).unwrap() == other);
     assert!(!desk.view().history.saved);
@@ -96,8 +100,10 @@ fn a_file_that_somebody_else_changed_is_overwritten_only_when_asked_for_and_its_
     assert!(fs::read(&versions[0].path).unwrap() == other, "what the other program wrote is kept");
     // Gone is said too; saving puts it back.
     fs::remove_file(&path).unwrap();
-    desk.tell(DocumentMessage::LookAtFile);
-    desk.hears(|reply| matches!(reply, DocumentReply::FileChanged(FileState::Missing)).then_some(()));
+    desk.send(DocumentMessage::LookAtFile);
+    desk.wait_for_reply(|reply| {
+        matches!(reply, DocumentReply::FileChanged(FileState::Missing)).then_some(())
+    });
     desk.save(SaveTo::Own);
     assert!(path.is_file());
 }
@@ -107,7 +113,7 @@ fn saved_as_another_file_it_is_that_file_and_the_first_one_has_nothing_unsaved()
     let folder = Folder::new("saving-as");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let before = fs::read(&path).unwrap();
-    let mut desk = Desk::new(&autosave);
+    let mut desk = TestDocument::new(&autosave);
     let opened = desk.open(&path);
     desk.edit(turn(0.5));
     desk.save(SaveTo::As(folder.join("Vixen")));
@@ -117,15 +123,15 @@ fn saved_as_another_file_it_is_that_file_and_the_first_one_has_nothing_unsaved()
     assert!(view.history.saved && fs::read(&path).unwrap() == before);
     desk.edit(rename("Sneak"));
     let edited = desk.view();
-    killed(&autosave, &folder.join("second"));
-    let mut second = Desk::new(&folder.join("second"));
-    let offers = second.offered();
+    copy_after_kill(&autosave, &folder.join("second"));
+    let mut second = TestDocument::new(&folder.join("second"));
+    let offers = second.wait_for_offers();
     assert_eq!(
         offers.iter().map(|offer| (&*offer.title, offer.steps)).collect::<Vec<_>>(),
         [("Vixen.glb", 1)]
     );
-    second.tell(DocumentMessage::Decide(Box::new(offers[0].clone()), dragonfly_document::Decision::Keep));
-    same_takes(&second.shows(|view| view.history.done == 2), &edited);
+    second.send(DocumentMessage::Decide(Box::new(offers[0].clone()), dragonfly_document::Decision::Keep));
+    same_takes(&second.wait_for_view(|view| view.history.done == 2), &edited);
     second.change(Change::GoTo(0));
     same_takes(&second.view(), &opened);
     // The first file is opened as it always was.
@@ -137,14 +143,14 @@ fn saved_as_another_file_it_is_that_file_and_the_first_one_has_nothing_unsaved()
 fn a_copy_leaves_what_is_open_as_unsaved_as_it_was() {
     let folder = Folder::new("saving-copy");
     let path = fox(&folder);
-    let mut desk = Desk::new(&folder.join("autosave"));
+    let mut desk = TestDocument::new(&folder.join("autosave"));
     desk.open(&path);
     desk.edit(turn(0.5));
     let copy = folder.join("copy.glb");
     assert!(desk.save(SaveTo::Copy(copy.clone())).copy);
     let view = desk.view();
     assert!(!view.history.saved && view.file.path.as_deref() == Some(&*path));
-    let mut fresh = Desk::with(Setup::default());
+    let mut fresh = TestDocument::with(Setup::default());
     same_takes(&fresh.open(&copy), &view);
     assert!(matches!(refused(&mut desk, SaveTo::Copy(path)), NotSaved::Failed(_)));
 }
@@ -155,7 +161,7 @@ fn another_file_is_replaced_only_when_asked_for_and_another_format_is_refused() 
     let path = fox(&folder);
     let other = folder.join("other.glb");
     fs::write(&other, "precious").unwrap();
-    let mut desk = Desk::new(&folder.join("autosave"));
+    let mut desk = TestDocument::new(&folder.join("autosave"));
     desk.open(&path);
     desk.edit(turn(0.5));
     for to in [SaveTo::As(other.clone()), SaveTo::Copy(other.clone())] {
@@ -176,7 +182,7 @@ fn another_file_is_replaced_only_when_asked_for_and_another_format_is_refused() 
 fn reverting_goes_back_to_what_is_saved_and_can_be_taken_back() {
     let folder = Folder::new("saving-revert");
     let path = fox(&folder);
-    let mut desk = Desk::new(&folder.join("autosave"));
+    let mut desk = TestDocument::new(&folder.join("autosave"));
     desk.open(&path);
     desk.edit(turn(0.5));
     desk.save(SaveTo::Own);
@@ -184,7 +190,7 @@ fn reverting_goes_back_to_what_is_saved_and_can_be_taken_back() {
     desk.edit(turn(0.7));
     desk.edit(rename("Sneak"));
     let edited = desk.view();
-    desk.tell(DocumentMessage::Revert);
+    desk.send(DocumentMessage::Revert);
     let view = desk.view();
     same_takes(&view, &saved);
     assert!(view.history.saved && view.history.steps.len() == 3);
@@ -195,18 +201,18 @@ fn reverting_goes_back_to_what_is_saved_and_can_be_taken_back() {
     desk.edit(turn(0.1));
     assert!(!desk.view().history.saved);
     let generation = desk.view().generation;
-    desk.tell(DocumentMessage::Revert);
-    let view = desk.shows(|view| view.generation > generation && view.history.saved);
+    desk.send(DocumentMessage::Revert);
+    let view = desk.wait_for_view(|view| view.generation > generation && view.history.saved);
     same_takes(&view, &saved);
 }
 
 #[test]
 fn what_has_no_file_asks_where_and_leaving_asks_only_while_something_is_unsaved() {
     let folder = Folder::new("saving-nowhere");
-    let mut desk = Desk::new(&folder.join("autosave"));
-    let leave = |desk: &mut Desk| {
-        desk.tell(DocumentMessage::Quit);
-        desk.hears(|reply| match reply {
+    let mut desk = TestDocument::new(&folder.join("autosave"));
+    let leave = |desk: &mut TestDocument| {
+        desk.send(DocumentMessage::Quit);
+        desk.wait_for_reply(|reply| match reply {
             DocumentReply::Unsaved(Then::Quit) => Some(true),
             DocumentReply::MayQuit => Some(false),
             _ => None,
@@ -234,7 +240,7 @@ fn every_format_is_saved_and_its_history_comes_back() {
     let folder = Folder::new("saving-formats");
     let dfm = folder.join("fox.dfm");
     let model = {
-        let mut desk = Desk::with(Setup::default());
+        let mut desk = TestDocument::with(Setup::default());
         desk.open(&data("gltf/Fox.glb")).loaded.model.clone()
     };
     fs::write(&dfm, dragonfly_anim::format::dfm::write(&model).unwrap()).unwrap();
@@ -243,7 +249,7 @@ fn every_format_is_saved_and_its_history_comes_back() {
     }
     for name in ["fox.dfm", "SimpleSkin_embedded.gltf", "Fox_skeleton.glb"] {
         let (path, autosave) = (folder.join(name), folder.join(&format!("{name}-autosave")));
-        let mut desk = Desk::new(&autosave);
+        let mut desk = TestDocument::new(&autosave);
         let opened = desk.open(&path);
         if opened.takes.is_empty() {
             continue;
@@ -252,7 +258,7 @@ fn every_format_is_saved_and_its_history_comes_back() {
         desk.save(SaveTo::Own);
         let saved = desk.view();
         desk.end();
-        let mut desk = Desk::new(&autosave);
+        let mut desk = TestDocument::new(&autosave);
         let again = desk.open(&path);
         assert_eq!((again.history.done, again.history.saved), (1, true), "{name}");
         same_takes(&again, &saved);
@@ -267,23 +273,23 @@ fn every_format_is_saved_and_its_history_comes_back() {
 fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
     let folder = Folder::new("saving-moment");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
-    let mut desk = Desk::new(&autosave);
+    let mut desk = TestDocument::new(&autosave);
     desk.open(&path);
     desk.edit(turn(0.5));
     desk.edit(rename("Look around"));
     desk.save(SaveTo::Own);
     let before = desk.view();
     let second = folder.join("second");
-    killed(&autosave, &second);
+    copy_after_kill(&autosave, &second);
     let journal = fs::read_dir(second.join("journals")).unwrap().next().unwrap().unwrap().path();
     // The record that the save succeeded is the last one, and was not finished.
     let bytes = fs::read(&journal).unwrap();
     fs::write(&journal, &bytes[..bytes.len() - 1]).unwrap();
-    let mut desk = Desk::new(&second);
+    let mut desk = TestDocument::new(&second);
     let after = desk.open(&path);
     assert_eq!(after.history, before.history);
     same_takes(&before, &after);
-    let said = desk.said();
+    let said = desk.unread_replies();
     assert!(
         !said.iter().any(|said| said.contains("Offers") || said.contains("a new history was started")),
         "{said:?}"
@@ -295,17 +301,17 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
     fs::remove_dir_all(second.join("journals")).unwrap();
     fs::create_dir_all(second.join("journals")).unwrap();
     fs::write(&journal, &bytes[..bytes.len() - 1]).unwrap();
-    let mut desk = Desk::new(&second);
+    let mut desk = TestDocument::new(&second);
     desk.open(&path);
     desk.edit(turn(0.9));
     let before = desk.view();
-    killed(&second, &third);
-    let mut desk = Desk::new(&third);
+    copy_after_kill(&second, &third);
+    let mut desk = TestDocument::new(&third);
     let opened = desk.open(&path);
-    let offer = desk.offered().remove(0);
+    let offer = desk.wait_for_offers().remove(0);
     assert_eq!(offer.steps, 1);
-    desk.tell(DocumentMessage::Decide(Box::new(offer), dragonfly_document::Decision::Keep));
-    let after = desk.shows(|view| view.generation > opened.generation);
+    desk.send(DocumentMessage::Decide(Box::new(offer), dragonfly_document::Decision::Keep));
+    let after = desk.wait_for_view(|view| view.generation > opened.generation);
     assert_eq!(after.history, before.history);
     same_takes(&before, &after);
 }
@@ -317,7 +323,7 @@ fn a_turn_of_any_angle_keeps_its_history_through_saving_and_opening() {
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let angles = [0.3, 2.0, 3.0, 3.5, 4.0, 6.0, -3.0, -5.0];
     for (steps, angle) in angles.into_iter().enumerate() {
-        let mut desk = Desk::new(&autosave);
+        let mut desk = TestDocument::new(&autosave);
         let opened = desk.open(&path);
         assert_eq!(opened.history.done, steps, "before {angle}");
         desk.edit(turn(angle));

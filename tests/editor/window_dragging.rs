@@ -4,7 +4,7 @@
 use crate::screen::{key, pass};
 use crate::window::{SOON, alone};
 use crate::window_visit::Visit;
-use dragonfly_kit::document::desk::Desk;
+use dragonfly_kit::document::test_document::TestDocument;
 use dragonfly_picture::gizmo::Handle;
 use std::fs;
 use std::time::Duration;
@@ -106,7 +106,7 @@ fn a_window_that_is_closed_in_the_midst_of_a_drag_leaves_without_it() {
         assert_eq!(visit.editor.ends(SOON).code(), Some(0), "{}", visit.editor.log());
         let saved = fs::read(&visit.file).unwrap();
         assert!(saved == visit.by_stdio(), "{what:?}: another file by --stdio");
-        let mut desk = Desk::new(&visit.folder.join("look"));
+        let mut desk = TestDocument::new(&visit.folder.join("look"));
         let view = desk.open(&visit.file);
         let asked = visit.asked();
         assert!(asked.iter().any(|deed| deed["do"] == "cancel"), "{what:?}: {asked:?}");

@@ -6,7 +6,7 @@ use crate::window_hands::numbers;
 use crate::window_visit::Visit;
 use dragonfly_document::protocol::Session;
 use dragonfly_document::{Cancel, Decision, DocumentMessage, Editable, SaveTo, Source};
-use dragonfly_kit::document::desk::{Desk, killed};
+use dragonfly_kit::document::test_document::{TestDocument, copy_after_kill};
 use dragonfly_kit::folder::data;
 use dragonfly_kit::process::ignores;
 use dragonfly_kit::random::{Random, seed};
@@ -158,13 +158,13 @@ fn saved_by_asking(visit: &Visit, asked: &[Value]) -> Vec<u8> {
 /// how many steps are done then.
 fn saved_by_keeping(visit: &Visit, life: usize) -> (Vec<u8>, usize) {
     let look = visit.folder.join(&format!("look-{life}"));
-    killed(&visit.folder.join("autosave"), &look);
-    let mut desk = Desk::new(&look);
+    copy_after_kill(&visit.folder.join("autosave"), &look);
+    let mut desk = TestDocument::new(&look);
     let opened = desk.open(&visit.file);
-    let offers = desk.offered();
+    let offers = desk.wait_for_offers();
     assert_eq!((offers.len(), offers[0].title.as_str()), (1, "Fox.glb"), "{offers:?}");
-    desk.tell(DocumentMessage::Decide(Box::new(offers[0].clone()), Decision::Keep));
-    let view = desk.shows(|view| view.generation > opened.generation);
+    desk.send(DocumentMessage::Decide(Box::new(offers[0].clone()), Decision::Keep));
+    let view = desk.wait_for_view(|view| view.generation > opened.generation);
     let to = visit.folder.join(&format!("kept-{life}.glb"));
     desk.save(SaveTo::Copy(to.clone()));
     (fs::read(to).unwrap(), view.history.done)

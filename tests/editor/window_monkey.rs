@@ -4,7 +4,7 @@ use crate::screen::{key, pass};
 use crate::window::alone;
 use crate::window_visit::Visit;
 use dragonfly_document::Change;
-use dragonfly_kit::document::desk::{Desk, same_takes};
+use dragonfly_kit::document::test_document::{TestDocument, same_takes};
 use dragonfly_kit::random::{Random, seed};
 use std::time::{Duration, Instant};
 
@@ -97,18 +97,18 @@ fn two_thousand_random_deeds_lose_nothing() {
     visit.editor.kill();
 
     // The journal opens, and leads back to the takes of the file.
-    let mut fresh = Desk::new(&visit.folder.join("fresh"));
+    let mut fresh = TestDocument::new(&visit.folder.join("fresh"));
     let original = fresh.open(&dragonfly_kit::folder::data("gltf/Fox.glb"));
-    let mut desk = Desk::new(&visit.folder.join("autosave"));
+    let mut desk = TestDocument::new(&visit.folder.join("autosave"));
     let view = desk.open(&visit.file);
     println!("{} of {} steps are done", view.history.done, view.history.steps.len());
     let steps = view.history.steps.len();
     assert!(steps > 0);
     // Hands may have undone all of it.
     desk.change(Change::GoTo(steps));
-    let last = desk.shows(|view| view.history.done == steps);
+    let last = desk.wait_for_view(|view| view.history.done == steps);
     desk.change(Change::GoTo(0));
-    let first = desk.shows(|view| view.history.done == 0);
+    let first = desk.wait_for_view(|view| view.history.done == 0);
     same_takes(&original, &first);
     assert!(!first.takes.iter().eq(last.takes.iter()), "nothing was changed");
     println!("all of it took {:?}", began.elapsed());

@@ -5,7 +5,7 @@ use crate::screen::{Screen, key};
 use crate::window::{Editor, SOON, alone};
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::{Cancel, Editable, Source};
-use dragonfly_kit::document::desk::fox;
+use dragonfly_kit::document::test_document::fox;
 use dragonfly_kit::eventually;
 use dragonfly_kit::folder::{Folder, data};
 use dragonfly_kit::mounted::{Mounted, may_mount};

@@ -5,7 +5,7 @@ use crate::screen::{Screen, key};
 use crate::stdio::Talk;
 use crate::window::{Editor, SOON, eventually_shows_something};
 use crate::window_hands::{Inside, numbers, shown};
-use dragonfly_kit::document::desk::fox;
+use dragonfly_kit::document::test_document::fox;
 use dragonfly_kit::folder::{Folder, data};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

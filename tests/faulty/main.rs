@@ -4,7 +4,7 @@
 //! ```text
 //! --edits FILE                apply these edits once the model is open, one JSON object per line
 //! --fail-at CHANGES           panic in the document thread at this change
-//! --fail PLACE:STEPS:TIMES    panic in panels, input, message or frame, once so many steps are done, this number of times
+//! --fail PLACE:STEPS:TIMES    panic in panels, input, message or frame, after STEPS steps, TIMES times
 //! --lose-device FRAMES        lose the graphics device again and again, at least this number of frames apart
 //! --never-pause               keep drawing however often the device is lost
 //! ```
@@ -22,26 +22,26 @@ use std::time::{Duration, Instant};
 /// Shortest time between two losses of the device.
 const BETWEEN_LOSSES: Duration = Duration::from_millis(250);
 
-/// A place of the switch `--fail`.
+/// Part of the program in which `--fail` panics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
+enum FailTarget {
     Panels,
     Input,
     Message,
     Frame,
 }
 
-/// The faults of the command line.
+/// The faults requested on the command line.
 #[derive(Debug, Default)]
 struct Switches {
-    /// Changes until the document fails; 0 for never.
+    /// Number of changes until the document fails; 0 for never.
     changes: AtomicU32,
-    place: Option<Place>,
+    target: Option<FailTarget>,
     steps: usize,
     times: AtomicU32,
-    /// Steps done in the document, as the main thread reported them last.
+    /// Number of steps done in the document, as the main thread reported it last.
     done: AtomicUsize,
-    /// Frames between two losses of the device.
+    /// Number of frames between two losses of the device.
     frames: Option<u64>,
     lost_at: AtomicU64,
     lost: Mutex<Option<Instant>>,
@@ -60,18 +60,18 @@ impl FaultPlan for Switches {
                 assert!(count_down(&self.changes) != Some(1), "injected fault");
                 return;
             }
-            FaultPoint::GraphicsMessage => Place::Message,
-            FaultPoint::Frame => Place::Frame,
+            FaultPoint::GraphicsMessage => FailTarget::Message,
+            FaultPoint::Frame => FailTarget::Frame,
             FaultPoint::Panels(done) => {
                 self.done.store(done, Relaxed);
-                Place::Panels
+                FailTarget::Panels
             }
             FaultPoint::Input(done) => {
                 self.done.store(done, Relaxed);
-                Place::Input
+                FailTarget::Input
             }
         };
-        let fails = self.place == Some(place)
+        let fails = self.target == Some(place)
             && self.done.load(Relaxed) >= self.steps
             && count_down(&self.times).is_some();
         assert!(!fails, "injected fault");
@@ -99,11 +99,11 @@ impl Switches {
     fn set_fail(&mut self, text: &str) {
         let parts: Vec<&str> = text.split(':').collect();
         let [place, steps, times] = parts[..] else { panic!("{text}: PLACE:STEPS:TIMES is expected") };
-        self.place = Some(match place {
-            "panels" => Place::Panels,
-            "input" => Place::Input,
-            "message" => Place::Message,
-            "frame" => Place::Frame,
+        self.target = Some(match place {
+            "panels" => FailTarget::Panels,
+            "input" => FailTarget::Input,
+            "message" => FailTarget::Message,
+            "frame" => FailTarget::Frame,
             other => panic!("{other}: unknown place"),
         });
         self.steps = number(steps);

@@ -1,4 +1,4 @@
-//! The camera does what hands expect.
+//! The camera moves as the user expects.
 
 use dragonfly_anim::bounds::Sphere;
 use dragonfly_picture::camera::{Camera, Projection, ViewSide};
@@ -18,7 +18,7 @@ fn cameras() -> Vec<Camera> {
     cameras
 }
 
-/// Where a point of the scene appears: pixels from the top left, and its depth.
+/// Returns where a point of the scene appears: pixels from the top left, and its depth.
 fn pixel_of(camera: &Camera, point: Vec3) -> (Vec2, f32) {
     let clip_from_world = camera.clip_from_view(SIZE.x / SIZE.y, &BOUNDS) * camera.view_from_world();
     let clip = clip_from_world * point.extend(1.0);
@@ -51,7 +51,7 @@ fn the_target_is_in_the_middle_and_nearer_is_deeper() {
 }
 
 #[test]
-fn near_is_one_and_far_is_zero() {
+fn depth_is_one_at_the_near_plane_and_zero_at_the_far_plane() {
     for camera in cameras() {
         let (near, far) = camera.depth_range(&BOUNDS);
         for (distance, expected) in [(near, 1.0), (far, 0.0)] {
@@ -86,7 +86,7 @@ fn zooming_keeps_what_is_under_the_cursor() {
 }
 
 #[test]
-fn framing_shows_the_whole_sphere_and_not_much_more() {
+fn framing_fits_the_bounding_sphere_closely() {
     for aspect in [0.4, 1.0, 2.2] {
         for mut camera in cameras() {
             let sphere = Sphere { center: Vec3::new(5.0, -3.0, 2.0), radius: 1.7 };
@@ -109,7 +109,7 @@ fn framing_shows_the_whole_sphere_and_not_much_more() {
 }
 
 #[test]
-fn the_other_projection_keeps_sizes_at_the_target() {
+fn switching_the_projection_keeps_sizes_at_the_target() {
     for mut camera in cameras() {
         let point = camera.target + camera.right() * 0.4 + camera.up() * 0.3;
         let (before, _) = pixel_of(&camera, point);
@@ -130,7 +130,7 @@ fn a_ray_goes_through_its_pixel() {
 }
 
 #[test]
-fn sides_look_from_where_they_say() {
+fn named_views_look_from_their_side() {
     let mut camera = Camera::default();
     for (side, from) in [
         (ViewSide::Front, Vec3::Z),

@@ -1,10 +1,10 @@
-//! An error that the graphics library finds in what it is asked to do fails the test during which it happened.
+//! A validation error fails the test during which it occurs.
 
 use dragonfly_kit::picture::complaints::none_in;
 use dragonfly_kit::picture::studio;
 use std::ffi::OsStr;
 
-/// What must not be: a buffer that is used in a way it was not made for.
+/// Causes a validation error: a buffer is used in a way for which it was not created.
 fn provoke(studio: &mut dragonfly_picture::Studio) {
     let gpu = studio.stage().device().gpu();
     let _ = gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -16,9 +16,9 @@ fn provoke(studio: &mut dragonfly_picture::Studio) {
 }
 
 #[test]
-fn an_error_of_ours_fails_the_test_that_made_it() {
-    const NAME: &str = "complaints::an_error_of_ours_fails_the_test_that_made_it";
-    // In a process of its own, as the error fails every test beside it, and must.
+fn a_validation_error_fails_the_test_that_caused_it() {
+    const NAME: &str = "complaints::a_validation_error_fails_the_test_that_caused_it";
+    // In a separate process, because the error also fails every other test in its process.
     dragonfly_kit::process::alone(NAME, || {
         let Some(mut studio) = studio::studio() else { return };
         provoke(&mut studio);
@@ -29,6 +29,6 @@ fn an_error_of_ours_fails_the_test_that_made_it() {
 
 #[test]
 #[should_panic(expected = "unexpected graphics error")]
-fn a_line_about_an_error_of_ours_fails_the_test_that_started_the_program() {
+fn a_validation_error_in_the_log_fails_the_test_that_started_the_program() {
     none_in("ERROR dragonfly_picture::fault: unexpected graphics error error=…", [OsStr::new("DISPLAY")]);
 }

@@ -1,4 +1,4 @@
-//! A lost device costs nothing: everything comes back from what the processor kept, however often.
+//! A lost device loses nothing: everything is restored from the data in main memory, however often.
 
 use dragonfly_kit::document::arm;
 use dragonfly_kit::picture::images::{difference, settings};
@@ -9,14 +9,14 @@ use dragonfly_picture::losses::{LossRecord, LossTolerance, MAX_LOSSES, PATIENCE}
 use std::time::{Duration, Instant};
 
 #[test]
-fn the_same_picture_after_a_hundred_losses() {
+fn the_image_is_the_same_after_a_hundred_device_losses() {
     let Some(mut studio) = studio::studio() else { return };
     let loaded = arm::loaded();
     let settings = PictureSettings { size: [64, 48], skeleton: true, ..settings() };
     let before = studio.render(&loaded, &settings).unwrap();
     for loss in 1..=100 {
         studio.stage().device().lose();
-        // Most are lost before anything was drawn again, some after: both must work.
+        // Most devices are lost before anything was drawn again, some after; both must work.
         if loss % 10 == 0 {
             let after = studio.render(&loaded, &settings).unwrap();
             assert_eq!(difference(&before, &after), 0, "after {loss} losses");
@@ -29,8 +29,8 @@ fn the_same_picture_after_a_hundred_losses() {
 }
 
 #[test]
-fn a_hundred_losses_take_no_memory_with_them() {
-    alone("device_loss::a_hundred_losses_take_no_memory_with_them", || {
+fn a_hundred_device_losses_leak_no_memory() {
+    alone("device_loss::a_hundred_device_losses_leak_no_memory", || {
         let Some(mut studio) = studio::studio() else { return };
         let loaded = arm::loaded();
         let settings = PictureSettings { size: [64, 48], ..settings() };
@@ -41,7 +41,7 @@ fn a_hundred_losses_take_no_memory_with_them() {
             }
             resident_bytes()
         };
-        // The first few fill the driver's own caches.
+        // The first few losses fill the caches of the driver.
         let before = lose(20);
         let after = lose(100);
         println!("{} KiB before, {} KiB after a hundred losses", before >> 10, after >> 10);
@@ -50,7 +50,7 @@ fn a_hundred_losses_take_no_memory_with_them() {
 }
 
 #[test]
-fn losses_on_purpose_do_not_try_patience() {
+fn deliberate_device_losses_do_not_count_toward_the_limit() {
     let mut record = LossRecord::default();
     let now = Instant::now();
     for _ in 0..100 {
@@ -61,7 +61,7 @@ fn losses_on_purpose_do_not_try_patience() {
 }
 
 #[test]
-fn three_losses_within_a_minute_are_too_many() {
+fn three_device_losses_within_a_minute_exceed_the_limit() {
     let start = Instant::now();
     let after = |seconds| start + Duration::from_secs(seconds);
     let mut record = LossRecord::default();

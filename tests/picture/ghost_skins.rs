@@ -1,4 +1,4 @@
-//! Ghosts drawn as skins: what was in one colour, what comes in another, and nothing of them where none is wanted.
+//! Ghosts drawn as skins: earlier poses in one color, later ones in another, and none where none is requested.
 
 use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_document::{Cancel, LoadedModel, Source, View, load_model};
@@ -12,7 +12,7 @@ use glam::Vec3;
 use image::RgbaImage;
 use std::sync::Arc;
 
-/// Pixels beside the fox, which is orange, in which one channel came to stand out.
+/// Returns the number of pixels outside the fox, which is orange, in which one channel is dominant.
 fn tinted(picture: &RgbaImage, before: &RgbaImage, red: bool) -> usize {
     let more = |now: &image::Rgba<u8>, then: &image::Rgba<u8>| {
         let by = |channel: usize| i32::from(now[channel]) - i32::from(then[channel]);
@@ -23,7 +23,7 @@ fn tinted(picture: &RgbaImage, before: &RgbaImage, red: bool) -> usize {
 }
 
 #[test]
-fn the_skin_is_seen_before_and_after_and_the_skeleton_in_its_place() {
+fn ghosts_show_the_skin_before_and_after_the_current_pose() {
     let Some(mut studio) = studio::studio() else { return };
     let source = Source::File(data("gltf/Fox.glb"));
     let loaded = Arc::new(load_model(&source, &mut |_| {}, &Cancel::default()).unwrap());
@@ -60,9 +60,9 @@ fn the_skin_is_seen_before_and_after_and_the_skeleton_in_its_place() {
     assert_eq!(studio.stage().device().errors(), 0);
 }
 
-/// Each ghost knows for itself whether it is seen from inside.
+/// Each ghost determines separately whether it is seen from inside.
 #[test]
-fn a_part_that_is_turned_inside_out_at_one_time_only_is_so_in_that_ghost_only() {
+fn a_mesh_mirrored_at_one_time_is_mirrored_in_that_ghost_only() {
     let loaded = Arc::into_inner(arm::loaded()).expect("the only one");
     let mut model = Arc::into_inner(loaded.model).expect("the only one");
     let mut take = (*model.animation.takes[0]).clone();
@@ -72,7 +72,7 @@ fn a_part_that_is_turned_inside_out_at_one_time_only_is_so_in_that_ghost_only() 
     let view = View::opened(1, Arc::new(LoadedModel { model: Arc::new(model), ..loaded }));
     let mut ghosts = GhostSkins::default();
     ghosts.pose(&view, &[], Some(0), &[(0.0, -1), (arm::LENGTH, 1)], [[0.0; 3]; 2]);
-    // The tube is bound to all bones, the pane hangs from the last one.
+    // The tube is bound to all bones; the pane is attached to the last one.
     let inside = |ghost: usize| [ghosts.is_mirrored(ghost, 0), ghosts.is_mirrored(ghost, 1)];
     assert_eq!(inside(0), [false, false]);
     assert!(inside(1)[1], "the pane");

@@ -1,4 +1,5 @@
-//! The graphics thread, turned by hand: it draws when something changed, answers what it is asked, and rests otherwise.
+//! The graphics thread, with iterations run by the test: it draws when something changed, answers requests, and is
+//! idle otherwise.
 
 use dragonfly_anim::data::{ModelData, Take};
 use dragonfly_document::{Document, DocumentReply, FaultInjection, FaultPlan, Source, View};
@@ -22,7 +23,7 @@ use std::time::{Duration, Instant};
 
 const SIZE: [u32; 2] = [320, 200];
 
-/// Keeps what the main thread is told.
+/// Records the messages to the main thread.
 #[derive(Default)]
 struct Replies(Vec<GraphicsReply>);
 
@@ -44,8 +45,8 @@ impl FaultPlan for LoseDevice {
     }
 }
 
-/// Both threads, in one.
-struct Bench {
+/// The main thread and the graphics thread, run by one OS thread.
+struct GraphicsBench {
     main: Captured,
     thread: Captured,
     graphics: GraphicsHandle,
@@ -55,8 +56,8 @@ struct Bench {
     _watch: NoComplaints,
 }
 
-impl Bench {
-    /// Before the graphics thread was turned for the first time.
+impl GraphicsBench {
+    /// Creates both, before the first iteration of the graphics thread.
     fn begin(parameters: DeviceParameters) -> Self {
         let losses = Arc::new(LoseDevice::default());
         let parameters =
@@ -70,7 +71,7 @@ impl Bench {
         Self { main, thread, graphics, replies, losses, _watch: watch }
     }
 
-    /// Skips the test where there is no adapter.
+    /// Creates both; skips the test where there is no adapter.
     fn new() -> Option<Self> {
         let mut bench = Self::begin(DeviceParameters::default());
         bench.settle();
@@ -84,7 +85,7 @@ impl Bench {
         }
     }
 
-    /// Shows the arm.
+    /// Creates both and shows the model of the arm.
     fn with_arm() -> Option<Self> {
         let mut bench = Self::new()?;
         bench.graphics.show(View::opened(1, arm::loaded()));
@@ -94,7 +95,7 @@ impl Bench {
         Some(bench)
     }
 
-    /// Turns the graphics thread until it rests, a little while at most.
+    /// Runs iterations of the graphics thread until it is idle, for a short time at most.
     fn settle(&mut self) {
         let end = Instant::now() + Duration::from_secs(20);
         while self.turn() != Next::OnMessage {
@@ -102,7 +103,7 @@ impl Bench {
         }
     }
 
-    /// One turn, when it is due.
+    /// Runs one iteration when it is due.
     fn turn(&mut self) -> Next {
         let next = self.thread.iterate();
         if let Next::At(when) = next {
@@ -124,7 +125,7 @@ impl Bench {
         frames.max().unwrap_or(0)
     }
 
-    /// The whole window.
+    /// Returns the image of the whole window.
     fn capture(&mut self, path: &Path) -> RgbaImage {
         self.graphics.capture(path.to_owned());
         self.settle();
@@ -141,7 +142,7 @@ fn scratch(name: &str) -> PathBuf {
     folder.join(name)
 }
 
-/// Panels with a word on them, as egui paints them.
+/// Returns panels with a word on them, as egui paints them.
 fn panels(context: &egui::Context, word: &str) -> PanelsFrame {
     let input = egui::RawInput {
         screen_rect: Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(320.0, 200.0))),
@@ -160,7 +161,7 @@ fn panels(context: &egui::Context, word: &str) -> PanelsFrame {
 
 #[test]
 fn a_frame_is_drawn_only_when_something_changes() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     assert_eq!(bench.turn(), Next::OnMessage, "nothing moves, so nothing wakes the thread");
     let now = Instant::now();
     let playing =
@@ -176,8 +177,8 @@ fn a_frame_is_drawn_only_when_something_changes() {
 }
 
 #[test]
-fn a_minimised_window_costs_nothing() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+fn a_minimized_window_draws_nothing() {
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     bench.graphics.resize([0, 0]);
     bench.graphics.play(PlaybackClock {
         take: Some(0),
@@ -191,10 +192,10 @@ fn a_minimised_window_costs_nothing() {
 }
 
 #[test]
-fn panels_come_back_after_a_loss_with_everything_else() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+fn panels_are_restored_after_a_device_loss() {
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     let context = egui::Context::default();
-    // The second frame brings no textures, and the first is never drawn: its textures must not be lost.
+    // The second frame has no textures, and the first is never drawn; its textures must not be lost.
     bench.graphics.show_panels(panels(&context, "first"));
     bench.graphics.show_panels(panels(&context, "second"));
     let before = bench.capture(&scratch("before-loss.png"));
@@ -211,24 +212,24 @@ fn panels_come_back_after_a_loss_with_everything_else() {
 }
 
 #[test]
-fn panels_that_no_device_will_show_are_forgotten_in_peace() {
+fn panels_without_a_device_are_dropped_without_an_error() {
     let none = DeviceParameters { backends: wgpu::Backends::empty(), ..DeviceParameters::default() };
-    let mut bench = Bench::begin(none);
+    let mut bench = GraphicsBench::begin(none);
     let context = egui::Context::default();
-    // Before it is known that there is none, and after.
+    // Before the missing device is detected, and after.
     bench.graphics.show_panels(panels(&context, "early"));
     bench.settle();
     assert!(matches!(&bench.take()[..], [GraphicsReply::Fatal(_)]), "the window must hear of it, to end");
     let context = egui::Context::default();
     bench.graphics.show_panels(panels(&context, "late"));
     bench.settle();
-    // And when the thread ends with drawings on their way.
+    // And when the thread ends with drawings in its queue.
     bench.graphics.show_panels(panels(&egui::Context::default(), "never"));
 }
 
 #[test]
-fn a_question_gets_its_answer_and_the_newest_camera_wins() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+fn a_request_is_answered_and_the_newest_camera_is_used() {
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     for distance in 1..50 {
         let camera = Camera {
             target: Vec3::Y * 1.5,
@@ -256,7 +257,7 @@ fn a_question_gets_its_answer_and_the_newest_camera_wins() {
     assert_eq!(picked, Some((Some(1), 7)));
 }
 
-/// Hears the document, when its thread gets to it.
+/// Receives the replies of the document in the main thread.
 struct Panels(Rc<RefCell<Vec<DocumentReply>>>);
 
 impl Receiver for Panels {
@@ -268,15 +269,15 @@ impl Receiver for Panels {
 }
 
 #[test]
-fn a_model_is_shown_while_the_main_thread_stands_still() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+fn a_model_is_shown_while_the_main_thread_is_blocked() {
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     let path = scratch("stalled.png");
     let before = bench.capture(&path);
     let heard = Rc::new(RefCell::new(Vec::new()));
     let replies = bench.main.context().register_receiver(Panels(Rc::clone(&heard)));
     let document = Document::start(replies, bench.graphics.views().clone()).unwrap();
     document.open(Source::BuiltIn);
-    // From here on nobody turns the main thread.
+    // From here on the main thread runs no iteration.
     eventually(Duration::from_secs(30), || {
         bench.graphics.capture(path.clone());
         bench.settle();
@@ -294,8 +295,8 @@ fn a_model_is_shown_while_the_main_thread_stands_still() {
 }
 
 #[test]
-fn a_changed_take_is_shown_as_if_it_had_been_opened_like_that() {
-    let Some(mut bench) = Bench::with_arm() else { return };
+fn an_edited_take_looks_like_the_same_take_loaded_from_a_file() {
+    let Some(mut bench) = GraphicsBench::with_arm() else { return };
     let opened = View::opened(1, arm::loaded());
     let still = Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) };
     let changed = View { generation: 2, takes: [Arc::new(still.clone())].into(), ..opened.clone() };
@@ -316,7 +317,7 @@ fn a_changed_take_is_shown_as_if_it_had_been_opened_like_that() {
 }
 
 #[test]
-fn a_changed_take_keeps_what_the_device_has_of_the_model() {
+fn an_edited_take_keeps_the_gpu_resources_of_the_model() {
     let opened = View::opened(1, arm::loaded());
     let mut scene = Scene::new(Instant::now());
     let mut shown = |view: &View| {
@@ -330,7 +331,7 @@ fn a_changed_take_keeps_what_the_device_has_of_the_model() {
     };
     let (model, items, bent) = shown(&opened);
     let still = Arc::new(Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) });
-    // As many as before, one more, none.
+    // The same number as before, one more, and none.
     for takes in [vec![Arc::clone(&still)], vec![still; 2], Vec::new()] {
         let changed = View { generation: 2, takes: takes.into(), ..opened.clone() };
         let (same, kept, straight) = shown(&changed);

@@ -1,4 +1,4 @@
-//! Promises, one module each.
+//! Tests of the graphics crate, one module for each guarantee.
 
 mod camera;
 mod complaints;

@@ -1,4 +1,4 @@
-//! Playing asks the allocator for nothing: the scene is computed into memory made when the model came.
+//! Playback does not allocate: the scene is computed in memory that was allocated when the model was loaded.
 
 use dragonfly_kit::counting;
 use dragonfly_kit::document::arm;

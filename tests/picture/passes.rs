@@ -1,4 +1,4 @@
-//! The passes: their order, their documentation, and the data that other threads set for them.
+//! Render passes: their order, their documentation, and the data that other threads set for them.
 
 use dragonfly_picture::pass::{self, PassLayer};
 use dragonfly_picture::{Appearance, Appearances};

@@ -9,7 +9,7 @@ use dragonfly_picture::{BoneLook, Look};
 use glam::Vec3;
 use std::time::Instant;
 
-/// The window is larger than the viewport, which does not begin at its corner.
+/// A window larger than the viewport, which does not start at its corner.
 const VIEWPORT: [u32; 4] = [100, 50, 640, 480];
 
 fn scene(time: f32, bone_look: BoneLook) -> Scene {
@@ -24,7 +24,7 @@ fn scene(time: f32, bone_look: BoneLook) -> Scene {
     scene
 }
 
-/// Where in the window a point of the scene appears.
+/// Returns where a point of the scene appears in the window.
 fn window_position(scene: &Scene, point: Vec3) -> [f32; 2] {
     let clip = scene.clip_from_world(&scene.bounds().sphere) * point.extend(1.0);
     let [x, y, width, height] = VIEWPORT.map(|value| value as f32);
@@ -33,13 +33,13 @@ fn window_position(scene: &Scene, point: Vec3) -> [f32; 2] {
 }
 
 #[test]
-fn the_bone_drawn_there_is_found() {
+fn a_click_on_a_drawn_bone_picks_it() {
     for bone_look in [BoneLook::Octahedra, BoneLook::Sticks, BoneLook::Lines] {
         for time in [0.0, 0.6, arm::LENGTH] {
             let scene = scene(time, bone_look);
             let to_root = scene.model().unwrap().to_root();
             for (bone, matrix) in to_root.iter().enumerate() {
-                // The last bone is a stub; a little way along is inside all of them.
+                // The last bone is short; a point near its start is inside all of them.
                 let along = matrix.transform_point3(Vec3::Y * 0.12);
                 let picked = pick(&scene, window_position(&scene, along));
                 assert_eq!(picked, Some(bone as u32), "{bone_look:?} at {time}");
@@ -49,7 +49,7 @@ fn the_bone_drawn_there_is_found() {
 }
 
 #[test]
-fn a_near_miss_gets_the_nearest_bone_and_a_far_one_none() {
+fn a_near_miss_picks_the_nearest_bone_and_a_far_miss_none() {
     let scene = scene(0.0, BoneLook::Lines);
     let [x, y] = window_position(&scene, Vec3::Y * 0.5);
     assert_eq!(pick(&scene, [x + 7.0, y]), Some(0));
@@ -57,7 +57,7 @@ fn a_near_miss_gets_the_nearest_bone_and_a_far_one_none() {
 }
 
 #[test]
-fn a_miss_is_as_near_on_a_screen_of_fine_pixels() {
+fn the_pick_distance_is_the_same_on_a_high_dpi_screen() {
     let mut scene = scene(0.0, BoneLook::Lines);
     let [x, y] = window_position(&scene, Vec3::Y * 0.5);
     assert_eq!(pick(&scene, [x + 17.0, y]), None);
@@ -67,7 +67,7 @@ fn a_miss_is_as_near_on_a_screen_of_fine_pixels() {
 }
 
 #[test]
-fn nothing_is_found_outside_the_viewport_and_hidden_bones_are_found() {
+fn picking_ignores_points_outside_the_viewport_and_includes_hidden_bones() {
     let mut scene = scene(0.0, BoneLook::Octahedra);
     let on_bone = window_position(&scene, Vec3::Y * 0.5);
     assert_eq!(pick(&scene, [99.0, 200.0]), None);

@@ -26,7 +26,7 @@ fn scene(camera: Camera, bone_look: BoneLook) -> Scene {
     scene
 }
 
-/// Looks along the arm, a little from the side: its three bones lie one behind the other.
+/// Returns a camera that looks along the arm, slightly from the side: its three bones overlap in the view.
 fn from_the_tip() -> Camera {
     let camera = Camera { target: Vec3::Y * 1.5, distance: 8.0, yaw: 0.0, ..Camera::default() };
     Camera { pitch: 1.56, ..camera }
@@ -39,7 +39,7 @@ fn all(scene: &Scene, at: [f32; 2], hidden: &HiddenBones) -> Vec<u32> {
 }
 
 #[test]
-fn what_lies_behind_comes_after_what_is_in_front_and_clicks_go_through_it() {
+fn picked_bones_are_sorted_by_depth_and_repeated_clicks_cycle_through_them() {
     let scene = scene(from_the_tip(), BoneLook::Octahedra);
     let middle = [100.0 + 320.0, 50.0 + 240.0];
     let none = HiddenBones::default();
@@ -57,7 +57,7 @@ fn what_lies_behind_comes_after_what_is_in_front_and_clicks_go_through_it() {
 }
 
 #[test]
-fn the_first_of_all_is_the_one_that_a_single_pick_finds() {
+fn the_first_of_all_picked_bones_is_the_one_a_single_pick_returns() {
     let seed = seed(81);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -83,7 +83,7 @@ fn the_first_of_all_is_the_one_that_a_single_pick_finds() {
 }
 
 #[test]
-fn a_box_and_a_lasso_hold_the_bones_whose_joint_or_middle_they_hold() {
+fn a_box_or_lasso_selects_bones_whose_joint_or_middle_is_inside() {
     for (pixels_per_point, look) in
         [(1.0, BoneLook::Octahedra), (2.0, BoneLook::Sticks), (1.5, BoneLook::Lines)]
     {

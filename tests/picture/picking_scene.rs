@@ -1,4 +1,5 @@
-//! A click on the scene finds bones that are drawn; where none is, the skin that they move; never a hidden one.
+//! A click on the scene picks drawn bones; where none is drawn, it picks by the skin that they move, and never a
+//! hidden bone.
 
 use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones};
 use dragonfly_kit::document::arm;
@@ -28,7 +29,7 @@ fn scene(skeleton: bool, hidden: &[u32]) -> Scene {
     scene
 }
 
-/// Where in the window a place of the scene appears.
+/// Returns where a point of the scene appears in the window.
 fn window_position(scene: &Scene, place: Vec3) -> [f32; 2] {
     let clip = scene.clip_from_world(&scene.bounds().sphere) * place.extend(1.0);
     let [x, y, width, height] = VIEWPORT.map(|value| value as f32);
@@ -49,9 +50,9 @@ fn hidden_bones_are_neither_drawn_nor_picked() {
 }
 
 #[test]
-fn where_no_bone_is_shown_the_skin_is_met() {
+fn a_click_picks_the_skin_where_no_bone_is_drawn() {
     let mut scene = scene(false, &[]);
-    // Beside the bones, on the tube around them.
+    // Next to the bones, on the tube around them.
     let aside = scene.camera.right() * 0.15;
     for (height, bone) in [(0.2, 0), (1.2, 1)] {
         let at = window_position(&scene, Vec3::Y * height + aside);

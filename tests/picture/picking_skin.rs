@@ -1,4 +1,4 @@
-//! A click on the skin means the bone that has most influence there, in the animated pose.
+//! A click on the skin picks the bone with the most influence there, in the animated pose.
 
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::hit::{HitPose, HitTree};
@@ -37,7 +37,7 @@ fn towards(point: Vec3) -> CameraRay {
 }
 
 #[test]
-fn the_bone_with_most_influence_is_found_where_the_skin_is_now() {
+fn a_click_on_the_deformed_skin_picks_the_bone_with_most_influence() {
     let mut skin = Skin::at(0.0);
     let none = HiddenBones::default();
     // Weights change from one bone to the next between 0.5 and 1.5, and 1.5 and 2.5.
@@ -48,7 +48,7 @@ fn the_bone_with_most_influence_is_found_where_the_skin_is_now() {
         assert!((hits[0].distance - 9.77).abs() < 0.05, "{}", hits[0].distance);
     }
     assert!(skin.hits(&towards(Vec3::X * 3.0), &none).is_empty());
-    // Bent, the tip is elsewhere.
+    // In the bent pose the tip is elsewhere.
     let tip = |skin: &Skin| skin.evaluator.to_root()[2].transform_point3(Vec3::Y * 0.8);
     let mut bent = Skin::at(arm::LENGTH);
     assert!(tip(&bent).distance(tip(&skin)) > 0.5);
@@ -57,9 +57,9 @@ fn the_bone_with_most_influence_is_found_where_the_skin_is_now() {
 }
 
 #[test]
-fn bones_behind_follow_and_hidden_ones_are_looked_through() {
+fn bones_of_the_skin_behind_follow_and_hidden_bones_are_skipped() {
     let mut skin = Skin::at(0.0);
-    // In at the tip's side, out at the other side near the root.
+    // The ray enters at the tip and leaves at the other side near the root.
     let (enter, leave) = (Vec3::new(0.25, 2.8, 0.05), Vec3::new(-0.25, 0.2, 0.05));
     let direction = (leave - enter).normalize();
     let ray = CameraRay { origin: enter - direction * 3.0, direction };
@@ -76,14 +76,14 @@ fn bones_behind_follow_and_hidden_ones_are_looked_through() {
 }
 
 #[test]
-fn a_line_of_sight_that_is_none_meets_nothing() {
+fn an_invalid_ray_hits_nothing() {
     let mut skin = Skin::at(0.0);
     for (origin, direction) in
         [(Vec3::NAN, Vec3::Z), (Vec3::ZERO, Vec3::ZERO), (Vec3::ZERO, Vec3::NAN), (Vec3::INFINITY, Vec3::Z)]
     {
         assert!(skin.hits(&CameraRay { origin, direction }, &HiddenBones::default()).is_empty());
     }
-    // From within, and from so far that numbers are coarse: an end all the same.
+    // From inside, and from far away where floats are coarse: the search ends in both cases.
     skin.hits(&CameraRay { origin: Vec3::Y, direction: Vec3::Y }, &HiddenBones::default());
     skin.hits(&CameraRay { origin: Vec3::new(0.0, 1.0, 1e8), direction: -Vec3::Z }, &HiddenBones::default());
 }

@@ -1,4 +1,4 @@
-//! A picture without a window shows the model, at the time asked for, over the background asked for.
+//! An image rendered without a window shows the model at the requested time over the requested background.
 
 use dragonfly_kit::document::arm;
 use dragonfly_kit::picture::images::{difference, settings};
@@ -23,7 +23,7 @@ fn the_model_is_seen_and_moves_with_time() {
 }
 
 #[test]
-fn the_background_may_be_open_or_any_colour() {
+fn the_background_may_be_transparent_or_any_color() {
     let Some(mut studio) = studio::studio() else { return };
     let loaded = arm::loaded();
     let mut over = |background| {

@@ -1,4 +1,4 @@
-//! Which time is on screen, at any moment, whatever was pressed before.
+//! The time on screen, at any moment and after any sequence of commands.
 
 use dragonfly_kit::random::{Random, seed};
 use dragonfly_picture::playback::{PlaybackClock, Repeat};
@@ -40,7 +40,7 @@ fn the_time_stays_within_the_take() {
 }
 
 #[test]
-fn each_end_is_met_as_it_says() {
+fn each_repeat_mode_handles_the_end_of_the_take() {
     let now = Instant::now();
     assert_eq!(playback(now, 2.0, Repeat::Once).time_at(later(now, 5.0)), 3.0);
     assert!((playback(now, 2.0, Repeat::Loop).time_at(later(now, 5.0)) - 2.0).abs() < 1e-5);
@@ -48,14 +48,14 @@ fn each_end_is_met_as_it_says() {
 }
 
 #[test]
-fn the_last_frame_of_a_loop_can_be_looked_at() {
+fn the_last_frame_of_a_loop_can_be_shown() {
     let now = Instant::now();
     let playback = PlaybackClock { playing: false, ..playback(now, 2.0, Repeat::Loop) }.seek(3.0, now);
     assert_eq!(playback.time_at(now), 3.0);
 }
 
 #[test]
-fn what_stands_may_stand_beside_the_take_and_what_plays_may_not() {
+fn the_time_may_be_outside_the_take_when_paused_but_not_when_playing() {
     let now = Instant::now();
     let plays = playback(now, 2.0, Repeat::Loop);
     let stands = PlaybackClock { playing: false, ..plays };
@@ -70,7 +70,7 @@ fn what_stands_may_stand_beside_the_take_and_what_plays_may_not() {
 }
 
 #[test]
-fn pressing_anything_never_makes_the_time_jump() {
+fn no_playback_command_makes_the_time_jump() {
     let seed = seed(7);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -81,7 +81,7 @@ fn pressing_anything_never_makes_the_time_jump() {
         let before = state.time_at(now);
         let speed = [-2.0, -1.0, 0.25, 1.0, 3.0][random.below(5)];
         let playing = random.below(2) == 0;
-        // Another repeat may mean another time only for a time that lies beyond the end, and none does.
+        // Another repeat mode may change only a time beyond the end, and there is none here.
         state = state.with(playing, speed, REPEATS[random.below(3)], now);
         let after = state.time_at(now);
         assert!((after - before).abs() < 1e-4, "{before} became {after}");
@@ -89,7 +89,7 @@ fn pressing_anything_never_makes_the_time_jump() {
 }
 
 #[test]
-fn what_stands_does_not_move() {
+fn paused_playback_does_not_advance() {
     let now = Instant::now();
     let stands = PlaybackClock { playing: false, ..playback(now, 2.0, Repeat::Loop) };
     assert!(!stands.moves(now));

@@ -1,5 +1,5 @@
-//! The device morphs and skins as the processor does: the picture of a moving model is that of a copy that stands still,
-//! whose vertices the processor moved.
+//! The device morphs and skins as the processor does: the image of a moving model equals that of a static copy whose
+//! vertices the processor has moved.
 
 use dragonfly_anim::data::*;
 use dragonfly_anim::evaluator::Evaluator;
@@ -12,7 +12,7 @@ use glam::{Mat4, Quat, Vec3, Vec4};
 use image::RgbaImage;
 use std::sync::Arc;
 
-/// A copy of `model` in the pose of its first take at `time`: nothing but vertices, in scene space.
+/// Returns a copy of `model` in the pose of its first take at `time`: only vertices, in scene space.
 fn baked(model: &Arc<ModelData>, time: f32) -> ModelData {
     let mut evaluator = Evaluator::new(Arc::clone(model));
     evaluator.pose(Some(0), time);
@@ -26,7 +26,7 @@ fn baked(model: &Arc<ModelData>, time: f32) -> ModelData {
             evaluator.normals(index, number, &mut vertices.normals);
             skin_tangents(primitive, movement, evaluator.morph_weights(index), &mut vertices.tangents);
             (vertices.influences, vertices.influences_per_vertex) = (Vec::new(), 0);
-            // A mirrored triangle runs the other way round.
+            // A mirrored triangle has the opposite winding.
             if movement.matrix(primitive, 0).determinant() < 0.0 {
                 primitive.indices.chunks_exact_mut(3).for_each(|corners| corners.swap(1, 2));
             }
@@ -45,7 +45,7 @@ fn baked(model: &Arc<ModelData>, time: f32) -> ModelData {
     }
 }
 
-/// `model` with the pixels of `like`, and the room that `bounds` takes.
+/// Returns `model` as loaded, with the pixels of `like` and these bounds.
 fn shown(model: Arc<ModelData>, like: &LoadedModel, bounds: &Arc<ModelData>) -> Arc<LoadedModel> {
     Arc::new(LoadedModel {
         title: like.title.clone(),
@@ -58,13 +58,14 @@ fn shown(model: Arc<ModelData>, like: &LoadedModel, bounds: &Arc<ModelData>) -> 
     })
 }
 
-/// Pixels that differ by more than a rounding.
+/// Returns the number of pixels that differ by more than rounding.
 fn unlike(a: &RgbaImage, b: &RgbaImage) -> usize {
     let far = |a: &image::Rgba<u8>, b: &image::Rgba<u8>| (0..4).any(|i| a[i].abs_diff(b[i]) > 8);
     a.pixels().zip(b.pixels()).filter(|(a, b)| far(a, b)).count()
 }
 
-/// Draws `loaded` at `time` of its first take, and its baked copy, from two sides in two ways, and compares.
+/// Draws `loaded` at `time` of its first take, and its baked copy, from two sides with two looks, and compares the
+/// images.
 fn check(studio: &mut Studio, loaded: &LoadedModel, time: f32) {
     let copy = Arc::new(baked(&loaded.model, time));
     let moving = shown(Arc::clone(&loaded.model), loaded, &copy);
@@ -97,7 +98,7 @@ fn open(source: &Source) -> LoadedModel {
     load_model(source, &mut |_| {}, &Cancel::default()).unwrap()
 }
 
-/// Red, with a map that tilts every normal to the upper right.
+/// Returns a red material with a normal map that tilts every normal to the upper right.
 fn tilted() -> (Vec<Material>, Vec<DecodedImage>) {
     let map = TextureRef {
         image: 0,
@@ -113,7 +114,7 @@ fn tilted() -> (Vec<Material>, Vec<DecodedImage>) {
     (vec![Material { normal_texture: Some(map), ..red }], vec![image])
 }
 
-/// A ball that a bone carries, which goes from rest to `end`.
+/// Returns a ball carried by a bone that moves from rest to `end`.
 fn carried(end: Transform) -> ModelData {
     let (materials, _) = tilted();
     ModelData {
@@ -123,7 +124,7 @@ fn carried(end: Transform) -> ModelData {
     }
 }
 
-/// A ball stretched to a column and held by `count` bones inside, all of which hold each vertex.
+/// Returns a ball stretched to a column with `count` bones inside, all of which influence each vertex.
 fn column(count: usize, end: impl Fn(u32) -> Transform) -> ModelData {
     let mut ball = made::ball();
     let vertices = &mut ball.vertices;
@@ -162,7 +163,7 @@ fn check_made(model: ModelData) {
 fn the_built_in_dragonfly_flies_as_computed() {
     let Some(mut studio) = studio::studio() else { return };
     let mut loaded = open(&Source::BuiltIn);
-    // The device compares the first take; the one asked for goes there.
+    // The comparison uses the first take, so the requested take is moved there.
     let mut model = ModelData::clone(&loaded.model);
     let cruise = model.animation.takes.iter().position(|take| take.name.eq_ignore_ascii_case("cruise"));
     model.animation.takes.swap(0, cruise.expect("a take called cruise"));
@@ -173,17 +174,17 @@ fn the_built_in_dragonfly_flies_as_computed() {
 }
 
 #[test]
-fn four_bones_hold_a_vertex() {
+fn four_bones_can_influence_a_vertex() {
     check_made(column(4, |_| Transform { rotation: Quat::from_rotation_z(0.5), ..Transform::IDENTITY }));
 }
 
 #[test]
-fn eight_bones_hold_a_vertex() {
+fn eight_bones_can_influence_a_vertex() {
     check_made(column(8, |_| Transform { rotation: Quat::from_rotation_z(0.25), ..Transform::IDENTITY }));
 }
 
 #[test]
-fn bones_that_swell_and_shrink_keep_the_light_where_it_falls() {
+fn scaled_bones_keep_the_shading_correct() {
     check_made(column(4, |bone| Transform {
         scale: if bone % 2 == 0 { Vec3::new(2.5, 1.0, 0.6) } else { Vec3::new(0.2, 1.0, 1.5) },
         ..Transform::IDENTITY
@@ -241,7 +242,7 @@ fn a_bone_carries_a_rigid_mesh() {
 }
 
 #[test]
-fn a_mirrored_bone_turns_winding_and_light() {
+fn a_mirrored_bone_flips_winding_and_normals() {
     check_made(carried(Transform {
         rotation: Quat::from_rotation_z(0.4),
         scale: Vec3::new(-2.0, 1.0, 1.0),
@@ -250,7 +251,7 @@ fn a_mirrored_bone_turns_winding_and_light() {
 }
 
 #[test]
-fn mirrored_joints_turn_winding_and_light() {
+fn mirrored_joints_flip_winding_and_normals() {
     check_made(column(4, |bone| Transform {
         rotation: Quat::from_rotation_z(0.2),
         scale: if bone == 0 { Vec3::new(1.0, 1.0, -2.0) } else { Vec3::ONE },
@@ -259,7 +260,7 @@ fn mirrored_joints_turn_winding_and_light() {
 }
 
 #[test]
-fn every_instance_has_matrices_and_weights_of_its_own() {
+fn every_instance_has_its_own_matrices_and_weights() {
     let mut model = column(4, |_| Transform { rotation: Quat::from_rotation_z(0.4), ..Transform::IDENTITY });
     let mut ball = made::ball();
     let squeezed = |positions: &[Vec3]| positions.iter().map(|&at| at * Vec3::new(0.0, -0.8, 0.0)).collect();
@@ -273,7 +274,7 @@ fn every_instance_has_matrices_and_weights_of_its_own() {
             ..made::instance(1, None, Some(bone))
         });
     }
-    // The same column once more, held at other places.
+    // The same column again, bound at other positions.
     let offsets = model.skins[0].offsets.iter().map(|&offset| offset * Mat4::from_translation(Vec3::Z * 3.0));
     model.skins.push(Skin { offsets: offsets.collect(), ..model.skins[0].clone() });
     model.instances.push(made::instance(0, Some(1), None));

@@ -1,4 +1,5 @@
-//! What materials promise, pixel by pixel: masks, textures and their coordinates, vertex colours, Phong light, and sides.
+//! Materials, checked pixel by pixel: masks, textures and their coordinates, vertex colors, Phong lighting, and
+//! sides.
 
 use dragonfly_anim::data::*;
 use dragonfly_document::DecodedImage;
@@ -13,11 +14,11 @@ const GREEN: [u8; 4] = [0, 255, 0, 255];
 const BLUE: [u8; 4] = [0, 0, 255, 255];
 const WHITE: [u8; 4] = [255; 4];
 const NOTHING: [u8; 4] = [0; 4];
-/// Middles of the four quarters of a sheet: upper left, upper right, lower left, lower right.
+/// Centers of the four quarters of a sheet: upper left, upper right, lower left, lower right.
 const QUARTERS: [Vec2; 4] =
     [Vec2::new(0.25, 0.25), Vec2::new(0.75, 0.25), Vec2::new(0.25, 0.75), Vec2::new(0.75, 0.75)];
 
-/// From the front, over nothing.
+/// Settings for a view from the front with a transparent background.
 fn settings() -> PictureSettings {
     PictureSettings {
         pitch: 0.0,
@@ -27,7 +28,7 @@ fn settings() -> PictureSettings {
     }
 }
 
-/// An image of four texels, rows from the top.
+/// Returns an image of four texels, rows from the top.
 fn four(texels: [[u8; 4]; 4]) -> DecodedImage {
     DecodedImage { width: 2, height: 2, pixels: texels.concat() }
 }
@@ -44,12 +45,12 @@ fn texture(transform: TextureTransform) -> TextureRef {
     }
 }
 
-/// Base colour without light.
+/// Returns a material with a base color and no lighting.
 fn unlit(texture: Option<TextureRef>) -> Material {
     Material { base_color_texture: texture, unlit: true, ..Material::default() }
 }
 
-/// A picture of one primitive.
+/// Returns the image of one primitive.
 fn draw(
     studio: &mut Studio,
     primitive: Primitive,
@@ -63,7 +64,7 @@ fn draw(
     picture
 }
 
-/// The pixel at `at` of the sheet, whose edges lie where a plain sheet's do: (0,0) its upper left.
+/// Returns the pixel at `at` of a sheet with the same edges as the plain sheet; (0, 0) is its upper left.
 fn pixel(studio: &mut Studio, picture: &RgbaImage, at: Vec2) -> [u8; 4] {
     let plain = draw(studio, made::sheet(), unlit(None), Vec::new(), &settings());
     let seen = plain.enumerate_pixels().filter(|(.., pixel)| pixel[3] == 255);
@@ -79,13 +80,13 @@ fn quarters(studio: &mut Studio, picture: &RgbaImage) -> [[u8; 4]; 4] {
     QUARTERS.map(|at| pixel(studio, picture, at))
 }
 
-/// Mean of the three colours, 0..255.
+/// Returns the mean of the three colors, 0..255.
 fn brightness(pixel: &image::Rgba<u8>) -> u32 {
     pixel.0[..3].iter().map(|&value| u32::from(value)).sum::<u32>() / 3
 }
 
 #[test]
-fn a_mask_cuts_out_what_lies_below_its_threshold() {
+fn a_mask_discards_pixels_below_its_threshold() {
     let Some(mut studio) = studio::studio() else { return };
     let image = four([RED, [0, 255, 0, 0], [0, 0, 255, 100], [255, 255, 255, 160]]);
     let mut under = |alpha_mode| {
@@ -102,7 +103,7 @@ fn a_mask_cuts_out_what_lies_below_its_threshold() {
 }
 
 #[test]
-fn a_mask_shows_what_is_behind() {
+fn surfaces_behind_a_mask_are_visible_through_its_holes() {
     let Some(mut studio) = studio::studio() else { return };
     let image = four([RED, [0, 255, 0, 0], [0, 0, 255, 100], WHITE]);
     let texture = Some(texture(TextureTransform::IDENTITY));
@@ -118,7 +119,7 @@ fn a_mask_shows_what_is_behind() {
 }
 
 #[test]
-fn texture_coordinates_are_scaled_then_turned_then_moved() {
+fn texture_coordinates_are_scaled_then_rotated_then_translated() {
     let Some(mut studio) = studio::studio() else { return };
     let mut under = |offset: [f32; 2], degrees: f32, scale: [f32; 2]| {
         let rotation = degrees.to_radians();
@@ -131,14 +132,14 @@ fn texture_coordinates_are_scaled_then_turned_then_moved() {
     assert_eq!(under([0.5, 0.0], 0.0, [1.0, 1.0]), [GREEN, RED, WHITE, BLUE], "half an image to the left");
     assert_eq!(under([0.0, 0.5], 0.0, [1.0, 1.0]), [BLUE, WHITE, RED, GREEN], "half an image upwards");
     assert_eq!(under([0.0, 0.0], 0.0, [0.4, 1.0]), [RED, RED, BLUE, BLUE], "the left part fills the sheet");
-    // (u, v) becomes (v, -u): the extension turns coordinates clockwise on a page whose v runs downwards.
+    // (u, v) becomes (v, -u): the extension rotates coordinates clockwise on a page whose v points down.
     assert_eq!(under([0.0, 0.0], 90.0, [1.0, 1.0]), [BLUE, RED, WHITE, GREEN], "turned about the origin");
     // (u, v) becomes (v + 0.5, 0.65 - 0.4 u).
     assert_eq!(under([0.5, 0.65], 90.0, [0.4, 1.0]), [WHITE, GREEN, BLUE, RED], "all three in their order");
 }
 
 #[test]
-fn a_texture_may_use_the_second_coordinates() {
+fn a_texture_may_use_the_second_set_of_coordinates() {
     let Some(mut studio) = studio::studio() else { return };
     let mut sheet = made::sheet();
     let first = sheet.vertices.texture_coordinates[0].clone();
@@ -152,7 +153,7 @@ fn a_texture_may_use_the_second_coordinates() {
 }
 
 #[test]
-fn vertex_colours_mix_in_linear_light_and_multiply_the_base_colour() {
+fn vertex_colors_mix_in_linear_light_and_multiply_the_base_color() {
     let Some(mut studio) = studio::studio() else { return };
     let mut sheet = made::sheet();
     // Upper left, lower left, lower right, upper right.
@@ -204,7 +205,7 @@ fn phong_light_is_ambient_and_diffuse_and_a_highlight() {
 }
 
 #[test]
-fn a_back_face_is_seen_where_the_material_says_so_and_lit_like_the_front() {
+fn a_back_face_of_a_double_sided_material_is_drawn_and_lit_like_the_front() {
     let Some(mut studio) = studio::studio() else { return };
     for alpha_mode in [AlphaMode::Opaque, AlphaMode::Mask(0.5), AlphaMode::Blend] {
         let mut from = |yaw: f32, double_sided| {

@@ -1,4 +1,4 @@
-//! The walls between crates: what each is built from, tests included, and what it must not know.
+//! Boundaries between crates: which packages each is built from, tests included, and which are forbidden.
 
 use crate::tree::root;
 use std::collections::BTreeSet;
@@ -13,7 +13,7 @@ const WALLS: &[(&str, &[&str])] = &[
     ("dragonfly-picture", &["dragonfly", "winit", "egui-winit", "egui_tiles"]),
 ];
 
-/// The names of all packages that `cargo test -p package` builds, the package itself left out.
+/// Returns the names of all packages that `cargo test -p package` builds, except the package itself.
 fn built_with(package: &str) -> BTreeSet<String> {
     let output = Command::new(env!("CARGO"))
         .args([
@@ -42,7 +42,7 @@ fn forbidden_in(package: &str, built: &BTreeSet<String>, forbidden: &[&str]) -> 
 }
 
 #[test]
-fn no_crate_and_none_of_its_tests_is_built_from_what_it_must_not_know() {
+fn no_crate_or_test_depends_on_a_forbidden_package() {
     for (package, forbidden) in WALLS {
         let built = built_with(package);
         assert!(built.len() > 3, "the packages of {package} were not found: {built:?}");

@@ -1,14 +1,15 @@
-//! Which way dependencies point, and what each part does without.
+//! Direction of the dependencies, and the words that each part of the source must not contain.
 
 use crate::tree::{File, files, none, one};
 
-/// What a crate may depend on at run time.
+/// A crate and the packages that it may depend on at run time.
 const DEPENDENCIES: &[(&str, &[&str])] = &[
     ("anim", &["base64", "crc", "glam", "gltf", "percent-encoding", "serde_json", "thiserror"]),
     ("runtime", &["flume", "loom", "shuttle", "spin", "tracing"]),
 ];
 
-/// The entries of `[dependencies]` and of those for one platform or configuration, without development.
+/// Returns the entries of `[dependencies]` and of those for one platform or configuration, without development
+/// dependencies.
 fn dependencies(manifest: &str) -> Vec<String> {
     let mut inside = false;
     let mut found = Vec::new();
@@ -40,7 +41,7 @@ fn depends_on_little(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn nothing_points_back_and_the_libraries_know_no_window_and_no_gpu() {
+fn dependencies_have_one_direction_and_libraries_use_no_window_or_gpu() {
     let files = files();
     let found =
         files.iter().filter(|file| file.path == "anim/Cargo.toml").flat_map(|file| dependencies(&file.text));
@@ -73,7 +74,7 @@ fn versions_are_chosen_at_the_root(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn versions_are_chosen_once() {
+fn dependency_versions_are_declared_once() {
     none(versions_are_chosen_at_the_root(&files()));
     one(versions_are_chosen_at_the_root(&[File::planted(
         "anim/Cargo.toml",
@@ -81,7 +82,7 @@ fn versions_are_chosen_once() {
     )]));
 }
 
-/// A part of the source, what may not be said in it, and why not.
+/// A part of the source, the words that it must not contain, and the reason.
 struct Absence {
     within: &'static [&'static str],
     except: &'static [&'static str],
@@ -89,7 +90,7 @@ struct Absence {
     because: &'static str,
 }
 
-/// What the architecture promises by absence.
+/// Words that the architecture excludes from parts of the source.
 const ABSENCES: &[Absence] = &[
     Absence {
         within: &["anim/src/"],
@@ -108,7 +109,7 @@ const ABSENCES: &[Absence] = &[
     },
     Absence {
         within: &["anim/src/", "runtime/src/", "editor/"],
-        // The one place that chooses between the real primitives and those of the model checkers.
+        // The only file that chooses between the real primitives and those of the model checkers.
         except: &["runtime/src/sync"],
         words: &["Mutex", "RwLock", "Condvar", "OnceLock", "LazyLock"],
         because: "no lock is shared by two threads: one owner for everything, and messages between them",
@@ -139,14 +140,14 @@ const ABSENCES: &[Absence] = &[
     },
     Absence {
         within: &["tests/editor/", "tests/picture/"],
-        // Two that watch their devices, and one whose layer makes errors on purpose.
+        // Two files observe their devices, and one has a layer that makes errors on purpose.
         except: &["tests/picture/graphics_thread.rs", "tests/editor/faults.rs"],
         words: &["Studio::new", "Studio::with", "RenderStage::new", "Device::new", "Graphics::start"],
         because: "a test gets its device where it is watched for errors of ours, from studio()",
     },
 ];
 
-/// Files in which `unsafe` may be written, and why.
+/// Files that may contain `unsafe`, with the reason.
 const UNSAFE: &[(&str, &str)] = &[
     ("anim/src/fast/simd/avx2.rs", "instructions beyond the target's own can be had in no other way"),
     ("editor/picture/src/x11.rs", "a driver takes a connection and a window as pointer and number"),
@@ -172,7 +173,7 @@ fn says_no_such_word(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn what_the_architecture_promises_by_absence_is_absent() {
+fn forbidden_words_of_the_architecture_do_not_occur() {
     none(says_no_such_word(&files()));
     one(says_no_such_word(&[File::planted("anim/src/format/obj.rs", "let text = std::fs::read(path)?;")]));
     one(says_no_such_word(&[File::planted(
@@ -211,7 +212,7 @@ fn is_safe(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn nothing_is_unsafe_outside_the_named_files() {
+fn unsafe_code_occurs_only_in_the_listed_files() {
     none(is_safe(&files()));
     one(is_safe(&[File::planted("anim/src/fast.rs", "let x = unsafe { *pointer };")]));
     none(is_safe(&[File::planted("anim/src/lib.rs", "#![forbid(unsafe_code)]")]));

@@ -1,12 +1,13 @@
-//! Where things are: nothing stands at the top that does not belong there, and no file is forgotten by its list.
+//! Layout of the repository: only listed entries in the root folder, every file declared in a module, and no file too
+//! long.
 
 use crate::tree::{File, files, none, one, root};
 use std::collections::BTreeSet;
 
-/// Folders at the top.
+/// Folders in the root folder.
 const FOLDERS: &[&str] = &["runtime", "anim", "editor", "shaders", "tests", "benches", ".ci"];
 
-/// Files at the top.
+/// Files in the root folder.
 const FILES: &[&str] = &[
     ".gitignore",
     "ARCHITECTURE.md",
@@ -22,10 +23,10 @@ const FILES: &[&str] = &[
     "test",
 ];
 
-/// Longer files are read by nobody.
+/// Largest number of lines of a source file; longer files are hard to read.
 const LONGEST: usize = 600;
 
-fn stands_at_the_top_by_right(files: &[File]) -> Vec<String> {
+fn unlisted_root_entries(files: &[File]) -> Vec<String> {
     let allowed = |path: &str| match path.split_once('/') {
         Some((folder, _)) => FOLDERS.contains(&folder),
         None => FILES.contains(&path),
@@ -36,14 +37,15 @@ fn stands_at_the_top_by_right(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn only_what_belongs_there_stands_at_the_top() {
-    none(stands_at_the_top_by_right(&files()));
-    one(stands_at_the_top_by_right(&[File::planted("notes.txt", ""), File::planted("anim/src/lib.rs", "")]));
-    one(stands_at_the_top_by_right(&[File::planted("scripts/do.sh", "")]));
+fn the_root_folder_contains_only_the_listed_entries() {
+    none(unlisted_root_entries(&files()));
+    one(unlisted_root_entries(&[File::planted("notes.txt", ""), File::planted("anim/src/lib.rs", "")]));
+    one(unlisted_root_entries(&[File::planted("scripts/do.sh", "")]));
 }
 
-/// The file that must say `mod name;` for the module in `path`, and that name; `None` for the root of a crate.
-fn list_of(path: &str) -> Option<(Vec<String>, String)> {
+/// Returns the files that may declare `mod name;` for the module in `path`, and that name; `None` for the root of a
+/// crate.
+fn declaring_files(path: &str) -> Option<(Vec<String>, String)> {
     let (folder, file) = path.rsplit_once('/')?;
     let stem = file.strip_suffix(".rs")?;
     let root = matches!(stem, "lib" | "main" | "build");
@@ -52,22 +54,22 @@ fn list_of(path: &str) -> Option<(Vec<String>, String)> {
     }
     let (folder, name) = if stem == "mod" { folder.rsplit_once('/')? } else { (folder, stem) };
     let lists = ["mod.rs", "lib.rs", "main.rs"].iter().map(|list| format!("{folder}/{list}"));
-    // `panels.rs` beside the folder `panels`.
+    // `panels.rs` next to the folder `panels`.
     let lists = lists.chain([format!("{folder}.rs")]).collect();
     Some((lists, name.to_owned()))
 }
 
-fn is_named_in_its_list(files: &[File]) -> Vec<String> {
+fn undeclared_files(files: &[File]) -> Vec<String> {
     let mut complaints = Vec::new();
     for file in files.iter().filter(|file| file.is_rust() && !file.path.contains("/bin/")) {
-        let Some((lists, name)) = list_of(&file.path) else { continue };
+        let Some((lists, name)) = declaring_files(&file.path) else { continue };
         let says = |list: &File| {
             let says = |line: &str| {
                 line.trim_end().ends_with(&format!("mod {name};")) || line.contains(&format!("mod {name} {{"))
             };
             lists.contains(&list.path) && list.code().lines().any(says)
         };
-        // A manifest, or an attribute before another name, may give the path itself.
+        // A manifest or a `path` attribute may contain the path itself.
         let end = file.path.rsplit('/').next().unwrap_or(&file.path);
         let points = |list: &File| {
             let points = |line: &str| line.contains("path = \"") && line.contains(&format!("{end}\""));
@@ -81,15 +83,15 @@ fn is_named_in_its_list(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn every_module_and_every_test_is_named_in_the_list_beside_it() {
-    none(is_named_in_its_list(&files()));
+fn every_module_and_test_file_is_declared() {
+    none(undeclared_files(&files()));
     let main = || File::planted("tests/anim/main.rs", "mod poses;\n// mod forgotten;");
-    one(is_named_in_its_list(&[
+    one(undeclared_files(&[
         main(),
         File::planted("tests/anim/poses.rs", ""),
         File::planted("tests/anim/forgotten.rs", ""),
     ]));
-    one(is_named_in_its_list(&[
+    one(undeclared_files(&[
         File::planted("editor/src/lib.rs", "pub mod panels;"),
         File::planted("editor/src/panels/mod.rs", ""),
         File::planted("editor/src/panels/takes.rs", ""),
@@ -104,7 +106,7 @@ fn is_short_enough(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn no_source_file_is_longer_than_one_reads() {
+fn no_source_file_exceeds_the_length_limit() {
     none(is_short_enough(&files()));
     one(is_short_enough(&[File::planted("anim/src/long.rs", &"\n".repeat(LONGEST + 1))]));
 }
@@ -135,7 +137,7 @@ fn points_at_something(path: &str, text: &str, exists: impl Fn(&str) -> bool) ->
 }
 
 #[test]
-fn every_link_in_the_documents_at_the_top_leads_somewhere() {
+fn every_link_in_the_root_documents_has_a_target() {
     for document in ["README.md", "ARCHITECTURE.md", "CHANGELOG.md"] {
         let text = std::fs::read_to_string(root().join(document)).expect(document);
         none(points_at_something(document, &text, |target| root().join(target).exists()));

@@ -1,12 +1,12 @@
-//! Rules about the files of the project, each a test. Most are told by absence, as ARCHITECTURE.md tells them.
+//! Rules about the files of the project, each a test. Most forbid words or files that ARCHITECTURE.md excludes.
 //!
-//! A rule is a function from files to complaints. Each is also run on planted files that break it, so that a rule which
-//! never complains is noticed.
+//! A rule is a function from files to complaints. Each is also run on planted files that break it, so that a rule
+//! that never reports anything is detected.
 
 mod crates;
 mod direction;
 mod layout;
-mod licences;
+mod licenses;
 mod skips;
 mod tree;
 mod words;

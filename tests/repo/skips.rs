@@ -1,17 +1,17 @@
-//! No test passes without running: what cannot run calls `dragonfly_kit::skip`, which counts.
+//! No test passes without running: a test that cannot run calls `dragonfly_kit::skip`, which counts it.
 
 use crate::tree::{File, files, none, one};
 
-/// The file with the function that skips, and this file, which plants faults.
+/// Files exempt from the rule: the one with the function that skips, and this one, which plants faults.
 const EXEMPT: &[&str] = &["tests/kit/src/skip.rs", "tests/repo/skips.rs"];
 
-/// Words of a message that a test does not run.
+/// Words in a message that a test does not run.
 const WORDS: &[&str] = &["\"skip", "\"not run", ": skipped"];
 
-/// A folder outside the repository, which not every machine has.
+/// A folder outside the repository, which may be missing on a machine.
 const OUTSIDE: &str = "../shared";
 
-/// Returns the code in one line, so that a rule sees what follows a statement.
+/// Returns the code in one line, so that a rule can match across statements.
 fn joined(file: &File) -> String {
     file.code().split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,32 +1,32 @@
-//! The files of the project, as rules see them.
+//! The files of the project, as input for the rules.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A file and what is in it.
+/// A file and its content.
 pub(crate) struct File {
-    /// From the root of the project, with `/`.
+    /// Path from the root of the project, with `/`.
     pub(crate) path: String,
-    /// Empty for a file that is no text.
+    /// The text; empty for a file that is not text.
     pub(crate) text: String,
 }
 
 impl File {
-    /// A file that only exists in a test of a rule.
+    /// Returns a file that exists only in the test of a rule.
     pub(crate) fn planted(path: &str, text: &str) -> Self {
         Self { path: path.to_owned(), text: text.to_owned() }
     }
 
-    /// Is it Rust?
+    /// Returns whether it is a Rust file.
     pub(crate) fn is_rust(&self) -> bool {
         self.path.ends_with(".rs")
     }
 
-    /// The text without comments and doc comments; good enough for looking for words.
+    /// Returns the text without comments and doc comments; exact enough for searching words.
     pub(crate) fn code(&self) -> String {
         let without_comment = |line: &str| match line.find("//") {
-            // An address in a string is no comment.
+            // A URL in a string is not a comment.
             Some(start) if !line[..start].ends_with(':') => line[..start].to_owned(),
             _ => line.to_owned(),
         };
@@ -34,13 +34,14 @@ impl File {
     }
 }
 
-/// The folder that holds everything.
+/// Returns the root folder of the project.
 pub(crate) fn root() -> PathBuf {
     let kit = Path::new(env!("CARGO_MANIFEST_DIR"));
     kit.ancestors().nth(2).expect("the manifest is in tests/kit").to_path_buf()
 }
 
-/// Every file that is or will be part of the project: what git knows, or would know after `git add`.
+/// Returns every file that is or will be part of the project: the files in git, and new files that git does not
+/// ignore.
 pub(crate) fn files() -> Vec<File> {
     let root = root();
     let mut paths = listed_by_git(&root).unwrap_or_else(|| walked(&root));
@@ -63,7 +64,7 @@ fn listed_by_git(root: &Path) -> Option<Vec<String>> {
     (output.status.success() && !paths.is_empty()).then_some(paths)
 }
 
-/// For a copy of the project without its history.
+/// Lists the files of a copy of the project without its history.
 fn walked(root: &Path) -> Vec<String> {
     let mut paths = Vec::new();
     let mut folders = vec![root.to_path_buf()];
@@ -83,13 +84,13 @@ fn walked(root: &Path) -> Vec<String> {
     paths
 }
 
-/// Fails with every complaint of a rule.
+/// Fails with all complaints of a rule.
 #[track_caller]
 pub(crate) fn none(complaints: Vec<String>) {
     assert!(complaints.is_empty(), "\n  {}\n", complaints.join("\n  "));
 }
 
-/// A planted fault must be reported, and reported once.
+/// Asserts that a planted fault is reported exactly once.
 #[track_caller]
 pub(crate) fn one(complaints: Vec<String>) {
     assert_eq!(complaints.len(), 1, "{complaints:?}");

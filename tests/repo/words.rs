@@ -1,4 +1,4 @@
-//! The language of the source: plain English, one name for one type, no place of one machine.
+//! Language of the source: plain English, one name for one type, and no path of one machine.
 
 use crate::tree::{File, files, none, one};
 use regex::Regex;
@@ -155,7 +155,7 @@ fn comments_and_names_are_plain_english() {
     )]));
 }
 
-/// Types of the workspace by name, with the files that declare one and whether a reason stands there.
+/// Returns the types of the workspace that are declared in two or more files without a comment that gives the reason.
 fn has_one_meaning(files: &[File]) -> Vec<String> {
     let declaration = Regex::new(
         r"(?m)^[ \t]*(?:pub(?:\([^)]*\))? )?(?:(?:unsafe )?(?:struct|enum|trait|union)|type) +([A-Z]\w*)",

@@ -1,4 +1,5 @@
-//! The journal: what was appended can be had back, what is due is brought to the disk, and one program at a time has it.
+//! Journal: appended records are read back, due records are synced to the disk, and only one program at a time owns
+//! it.
 
 use dragonfly_kit::counting;
 use dragonfly_kit::folder::Folder;
@@ -14,12 +15,12 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// An autosave folder below `folder`.
+/// Returns an autosave folder below `folder`.
 pub(crate) fn autosave(folder: &Folder, files: impl Vfs + 'static) -> Autosave {
     Autosave::new(Arc::new(files), Some(folder.join("autosave"))).expect("the folder is given")
 }
 
-/// The new journal of a document.
+/// Starts the new journal of a document.
 #[track_caller]
 pub(crate) fn begin(autosave: &Autosave, document: Option<&Path>, stamp: Option<&FileStamp>) -> Journal {
     match autosave.begin(document, stamp).expect("a journal") {
@@ -28,7 +29,7 @@ pub(crate) fn begin(autosave: &Autosave, document: Option<&Path>, stamp: Option<
     }
 }
 
-/// The only journal there is.
+/// Returns the only journal there is.
 #[track_caller]
 pub(crate) fn only(autosave: &Autosave) -> Recoverable {
     let found = autosave.recoverable().expect("the folder can be read");
@@ -41,7 +42,7 @@ pub(crate) fn edits<'a>(texts: impl IntoIterator<Item = &'a str>) -> Vec<Journal
 }
 
 #[test]
-fn what_was_appended_is_had_back_in_order() {
+fn appended_records_are_read_back_in_order() {
     let folder = quick_folder("journal-order");
     let autosave = autosave(&folder, RealFiles);
     let mut journal = begin(&autosave, None, None);
@@ -51,7 +52,7 @@ fn what_was_appended_is_had_back_in_order() {
     }
     let long = vec![7; 3 << 20];
     journal.append(&long, now).unwrap();
-    // Not even brought to the disk: dropped as a killed program drops it.
+    // Not even synced: the journal is dropped as a killed program drops it.
     drop(journal);
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, found.owner_status), (4, 4, OwnerStatus::Exited));
@@ -93,7 +94,7 @@ fn a_record_is_due_after_a_fifth_of_a_second_or_at_the_end_of_the_gesture() {
 }
 
 #[test]
-fn a_snapshot_takes_the_place_of_all_before_it() {
+fn a_snapshot_replaces_all_records_before_it() {
     let folder = quick_folder("journal-compact");
     let autosave = autosave(&folder, RealFiles);
     let mut journal = begin(&autosave, None, None);
@@ -109,7 +110,7 @@ fn a_snapshot_takes_the_place_of_all_before_it() {
     drop(journal);
     let wanted = [vec![JournalEntry::Snapshot(b"all of it".to_vec())], edits(["more"])].concat();
     assert_eq!(autosave.entries(&only(&autosave)).unwrap(), wanted);
-    // A program that was killed in the middle left one half done.
+    // A program that was killed during a compaction leaves a half-written file.
     let found = only(&autosave);
     fs::write(found.journal.with_extension("compact"), "half").unwrap();
     let mut journal = autosave.resume(&found, Claim::IfFree).unwrap().journal;
@@ -120,7 +121,7 @@ fn a_snapshot_takes_the_place_of_all_before_it() {
 }
 
 #[test]
-fn what_is_in_the_file_is_no_unsaved_work_and_its_history_stays() {
+fn saved_edits_are_not_unsaved_work_and_their_history_is_kept() {
     let folder = quick_folder("journal-saved");
     let autosave = autosave(&folder, RealFiles);
     let path = folder.join("fox.glb");
@@ -146,14 +147,14 @@ fn what_is_in_the_file_is_no_unsaved_work_and_its_history_stays() {
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, &found.file), (1, 0, &DocumentFileState::Same));
     assert!(!found.is_offered());
-    // Opened again, the history is there.
+    // After reopening, the history is still available.
     let Opening::Found(found) = autosave.begin(Some(&path), None).unwrap() else { panic!("its history") };
     let entries = autosave.resume(&found, Claim::IfFree).unwrap().entries;
     assert_eq!(entries, [JournalEntry::Snapshot(b"all".to_vec()), JournalEntry::Saved]);
 }
 
 #[test]
-fn a_program_killed_between_file_and_journal_knows_that_it_saved() {
+fn a_save_counts_even_if_the_program_is_killed_before_the_journal_records_it() {
     let folder = quick_folder("journal-between");
     let autosave = autosave(&folder, RealFiles);
     let path = folder.join("fox.glb");
@@ -174,14 +175,14 @@ fn a_program_killed_between_file_and_journal_knows_that_it_saved() {
     drop(journal);
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &DocumentFileState::Same));
-    // It was written down, for the time when the file does not tell any more.
+    // The save was recorded in the journal, so it counts even when the file no longer shows it.
     fs::write(&path, "somebody else's").unwrap();
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &DocumentFileState::Changed));
 }
 
 #[test]
-fn a_journal_without_work_leaves_nothing() {
+fn closing_an_empty_journal_deletes_its_file() {
     let folder = quick_folder("journal-nothing");
     let autosave = autosave(&folder, RealFiles);
     assert_eq!(autosave.recoverable().unwrap(), [], "there is no folder yet");
@@ -190,7 +191,7 @@ fn a_journal_without_work_leaves_nothing() {
 }
 
 #[test]
-fn a_failed_record_is_not_there_and_the_next_one_is() {
+fn a_failed_append_leaves_no_record_and_the_next_append_works() {
     let folder = quick_folder("journal-failed");
     for number in 1.. {
         let _ = fs::remove_dir_all(folder.join("autosave"));
@@ -201,7 +202,8 @@ fn a_failed_record_is_not_there_and_the_next_one_is() {
         let first = journal.append(b"first", now).is_ok();
         let error = journal.append(&[9; 100_000], now);
         drop(journal);
-        // A disk that is full for good: what could not be cut off is no work all the same.
+        // Even if the disk stays full: the part of the failed record that could not be cut off does not count as
+        // work.
         let sound = crate::journal::autosave(&folder, RealFiles);
         let found = only(&sound);
         assert_eq!(sound.entries(&found).unwrap().len(), usize::from(first) + usize::from(error.is_ok()));
@@ -216,7 +218,7 @@ fn a_failed_record_is_not_there_and_the_next_one_is() {
 }
 
 #[test]
-fn after_an_error_of_the_disk_nothing_is_recorded_before_a_snapshot() {
+fn after_a_disk_error_a_journal_refuses_records_until_a_snapshot() {
     let folder = quick_folder("journal-broken");
     let now = Instant::now();
     let mut met = 0;
@@ -230,7 +232,7 @@ fn after_an_error_of_the_disk_nothing_is_recorded_before_a_snapshot() {
         met += 1;
         let error = journal.append(b"two", now).unwrap_err();
         assert!(matches!(error, JournalError::Broken { .. }), "{error}");
-        // The disk would say now that all is well. It is not asked.
+        // The disk would report success now, but the journal does not try again.
         assert!(matches!(journal.sync().unwrap_err(), JournalError::Broken { .. }));
         assert!(journal.broken().is_some());
         journal.compact(b"one, two").unwrap();
@@ -258,7 +260,7 @@ fn appending_allocates_nothing() {
 }
 
 #[test]
-fn names_that_are_no_text_and_very_long_ones_are_documents_too() {
+fn documents_may_have_names_that_are_not_utf8_or_very_long() {
     use std::os::unix::ffi::OsStrExt;
     let folder = quick_folder("journal-names");
     let autosave = autosave(&folder, RealFiles);

@@ -1,5 +1,5 @@
-//! A damaged journal: the longest valid beginning is had back, never a panic, never a record that was not written, and
-//! the journal itself is left as it is.
+//! Damaged journals: the longest valid part at the start is recovered. Reading never panics, never returns a record
+//! that was not written, and does not change the journal.
 
 use crate::journal::{autosave, begin, only};
 use dragonfly_kit::mounted::quick_folder;
@@ -43,13 +43,13 @@ fn sample() -> Sample {
 }
 
 impl Sample {
-    /// Entries whose records end at or before `end`.
+    /// Returns the number of entries whose records end at or before `end`.
     fn whole(&self, end: usize) -> usize {
         self.ends.iter().filter(|&&record| record <= end).count().saturating_sub(1)
     }
 }
 
-/// One file in memory, whatever its name; it can only be read.
+/// A read-only file system that consists of one file in memory, whatever its name.
 #[derive(Clone, Debug)]
 struct InMemory(Arc<Vec<u8>>);
 
@@ -165,7 +165,7 @@ impl VfsFile for InMemory {
     }
 }
 
-/// What looking at a journal of these bytes says, and what it gives back.
+/// Returns the description and the entries of a journal with these bytes.
 fn read(bytes: &[u8]) -> (Recoverable, Result<Vec<JournalEntry>, JournalError>) {
     let files = InMemory(Arc::new(bytes.to_vec()));
     let autosave = Autosave::new(Arc::new(files), Some("nowhere".into())).expect("a folder");
@@ -175,7 +175,7 @@ fn read(bytes: &[u8]) -> (Recoverable, Result<Vec<JournalEntry>, JournalError>) 
 }
 
 #[test]
-fn every_truncation_gives_back_the_records_that_are_whole() {
+fn a_truncated_journal_returns_all_complete_records() {
     let sample = sample();
     let mut header = sample.bytes.len();
     for length in 0..sample.bytes.len() {
@@ -202,7 +202,7 @@ fn every_truncation_gives_back_the_records_that_are_whole() {
 }
 
 #[test]
-fn every_flipped_bit_is_found() {
+fn every_flipped_bit_is_detected() {
     let sample = sample();
     let mut refused = 0;
     for bit in 0..sample.bytes.len() * 8 {
@@ -210,7 +210,7 @@ fn every_flipped_bit_is_found() {
         bytes[bit / 8] ^= 1 << (bit % 8);
         let (found, entries) = read(&bytes);
         match entries {
-            // All that lies before the record with the flipped bit, and nothing of it or behind it.
+            // Exactly the records before the one with the flipped bit.
             Ok(entries) => {
                 assert_eq!(entries, sample.entries[..sample.whole(bit / 8)], "bit {bit}");
                 assert!(matches!(found.reading, Readability::Cut(_)), "bit {bit}: {found:?}");
@@ -225,7 +225,7 @@ fn every_flipped_bit_is_found() {
 }
 
 #[test]
-fn records_that_moved_or_came_from_elsewhere_are_not_taken() {
+fn records_out_of_order_or_from_another_journal_are_rejected() {
     let sample = sample();
     let record = |number: usize| &sample.bytes[sample.ends[number]..sample.ends[number + 1]];
     let put = |parts: &[&[u8]]| read(&parts.concat()).1.expect("a header");
@@ -234,17 +234,17 @@ fn records_that_moved_or_came_from_elsewhere_are_not_taken() {
     assert_eq!(put(&[begin, record(2)]), sample.entries[..1], "one is left out");
     assert_eq!(put(&[begin, record(0)]), sample.entries[..1], "one is there twice");
     assert_eq!(put(&[begin, record(2), record(1)]), sample.entries[..1]);
-    // Another journal of the same document, from the same beginning on.
+    // Another journal of the same document, with the same start.
     let other = self::sample();
     let of_other = &other.bytes[other.ends[1]..other.ends[2]];
     assert_eq!(put(&[begin, of_other]), sample.entries[..1]);
-    // What a file system leaves after a power cut.
+    // Zeros or ones, which a file system may leave after a power cut.
     assert_eq!(put(&[begin, &[0; 4096]]), sample.entries[..1]);
     assert_eq!(put(&[begin, &[0xff; 4096]]), sample.entries[..1]);
 }
 
 #[test]
-fn random_damage_never_panics_and_never_invents() {
+fn random_damage_never_panics_and_never_invents_records() {
     let seed = seed(20);
     let sample = sample();
     let rest = &sample.bytes[sample.ends[0]..];
@@ -261,7 +261,7 @@ fn random_damage_never_panics_and_never_invents() {
 }
 
 #[test]
-fn a_disk_that_cannot_be_read_cuts_nothing_off() {
+fn a_read_error_truncates_nothing() {
     use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
     let folder = quick_folder("damage-unreadable");
     let sound = autosave(&folder, RealFiles);
@@ -287,7 +287,7 @@ fn a_disk_that_cannot_be_read_cuts_nothing_off() {
 }
 
 #[test]
-fn a_tail_that_is_cut_off_lies_in_the_bin() {
+fn a_damaged_tail_is_moved_to_the_bin() {
     let sample = sample();
     let folder = quick_folder("damage-tail");
     let autosave = autosave(&folder, RealFiles);

@@ -1,4 +1,4 @@
-//! Whatever call of the system fails, every edit that counted as done is had back, and no other one.
+//! Whichever system call fails, the journal returns every edit that counted as done, and no other edit.
 
 use crate::journal::{autosave, begin, edits, only};
 use dragonfly_kit::mounted::quick_folder;
@@ -13,7 +13,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
-/// What the entries of a journal come to.
+/// Returns the document that results from the entries of a journal.
 pub(crate) fn document(entries: &[JournalEntry]) -> Vec<String> {
     let mut document = Vec::new();
     for entry in entries {
@@ -29,7 +29,7 @@ pub(crate) fn document(entries: &[JournalEntry]) -> Vec<String> {
     document
 }
 
-/// Works for a while; the document as the program believes it to be recorded, and how often it was told otherwise.
+/// Performs a fixed sequence of operations. Returns the edits that were reported as recorded, and the errors.
 fn work(journal: &mut Journal, stamp: &FileStamp) -> (Vec<String>, Vec<JournalError>) {
     let now = Instant::now();
     let mut done: Vec<String> = Vec::new();
@@ -59,7 +59,7 @@ fn count(folder: &Path) -> usize {
 }
 
 #[test]
-fn every_call_that_can_fail_costs_no_edit_that_counted_as_done() {
+fn a_failure_of_any_system_call_loses_no_recorded_edit() {
     let folder = quick_folder("journal-faults");
     let path = folder.join("fox.glb");
     let stamp = dragonfly_store::replace(&path, b"saved").unwrap().stamp;
@@ -84,7 +84,7 @@ fn every_call_that_can_fail_costs_no_edit_that_counted_as_done() {
             let (done, errors) = work(&mut journal, &stamp);
             assert!(errors.is_empty() || !fault.is_harmless(), "{place}: {errors:?}");
             noticed += errors.len();
-            // Killed, or closed in order: all is there.
+            // Whether the program is killed or closes the journal in order, all edits are found.
             let closed = match number % 2 {
                 0 => journal.close().is_ok(),
                 _ => {
@@ -110,7 +110,7 @@ fn every_call_that_can_fail_costs_no_edit_that_counted_as_done() {
     assert!(runs > 6 * 40 && noticed > 3 * 20, "{runs} calls, {noticed} errors");
 }
 
-/// A person's three edits, and half of a fourth one.
+/// Records three edits, and half of a fourth one.
 fn unfinished(sound: &Autosave) -> Recoverable {
     let mut journal = begin(sound, None, None);
     for text in ["one", "two", "three"] {
@@ -135,7 +135,7 @@ const OPERATIONS: [(&str, Operation); 7] = [
 ];
 
 #[test]
-fn every_call_that_can_fail_while_recovering_loses_nothing() {
+fn a_failure_of_any_system_call_while_recovering_loses_nothing() {
     let folder = quick_folder("recovery-faults");
     let wanted = edits(["one", "two", "three"]);
     for (name, operation) in OPERATIONS {
@@ -169,7 +169,7 @@ fn every_call_that_can_fail_while_recovering_loses_nothing() {
 }
 
 #[test]
-fn a_journal_begun_anew_while_somebody_looks_at_it_is_still_in_use() {
+fn a_journal_restarted_while_another_program_reads_it_is_still_in_use() {
     let folder = quick_folder("journal-meddling");
     let sound = autosave(&folder, RealFiles);
     let mut journal = begin(&sound, None, None);

@@ -1,4 +1,4 @@
-//! Killed at any instant, a program loses nothing that it said was done.
+//! A program that is killed at any moment loses no edit and no save that it reported as done.
 
 use crate::journal::autosave;
 use crate::journal_writer::{check, is_writer, start};
@@ -24,7 +24,7 @@ fn a_program_killed_at_any_instant_loses_no_edit_and_no_save() {
     let (mut recovered, mut met) = (0, 0);
     for kill in 0..kills {
         let mut writer = start(test, folder.path());
-        // Some while it starts, most while it works.
+        // Some kills come while it starts, most while it works.
         let patience = if random.below(4) == 0 {
             Duration::from_millis(random.below(40) as u64)
         } else {
@@ -33,7 +33,7 @@ fn a_program_killed_at_any_instant_loses_no_edit_and_no_save() {
         };
         if kill % 20 == 1 {
             writer.working();
-            // While it lives, its document is in use.
+            // While the program runs, its document is in use.
             let error = sound.begin(Some(&folder.join("fox.glb")), None).expect_err("it is in use");
             let JournalError::Held { owner, .. } = &error else { panic!("{error}") };
             assert_eq!(*owner, Some(JournalOwner { process: writer.process(), ..JournalOwner::this() }));

@@ -1,5 +1,5 @@
-//! The twelve ways in which a person comes back to unsaved work. In none of them is the document's file written to, or
-//! anything deleted, before the person says so.
+//! Ways in which a user returns to unsaved work. In none of them is the file of the document written, or anything
+//! deleted, before the user decides.
 
 use crate::journal::{autosave, begin, edits, only};
 use dragonfly_kit::folder::Folder;
@@ -15,7 +15,7 @@ use std::os::unix::fs::symlink;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// A document, and a journal with two edits of it, whose program was killed.
+/// A document, and a journal with two of its edits, after their program was killed.
 struct Killed {
     folder: Folder,
     autosave: Autosave,
@@ -46,9 +46,10 @@ impl Killed {
     }
 }
 
-// The format, written a second time as it is described, so that other machines and other versions can be had.
+// A second implementation of the format, written from its description, to create journals of other machines and
+// versions.
 
-/// The journal 77 of `/nowhere/fox.glb` in format `version`, with records of these kinds and bytes.
+/// Returns the journal 77 of `/nowhere/fox.glb` in format `version`, with records of these kinds and bytes.
 fn forged(version: u32, records: &[(u8, &[u8])]) -> Vec<u8> {
     let text = r#"{"number":77,"document":"/nowhere/fox.glb","stamp":null,"later":"ignored"}"#;
     forged_with(text, version, records)
@@ -62,7 +63,7 @@ fn put(autosave: &Autosave, bytes: &[u8]) -> PathBuf {
 }
 
 #[test]
-fn after_a_crash_the_work_is_offered_and_kept_or_opened_beside_or_discarded() {
+fn work_from_a_crash_can_be_kept_or_opened_as_a_new_document_or_discarded() {
     let it = killed("scenario-crash");
     let found = only(&it.autosave);
     assert!(found.is_offered());
@@ -72,7 +73,7 @@ fn after_a_crash_the_work_is_offered_and_kept_or_opened_beside_or_discarded() {
         panic!("opening the document does not pass it over")
     };
     assert_eq!(*again, found);
-    // Beside: a document of its own, and the other one stays.
+    // Opened separately: it is a new document, and the other one stays.
     let beside = it.autosave.copy(&found, None).unwrap();
     assert_eq!((beside.entries, beside.journal.document()), (edits(["one", "two"]), None));
     drop(beside.journal);
@@ -81,7 +82,7 @@ fn after_a_crash_the_work_is_offered_and_kept_or_opened_beside_or_discarded() {
     let beside = all.iter().find(|other| other.journal != found.journal).unwrap();
     assert_eq!((beside.work, beside.unsaved), (2, 2));
     assert_eq!(it.autosave.entries(beside).unwrap(), edits(["one", "two"]));
-    // Discarded: in the bin, and brought back.
+    // Discarded: moved to the bin, and restored from there.
     let bin = it.autosave.discard(beside).unwrap();
     assert_eq!(it.autosave.discarded().unwrap(), std::slice::from_ref(&bin));
     assert_eq!(only(&it.autosave), found);
@@ -93,7 +94,7 @@ fn after_a_crash_the_work_is_offered_and_kept_or_opened_beside_or_discarded() {
 }
 
 #[test]
-fn a_second_program_is_told_whom_it_meets() {
+fn a_second_program_learns_which_process_has_the_document_open() {
     let it = killed("scenario-two");
     let found = only(&it.autosave);
     let kept = it.autosave.resume(&found, Claim::IfFree).unwrap().journal;
@@ -112,7 +113,7 @@ fn a_second_program_is_told_whom_it_meets() {
         assert!(matches!(it.autosave.resume(&found, claim), Err(JournalError::Held { .. })));
     }
     assert!(matches!(it.autosave.discard(&found), Err(JournalError::Held { .. })));
-    // What it did so far can be looked at, and opened beside.
+    // The edits recorded so far can be read, and opened as a new document.
     assert_eq!(it.autosave.copy(&found, None).unwrap().entries, edits(["one", "two"]));
     kept.close().unwrap();
     it.autosave.resume(&found, Claim::IfFree).unwrap();
@@ -120,7 +121,7 @@ fn a_second_program_is_told_whom_it_meets() {
 }
 
 #[test]
-fn a_moved_document_is_missed_and_its_work_goes_on_where_it_is_now() {
+fn work_on_a_moved_document_continues_at_its_new_path() {
     let it = killed("scenario-moved");
     let moved = it.folder.join("moved.glb");
     fs::rename(&it.document, &moved).unwrap();
@@ -128,7 +129,7 @@ fn a_moved_document_is_missed_and_its_work_goes_on_where_it_is_now() {
     assert_eq!(found.file, DocumentFileState::Missing);
     let resumed = it.autosave.copy(&found, Some(&moved)).unwrap();
     assert_eq!(resumed.entries, edits(["one", "two"]));
-    // The stamp is that of the file the edits were made on, so that it can be compared.
+    // The stamp is that of the file on which the edits were made, so that the two can be compared.
     let stamp = *resumed.journal.stamp().expect("a stamp");
     assert!(stamp.is_of(&fs::read(&moved).unwrap()));
     drop(resumed);
@@ -138,7 +139,7 @@ fn a_moved_document_is_missed_and_its_work_goes_on_where_it_is_now() {
 }
 
 #[test]
-fn what_was_saved_before_a_document_moved_stays_saved_where_it_is_now() {
+fn edits_saved_before_a_document_moved_still_count_as_saved() {
     let it = killed("scenario-moved-saved");
     let mut journal = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap().journal;
     save_document(&RealFiles, &mut journal, &it.document, b"saved", &SaveOptions::default()).unwrap();
@@ -148,7 +149,7 @@ fn what_was_saved_before_a_document_moved_stays_saved_where_it_is_now() {
         (entries.len() - 1 - last.expect("a save")) as u64
     };
     for (word, after) in [("said", 1), ("unsaid", 0)] {
-        // Killed between the file's replacement and the word of it.
+        // Killed after the file was replaced and before the journal recorded it.
         if word == "unsaid" {
             journal.saving(b"saved again").unwrap();
             replace(&it.document, b"saved again").unwrap();
@@ -167,7 +168,7 @@ fn what_was_saved_before_a_document_moved_stays_saved_where_it_is_now() {
         assert_eq!(edits_after_save(&resumed.entries), after, "{word}: {:?}", resumed.entries);
         let place = resumed.journal.path().to_owned();
         drop(resumed);
-        // Looked at again, the new journal says the same.
+        // Reading the new journal again gives the same result.
         let again = found(&place);
         assert_eq!((again.unsaved, again.file.clone()), (after, DocumentFileState::Same), "{word}");
         assert_eq!(edits_after_save(&it.autosave.entries(&again).unwrap()), after, "{word}");
@@ -177,11 +178,11 @@ fn what_was_saved_before_a_document_moved_stays_saved_where_it_is_now() {
 }
 
 #[test]
-fn a_save_that_failed_does_not_say_where_a_later_one_was() {
+fn a_failed_save_is_not_mistaken_for_a_later_one() {
     let it = killed("scenario-failed-save");
     let mut journal = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap().journal;
     let stamp = FileStamp::take(&RealFiles, &it.document).unwrap();
-    // Nothing becomes of this one.
+    // This save fails before the file is written.
     journal.saving(b"what was never written").unwrap();
     journal.append(b"undone, back at what the file holds", Instant::now()).unwrap();
     journal.saved(&stamp).unwrap();
@@ -194,7 +195,7 @@ fn a_save_that_failed_does_not_say_where_a_later_one_was() {
 }
 
 #[test]
-fn a_document_changed_meanwhile_is_said_to_be() {
+fn a_document_changed_by_another_program_is_reported() {
     let it = killed("scenario-changed");
     fs::write(&it.document, "somebody else's work").unwrap();
     let found = only(&it.autosave);
@@ -225,7 +226,7 @@ fn a_deleted_document_can_be_saved_again() {
 }
 
 #[test]
-fn a_journal_last_had_on_another_machine_is_taken_only_on_request() {
+fn a_journal_owned_by_another_machine_is_claimed_only_on_request() {
     let folder = quick_folder("scenario-elsewhere");
     let autosave = autosave(&folder, RealFiles);
     let opened: (u8, &[u8]) = (3, br#"{"process":4711,"host":"the other machine"}"#);
@@ -242,14 +243,14 @@ fn a_journal_last_had_on_another_machine_is_taken_only_on_request() {
     assert_eq!(resumed.entries, edits(["one"]));
     drop(resumed);
     assert_eq!(only(&autosave).owner, Some(JournalOwner::this()));
-    // It said that it ended.
+    // The journal records that its program ended.
     fs::write(&path, forged(1, &[opened, (2, b"one"), (6, b"")])).unwrap();
     assert_eq!(only(&autosave).owner_status, OwnerStatus::Exited);
     autosave.resume(&only(&autosave), Claim::IfFree).unwrap();
 }
 
 #[test]
-fn a_read_only_folder_takes_no_work_away() {
+fn a_read_only_folder_loses_no_work() {
     if !may_mount("read-only folder") {
         return;
     }
@@ -257,7 +258,7 @@ fn a_read_only_folder_takes_no_work_away() {
     let Some(disk) = Mounted::in_memory(&folder.join("disk"), 1 << 20) else { return };
     let document = disk.path().join("fox.glb");
     replace(&document, b"as it was read").unwrap();
-    // The document cannot be written: its journal can.
+    // The document cannot be written, but its journal can.
     disk.read_only(true);
     let sound = autosave(&folder, RealFiles);
     let mut journal = begin(&sound, Some(&document), None);
@@ -267,7 +268,7 @@ fn a_read_only_folder_takes_no_work_away() {
     assert_eq!(journal.unsaved(), 1);
     drop(journal);
     assert!(only(&sound).is_offered());
-    // The journals cannot be written: the work in them can be read.
+    // The journals cannot be written, but the work in them can be read.
     disk.read_only(false);
     let elsewhere =
         Autosave::new(std::sync::Arc::new(RealFiles), Some(disk.path().join("autosave"))).unwrap();
@@ -285,13 +286,13 @@ fn a_read_only_folder_takes_no_work_away() {
     ] {
         assert!(error.to_string().ends_with("the disk is read-only"), "{error}");
     }
-    // Read here, and gone on with there.
+    // The journal is read here, and the work continues in another folder.
     disk.read_only(false);
     assert_eq!(only(&elsewhere).work, 1);
 }
 
 #[test]
-fn a_full_disk_is_said_to_be_full_and_nothing_counts_as_done() {
+fn a_full_disk_is_reported_and_no_edit_counts_as_done() {
     let folder = quick_folder("scenario-full");
     let error = autosave(&folder, FaultyFiles::from(1, Fault::Full)).begin(None, None).unwrap_err();
     assert!(error.to_string().ends_with("the disk is full"), "{error}");
@@ -310,7 +311,7 @@ fn a_journal_of_a_newer_program_is_left_alone() {
     let error = it.autosave.resume(&found, Claim::Anyway).unwrap_err();
     assert!(error.to_string().contains("a newer version of this program"), "{error}");
     assert!(matches!(it.autosave.entries(&found), Err(JournalError::Newer { version: 2, .. })));
-    // The document can be edited all the same, with a journal beside.
+    // The document can still be edited, with a second journal.
     let mut journal = begin(&it.autosave, Some(&it.document), None);
     journal.append(b"three", Instant::now()).unwrap();
     assert!(matches!(it.autosave.begin(Some(&it.document), None), Err(JournalError::Held { .. })));
@@ -321,20 +322,20 @@ fn a_journal_of_a_newer_program_is_left_alone() {
 }
 
 #[test]
-fn an_empty_journal_and_one_that_is_none_stop_nobody() {
+fn empty_or_invalid_journals_do_not_block_the_document() {
     let it = killed("scenario-empty");
     let path = only(&it.autosave).journal;
     fs::write(&path, "").unwrap();
     let found = only(&it.autosave);
     assert_eq!(found.reading, Readability::Damaged("it is empty".to_owned()));
     assert!(!found.is_offered());
-    // Nothing is in it, so nothing is lost by filling it.
+    // The file is empty, so nothing is lost by filling it.
     let mut journal = begin(&it.autosave, Some(&it.document), None);
     assert_eq!(journal.path(), path);
     journal.append(b"three", Instant::now()).unwrap();
     drop(journal);
     assert_eq!(it.autosave.entries(&only(&it.autosave)).unwrap(), edits(["three"]));
-    // Something is in it, so it stays, and can be put away.
+    // The file is not empty, so it is kept; it can be moved to the bin.
     fs::write(&path, "a letter").unwrap();
     let error = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap_err();
     assert!(error.to_string().contains("is no journal that can be read"), "{error}");
@@ -348,7 +349,7 @@ fn an_empty_journal_and_one_that_is_none_stop_nobody() {
 }
 
 #[test]
-fn a_journal_cut_in_the_middle_of_a_record_gives_back_what_is_whole() {
+fn a_journal_cut_inside_a_record_returns_the_complete_records() {
     let it = killed("scenario-cut");
     let found = only(&it.autosave);
     let bytes = fs::read(&found.journal).unwrap();
@@ -361,7 +362,7 @@ fn a_journal_cut_in_the_middle_of_a_record_gives_back_what_is_whole() {
 }
 
 #[test]
-fn work_recovered_twice_is_all_there_and_only_once() {
+fn recovering_twice_returns_each_edit_once() {
     let it = killed("scenario-twice");
     for text in ["three", "four"] {
         let mut journal = it.autosave.resume(&only(&it.autosave), Claim::IfFree).unwrap().journal;
@@ -370,7 +371,7 @@ fn work_recovered_twice_is_all_there_and_only_once() {
     let found = only(&it.autosave);
     let kept = it.autosave.resume(&found, Claim::IfFree).unwrap();
     assert_eq!(kept.entries, edits(["one", "two", "three", "four"]));
-    // An old list of what can be had is no key to it.
+    // An outdated list of recoverable journals does not allow claiming one.
     assert!(matches!(it.autosave.resume(&found, Claim::IfFree), Err(JournalError::Held { .. })));
     drop(kept);
     it.autosave.discard(&found).unwrap();
@@ -379,23 +380,23 @@ fn work_recovered_twice_is_all_there_and_only_once() {
 }
 
 #[test]
-fn the_format_is_the_one_that_is_described() {
+fn the_journal_format_matches_its_description() {
     let folder = quick_folder("scenario-format");
     let autosave = autosave(&folder, RealFiles);
     put(&autosave, &forged(1, &[(1, b"all"), (2, b"one"), (2, b"")]));
     let found = only(&autosave);
     assert_eq!(found.document, Some("/nowhere/fox.glb".into()));
     assert_eq!((found.work, &found.reading), (3, &Readability::Whole));
-    // A kind that nobody knows ends what can be read.
+    // A record of an unknown kind ends the readable part.
     put(&autosave, &forged(1, &[(2, b"one"), (7, b"unknown"), (2, b"two")]));
     assert_eq!(autosave.entries(&only(&autosave)).unwrap(), edits(["one"]));
-    // So does one whose text is not understood.
+    // So does a record whose text cannot be parsed.
     put(&autosave, &forged(1, &[(2, b"one"), (3, b"no JSON"), (2, b"two")]));
     assert_eq!(autosave.entries(&only(&autosave)).unwrap(), edits(["one"]));
 }
 
 #[test]
-fn the_bin_and_the_journals_without_work_are_kept_to_a_bound() {
+fn the_bin_and_journals_without_work_are_limited_in_size() {
     let folder = quick_folder("scenario-bounds");
     let autosave = autosave(&folder, RealFiles);
     let stamp = replace(&folder.join("fox.glb"), b"saved").unwrap().stamp;

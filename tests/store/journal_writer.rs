@@ -1,9 +1,10 @@
-//! A process of its own that edits and saves as fast as it can and prints what is done: to be killed, or to have its power
-//! cut. It runs the same test of this program again, which finds out by [`is_writer`] that it is to write.
+//! A separate process that edits and saves as fast as it can and prints each finished edit, to be killed or to have
+//! its power cut. It runs the same test of this program again, which learns from [`is_writer`] that it is that
+//! process.
 
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::random::Random;
-use dragonfly_kit::writer::{Found, LIMIT, Said, Writer, nanoseconds};
+use dragonfly_kit::writer::{Found, LIMIT, Writer, WriterReport, nanoseconds};
 use dragonfly_store::{
     Autosave, Claim, DocumentFileState, ExpectedFile, FileStamp, JournalEntry, Opening, RealFiles, Resumed,
     SaveOptions, save_document,
@@ -18,10 +19,10 @@ use std::time::{Instant, SystemTime};
 /// The folder to work in, for the program that is started.
 const CHILD: &str = "DRAGONFLY_STORE_CHILD";
 
-/// Set when it is only to save, without a journal: what a journal brings to the disk takes other things along.
+/// Set when the process only saves, without a journal: syncing a journal may also sync other data.
 const ONLY_SAVES: &str = "DRAGONFLY_STORE_CHILD_ONLY_SAVES";
 
-/// The document after so many edits.
+/// Returns the document after this number of edits.
 fn document(edits: u32) -> Vec<u8> {
     let mut bytes = format!("{edits}\n").into_bytes();
     let mut random = Random::new(u64::from(edits));
@@ -29,7 +30,7 @@ fn document(edits: u32) -> Vec<u8> {
     bytes
 }
 
-/// After how many edits the document at `path` was saved, which must be whole; `None` when there is none.
+/// Returns after how many edits the document at `path` was saved, which must be complete; `None` when there is none.
 #[track_caller]
 pub(crate) fn document_at(path: &Path) -> Option<u32> {
     let bytes = fs::read(path).ok()?;
@@ -39,7 +40,7 @@ pub(crate) fn document_at(path: &Path) -> Option<u32> {
     Some(saved)
 }
 
-/// Edit number `number`.
+/// Returns edit number `number`.
 fn edit(number: u32) -> Vec<u8> {
     let mut bytes = number.to_le_bytes().to_vec();
     let mut random = Random::new(u64::from(number));
@@ -47,7 +48,7 @@ fn edit(number: u32) -> Vec<u8> {
     bytes
 }
 
-/// How many edits these entries are, which must be all from the first on.
+/// Returns the number of edits in these entries, which must be consecutive from the first on.
 fn count(entries: &[JournalEntry]) -> u32 {
     let mut edits = 0;
     for entry in entries {
@@ -65,12 +66,12 @@ fn count(entries: &[JournalEntry]) -> u32 {
     edits
 }
 
-/// Returns whether this process is the one that is to be killed; if so, it has edited and saved until now, and the test
-/// that calls this has nothing else to do.
+/// Returns whether this process is the one to be killed. If so, it has finished editing and saving, and the calling
+/// test must return.
 pub(crate) fn is_writer() -> bool {
     let Some(folder) = std::env::var_os(CHILD) else { return false };
     let mut out = std::io::stdout();
-    // With the time when it was done: when it is read says less.
+    // Printed with the time at which it was done, because the time of reading is later.
     let mut say = |what: &str| {
         let line = format!("{what} {}\n", nanoseconds(SystemTime::now()));
         out.write_all(line.as_bytes()).and_then(|()| out.flush()).is_ok()
@@ -143,15 +144,15 @@ fn write_on(folder: &Path, say: &mut dyn FnMut(&str) -> bool) -> Worked {
     Ok(())
 }
 
-/// Looks at what there is after stop number `stop`, which must be whole and fit together.
+/// Checks the files after stop number `stop`: they must be complete and consistent.
 #[track_caller]
-pub(crate) fn check(folder: &Folder, said: &Said, stop: usize) -> Found {
+pub(crate) fn check(folder: &Folder, said: &WriterReport, stop: usize) -> Found {
     check_at(folder.path(), said, stop)
 }
 
-/// As [`check`].
+/// Same as [`check`], for a path.
 #[track_caller]
-pub(crate) fn check_at(folder: &Path, said: &Said, stop: usize) -> Found {
+pub(crate) fn check_at(folder: &Path, said: &WriterReport, stop: usize) -> Found {
     let path = folder.join("fox.glb");
     let Some(saved) = document_at(&path) else {
         assert_eq!((said.edits, said.saved), (0, 0), "stop {stop}: the document is gone");
@@ -159,14 +160,14 @@ pub(crate) fn check_at(folder: &Path, said: &Said, stop: usize) -> Found {
     };
     let autosave = Autosave::new(Arc::new(RealFiles), Some(folder.join("autosave"))).expect("a folder");
     let found = autosave.recoverable().expect("the folder can be read");
-    // Stopped while it made its first journal, it left none, or one without anything in it.
+    // A process stopped while it created its first journal left none, or an empty one.
     let Some(found) = found.into_iter().find(|found| found.work > 0) else {
         assert_eq!((said.edits, saved), (0, 0), "stop {stop}: the journal is gone");
         return Found { edits: 0, saved };
     };
     let edits = count(&autosave.entries(&found).expect("the journal can be read"));
     assert!(saved <= edits, "stop {stop}: {saved} edits are in the document, {edits} in the journal");
-    // Nobody else wrote it, so the journal knows it, however the program was stopped.
+    // No other program wrote the file, so the journal recognizes it, however the process was stopped.
     assert_eq!(found.file, DocumentFileState::Same, "stop {stop}: {found:?}");
     assert_eq!(found.unsaved == 0, saved == edits, "stop {stop}: {found:?}, {saved} of {edits} saved");
     Found { edits, saved }

@@ -1,4 +1,4 @@
-//! Promises, one module each.
+//! Tests of the store crate, one module for each guarantee.
 
 mod journal;
 mod journal_damage;

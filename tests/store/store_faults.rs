@@ -1,5 +1,5 @@
-//! Whatever call of the system fails while saving, the old file or the new one is there, whole, nothing is left beside
-//! it, the error says so, and the next save goes well.
+//! Whichever system call fails while saving: the complete old or new file exists, no temporary file is left, the
+//! error message is correct, and the next save succeeds.
 
 use dragonfly_kit::folder::Folder;
 use dragonfly_kit::mounted::quick_folder;
@@ -13,17 +13,17 @@ use std::path::{Path, PathBuf};
 
 const OLD: &[u8] = b"the old file, which somebody worked on for a week";
 
-/// Longer than a piece of a copy.
+/// More bytes than one chunk of a copy.
 fn new() -> Vec<u8> {
     (0..100_000_u32).map(|number| number as u8).collect()
 }
 
-/// A file to be saved over, and how.
+/// A file that is overwritten by a save, and how it is created.
 struct Case {
     name: &'static str,
-    /// Makes what is there; the path to save to.
+    /// Creates the existing files and returns the path to save to.
     make: fn(&Path) -> PathBuf,
-    /// Names in the folder before and after.
+    /// Names of the files in the folder, before and after the save.
     names: &'static [&'static str],
     old: Option<&'static [u8]>,
 }
@@ -36,7 +36,7 @@ const CASES: [Case; 4] = [
             let path = folder.join("model.glb");
             fs::write(&path, OLD).unwrap();
             fs::set_permissions(&path, fs::Permissions::from_mode(0o640)).unwrap();
-            // As root, so that the owner must be set too.
+            // Owned by another user when the tests run as root, so that the owner must be restored too.
             let _ = chown(&path, Some(4242), Some(4242));
             let file = fs::File::open(&path).unwrap();
             let _ = rustix::fs::fsetxattr(&file, "user.note", b"mine", rustix::fs::XattrFlags::empty());
@@ -75,7 +75,7 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// A folder of its own inside `all`, with the case's files and a place for versions.
+/// Creates a folder inside `all` with the files of the case and a folder for versions.
 fn prepared(all: &Folder, case: &Case) -> (PathBuf, PathBuf, Versions) {
     let folder = all.join("documents");
     let versions = all.join("versions");
@@ -87,7 +87,7 @@ fn prepared(all: &Folder, case: &Case) -> (PathBuf, PathBuf, Versions) {
 }
 
 #[test]
-fn every_call_that_can_fail_leaves_the_old_file_or_the_new_one() {
+fn a_failure_of_any_system_call_leaves_the_old_file_or_the_new_one() {
     let all = quick_folder("store-faults");
     let new = new();
     let mut runs = 0;
@@ -134,7 +134,7 @@ fn names_after(case: &Case, saved: &Result<dragonfly_store::SaveOutcome, FileSav
 }
 
 #[test]
-fn a_disk_that_fails_for_good_leaves_the_old_content_or_the_new_one_whole() {
+fn a_disk_that_keeps_failing_leaves_the_complete_old_or_new_content() {
     let all = quick_folder("store-faults-for-good");
     let new = new();
     for case in &CASES {
@@ -150,7 +150,8 @@ fn a_disk_that_fails_for_good_leaves_the_old_content_or_the_new_one_whole() {
                     Ok(_) | Err(FileSaveError::Unconfirmed { .. }) => {
                         assert!(content.as_ref() == Some(&new), "{place}");
                     }
-                    // A file with two names, whose disk failed in the middle: its old content is beside it.
+                    // A file with two hard links whose disk failed during the in-place write: its old content is in
+                    // the copy next to it.
                     Err(FileSaveError::Torn { old, .. }) => {
                         assert_eq!(case.name, "one of two names", "{place}");
                         assert!(fs::read(old).unwrap() == OLD, "{place}");
@@ -171,7 +172,7 @@ fn a_disk_that_fails_for_good_leaves_the_old_content_or_the_new_one_whole() {
 }
 
 #[test]
-fn what_another_program_writes_while_a_save_is_under_way_is_noticed_until_the_last_call() {
+fn writes_by_another_program_during_a_save_are_detected_until_the_last_call() {
     let all = quick_folder("store-meddling");
     let new = new();
     let theirs = b"what another program wrote meanwhile";
@@ -198,20 +199,20 @@ fn what_another_program_writes_while_a_save_is_under_way_is_noticed_until_the_la
                     overwritten += 1;
                     assert_eq!(saved.stamp.state(&RealFiles, &path).unwrap(), FileState::Same, "{place}");
                 }
-                // They were later than we; the next save will notice.
+                // The other program wrote after this save; the next save detects it.
                 Ok(saved) => {
                     assert_eq!(saved.stamp.state(&RealFiles, &path).unwrap(), FileState::Changed, "{place}");
                 }
             }
         }
-        // Between looking and moving, no system lets one do both at once. In place, it is while it is written.
+        // No system can check and rename in one call. During an in-place save, the file changes while it is written.
         let most = if case.name == "one of two names" { 5 } else { 1 };
         assert!((1..=most).contains(&overwritten), "{}: {overwritten}", case.name);
     }
 }
 
 #[test]
-fn what_another_program_makes_while_a_new_file_is_saved_is_never_overwritten() {
+fn a_file_that_another_program_creates_during_a_save_is_never_overwritten() {
     let all = quick_folder("store-meddling-new");
     let theirs = b"what another program made meanwhile";
     let mut met = 0;

@@ -1,20 +1,20 @@
-//! What a power cut may cost: a real file system is stopped as if the machine had lost power, mounted again and checked.
+//! Cost of a power cut: a real file system is stopped as if the machine had lost power, mounted again and checked.
 
 use crate::journal_writer::{check_at, document_at, is_writer, start, start_saving};
 use dragonfly_kit::power::{cut, once_in_three, times};
-use dragonfly_kit::writer::{Found, Said};
+use dragonfly_kit::writer::{Found, WriterReport};
 use std::path::Path;
 
 #[test]
-fn a_power_cut_tears_no_file_and_costs_nothing_that_was_saved() {
+fn a_power_cut_tears_no_file_and_loses_no_save() {
     if is_writer() {
         return;
     }
     let start = |folder: &Path| {
-        let test = "store_power::a_power_cut_tears_no_file_and_costs_nothing_that_was_saved";
+        let test = "store_power::a_power_cut_tears_no_file_and_loses_no_save";
         start_saving(test, folder)
     };
-    let only_saves = |folder: &Path, _: &Said, _: usize| {
+    let only_saves = |folder: &Path, _: &WriterReport, _: usize| {
         let saved = document_at(&folder.join("fox.glb")).unwrap_or_default();
         Found { edits: 0, saved }
     };

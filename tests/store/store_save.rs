@@ -1,7 +1,7 @@
-//! What a save keeps: links of both kinds, permissions, owner, attributes, and above all what others wrote meanwhile.
+//! A save keeps links of both kinds, permissions, owner and attributes, and above all changes made by other programs.
 
 use dragonfly_kit::folder::Folder;
-use dragonfly_kit::mounted::{Mounted, may_mount, quick_folder, said};
+use dragonfly_kit::mounted::{Mounted, may_mount, quick_folder, succeeds};
 use dragonfly_kit::skip::{TestNeed, skip};
 use dragonfly_store::{
     ExpectedFile, FileSaveError, FileStamp, FileState, RealFiles, SaveOptions, SaveOutcome, SaveStep,
@@ -23,7 +23,7 @@ fn expecting(path: &Path, bytes: &[u8], stamp: &FileStamp) -> Result<SaveOutcome
 }
 
 #[test]
-fn a_link_is_followed_and_stays_a_link() {
+fn saving_through_a_symbolic_link_keeps_the_link() {
     let folder = Folder::new("save-link");
     fs::create_dir(folder.join("far")).unwrap();
     fs::write(folder.join("far/real.glb"), "old").unwrap();
@@ -37,7 +37,7 @@ fn a_link_is_followed_and_stays_a_link() {
 }
 
 #[test]
-fn a_link_to_nothing_makes_what_it_points_to_and_a_circle_of_links_is_refused() {
+fn saving_through_a_dangling_link_creates_its_target_and_a_link_loop_is_refused() {
     let folder = Folder::new("save-dangling");
     symlink("later.glb", folder.join("model.glb")).unwrap();
     replace(&folder.join("model.glb"), b"new").unwrap();
@@ -51,7 +51,7 @@ fn a_link_to_nothing_makes_what_it_points_to_and_a_circle_of_links_is_refused() 
 }
 
 #[test]
-fn all_names_of_a_file_lead_to_the_new_content() {
+fn all_hard_links_of_a_file_show_the_new_content() {
     let folder = Folder::new("save-hard-link");
     let (one, other) = (folder.join("one.glb"), folder.join("other.glb"));
     fs::write(&one, "a rather long old content").unwrap();
@@ -68,7 +68,7 @@ fn all_names_of_a_file_lead_to_the_new_content() {
 }
 
 #[test]
-fn after_a_cut_in_place_nothing_is_overwritten_before_a_person_decides() {
+fn after_an_interrupted_in_place_save_nothing_is_overwritten_before_the_user_decides() {
     let folder = Folder::new("save-cut-off");
     let path = folder.join("one.glb");
     fs::write(&path, "half of the n").unwrap();
@@ -87,7 +87,7 @@ fn after_a_cut_in_place_nothing_is_overwritten_before_a_person_decides() {
 }
 
 #[test]
-fn permissions_are_kept_and_a_new_file_has_the_usual_ones() {
+fn permissions_are_kept_and_a_new_file_has_the_default_ones() {
     let folder = Folder::new("save-mode");
     let path = folder.join("model.glb");
     fs::write(folder.join("usual"), "").unwrap();
@@ -156,7 +156,7 @@ fn extended_attributes_and_access_lists_are_kept() {
 }
 
 #[test]
-fn what_another_program_wrote_is_noticed_and_not_overwritten() {
+fn changes_by_another_program_are_detected_and_not_overwritten() {
     let folder = Folder::new("save-changed");
     let path = folder.join("model.glb");
     fs::write(&path, "as it was read").unwrap();
@@ -166,7 +166,7 @@ fn what_another_program_wrote_is_noticed_and_not_overwritten() {
     assert_eq!(late.state(&RealFiles, &path).unwrap(), FileState::Same);
     let time = fs::metadata(&path).unwrap().modified().unwrap();
     let modified = |time: SystemTime| fs::File::options().write(true).open(&path).unwrap().set_modified(time);
-    // Of the same length, and its time put back: the worst case.
+    // The hardest case: the same length, and the modification time restored.
     let others: [(&str, bool); 3] = [("someone else's", false), ("as it was Read", true), ("", true)];
     for (content, put_back) in others {
         fs::write(&path, content).unwrap();
@@ -174,7 +174,7 @@ fn what_another_program_wrote_is_noticed_and_not_overwritten() {
             modified(time).unwrap();
         }
         assert_eq!(stamp.state(&RealFiles, &path).unwrap(), FileState::Changed);
-        // Made long after the file, so that the times alone would do.
+        // Changed long after the file was read, so that the times alone are enough.
         let late = FileStamp { taken: i64::MAX, ..stamp };
         assert_eq!(late.state(&RealFiles, &path).unwrap(), FileState::Changed);
         let error = expecting(&path, b"mine", &stamp).unwrap_err();
@@ -182,7 +182,7 @@ fn what_another_program_wrote_is_noticed_and_not_overwritten() {
         assert_eq!(fs::read(&path).unwrap(), content.as_bytes());
         assert_eq!(count(folder.path()), 1);
     }
-    // Replaced by another file, and by a folder.
+    // The path is replaced by another file, and by a folder.
     fs::write(folder.join("other"), "another file").unwrap();
     fs::rename(folder.join("other"), &path).unwrap();
     assert!(expecting(&path, b"mine", &stamp).is_err());
@@ -192,7 +192,7 @@ fn what_another_program_wrote_is_noticed_and_not_overwritten() {
 }
 
 #[test]
-fn a_file_only_touched_or_restored_is_no_changed_one() {
+fn a_file_with_a_new_time_but_the_same_content_is_not_changed() {
     let folder = Folder::new("save-touched");
     let path = folder.join("model.glb");
     fs::write(&path, "as it was read").unwrap();
@@ -204,30 +204,30 @@ fn a_file_only_touched_or_restored_is_no_changed_one() {
     fs::write(&path, "as it was read").unwrap();
     let saved = expecting(&path, b"mine", &stamp).unwrap();
     let again = expecting(&path, b"mine again", &saved.stamp).unwrap();
-    // It vanished: nobody's work is overwritten.
+    // The file was deleted, so no other work is overwritten.
     fs::remove_file(&path).unwrap();
     expecting(&path, b"mine once more", &again.stamp).unwrap();
     assert_eq!(fs::read(&path).unwrap(), b"mine once more");
 }
 
 #[test]
-fn a_change_within_a_tick_of_the_clock_is_noticed() {
+fn a_change_within_a_tick_of_the_clock_is_detected() {
     let folder = Folder::new("save-tick");
     let path = folder.join("model.glb");
     fs::write(&path, "as it was read").unwrap();
     let stamp = FileStamp::take(&RealFiles, &path).unwrap();
-    // Of a file of the same size and times, that held other bytes.
+    // Stamps as of a file with the same size and times but other bytes.
     let newest = stamp.modified.max(stamp.changed);
     let other = |taken| FileStamp { hash: !stamp.hash, taken, ..stamp };
     for taken in [newest - 1, newest, newest + 1_900_000_000] {
         assert_eq!(other(taken).state(&RealFiles, &path).unwrap(), FileState::Changed);
     }
-    // Long after, the times would be others, and the file is not read for nothing.
+    // After more than two seconds the clock would show a change, so the file is not read again.
     assert_eq!(other(newest + 2_100_000_000).state(&RealFiles, &path).unwrap(), FileState::Same);
 }
 
 #[test]
-fn a_new_file_takes_nobodys_place() {
+fn a_new_file_never_replaces_an_existing_one() {
     let folder = Folder::new("save-new");
     let path = folder.join("model.glb");
     let options = SaveOptions { expected: ExpectedFile::Nothing, ..SaveOptions::default() };
@@ -235,7 +235,7 @@ fn a_new_file_takes_nobodys_place() {
     let error = save(&RealFiles, &path, b"second", &options).unwrap_err();
     assert!(matches!(error, FileSaveError::Exists { .. }), "{error}");
     assert_eq!(fs::read(&path).unwrap(), b"first");
-    // Nor that of one made between looking and moving.
+    // A file that another program created between the check and the rename is not replaced either.
     let error = RealFiles.rename_to_new(&path, &folder.join("model.glb")).unwrap_err();
     assert_eq!(error.kind(), std::io::ErrorKind::AlreadyExists);
     fs::write(folder.join("second.glb"), "second").unwrap();
@@ -261,11 +261,11 @@ fn a_file_that_is_write_protected_is_not_replaced() {
 }
 
 #[test]
-fn what_is_no_file_is_not_replaced() {
+fn only_regular_files_are_replaced() {
     let folder = Folder::new("save-no-file");
     fs::create_dir(folder.join("folder")).unwrap();
     let pipe = folder.join("pipe");
-    assert!(said(Command::new("mkfifo").arg(&pipe)));
+    assert!(succeeds(Command::new("mkfifo").arg(&pipe)));
     for path in [folder.join("folder"), pipe] {
         let error = replace(&path, b"new").unwrap_err();
         assert!(matches!(error, FileSaveError::NotRegular { .. }), "{error}");
@@ -274,7 +274,7 @@ fn what_is_no_file_is_not_replaced() {
 }
 
 #[test]
-fn a_folder_that_vanished_is_said_to_have() {
+fn a_deleted_folder_is_reported() {
     let folder = Folder::new("save-vanished");
     let path = folder.join("gone/model.glb");
     fs::create_dir(folder.join("gone")).unwrap();
@@ -286,7 +286,7 @@ fn a_folder_that_vanished_is_said_to_have() {
 }
 
 #[test]
-fn a_read_only_disk_and_a_file_that_must_not_change_stay_as_they_are() {
+fn read_only_disks_and_immutable_files_are_not_changed() {
     if !may_mount("read-only disk") {
         return;
     }
@@ -307,11 +307,11 @@ fn a_read_only_disk_and_a_file_that_must_not_change_stay_as_they_are() {
     drop(disk);
     let path = folder.join("model.glb");
     replace(&path, b"first").unwrap();
-    if !said(Command::new("chattr").arg("+i").arg(&path)) {
+    if !succeeds(Command::new("chattr").arg("+i").arg(&path)) {
         return skip(TestNeed::FileSystem, "files cannot be made immutable");
     }
     let error = replace(&path, b"second");
-    assert!(said(Command::new("chattr").arg("-i").arg(&path)));
+    assert!(succeeds(Command::new("chattr").arg("-i").arg(&path)));
     let error = error.unwrap_err().to_string();
     assert!(error.ends_with("is write-protected; it was not overwritten"), "{error}");
     assert_eq!(fs::read(&path).unwrap(), b"first");
@@ -319,7 +319,7 @@ fn a_read_only_disk_and_a_file_that_must_not_change_stay_as_they_are() {
 }
 
 #[test]
-fn old_versions_are_kept_to_a_bound_and_at_least_three() {
+fn old_versions_are_limited_but_at_least_three_are_kept() {
     let folder = quick_folder("save-versions");
     let path = folder.join("model.glb");
     let limits = VersionLimits {
@@ -341,24 +341,25 @@ fn old_versions_are_kept_to_a_bound_and_at_least_three() {
         save(&path, number.to_string().as_bytes());
     }
     assert_eq!(contents(&path), [b"8", b"7", b"6", b"5", b"4"], "newest first");
-    // The same content again is no new version.
+    // Saving the same content again adds no version.
     save(&path, b"9");
     save(&path, b"9");
     assert_eq!(contents(&path), [b"9", b"8", b"7", b"6", b"5"]);
-    // Large ones go first, but three stay.
+    // Large versions are deleted first, but three are kept.
     for number in 0..6_u8 {
         save(&path, &[number; 600]);
     }
     assert_eq!(contents(&path), [vec![4; 600], vec![3; 600], vec![2; 600]]);
     assert!(versions.of(&RealFiles, &path).unwrap()[0].path.to_string_lossy().ends_with(".glb"));
-    // All documents together: what was kept longest ago goes, and never of the one just saved.
+    // Limit for all documents together: the oldest versions are deleted first, but never those of the document just
+    // saved.
     let other = folder.join("other.glb");
     for number in 0..3_u8 {
         save(&other, &[number; 700]);
     }
     assert_eq!(contents(&other).len(), 2);
     assert_eq!(contents(&path), [vec![4; 600]]);
-    // Too large to be kept: saved all the same, and told.
+    // Too large to keep a version: the save succeeds, with a notice.
     save(&path, &[1; 1001]);
     let saved = save(&path, b"small");
     assert_eq!(saved.notices, ["the old version could not be kept: it is larger than 0 MiB"]);
@@ -366,13 +367,13 @@ fn old_versions_are_kept_to_a_bound_and_at_least_three() {
 }
 
 #[test]
-fn what_a_killed_program_left_half_written_goes_with_the_next_save() {
+fn temporary_files_of_a_killed_program_are_deleted_by_the_next_save() {
     let folder = quick_folder("save-leftovers");
     let path = folder.join("model.glb");
     let mut child = Command::new("true").spawn().unwrap();
     let dead = child.id();
     child.wait().unwrap();
-    // The name as this process makes it, of a process that is no more.
+    // The name of a temporary file as this process writes it, with the id of a process that has ended.
     let host = {
         let watched = dragonfly_kit::store::faulty_files::FaultyFiles::from(
             9,

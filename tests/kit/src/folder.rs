@@ -1,4 +1,4 @@
-//! Folders of a test's own, and the files of `tests/data`.
+//! Temporary folders for tests, and the files of `tests/data`.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -19,12 +19,12 @@ impl Folder {
         Self(path)
     }
 
-    /// The path of the folder.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.0
     }
 
-    /// The path of `name` in the folder.
+    /// Returns the path of `name` in the folder.
     pub fn join(&self, name: &str) -> PathBuf {
         self.0.join(name)
     }
@@ -41,7 +41,7 @@ pub fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../data").join(name)
 }
 
-/// The folder for temporary files of tests, beside the folder of the test's own executable.
+/// Returns the folder for temporary files of tests, next to the folder of the test's own executable.
 fn temporary() -> PathBuf {
     let program = std::env::current_exe().expect("a running test has an executable");
     let profile = program.ancestors().nth(2).expect("tests are built into target/PROFILE/deps");

@@ -1,7 +1,7 @@
-//! Shared by the tests of all crates. Small on purpose: a test should show what it does.
+//! Helpers shared by the tests of all crates. Small on purpose: a test should show what it does.
 //!
-//! The features `store`, `document` and `picture` add what needs those crates, so that the tests of a crate build without the
-//! crates above it.
+//! The features `store`, `document` and `picture` add the helpers that need those crates, so that the tests of a
+//! crate build without the crates above it.
 
 pub mod bench;
 pub mod counting;

@@ -1,4 +1,4 @@
-//! File systems of a test's own: small ones, full ones, and ones whose power is cut.
+//! File systems for tests: small ones, full ones, and ones whose power is cut.
 
 use crate::skip::{TestNeed, skip};
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ pub fn may_mount(test: &str) -> bool {
     root
 }
 
-/// A mounted file system, gone when the test ends.
+/// A mounted file system, unmounted when the value is dropped.
 #[derive(Debug)]
 pub struct Mounted(PathBuf);
 
@@ -30,7 +30,7 @@ impl Mounted {
 
     fn mount(at: &Path, arguments: &[&str]) -> Option<Self> {
         std::fs::create_dir_all(at).expect("a folder");
-        let is_mounted = said(Command::new("mount").args(arguments).arg(at));
+        let is_mounted = succeeds(Command::new("mount").args(arguments).arg(at));
         if !is_mounted {
             skip(TestNeed::FileSystem, format!("mount {arguments:?} is refused"));
         }
@@ -42,24 +42,24 @@ impl Mounted {
         &self.0
     }
 
-    /// Nothing can be written to it any more, or it can again.
+    /// Remounts the file system read-only or writable.
     pub fn read_only(&self, read_only: bool) {
         let option = if read_only { "remount,ro" } else { "remount,rw" };
-        assert!(said(Command::new("mount").args(["-o", option]).arg(&self.0)));
+        assert!(succeeds(Command::new("mount").args(["-o", option]).arg(&self.0)));
     }
 }
 
 impl Drop for Mounted {
     fn drop(&mut self) {
-        if !said(Command::new("umount").arg(&self.0)) {
-            // Something is still open: it goes when that is closed.
-            said(Command::new("umount").arg("-l").arg(&self.0));
+        if !succeeds(Command::new("umount").arg(&self.0)) {
+            // A file is still open: the file system is detached when that is closed.
+            succeeds(Command::new("umount").arg("-l").arg(&self.0));
         }
     }
 }
 
-/// Did the command succeed? What it complains of is printed.
-pub fn said(command: &mut Command) -> bool {
+/// Runs `command`. Returns whether it succeeded; its error output is printed.
+pub fn succeeds(command: &mut Command) -> bool {
     match command.output() {
         Ok(output) if output.status.success() => true,
         Ok(output) => {
@@ -73,8 +73,8 @@ pub fn said(command: &mut Command) -> bool {
     }
 }
 
-/// An empty folder where waiting for the disk takes no time, if there is such a place: for tests that fail calls by
-/// the thousand, and cut no power.
+/// Creates an empty folder in memory where the system has one, so that syncing takes no time: for tests that make
+/// thousands of calls fail, and cut no power.
 pub fn quick_folder(name: &str) -> crate::folder::Folder {
     let memory = Path::new("/dev/shm");
     let place = if memory.is_dir() { memory.join(format!("dragonfly-{name}")) } else { PathBuf::from(name) };

@@ -1,18 +1,19 @@
-//! Power cuts: a real file system of its own is stopped as if the machine had lost power, mounted again, and looked at.
+//! Power cuts: a real file system is stopped as if the machine had lost power, mounted again, and checked.
 
 use crate::folder::{Folder, takes_long};
-use crate::mounted::{Mounted, may_mount, said};
+use crate::mounted::{Mounted, may_mount, succeeds};
 use crate::random::{Random, seed};
 use crate::skip::{TestNeed, skip};
-use crate::writer::{Found, Said, Writer, nanoseconds};
+use crate::writer::{Found, Writer, WriterReport, nanoseconds};
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::{Duration, SystemTime};
 
-/// Cuts the power of file systems: `EXT4_IOC_SHUTDOWN` on a folder in one, with flag 1 (what its own journal holds is
-/// still written) or 2 (nothing is written any more). It waits beside the test, so that a cut takes no time to begin.
+/// Script that cuts the power of file systems: `EXT4_IOC_SHUTDOWN` on a folder in one, with flag 1 (the file system's
+/// own journal is still written) or 2 (nothing is written any more). It runs while the test works, so that a cut
+/// starts without delay.
 const CUTTER: &str = r"
 import fcntl, os, struct, sys
 print('ready', flush=True)
@@ -38,16 +39,16 @@ impl Cutter {
         let orders = child.stdin.take()?;
         let answers = BufReader::new(child.stdout.take()?);
         let mut cutter = Self { child, orders, answers };
-        cutter.hears("ready").then_some(cutter)
+        cutter.reads_answer("ready").then_some(cutter)
     }
 
-    fn hears(&mut self, word: &str) -> bool {
+    fn reads_answer(&mut self, word: &str) -> bool {
         let mut line = String::new();
         self.answers.read_line(&mut line).is_ok() && line.trim() == word
     }
 
     fn cut(&mut self, disk: &Mounted, flag: u32) -> bool {
-        writeln!(self.orders, "{flag} {}", disk.path().display()).is_ok() && self.hears("cut")
+        writeln!(self.orders, "{flag} {}", disk.path().display()).is_ok() && self.reads_answer("cut")
     }
 }
 
@@ -65,15 +66,15 @@ pub struct Cuts {
     pub cuts: usize,
     /// Number of cuts before which at least one save was reported.
     pub with_saves: usize,
-    /// Edits in the journal after the last cut.
+    /// Number of edits in the journal after the last cut.
     pub edits: u32,
-    /// Edits in the saved file after the last cut.
+    /// Number of edits in the saved file after the last cut.
     pub saves: u32,
-    /// Edits reported as done that were lost.
+    /// Number of edits reported as done that were lost.
     pub lost: u32,
     /// Age of the oldest edit that was lost, in nanoseconds.
     pub oldest: u128,
-    /// Cuts in which something was said to be on the disk after the cut had begun, and was lost.
+    /// Number of cuts in which an edit was reported as synced after the cut had begun, and was lost.
     pub late: usize,
 }
 
@@ -82,7 +83,7 @@ pub fn cut(
     name: &str,
     cuts: usize,
     work: fn(&Path) -> Writer,
-    look: fn(&Path, &Said, usize) -> Found,
+    look: fn(&Path, &WriterReport, usize) -> Found,
 ) -> Option<Cuts> {
     if !may_mount(name) {
         return None;
@@ -93,7 +94,7 @@ pub fn cut(
     let folder = Folder::new(name);
     let image = folder.join("disk.img");
     fs::File::create(&image).unwrap().set_len(64 << 20).unwrap();
-    if !said(Command::new("mkfs.ext4").args(["-q", "-F"]).arg(&image)) {
+    if !succeeds(Command::new("mkfs.ext4").args(["-q", "-F"]).arg(&image)) {
         skip(TestNeed::FileSystem, "no ext4 can be made");
         return None;
     }
@@ -110,11 +111,11 @@ pub fn cut(
         let mut writer = work(disk.path());
         writer.working();
         std::thread::park_timeout(Duration::from_micros(random.below(400_000) as u64));
-        // What is said to be done from here on may be said without power: a call that is under way may yet succeed.
+        // Reports from here on may be made without power: a call in progress may still succeed.
         let began = nanoseconds(SystemTime::now());
         let flag = 1 + random.below(2) as u32;
         let is_cut = cutter.cut(&disk, flag);
-        let said = writer.kill_and_believe(began);
+        let said = writer.kill_and_read_until(began);
         drop(disk);
         if !is_cut {
             skip(TestNeed::FileSystem, "the power of this file system cannot be cut");
@@ -143,8 +144,8 @@ pub fn cut(
     Some(all)
 }
 
-/// What depends on the time that a program gets is asked up to three times: a machine that has much else to do may keep
-/// it waiting. What must hold always was asserted at each cut.
+/// Repeats timing-dependent cuts up to three times until `holds`, because a busy machine may delay the program. What
+/// must always hold was asserted at each cut.
 pub fn once_in_three(cuts: impl Fn() -> Option<Cuts>, otherwise: &str, holds: impl Fn(&Cuts) -> bool) {
     let mut seen = Vec::new();
     for _ in 0..3 {
@@ -157,7 +158,7 @@ pub fn once_in_three(cuts: impl Fn() -> Option<Cuts>, otherwise: &str, holds: im
     panic!("{otherwise}: {seen:?}");
 }
 
-/// How many cuts: `few`, or very many when asked to take long.
+/// Returns the number of cuts: `few`, or 500 for long runs.
 pub fn times(few: usize) -> usize {
     if takes_long() { 500 } else { few }
 }

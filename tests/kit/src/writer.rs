@@ -1,4 +1,4 @@
-//! A process of its own that works as fast as it can and reports what is done, to be killed or to have its power cut.
+//! A separate process that works as fast as it can and reports what is done, to be killed or to have its power cut.
 
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader};
@@ -6,35 +6,35 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-/// Longer than it ever takes to start on a busy machine; and the writer ends by itself after it.
+/// Time limit: longer than the process takes to start on a busy machine. The process ends by itself after it.
 pub const LIMIT: Duration = Duration::from_secs(30);
 
-/// The process while it runs.
+/// The running process.
 pub struct Writer {
     child: Child,
     lines: Receiver<String>,
     early: Vec<String>,
 }
 
-/// The clock on the wall, which two programs share.
+/// Returns nanoseconds since 1970 of the wall clock, which two programs share.
 pub fn nanoseconds(time: SystemTime) -> u128 {
     time.duration_since(UNIX_EPOCH).expect("after 1970").as_nanos()
 }
 
-/// What the program said was done.
+/// Everything the process reported as done.
 #[derive(Debug, Default)]
-pub struct Said {
-    /// Edits that counted as done.
+pub struct WriterReport {
+    /// Number of edits that counted as done.
     pub edits: u32,
-    /// Of them, those said to be on the disk.
+    /// Number of edits reported as synced to the disk.
     pub synced: u32,
-    /// Edits in the file that was saved last.
+    /// Number of edits in the file that was saved last.
     pub saved: u32,
-    /// Edits said to be on the disk, by one that was not to be believed any more.
+    /// Number of edits reported as synced after the end of the accepted period.
     pub late: u32,
-    /// When each of the edits was done: number and [`nanoseconds`].
+    /// Time at which each edit was done: number and [`nanoseconds`].
     pub times: Vec<(u32, u128)>,
-    /// What went wrong.
+    /// The error that the process reported.
     pub complaint: Option<String>,
 }
 
@@ -52,7 +52,7 @@ fn program() -> std::path::PathBuf {
 }
 
 impl Writer {
-    /// Starts another test of this file, told by its environment what to do, which says what it does as this one does.
+    /// Starts a test of this executable in a new process, which reports its work. `environment` selects what it does.
     pub fn of(test: &str, environment: &[(&str, &OsStr)]) -> Self {
         Self::run_test(Command::new(program()).envs(environment.iter().copied()), test)
     }
@@ -78,7 +78,7 @@ impl Writer {
         Self { child, lines, early: Vec::new() }
     }
 
-    /// Returns when the first edit is done.
+    /// Waits until the first edit is done.
     #[track_caller]
     pub fn working(&mut self) {
         let done = |line: &str| ["e ", "s ", "x "].iter().any(|kind| line.starts_with(kind));
@@ -87,31 +87,31 @@ impl Writer {
         }
     }
 
-    /// The process id.
+    /// Returns the process id.
     pub fn process(&self) -> u32 {
         self.child.id()
     }
 
-    /// Kills it; all that it said.
-    pub fn kill(self) -> Said {
-        self.kill_and_believe(u128::MAX)
+    /// Kills the process and returns everything that it reported.
+    pub fn kill(self) -> WriterReport {
+        self.kill_and_read_until(u128::MAX)
     }
 
-    /// All that it said, once it ended because somebody else killed it.
-    pub fn ended(self) -> Said {
-        self.end_and_believe(u128::MAX)
+    /// Waits until the process has been killed by the caller. Returns everything that it reported.
+    pub fn ended(self) -> WriterReport {
+        self.end_and_read_until(u128::MAX)
     }
 
-    /// Kills it; what it said was done before `end`, in [`nanoseconds`].
-    pub fn kill_and_believe(mut self, end: u128) -> Said {
+    /// Kills the process and returns what it reported as done before `end`, in [`nanoseconds`].
+    pub fn kill_and_read_until(mut self, end: u128) -> WriterReport {
         self.child.kill().expect("it runs");
-        self.end_and_believe(end)
+        self.end_and_read_until(end)
     }
 
-    fn end_and_believe(mut self, end: u128) -> Said {
+    fn end_and_read_until(mut self, end: u128) -> WriterReport {
         self.child.wait().expect("it ends");
-        let mut said = Said::default();
-        // What was in the pipe was said before it was killed.
+        let mut said = WriterReport::default();
+        // Lines that are still in the pipe were written before the kill.
         for line in self.early.drain(..).chain(self.lines.iter()) {
             let Some((rest, time)) = line.rsplit_once(' ') else { continue };
             let Some((kind, rest)) = rest.split_once(' ') else { continue };

@@ -1,4 +1,4 @@
-//! A model made by code: a tube with three bones that bends, and a pane of glass that the last bone carries.
+//! A model made in code: a tube with three bones that bends, and a pane of glass that the last bone carries.
 
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::*;
@@ -6,12 +6,12 @@ use dragonfly_document::LoadedModel;
 use glam::{Mat4, Quat, Vec3, Vec4};
 use std::sync::Arc;
 
-/// Bones from root to tip.
+/// Names of the bones from root to tip.
 pub const BONES: usize = 3;
-/// Length of the take, seconds.
+/// Length of the take in seconds.
 pub const LENGTH: f32 = 1.0;
 
-/// The model as loaded.
+/// Returns the model as loaded.
 pub fn loaded() -> Arc<LoadedModel> {
     let model = Arc::new(model());
     Arc::new(LoadedModel {
@@ -63,7 +63,7 @@ fn skeleton() -> Skeleton {
     Skeleton { bones: (0..BONES).map(bone).collect() }
 }
 
-/// Every bone but the root turns by 40 degrees.
+/// Returns a take in which every bone except the root rotates by 40 degrees.
 fn bend() -> Take {
     let track = |bone: u32| Track {
         bone,
@@ -88,7 +88,7 @@ fn instance(mesh: u32, skin: Option<u32>, bone: Option<u32>) -> MeshInstance {
     MeshInstance { mesh, node: None, skin, bone, to_bone: Mat4::IDENTITY, morph_weights: Vec::new() }
 }
 
-/// Rings along Y from 0 to 3, each vertex held by the two nearest bones.
+/// Returns rings along Y from 0 to 3, with each vertex bound to the two nearest bones.
 fn tube() -> Mesh {
     const SIDES: u32 = 16;
     const RINGS: u32 = 13;

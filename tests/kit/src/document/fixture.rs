@@ -1,4 +1,4 @@
-//! A model made by hand, so that panels can be tested without a file: a spine with ribs, three takes.
+//! A model made in code, so that panels can be tested without a file: a spine with ribs, three takes.
 
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
@@ -8,7 +8,7 @@ use dragonfly_document::{LoadedModel, View};
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 
-/// A bone at `offset` from its parent.
+/// Returns a bone at `offset` from its parent.
 fn bone(name: &str, parent: Option<u32>, offset: Vec3) -> Bone {
     Bone {
         name: name.to_owned(),
@@ -20,7 +20,7 @@ fn bone(name: &str, parent: Option<u32>, offset: Vec3) -> Bone {
     }
 }
 
-/// `spine` vertebrae, each with a pair of ribs of three bones.
+/// Returns a skeleton with `spine` vertebrae, each with a pair of ribs of three bones.
 pub fn skeleton(spine: u32) -> Skeleton {
     let mut bones = vec![bone("root", None, Vec3::ZERO)];
     let mut last = 0;
@@ -41,9 +41,9 @@ pub fn skeleton(spine: u32) -> Skeleton {
     Skeleton { bones }
 }
 
-/// A take that turns every bone, with `keys` keys a bone.
+/// Returns a take that rotates every bone, with `keys` keys per bone.
 pub fn take(name: &str, skeleton: &Skeleton, length: f32, keys: usize) -> Take {
-    // The last key is where the take ends, to the bit.
+    // The last key is exactly at the end of the take.
     let at =
         |key: usize| if key + 1 == keys { length } else { key as f32 * length / (keys - 1).max(1) as f32 };
     let times: Arc<[f32]> = (0..keys).map(at).collect();
@@ -65,12 +65,12 @@ pub fn take(name: &str, skeleton: &Skeleton, length: f32, keys: usize) -> Take {
     Take { name: name.to_owned(), start: 0.0, length, tracks: tracks.collect(), morphs: Vec::new() }
 }
 
-/// Everything filled: bones, takes, a material, a warning.
+/// Returns a view with bones, takes, a material and a warning.
 pub fn full() -> View {
     view("Fox.glb", skeleton(9), &[("Survey", 3.417, 41), ("Walk", 0.708, 18), ("Run", 1.158, 26)])
 }
 
-/// A model of `skeleton` with takes of these names, lengths and numbers of keys.
+/// Returns a view of `skeleton` with takes of these names, lengths and numbers of keys.
 pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> View {
     let takes =
         takes.iter().map(|(name, length, keys)| Arc::new(take(name, &skeleton, *length, *keys))).collect();
@@ -93,7 +93,7 @@ pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> Vi
     View::opened(1, Arc::new(loaded))
 }
 
-/// A file that was read and holds nothing.
+/// Returns the view of a file without content.
 pub fn empty() -> View {
     let mut view = view("empty.gltf", Skeleton::default(), &[]);
     view.generation = 2;

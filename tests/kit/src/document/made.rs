@@ -1,4 +1,4 @@
-//! Small models made by code: a ball, a sheet, and whatever bones a test wants.
+//! Small models made in code: a ball, a sheet, and skeletons as tests need them.
 
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::*;
@@ -7,7 +7,7 @@ use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// `model` as if it had been loaded, with the pixels of its images.
+/// Returns `model` as if it had been loaded, with the pixels of its images.
 pub fn loaded(model: ModelData, images: Vec<DecodedImage>) -> Arc<LoadedModel> {
     let model = Arc::new(model);
     Arc::new(LoadedModel {
@@ -21,7 +21,7 @@ pub fn loaded(model: ModelData, images: Vec<DecodedImage>) -> Arc<LoadedModel> {
     })
 }
 
-/// Each primitive as a mesh that stands still.
+/// Returns each primitive as a mesh that does not move.
 pub fn standing(primitives: Vec<Primitive>, materials: Vec<Material>) -> ModelData {
     ModelData {
         instances: (0..primitives.len() as u32).map(|mesh| instance(mesh, None, None)).collect(),
@@ -31,22 +31,22 @@ pub fn standing(primitives: Vec<Primitive>, materials: Vec<Material>) -> ModelDa
     }
 }
 
-/// A mesh of one primitive.
+/// Returns a mesh of one primitive.
 pub fn mesh(primitive: Primitive) -> Mesh {
     Mesh { name: String::new(), primitives: vec![primitive], morph_weights: Vec::new() }
 }
 
-/// A mesh placed.
+/// Returns an instance of a mesh.
 pub fn instance(mesh: u32, skin: Option<u32>, bone: Option<BoneIndex>) -> MeshInstance {
     MeshInstance { mesh, node: None, skin, bone, to_bone: Mat4::IDENTITY, morph_weights: Vec::new() }
 }
 
-/// Not metal, a little shiny.
+/// Returns a material that is not metallic and slightly shiny.
 pub fn paint(base_color: Vec4) -> Material {
     Material { base_color, metallic: Metallic { metallic: 0.0, roughness: 0.5 }, ..Material::default() }
 }
 
-/// A ball of radius 1 around the origin with every column but colours and influences; material 0.
+/// Returns a ball of radius 1 around the origin with every column except colors and influences; material 0.
 pub fn ball() -> Primitive {
     const RINGS: u32 = 16;
     const SIDES: u32 = 24;
@@ -73,7 +73,7 @@ pub fn ball() -> Primitive {
     Primitive { vertices, indices, material: Some(0), morph_targets: Vec::new() }
 }
 
-/// A square from -1 to 1 that faces +Z; texture coordinates start at its upper left; material 0.
+/// Returns a square from -1 to 1 that faces +Z; texture coordinates start at its upper left; material 0.
 pub fn sheet() -> Primitive {
     let corners = [Vec2::ZERO, Vec2::Y, Vec2::ONE, Vec2::X];
     let vertices = Vertices {
@@ -85,8 +85,8 @@ pub fn sheet() -> Primitive {
     Primitive { vertices, indices: vec![0, 1, 2, 0, 2, 3], material: Some(0), morph_targets: Vec::new() }
 }
 
-/// Bones in a row, each the child of the one before and `step` away from it, and a take of one second in which each
-/// goes from rest to `end` of its index.
+/// Returns bones in a row, each the child of the one before and `step` away from it, and a take of one second in
+/// which each moves from rest to `end` of its index.
 pub fn chain(count: u32, step: Vec3, end: impl Fn(u32) -> Transform) -> AnimationData {
     let rest = |index| if index == 0 { Vec3::ZERO } else { step };
     let bones = (0..count).map(|index| Bone {

@@ -1,4 +1,4 @@
-//! A small model with every kind of channel, made in code: what edits are tried on.
+//! A small model with every kind of channel, made in code, for tests of edits.
 
 use crate::random::Random;
 use dragonfly_anim::data::{
@@ -12,8 +12,9 @@ use std::sync::Arc;
 /// Bones of the model: `root`, `hip`, `hand.L`, `hand.R`, `still`.
 pub const BONES: [&str; 5] = ["root", "hip", "hand.L", "hand.R", "still"];
 
-/// Three takes: "walk" (linear, step and cubic channels, morph weights; one column of times for most), "wave" (one key a
-/// channel), "stand" (two equal keys a channel, in steps: how exporters write what does not move).
+/// Returns three takes: "walk" (linear, step and cubic channels, morph weights; one column of times for most), "wave"
+/// (one key per channel), "stand" (two equal keys per channel, with step interpolation, as exporters write channels
+/// that do not move).
 pub fn animation(random: &mut Random) -> AnimationData {
     let bones = BONES.iter().enumerate().map(|(index, name)| Bone {
         name: (*name).to_owned(),
@@ -83,7 +84,7 @@ fn track(random: &mut Random, bone: u32, times: &Arc<[f32]>, interpolation: Inte
     }
 }
 
-/// The same with the first of its keys only, and again as near to it as who computes it twice comes.
+/// Returns the track with two keys per channel that are equal except for rounding.
 fn standing(mut track: Track) -> Track {
     let near = |value: Vec3| value * (1.0 + 2e-7);
     track.translation.values = [track.translation.values[0], near(track.translation.values[0])].into();
@@ -92,22 +93,22 @@ fn standing(mut track: Track) -> Track {
     track
 }
 
-/// The model of [`animation`] with the seed `number`, as a document that is edited.
+/// Returns the model of [`animation`] with the seed `number`, as an editable document.
 pub fn model(number: u64) -> ModelAdapter {
     ModelAdapter::new(&animation(&mut Random::new(number)))
 }
 
-/// The take "walk".
+/// Returns a reference to the take "walk".
 pub fn walk() -> TakeRef {
     TakeRef::Name("walk".to_owned())
 }
 
-/// The bone named `name`.
+/// Returns a reference to the bone named `name`.
 pub fn bone(name: &str) -> BoneRef {
     BoneRef::Name(name.to_owned())
 }
 
-/// A pose of the bone named `name` that sets nothing yet.
+/// Returns a pose of the bone named `name` that sets no values yet.
 pub fn pose(name: &str) -> BonePose {
     BonePose { bone: bone(name), translation: None, rotation: None, scale: None }
 }

@@ -1,7 +1,7 @@
-//! Models made by code, and a document in its thread without a window.
+//! Models made in code, and a document in its thread without a window.
 
 pub mod arm;
-pub mod desk;
 pub mod fixture;
 pub mod made;
 pub mod made_take;
+pub mod test_document;

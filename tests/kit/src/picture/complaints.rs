@@ -1,7 +1,7 @@
-//! No test may make the graphics library complain: whatever it calls an error of ours ("validation"), on any device and in
-//! any thread, fails the tests that draw, and so does a line about it in the log of the real program.
+//! No test may cause a validation error: an error of the program that the graphics library finds on any device in any
+//! thread fails the tests that draw, and so does a line about it in the log of the real program.
 //!
-//! Excepted are the tests of `faults`, whose layer provokes errors that are not ours.
+//! The tests of `faults` are exempt, because their layer provokes such errors on purpose.
 
 use std::ffi::OsStr;
 use std::fmt::{Debug, Write};
@@ -11,18 +11,18 @@ use tracing::field::{Field, Visit};
 use tracing::span::{Attributes, Id, Record};
 use tracing::{Event, Metadata, Subscriber};
 
-/// How the program begins to tell of such an error.
+/// Start of the log message about such an error.
 const WORDS: &str = "unexpected graphics error";
 
-/// In this process, since it began.
+/// Number of validation errors in this process since it started.
 static COMPLAINTS: AtomicUsize = AtomicUsize::new(0);
 
-/// While there is one, somebody draws; at its end nothing may have been complained about.
+/// A guard for code that draws. When it is dropped, no validation error may have occurred.
 #[derive(Debug)]
 pub struct NoComplaints(());
 
 impl NoComplaints {
-    /// Listens from now on.
+    /// Counts validation errors from now on.
     pub fn expect() -> Self {
         static LISTEN: Once = Once::new();
         LISTEN.call_once(|| tracing::subscriber::set_global_default(Listener).expect("nobody else listens"));
@@ -32,7 +32,7 @@ impl NoComplaints {
 
 impl Drop for NoComplaints {
     fn drop(&mut self) {
-        // One that comes from another test fails this one too; the text stands where it happened.
+        // An error of another test fails this one too; its text is in the output of the test that caused it.
         let complaints = COMPLAINTS.load(Ordering::Relaxed);
         if !std::thread::panicking() {
             assert_eq!(complaints, 0, "{WORDS}s in this process");
@@ -40,14 +40,14 @@ impl Drop for NoComplaints {
     }
 }
 
-/// Fails when a program that drew without the layer of faults tells of such an error.
+/// Fails if the log of a program that drew without the fault layer contains such an error.
 #[track_caller]
 pub fn none_in<'a>(said: &str, environment: impl IntoIterator<Item = &'a OsStr>) {
     let provoked = environment.into_iter().any(|name| name.as_encoded_bytes().starts_with(b"FAULT_"));
     assert!(provoked || !said.contains(WORDS), "{said}");
 }
 
-/// Hears of errors and of nothing else, so that tests which count allocations count none of its.
+/// Receives error events and no others, so that it adds nothing to tests that count allocations.
 struct Listener;
 
 impl Subscriber for Listener {
@@ -56,11 +56,11 @@ impl Subscriber for Listener {
     }
 
     fn event(&self, event: &Event<'_>) {
-        let mut said = Said(String::new());
+        let mut said = EventText(String::new());
         event.record(&mut said);
         if said.0.contains(WORDS) {
             COMPLAINTS.fetch_add(1, Ordering::Relaxed);
-            // In the thread that made the error, so in the output of its test.
+            // Printed in the thread that caused the error, so it appears in the output of its test.
             eprintln!("{}", said.0);
         }
     }
@@ -75,10 +75,10 @@ impl Subscriber for Listener {
     fn exit(&self, _: &Id) {}
 }
 
-/// Everything an event says, in a row.
-struct Said(String);
+/// The text of all fields of an event, in one line.
+struct EventText(String);
 
-impl Visit for Said {
+impl Visit for EventText {
     fn record_debug(&mut self, field: &Field, value: &dyn Debug) {
         let _ = write!(self.0, "{field}={value:?} ");
     }

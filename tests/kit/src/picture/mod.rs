@@ -1,4 +1,4 @@
-//! Devices and pictures for tests.
+//! Graphics devices and images for tests.
 
 pub mod complaints;
 pub mod images;

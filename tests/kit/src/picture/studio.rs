@@ -1,18 +1,18 @@
-//! A device for tests; they are skipped where there is no Vulkan adapter.
+//! Graphics devices for tests, which are skipped where there is no Vulkan adapter.
 
 use super::complaints::NoComplaints;
 use crate::skip::{TestNeed, skip};
 use dragonfly_picture::{DeviceParameters, GraphicsError, Studio};
 use std::ops::{Deref, DerefMut};
 
-/// A studio in which nothing may be done wrong.
-pub struct Watched {
+/// A studio whose use must cause no validation error.
+pub struct CheckedStudio {
     studio: Studio,
     // Dropped last, when the device is gone.
     _watch: NoComplaints,
 }
 
-impl Deref for Watched {
+impl Deref for CheckedStudio {
     type Target = Studio;
 
     fn deref(&self) -> &Studio {
@@ -20,17 +20,17 @@ impl Deref for Watched {
     }
 }
 
-impl DerefMut for Watched {
+impl DerefMut for CheckedStudio {
     fn deref_mut(&mut self) -> &mut Studio {
         &mut self.studio
     }
 }
 
 /// Returns a studio on the adapter of the machine; skips the test where there is none.
-pub fn studio() -> Option<Watched> {
+pub fn studio() -> Option<CheckedStudio> {
     let watch = NoComplaints::expect();
     match Studio::with(DeviceParameters::default()) {
-        Ok(studio) => Some(Watched { studio, _watch: watch }),
+        Ok(studio) => Some(CheckedStudio { studio, _watch: watch }),
         Err(GraphicsError::NoAdapter(reason)) => {
             skip(TestNeed::Adapter, reason);
             None

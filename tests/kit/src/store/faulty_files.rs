@@ -1,4 +1,4 @@
-//! A file system that fails at one call, or from one call on, as disks do once in years.
+//! A file system that fails at one call, or from one call on, as real disks rarely do.
 
 use dragonfly_store::{Attribute, FileData, RealFiles, Vfs, VfsFile};
 use std::ffi::OsString;
@@ -49,33 +49,33 @@ impl Fault {
     }
 }
 
-/// What somebody else does meanwhile.
-struct Meddling(Box<dyn Fn() + Send + Sync>);
+/// An action of another program, performed before a chosen call.
+struct Interference(Box<dyn Fn() + Send + Sync>);
 
-impl Debug for Meddling {
+impl Debug for Interference {
     fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
         out.write_str("somebody else")
     }
 }
 
-/// How many calls there were, and which is to fail.
+/// Number of calls made, and the range of calls that fail.
 #[derive(Debug)]
 struct Plan {
     calls: AtomicU64,
     from: u64,
     to: u64,
     fault: Fault,
-    meddling: Option<Meddling>,
+    meddling: Option<Interference>,
 }
 
 impl Plan {
-    /// Counts a call; `Ok(true)` when only half of it is to be done.
+    /// Counts a call. Returns `Ok(true)` when only half of it is to be done.
     fn call(&self) -> io::Result<bool> {
         let call = self.calls.fetch_add(1, Ordering::Relaxed) + 1;
         if !(self.from..=self.to).contains(&call) {
             return Ok(false);
         }
-        if let Some(Meddling(act)) = &self.meddling {
+        if let Some(Interference(act)) = &self.meddling {
             act();
             return Ok(false);
         }
@@ -83,34 +83,34 @@ impl Plan {
     }
 }
 
-/// The real file system, but for the calls that fail.
+/// The real file system, except for the calls that fail.
 #[derive(Clone, Debug)]
 pub struct FaultyFiles(Arc<Plan>);
 
 impl FaultyFiles {
-    /// Call `number`, counted from 1, comes to `fault`.
+    /// Returns a file system in which call `number`, counted from 1, fails with `fault`.
     pub fn once(number: u64, fault: Fault) -> Self {
         Self::between(number, number, fault)
     }
 
-    /// Call `number` and all that follow come to `fault`.
+    /// Returns a file system in which call `number` and all later calls fail with `fault`.
     pub fn from(number: u64, fault: Fault) -> Self {
         Self::between(number, u64::MAX, fault)
     }
 
-    /// Right before call `number` somebody else does something; no call fails.
+    /// Returns a file system that runs `act` right before call `number`; no call fails.
     pub fn meddling(number: u64, act: impl Fn() + Send + Sync + 'static) -> Self {
-        let meddling = Some(Meddling(Box::new(act)));
+        let meddling = Some(Interference(Box::new(act)));
         let calls = AtomicU64::new(0);
         Self(Arc::new(Plan { calls, from: number, to: number, fault: Fault::Io, meddling }))
     }
 
-    /// All calls from one to another come to `fault`.
+    /// Returns a file system in which the calls `from..=to` fail with `fault`.
     pub fn between(from: u64, to: u64, fault: Fault) -> Self {
         Self(Arc::new(Plan { calls: AtomicU64::new(0), from, to, fault, meddling: None }))
     }
 
-    /// Calls made so far.
+    /// Returns the number of calls made so far.
     pub fn calls(&self) -> u64 {
         self.0.calls.load(Ordering::Relaxed)
     }
@@ -205,7 +205,7 @@ impl VfsFile for FaultyFile {
                 let whole = if short { bytes.len().div_ceil(2) } else { bytes.len() };
                 self.file.write_at(&bytes[..whole], offset)
             }
-            // A disk that fails has often done a part of it.
+            // A failing disk has often completed a part of the write.
             Err(error) if error.kind() != io::ErrorKind::Interrupted => {
                 let _ = self.file.write_at(&bytes[..bytes.len() / 3], offset);
                 Err(error)

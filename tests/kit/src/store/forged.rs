@@ -1,6 +1,6 @@
 //! Journals written byte by byte as their format describes, independently of the code that reads them.
 
-/// CRC-32C, computed bit by bit.
+/// Returns the CRC-32C of the bytes, computed bit by bit.
 pub fn crc32c(bytes: &[u8]) -> u32 {
     let mut rest = !0_u32;
     for byte in bytes {
@@ -12,7 +12,7 @@ pub fn crc32c(bytes: &[u8]) -> u32 {
     !rest
 }
 
-/// A journal in format `version` with the text `header` and records of these kinds and bytes.
+/// Returns a journal in format `version` with the text `header` and records of these kinds and bytes.
 pub fn forged_with(header: &str, version: u32, records: &[(u8, &[u8])]) -> Vec<u8> {
     let text = header.as_bytes();
     let mut bytes = b"\x89DFJ\r\n\x1a\n".to_vec();

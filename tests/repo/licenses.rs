@@ -1,11 +1,11 @@
-//! Everything the program is made of may be given away with it, under terms as free as its own.
+//! Licenses: every dependency may be distributed with the program, under terms as permissive as its own.
 
 use crate::tree::{none, one, root};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::process::Command;
 
-/// Terms that ask for no more than their own text.
+/// Licenses that only require their own text to be included.
 const PERMISSIVE: &[&str] = &[
     "0BSD",
     "Apache-2.0",
@@ -22,7 +22,7 @@ const PERMISSIVE: &[&str] = &[
     "Zlib",
 ];
 
-/// Packages with other terms, and why they are taken all the same.
+/// Packages with other licenses, and the reason why they are accepted.
 const EXCEPTIONS: &[(&str, &str, &str)] = &[
     ("epaint_default_fonts", "OFL-1.1", "fonts: may be embedded and given away with any program"),
     ("epaint_default_fonts", "Ubuntu-font-1.0", "fonts: may be embedded and given away with any program"),
@@ -33,7 +33,7 @@ const EXCEPTIONS: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// Does the expression leave a choice that only asks for terms in `allowed`?
+/// Returns whether the license expression allows a choice that only needs licenses in `allowed`.
 fn permits(expression: &str, allowed: &dyn Fn(&str) -> bool) -> bool {
     let spaced = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
     let tokens: Vec<&str> = spaced.split_whitespace().collect();
@@ -42,7 +42,7 @@ fn permits(expression: &str, allowed: &dyn Fn(&str) -> bool) -> bool {
     permitted && position == tokens.len()
 }
 
-/// `A OR B`.
+/// Parses `A OR B`.
 fn any(tokens: &[&str], position: &mut usize, allowed: &dyn Fn(&str) -> bool) -> bool {
     let mut permitted = all(tokens, position, allowed);
     while tokens.get(*position) == Some(&"OR") {
@@ -52,7 +52,7 @@ fn any(tokens: &[&str], position: &mut usize, allowed: &dyn Fn(&str) -> bool) ->
     permitted
 }
 
-/// `A AND B`, which binds tighter.
+/// Parses `A AND B`, which binds tighter.
 fn all(tokens: &[&str], position: &mut usize, allowed: &dyn Fn(&str) -> bool) -> bool {
     let mut permitted = single(tokens, position, allowed);
     while tokens.get(*position) == Some(&"AND") {
@@ -62,7 +62,7 @@ fn all(tokens: &[&str], position: &mut usize, allowed: &dyn Fn(&str) -> bool) ->
     permitted
 }
 
-/// A name, with its exception, or something in brackets.
+/// Parses a name with its exception, or an expression in parentheses.
 fn single(tokens: &[&str], position: &mut usize, allowed: &dyn Fn(&str) -> bool) -> bool {
     let Some(token) = tokens.get(*position) else { return false };
     *position += 1;
@@ -79,7 +79,7 @@ fn single(tokens: &[&str], position: &mut usize, allowed: &dyn Fn(&str) -> bool)
     allowed(token)
 }
 
-/// Name and licence of every package that is built for this machine.
+/// Returns the name and license of every package that is built for this machine.
 fn packages() -> Vec<(String, String)> {
     let version = Command::new("rustc").arg("-vV").output().expect("rustc -vV");
     let version = String::from_utf8(version.stdout).expect("text");
@@ -114,7 +114,7 @@ fn is_free(packages: &[(String, String)]) -> Vec<String> {
 }
 
 #[test]
-fn every_dependency_may_be_given_away_with_the_program() {
+fn every_dependency_has_an_allowed_license() {
     let packages = packages();
     assert!(packages.len() > 100, "only {} packages found", packages.len());
     none(is_free(&packages));
@@ -128,7 +128,7 @@ fn every_dependency_may_be_given_away_with_the_program() {
 }
 
 #[test]
-fn no_exception_outlives_its_reason() {
+fn no_license_exception_is_unused() {
     let packages = packages();
     for (name, term, _) in EXCEPTIONS.iter().filter(|(name, ..)| *name != "colored") {
         let used = packages.iter().any(|(package, licence)| package == name && licence.contains(term));

@@ -1,4 +1,4 @@
-//! A document in its thread, as the window has it, without a window: what it is told, what it says, what it shows.
+//! A document in its thread, without a window: tests send messages to it and wait for its replies and views.
 
 use crate::folder::{Folder, data};
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, SetPose, TakeRef};
@@ -17,9 +17,9 @@ use std::time::{Duration, Instant};
 const SOON: Duration = Duration::from_secs(60);
 
 #[derive(Clone, Default)]
-struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+struct RecordedReplies(Rc<RefCell<Vec<DocumentReply>>>);
 
-impl Receiver for Heard {
+impl Receiver for RecordedReplies {
     type Message = DocumentReply;
 
     fn receive(&mut self, reply: DocumentReply, _thread: &mut Context) {
@@ -28,9 +28,9 @@ impl Receiver for Heard {
 }
 
 #[derive(Clone, Default)]
-struct Shown(Rc<RefCell<Option<View>>>);
+struct LatestView(Rc<RefCell<Option<View>>>);
 
-impl Receiver for Shown {
+impl Receiver for LatestView {
     type Message = View;
 
     fn receive(&mut self, view: View, _thread: &mut Context) {
@@ -38,56 +38,56 @@ impl Receiver for Shown {
     }
 }
 
-/// The document, and who listens to it.
-pub struct Desk {
+/// A running document with the replies and views that it sent.
+pub struct TestDocument {
     main: Captured,
     document: DocumentHandle,
-    heard: Heard,
-    shown: Shown,
+    heard: RecordedReplies,
+    shown: LatestView,
 }
 
-/// An autosave folder of a test.
+/// Returns the autosave of a test in `folder`.
 pub fn autosave_in(folder: &Path) -> Autosave {
     autosave_with(folder, RealFiles)
 }
 
-/// An autosave folder of a test on the file system `files`.
+/// Returns the autosave of a test in `folder` on the file system `files`.
 pub fn autosave_with(folder: &Path, files: impl Vfs + 'static) -> Autosave {
     Autosave::new(Arc::new(files), Some(folder.to_owned())).expect("the folder is given")
 }
 
-/// A copy of Fox in a folder of the test's own.
+/// Copies Fox into a folder of the test and returns the path of the copy.
 pub fn fox(folder: &Folder) -> PathBuf {
     let path = folder.join("Fox.glb");
     std::fs::copy(data("gltf/Fox.glb"), &path).expect("a file");
     path
 }
 
-/// Fox at a place of the test's own, copied there unless it is there already.
+/// Copies Fox to `path` unless there is a file already, and returns the path.
 pub fn fox_at(path: &Path) -> PathBuf {
     if !path.exists() {
         let bytes = std::fs::read(data("gltf/Fox.glb")).expect("a file");
-        // On the disk, whatever becomes of the machine.
+        // Synced to the disk, because the test may cut the power.
         dragonfly_store::replace(path, &bytes).expect("a file");
     }
     path.to_owned()
 }
 
-/// The program is killed: what is in its folders at this moment is all that is left, here in another folder. The file
-/// itself stays where it is, as it would.
-pub fn killed(autosave: &Path, to: &Path) {
+/// Simulates a killed program: copies its folders as they are at this moment to `to`. The file of the document itself
+/// stays where it is.
+pub fn copy_after_kill(autosave: &Path, to: &Path) {
     std::fs::create_dir_all(to).expect("a folder");
     for entry in std::fs::read_dir(autosave).expect("the autosave folder").flatten() {
         let target = to.join(entry.file_name());
         if entry.path().is_dir() {
-            killed(&entry.path(), &target);
+            copy_after_kill(&entry.path(), &target);
         } else {
             std::fs::copy(entry.path(), target).expect("a copy");
         }
     }
 }
 
-/// Turns the head of the fox in its first take.
+/// Returns an edit that rotates the head of the fox in its first take.
 pub fn turn(angle: f32) -> Edit {
     let (sine, cosine) = (angle / 2.0).sin_cos();
     let pose = BonePose {
@@ -99,20 +99,20 @@ pub fn turn(angle: f32) -> Edit {
     Edit::SetPose(SetPose { take: TakeRef::Index(0), time: 0.5, poses: vec![pose], unstep: false })
 }
 
-/// An edit that renames the first take.
+/// Returns an edit that renames the first take.
 pub fn rename(name: &str) -> Edit {
     Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() })
 }
 
-impl Desk {
-    /// A document that keeps its journals in `autosave`.
+impl TestDocument {
+    /// Starts a document with its journals in `autosave`.
     pub fn new(autosave: &Path) -> Self {
         Self::with(Setup { autosave: Some(autosave_in(autosave)), ..Setup::default() })
     }
 
     /// Starts a document with `setup`.
     pub fn with(setup: Setup) -> Self {
-        let (heard, shown) = (Heard::default(), Shown::default());
+        let (heard, shown) = (RecordedReplies::default(), LatestView::default());
         let mut main = Thread::capture("main", || {});
         let replies = main.context().register_receiver(heard.clone());
         let picture = main.context().register_receiver(shown.clone());
@@ -120,9 +120,9 @@ impl Desk {
         Self { main, document, heard, shown }
     }
 
-    /// Waits for something that it says, and takes it.
+    /// Waits for a reply for which `what` returns a value, and removes it from the unread replies.
     #[track_caller]
-    pub fn hears<T>(&mut self, mut what: impl FnMut(&DocumentReply) -> Option<T>) -> T {
+    pub fn wait_for_reply<T>(&mut self, mut what: impl FnMut(&DocumentReply) -> Option<T>) -> T {
         let mut found = None;
         let heard = Rc::clone(&self.heard.0);
         let deadline = Instant::now() + SOON;
@@ -133,25 +133,25 @@ impl Desk {
                 found = what(&heard.remove(place));
             }
             drop(heard);
-            assert!(found.is_some() || Instant::now() < deadline, "heard only {:#?}", self.said());
+            assert!(found.is_some() || Instant::now() < deadline, "heard only {:#?}", self.unread_replies());
             std::thread::park_timeout(Duration::from_millis(1));
         }
         found.expect("found")
     }
 
-    /// Everything that it said so far and nobody took.
-    pub fn said(&mut self) -> Vec<String> {
+    /// Returns all unread replies as text, without the large ones.
+    pub fn unread_replies(&mut self) -> Vec<String> {
         self.main.iterate();
         let heard = self.heard.0.borrow();
         heard.iter().filter(|reply| !is_large(reply)).map(|reply| format!("{reply:?}")).collect()
     }
 
     /// Sends a message to the document.
-    pub fn tell(&self, message: DocumentMessage) {
+    pub fn send(&self, message: DocumentMessage) {
         assert!(self.document.send(message));
     }
 
-    /// Opens a file, and waits until it is shown.
+    /// Opens a file and waits until it is shown.
     #[track_caller]
     pub fn open(&mut self, path: &Path) -> View {
         self.open_source(Source::File(path.to_owned()))
@@ -161,43 +161,43 @@ impl Desk {
     #[track_caller]
     pub fn open_source(&mut self, source: Source) -> View {
         let before = self.shown.0.borrow().as_ref().map_or(0, |view| view.generation);
-        self.tell(DocumentMessage::Open { source, anyway: true });
-        self.hears(|reply| match reply {
+        self.send(DocumentMessage::Open { source, anyway: true });
+        self.wait_for_reply(|reply| match reply {
             DocumentReply::Opened(_) => Some(()),
             DocumentReply::Failed { reason, .. } => panic!("{reason}"),
             _ => None,
         });
-        self.shows(|view| view.generation > before)
+        self.wait_for_view(|view| view.generation > before)
     }
 
-    /// Waits until this is shown.
+    /// Waits for a view for which `what` returns true.
     #[track_caller]
-    pub fn shows(&mut self, what: impl Fn(&View) -> bool) -> View {
+    pub fn wait_for_view(&mut self, what: impl Fn(&View) -> bool) -> View {
         let deadline = Instant::now() + SOON;
         while !self.shown.0.borrow().as_ref().is_some_and(&what) {
             self.main.iterate();
-            assert!(Instant::now() < deadline, "it is not shown; heard {:#?}", self.said());
+            assert!(Instant::now() < deadline, "it is not shown; heard {:#?}", self.unread_replies());
             std::thread::park_timeout(Duration::from_millis(1));
         }
         let view = self.shown.0.borrow().clone();
         view.expect("shown")
     }
 
-    /// The newest view, behind everything that was told so far.
+    /// Returns the newest view, after all messages sent so far were processed.
     #[track_caller]
     pub fn view(&mut self) -> View {
-        self.tell(DocumentMessage::Plan(None));
-        self.hears(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
-        // A view goes out at the end of the iteration, so another question is behind it.
-        self.tell(DocumentMessage::Plan(None));
-        self.hears(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
+        self.send(DocumentMessage::Plan(None));
+        self.wait_for_reply(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
+        // A view is sent at the end of the iteration, so a second request makes sure that it has arrived.
+        self.send(DocumentMessage::Plan(None));
+        self.wait_for_reply(|reply| matches!(reply, DocumentReply::Plan(..)).then_some(()));
         self.main.iterate();
         self.shown.0.borrow().clone().expect("something is open")
     }
 
     /// Sends a change to the document.
     pub fn change(&self, change: Change) {
-        self.tell(DocumentMessage::Change(change));
+        self.send(DocumentMessage::Change(change));
     }
 
     /// Sends an edit as a step of its own.
@@ -205,28 +205,28 @@ impl Desk {
         self.change(Change::Edit(edit, None));
     }
 
-    /// Saves, which must succeed.
+    /// Saves and waits for the result, which must be a success.
     #[track_caller]
     pub fn save(&mut self, to: SaveTo) -> SavedFile {
-        self.tell(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
-        self.hears(|reply| match reply {
+        self.send(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
+        self.wait_for_reply(|reply| match reply {
             DocumentReply::Saved(saved) => Some(saved.clone()),
             DocumentReply::NotSaved(_, reason) => panic!("{reason:?}"),
             _ => None,
         })
     }
 
-    /// The unsaved work that it offers.
+    /// Waits for the offers of unsaved work.
     #[track_caller]
-    pub fn offered(&mut self) -> Vec<Offer> {
-        self.hears(|reply| match reply {
+    pub fn wait_for_offers(&mut self) -> Vec<Offer> {
+        self.wait_for_reply(|reply| match reply {
             DocumentReply::Offers(offers) => Some(offers.clone()),
             _ => None,
         })
     }
 
-    /// The unsaved work that it has offered so far.
-    pub fn offered_already(&mut self) -> Vec<Offer> {
+    /// Returns the unsaved work offered so far, without waiting.
+    pub fn offers_so_far(&mut self) -> Vec<Offer> {
         self.main.iterate();
         let mut heard = self.heard.0.borrow_mut();
         let place = heard.iter().position(|reply| matches!(reply, DocumentReply::Offers(_)));
@@ -236,10 +236,10 @@ impl Desk {
         }
     }
 
-    /// Waits for a sentence with this in it.
+    /// Waits for a warning or notice that contains `word`, and returns it.
     #[track_caller]
-    pub fn warned(&mut self, word: &str) -> String {
-        self.hears(|reply| match reply {
+    pub fn wait_for_warning(&mut self, word: &str) -> String {
+        self.wait_for_reply(|reply| match reply {
             DocumentReply::Warning(text) | DocumentReply::Notice(text) if text.contains(word) => {
                 Some(text.clone())
             }
@@ -247,13 +247,13 @@ impl Desk {
         })
     }
 
-    /// Ends it in order.
+    /// Ends the document in order.
     pub fn end(self) {
         drop(self);
     }
 }
 
-impl Drop for Desk {
+impl Drop for TestDocument {
     fn drop(&mut self) {
         self.document.stop();
         let ended = Thread::wait_for(&[self.document.thread().clone()], Instant::now() + SOON);
@@ -261,12 +261,12 @@ impl Drop for Desk {
     }
 }
 
-/// Would it fill pages?
+/// Returns whether the text of the reply would fill pages.
 fn is_large(reply: &DocumentReply) -> bool {
     matches!(reply, DocumentReply::View(_) | DocumentReply::Opened(_) | DocumentReply::Loading { .. })
 }
 
-/// Are the takes the same, number by number, in their three forms?
+/// Asserts that the takes of two views are equal in all three versions, number by number.
 #[track_caller]
 pub fn same_takes(one: &View, other: &View) {
     assert_eq!(one.takes.len(), other.takes.len());
