@@ -359,7 +359,7 @@ fn converting_a_channel_to_a_spline_and_back_restores_it() {
             interpolation,
         })
     };
-    model.apply(&to(Between::CubicSpline)).unwrap();
+    model.apply(&to(KeyInterpolation::CubicSpline)).unwrap();
     model.check().unwrap();
     let spline = Arc::clone(&model.slots()[0].result);
     assert_eq!(spline.tracks[0].rotation.interpolation, Interpolation::CubicSpline);
@@ -378,7 +378,7 @@ fn converting_a_channel_to_a_spline_and_back_restores_it() {
     model.apply(&tangents).unwrap();
     model.check().unwrap();
     assert_eq!(model.slots()[0].result.tracks[0].translation.values[6], Vec3::new(1.0, 2.0, 3.0));
-    model.apply(&to(Between::Linear)).unwrap();
+    model.apply(&to(KeyInterpolation::Linear)).unwrap();
     model.check().unwrap();
     assert_eq!(model.slots()[0].result.tracks[0].rotation.values, before.tracks[0].rotation.values);
 }

@@ -131,14 +131,14 @@ fn one(bone: &str, interpolation: Between, keys: Vec<CopiedKey>) -> Vec<CopiedCh
 fn a_channel_without_keys_gets_the_way_of_the_keys_and_a_spline_gets_tangents() {
     let mut model = model(9);
     let keys = vec![key(0.0, &[0.0; 3]), key(1.0, &[1.0, 0.0, 0.0]), key(2.0, &[4.0, 0.0, 0.0])];
-    model.apply(&paste(walk(), 0.5, one("still", Between::Step, keys.clone()))).unwrap();
+    model.apply(&paste(walk(), 0.5, one("still", KeyInterpolation::Step, keys.clone()))).unwrap();
     model.check().unwrap();
     let slot = model.slots()[0].clone();
     assert_eq!(slot.result.tracks[4].translation.interpolation, Interpolation::Step);
     assert_eq!(slot.result.tracks[4].translation.times[..], [0.5, 1.5, 2.5]);
     assert_eq!(slot.result.end(), 2.5, "the take goes on as long as they do");
     // Far behind the keys of a spline: the middle one runs along the way from the first to the last.
-    model.apply(&paste(walk(), 4.0, one("hip", Between::Linear, keys))).unwrap();
+    model.apply(&paste(walk(), 4.0, one("hip", KeyInterpolation::Linear, keys))).unwrap();
     model.check().unwrap();
     let hip = model.slots()[0].result.tracks[1].translation.clone();
     assert_eq!(hip.interpolation, Interpolation::CubicSpline);
@@ -152,25 +152,27 @@ fn what_cannot_be_a_key_is_refused_and_other_models_bones_are_passed_over() {
     let mut model = model(10);
     let before = model.slots()[0].clone();
     for (time, channels) in [
-        (0.5, one("root", Between::Linear, vec![key(0.0, &[0.0; 2])])),
-        (0.5, one("root", Between::Linear, vec![key(0.0, &[f32::NAN, 0.0, 0.0])])),
-        (0.5, one("root", Between::Linear, vec![key(f64::INFINITY, &[0.0; 3])])),
-        (0.5, one("root", Between::Linear, vec![key(-1.0, &[0.0; 3])])),
-        (f32::NAN, one("root", Between::Linear, vec![key(0.0, &[0.0; 3])])),
-        (0.5, one("root", Between::Linear, Vec::new())),
-        (0.5, one("tail of another model", Between::Linear, vec![key(0.0, &[0.0; 3])])),
+        (0.5, one("root", KeyInterpolation::Linear, vec![key(0.0, &[0.0; 2])])),
+        (0.5, one("root", KeyInterpolation::Linear, vec![key(0.0, &[f32::NAN, 0.0, 0.0])])),
+        (0.5, one("root", KeyInterpolation::Linear, vec![key(f64::INFINITY, &[0.0; 3])])),
+        (0.5, one("root", KeyInterpolation::Linear, vec![key(-1.0, &[0.0; 3])])),
+        (f32::NAN, one("root", KeyInterpolation::Linear, vec![key(0.0, &[0.0; 3])])),
+        (0.5, one("root", KeyInterpolation::Linear, Vec::new())),
+        (0.5, one("tail of another model", KeyInterpolation::Linear, vec![key(0.0, &[0.0; 3])])),
         (0.5, Vec::new()),
     ] {
         assert!(model.apply(&paste(walk(), time, channels.clone())).is_err(), "{channels:?}");
         assert!(std::sync::Arc::ptr_eq(&model.slots()[0], &before));
     }
-    let mut both = one("tail of another model", Between::Linear, vec![key(0.0, &[0.0; 3])]);
-    both.extend(one("root", Between::Linear, vec![key(0.1, &[1.0; 3])]));
+    let mut both = one("tail of another model", KeyInterpolation::Linear, vec![key(0.0, &[0.0; 3])]);
+    both.extend(one("root", KeyInterpolation::Linear, vec![key(0.1, &[1.0; 3])]));
     model.apply(&paste(walk(), 0.5, both)).unwrap();
     // Where one comes, nothing waits any more.
     let wait = BonePose { bone: BoneRef::Index(0), translation: Some([5.0; 3]), rotation: None, scale: None };
     model.apply(&Edit::SetPending(SetPending { take: walk(), time: 0.9, poses: vec![wait] })).unwrap();
-    model.apply(&paste(walk(), 0.8, one("root", Between::Linear, vec![key(0.1, &[2.0; 3])]))).unwrap();
+    model
+        .apply(&paste(walk(), 0.8, one("root", KeyInterpolation::Linear, vec![key(0.1, &[2.0; 3])])))
+        .unwrap();
     assert_eq!(model.slots()[0].pending_poses(), 0);
     assert_eq!(ModelAdapter::check(&model), Ok(()));
 }

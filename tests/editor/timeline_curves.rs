@@ -98,7 +98,7 @@ fn a_tangent_is_dragged_by_its_end_and_alt_breaks_it() {
             take: dragonfly_document::edit::TakeRef::Index(0),
             bones: Vec::new(),
             properties: vec![Property::Rotation],
-            interpolation: Between::CubicSpline,
+            interpolation: KeyInterpolation::CubicSpline,
         });
         animator.request(Request::Change(dragonfly_document::Change::Edit(edit, None)));
         animator.steps(4);

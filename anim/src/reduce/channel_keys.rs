@@ -5,7 +5,7 @@ use crate::sample::{Keys, Value, mix_factor, sample_between};
 
 /// The property of a bone that a channel animates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ChannelKind {
+pub(super) enum CurveKind {
     Translation,
     Rotation,
     Scale,
@@ -14,7 +14,7 @@ pub(super) enum ChannelKind {
 /// The keys of one channel: the remaining ones, and the neighbors of each among those.
 pub(super) struct ChannelKeys {
     pub(super) bone: BoneIndex,
-    pub(super) property: ChannelKind,
+    pub(super) property: CurveKind,
     /// The frame of each key.
     pub(super) frames: Vec<u32>,
     /// Whether each key remains.
@@ -30,7 +30,7 @@ impl ChannelKeys {
     /// or is not valid enough to be changed.
     pub(super) fn new<T: Value>(
         bone: BoneIndex,
-        property: ChannelKind,
+        property: CurveKind,
         channel: &Channel<T>,
         times: &[f32],
     ) -> Option<Self> {

@@ -1,6 +1,6 @@
 //! Building an ordinary take from the remaining keys.
 
-use super::channel_keys::{ChannelKeys, ChannelKind};
+use super::channel_keys::{ChannelKeys, CurveKind};
 use crate::data::{Channel, Interpolation, Take};
 use crate::sample::Value;
 use glam::Quat;
@@ -11,9 +11,9 @@ pub(super) fn rebuild(take: &Take, columns: &[ChannelKeys]) -> Take {
     for column in columns {
         let track = &mut reduced.tracks[column.bone as usize];
         match column.property {
-            ChannelKind::Translation => track.translation = shorter(&track.translation, column),
-            ChannelKind::Scale => track.scale = shorter(&track.scale, column),
-            ChannelKind::Rotation => {
+            CurveKind::Translation => track.translation = shorter(&track.translation, column),
+            CurveKind::Scale => track.scale = shorter(&track.scale, column),
+            CurveKind::Rotation => {
                 let rotation = shorter(&track.rotation, column);
                 track.rotation =
                     if rotation.len() < track.rotation.len() { one_hemisphere(rotation) } else { rotation };

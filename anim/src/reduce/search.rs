@@ -1,6 +1,6 @@
 //! The search for removable keys: the cheapest first, each tried on every frame that it affects before it is removed.
 
-use super::channel_keys::{ChannelKeys, ChannelKind, Gap};
+use super::channel_keys::{ChannelKeys, CurveKind, Gap};
 use super::frames::SampledTake;
 use super::measure::deviation_above;
 use super::settings::Lengths;
@@ -103,9 +103,9 @@ impl<'a> KeySearch<'a> {
         let ChannelKeys { bone, property, .. } = self.columns[column];
         let track = &self.take.tracks[bone as usize];
         match property {
-            ChannelKind::Translation => is_constant(&track.translation),
-            ChannelKind::Rotation => is_constant(&track.rotation),
-            ChannelKind::Scale => is_constant(&track.scale),
+            CurveKind::Translation => is_constant(&track.translation),
+            CurveKind::Rotation => is_constant(&track.rotation),
+            CurveKind::Scale => is_constant(&track.scale),
         }
     }
 
@@ -156,9 +156,9 @@ impl<'a> KeySearch<'a> {
         let ChannelKeys { bone, property, .. } = self.columns[column];
         let (track, gap) = (&self.take.tracks[bone as usize], self.columns[column].gap(key));
         match property {
-            ChannelKind::Translation => switches(&track.translation, key, gap),
-            ChannelKind::Rotation => switches(&track.rotation, key, gap),
-            ChannelKind::Scale => switches(&track.scale, key, gap),
+            CurveKind::Translation => switches(&track.translation, key, gap),
+            CurveKind::Rotation => switches(&track.rotation, key, gap),
+            CurveKind::Scale => switches(&track.scale, key, gap),
         }
     }
 
@@ -182,11 +182,11 @@ impl<'a> KeySearch<'a> {
         let now = self.poses[frame * self.skeleton.len() + bone];
         let mut pose = now;
         match property {
-            ChannelKind::Translation => {
+            CurveKind::Translation => {
                 pose.translation = gap.sample(&track.translation, rest.translation, time)
             }
-            ChannelKind::Rotation => pose.rotation = gap.sample(&track.rotation, rest.rotation, time),
-            ChannelKind::Scale => pose.scale = gap.sample(&track.scale, rest.scale, time),
+            CurveKind::Rotation => pose.rotation = gap.sample(&track.rotation, rest.rotation, time),
+            CurveKind::Scale => pose.scale = gap.sample(&track.scale, rest.scale, time),
         }
         (pose != now).then_some(pose)
     }
@@ -241,9 +241,9 @@ impl<'a> KeySearch<'a> {
         let ChannelKeys { bone, property, .. } = self.columns[column];
         let track = &self.take.tracks[bone as usize];
         let interpolation = match property {
-            ChannelKind::Translation => track.translation.interpolation,
-            ChannelKind::Rotation => track.rotation.interpolation,
-            ChannelKind::Scale => track.scale.interpolation,
+            CurveKind::Translation => track.translation.interpolation,
+            CurveKind::Rotation => track.rotation.interpolation,
+            CurveKind::Scale => track.scale.interpolation,
         };
         interpolation == Interpolation::Closest
     }
@@ -312,9 +312,9 @@ fn columns(take: &Take, bones: usize, times: &[f32]) -> Vec<ChannelKeys> {
     let mut columns = Vec::new();
     for (bone, track) in take.tracks.iter().take(bones).enumerate() {
         let bone = bone as BoneIndex;
-        columns.extend(ChannelKeys::new(bone, ChannelKind::Translation, &track.translation, times));
-        columns.extend(ChannelKeys::new(bone, ChannelKind::Rotation, &track.rotation, times));
-        columns.extend(ChannelKeys::new(bone, ChannelKind::Scale, &track.scale, times));
+        columns.extend(ChannelKeys::new(bone, CurveKind::Translation, &track.translation, times));
+        columns.extend(ChannelKeys::new(bone, CurveKind::Rotation, &track.rotation, times));
+        columns.extend(ChannelKeys::new(bone, CurveKind::Scale, &track.scale, times));
     }
     columns
 }

@@ -15,6 +15,7 @@ use x11rb::xcb_ffi::XCBConnection;
 
 /// A connection unknown to the main thread; clones share it.
 #[derive(Clone)]
+// Same name as another `OwnConnection`: one per platform, chosen by `cfg`.
 pub(super) struct OwnConnection {
     connection: Arc<XCBConnection>,
     screen: c_int,

@@ -1,6 +1,6 @@
 //! Copied keys: their values, independent of where they were.
 
-use super::{Between, BoneRef, Property};
+use super::{BoneRef, KeyInterpolation, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ pub struct CopiedChannel {
     pub property: Property,
     /// The interpolation of the copied channel. It is used only for a channel without keys; other channels keep
     /// theirs.
-    pub interpolation: Between,
+    pub interpolation: KeyInterpolation,
     /// The keys.
     pub keys: Vec<CopiedKey>,
 }

@@ -65,7 +65,7 @@ pub use examples::Example;
 pub use key_pending::KeyPending;
 pub use kind::EditInfo;
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
-pub use mode::{Between, NewKey, ResetTo};
+pub use mode::{KeyInterpolation, NewKey, ResetTo};
 pub use move_keys::MoveKeys;
 pub use move_take::MoveTake;
 pub use offset_pose::OffsetPose;

@@ -28,7 +28,7 @@ pub enum NewKey {
 /// The interpolation of a channel between its keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Between {
+pub enum KeyInterpolation {
     /// The value of the key before.
     Step,
     /// Linear interpolation.
@@ -37,12 +37,12 @@ pub enum Between {
     CubicSpline,
 }
 
-impl From<Between> for dragonfly_anim::data::Interpolation {
-    fn from(between: Between) -> Self {
+impl From<KeyInterpolation> for dragonfly_anim::data::Interpolation {
+    fn from(between: KeyInterpolation) -> Self {
         match between {
-            Between::Step => Self::Step,
-            Between::Linear => Self::Linear,
-            Between::CubicSpline => Self::CubicSpline,
+            KeyInterpolation::Step => Self::Step,
+            KeyInterpolation::Linear => Self::Linear,
+            KeyInterpolation::CubicSpline => Self::CubicSpline,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::kind::EditKind;
 use super::{
-    Arbitrary, Between, CopiedChannel, CopiedKey, EditedBones, Example, Property, SAME_TIME, TakeRef,
+    Arbitrary, CopiedChannel, CopiedKey, EditedBones, Example, KeyInterpolation, Property, SAME_TIME, TakeRef,
 };
 use crate::adapter::EditError;
 use crate::adapter::kind::{ChannelKind, ChannelNumbers, ChannelValue, with_kind};
@@ -87,7 +87,8 @@ impl EditKind for PasteKeys {
             leave: from.optional(value),
         };
         let keys = (0..from.below(4)).map(|_| key(from)).collect();
-        let interpolation = from.choice([Between::Step, Between::Linear, Between::CubicSpline]);
+        let interpolation =
+            from.choice([KeyInterpolation::Step, KeyInterpolation::Linear, KeyInterpolation::CubicSpline]);
         let channels = vec![CopiedChannel { bone: from.bone(), property, interpolation, keys }];
         Self { take: from.take(), time: from.time(), channels }
     }
@@ -158,7 +159,11 @@ fn read(
 }
 
 /// Gives a channel without keys the interpolation of the pasted keys.
-fn set_interpolation<K: ChannelKind>(work: &mut Transaction, address: ChannelAddress, between: Between) {
+fn set_interpolation<K: ChannelKind>(
+    work: &mut Transaction,
+    address: ChannelAddress,
+    between: KeyInterpolation,
+) {
     let interpolation = Interpolation::from(between);
     let Some(old) = work.slot(address.take).original_of::<K>(address.bone).cloned() else { return };
     if old.interpolation != interpolation {

@@ -36,7 +36,7 @@ impl EditKind for ReverseTake {
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
-        // A step channel keeps the value of each key on its key, so reversing twice is the identity. Between keys it then shows the
+        // A step channel keeps the value of each key on its key, so reversing twice is the identity. KeyInterpolation keys it then shows the
         // value of the key on the other side.
         let take = work.take(&self.take)?;
         let (start, end) = (work.slot(take).original.start, work.slot(take).original.end());

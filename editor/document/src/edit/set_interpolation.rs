@@ -1,7 +1,7 @@
 //! Sets the interpolation of channels.
 
 use super::kind::EditKind;
-use super::{Arbitrary, Between, BoneRef, EditedBones, Example, Property, TakeRef};
+use super::{Arbitrary, BoneRef, EditedBones, Example, KeyInterpolation, Property, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::change::{KeyChange, add, put, subtract};
 use crate::adapter::kind::{ChannelKind, ChannelValue, with_kind};
@@ -31,7 +31,7 @@ pub struct SetInterpolation {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub properties: Vec<Property>,
     /// The interpolation.
-    pub interpolation: Between,
+    pub interpolation: KeyInterpolation,
 }
 
 impl EditKind for SetInterpolation {
@@ -63,7 +63,8 @@ impl EditKind for SetInterpolation {
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        let interpolation = from.choice([Between::Step, Between::Linear, Between::CubicSpline]);
+        let interpolation =
+            from.choice([KeyInterpolation::Step, KeyInterpolation::Linear, KeyInterpolation::CubicSpline]);
         Self { take: from.take(), bones: from.bones(), properties: from.properties(), interpolation }
     }
 }

@@ -137,9 +137,9 @@ fn form(ui: &mut Ui, chosen: &mut Chosen) {
 fn between(ui: &mut Ui, curves: &[Arc<Curve>], state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let able = !state.keys.selection().is_empty();
     for (icon, id, kind, _) in [
-        (Icon::Step, Id::InterpolateStep, Interpolation::Step, Between::Step),
-        (Icon::Linear, Id::InterpolateLinear, Interpolation::Linear, Between::Linear),
-        (Icon::Spline, Id::InterpolateSpline, Interpolation::CubicSpline, Between::CubicSpline),
+        (Icon::Step, Id::InterpolateStep, Interpolation::Step, KeyInterpolation::Step),
+        (Icon::Linear, Id::InterpolateLinear, Interpolation::Linear, KeyInterpolation::Linear),
+        (Icon::Spline, Id::InterpolateSpline, Interpolation::CubicSpline, KeyInterpolation::CubicSpline),
     ] {
         let on = !curves.is_empty() && curves.iter().all(|curve| curve.interpolation() == kind);
         ui.add_enabled_ui(able, |ui| {

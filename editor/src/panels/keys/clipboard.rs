@@ -122,13 +122,14 @@ fn column<T: Copy>(
 ) -> (Between, Vec<CopiedKey>) {
     let between = match channel.interpolation {
         // The nearest key, which no edit can ask for: at the keys both show the same.
-        Interpolation::Step | Interpolation::Closest => Between::Step,
-        Interpolation::Linear => Between::Linear,
-        Interpolation::CubicSpline => Between::CubicSpline,
+        Interpolation::Step | Interpolation::Closest => KeyInterpolation::Step,
+        Interpolation::Linear => KeyInterpolation::Linear,
+        Interpolation::CubicSpline => KeyInterpolation::CubicSpline,
     };
     let key = |key: usize| {
         let tangent = |part: usize| {
-            let value = channel.values.get(key * 3 + part).filter(|_| between == Between::CubicSpline);
+            let value =
+                channel.values.get(key * 3 + part).filter(|_| between == KeyInterpolation::CubicSpline);
             value.map(|&value| numbers(value))
         };
         Some(CopiedKey {

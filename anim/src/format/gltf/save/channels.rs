@@ -1,6 +1,6 @@
 //! Finds the edited channels by comparing the takes as they were opened with the takes as they are now.
 
-use super::columns::{ChannelKeys, EncodedKeys, KeysOwner, keys};
+use super::columns::{EncodedKeys, KeyColumns, KeysOwner, keys};
 use super::document::{ChannelTarget, FileAnimation, TargetPath};
 use super::error::SaveError;
 use crate::data::{Channel, Interpolation, ModelData, MorphTrack, Take, Track};
@@ -27,11 +27,11 @@ pub(super) struct ChannelEdit {
 }
 
 /// Returns the three channels of a track.
-fn columns(track: &Track) -> [(TargetPath, ChannelKeys<'_>); 3] {
+fn columns(track: &Track) -> [(TargetPath, KeyColumns<'_>); 3] {
     [
-        (TargetPath::Translation, ChannelKeys::Vector(&track.translation)),
-        (TargetPath::Rotation, ChannelKeys::Rotation(&track.rotation)),
-        (TargetPath::Scale, ChannelKeys::Vector(&track.scale)),
+        (TargetPath::Translation, KeyColumns::Vector(&track.translation)),
+        (TargetPath::Rotation, KeyColumns::Rotation(&track.rotation)),
+        (TargetPath::Scale, KeyColumns::Vector(&track.scale)),
     ]
 }
 
@@ -76,8 +76,8 @@ fn no_node(take: &Take, bone: &str, reason: &'static str) -> SaveError {
 fn edit(
     target: ChannelTarget,
     opened: Option<(&Take, &FileAnimation)>,
-    before: ChannelKeys<'_>,
-    after: ChannelKeys<'_>,
+    before: KeyColumns<'_>,
+    after: KeyColumns<'_>,
     owner: KeysOwner<'_>,
 ) -> Result<ChannelEdit, SaveError> {
     let in_file = opened.is_some_and(|(_, animation)| animation.channel(target).is_some());
@@ -135,7 +135,7 @@ fn weights(
         let targets = before.as_ref().or(after.as_ref()).map_or(0, |track| track.targets);
         let before = before.unwrap_or_else(|| no_keys(index as u32, targets));
         let after = after.unwrap_or_else(|| no_keys(index as u32, targets));
-        let (before, after) = (ChannelKeys::Weights(&before), ChannelKeys::Weights(&after));
+        let (before, after) = (KeyColumns::Weights(&before), KeyColumns::Weights(&after));
         if before.is_same(&after) {
             continue;
         }
@@ -166,7 +166,7 @@ pub(super) fn placeholder(
     let rest = if rest.is_finite() { rest } else { Vec3::ZERO };
     let channel = Channel::new([start], [rest], Interpolation::Step);
     let before = opened.and_then(|take| Some(&take.tracks.get(index)?.translation));
-    if before.is_some_and(|before| ChannelKeys::Vector(before).is_same(&ChannelKeys::Vector(&channel))) {
+    if before.is_some_and(|before| KeyColumns::Vector(before).is_same(&KeyColumns::Vector(&channel))) {
         return Ok(None);
     }
     let owner = KeysOwner {
@@ -175,7 +175,7 @@ pub(super) fn placeholder(
         path: TargetPath::Translation,
         may_be_negative: false,
     };
-    let keys = keys(ChannelKeys::Vector(&channel), owner)?;
+    let keys = keys(KeyColumns::Vector(&channel), owner)?;
     let target = (bone.node.unwrap_or_default(), TargetPath::Translation);
     Ok(Some(ChannelEdit { target, label: bone.name.clone(), action: Action::Set(keys), values_of: None }))
 }

@@ -13,13 +13,13 @@ const ROTATION_TOLERANCE: f64 = 0.00769;
 
 /// The keys of one target, of whatever type.
 #[derive(Clone, Copy)]
-pub(super) enum ChannelKeys<'a> {
+pub(super) enum KeyColumns<'a> {
     Vector(&'a Channel<Vec3>),
     Rotation(&'a Channel<Quat>),
     Weights(&'a MorphTrack),
 }
 
-impl ChannelKeys<'_> {
+impl KeyColumns<'_> {
     pub(super) fn times(&self) -> &Arc<[f32]> {
         match self {
             Self::Vector(channel) => &channel.times,
@@ -144,7 +144,7 @@ impl KeysOwner<'_> {
 /// * Closest-key interpolation becomes an exact step: a step at each time from which on the next key is the nearest,
 ///   and one more at the end, so that the take keeps its length.
 /// * A spline of one key is written as that key with linear interpolation, because glTF requires two keys of a spline.
-pub(super) fn keys(column: ChannelKeys<'_>, owner: KeysOwner<'_>) -> Result<EncodedKeys, SaveError> {
+pub(super) fn keys(column: KeyColumns<'_>, owner: KeysOwner<'_>) -> Result<EncodedKeys, SaveError> {
     let interpolation = column.interpolation();
     let numbers = column.numbers();
     check_times(column.times(), owner)?;
@@ -259,7 +259,7 @@ mod tests {
         let values: Vec<Vec3> = (0..5).map(|key| Vec3::splat(key as f32)).collect();
         let closest = Channel::new(times, values, Interpolation::Closest);
         let owner = KeysOwner { take: "", bone: "", path: TargetPath::Translation, may_be_negative: false };
-        let keys = keys(ChannelKeys::Vector(&closest), owner).unwrap();
+        let keys = keys(KeyColumns::Vector(&closest), owner).unwrap();
         assert_eq!(keys.interpolation, "STEP");
         assert!(keys.times.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", keys.times);
         assert_eq!(keys.times.last(), times.last());
