@@ -4,8 +4,8 @@ use dragonfly_anim::data::{Interpolation, Take, Transform};
 use dragonfly_anim::sample::sample_take;
 use dragonfly_document::adapter::{EditError, ModelAdapter};
 use dragonfly_document::edit::{
-    AddKeys, Between, BonePose, DeleteKeys, DeleteTake, Edit, KeySet, MoveKeys, NewKey, OffsetPose, Property,
-    ResetPose, ResetTo, RetimeTake, ReverseTake, RippleKeys, ScaleKeys, SetInterpolation, SetPose,
+    AddKeys, BonePose, DeleteKeys, DeleteTake, Edit, KeyInterpolation, KeySet, MoveKeys, NewKey, OffsetPose,
+    Property, ResetPose, ResetTo, RetimeTake, ReverseTake, RippleKeys, ScaleKeys, SetInterpolation, SetPose,
     SetTangents, SnapKeys, SplitTake, TakeRef, TrimTake,
 };
 use dragonfly_kit::document::made_take::{animation, bone, model, pose, walk};

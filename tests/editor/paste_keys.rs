@@ -11,8 +11,8 @@ use dragonfly_document::Change;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{
-    Between, BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, PasteKeys, Property, SetPending, SetPose,
-    TakeRef,
+    BonePose, BoneRef, CopiedChannel, CopiedKey, Edit, KeyInterpolation, PasteKeys, Property, SetPending,
+    SetPose, TakeRef,
 };
 use dragonfly_kit::document::made_take::{model, walk};
 use dragonfly_kit::random::{Random, seed};
@@ -122,7 +122,7 @@ fn key(after: f64, value: &[f32]) -> CopiedKey {
     CopiedKey { after, value: value.to_vec(), arrive: None, leave: None }
 }
 
-fn one(bone: &str, interpolation: Between, keys: Vec<CopiedKey>) -> Vec<CopiedChannel> {
+fn one(bone: &str, interpolation: KeyInterpolation, keys: Vec<CopiedKey>) -> Vec<CopiedChannel> {
     let bone = BoneRef::Name(bone.to_owned());
     vec![CopiedChannel { bone, property: Property::Translation, interpolation, keys }]
 }

@@ -7,8 +7,8 @@ use dragonfly::panels::keys::KeysRequest;
 use dragonfly_anim::data::Interpolation;
 use dragonfly_document::Change;
 use dragonfly_document::edit::{
-    Between, BonePose, BoneRef, Edit, MoveKeys, Property, SetInterpolation, SetPose, SetPoses, SetTangents,
-    TakeRef,
+    BonePose, BoneRef, Edit, KeyInterpolation, MoveKeys, Property, SetInterpolation, SetPose, SetPoses,
+    SetTangents, TakeRef,
 };
 use egui::{Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::kittest::Queryable;

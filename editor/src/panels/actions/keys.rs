@@ -10,7 +10,7 @@ use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{
-    Between, BoneRef, DeleteKeys, Edit, Property, RippleKeys, SAME_TIME, SetInterpolation,
+    BoneRef, DeleteKeys, Edit, KeyInterpolation, Property, RippleKeys, SAME_TIME, SetInterpolation,
 };
 use dragonfly_document::{Change, View};
 use std::collections::BTreeMap;
@@ -110,7 +110,7 @@ pub(in crate::panels) fn ripple(workspace: &mut Workspace, frames: f32) -> Optio
 }
 
 /// Sets the interpolation of the channels with selected keys. Channels of different kinds are several steps.
-pub(in crate::panels) fn interpolate(workspace: &mut Workspace, between: Between) -> Option<Effect> {
+pub(in crate::panels) fn interpolate(workspace: &mut Workspace, between: KeyInterpolation) -> Option<Effect> {
     let panels = workspace.read();
     let take = panels.take_ref()?;
     let mut masks: BTreeMap<BoneIndex, u8> = BTreeMap::new();

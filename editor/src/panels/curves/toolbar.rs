@@ -13,7 +13,7 @@ use crate::panels::style::{CONTROL, GRID, RADIUS};
 use crate::panels::theme::Theme;
 use crate::panels::widgets::{self, icon_button};
 use dragonfly_anim::data::Interpolation;
-use dragonfly_document::edit::{Between, Property};
+use dragonfly_document::edit::{KeyInterpolation, Property};
 use egui::accesskit::Role;
 use egui::{Align2, Button, Color32, CornerRadius, FontId, RichText, Sense, Ui, WidgetInfo, vec2};
 use std::sync::Arc;

@@ -8,7 +8,7 @@ use super::channel::{self, ChannelId, named};
 use super::selection::KeySelection;
 use dragonfly_anim::data::{BoneIndex, Channel, Interpolation, Skeleton, Take};
 use dragonfly_document::adapter::TakeVersions;
-use dragonfly_document::edit::{Between, BoneRef, CopiedChannel, CopiedKey, Property};
+use dragonfly_document::edit::{BoneRef, CopiedChannel, CopiedKey, KeyInterpolation, Property};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -119,7 +119,7 @@ fn column<T: Copy>(
     keys: impl Iterator<Item = usize>,
     first: f32,
     numbers: impl Fn(T) -> Vec<f32>,
-) -> (Between, Vec<CopiedKey>) {
+) -> (KeyInterpolation, Vec<CopiedKey>) {
     let between = match channel.interpolation {
         // The nearest key, which no edit can ask for: at the keys both show the same.
         Interpolation::Step | Interpolation::Closest => KeyInterpolation::Step,

@@ -4,7 +4,7 @@ use super::*;
 use crate::panels::actions::clipboard;
 use crate::panels::actions::keys;
 use crate::panels::actions::playback;
-use dragonfly_document::edit::Between;
+use dragonfly_document::edit::KeyInterpolation;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const COMMANDS: &[Command] = &[
