@@ -42,12 +42,12 @@ fn the_palette_shows_a_take_that_is_searched() {
 
 #[test]
 fn the_palette_lists_what_is_called_so_before_what_is_about_it_and_shows_all_of_its_rows() {
-    let harness = palette("look");
+    let harness = palette("local");
     let place = |label: &str| {
         let mut rows = harness.query_all_by_label(label);
         rows.next().unwrap_or_else(|| panic!("{label} is not listed")).rect()
     };
-    let (called, about) = (place("Look at"), place("Unsaved work…"));
+    let (called, about) = (place("Local axes"), place("Next axes"));
     assert!(called.top() < about.top(), "{called:?} {about:?}");
     let card = place(PALETTE);
     let rows = ((about.bottom() - card.bottom()) / style::ROW).floor();
