@@ -58,6 +58,10 @@ const HOUSE_WORDS: &str = r"(deed|hasten|hinder|heard|told|mended|unasked|fate\b
 /// Percentage of comment blocks of a folder in which a pattern of [`UNCLEAR`] may occur: some are right in their context.
 const TOLERATED: usize = 5;
 
+/// Folders that are not rewritten yet, with the percentage that they must not exceed. House words in their names are not
+/// reported.
+const NOT_YET: &[(&str, usize)] = &[("tests/editor", 33)];
+
 /// The comment blocks of a file: neighboring lines of one kind, without code, longer than a few words.
 fn comment_blocks(text: &str) -> Vec<(usize, String)> {
     let mut blocks: Vec<(usize, String)> = Vec::new();
@@ -114,7 +118,9 @@ fn reads_as_plain_english(files: &[File]) -> Vec<String> {
     let mut complaints = Vec::new();
     let rust = files.iter().filter(|file| file.is_rust() && !file.path.starts_with("tests/repo/"));
     for file in rust {
-        complaints.extend(house_names(file));
+        if !NOT_YET.iter().any(|(folder, _)| *folder == folder_of(&file.path)) {
+            complaints.extend(house_names(file));
+        }
         let (total, unclear) = folders.entry(folder_of(&file.path)).or_default();
         for (line, block) in comment_blocks(&file.text) {
             *total += 1;
@@ -124,10 +130,11 @@ fn reads_as_plain_english(files: &[File]) -> Vec<String> {
         }
     }
     for (folder, (total, unclear)) in folders {
-        if unclear.len() * 100 > total * TOLERATED {
+        let tolerated = NOT_YET.iter().find(|(name, _)| *name == folder).map_or(TOLERATED, |(_, most)| *most);
+        if unclear.len() * 100 > total * tolerated {
             let share = unclear.len() * 100 / total;
             complaints.push(format!(
-                "{folder}: {share} % of {total} comment blocks have to be read twice, at most {TOLERATED} % may:\n    {}",
+                "{folder}: {share} % of {total} comment blocks have to be read twice, at most {tolerated} % may:\n    {}",
                 unclear.join("\n    ")
             ));
         }
@@ -147,7 +154,10 @@ fn comments_and_names_are_plain_english() {
     ] {
         one(reads_as_plain_english(&[File::planted("anim/src/poses.rs", comment)]));
     }
-    one(reads_as_plain_english(&[File::planted("editor/src/app/mod.rs", concat!("fn has", "ten(&mut self) {}"))]));
+    one(reads_as_plain_english(&[File::planted(
+        "editor/src/app/mod.rs",
+        concat!("fn has", "ten(&mut self) {}"),
+    )]));
     one(reads_as_plain_english(&[File::planted("editor/src/app/mod.rs", concat!("enum File", "Deed {}"))]));
     none(reads_as_plain_english(&[File::planted(
         "anim/src/poses.rs",
