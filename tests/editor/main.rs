@@ -1,4 +1,4 @@
-//! Promises, one module each.
+//! Tests of the editor, one module for each promise or part.
 
 mod accessible;
 mod bone_menu;
@@ -60,23 +60,23 @@ mod stdio;
 mod store_full;
 mod takes_panel;
 mod timeline_curves;
-mod timeline_hand;
 mod timeline_markers;
+mod timeline_mouse;
 mod timeline_random;
 mod timeline_rig;
 mod unplugged;
 mod viewport_control;
 mod window;
+mod window_bone_rotation;
 mod window_dialog;
 mod window_dragging;
 mod window_drop;
 mod window_edit;
 mod window_ending;
 mod window_full_screen;
-mod window_hands;
-mod window_heard;
-mod window_mistakes;
+mod window_input_latency;
 mod window_monkey;
+mod window_panics;
 mod window_save;
 mod window_scale;
 mod window_visit;

@@ -2,7 +2,7 @@
 //! the way all desktops understand (the `_NET_WM_STATE` of the Extended Window Manager Hints).
 
 use crate::screen::Screen;
-use crate::wire::{Event, Place, Window, Wire, atom, event, words};
+use crate::wire::{Event, Window, WindowRect, Wire, atom, event, words};
 use std::collections::HashMap;
 use std::time::Duration;
 
@@ -17,7 +17,7 @@ struct Manager {
     state: u32,
     full_screen: u32,
     /// Where windows were before they filled the screen.
-    before: HashMap<Window, Place>,
+    before: HashMap<Window, WindowRect>,
 }
 
 /// Lets a manager work on `screen`, beside the test, for as long as there is the screen.
@@ -112,7 +112,7 @@ impl Manager {
     }
 
     /// Puts a window somewhere and tells it, as managers must also where nothing has changed.
-    fn put(&mut self, window: Window, place: Place) {
+    fn put(&mut self, window: Window, place: WindowRect) {
         let [x, y, width, height] = place.map(|side| side as u32);
         self.wire.tell(12, 0, &words(&[window, 0b1111, x, y, width, height]));
         let mut told = vec![event::CONFIGURE_NOTIFY, 0, 0, 0];

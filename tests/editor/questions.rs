@@ -1,4 +1,4 @@
-//! What a person is asked: each question is drawn whole in every window, answered by keyboard, and left by Escape.
+//! Dialogs: each question fits completely into every window, can be answered by keyboard, and is closed by Escape.
 
 use crate::panels::{Bench, harness_of};
 use crate::shots::{self, PictureFolder};
@@ -128,7 +128,7 @@ fn every_question_is_drawn() {
 }
 
 #[test]
-fn a_file_is_asked_for_until_one_is_named() {
+fn the_file_question_stays_until_a_path_is_given() {
     let fox = Box::new(offer(
         "Fox.glb",
         12,
@@ -140,7 +140,7 @@ fn a_file_is_asked_for_until_one_is_named() {
     let mut bench = bench(Question::Recover { offers: vec![(*fox).clone()], lost: false });
     bench.state.ask_where_it_is(fox.clone(), Some("Fox 2.glb".into()));
     bench.state.execute(Request::Answer(FileAction::Find(fox.clone())));
-    // The dialog for files may be closed without an answer.
+    // The file dialog may be closed without an answer.
     assert!(
         matches!(bench.state.read().question(), Some(Question::Find { .. })),
         "{:?}",
@@ -151,7 +151,7 @@ fn a_file_is_asked_for_until_one_is_named() {
 }
 
 #[test]
-fn every_question_is_drawn_in_every_window_and_left_by_escape_without_a_deed() {
+fn every_question_fits_every_window_and_escape_closes_it_without_an_action() {
     for (name, question) in questions() {
         for size in [egui::vec2(1280.0, 720.0), egui::vec2(480.0, 320.0), egui::vec2(40.0, 30.0)] {
             let mut harness = harness_of(bench(question.clone()), size, 1.0, egui::Theme::Dark);
@@ -169,7 +169,7 @@ fn every_question_is_drawn_in_every_window_and_left_by_escape_without_a_deed() {
 }
 
 #[test]
-fn enter_does_what_is_meant_most_often() {
+fn enter_chooses_the_default_button() {
     let size = egui::vec2(1280.0, 720.0);
     for (name, question) in questions() {
         let mut harness = harness_of(bench(question), size, 1.0, egui::Theme::Dark);
@@ -198,7 +198,7 @@ fn enter_does_what_is_meant_most_often() {
 }
 
 #[test]
-fn each_button_of_the_unsaved_work_decides_about_the_one_that_is_shown() {
+fn each_button_for_unsaved_work_applies_to_the_document_that_is_shown() {
     for (button, decision) in [
         ("Restore", Decision::Keep),
         ("Open as a copy", Decision::Beside),
@@ -216,7 +216,7 @@ fn each_button_of_the_unsaved_work_decides_about_the_one_that_is_shown() {
             panic!("{button}: {:?}", harness.state().effects)
         };
         assert!(offer.title.starts_with("A bear") && *decided == decision, "{button}");
-        // What was put aside leaves the others to be decided about; what is opened comes first.
+        // The document that was set aside does not answer for the others; an opened file is asked about first.
         let left = match harness.state().state.read().question() {
             Some(Question::Recover { offers, .. }) => offers.len(),
             _ => 0,
@@ -227,10 +227,10 @@ fn each_button_of_the_unsaved_work_decides_about_the_one_that_is_shown() {
 }
 
 #[test]
-fn a_question_keeps_the_keys_to_itself_and_the_next_one_follows() {
+fn an_open_question_receives_all_keys_and_the_next_question_follows() {
     let mut state = bench(Question::Unsaved(Then::Quit)).state;
     state.ask(Question::Changed(FileState::Changed, None));
-    // The same is not asked twice.
+    // The same question is not asked twice.
     state.ask(Question::Unsaved(Then::Quit));
     assert_eq!(state.read().prompts.questions().len(), 2);
     assert_eq!(state.execute(Request::Dismiss), None);

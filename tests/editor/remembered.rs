@@ -1,4 +1,4 @@
-//! What is found again at the next start: how the timeline and IK work, and the marks of each file.
+//! Settings restored at the next start: timeline and IK options, and the bone flags of each file.
 
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
@@ -17,7 +17,7 @@ fn flag(state: &mut State, flag: BoneFlag, bone: u32) {
 }
 
 #[test]
-fn snap_listing_and_ik_are_as_they_were_left() {
+fn snapping_listing_and_ik_settings_are_restored() {
     let mut state = State::new(Settings::default(), Instant::now());
     state.show(file("Fox.glb"));
     assert!(state.read().keys.snap() && state.read().keys.only_selected() && !state.read().ik.on);
@@ -28,7 +28,7 @@ fn snap_listing_and_ik_are_as_they_were_left() {
     let again = State::new(Settings::parse(&state.read().settings.to_text()), Instant::now());
     assert!(!again.read().keys.snap() && !again.read().keys.only_selected());
     assert_eq!((again.read().ik.on, again.read().ik.length, again.read().ik.pole), (true, 4, None));
-    // Another model does not change them, and a wrong number is mended.
+    // Another model does not change them, and an invalid number is sanitized.
     state.show(file("Crow.glb"));
     assert!(!state.read().keys.snap() && state.read().ik.on);
     let mended = Settings::parse("{\"hand\":{\"ik\":{\"on\":true,\"length\":0}}}");
@@ -36,7 +36,7 @@ fn snap_listing_and_ik_are_as_they_were_left() {
 }
 
 #[test]
-fn marks_and_pins_of_a_file_come_back_with_it() {
+fn bone_flags_and_pins_of_a_file_are_restored_with_it() {
     let mut state = State::new(Settings::default(), Instant::now());
     state.show(file("Fox.glb"));
     assert_eq!(state.unsaved_marks(), None, "nothing is marked");
@@ -67,7 +67,7 @@ fn marks_and_pins_of_a_file_come_back_with_it() {
     assert_eq!(has(&again), [true; 3]);
     assert_eq!((again.read().pins.to_vec(), again.read().ik.pole), (vec![5], Some(5)));
     assert_eq!(again.unsaved_marks(), None, "as it was read");
-    // Taken away, they are gone for good.
+    // Flags that were removed stay removed.
     for (flag, bone) in [(BoneFlag::Mute, 2), (BoneFlag::Solo, 3), (BoneFlag::Lock, 4)] {
         again.execute(Request::Timeline(KeysRequest::Flag(flag, bone, false)));
     }
@@ -79,7 +79,7 @@ fn marks_and_pins_of_a_file_come_back_with_it() {
 }
 
 #[test]
-fn a_model_that_is_saved_elsewhere_takes_its_marks_along() {
+fn saving_a_model_elsewhere_copies_its_bone_flags() {
     let mut state = State::new(Settings::default(), Instant::now());
     let mut view = file("Fox.glb");
     state.show(view.clone());
@@ -99,7 +99,7 @@ fn a_model_that_is_saved_elsewhere_takes_its_marks_along() {
 }
 
 #[test]
-fn only_so_many_files_are_remembered_and_a_damaged_text_holds_none() {
+fn the_number_of_remembered_files_is_limited_and_a_damaged_text_gives_none() {
     let mut state = State::new(Settings::default(), Instant::now());
     for number in 0..marks::FILES + 10 {
         state.show(file(&format!("model {number}.glb")));
@@ -114,7 +114,7 @@ fn only_so_many_files_are_remembered_and_a_damaged_text_holds_none() {
         state.show(file("model 20.glb"));
         assert!(!state.read().keys.flags().any_locked());
     }
-    // Bones that the file has no more are passed over.
+    // Bones that the file no longer has are skipped.
     let mut state = State::new(Settings::default(), Instant::now());
     state.read_marks(&text.replace("\"spine_00\"", "\"gone\""));
     state.show(file("model 20.glb"));
@@ -122,8 +122,8 @@ fn only_so_many_files_are_remembered_and_a_damaged_text_holds_none() {
 }
 
 #[test]
-fn marks_that_come_back_are_told_from_those_of_the_model_before() {
-    // Who draws compares versions: two models with as many marks must not look alike.
+fn restored_flags_have_another_version_than_those_of_the_previous_model() {
+    // Drawing code compares versions: two models with the same number of flags must not have equal versions.
     let mut state = State::new(Settings::default(), Instant::now());
     let mut versions = Vec::new();
     for (number, bone) in [(1, 2), (2, 3), (1, 2), (2, 3)] {

@@ -1,4 +1,4 @@
-//! Time and place on the timeline.
+//! Conversion between times and positions on the timeline.
 
 use dragonfly::panels::ruler::{Ruler, frame_of, step_frame, step_key, thin, time_of};
 
@@ -7,7 +7,7 @@ fn ruler() -> Ruler {
 }
 
 #[test]
-fn a_place_gives_the_time_that_lies_there() {
+fn a_position_on_the_ruler_gives_its_time() {
     let ruler = ruler();
     assert_eq!(ruler.time_at(100.0), 2.0);
     assert_eq!(ruler.time_at(500.0), 4.0);
@@ -18,7 +18,7 @@ fn a_place_gives_the_time_that_lies_there() {
 }
 
 #[test]
-fn beside_the_ruler_lies_its_nearest_end() {
+fn positions_outside_the_ruler_give_its_nearest_end() {
     assert_eq!(ruler().time_at(-1e9), 2.0);
     assert_eq!(ruler().time_at(1e9), 6.0);
     assert_eq!(Ruler { length: 0.0, ..ruler() }.time_at(500.0), 2.0);
@@ -26,7 +26,7 @@ fn beside_the_ruler_lies_its_nearest_end() {
 }
 
 #[test]
-fn ticks_can_be_read_at_any_length() {
+fn ticks_are_legible_at_any_length() {
     for length in [0.01, 0.3, 1.0, 7.7, 60.0, 3600.0, 1e6] {
         for rate in [24, 25, 30, 60] {
             let ruler = Ruler { left: 0.0, width: 1000.0, start: 0.0, length };
@@ -57,7 +57,7 @@ fn frames_and_times_agree() {
 }
 
 #[test]
-fn a_step_goes_to_the_frame_beside() {
+fn a_frame_step_goes_to_the_adjacent_frame() {
     assert_eq!(step_frame(time_of(5, 30), 1, 30), time_of(6, 30));
     assert_eq!(step_frame(time_of(5, 30), -1, 30), time_of(4, 30));
     // Between frames 5 and 6.
@@ -66,7 +66,7 @@ fn a_step_goes_to_the_frame_beside() {
 }
 
 #[test]
-fn a_key_step_leaves_the_key_it_stands_on() {
+fn a_key_step_leaves_the_key_at_the_playhead() {
     let keys = [0.0, 0.5, 1.0];
     assert_eq!(step_key(&keys, 0.5, true), Some(1.0));
     assert_eq!(step_key(&keys, 0.5, false), Some(0.0));
@@ -77,7 +77,7 @@ fn a_key_step_leaves_the_key_it_stands_on() {
 }
 
 #[test]
-fn a_hundred_thousand_keys_cost_as_many_marks_as_pixels() {
+fn a_hundred_thousand_keys_draw_at_most_one_mark_per_pixel() {
     let keys: Vec<f32> = (0..100_000).map(|key| 2.0 + key as f32 * 4.0 / 100_000.0).collect();
     let marks = thin(&keys, &ruler(), 1.0);
     assert!(marks.len() <= 801, "{}", marks.len());

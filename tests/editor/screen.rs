@@ -1,8 +1,8 @@
-//! A screen of our own, with a hand on its keyboard and mouse and an eye on its pixels.
+//! A private X screen for tests, with simulated keyboard and mouse input and access to its pixels.
 //!
-//! Xvfb is the screen; it writes what it shows into a file that we read.
+//! The X server is Xvfb; it writes its screen contents into a file that the tests read.
 
-use crate::wire::{Place, Wire, words};
+use crate::wire::{WindowRect, Wire, words};
 use dragonfly_kit::folder::Folder;
 use image::RgbaImage;
 use std::io::{BufRead, BufReader};
@@ -11,10 +11,10 @@ use std::time::{Duration, Instant};
 
 pub(crate) use crate::wire::Window;
 
-/// Between two movements of a finger.
-const HAND: Duration = Duration::from_millis(60);
+/// Time between two simulated input events.
+const INPUT_INTERVAL: Duration = Duration::from_millis(60);
 
-/// Keys by their position on a keyboard, as Xvfb numbers them.
+/// Key codes by position on a keyboard, as Xvfb numbers them.
 pub(crate) mod key {
     pub(crate) const DIGIT_0: u8 = 19;
     pub(crate) const DIGIT_3: u8 = 12;
@@ -40,7 +40,7 @@ pub(crate) mod key {
     pub(crate) const K: u8 = 45;
     pub(crate) const T: u8 = 28;
 
-    /// The key with this sign on it, for those that need no other key held.
+    /// Returns the key that types this character without a modifier.
     #[track_caller]
     pub(crate) fn of(sign: char) -> u8 {
         const ROWS: [(&str, u8); 4] =
@@ -50,21 +50,21 @@ pub(crate) mod key {
     }
 }
 
-/// See the module.
+/// An Xvfb server and a connection that sends input to it.
 pub(crate) struct Screen {
     server: Child,
     number: u32,
-    hand: Wire,
+    connection: Wire,
     test_extension: u8,
     frames: Folder,
-    /// Between two movements of a finger.
+    /// Time between two simulated input events.
     pub(crate) pace: Duration,
-    /// The process whose window is looked at.
+    /// Process that owns the window under test.
     pub(crate) program: Option<u32>,
 }
 
 impl Screen {
-    /// Starts a screen of this size on any free number.
+    /// Starts a screen of this size on any free display number.
     pub(crate) fn new(name: &str, width: u32, height: u32) -> Self {
         let frames = Folder::new(&format!("screen-{name}"));
         let mut server = Command::new("Xvfb")
@@ -78,45 +78,45 @@ impl Screen {
             .spawn()
             .expect("Xvfb (Debian: xvfb) starts");
         let mut line = String::new();
-        // Written once it is ready, so this is also the wait for it; it ends at once when the server does.
+        // The server writes it once it is ready, so reading waits for that; reading ends at once when the server exits.
         let read = BufReader::new(server.stdout.take().expect("piped")).read_line(&mut line);
         read.expect("the number of the display");
         let number = line.trim().parse().expect("the number of the display");
-        let mut hand = Wire::connect(number);
-        let test_extension = hand.extension("XTEST");
-        Self { server, number, hand, test_extension, frames, pace: HAND, program: None }
+        let mut connection = Wire::connect(number);
+        let test_extension = connection.extension("XTEST");
+        Self { server, number, connection, test_extension, frames, pace: INPUT_INTERVAL, program: None }
     }
 
-    /// What `DISPLAY` must be for a program to open its window here.
+    /// Returns the value of `DISPLAY` with which a program opens its window on this screen.
     pub(crate) fn display(&self) -> String {
         format!(":{}", self.number)
     }
 
-    /// Another connection, for whoever plays another program beside it.
+    /// Opens another connection, for a test that also acts as another program.
     pub(crate) fn wire(&self) -> Wire {
         Wire::connect(self.number)
     }
 
-    /// Stops at once, as when a session ends under its programs.
+    /// Kills the server immediately, as when a session ends while its programs still run.
     pub(crate) fn kill(&mut self) {
         let _ = self.server.kill();
         let _ = self.server.wait();
     }
 
-    /// The window with this title, as soon as there is one of some size.
+    /// Waits for a window with this title and a nonzero size, and returns it.
     #[track_caller]
     pub(crate) fn window(&mut self, title: &str, limit: Duration) -> Window {
         self.any_window(&[title], limit)
     }
 
-    /// The window with one of these titles, as soon as there is one.
+    /// Waits for a window with one of these titles, and returns it.
     #[track_caller]
     pub(crate) fn any_window(&mut self, titles: &[&str], limit: Duration) -> Window {
         let deadline = Instant::now() + limit;
-        let name = self.hand.atom("_NET_WM_NAME");
+        let name = self.connection.atom("_NET_WM_NAME");
         loop {
-            for window in self.hand.children() {
-                let title = self.hand.property(window, name).unwrap_or_default();
+            for window in self.connection.children() {
+                let title = self.connection.property(window, name).unwrap_or_default();
                 if titles.iter().any(|wanted| title.starts_with(wanted.as_bytes())) {
                     return window;
                 }
@@ -131,7 +131,7 @@ impl Screen {
         self.fake(6, 0, x, y);
     }
 
-    /// Presses and releases the left button at a place, as slowly as a quick hand.
+    /// Presses and releases the left button at a position, at the speed of a fast user.
     pub(crate) fn click(&mut self, x: i16, y: i16) {
         self.point(x, y);
         pass(self.pace);
@@ -147,8 +147,8 @@ impl Screen {
         pass(self.pace);
     }
 
-    /// Lets the left button go.
-    pub(crate) fn let_go(&mut self) {
+    /// Releases the left button.
+    pub(crate) fn release_button(&mut self) {
         self.fake(5, 1, 0, 0);
         pass(self.pace);
     }
@@ -161,12 +161,12 @@ impl Screen {
         pass(self.pace);
     }
 
-    /// Presses these keys one after the other.
+    /// Presses these keys one after another.
     pub(crate) fn type_text(&mut self, text: &str) {
         text.chars().for_each(|sign| self.press(key::of(sign)));
     }
 
-    /// Presses the keys that write a path, capital letters and underscores with Shift.
+    /// Types a path, with Shift for capital letters and underscores.
     pub(crate) fn type_path(&mut self, text: &str) {
         for sign in text.chars() {
             match sign {
@@ -177,17 +177,17 @@ impl Screen {
         }
     }
 
-    /// Puts a key down, or lets it up.
+    /// Presses or releases a key.
     pub(crate) fn key(&mut self, key: u8, down: bool) {
         self.fake(if down { 2 } else { 3 }, key, 0, 0);
     }
 
-    /// Puts a button of the mouse down (1 left, 2 middle, 3 right, 4 and 5 the wheel), or lets it up.
+    /// Presses or releases a mouse button (1 left, 2 middle, 3 right, 4 and 5 the wheel).
     pub(crate) fn button(&mut self, button: u8, down: bool) {
         self.fake(if down { 4 } else { 5 }, button, 0, 0);
     }
 
-    /// Presses a key while another is held down.
+    /// Presses a key while another one is held down.
     pub(crate) fn press_with(&mut self, held: u8, key: u8) {
         self.fake(2, held, 0, 0);
         pass(self.pace);
@@ -196,44 +196,45 @@ impl Screen {
         pass(self.pace);
     }
 
-    /// Gives the window the keyboard; without a window manager nobody else does.
+    /// Gives the window the keyboard focus; there is no window manager that would do it.
     pub(crate) fn focus(&mut self, window: Window) {
-        self.hand.tell(42, 2, &words(&[window, 0]));
+        self.connection.tell(42, 2, &words(&[window, 0]));
     }
 
-    /// Takes the keyboard away from every window.
+    /// Takes the keyboard focus away from every window.
     pub(crate) fn leave(&mut self) {
-        self.hand.tell(42, 2, &words(&[0, 0]));
+        self.connection.tell(42, 2, &words(&[0, 0]));
     }
 
-    /// Where the window is: left, top, width, height.
+    /// Returns the rectangle of the window: left, top, width, height.
     #[track_caller]
-    pub(crate) fn place(&mut self, window: Window) -> Place {
-        self.hand.place(window).expect("a window")
+    pub(crate) fn place(&mut self, window: Window) -> WindowRect {
+        self.connection.place(window).expect("a window")
     }
 
-    /// Asks the window to close, as a click on its cross does.
+    /// Asks the window to close, as a click on its close button does.
     pub(crate) fn close(&mut self, window: Window) {
-        let (protocols, delete) = (self.hand.atom("WM_PROTOCOLS"), self.hand.atom("WM_DELETE_WINDOW"));
-        self.hand.message(window, 0, window, protocols, [delete, 0, 0, 0, 0]);
+        let (protocols, delete) =
+            (self.connection.atom("WM_PROTOCOLS"), self.connection.atom("WM_DELETE_WINDOW"));
+        self.connection.message(window, 0, window, protocols, [delete, 0, 0, 0, 0]);
     }
 
-    /// Gives the window another size.
+    /// Resizes the window.
     pub(crate) fn resize(&mut self, window: Window, width: u32, height: u32) {
-        self.hand.tell(12, 0, &words(&[window, 0b1100, width, height]));
+        self.connection.tell(12, 0, &words(&[window, 0b1100, width, height]));
     }
 
-    /// Takes the window off the screen, as minimising does, or puts it back.
+    /// Unmaps the window, as minimizing does, or maps it again.
     pub(crate) fn show(&mut self, window: Window, shown: bool) {
-        self.hand.tell(if shown { 8 } else { 10 }, 0, &words(&[window]));
+        self.connection.tell(if shown { 8 } else { 10 }, 0, &words(&[window]));
     }
 
-    /// Destroys the window behind the program's back.
+    /// Destroys the window without notifying the program first.
     pub(crate) fn destroy(&mut self, window: Window) {
-        self.hand.tell(4, 0, &words(&[window]));
+        self.connection.tell(4, 0, &words(&[window]));
     }
 
-    /// Everything on the screen.
+    /// Returns an image of the whole screen.
     pub(crate) fn picture(&self) -> RgbaImage {
         let bytes = std::fs::read(self.frames.join("Xvfb_screen0")).expect("the screen's pixels");
         let field = |index: usize| {
@@ -248,12 +249,12 @@ impl Screen {
         })
     }
 
-    /// A part of the screen: left, top, width, height.
+    /// Returns an image of a part of the screen: left, top, width, height.
     pub(crate) fn part(&self, [x, y, width, height]: [u32; 4]) -> RgbaImage {
         image::imageops::crop_imm(&self.picture(), x, y, width, height).to_image()
     }
 
-    /// Keeps a picture for whoever looks into a failure, and says where it is.
+    /// Saves an image for whoever investigates a failure, and prints its path.
     pub(crate) fn keep(&self, name: &str) {
         let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.png"));
         if self.picture().save(&path).is_ok() {
@@ -263,11 +264,11 @@ impl Screen {
 
     fn fake(&mut self, kind: u8, detail: u8, x: i16, y: i16) {
         let mut body = vec![kind, detail, 0, 0];
-        body.extend(words(&[0, self.hand.root, 0, 0]));
+        body.extend(words(&[0, self.connection.root, 0, 0]));
         body.extend(x.to_le_bytes());
         body.extend(y.to_le_bytes());
         body.extend([0; 8]);
-        self.hand.tell(self.test_extension, 2, &body);
+        self.connection.tell(self.test_extension, 2, &body);
     }
 }
 
@@ -280,7 +281,7 @@ impl Drop for Screen {
     }
 }
 
-/// A moment, where time itself is what is meant.
+/// Sleeps, for tests in which elapsed time itself matters.
 pub(crate) fn pass(time: Duration) {
     let end = Instant::now() + time;
     while let Some(left) = end.checked_duration_since(Instant::now()) {

@@ -1,4 +1,4 @@
-//! What is remembered between runs survives anything that happens to the files.
+//! Settings survive any damage to their files.
 
 use dragonfly::app::store::{self, Store};
 use dragonfly::panels::settings::{GhostSettings, RECENT, ThemeChoice};
@@ -6,7 +6,7 @@ use dragonfly::panels::{Layout, Settings, VIEWPORT, all};
 use std::path::Path;
 
 #[test]
-fn settings_come_back_as_they_went() {
+fn settings_survive_a_round_trip() {
     let mut settings =
         Settings { theme: ThemeChoice::Light, scale: 1.5, frame_rate: 24, ..Settings::default() };
     settings.remember(Path::new("/models/fox.glb"));
@@ -22,7 +22,7 @@ fn a_damaged_file_gives_the_defaults() {
 }
 
 #[test]
-fn a_wrong_number_becomes_the_nearest_right_one() {
+fn an_invalid_number_becomes_the_nearest_valid_one() {
     let settings = Settings::parse("{\"scale\": 1000.0, \"speed\": -3.0, \"frame_rate\": 7}");
     assert_eq!((settings.scale, settings.speed, settings.frame_rate), (2.0, 0.05, 30));
     assert_eq!(
@@ -33,7 +33,7 @@ fn a_wrong_number_becomes_the_nearest_right_one() {
 }
 
 #[test]
-fn recent_files_stand_newest_first_and_once() {
+fn recent_files_are_listed_once_with_the_newest_first() {
     let mut settings = Settings::default();
     for index in 0..30 {
         settings.remember(Path::new(&format!("/models/{index}.glb")));
@@ -45,7 +45,7 @@ fn recent_files_stand_newest_first_and_once() {
 }
 
 #[test]
-fn panel_places_come_back_and_damaged_ones_do_not() {
+fn the_panel_layout_is_restored_unless_it_is_damaged() {
     let panels = all();
     let usual = Layout::usual(&panels);
     let text = usual.to_text();
@@ -63,7 +63,7 @@ fn panel_places_come_back_and_damaged_ones_do_not() {
 }
 
 #[test]
-fn the_store_replaces_files_and_bears_what_is_not_there() {
+fn the_store_replaces_files_and_tolerates_missing_ones() {
     let folder = std::env::temp_dir().join(format!("dragonfly-store-{}", std::process::id()));
     let store = Store::new(Some(folder.clone()));
     assert_eq!(store.read(store::SETTINGS), "");
@@ -75,7 +75,7 @@ fn the_store_replaces_files_and_bears_what_is_not_there() {
 }
 
 #[test]
-fn how_ghosts_are_drawn_is_remembered_and_they_begin_as_skeletons() {
+fn the_ghost_style_is_remembered_and_defaults_to_skeletons() {
     assert!(!GhostSettings::default().skin);
     let text = "{\"hand\":{\"ghosts\":{\"skin\":true,\"step\":3}}}";
     let ghosts = Settings::parse(text).tools.ghosts;

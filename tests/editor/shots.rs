@@ -1,4 +1,4 @@
-//! Pictures of the panels: each is drawn, and none is empty. `DRAGONFLY_SHOTS` names a folder where they are kept to look at.
+//! Screenshots of the panels: each is drawn, and none is empty. `DRAGONFLY_SHOTS` names a folder that keeps them for review.
 
 use crate::workbench;
 use crate::workbench::Workbench;
@@ -14,11 +14,11 @@ use egui_kittest::kittest::Queryable;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-/// A folder for pictures.
+/// A folder for screenshots.
 pub(crate) enum PictureFolder {
-    /// Named by the user, and kept.
+    /// Named by the user; its files are kept.
     Kept(PathBuf),
-    /// Of a test, and deleted at its end.
+    /// Temporary, deleted at the end of the test.
     Temporary(Folder),
 }
 
@@ -34,7 +34,7 @@ impl PictureFolder {
         Some(Self::Kept(folder))
     }
 
-    /// Draws a window and saves the picture, which must not be empty.
+    /// Draws a window and saves the image, which must not be empty.
     #[track_caller]
     pub(crate) fn save<T>(&self, window: &mut Harness<'_, T>, name: &str) {
         let picture = window.render().unwrap();
@@ -48,7 +48,7 @@ impl PictureFolder {
     }
 }
 
-/// A window whose pixels are drawn.
+/// Returns a window that is rendered to pixels.
 pub(crate) fn drawn<T>(
     state: T,
     size: [f32; 2],
@@ -73,7 +73,7 @@ fn bench() -> Workbench {
     bench
 }
 
-/// Several steps, some of them undone.
+/// Returns a workbench with several edits, some of them undone.
 fn edited() -> Workbench {
     let mut bench = bench();
     let take = || TakeRef::Index(0);
@@ -99,7 +99,7 @@ fn edited() -> Workbench {
     bench
 }
 
-/// Names as long and as strange as files have them.
+/// Returns a workbench with names as long and unusual as real files contain.
 fn long_names() -> Workbench {
     let mut skeleton = fixture::skeleton(3);
     for (index, bone) in skeleton.bones.iter_mut().enumerate() {

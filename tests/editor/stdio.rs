@@ -1,4 +1,4 @@
-//! What `dragonfly --stdio` promises: the editor as a conversation, a line in, a line out.
+//! `dragonfly --stdio`: one request per input line, one answer per output line.
 
 use crate::program::{dragonfly, run, wait};
 use dragonfly_kit::folder::{Folder, data};
@@ -8,14 +8,14 @@ use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Stdio};
 use std::time::Duration;
 
-/// The program, talked to.
-pub(crate) struct Talk {
+/// A running `dragonfly --stdio` process.
+pub(crate) struct StdioSession {
     child: Child,
     input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
 }
 
-impl Talk {
+impl StdioSession {
     pub(crate) fn about(file: &Path) -> Self {
         let mut command = dragonfly([Path::new("--stdio"), file]);
         let command = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::inherit());
@@ -45,7 +45,7 @@ impl Talk {
     }
 }
 
-impl Drop for Talk {
+impl Drop for StdioSession {
     fn drop(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();
@@ -69,11 +69,11 @@ fn head() -> Value {
 }
 
 #[test]
-fn a_conversation_edits_reads_undoes_and_saves() {
+fn a_session_edits_reads_undoes_and_saves() {
     let folder = Folder::new("stdio-talk");
     let file = fox(&folder);
     let before = std::fs::read(&file).unwrap();
-    let mut talk = Talk::about(&file);
+    let mut talk = StdioSession::about(&file);
     let takes = talk.ask(&json!({"query": "takes"}));
     assert_eq!((takes.as_array().map(Vec::len), &takes[2]["name"]), (Some(3), &json!("Run")));
     let as_read = talk.ask(&head());
@@ -86,7 +86,7 @@ fn a_conversation_edits_reads_undoes_and_saves() {
         talk.ask(&json!({"query": "history"})),
         json!({"steps": ["Rotate"], "done": 1, "saved": false})
     );
-    // One gesture is one step, and cancelled it has never been.
+    // A gesture is one undo step; a cancelled gesture leaves no step.
     for angle in [1.0, 2.0, 3.0] {
         talk.ask(&json!({"do": "edit", "gesture": 5, "edit": turn(angle)}));
     }
@@ -118,10 +118,10 @@ fn a_conversation_edits_reads_undoes_and_saves() {
 }
 
 #[test]
-fn copied_keys_are_put_in_through_the_conversation_and_saved_exactly() {
+fn keys_pasted_through_stdio_are_saved_exactly() {
     let folder = Folder::new("stdio-keys");
     let file = fox(&folder);
-    let mut talk = Talk::about(&file);
+    let mut talk = StdioSession::about(&file);
     let value = [0.1, 0.2, 0.3, 0.927_361_8];
     let keys = json!([{"after": 0.0, "value": value}, {"after": 0.25, "value": [0.0, 0.0, 0.0, 1.0]}]);
     let channel =
@@ -139,13 +139,13 @@ fn copied_keys_are_put_in_through_the_conversation_and_saved_exactly() {
     assert!(refused["error"].to_string().contains("no key is given"), "{refused}");
     talk.ask(&json!({"do": "save"}));
     talk.end();
-    let mut talk = Talk::about(&file);
+    let mut talk = StdioSession::about(&file);
     assert_eq!(talk.ask(&at(0.5))["original"]["rotation"], shown["result"]["rotation"]);
     talk.end();
 }
 
 #[test]
-fn the_same_edits_give_the_same_file_as_the_command_gives() {
+fn stdio_and_the_edit_command_write_the_same_file() {
     let folder = Folder::new("stdio-same");
     let file = fox(&folder);
     let edits = [
@@ -154,7 +154,7 @@ fn the_same_edits_give_the_same_file_as_the_command_gives() {
         json!({"edit": "split_take", "take": "Survey", "time": 1.0, "name": "Rest of it"}),
         json!({"edit": "retime_take", "take": "Walk", "length": 1.5}),
     ];
-    let mut talk = Talk::about(&file);
+    let mut talk = StdioSession::about(&file);
     for edit in &edits {
         talk.ask(edit);
     }
@@ -173,7 +173,7 @@ fn the_same_edits_give_the_same_file_as_the_command_gives() {
 fn saving_again_and_again_keeps_the_file_small_and_right() {
     let folder = Folder::new("stdio-again");
     let file = fox(&folder);
-    let mut talk = Talk::about(&file);
+    let mut talk = StdioSession::about(&file);
     let mut sizes = Vec::new();
     for angle in [10.0, 20.0, 30.0, 40.0] {
         talk.ask(&turn(angle));
@@ -181,7 +181,7 @@ fn saving_again_and_again_keeps_the_file_small_and_right() {
         sizes.push(std::fs::metadata(&file).unwrap().len());
     }
     assert!(sizes.windows(2).all(|pair| pair[0] == pair[1]), "{sizes:?}");
-    // Takes change their places, and each keeps its own keys.
+    // Takes are reordered, and each keeps its own keys.
     talk.ask(&json!({"edit": "move_take", "take": "Run", "to": 0}));
     talk.ask(&json!({"do": "save"}));
     talk.ask(&turn(50.0));
@@ -193,7 +193,7 @@ fn saving_again_and_again_keeps_the_file_small_and_right() {
     );
     talk.ask(&json!({"do": "save"}));
     talk.end();
-    let mut talk = Talk::about(&file);
+    let mut talk = StdioSession::about(&file);
     let takes = talk.ask(&json!({"query": "takes"}));
     let names: Vec<&str> =
         takes.as_array().unwrap().iter().filter_map(|take| take["name"].as_str()).collect();
@@ -204,10 +204,10 @@ fn saving_again_and_again_keeps_the_file_small_and_right() {
 }
 
 #[test]
-fn a_file_that_somebody_else_changed_is_not_overwritten() {
+fn a_file_changed_by_another_program_is_not_overwritten() {
     let folder = Folder::new("stdio-changed");
     let file = fox(&folder);
-    let mut talk = Talk::about(&file);
+    let mut talk = StdioSession::about(&file);
     talk.ask(&turn(30.0));
     std::fs::write(&file, b"somebody else's work").unwrap();
     let answer = talk.say(r#"{"do":"save"}"#);
@@ -220,8 +220,8 @@ fn a_file_that_somebody_else_changed_is_not_overwritten() {
 }
 
 #[test]
-fn what_is_wrong_is_an_answer_and_the_conversation_goes_on() {
-    let mut talk = Talk::about(Path::new("demo:"));
+fn an_invalid_request_is_answered_and_the_session_continues() {
+    let mut talk = StdioSession::about(Path::new("demo:"));
     for (line, word) in [
         ("nonsense", "line 1"),
         ("[]", "object"),

@@ -1,5 +1,5 @@
-//! A disk that fills up: at every level of free space each kind of writing either succeeds or leaves what was there, and
-//! says so.
+//! Full disks: at every level of free space each kind of write either succeeds, or reports an error and leaves the old
+//! content unchanged.
 
 use dragonfly::app::store::{SETTINGS, Store};
 use dragonfly_kit::folder::Folder;
@@ -13,7 +13,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Levels of free space, a page apart.
+/// Number of levels of free space, one page apart.
 const LEVELS: usize = 64;
 
 const PAGE: usize = 4096;
@@ -22,7 +22,7 @@ fn pages(pages: usize, byte: u8) -> Vec<u8> {
     vec![byte; pages * PAGE]
 }
 
-/// Names in a folder, and nothing when it is not there.
+/// Returns the number of names in a folder, 0 if the folder does not exist.
 fn count(folder: &Path) -> usize {
     fs::read_dir(folder).map_or(0, Iterator::count)
 }
@@ -35,10 +35,10 @@ fn fill(disk: &Path, free: usize) {
     assert_eq!(rustix::fs::statvfs(disk).unwrap().f_bavail as usize, free);
 }
 
-/// Makes what is there before, and answers for the time when the disk is as full as it is to be.
+/// Prepares the disk, and returns the write to try once the disk is filled.
 type Prepare = fn(&Path) -> Box<dyn FnOnce(&Path) -> bool>;
 
-/// Replaces a file; `true` when it was.
+/// Replaces a file. Returns whether that succeeded.
 fn saves(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
     let path = disk.join("model.glb");
     replace(&path, &pages(3, 1)).unwrap();
@@ -51,7 +51,7 @@ fn saves(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
     })
 }
 
-/// `true` for no error, `false` for one that says that the disk is full.
+/// Returns `true` for no error, and `false` for an error that reports a full disk.
 fn is_full(error: Option<FileSaveError>) -> bool {
     match error {
         None => true,
@@ -62,7 +62,7 @@ fn is_full(error: Option<FileSaveError>) -> bool {
     }
 }
 
-/// Keeps an old version, of a document elsewhere.
+/// Keeps an old version of a document that is stored elsewhere.
 fn keeps_versions(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
     let elsewhere = disk.with_file_name("elsewhere.glb");
     let versions = Versions::new(disk.join("versions"), dragonfly_store::VersionLimits::default());
@@ -84,7 +84,7 @@ fn keeps_versions(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
     })
 }
 
-/// Appends edits, and a snapshot.
+/// Appends edits and a snapshot to a journal.
 fn records(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
     let autosave = Autosave::new(Arc::new(RealFiles), Some(disk.join("autosave"))).unwrap();
     let Opening::New(mut journal) = autosave.begin(None, None).unwrap() else { panic!("a new one") };
@@ -111,7 +111,7 @@ fn records(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
         drop(journal);
         let found = autosave.recoverable().unwrap();
         assert_eq!(found.len(), 1);
-        // It can be read and taken however full the disk is: there is room in its last page, or it says so.
+        // It can be read and taken over however full the disk is: its last page has space, or an error is reported.
         assert!(autosave.entries(&found[0]).unwrap() == wanted);
         assert_eq!(count(&autosave.journals()), 1);
         all
@@ -145,7 +145,7 @@ fn prefers(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
 }
 
 #[test]
-fn at_every_level_of_free_space_what_is_written_is_whole_or_not_there() {
+fn at_every_level_of_free_space_a_write_is_complete_or_absent() {
     if !may_mount("full disk") {
         return;
     }

@@ -1,4 +1,4 @@
-//! Takes are made, named, cut, put in order and deleted in their list.
+//! The list of takes: creating, renaming, splitting, reordering and deleting.
 
 use crate::nasty;
 use crate::workbench::{Window, Workbench, button, drag, move_to, press, type_into};
@@ -54,7 +54,7 @@ fn takes_are_made_copied_and_deleted_but_the_last_one_stays() {
 }
 
 #[test]
-fn start_and_length_are_asked_for_by_a_command_too() {
+fn a_command_also_asks_for_start_and_length() {
     let mut window = Workbench::full().window();
     assert!(window.query_by_label("Length").is_none());
     give(&mut window, Id::RetimeTake);
@@ -78,7 +78,7 @@ fn start_and_length_are_given_in_frames_too() {
     let shown = |window: &Window, field: &str| window.get_by_label(field).accesskit_node().numeric_value();
     assert_eq!(shown(&window, "Length"), Some(2.0), "both show the same");
     assert_eq!(shown(&window, "Start in frames"), Some(12.0));
-    // The last frame, though single precision puts it a hair behind the end.
+    // The last frame, although in single precision its time is slightly after the end.
     type_into(&mut window, "Length", "1/3", Key::Enter);
     type_into(&mut window, "To in frames", "20", Key::Enter);
     assert_eq!(window.state().refused, [""; 0]);
@@ -86,7 +86,7 @@ fn start_and_length_are_given_in_frames_too() {
 }
 
 #[test]
-fn many_takes_are_searched_and_the_one_that_is_shown_is_in_sight() {
+fn many_takes_have_a_search_field_and_the_shown_take_is_visible() {
     let names: Vec<String> =
         (0..40).map(|index| format!("Rig|{}_{index:02}", ["Walk", "Run"][index % 2])).collect();
     let takes: Vec<(&str, f32, usize)> = names.iter().map(|name| (name.as_str(), 1.0, 3)).collect();
@@ -117,20 +117,20 @@ fn many_takes_are_searched_and_the_one_that_is_shown_is_in_sight() {
         window.query_by_label("Rest pose").is_none() && list.bottom() < 1000.0,
         "it is scrolled to: {list:?}"
     );
-    // A name is typed where it stands, though another one is searched.
+    // A name can be edited in the list while the list is filtered by a search.
     search(&mut window, "run_03");
     give(&mut window, Id::RenameTake);
     assert!(window.query_by_label("Name of the take").is_some());
 }
 
 #[test]
-fn few_takes_are_not_searched() {
+fn few_takes_have_no_search_field() {
     let window = Workbench::full().window();
     assert!(window.query_by_label("Find a take").is_none());
 }
 
 #[test]
-fn a_take_is_renamed_where_it_stands() {
+fn a_take_is_renamed_in_the_list() {
     let mut window = Workbench::full().window();
     window.get_by_label("Walk").click();
     window.run_steps(2);
@@ -169,7 +169,7 @@ fn a_take_is_renamed_where_it_stands() {
     assert_eq!(window.state().steps(), (1, 1));
     let row = window.get_by_label("Run").rect().center();
     window.event(egui::Event::PointerMoved(row));
-    // Both clicks in one frame, since a frame of a test lasts longer than a double click may.
+    // Both clicks in one frame, because a frame of a test takes longer than a double click may.
     for pressed in [true, false, true, false] {
         let (button, modifiers) = (egui::PointerButton::Primary, Modifiers::NONE);
         window.event(egui::Event::PointerButton { pos: row, button, pressed, modifiers });
@@ -214,7 +214,7 @@ fn any_text_is_a_name() {
 }
 
 #[test]
-fn a_take_is_dragged_to_another_place_and_stays_shown() {
+fn a_take_that_is_dragged_to_another_position_stays_shown() {
     let mut window = Workbench::full().window();
     window.get_by_label("Run").click();
     window.run_steps(2);
@@ -281,7 +281,7 @@ fn a_take_is_split_reversed_and_trimmed() {
 }
 
 #[test]
-fn the_list_is_there_without_takes() {
+fn the_list_is_shown_without_takes() {
     let empty = Workbench::new(Some(fixture::empty())).window();
     assert!(empty.query_by_label("Rest pose").is_some());
     let nothing = Workbench::new(None).window();
@@ -293,7 +293,7 @@ fn the_list_is_there_without_takes() {
 }
 
 #[test]
-fn trimming_leaves_what_is_in_the_play_range_whether_time_runs_or_stands() {
+fn trimming_keeps_the_play_range_while_playing_and_while_paused() {
     for playing in [false, true] {
         let mut window = Workbench::full().window();
         if playing {
@@ -310,7 +310,7 @@ fn trimming_leaves_what_is_in_the_play_range_whether_time_runs_or_stands() {
         let range = KeysRequest::Range(Some([0.5, 1.25]));
         window.state_mut().state.execute(Request::Timeline(range));
         give(&mut window, Id::TrimTake);
-        // What is left plays from where the take began.
+        // The rest plays from the start of the take.
         assert_eq!(bounds(&window), [0.0, 0.75], "playing: {playing}");
         assert_eq!(window.state().state.read().keys.range(), None);
     }

@@ -1,4 +1,4 @@
-//! What a hand does on the curves: values up and down, times sidewards, tangents by their ends.
+//! Mouse input on the curves: vertical drags change values, horizontal drags times, handle drags tangents.
 
 use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
@@ -14,13 +14,13 @@ use egui::{Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use glam::EulerRot;
 
-/// The turn about z of a key of bone 3, degrees.
+/// Returns the rotation about z of a key of bone 3, degrees.
 fn angle(animator: &Animator, key: usize) -> f32 {
     let rotation = animator.edited.adapter().slots()[0].result.tracks[3].rotation.value(key).unwrap();
     rotation.to_euler(EulerRot::XYZ).2.to_degrees()
 }
 
-/// Where the key of the z curve is: all values of the bone fit the height of the panel.
+/// Returns the position of the key of the z curve: all values of the bone fit the height of the panel.
 fn place(animator: &Animator, key: usize) -> Pos2 {
     let curves = animator.curves();
     let all: Vec<f32> = (0..41).map(|key| angle(animator, key)).collect();
@@ -54,7 +54,7 @@ fn animator_angle(key: usize) -> f32 {
 }
 
 #[test]
-fn several_keys_are_dragged_up_together_and_escape_takes_it_back() {
+fn several_keys_are_dragged_up_together_and_escape_cancels() {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Command(Id::SelectAllKeys));
     let before: Vec<f32> = (0..41).map(|key| angle(&animator, key)).collect();
@@ -75,7 +75,7 @@ fn several_keys_are_dragged_up_together_and_escape_takes_it_back() {
 }
 
 #[test]
-fn a_key_dragged_sidewards_changes_its_time() {
+fn a_key_dragged_horizontally_changes_its_time() {
     let mut animator = Animator::with_bone(3);
     animator.steps(2);
     let at = place(&animator, 8);
@@ -104,7 +104,7 @@ fn a_tangent_is_dragged_by_its_end_and_alt_breaks_it() {
         animator.steps(4);
         let rotation = || animator.edited.adapter().slots()[0].result.tracks[3].rotation.clone();
         assert_eq!(rotation().interpolation, Interpolation::CubicSpline);
-        // A key at a crest: its tangent is level, so its end lies 44 points to the right.
+        // A key at a maximum: its tangent is horizontal, so its handle is 44 points to the right.
         let crest = (9..30).max_by(|&a, &b| angle(&animator, a).total_cmp(&angle(&animator, b))).unwrap();
         let at = place(&animator, crest);
         let before = rotation();
@@ -129,7 +129,7 @@ fn a_tangent_is_dragged_by_its_end_and_alt_breaks_it() {
 }
 
 #[test]
-fn the_fields_take_sums_and_refuse_what_is_no_number() {
+fn the_fields_accept_sums_and_refuse_other_text() {
     let mut animator = Animator::with_bone(3);
     animator.click(animator.at(animator.key(8), 2));
     animator.harness.get_by_label("Component X").click();
@@ -159,7 +159,7 @@ fn a_selected_key_shows_its_value_where_several_components_are_drawn() {
     assert_eq!(there(&animator), [false; 4], "without a key there is no number");
     let at = place(&animator, 8);
     animator.click(at);
-    // At this width there is room for one: that of the curve that was clicked.
+    // At this width only one field fits: that of the clicked curve.
     assert_eq!(there(&animator), [false, false, true, true]);
     animator.harness.get_by_label("Component Z").click();
     animator.steps(2);
@@ -172,7 +172,7 @@ fn a_selected_key_shows_its_value_where_several_components_are_drawn() {
 }
 
 #[test]
-fn the_numbers_of_a_key_are_dragged_as_one_step_and_given_up_with_escape() {
+fn dragging_a_number_of_a_key_is_one_step_and_escape_cancels_it() {
     use egui_kittest::kittest::NodeT;
     let mut animator = Animator::with_bone(3);
     let at = place(&animator, 8);
@@ -206,7 +206,7 @@ fn the_numbers_of_a_key_are_dragged_as_one_step_and_given_up_with_escape() {
     assert!(moved > time + 0.05 && (frames - frames.round()).abs() < 1e-3, "to a frame: {moved} s");
 }
 
-/// Turns a key of bone 3 about z, as a gizmo would.
+/// Rotates a key of bone 3 about z, as a gizmo would.
 fn turn(animator: &mut Animator, key: usize, degrees: f32) {
     let edit = Edit::SetPose(SetPose {
         take: TakeRef::Index(0),
@@ -224,7 +224,7 @@ fn turn(animator: &mut Animator, key: usize, degrees: f32) {
 }
 
 #[test]
-fn values_that_an_edit_brings_out_of_sight_come_into_it_unless_a_part_is_looked_at() {
+fn the_view_grows_to_edited_values_unless_it_was_zoomed() {
     let mut animator = Animator::with_bone(3);
     animator.steps(2);
     turn(&mut animator, 8, 150.0);
@@ -232,7 +232,7 @@ fn values_that_an_edit_brings_out_of_sight_come_into_it_unless_a_part_is_looked_
     animator.click(at);
     assert_eq!(animator.selected(), 1, "the key is where all values fit");
     animator.request(Request::Timeline(KeysRequest::Deselect));
-    // Who looks at a part goes on looking at it.
+    // A view that was zoomed to a part of the curve stays as it is.
     let values = animator.harness.get_by_label("Values").rect().center();
     animator.drag(values, values + vec2(0.0, 90.0));
     animator.release(values + vec2(0.0, 90.0));

@@ -1,4 +1,4 @@
-//! Markers are the program's own: beside the model, and never in its file.
+//! Markers are stored by the program for each model, never in the file of the model.
 
 use crate::panels::Bench;
 use crate::timeline_rig::Animator;
@@ -12,8 +12,8 @@ use egui::{PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 
-fn marker(animator: &mut Animator, deed: MarkerAction) {
-    animator.request(Request::Timeline(KeysRequest::Marker(deed)));
+fn marker(animator: &mut Animator, action: MarkerAction) {
+    animator.request(Request::Timeline(KeysRequest::Marker(action)));
 }
 
 fn names(animator: &Animator) -> Vec<(f32, String)> {
@@ -54,7 +54,7 @@ fn markers_are_added_named_moved_jumped_to_and_deleted() {
 }
 
 #[test]
-fn markers_come_back_with_the_file_and_a_damaged_text_brings_none() {
+fn markers_are_restored_with_the_file_and_a_damaged_text_gives_none() {
     let mut animator = Animator::with_bone(3);
     marker(&mut animator, MarkerAction::Add(0.5));
     let (file, text) = animator.harness.state_mut().state.unsaved_markers().unwrap();
@@ -73,7 +73,7 @@ fn markers_come_back_with_the_file_and_a_damaged_text_brings_none() {
 }
 
 #[test]
-fn a_copy_of_a_take_has_its_markers_and_the_second_part_of_one_those_behind_the_cut() {
+fn a_copied_take_has_its_markers_and_a_split_take_those_after_the_cut() {
     let times = |animator: &Animator| names(animator).iter().map(|(time, _)| *time).collect::<Vec<_>>();
     let mut animator = Animator::with_bone(3);
     for time in [0.5, 1.0, 2.0] {
@@ -91,13 +91,13 @@ fn a_copy_of_a_take_has_its_markers_and_the_second_part_of_one_those_behind_the_
     animator.request(Request::Command(Id::SplitTake));
     animator.request(Request::ShowTake(Some(1)));
     assert_eq!(names(&animator), [(0.5, "turn".to_owned())]);
-    // What is made of nothing has none.
+    // A new empty take has no markers.
     animator.request(Request::Command(Id::NewTake));
     assert!(names(&animator).is_empty());
 }
 
 #[test]
-fn what_is_typed_takes_the_place_of_a_markers_name() {
+fn typing_replaces_the_name_of_a_marker() {
     let mut animator = Animator::with_bone(3);
     marker(&mut animator, MarkerAction::Add(1.0));
     let place = animator.harness.get_by_label("Marker Marker 1").rect().left_center() + vec2(6.0, 0.0);
@@ -116,7 +116,7 @@ fn what_is_typed_takes_the_place_of_a_markers_name() {
 }
 
 #[test]
-fn markers_go_with_a_file_that_is_saved_elsewhere_and_with_a_take_that_is_renamed() {
+fn markers_follow_save_as_and_renamed_takes() {
     let mut animator = Animator::with_bone(3);
     // As the window does when a file is opened.
     let state = &mut animator.harness.state_mut().state;
@@ -134,7 +134,7 @@ fn markers_go_with_a_file_that_is_saved_elsewhere_and_with_a_take_that_is_rename
     state.show(view);
     let (file, text) = state.unsaved_markers().expect("of the new file too");
     assert_ne!(file, first.0);
-    // Until it is saved the take is called as it was, afterwards as it is now.
+    // Until it is saved the file contains the old name of the take, afterwards the new one.
     let renamed = fixture::view("other.glb", fixture::skeleton(3), &[("March", 2.0, 21)]);
     for mut opened in [fixture::full(), renamed] {
         opened.file = Arc::clone(&other);

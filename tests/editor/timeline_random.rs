@@ -1,4 +1,4 @@
-//! Whatever the mouse does over the timeline and the curves: no panic, and a document that is whole (promise U2).
+//! Any mouse input over the timeline and the curves: no panic, and a consistent document (promise U2).
 
 use crate::timeline_rig::Animator;
 use dragonfly::panels::commands::Id;
@@ -10,7 +10,7 @@ use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 
 const EVENTS: usize = 1200;
 
-/// What a random hand does next.
+/// Performs one random input.
 fn act(animator: &mut Animator, random: &mut Random, commands: &[Id]) {
     let lower =
         |random: &mut Random| -> Pos2 { pos2(random.between(-20.0, 1300.0), random.between(430.0, 740.0)) };
@@ -89,11 +89,11 @@ fn act(animator: &mut Animator, random: &mut Random, commands: &[Id]) {
 }
 
 #[test]
-fn no_mouse_and_no_key_brings_the_timeline_down() {
+fn random_mouse_and_key_input_does_not_break_the_timeline() {
     let seed = seed(20);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
-    // Everything about keys and playing; what opens sheets or files is tried elsewhere.
+    // All commands about keys and playback; commands that open dialogs or files are tested elsewhere.
     let commands: Vec<Id> = [
         panels::commands::Category::Keys,
         panels::commands::Category::Playback,
@@ -106,7 +106,7 @@ fn no_mouse_and_no_key_brings_the_timeline_down() {
     for _ in 0..EVENTS {
         act(&mut animator, &mut random, &commands);
     }
-    // The hand lets go of everything, and the panels still do what they do.
+    // All keys and buttons are released, and the panels still work.
     animator.hold(Modifiers::NONE);
     for button in [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle] {
         animator.button(pos2(2.0, 2.0), button, false);

@@ -1,4 +1,4 @@
-//! A person at the timeline and the curves: the panels without a window, with a document that answers.
+//! A simulated user of the timeline and the curves: the panels without a window, connected to a real document.
 
 use crate::panels::{Bench, harness_of};
 use dragonfly::panels::{Effect, Request};
@@ -11,17 +11,17 @@ use egui::{Event, Modifiers, PointerButton, Pos2, Rect, Vec2, pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 
-/// See the module.
+/// The panels, their document, and the simulated input.
 pub(crate) struct Animator {
     pub(crate) harness: Harness<'static, Bench>,
     pub(crate) edited: Edited,
     first: View,
-    /// Of the document's last view.
+    /// State for the last view of the document.
     generation: u64,
     modifiers: Modifiers,
-    /// Effects that are not for the document.
+    /// Effects that are not addressed to the document.
     others: usize,
-    /// Every change that was asked for.
+    /// Every requested change.
     pub(crate) changes: Vec<Change>,
 }
 
@@ -43,7 +43,7 @@ impl Animator {
         }
     }
 
-    /// A model with a spine, each bone turned by 41 keys over 3.417 seconds; `bone` is selected.
+    /// Creates it with a spine model, each bone with 41 rotation keys over 3.417 seconds; `bone` is selected.
     pub(crate) fn with_bone(bone: u32) -> Self {
         let mut animator = Self::new(fixture::full());
         animator.harness.state_mut().state.execute(Request::Select(Some(bone)));
@@ -51,7 +51,7 @@ impl Animator {
         animator
     }
 
-    /// Draws, and lets the document answer what was asked.
+    /// Draws frames, and lets the document answer the requests of each.
     pub(crate) fn steps(&mut self, steps: usize) {
         for _ in 0..steps {
             self.harness.run_steps(1);
@@ -62,7 +62,7 @@ impl Animator {
     fn answer(&mut self) {
         let bench = self.harness.state_mut();
         let mut changes = Vec::new();
-        // What is not for the document stays, for who asks what was asked for.
+        // Effects for other receivers are kept, so that tests can inspect them.
         let fresh = bench.effects.split_off(self.others.min(bench.effects.len()));
         for effect in fresh {
             let mut passed = Vec::new();
@@ -106,7 +106,7 @@ impl Animator {
         }
     }
 
-    /// Does what a panel would ask for.
+    /// Sends a request as a panel would.
     pub(crate) fn request(&mut self, request: Request) {
         let bench = self.harness.state_mut();
         let effect = bench.state.execute(request);
@@ -114,7 +114,7 @@ impl Animator {
         self.steps(2);
     }
 
-    /// Holds these keys from now on.
+    /// Holds these modifier keys from now on.
     pub(crate) fn hold(&mut self, modifiers: Modifiers) {
         self.modifiers = modifiers;
         self.harness.event(Event::ModifiersChanged(modifiers));
@@ -151,7 +151,7 @@ impl Animator {
         self.release(pos);
     }
 
-    /// From one place to the other, in several movements, without letting go.
+    /// Moves with the button pressed from one position to another, in several steps, without releasing it.
     pub(crate) fn drag(&mut self, from: Pos2, to: Pos2) {
         self.press(from);
         for part in 1..=4 {
@@ -172,47 +172,47 @@ impl Animator {
         self.steps(8);
     }
 
-    /// Where the keys of the timeline are.
+    /// Returns the rectangle of the keys in the timeline.
     pub(crate) fn keys(&self) -> Rect {
         self.harness.get_by_label_contains("Keys, ").rect()
     }
 
-    /// Where the curves are.
+    /// Returns the rectangle of the curves.
     pub(crate) fn curves(&self) -> Rect {
         self.harness.get_by_label("Curves of keys").rect()
     }
 
-    /// The place of a time in a row of the timeline, 0 for the uppermost.
+    /// Returns the position of a time in a row of the timeline; row 0 is the topmost.
     pub(crate) fn at(&self, time: f32, row: usize) -> Pos2 {
         let keys = self.keys();
         pos2(self.x_in(keys, time), keys.top() + (row as f32 + 0.5) * 20.0)
     }
 
-    /// Points of a time in a part that shows it.
+    /// Returns the x coordinate of a time in a part that shows it, in points.
     pub(crate) fn x_in(&self, part: Rect, time: f32) -> f32 {
         let state = &self.harness.state().state;
         let window = state.read().keys.window(state.read().take().unwrap());
         part.left() + 16.0 + (time - window.start as f32) / window.length as f32 * (part.width() - 36.0)
     }
 
-    /// How many keys are selected.
+    /// Returns the number of selected keys.
     pub(crate) fn selected(&self) -> usize {
         let state = &self.harness.state().state;
         state.read().keys.selection().count(state.read().take().unwrap())
     }
 
-    /// The time of a key of the fixture.
+    /// Returns the time of a key of the fixture.
     pub(crate) fn key(&self, index: usize) -> f32 {
         index as f32 * 3.417 / 40.0
     }
 
-    /// What the line at the bottom says.
+    /// Returns the text of the status line.
     pub(crate) fn said(&self) -> String {
         let line = self.harness.state().state.read().status.last();
         line.map_or_else(String::new, |line| line.text.clone())
     }
 
-    /// Edits asked for so far.
+    /// Returns the edits requested so far.
     pub(crate) fn edits(&self) -> Vec<&Edit> {
         self.changes
             .iter()
@@ -220,7 +220,7 @@ impl Animator {
             .collect()
     }
 
-    /// Times of the keys of a bone's rotation, as the document has them.
+    /// Returns the times of the rotation keys of a bone in the document.
     pub(crate) fn times(&self, bone: usize) -> Vec<f32> {
         self.edited.adapter().slots()[0].result.tracks[bone].rotation.times.to_vec()
     }

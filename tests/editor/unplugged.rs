@@ -1,5 +1,5 @@
-//! A mouse that is unplugged, a keyboard that goes to another window: the end of what is dragged never comes. Nothing
-//! stays held, and what was half done is taken back. Nor is anything saved or undone in the middle of a drag.
+//! Drags whose release event never arrives, because the mouse is unplugged or another window takes the keyboard: nothing
+//! stays held, and the unfinished drag is cancelled. Nothing is saved or undone in the middle of a drag either.
 
 use crate::timeline_rig::Animator;
 use dragonfly::panels::FileAction;
@@ -11,7 +11,7 @@ use dragonfly_document::{Change, Then};
 use dragonfly_kit::random::{Random, seed};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, pos2};
 
-/// The window loses the keyboard, and hears nothing of what is let go.
+/// Takes the focus away from the window, which then receives no release events.
 fn lose(animator: &mut Animator) {
     animator.harness.event(Event::WindowFocused(false));
     animator.steps(1);
@@ -57,14 +57,14 @@ fn same(one: &Edited, other: &Edited) -> bool {
     one.steps().1 == other.steps().1 && takes(one) == takes(other)
 }
 
-/// A place where something can be dragged, mostly.
+/// Returns a position at which, in most cases, something can be dragged.
 fn place(random: &mut Random, animator: &Animator) -> Pos2 {
     let keys = animator.keys();
     let bones = random.below(8);
     match random.below(8) {
-        // The gizmo at the selected bone, and the picture around it.
+        // The gizmo at the selected bone, and the viewport around it.
         0..3 => pos2(random.between(430.0, 830.0), random.between(100.0, 420.0)),
-        // Numbers of the bone.
+        // Number fields of the bone.
         3 | 4 => pos2(random.between(1030.0, 1275.0), random.between(60.0, 460.0)),
         5 | 6 => animator.at(animator.key(random.below(40)), bones),
         _ => pos2(random.between(keys.left(), 1275.0), random.between(470.0, 690.0)),
@@ -72,7 +72,7 @@ fn place(random: &mut Random, animator: &Animator) -> Pos2 {
 }
 
 #[test]
-fn a_drag_whose_end_never_comes_leaves_nothing_held_and_nothing_half_done() {
+fn a_drag_without_a_release_leaves_nothing_held_and_no_partial_edit() {
     let seed = seed(0x756e_706c);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -96,7 +96,7 @@ fn a_drag_whose_end_never_comes_leaves_nothing_held_and_nothing_half_done() {
             let now = animator.harness.state().state.read().dragging.is_open();
             open = now;
             if open && random.below(3) == 0 {
-                // A command in the middle of it is not heard.
+                // A command during the drag is ignored.
                 let (steps, asked) = (animator.edited.steps().1, animator.harness.state().effects.len());
                 let letter = random.choice(&[Key::S, Key::Z, Key::O, Key::Q, Key::K, Key::Delete]);
                 let with = if letter == Key::Delete { Modifiers::NONE } else { Modifiers::COMMAND };
@@ -121,7 +121,7 @@ fn a_drag_whose_end_never_comes_leaves_nothing_held_and_nothing_half_done() {
             }
         }
         nothing_is_held(&animator, round);
-        // The hand comes back, perhaps with a button that nobody heard of.
+        // The focus returns, perhaps with a button pressed whose press event was never received.
         animator.harness.event(Event::WindowFocused(true));
         let asked = animator.changes.len();
         animator.move_to(from);
@@ -130,7 +130,7 @@ fn a_drag_whose_end_never_comes_leaves_nothing_held_and_nothing_half_done() {
         }
         animator.move_to(from + egui::vec2(30.0, 10.0));
         assert_eq!(animator.changes.len(), asked, "round {round}: {:?}", animator.changes.last());
-        // Whatever was opened by a click is closed, and the bone is selected again.
+        // Anything that a click opened is closed, and the bone is selected again.
         key(&mut animator, Key::Escape, Modifiers::NONE);
         let bench = animator.harness.state_mut();
         bench.effects.clear();
@@ -157,9 +157,9 @@ fn a_drag_whose_end_never_comes_leaves_nothing_held_and_nothing_half_done() {
     );
 }
 
-/// What asks for something of the document in the middle of a drag, by whatever way, does so without the drag.
+/// Every request to the document during a drag, from any source, is carried out without the unfinished drag.
 #[test]
-fn whoever_saves_closes_or_undoes_in_the_middle_of_a_drag_does_so_without_it() {
+fn saving_closing_or_undoing_during_a_drag_excludes_the_drag() {
     let ways: [fn() -> Request; 6] = [
         || Request::Command(Id::Save),
         || Request::Command(Id::SaveAs),
@@ -187,7 +187,7 @@ fn whoever_saves_closes_or_undoes_in_the_middle_of_a_drag_does_so_without_it() {
         if undone == 0 {
             assert!(same(&animator.edited, &before), "{number}");
         }
-        // The hand goes on, and is not heard; its next drag is.
+        // Further movement of the same drag is ignored; the next drag works.
         animator.move_to(keys[0]);
         animator.move_to(keys[1]);
         animator.release(keys[1]);

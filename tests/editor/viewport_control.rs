@@ -1,4 +1,4 @@
-//! The mouse over the picture.
+//! Mouse input over the viewport.
 
 use dragonfly::control::{
     Area, BaseControl, Button, Catch, ControlFramework, ControlId, ControlLookup, InputEvent, Key, Modifiers,
@@ -17,7 +17,7 @@ const SHIFT: Modifiers = Modifiers { shift: true, ctrl: false, alt: false };
 const CTRL: Modifiers = Modifiers { shift: false, ctrl: true, alt: false };
 const NONE: Modifiers = Modifiers { shift: false, ctrl: false, alt: false };
 
-/// The picture in a window.
+/// A viewport in a window.
 struct Picture {
     framework: ControlFramework,
     owner: Owner,
@@ -56,7 +56,7 @@ impl Picture {
         self.send(InputEvent::MouseMove(CORNER + Vec2::new(x, y)));
     }
 
-    /// From one place to another with a button held; what was asked for.
+    /// Drags along these points with a button held. Returns the requested outcome.
     fn drag(&mut self, button: Button, held: Modifiers, ways: &[[f32; 2]]) -> Option<ViewportOutcome> {
         self.send(InputEvent::Modifiers(held));
         self.to(ways[0][0], ways[0][1]);
@@ -68,7 +68,7 @@ impl Picture {
 }
 
 #[test]
-fn a_click_picks_a_drag_draws_a_box_and_neither_moves_the_eye() {
+fn a_click_picks_a_drag_draws_a_box_and_neither_moves_the_camera() {
     let mut picture = Picture::new();
     let click = picture.drag(Button::Left, NONE, &[[10.0, 20.0], [11.0, 20.0]]);
     assert_eq!(click, Some(ViewportOutcome::Pick(Vec2::new(10.0, 20.0), Choice::Replace)));
@@ -96,7 +96,7 @@ fn shift_adds_ctrl_toggles_and_both_with_alt_draw_a_line() {
         panic!("no lasso")
     };
     assert_eq!(line, ways.map(Vec2::from));
-    // Armed by a command, the next drag draws one too, and only that one.
+    // After the command for it, the next drag draws a line too, and only that drag.
     picture.control().arm(Catch::Lasso);
     let outcome = picture.drag(Button::Left, SHIFT, &ways);
     assert!(
@@ -108,7 +108,7 @@ fn shift_adds_ctrl_toggles_and_both_with_alt_draw_a_line() {
 }
 
 #[test]
-fn each_gesture_does_what_hands_expect() {
+fn each_mouse_gesture_does_its_standard_action() {
     let gestures = [
         (Button::Middle, NONE, "orbit"),
         (Button::Left, ALT, "orbit"),
@@ -117,7 +117,7 @@ fn each_gesture_does_what_hands_expect() {
         (Button::Right, ALT, "zoom"),
         (Button::Right, NONE, "nothing"),
     ];
-    for (button, held, deed) in gestures {
+    for (button, held, expected) in gestures {
         let mut picture = Picture::new();
         let before = picture.camera();
         let asked = picture.drag(button, held, &[[100.0, 100.0], [130.0, 160.0]]);
@@ -131,7 +131,7 @@ fn each_gesture_does_what_hands_expect() {
         } else {
             "nothing"
         };
-        assert_eq!(found, deed, "{button:?} {held:?}");
+        assert_eq!(found, expected, "{button:?} {held:?}");
         assert_eq!(asked, None);
     }
 }
@@ -152,7 +152,7 @@ fn losing_the_focus_ends_a_drag() {
 }
 
 #[test]
-fn escape_and_another_button_take_a_drag_back() {
+fn escape_and_another_button_cancel_a_drag() {
     let mut picture = Picture::new();
     picture.to(100.0, 100.0);
     picture.send(InputEvent::MouseDown(Button::Middle));
@@ -217,7 +217,7 @@ fn a_thousand_random_sequences_leave_nothing_stuck() {
             let finite = camera.target.is_finite() && camera.distance.is_finite() && camera.yaw.is_finite();
             assert!(finite && camera.distance > 0.0, "{camera:?}");
         }
-        // Everything let go: nothing drags.
+        // Everything is released: no drag is active.
         buttons.into_iter().for_each(|button| picture.send(InputEvent::MouseUp(button)));
         assert!(!picture.control().is_dragging());
     }

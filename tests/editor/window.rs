@@ -1,4 +1,4 @@
-//! The whole program as a person meets it: a real window on a screen of our own, driven by keys and mouse.
+//! The whole program as the user meets it: a real window on a private screen, driven by keys and mouse.
 
 use crate::program::{dragonfly, dragonfly_with_faults, threads, wait};
 use crate::screen::{Screen, Window, key, pass};
@@ -14,57 +14,57 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Longer than anything takes on a busy machine whose processor draws.
+/// Timeout that no operation reaches, even on a busy machine that renders on the CPU.
 pub(crate) const SOON: Duration = Duration::from_secs(60);
 
-/// The middle of the viewport of a window of 1280 × 720: left, top, width, height.
+/// Center of the viewport in a window of 1280 × 720: left, top, width, height.
 const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
 
-/// Where on the ruler of Fox's first take 0.67 and 2.00 seconds are, and the button that plays and pauses.
+/// Positions of 0.67 and 2.00 seconds on the ruler of Fox's first take, and of the button that plays and pauses.
 const EARLY: (i16, i16) = (308, 533);
 const LATE: (i16, i16) = (508, 533);
 const PLAY: (i16, i16) = (124, 507);
 
-/// Switches of the program with injected faults.
+/// Command line switches of the program with injected faults.
 const FAULT_SWITCHES: [&str; 5] = ["--edits", "--fail-at", "--fail", "--lose-device", "--never-pause"];
 
-/// One window at a time: two of them on two cores only make each other late.
+/// Lock that allows one window at a time: two of them on two cores only slow each other down.
 static ONE: Mutex<()> = Mutex::new(());
 
 pub(crate) fn alone() -> MutexGuard<'static, ()> {
     ONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The editor on a screen.
+/// A running editor process.
 pub(crate) struct Editor {
     child: Child,
     said: Receiver<String>,
     pub(crate) lines: Vec<String>,
     pub(crate) window: Window,
-    /// Variables of its environment.
+    /// Environment variables of the process.
     variables: Vec<String>,
     _settings: Folder,
 }
 
 impl Editor {
-    /// Starts it with Fox, and waits until the model is there.
+    /// Starts it with Fox, and waits until the model is loaded.
     pub(crate) fn open(screen: &mut Screen, arguments: &[&str], environment: &[(&str, &str)]) -> Self {
         let mut editor = Self::open_file(screen, &data("gltf/Fox.glb"), arguments, environment);
         editor.window = screen.window("Fox.glb", SOON);
         screen.focus(editor.window);
-        // The arrow is part of the picture.
+        // The mouse pointer would be part of the screenshot.
         screen.point(i16::MAX, i16::MAX);
         editor
     }
 
-    /// Starts it with any file, and waits until the model is there; its window is not looked for.
+    /// Starts it with any file, and waits until the model is loaded, without looking for its window.
     pub(crate) fn open_file(
         screen: &mut Screen,
         file: &Path,
         arguments: &[&str],
         environment: &[(&str, &str)],
     ) -> Self {
-        // One that is ended is let go of only after the next one began.
+        // A previous process is dropped only after the next one has started.
         static STARTS: AtomicUsize = AtomicUsize::new(0);
         let settings = Folder::new(&format!("settings-{}", STARTS.fetch_add(1, Ordering::Relaxed)));
         let faults = arguments.iter().any(|argument| FAULT_SWITCHES.contains(argument));
@@ -87,14 +87,14 @@ impl Editor {
         std::thread::Builder::new().name("reader".to_owned()).spawn(read).expect("a thread");
         let variables = environment.iter().map(|(name, _)| (*name).to_owned()).collect();
         let mut editor = Self { child, said, lines: Vec::new(), window: 0, variables, _settings: settings };
-        editor.hears("Opened ", 1, SOON);
+        editor.wait_for_log("Opened ", 1, SOON);
         screen.program = Some(editor.child.id());
         editor
     }
 
-    /// Waits until lines of its log held `word` so many times.
+    /// Waits until the log contains `times` lines with `word`.
     #[track_caller]
-    pub(crate) fn hears(&mut self, word: &str, times: usize, limit: Duration) {
+    pub(crate) fn wait_for_log(&mut self, word: &str, times: usize, limit: Duration) {
         let deadline = Instant::now() + limit;
         loop {
             let count = self.lines.iter().filter(|line| line.contains(word)).count();
@@ -112,7 +112,7 @@ impl Editor {
         }
     }
 
-    /// Takes what was said so far.
+    /// Reads the log lines written so far.
     pub(crate) fn listen(&mut self) {
         self.lines.extend(self.said.try_iter());
     }
@@ -122,7 +122,7 @@ impl Editor {
         self.lines.join("\n")
     }
 
-    /// Waits for its end, by itself.
+    /// Waits until the process exits by itself.
     #[track_caller]
     pub(crate) fn ends(&mut self, limit: Duration) -> ExitStatus {
         let status = wait(&mut self.child, limit);
@@ -130,25 +130,25 @@ impl Editor {
         status
     }
 
-    /// Until the reader has read the last line.
+    /// Reads the log to its last line.
     fn listen_to_the_end(&mut self) {
         while let Ok(line) = self.said.recv() {
             self.lines.push(line);
         }
     }
 
-    /// Its number among the processes.
+    /// Returns the process id.
     pub(crate) fn process(&self) -> u32 {
         self.child.id()
     }
 
-    /// Ends it as the system ends what it cannot save.
+    /// Kills the process, as the system does with one that does not react.
     pub(crate) fn kill(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 
-    /// Processor time used so far, in hundredths of a second.
+    /// Returns the processor time used so far, in hundredths of a second.
     fn processor_time(&self) -> u64 {
         let stat =
             std::fs::read_to_string(format!("/proc/{}/stat", self.child.id())).expect("a running process");
@@ -170,8 +170,8 @@ impl Drop for Editor {
     }
 }
 
-/// What a part of the screen shows once it does not change any more and the program has nothing left to do:
-/// on a busy machine a picture can stand still for a second because the program had no turn.
+/// Returns the image of a part of the screen once it no longer changes and the program is idle: on a busy machine the
+/// image can stay unchanged for a second only because the program was not scheduled.
 #[track_caller]
 pub(crate) fn settled(screen: &Screen, part: [u32; 4]) -> RgbaImage {
     let deadline = Instant::now() + SOON;
@@ -191,22 +191,22 @@ pub(crate) fn settled(screen: &Screen, part: [u32; 4]) -> RgbaImage {
     last
 }
 
-/// Whether a thread of this program runs or waits for a processor.
+/// Returns whether a thread of this program runs or waits for a processor.
 fn works(program: u32) -> bool {
     let threads = std::fs::read_dir(format!("/proc/{program}/task")).into_iter().flatten().flatten();
     let stat = |thread: std::fs::DirEntry| std::fs::read_to_string(thread.path().join("stat")).ok();
-    // The state follows the name, which is in brackets and may hold any.
+    // The state follows the name, which is in brackets and may contain any character.
     threads.filter_map(stat).any(|stat| {
         stat.rsplit(')').next().is_some_and(|rest| rest.starts_with(" R") || rest.starts_with(" D"))
     })
 }
 
-/// How many different colours there are: a blank or broken picture has few.
+/// Returns the number of different colors: a blank or broken image has few.
 pub(crate) fn colours(picture: &RgbaImage) -> usize {
     picture.pixels().collect::<std::collections::HashSet<_>>().len()
 }
 
-/// Compares pictures without printing a million numbers when they differ.
+/// Compares images without printing a million numbers when they differ.
 #[track_caller]
 pub(crate) fn same(screen: &Screen, now: &RgbaImage, before: &RgbaImage, otherwise: &str) {
     let different = now.pixels().zip(before.pixels()).filter(|(now, before)| now != before).count();
@@ -228,7 +228,7 @@ pub(crate) fn eventually_shows_something(screen: &Screen) {
     }
 }
 
-/// Pauses and goes to the first frame with the keyboard.
+/// Pauses, and goes to the first frame with the keyboard.
 pub(crate) fn rest(screen: &mut Screen, part: [u32; 4]) -> RgbaImage {
     screen.press(key::SPACE);
     screen.press(key::HOME);
@@ -236,23 +236,23 @@ pub(crate) fn rest(screen: &mut Screen, part: [u32; 4]) -> RgbaImage {
 }
 
 #[test]
-fn a_model_opens_moves_is_scrubbed_rests_and_closes_in_order() {
+fn a_model_opens_plays_scrubs_pauses_and_closes_cleanly() {
     let _one = alone();
     let mut screen = Screen::new("life", 1280, 800);
     let mut editor = Editor::open(&mut screen, &[], &[]);
     eventually_shows_something(&screen);
 
-    // It moves by itself.
+    // It plays by itself.
     let before = screen.part(VIEWPORT);
     pass(Duration::from_millis(500));
-    // Half a second is enough for a program that has its turn.
+    // Half a second is enough for a program that is scheduled.
     let deadline = Instant::now() + SOON;
     while screen.program.is_some_and(works) && before == screen.part(VIEWPORT) && Instant::now() < deadline {
         pass(Duration::from_millis(100));
     }
     assert!(before != screen.part(VIEWPORT), "two pictures half a second apart are the same");
 
-    // A click on the timeline moves the pose, to the same one each time.
+    // A click on the timeline changes the pose, to the same one each time.
     screen.click(PLAY.0, PLAY.1);
     screen.click(LATE.0, LATE.1);
     let late = settled(&screen, VIEWPORT);
@@ -262,13 +262,13 @@ fn a_model_opens_moves_is_scrubbed_rests_and_closes_in_order() {
     screen.click(LATE.0, LATE.1);
     same(&screen, &settled(&screen, VIEWPORT), &late, "the same time shows another pose");
 
-    // At rest it costs nothing.
+    // While paused it uses no processor time.
     let used = editor.processor_time();
     pass(Duration::from_secs(2));
     let used = editor.processor_time() - used;
     assert!(used < 10, "{used} hundredths of a second of work in two seconds of rest");
 
-    // It leaves when asked, quickly, in order, without complaint.
+    // It exits when asked, quickly, in order, without warnings.
     screen.close(editor.window);
     let asked = Instant::now();
     let status = editor.ends(Duration::from_secs(20));
@@ -287,7 +287,7 @@ fn a_model_opens_moves_is_scrubbed_rests_and_closes_in_order() {
 }
 
 #[test]
-fn a_hundred_losses_of_the_device_lose_nothing() {
+fn a_hundred_device_losses_lose_no_data() {
     let _one = alone();
     let mut screen = Screen::new("losses", 1280, 800);
     let whole = {
@@ -299,7 +299,7 @@ fn a_hundred_losses_of_the_device_lose_nothing() {
         whole
     };
     let mut editor = Editor::open(&mut screen, &["--lose-device", "1"], &[]);
-    editor.hears("the graphics device was lost", 100, 4 * SOON);
+    editor.wait_for_log("the graphics device was lost", 100, 4 * SOON);
     let after = rest(&mut screen, VIEWPORT);
     same(&screen, &after, &whole, "a hundred losses changed the picture");
     screen.close(editor.window);
@@ -307,7 +307,7 @@ fn a_hundred_losses_of_the_device_lose_nothing() {
 }
 
 #[test]
-fn a_window_of_any_size_hidden_and_shown_again_goes_on() {
+fn resizing_and_hiding_the_window_does_not_stop_it() {
     let _one = alone();
     let mut screen = Screen::new("sizes", 1280, 800);
     let mut editor = Editor::open(&mut screen, &[], &[]);
@@ -328,7 +328,7 @@ fn a_window_of_any_size_hidden_and_shown_again_goes_on() {
             screen.show(editor.window, false);
             screen.show(editor.window, true);
         }
-        // Now and then it has the time to draw in the size it has.
+        // Sometimes it gets the time to draw in the current size.
         if step % 20 == 19 {
             pass(Duration::from_millis(60));
         }
@@ -343,7 +343,7 @@ fn a_window_of_any_size_hidden_and_shown_again_goes_on() {
 }
 
 #[test]
-fn a_window_that_is_destroyed_from_outside_ends_the_program_and_does_not_crash_it() {
+fn destroying_the_window_from_outside_ends_the_program_without_a_crash() {
     let _one = alone();
     let mut screen = Screen::new("destroyed", 1280, 800);
     // Before anything was drawn, and after.
@@ -358,10 +358,10 @@ fn a_window_that_is_destroyed_from_outside_ends_the_program_and_does_not_crash_i
     }
 }
 
-/// Only that it ends: Xlib itself ends a program whose server is gone, in the middle of whatever its threads do, and below
-/// anything that safe code can set. Mostly that is exit code 1; a driver that still draws can make it a signal.
+/// Checks only that the program ends: Xlib itself exits when its server is gone, in the middle of any other thread's work,
+/// and safe code cannot change that. Mostly that is exit code 1; a driver that still draws can turn it into a signal.
 #[test]
-fn the_program_does_not_outlive_its_screen() {
+fn the_program_ends_when_its_x_server_dies() {
     let _one = alone();
     let mut screen = Screen::new("gone", 1280, 800);
     let mut editor = Editor::open(&mut screen, &[], &[]);

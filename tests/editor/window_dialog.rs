@@ -1,4 +1,4 @@
-//! The desktop's dialog for opening files.
+//! The file dialog of the desktop.
 
 use crate::drag::address;
 use crate::portal::{Answer, Bus, Portal};
@@ -11,11 +11,11 @@ use std::time::Duration;
 
 const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
 
-/// The program asks in this variable where the bus is.
+/// Environment variable with the address of the bus.
 const BUS: &str = "DBUS_SESSION_BUS_ADDRESS";
 
 #[test]
-fn the_file_that_is_chosen_in_the_dialog_is_opened_and_a_closed_dialog_changes_nothing() {
+fn the_chosen_file_is_opened_and_cancelling_the_dialog_changes_nothing() {
     let _one = alone();
     let folder = Folder::new("chosen");
     let model = folder.join("Füchsin & 100 % mehr.glb");
@@ -33,21 +33,21 @@ fn the_file_that_is_chosen_in_the_dialog_is_opened_and_a_closed_dialog_changes_n
     for option in ["filters", "current_folder"] {
         assert!(question.options.iter().any(|found| found == option), "{option}: {:?}", question.options);
     }
-    // One dialog is enough, also for who does not see it behind the window.
+    // A second request opens no second dialog, even if the user does not see the first one, hidden by the window.
     screen.press_with(key::CONTROL, key::O);
-    editor.hears("The dialog for opening files is open already", 1, SOON);
-    // The window lives on while the dialog is open.
+    editor.wait_for_log("The dialog for opening files is open already", 1, SOON);
+    // The window keeps working while the dialog is open.
     let before = screen.part(VIEWPORT);
     eventually(SOON, || screen.part(VIEWPORT) != before);
     let fox = rest(&mut screen, VIEWPORT);
     portal.answer(&question, &Answer::Nothing);
-    editor.hears("No file was chosen", 1, SOON);
+    editor.wait_for_log("No file was chosen", 1, SOON);
     same(&screen, &settled(&screen, VIEWPORT), &fox, "a dialog that was closed changed the picture");
 
     screen.press_with(key::CONTROL, key::O);
     let question = portal.question(SOON);
     portal.answer(&question, &Answer::File(address(&model)));
-    editor.hears("Opened Füchsin & 100 % mehr.glb", 1, SOON);
+    editor.wait_for_log("Opened Füchsin & 100 % mehr.glb", 1, SOON);
     assert_eq!(screen.window("Füchsin & 100 % mehr.glb", SOON), window);
     eventually(SOON, || screen.part(VIEWPORT) != fox);
 
@@ -70,18 +70,18 @@ fn the_program_ends_while_the_dialog_is_open() {
 }
 
 #[test]
-fn a_desktop_without_a_dialog_is_told_and_the_path_can_be_typed() {
+fn without_a_file_dialog_a_message_is_shown_and_the_path_can_be_typed() {
     let _one = alone();
     let bus = Bus::new();
     let mut screen = Screen::new("no-dialog", 1280, 800);
     for address in [bus.address(), "unix:path=/nonexistent"] {
-        // Nor any program that would show one instead.
+        // There is no program either that would show one instead.
         let environment = [(BUS, address), ("PATH", "/nonexistent")];
         let mut editor = Editor::open(&mut screen, &[], &environment);
         let closed = rest(&mut screen, VIEWPORT);
         screen.press_with(key::CONTROL, key::O);
-        editor.hears("This desktop has no dialog for opening files; type the path instead", 1, SOON);
-        // The field for the path lies over the picture.
+        editor.wait_for_log("This desktop has no dialog for opening files; type the path instead", 1, SOON);
+        // The path field covers a part of the viewport.
         eventually(SOON, || screen.part(VIEWPORT) != closed);
         screen.close(editor.window);
         assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
@@ -89,7 +89,7 @@ fn a_desktop_without_a_dialog_is_told_and_the_path_can_be_typed() {
 }
 
 #[test]
-fn work_on_a_file_that_was_renamed_goes_on_in_the_file_that_is_chosen() {
+fn work_on_a_renamed_file_continues_in_the_chosen_file() {
     let _one = alone();
     let folder = Folder::new("renamed");
     let model = folder.join("Fox.glb");
@@ -109,34 +109,34 @@ fn work_on_a_file_that_was_renamed_goes_on_in_the_file_that_is_chosen() {
     {
         let portal = Portal::new(&bus);
         let mut editor = Editor::open(&mut screen, &arguments, &[(BUS, bus.address())]);
-        editor.hears("offered unsaved work", 1, SOON);
+        editor.wait_for_log("offered unsaved work", 1, SOON);
         screen.press(key::ENTER);
         let question = portal.question(SOON);
         assert_eq!(question.title, "Where is Fox.glb now?");
-        // Closed by a person, who takes some time for it, the question is still there.
+        // After the user has closed the dialog, which takes some time, the question is still there.
         pass(Duration::from_millis(400));
         portal.answer(&question, &Answer::Nothing);
-        editor.hears("No file was chosen", 1, SOON);
+        editor.wait_for_log("No file was chosen", 1, SOON);
         screen.press(key::ENTER);
         portal.answer(&portal.question(SOON), &Answer::File(address(&other)));
-        editor.hears("said that it is another file", 1, SOON);
+        editor.wait_for_log("said that it is another file", 1, SOON);
         screen.press(key::ENTER);
         portal.answer(&portal.question(SOON), &Answer::File(address(&moved)));
-        editor.hears("Restored the unsaved work of Füchsin & mehr.glb: 2 steps", 1, SOON);
+        editor.wait_for_log("Restored the unsaved work of Füchsin & mehr.glb: 2 steps", 1, SOON);
         screen.window("• Füchsin & mehr.glb", SOON);
         editor.kill();
     }
-    // Where there is no dialog for files, the path is typed; what stands there is where it was last.
+    // Without a file dialog the path is typed; the field contains the last known path.
     let back = folder.join("Fox.glb");
     std::fs::rename(&moved, &back).expect("renamed");
     let environment = [(BUS, "unix:path=/nonexistent"), ("PATH", "/nonexistent")];
     let mut editor = Editor::open(&mut screen, &arguments, &environment);
-    editor.hears("offered unsaved work", 1, SOON);
+    editor.wait_for_log("offered unsaved work", 1, SOON);
     screen.press(key::ENTER);
-    editor.hears("asked where a file is now", 1, SOON);
+    editor.wait_for_log("asked where a file is now", 1, SOON);
     screen.press_with(key::CONTROL, key::of('a'));
     screen.type_path(back.to_str().expect("a name"));
     screen.press(key::ENTER);
-    editor.hears("Restored the unsaved work of Fox.glb: 2 steps", 1, SOON);
+    editor.wait_for_log("Restored the unsaved work of Fox.glb: 2 steps", 1, SOON);
     editor.kill();
 }

@@ -1,5 +1,5 @@
-//! In the midst of a drag in the real window: nothing of it is saved or undone, it never outlives the hand, and no key and
-//! no button stays held when their release is never told.
+//! Drags in the real window: an unfinished drag is neither saved nor undone, it ends when the window loses the focus, and
+//! no key and no button stays held when its release event never arrives.
 
 use crate::screen::{key, pass};
 use crate::window::{SOON, alone};
@@ -9,7 +9,7 @@ use dragonfly_picture::gizmo::Handle;
 use std::fs;
 use std::time::Duration;
 
-/// What is dragged.
+/// The thing that is dragged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum What {
     Gizmo,
@@ -20,13 +20,13 @@ enum What {
 const ALL: [What; 3] = [What::Gizmo, What::Field, What::Keys];
 
 impl What {
-    /// Begins to drag it, and is in the midst of it when this returns.
+    /// Starts the drag, and returns in the middle of it.
     #[track_caller]
     fn begins(self, visit: &mut Visit) {
         let done: usize = visit.shown("done").parse().expect("a number");
         let (x, y) = self.place(visit);
         if self == Self::Keys {
-            // They lie side by side: a drag of one that is not selected would be a box.
+            // The keys are close together: a drag from one that is not selected would draw a box.
             visit.screen.click(x, y);
             visit.control("Time of the key");
         }
@@ -51,7 +51,7 @@ impl What {
                 (ring.x as i16, ring.y as i16)
             }
             Self::Field => middle(&visit.control("Rotation result Z")),
-            // The first key of the first bone that is listed: at the start of the take, where time stands.
+            // The first key of the first listed bone: at the start of the take, where the playhead is.
             Self::Keys => {
                 let track = visit.control("Time track");
                 let left = track["place"][0].as_f64().expect("a place");
@@ -62,7 +62,7 @@ impl What {
 }
 
 #[test]
-fn in_the_midst_of_a_drag_nothing_is_saved_or_undone() {
+fn during_a_drag_nothing_is_saved_or_undone() {
     let _one = alone();
     let mut visit = Visit::new("dragging-keys");
     let original = fs::read(&visit.file).unwrap();
@@ -74,8 +74,8 @@ fn in_the_midst_of_a_drag_nothing_is_saved_or_undone() {
         for letter in [key::S, key::Z, key::Q, key::O] {
             visit.control_and(letter);
         }
-        // It goes on.
-        visit.screen.let_go();
+        // The drag continues.
+        visit.screen.release_button();
         visit.until_steps(number + 1, number + 1);
         assert!(fs::read(&visit.file).unwrap() == original, "{what:?}: the middle of a drag was saved");
         let log = visit.editor.log();
@@ -87,21 +87,21 @@ fn in_the_midst_of_a_drag_nothing_is_saved_or_undone() {
 }
 
 #[test]
-fn a_window_that_is_closed_in_the_midst_of_a_drag_leaves_without_it() {
+fn closing_the_window_during_a_drag_discards_the_drag() {
     let _one = alone();
     for what in ALL {
         println!("{what:?}");
         let mut visit = Visit::new(&format!("dragging-closed-{what:?}"));
         visit.pick_head();
-        // Something that is whole.
+        // One complete edit.
         What::Field.begins(&mut visit);
-        visit.screen.let_go();
+        visit.screen.release_button();
         visit.go_on(0);
         what.begins(&mut visit);
         visit.screen.close(visit.editor.window);
-        visit.editor.hears("asked what becomes of unsaved work", 1, SOON);
+        visit.editor.wait_for_log("asked what becomes of unsaved work", 1, SOON);
         visit.until_steps(1, 1);
-        visit.screen.let_go();
+        visit.screen.release_button();
         visit.screen.press(key::ENTER);
         assert_eq!(visit.editor.ends(SOON).code(), Some(0), "{}", visit.editor.log());
         let saved = fs::read(&visit.file).unwrap();
@@ -109,13 +109,13 @@ fn a_window_that_is_closed_in_the_midst_of_a_drag_leaves_without_it() {
         let mut desk = TestDocument::new(&visit.folder.join("look"));
         let view = desk.open(&visit.file);
         let asked = visit.asked();
-        assert!(asked.iter().any(|deed| deed["do"] == "cancel"), "{what:?}: {asked:?}");
+        assert!(asked.iter().any(|request| request["do"] == "cancel"), "{what:?}: {asked:?}");
         drop(view);
     }
 }
 
 #[test]
-fn what_is_dragged_while_the_keyboard_goes_elsewhere_is_taken_back_and_nothing_stays_held() {
+fn losing_the_focus_cancels_a_drag_and_leaves_nothing_held() {
     let _one = alone();
     let mut visit = Visit::new("dragging-lost");
     let original = fs::read(&visit.file).unwrap();
@@ -127,7 +127,7 @@ fn what_is_dragged_while_the_keyboard_goes_elsewhere_is_taken_back_and_nothing_s
         pass(visit.screen.pace);
         visit.screen.leave();
         visit.until_steps(0, 0);
-        // Nobody hears of these.
+        // The window does not receive these releases.
         visit.screen.key(key::CONTROL, false);
         let (x, y) = what.place(&mut visit);
         visit.screen.point(x + 90, y + 40);
@@ -137,8 +137,8 @@ fn what_is_dragged_while_the_keyboard_goes_elsewhere_is_taken_back_and_nothing_s
             visit.screen.point(x + 90 - 5 * by, y + 40 - 3 * by);
             pass(Duration::from_millis(5));
         }
-        visit.screen.let_go();
-        // No key is held: an arrow alone is one frame, not one second.
+        visit.screen.release_button();
+        // No key is held: an arrow alone moves one frame, not one second.
         visit.screen.press(key::RIGHT);
         visit.until("one frame later", |visit| {
             let time: f32 = visit.shown("time").parse().ok()?;
@@ -147,20 +147,20 @@ fn what_is_dragged_while_the_keyboard_goes_elsewhere_is_taken_back_and_nothing_s
         visit.screen.press(key::HOME);
         visit.until_shown("time", "0.0");
         visit.until_steps(0, 0);
-        // And it can be dragged again, as a whole.
+        // The same thing can be dragged again, as one step.
         if visit.shown("bone") != "b_Head_05" {
             visit.pick_head();
         }
         what.begins(&mut visit);
-        visit.screen.let_go();
+        visit.screen.release_button();
         visit.until_steps(1, 1);
         visit.control_and(key::Z);
         visit.until_steps(0, 1);
-        // So that the next one begins with nothing to do again.
+        // The next drag starts with nothing to redo.
         visit.screen.press(key::HOME);
         what.begins(&mut visit);
         visit.screen.press(key::ESCAPE);
-        visit.screen.let_go();
+        visit.screen.release_button();
         visit.until_steps(0, 0);
     }
     assert!(visit.save() == original);

@@ -6,11 +6,11 @@ use crate::window::{Editor, SOON, alone, rest, same, settled};
 use dragonfly_kit::eventually;
 use dragonfly_kit::folder::{Folder, data};
 
-/// The viewport, without the name of the file in its corner.
+/// The viewport, without the file name in its corner.
 const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
 
 #[test]
-fn a_model_that_is_dropped_is_opened_and_anything_else_is_refused() {
+fn a_dropped_model_is_opened_and_other_files_are_refused() {
     let _one = alone();
     let folder = Folder::new("dropped");
     let model = folder.join("Füchsin & 100 % mehr.glb");
@@ -24,33 +24,33 @@ fn a_model_that_is_dropped_is_opened_and_anything_else_is_refused() {
     let fox = rest(&mut screen, VIEWPORT);
     let mut drag = Drag::new(&screen);
 
-    // Held over the window it is announced; taken away again nothing has happened.
+    // A file held over the window is announced; dragged away again it changes nothing.
     assert!(drag.hold(window, &[address(&model)]), "the window does not take files");
     eventually(SOON, || screen.part(VIEWPORT) != fox);
     drag.leave(window);
     same(&screen, &settled(&screen, VIEWPORT), &fox, "what was only held over the window changed it");
 
-    // No model: said, and what is open stays.
+    // A file that is no model: a message is shown, and the open document stays.
     assert!(drag.hold(window, &[address(&text)]));
     drag.drop(window);
-    editor.hears("no model.glb", 1, SOON);
+    editor.wait_for_log("no model.glb", 1, SOON);
     assert!(editor.lines.last().is_some_and(|line| line.contains("WARN")), "{}", editor.log());
     same(&screen, &settled(&screen, VIEWPORT), &fox, "a file that is no model changed the picture");
     screen.window("Fox.glb", SOON);
 
-    // A model: opened, whatever its name is.
+    // A model is opened, whatever its name is.
     assert!(drag.hold(window, &[address(&model)]));
     drag.drop(window);
-    editor.hears("Opened Füchsin & 100 % mehr.glb", 1, SOON);
+    editor.wait_for_log("Opened Füchsin & 100 % mehr.glb", 1, SOON);
     assert_eq!(screen.window("Füchsin & 100 % mehr.glb", SOON), window);
     eventually(SOON, || screen.part(VIEWPORT) != fox);
 
-    // Several: the first, and it is said that the others stay closed.
+    // Several files: the first is opened, and a message reports that the others are not.
     let several = [data("gltf/Fox.glb"), folder.join("second.gltf"), model];
     assert!(drag.hold(window, &several.map(|path| address(&path))));
     drag.drop(window);
-    editor.hears("Opened Fox.glb", 2, SOON);
-    editor.hears("Only one model can be open: 2 further files were not opened", 1, SOON);
+    editor.wait_for_log("Opened Fox.glb", 2, SOON);
+    editor.wait_for_log("Only one model can be open: 2 further files were not opened", 1, SOON);
     screen.window("Fox.glb", SOON);
 
     screen.close(window);

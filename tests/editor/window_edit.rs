@@ -1,5 +1,5 @@
-//! Work done in the real window, with mouse and keys, is what was asked for: to the eye, to a screen reader, in the saved file,
-//! to another program that reads it, and byte for byte to who asks for the same through `--stdio`.
+//! Edits made with mouse and keys in the real window have the same result on screen, in the accessibility tree, in the
+//! saved file, in another program that reads it, and byte for byte through `--stdio`.
 
 use crate::program::run;
 use crate::screen::key;
@@ -13,10 +13,10 @@ use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
 
-/// What is asked for, degrees.
+/// Requested angle, degrees.
 const ASKED: f64 = 30.0;
 
-/// How the head is turned in its parent in the first take, as three.js plays it.
+/// Returns the rotation of the head relative to its parent in the first take, as three.js plays it.
 fn head_by_three(evaluators: &Path, file: &Path, time: f32) -> DQuat {
     let output = Command::new("node")
         .arg(evaluators.join("ref_gltf.mjs"))
@@ -38,7 +38,7 @@ fn head_by_three(evaluators: &Path, file: &Path, time: f32) -> DQuat {
     (parent.inverse() * matrix(head as u64)).to_scale_rotation_translation().1
 }
 
-/// The largest difference of two rotations, number by number.
+/// Returns the largest difference of two rotations, component by component.
 fn apart(one: DQuat, other: DQuat) -> f64 {
     let other = if one.dot(other) < 0.0 { -other } else { other };
     (one - other).to_array().into_iter().fold(0.0, |most: f64, number| most.max(number.abs()))
@@ -50,14 +50,14 @@ fn same_bytes(one: &[u8], other: &[u8], otherwise: &str) {
 }
 
 #[test]
-fn a_head_that_is_turned_by_hand_is_the_same_to_the_reader_to_stdio_and_to_three_js() {
+fn rotating_a_head_agrees_with_the_accessibility_tree_stdio_and_three_js() {
     let _one = alone();
     let mut visit = Visit::new("edit-turn");
     let original = std::fs::read(&visit.file).unwrap();
     let time = visit.go_on(5);
     visit.pick_head();
     visit.until_number("Rotation change X", 0.0, 0.0);
-    // About the parent's axes, in which the panel tells the change.
+    // About the axes of the parent, in which the panel shows the change.
     visit.screen.press(key::T);
     let mut inside = visit.inside();
     inside.state.settings_mut().tools.space = GizmoSpace::Parent;
@@ -67,7 +67,7 @@ fn a_head_that_is_turned_by_hand_is_the_same_to_the_reader_to_stdio_and_to_three
     visit.screen.point(ring.x as i16 + 9, ring.y as i16 + 14);
     visit.screen.type_text("30");
     visit.screen.press(key::ENTER);
-    visit.screen.let_go();
+    visit.screen.release_button();
 
     visit.until_steps(1, 1);
     visit.until_number("Rotation change X", ASKED, 2e-4);
@@ -84,7 +84,8 @@ fn a_head_that_is_turned_by_hand_is_the_same_to_the_reader_to_stdio_and_to_three
     assert!(saved != original);
 
     same_bytes(&saved, &visit.by_stdio(), "another file by --stdio");
-    let edit = visit.asked().into_iter().rfind(|deed| deed["do"] == "edit").expect("an edit")["edit"].clone();
+    let edit =
+        visit.asked().into_iter().rfind(|request| request["do"] == "edit").expect("an edit")["edit"].clone();
     let [lines, done] = ["edits.jsonl", "done.glb"].map(|name| visit.folder.join(name).display().to_string());
     std::fs::write(&lines, edit.to_string()).unwrap();
     run(["edit", &data("gltf/Fox.glb").display().to_string(), "--edits", &lines, "-o", &done]).expect(0);
@@ -102,7 +103,7 @@ fn a_head_that_is_turned_by_hand_is_the_same_to_the_reader_to_stdio_and_to_three
 }
 
 #[test]
-fn work_done_in_the_panels_alone_is_what_stdio_does() {
+fn edits_in_the_panels_give_the_same_file_as_stdio() {
     let _one = alone();
     let mut visit = Visit::new("edit-panels");
     let original = std::fs::read(&visit.file).unwrap();
@@ -135,7 +136,7 @@ fn work_done_in_the_panels_alone_is_what_stdio_does() {
     visit.until_steps(4, 4);
     visit.until("the take is gone", |visit| visit.control_now("look").is_none().then_some(()));
 
-    // Everything back with a click, and there again.
+    // A click undoes everything, and another one redoes it.
     visit.click_on("History");
     visit.click_on("Opened");
     visit.until_steps(0, 4);
@@ -163,7 +164,7 @@ fn with_auto_key_off_a_pose_is_pending_until_it_is_keyed() {
     for by in 1..20 {
         visit.screen.point(ring.x as i16 + by, ring.y as i16 + 2 * by);
     }
-    visit.screen.let_go();
+    visit.screen.release_button();
     visit.control("1 pose pending");
     same_bytes(&visit.save(), &original, "what is pending is in the file");
     visit.control("1 pose pending");
@@ -173,7 +174,7 @@ fn with_auto_key_off_a_pose_is_pending_until_it_is_keyed() {
     let saved = visit.save();
     same_bytes(&saved, &visit.by_stdio(), "another file by --stdio");
     let turned =
-        DQuat::from_array(crate::window_hands::numbers::<4>(&visit.shown("rotation")).map(f64::from));
+        DQuat::from_array(crate::window_bone_rotation::numbers::<4>(&visit.shown("rotation")).map(f64::from));
     if let Some(evaluators) = skip::evaluators() {
         let before = head_by_three(&evaluators, &data("gltf/Fox.glb"), time);
         let after = head_by_three(&evaluators, &visit.file, time);

@@ -1,8 +1,8 @@
-//! However the window ends while something is not saved, the next start gives all of it back.
+//! However the window ends with unsaved work, the next start restores all of it.
 
 use crate::screen::{key, pass};
 use crate::window::{SOON, alone, settled};
-use crate::window_hands::numbers;
+use crate::window_bone_rotation::numbers;
 use crate::window_visit::Visit;
 use dragonfly_document::protocol::Session;
 use dragonfly_document::{Cancel, Decision, DocumentMessage, Editable, SaveTo, Source};
@@ -18,10 +18,10 @@ use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::time::{Duration, Instant};
 
-/// What ends the program.
+/// Ways in which the program ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum End {
-    /// The session is left, or somebody says `kill`.
+    /// The session ends, or someone runs `kill`.
     Term,
     /// Its terminal is closed.
     Hup,
@@ -33,24 +33,25 @@ enum End {
     Screen,
 }
 
-/// What the person is doing then, with something unsaved in any case.
+/// Activities of the user at that moment, each with unsaved work.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Midst {
+enum Activity {
     /// Nothing.
     Rest,
     /// Dragging the gizmo.
     Gizmo,
     /// Dragging a number.
     Field,
-    /// Looking at a pose that is in no key yet.
+    /// Viewing a pose that is not keyed yet.
     Pending,
-    /// Thinking about what becomes of unsaved work.
+    /// Deciding about unsaved work in a dialog.
     Asked,
 }
 
 const ENDS: [End; 5] = [End::Term, End::Hup, End::Int, End::Kill, End::Screen];
 
-const MIDSTS: [Midst; 5] = [Midst::Gizmo, Midst::Field, Midst::Pending, Midst::Asked, Midst::Rest];
+const ACTIVITIES: [Activity; 5] =
+    [Activity::Gizmo, Activity::Field, Activity::Pending, Activity::Asked, Activity::Rest];
 
 impl End {
     fn signal(self) -> Option<Signal> {
@@ -73,7 +74,7 @@ impl End {
         let asked = Instant::now();
         let status = visit.editor.ends(SOON);
         match self.signal() {
-            // Whoever started it sees what it was ended by.
+            // The parent process sees the signal that ended it.
             Some(signal) => assert_eq!(status.signal(), Some(signal.as_raw()), "{self:?}: {status}"),
             None => assert_ne!(status.code(), Some(0)),
         }
@@ -84,8 +85,8 @@ impl End {
     }
 }
 
-impl Midst {
-    /// Changes the pose of the head, which is selected, and is then in the midst of it.
+impl Activity {
+    /// Changes the pose of the selected head, and returns in the middle of the activity.
     fn begins(self, visit: &mut Visit) {
         let done: usize = visit.shown("done").parse().expect("a number");
         match self {
@@ -119,11 +120,11 @@ impl Midst {
         }
         visit.until_shown("done", &(done + 1).to_string());
         if !matches!(self, Self::Field | Self::Gizmo) {
-            visit.screen.let_go();
+            visit.screen.release_button();
         }
-        // What the hand did last is seen.
+        // The last input is visible.
         visit.until("the pose that was asked for", |visit| {
-            let asked = visit.asked().into_iter().rfind(|deed| deed["do"] == "edit")?;
+            let asked = visit.asked().into_iter().rfind(|request| request["do"] == "edit")?;
             let rotation = &asked["edit"]["poses"][0]["rotation"];
             let asked = Quat::from_array([0, 1, 2, 3].map(|at| rotation[at].as_f64().unwrap() as f32));
             let shown = Quat::from_array(numbers(&visit.shown("rotation")));
@@ -133,14 +134,14 @@ impl Midst {
             Self::Pending => drop(visit.control("1 pose pending")),
             Self::Asked => {
                 visit.screen.close(visit.editor.window);
-                visit.editor.hears("asked what becomes of unsaved work", 1, SOON);
+                visit.editor.wait_for_log("asked what becomes of unsaved work", 1, SOON);
             }
             _ => {}
         }
     }
 }
 
-/// The bytes that a save writes after all that was asked so far.
+/// Returns the bytes that a save writes after all requests so far.
 fn saved_by_asking(visit: &Visit, asked: &[Value]) -> Vec<u8> {
     let editable = Editable::open(&Source::File(data("gltf/Fox.glb")), &Cancel::default()).unwrap();
     let mut session = Session::new(editable);
@@ -154,8 +155,8 @@ fn saved_by_asking(visit: &Visit, asked: &[Value]) -> Vec<u8> {
     fs::read(to).unwrap()
 }
 
-/// The bytes that a save writes after the work was brought back from what is in the autosave folder at this moment, and
-/// how many steps are done then.
+/// Restores the work from the autosave folder as it is now. Returns the bytes that a save then writes, and the number of
+/// steps done.
 fn saved_by_keeping(visit: &Visit, life: usize) -> (Vec<u8>, usize) {
     let look = visit.folder.join(&format!("look-{life}"));
     copy_after_kill(&visit.folder.join("autosave"), &look);
@@ -171,7 +172,7 @@ fn saved_by_keeping(visit: &Visit, life: usize) -> (Vec<u8>, usize) {
 }
 
 #[test]
-fn however_the_window_ends_all_that_was_done_comes_back() {
+fn every_way_to_end_the_window_preserves_all_edits() {
     let _one = alone();
     let seed = seed(0x656e_6473);
     println!("DRAGONFLY_SEED={seed}");
@@ -181,35 +182,35 @@ fn however_the_window_ends_all_that_was_done_comes_back() {
     let before = fs::read(&visit.file).unwrap();
     let mut asked: Vec<Value> = Vec::new();
     let (mut steps, mut lost_screen) = (0, false);
-    // Each way once, and some once more; in each midst once, and in some once more.
+    // Each way to end once, and some twice; each activity once, and some twice.
     let ends: Vec<End> =
         ENDS.into_iter().filter(|end| end.signal().is_none_or(|signal| !ignores(signal))).collect();
     let turn = random.below(5);
     for life in 0..7 {
         let end = if life < 5 { ends[(life + turn) % ends.len()] } else { random.choice(&ends) };
-        let midst = if life < 5 { MIDSTS[life] } else { random.choice(&MIDSTS) };
-        println!("life {life}: {end:?} in the midst of {midst:?}, after {:?}", began.elapsed());
+        let activity = if life < 5 { ACTIVITIES[life] } else { random.choice(&ACTIVITIES) };
+        println!("life {life}: {end:?} during {activity:?}, after {:?}", began.elapsed());
         if life > 0 {
             let screen = format!("ending-{life}");
             visit.again(lost_screen.then_some(&screen));
-            visit.editor.hears("offered unsaved work", 1, SOON);
+            visit.editor.wait_for_log("offered unsaved work", 1, SOON);
             visit.screen.press(key::ENTER);
             let what = if steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") };
-            visit.editor.hears(&format!("Restored the unsaved work of Fox.glb: {what}"), 1, SOON);
+            visit.editor.wait_for_log(&format!("Restored the unsaved work of Fox.glb: {what}"), 1, SOON);
             visit.go_to_the_start();
-            // Until the picture is that of this moment, and a click meets what is seen.
+            // Waits until the image is up to date, so that a click hits what is displayed.
             settled(&visit.screen, [300, 90, 680, 360]);
         }
         visit.pick_head();
         visit.go_on(2 + 3 * life);
-        midst.begins(&mut visit);
+        activity.begins(&mut visit);
         end.comes(&mut visit);
         lost_screen = end == End::Screen;
         if !lost_screen {
-            // The mouse stays where it is when a program ends.
-            visit.screen.let_go();
+            // The pointer stays where it is when a program ends.
+            visit.screen.release_button();
         }
-        // Gestures of one life are none of another.
+        // Gesture numbers of one run are not valid in another.
         asked.extend(visit.asked().into_iter().map(|mut line| {
             if let Some(gesture) = line["gesture"].as_u64() {
                 line["gesture"] = json!(gesture + 1000 * life as u64);

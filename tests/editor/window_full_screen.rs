@@ -1,4 +1,4 @@
-//! The whole screen, with F11 and from the menu, on a desktop with a window manager.
+//! Full screen mode, with F11 and from the menu, on a desktop with a window manager.
 
 use crate::manager;
 use crate::screen::{Screen, key};
@@ -8,11 +8,11 @@ use dragonfly_kit::eventually;
 /// The viewport, in the window as it opens.
 const VIEWPORT: [u32; 4] = [320, 90, 680, 360];
 
-/// The menu "View" and its line "Full screen".
+/// The menu "View" and its entry "Full screen".
 const MENU: [(i16, i16); 2] = [(300, 14), (325, 401)];
 
 #[test]
-fn f11_and_the_menu_fill_the_screen_and_give_the_window_back() {
+fn f11_and_the_menu_toggle_full_screen() {
     let _one = alone();
     let mut screen = Screen::new("full", 1600, 1000);
     manager::start(&screen);
@@ -26,13 +26,13 @@ fn f11_and_the_menu_fill_the_screen_and_give_the_window_back() {
             "key" => screen.press(key::F11),
             _ => {
                 MENU.into_iter().for_each(|(x, y)| screen.click(x, y));
-                // Off everything that would light up under it.
+                // Away from everything that would be highlighted under the pointer.
                 screen.point(i16::MAX, i16::MAX);
             }
         };
         toggle(&mut screen);
         eventually(SOON, || screen.place(window) == [0, 0, 1600, 1000]);
-        // What was nothing but the black screen before is drawn to the last pixel.
+        // The area that was only black screen before is drawn to the last pixel.
         eventually(SOON, || colours(&screen.part([1400, 0, 200, 1000])) > 20);
         let full = settled(&screen, [0, 0, 1600, 1000]);
         for (x, y) in [(1599, 0), (1599, 999), (0, 999)] {

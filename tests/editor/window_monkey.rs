@@ -1,4 +1,4 @@
-//! Hands that do anything at all do no harm: the window answers, nothing is lost, everything can be undone.
+//! Random input does no harm: the window reacts, nothing is lost, everything can be undone.
 
 use crate::screen::{key, pass};
 use crate::window::alone;
@@ -8,22 +8,22 @@ use dragonfly_kit::document::test_document::{TestDocument, same_takes};
 use dragonfly_kit::random::{Random, seed};
 use std::time::{Duration, Instant};
 
-/// Keys that are pressed: all with a sign, and those that move, end and delete.
+/// Keys that are pressed: all that type a character, and those that move, end and delete.
 fn keys() -> Vec<u8> {
     let signs = "1234567890-=qwertyuiopasdfghjklzxcvbnm,./".chars().map(key::of);
-    // Tab, Enter, Space, Backspace, the arrows and their neighbours, Delete; functions but those that find commands (a
-    // random one may be Quit) and that fill the screen.
+    // Tab, Enter, Space, Backspace, the arrows and their neighbors, Delete; function keys except those that find commands (a
+    // random one may be Quit) and that toggle full screen.
     let others = [23, 36, 65, 22, 111, 113, 114, 116, 110, 115, 112, 117, 119, 67, 68, 70, 71, 72, 73];
     signs.chain(others).collect()
 }
 
-/// Keys that open another file, save, or end the program while Ctrl is held; and the one that finds commands.
+/// Returns whether Ctrl with this key opens another file, saves, quits, or opens the command search.
 fn leads_away(key: u8) -> bool {
     "oqsp".chars().any(|sign| key::of(sign) == key)
 }
 
 #[test]
-fn two_thousand_random_deeds_lose_nothing() {
+fn two_thousand_random_inputs_lose_nothing() {
     let _one = alone();
     let seed = seed(11);
     println!("DRAGONFLY_SEED={seed}");
@@ -34,7 +34,7 @@ fn two_thousand_random_deeds_lose_nothing() {
     let pause = visit.screen.pace;
     visit.screen.pace = Duration::from_millis(6);
     let began = Instant::now();
-    for deed in 0..2000 {
+    for round in 0..2000 {
         // Below the menus.
         let mut place = || [random.below(1280) as i16, 40 + random.below(760) as i16];
         let [mut from, to] = [place(), place()];
@@ -57,7 +57,7 @@ fn two_thousand_random_deeds_lose_nothing() {
                 visit.screen.button(button, false);
             }
             4..6 => {
-                // Mostly in the picture, and among the numbers of the bone.
+                // Mostly in the viewport, and among the number fields of the bone.
                 match random.below(3) {
                     0 => from = [540 + random.below(200) as i16, 200 + random.below(200) as i16],
                     1 => from = [1040 + random.below(220) as i16, 60 + random.below(400) as i16],
@@ -69,16 +69,16 @@ fn two_thousand_random_deeds_lose_nothing() {
                 for part in 1..=4 {
                     let way = |axis: usize| from[axis] + (to[axis] - from[axis]) / 40 * part;
                     visit.screen.point(way(0), way(1));
-                    // Longer than a drawing takes, or nobody sees a drag.
+                    // Longer than drawing a frame takes; otherwise the window never sees the drag.
                     pass(Duration::from_millis(5));
                 }
                 visit.screen.button(button, false);
             }
             _ => visit.screen.point(from[0], from[1]),
         }
-        if deed % 20 == 0 {
+        if round % 20 == 0 {
             visit.screen.press(key::ESCAPE);
-            // In the picture, where the fox is likely to be met.
+            // In the viewport, where a click probably hits the fox.
             let near = |random: &mut Random| random.below(200) as i16;
             let (x, y) = (540 + near(&mut random), 200 + near(&mut random));
             visit.screen.click(x, y);
@@ -88,7 +88,7 @@ fn two_thousand_random_deeds_lose_nothing() {
     visit.screen.pace = pause;
     (0..4).for_each(|_| visit.screen.press(key::ESCAPE));
 
-    // It answers, and what it saves is what `--stdio` makes of the same.
+    // The window reacts, and it saves the same bytes that `--stdio` writes for the same requests.
     let saved = visit.save();
     let asked = visit.asked();
     println!("{} changes were asked for", asked.len());
@@ -96,7 +96,7 @@ fn two_thousand_random_deeds_lose_nothing() {
     assert!(saved == visit.by_stdio(), "another file by --stdio");
     visit.editor.kill();
 
-    // The journal opens, and leads back to the takes of the file.
+    // The journal opens, and undoing all of it gives the takes of the file.
     let mut fresh = TestDocument::new(&visit.folder.join("fresh"));
     let original = fresh.open(&dragonfly_kit::folder::data("gltf/Fox.glb"));
     let mut desk = TestDocument::new(&visit.folder.join("autosave"));
@@ -104,7 +104,7 @@ fn two_thousand_random_deeds_lose_nothing() {
     println!("{} of {} steps are done", view.history.done, view.history.steps.len());
     let steps = view.history.steps.len();
     assert!(steps > 0);
-    // Hands may have undone all of it.
+    // The random input may have undone all of it.
     desk.change(Change::GoTo(steps));
     let last = desk.wait_for_view(|view| view.history.done == steps);
     desk.change(Change::GoTo(0));

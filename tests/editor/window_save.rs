@@ -1,4 +1,4 @@
-//! Saving, leaving and coming back in the real window: nothing is lost, and nothing is overwritten unasked.
+//! Saving, closing and recovering in the real window: nothing is lost, and nothing is overwritten without being asked.
 
 use crate::program::run;
 use crate::screen::{Screen, key};
@@ -17,7 +17,7 @@ const EDITS: &str = r#"{"edit":"set","take":0,"time":0.5,"poses":[{"bone":"b_Hea
 {"edit":"add_keys","take":0,"time":0.77,"bones":["b_Head_05"]}
 "#;
 
-/// A copy of Fox, edits for it, and a folder for what is not saved.
+/// A copy of Fox, edits for it, and an autosave folder.
 struct Bench {
     folder: Folder,
     file: PathBuf,
@@ -34,12 +34,12 @@ impl Bench {
         Self { file: fox(&folder), folder, edits, autosave }
     }
 
-    /// The window with the file, unedited.
+    /// Opens the window with the file, unedited.
     fn open(&self, screen: &mut Screen) -> Editor {
         self.start(screen, &[])
     }
 
-    /// The window after the edits were done in it.
+    /// Opens the window, and makes the edits in it.
     fn edit(&self, screen: &mut Screen, more: &[&str]) -> Editor {
         let mut editor = self.start(screen, &[&["--edits", self.edits.as_str()], more].concat());
         editor.window = screen.window("• Fox.glb", SOON);
@@ -48,7 +48,7 @@ impl Bench {
 
     fn start(&self, screen: &mut Screen, more: &[&str]) -> Editor {
         let arguments = [&["--autosave", self.autosave.as_str()], more].concat();
-        // No dialogs for files, so that paths are typed.
+        // Without file dialogs, so that paths are typed.
         let environment = [
             ("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nonexistent"),
             ("PATH", "/nonexistent"),
@@ -61,7 +61,7 @@ impl Bench {
             editor.window = screen.window(name, SOON);
             screen.focus(editor.window);
         } else {
-            // A dot comes before it as soon as something is done.
+            // A dot is put before the title as soon as there are unsaved changes.
             editor.window = screen.any_window(&[name, &format!("• {name}")], SOON);
             screen.focus(editor.window);
         }
@@ -69,7 +69,7 @@ impl Bench {
         editor
     }
 
-    /// What `dragonfly edit` makes of the file as it is now.
+    /// Returns the file that `dragonfly edit` makes from the current one.
     fn expected(&self) -> Vec<u8> {
         let out = self.folder.join("expected.glb");
         let arguments =
@@ -90,7 +90,7 @@ fn takes(path: &Path) -> ModelAdapter {
 }
 
 #[test]
-fn a_window_that_was_killed_gives_its_work_back_and_saves_what_the_command_line_would() {
+fn a_killed_window_restores_its_work_and_saves_the_same_as_the_command_line() {
     let _one = alone();
     let bench = Bench::new("window-killed");
     let original = takes(&bench.file);
@@ -102,12 +102,12 @@ fn a_window_that_was_killed_gives_its_work_back_and_saves_what_the_command_line_
     assert_eq!(fs::read(&bench.file).unwrap(), fs::read(data("gltf/Fox.glb")).unwrap());
 
     let mut editor = bench.open(&mut screen);
-    editor.hears("offered unsaved work", 1, SOON);
+    editor.wait_for_log("offered unsaved work", 1, SOON);
     screen.press(key::ENTER);
-    editor.hears("Restored the unsaved work of Fox.glb: 3 steps", 1, SOON);
+    editor.wait_for_log("Restored the unsaved work of Fox.glb: 3 steps", 1, SOON);
     screen.window("• Fox.glb", SOON);
     control(&mut screen, key::S);
-    editor.hears("Saved Fox.glb", 1, SOON);
+    editor.wait_for_log("Saved Fox.glb", 1, SOON);
     screen.window("Fox.glb", SOON);
     assert!(fs::read(&bench.file).unwrap() == expected, "the same bytes as `dragonfly edit` writes");
     // Closed and opened again, everything can still be undone.
@@ -120,7 +120,7 @@ fn a_window_that_was_killed_gives_its_work_back_and_saves_what_the_command_line_
     }
     screen.window("• Fox.glb", SOON);
     control(&mut screen, key::S);
-    editor.hears("Saved Fox.glb", 1, SOON);
+    editor.wait_for_log("Saved Fox.glb", 1, SOON);
     let now = takes(&bench.file);
     assert!(now.results().eq(original.results()), "the takes of the beginning");
     screen.close(editor.window);
@@ -128,29 +128,29 @@ fn a_window_that_was_killed_gives_its_work_back_and_saves_what_the_command_line_
 }
 
 #[test]
-fn closing_with_unsaved_work_asks_and_every_answer_is_done() {
+fn closing_with_unsaved_work_asks_and_follows_every_answer() {
     let _one = alone();
     let bench = Bench::new("window-closing");
     let before = fs::read(&bench.file).unwrap();
     let expected = bench.expected();
     let mut screen = Screen::new("closing", 1280, 800);
-    // Cancel: the window stays.
+    // Cancel: the window stays open.
     let mut editor = bench.edit(&mut screen, &[]);
     screen.close(editor.window);
-    editor.hears("asked what becomes of unsaved work", 1, SOON);
+    editor.wait_for_log("asked what becomes of unsaved work", 1, SOON);
     screen.press(key::ESCAPE);
     // Don't save: the file stays as it is.
     control(&mut screen, key::Q);
-    editor.hears("asked what becomes of unsaved work", 2, SOON);
+    editor.wait_for_log("asked what becomes of unsaved work", 2, SOON);
     screen.press_with(key::SHIFT, key::TAB);
     screen.press(key::ENTER);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
     drop(editor);
     assert!(fs::read(&bench.file).unwrap() == before);
-    // What was not to be saved is not offered again. Save: it is in the file.
+    // Discarded work is not offered again. Save: the file contains the edit.
     let mut editor = bench.edit(&mut screen, &[]);
     screen.close(editor.window);
-    editor.hears("asked what becomes of unsaved work", 1, SOON);
+    editor.wait_for_log("asked what becomes of unsaved work", 1, SOON);
     screen.press(key::ENTER);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
     assert!(!editor.log().contains("offered unsaved work"), "{}", editor.log());
@@ -158,7 +158,7 @@ fn closing_with_unsaved_work_asks_and_every_answer_is_done() {
 }
 
 #[test]
-fn a_file_that_somebody_else_changed_is_noticed_and_not_overwritten() {
+fn a_file_changed_by_another_program_is_noticed_and_not_overwritten() {
     let _one = alone();
     let bench = Bench::new("window-changed");
     let mut screen = Screen::new("changed", 1280, 800);
@@ -166,28 +166,28 @@ fn a_file_that_somebody_else_changed_is_noticed_and_not_overwritten() {
     let other = fs::read(data("gltf/Fox_skeleton.glb")).unwrap();
     fs::write(&bench.file, &other).unwrap();
     control(&mut screen, key::S);
-    editor.hears("asked what becomes of a changed file", 1, SOON);
+    editor.wait_for_log("asked what becomes of a changed file", 1, SOON);
     screen.press(key::ESCAPE);
     assert!(fs::read(&bench.file).unwrap() == other, "it is as the other program wrote it");
-    // Noticed as soon as the window is looked at again, once.
+    // The change is noticed once, as soon as the window has the focus again.
     fs::write(&bench.file, fs::read(data("gltf/Fox.glb")).unwrap()).unwrap();
     screen.leave();
     screen.focus(editor.window);
     fs::remove_file(&bench.file).unwrap();
     screen.leave();
     screen.focus(editor.window);
-    editor.hears("asked what becomes of a changed file", 2, SOON);
+    editor.wait_for_log("asked what becomes of a changed file", 2, SOON);
     screen.press(key::ENTER);
-    editor.hears("Saved Fox.glb", 1, SOON);
+    editor.wait_for_log("Saved Fox.glb", 1, SOON);
     assert!(takes(&bench.file).results().any(|take| take.name == "Stroll"));
     screen.close(editor.window);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
 }
 
 #[test]
-fn a_disk_that_is_full_or_read_only_is_said_and_nothing_is_lost() {
+fn a_full_or_read_only_disk_is_reported_and_nothing_is_lost() {
     let _one = alone();
-    if !may_mount("a_disk_that_is_full_or_read_only_is_said_and_nothing_is_lost") {
+    if !may_mount("a_full_or_read_only_disk_is_reported_and_nothing_is_lost") {
         return;
     }
     let mut bench = Bench::new("window-full");
@@ -200,21 +200,21 @@ fn a_disk_that_is_full_or_read_only_is_said_and_nothing_is_lost() {
     let mut screen = Screen::new("full", 1280, 800);
     let mut editor = bench.edit(&mut screen, &[]);
     let filling = disk.path().join("filling");
-    // As large as it can be.
+    // The largest possible file.
     let _ = fs::write(&filling, vec![1; size * 3]);
     control(&mut screen, key::S);
-    editor.hears("Not saved", 1, SOON);
-    editor.hears("the disk is full", 1, SOON);
+    editor.wait_for_log("Not saved", 1, SOON);
+    editor.wait_for_log("the disk is full", 1, SOON);
     assert!(fs::read(&bench.file).unwrap() == before);
     fs::remove_file(&filling).unwrap();
     disk.read_only(true);
     control(&mut screen, key::S);
-    editor.hears("the disk is read-only", 1, SOON);
-    // Who wants to close is asked, and asked again when it could not be saved.
+    editor.wait_for_log("the disk is read-only", 1, SOON);
+    // Closing asks, and asks again when the save failed.
     screen.close(editor.window);
-    editor.hears("asked what becomes of unsaved work", 1, SOON);
+    editor.wait_for_log("asked what becomes of unsaved work", 1, SOON);
     screen.press(key::ENTER);
-    editor.hears("asked what becomes of unsaved work", 2, SOON);
+    editor.wait_for_log("asked what becomes of unsaved work", 2, SOON);
     disk.read_only(false);
     screen.press(key::ENTER);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
@@ -223,24 +223,24 @@ fn a_disk_that_is_full_or_read_only_is_said_and_nothing_is_lost() {
 }
 
 #[test]
-fn a_mistake_in_the_program_costs_no_work_and_the_window_goes_on() {
+fn a_panic_loses_no_work_and_the_window_continues() {
     let _one = alone();
     let bench = Bench::new("window-mistake");
     let mut screen = Screen::new("mistake", 1280, 800);
     let mut editor = bench.start(&mut screen, &["--edits", bench.edits.as_str(), "--fail-at", "3"]);
-    editor.hears("An internal error closed the document", 1, SOON);
-    editor.hears("offered unsaved work", 1, SOON);
+    editor.wait_for_log("An internal error closed the document", 1, SOON);
+    editor.wait_for_log("offered unsaved work", 1, SOON);
     screen.press(key::ENTER);
-    editor.hears("Restored the unsaved work of Fox.glb: 2 steps", 1, SOON);
+    editor.wait_for_log("Restored the unsaved work of Fox.glb: 2 steps", 1, SOON);
     control(&mut screen, key::S);
-    editor.hears("Saved Fox.glb", 1, SOON);
+    editor.wait_for_log("Saved Fox.glb", 1, SOON);
     assert!(takes(&bench.file).results().any(|take| take.name == "Stroll"));
     screen.close(editor.window);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
 }
 
 #[test]
-fn what_never_had_a_file_is_saved_where_the_person_says() {
+fn a_document_without_a_file_is_saved_where_the_user_chooses() {
     let _one = alone();
     let mut bench = Bench::new("window-where");
     bench.file = "demo:".into();
@@ -249,9 +249,9 @@ fn what_never_had_a_file_is_saved_where_the_person_says() {
     let mut editor = bench.start(&mut screen, &["--edits", bench.edits.as_str()]);
     screen.window("• Dragonfly", SOON);
     control(&mut screen, key::S);
-    editor.hears("asked where to save", 1, SOON);
+    editor.wait_for_log("asked where to save", 1, SOON);
     screen.press(key::ENTER);
-    editor.hears("Saved Dragonfly.glb", 1, SOON);
+    editor.wait_for_log("Saved Dragonfly.glb", 1, SOON);
     let path = bench.folder.join("Dragonfly.glb");
     eventually(SOON, || path.is_file());
     assert!(takes(&path).results().any(|take| take.name == "Hover"));

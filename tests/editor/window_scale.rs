@@ -1,4 +1,4 @@
-//! A desktop that changes how large things are, while the program runs.
+//! A desktop that changes its scale factor while the program runs.
 
 use crate::manager;
 use crate::screen::{Screen, pass};
@@ -8,16 +8,16 @@ use dragonfly_kit::eventually;
 use image::RgbaImage;
 use std::time::Duration;
 
-/// The window at 1, and at 1.5.
+/// The size of the window at scale 1, and at 1.5.
 const USUAL: [u32; 4] = [0, 0, 1280, 720];
 const LARGER: [u32; 4] = [0, 0, 1920, 1080];
 
-/// Everything but the status line, which tells how long a frame took.
+/// Returns the rectangle without the status line, which shows how long a frame took.
 const fn still([x, y, width, height]: [u32; 4]) -> [u32; 4] {
     [x, y, width, height - 40]
 }
 
-/// The program of a desktop that holds its settings (XSETTINGS).
+/// The settings daemon of a desktop (XSETTINGS).
 struct Desktop {
     wire: Wire,
     window: Window,
@@ -37,7 +37,7 @@ impl Desktop {
         desktop
     }
 
-    /// 96 is a scale of 1.
+    /// Sets the resolution; 96 is a scale of 1.
     fn set(&mut self, dots_an_inch: u32) {
         const NAME: &[u8] = b"Xft/DPI";
         self.serial += 1;
@@ -54,7 +54,7 @@ impl Desktop {
     }
 }
 
-/// The program on a screen of its own, at a scale of 1 and at rest; how it looks so, and how when started at 1.5.
+/// Starts the program on its own screen, at scale 1 and paused. Returns its image, and the one of a start at 1.5.
 fn begin(screen: &mut Screen) -> (Desktop, Editor, [RgbaImage; 2]) {
     let mut desktop = Desktop::new(screen, 144);
     let larger = {
@@ -72,7 +72,7 @@ fn begin(screen: &mut Screen) -> (Desktop, Editor, [RgbaImage; 2]) {
     (desktop, editor, [usual, larger])
 }
 
-/// The program ends in order, without complaint.
+/// Closes the program, which must exit in order, without warnings.
 fn end(mut editor: Editor, screen: &mut Screen) {
     screen.close(editor.window);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
@@ -80,7 +80,7 @@ fn end(mut editor: Editor, screen: &mut Screen) {
 }
 
 #[test]
-fn a_new_scale_lays_the_window_out_as_if_it_had_been_so_from_the_start() {
+fn a_new_scale_gives_the_same_layout_as_starting_with_it() {
     let _one = alone();
     for managed in [false, true] {
         let mut screen = Screen::new("scale", LARGER[2], LARGER[3]);
@@ -107,7 +107,7 @@ fn a_new_scale_lays_the_window_out_as_if_it_had_been_so_from_the_start() {
 }
 
 #[test]
-fn a_hundred_scales_in_a_row_leave_the_window_as_it_was() {
+fn a_hundred_scale_changes_leave_the_window_unchanged() {
     let _one = alone();
     let mut screen = Screen::new("scales", LARGER[2], LARGER[3]);
     manager::start(&screen);
@@ -117,13 +117,13 @@ fn a_hundred_scales_in_a_row_leave_the_window_as_it_was() {
     let mut random = dragonfly_kit::random::Random::new(seed);
     for step in 0..100 {
         desktop.set(72 + random.below(120) as u32);
-        // Now and then it has the time to draw in the scale it has.
+        // Sometimes it gets the time to draw in the current scale.
         if step % 5 == 4 {
             pass(Duration::from_millis(60));
         }
     }
     desktop.set(96);
-    // Sizes are whole pixels, so a hundred roundings may have changed this one a little.
+    // Sizes are whole pixels, so a hundred roundings may have changed this one slightly.
     settled(&screen, still(USUAL));
     screen.resize(editor.window, USUAL[2], USUAL[3]);
     eventually(SOON, || screen.place(editor.window)[2..] == [USUAL[2] as i32, USUAL[3] as i32]);

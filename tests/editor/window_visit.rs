@@ -1,10 +1,11 @@
-//! A person with a file at the real window: hands on the keys and the mouse, and ears that hear what a screen reader tells.
+//! A simulated user with a file in the real window, who sends keys and mouse input; the accessibility tree is read from
+//! the log.
 
 use crate::program::threads;
 use crate::screen::{Screen, key};
-use crate::stdio::Talk;
+use crate::stdio::StdioSession;
 use crate::window::{Editor, SOON, eventually_shows_something};
-use crate::window_hands::{Inside, numbers, shown};
+use crate::window_bone_rotation::{ExpectedWindow, numbers, shown};
 use dragonfly_kit::document::test_document::fox;
 use dragonfly_kit::folder::{Folder, data};
 use serde_json::{Value, json};
@@ -12,21 +13,21 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// What the log must tell for it.
+/// Log filter with everything that the tests read.
 const LOG: &str =
     "error,dragonfly=info,dragonfly::shown=debug,dragonfly::asked=debug,dragonfly::reader=debug";
 
-/// See the module.
+/// A running editor, its screen, and the trace of its state.
 pub(crate) struct Visit {
-    // Ends before its screen.
+    // Dropped before its screen.
     pub(crate) editor: Editor,
     pub(crate) screen: Screen,
     /// A copy of Fox.
     pub(crate) file: PathBuf,
     pub(crate) folder: Folder,
-    /// What the reader told of each control.
+    /// The newest accessibility data of each control.
     controls: BTreeMap<u64, Value>,
-    /// Lines of the log that were read.
+    /// Number of log lines that were read.
     read: usize,
     saved: usize,
 }
@@ -47,7 +48,7 @@ impl Visit {
         Self::with(name, &[])
     }
 
-    /// The same, started with more arguments.
+    /// Does the same as `new`, with more arguments.
     pub(crate) fn with(name: &str, more: &[&str]) -> Self {
         let folder = Folder::new(name);
         let file = fox(&folder);
@@ -55,11 +56,11 @@ impl Visit {
         let editor = start(&mut screen, &folder, &file, more);
         let mut visit = Self { editor, screen, file, folder, controls: BTreeMap::new(), read: 0, saved: 0 };
         eventually_shows_something(&visit.screen);
-        visit.stand_still();
+        visit.pause_at_start();
         visit
     }
 
-    /// Starts the program once more, after it ended or was ended; on another screen where there is none any more.
+    /// Starts the program again after it has ended, on a new screen if one is named.
     pub(crate) fn again(&mut self, screen: Option<&str>) {
         if let Some(name) = screen {
             self.screen = Screen::new(name, 1280, 800);
@@ -70,25 +71,25 @@ impl Visit {
 
     /// Pauses, and goes to the start.
     #[track_caller]
-    pub(crate) fn stand_still(&mut self) {
+    pub(crate) fn pause_at_start(&mut self) {
         self.screen.press(key::SPACE);
         self.go_to_the_start();
     }
 
-    /// Goes to the start, where time stands: also when work was brought back.
+    /// Goes to the start, where the playhead is also after work was restored.
     #[track_caller]
     pub(crate) fn go_to_the_start(&mut self) {
         self.screen.press(key::HOME);
         self.until_shown("time", "0.0");
     }
 
-    /// The newest value of a field that the window tells of what it shows.
+    /// Returns the newest value of a field in the state trace of the window.
     #[track_caller]
     pub(crate) fn shown(&mut self, field: &str) -> String {
         shown(&mut self.editor, field).expect("it is told")
     }
 
-    /// Waits until something is so.
+    /// Waits until `holds` returns a value.
     #[track_caller]
     pub(crate) fn until<T>(&mut self, what: &str, mut holds: impl FnMut(&mut Self) -> Option<T>) -> T {
         let deadline = Instant::now() + SOON;
@@ -106,7 +107,7 @@ impl Visit {
         }
     }
 
-    /// Waits until the window tells this of what it shows.
+    /// Waits until a field of the state trace has this value.
     #[track_caller]
     pub(crate) fn until_shown(&mut self, field: &str, wanted: &str) {
         self.until(&format!("{field} = {wanted}"), |visit| {
@@ -114,7 +115,7 @@ impl Visit {
         });
     }
 
-    /// Waits until so many steps are done, of so many.
+    /// Waits until `done` of `steps` undo steps are applied.
     #[track_caller]
     pub(crate) fn until_steps(&mut self, done: usize, steps: usize) {
         self.until_shown("done", &done.to_string());
@@ -140,7 +141,7 @@ impl Visit {
         self.controls.values().filter_map(|control| control["name"].as_str()).collect()
     }
 
-    /// What a reader tells now of the control whose name begins like this.
+    /// Returns the current accessibility data of the control whose name starts with `name`.
     pub(crate) fn control_now(&mut self, name: &str) -> Option<Value> {
         self.listen();
         let named = |wanted: &&Value| wanted["name"].as_str().is_some_and(|text| text == name);
@@ -150,13 +151,13 @@ impl Visit {
         all.find(|control| !is_label(control)).cloned()
     }
 
-    /// The same, as soon as it is there.
+    /// Waits for that control, and returns its accessibility data.
     #[track_caller]
     pub(crate) fn control(&mut self, name: &str) -> Value {
         self.until(&format!("a control called {name:?}"), |visit| visit.control_now(name))
     }
 
-    /// The number that a reader tells of a field, once it is near this.
+    /// Waits until the value of a number field is near `wanted`, and returns it.
     #[track_caller]
     pub(crate) fn until_number(&mut self, name: &str, wanted: f64, within: f64) -> f64 {
         self.until(&format!("{name} = {wanted}"), |visit| {
@@ -165,7 +166,7 @@ impl Visit {
         })
     }
 
-    /// Clicks at the middle of a control.
+    /// Clicks in the middle of a control.
     #[track_caller]
     pub(crate) fn click_on(&mut self, name: &str) {
         let control = self.control(name);
@@ -183,21 +184,21 @@ impl Visit {
     pub(crate) fn save(&mut self) -> Vec<u8> {
         self.control_and(key::S);
         self.saved += 1;
-        self.editor.hears("Saved Fox.glb", self.saved, SOON);
+        self.editor.wait_for_log("Saved Fox.glb", self.saved, SOON);
         std::fs::read(&self.file).expect("it is there")
     }
 
-    /// What the window asked its document so far, each as a line of a conversation.
+    /// Returns the requests that the window has sent to its document, each as a `--stdio` line.
     pub(crate) fn asked(&mut self) -> Vec<Value> {
         self.listen();
         let told = self.editor.lines.iter().filter_map(|line| line.split_once("dragonfly::asked: "));
         told.map(|(_, line)| serde_json::from_str(line).expect("an object")).collect()
     }
 
-    /// The file that `dragonfly --stdio` writes when it is asked the same; what was refused here is refused there.
+    /// Returns the file that `dragonfly --stdio` writes for the same requests; it refuses the same ones.
     #[track_caller]
     pub(crate) fn by_stdio(&mut self) -> Vec<u8> {
-        let mut talk = Talk::about(&data("gltf/Fox.glb"));
+        let mut talk = StdioSession::about(&data("gltf/Fox.glb"));
         for line in self.asked() {
             talk.say(&line.to_string());
         }
@@ -207,15 +208,15 @@ impl Visit {
         std::fs::read(told).expect("it was written")
     }
 
-    /// The state of the window, as a test outside of it computes it, at the time shown.
-    pub(crate) fn inside(&mut self) -> Inside {
-        let mut inside = Inside::new(numbers(&self.shown("viewport")));
+    /// Returns the expected state of the window at the current time, computed by the test.
+    pub(crate) fn inside(&mut self) -> ExpectedWindow {
+        let mut inside = ExpectedWindow::new(numbers(&self.shown("viewport")));
         let time = self.shown("time").parse().expect("seconds");
         inside.state.execute(dragonfly::panels::Request::Seek(time));
         inside
     }
 
-    /// Goes some frames on, of those that the keys of the fox lie on; to which time, seconds.
+    /// Moves the playhead forward by `frames` of the frames that the keys of the fox are on. Returns its time, seconds.
     #[track_caller]
     pub(crate) fn go_on(&mut self, frames: usize) -> f32 {
         let start = self.shown("time");
@@ -227,11 +228,11 @@ impl Visit {
         })
     }
 
-    /// Selects the head with a click into the picture.
+    /// Selects the head with a click in the viewport.
     #[track_caller]
     pub(crate) fn pick_head(&mut self) {
         let mut inside = self.inside();
-        // Where nothing but skin is seen, the skin is met.
+        // If only skin is visible, the click hits the skin.
         let neck = inside.middle("b_Head_05", "b_Neck_04");
         let head = inside.middle("b_Head_05", "b_Head_05").lerp(neck, -0.6);
         self.screen.click(head.x as i16, head.y as i16);

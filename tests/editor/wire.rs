@@ -1,4 +1,4 @@
-//! The X protocol, as much of it as tests speak: the few requests they need are easier to write than a tool for them is to
+//! A minimal client of the X protocol: the few requests that the tests need are easier to write than a tool for them is to
 //! install.
 
 use std::collections::VecDeque;
@@ -6,19 +6,19 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::os::unix::net::UnixStream;
 use std::time::{Duration, Instant};
 
-/// Longer than an X server takes to start or to answer on a busy machine.
+/// Timeout longer than an X server takes to start or to answer on a busy machine.
 const START: Duration = Duration::from_secs(30);
 
-/// A window as the X server numbers it.
+/// X id of a window.
 pub(crate) type Window = u32;
 
-/// Numbers that the protocol gives to names.
+/// Predefined atoms of the protocol.
 pub(crate) mod atom {
     pub(crate) const ATOM: u32 = 4;
     pub(crate) const WINDOW: u32 = 33;
 }
 
-/// Numbers of events.
+/// Event codes.
 pub(crate) mod event {
     pub(crate) const MAP_REQUEST: u8 = 20;
     pub(crate) const CONFIGURE_NOTIFY: u8 = 22;
@@ -28,28 +28,28 @@ pub(crate) mod event {
     pub(crate) const CLIENT_MESSAGE: u8 = 33;
 }
 
-/// What the X server tells without being asked.
+/// An event from the X server.
 pub(crate) struct Event([u8; 32]);
 
 impl Event {
-    /// One of [`event`], whether the server sent it or another program.
+    /// Returns one of [`event`], whether the server or another program sent it.
     pub(crate) fn kind(&self) -> u8 {
         self.0[0] & 0x7f
     }
 
-    /// The number at a byte.
+    /// Returns the 32-bit number at a byte offset.
     pub(crate) fn word(&self, at: usize) -> u32 {
         word(&self.0, at)
     }
 
-    /// The small number at a byte.
+    /// Returns the 16-bit number at a byte offset.
     pub(crate) fn short(&self, at: usize) -> u32 {
         u32::from(u16::from_le_bytes([self.0[at], self.0[at + 1]]))
     }
 }
 
-/// Where a window is on its screen: left, top, width, height.
-pub(crate) type Place = [i32; 4];
+/// Rectangle of a window on its screen: left, top, width, height.
+pub(crate) type WindowRect = [i32; 4];
 
 /// A connection to an X server.
 pub(crate) struct Wire {
@@ -62,7 +62,7 @@ pub(crate) struct Wire {
 }
 
 impl Wire {
-    /// Says hello (little-endian, version 11) and learns the root window.
+    /// Connects (little-endian, version 11) and reads the id of the root window.
     pub(crate) fn connect(number: u32) -> Self {
         let mut stream = connect(number);
         stream.write_all(&[0x6c, 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0]).expect("the X server listens");
@@ -83,38 +83,38 @@ impl Wire {
         }
     }
 
-    /// The number of a name.
+    /// Returns the atom of a name.
     pub(crate) fn atom(&mut self, name: &str) -> u32 {
         word(&self.ask(16, 0, &named(name)).expect("an answer"), 8)
     }
 
-    /// The first request of an extension, which must be there.
+    /// Returns the first request code of an extension, which must exist.
     pub(crate) fn extension(&mut self, name: &str) -> u8 {
         let reply = self.ask(98, 0, &named(name)).expect("an answer");
         assert_eq!(reply[8], 1, "the X server lacks {name}");
         reply[9]
     }
 
-    /// The windows that lie on the screen itself.
+    /// Returns the children of the root window.
     pub(crate) fn children(&mut self) -> Vec<Window> {
         let Some(reply) = self.ask(15, 0, &words(&[self.root])) else { return Vec::new() };
         let count = usize::from(u16::from_le_bytes([reply[16], reply[17]]));
         (0..count).map(|index| word(&reply, 32 + 4 * index)).collect()
     }
 
-    /// What a window says of itself under a name.
+    /// Returns the bytes of a property of a window.
     pub(crate) fn property(&mut self, window: Window, property: u32) -> Option<Vec<u8>> {
         let reply = self.ask(20, 0, &words(&[window, property, 0, 0, 64]))?;
         let length = word(&reply, 16) as usize * usize::from(reply[1]) / 8;
         reply.get(32..32 + length).map(<[u8]>::to_vec)
     }
 
-    /// Lets a window say bytes of itself.
+    /// Sets a property of a window to bytes.
     pub(crate) fn say(&mut self, window: Window, property: u32, kind: u32, text: &[u8]) {
         self.change(window, property, kind, 8, text);
     }
 
-    /// Lets a window say numbers of itself.
+    /// Sets a property of a window to 32-bit numbers.
     pub(crate) fn say_words(&mut self, window: Window, property: u32, kind: u32, numbers: &[u32]) {
         self.change(window, property, kind, 32, &words(numbers));
     }
@@ -126,7 +126,7 @@ impl Wire {
         self.tell(18, 0, &body);
     }
 
-    /// A window of our own that is never seen.
+    /// Creates a window that is never shown.
     pub(crate) fn create_window(&mut self) -> Window {
         let window = self.next_id;
         self.next_id += 1;
@@ -140,12 +140,12 @@ impl Wire {
         window
     }
 
-    /// Makes a window of ours the one that answers for `selection`.
+    /// Makes a window the owner of `selection`.
     pub(crate) fn own(&mut self, selection: u32, window: Window) {
         self.tell(22, 0, &words(&[window, selection, 0]));
     }
 
-    /// Wants to hear of what `mask` names at a window.
+    /// Subscribes to the events in `mask` of a window.
     pub(crate) fn select(&mut self, window: Window, mask: u32) {
         self.tell(2, 0, &words(&[window, 1 << 11, mask]));
     }
@@ -158,7 +158,7 @@ impl Wire {
         self.post(to, mask, &event);
     }
 
-    /// Sends an event to a window's program, as if the server had.
+    /// Sends an event to the program of a window, as if the server had sent it.
     pub(crate) fn post(&mut self, to: Window, mask: u32, event: &[u8]) {
         let mut body = words(&[to, mask]);
         body.extend(event);
@@ -166,8 +166,8 @@ impl Wire {
         self.tell(25, 0, &body);
     }
 
-    /// Where a window is, without its border.
-    pub(crate) fn place(&mut self, window: Window) -> Option<Place> {
+    /// Returns the rectangle of a window, without its border.
+    pub(crate) fn place(&mut self, window: Window) -> Option<WindowRect> {
         let reply = self.ask(14, 0, &words(&[window]))?;
         let small = |at: usize| [reply[at], reply[at + 1]];
         let [x, y] = [12, 14].map(|at| i32::from(i16::from_le_bytes(small(at))));
@@ -175,7 +175,7 @@ impl Wire {
         Some([x, y, width, height])
     }
 
-    /// The next event, which must come within `limit`.
+    /// Returns the next event, which must arrive within `limit`.
     pub(crate) fn event(&mut self, limit: Duration) -> io::Result<Event> {
         let deadline = Instant::now() + limit;
         loop {
@@ -193,14 +193,14 @@ impl Wire {
                 Err(error) => return Err(error),
             };
             self.stream.read_exact(&mut bytes[begun..])?;
-            // An error about a window that is gone meanwhile is no event, and nobody waits for it.
+            // An error about a window that no longer exists is not an event, and no request waits for it.
             if bytes[0] > 1 {
                 self.events.push_back(Event(bytes));
             }
         }
     }
 
-    /// A request with an answer; `None` when the answer is an error (the window is gone).
+    /// Sends a request, and returns its reply; `None` if the reply is an error (the window no longer exists).
     pub(crate) fn ask(&mut self, request: u8, detail: u8, body: &[u8]) -> Option<Vec<u8>> {
         self.tell(request, detail, body);
         loop {
@@ -218,7 +218,7 @@ impl Wire {
         }
     }
 
-    /// A request without an answer; `body` is a whole number of words.
+    /// Sends a request without a reply; `body` is a whole number of words.
     pub(crate) fn tell(&mut self, request: u8, detail: u8, body: &[u8]) {
         let length = (body.len() / 4 + 1) as u16;
         let mut bytes = vec![request, detail];
@@ -242,7 +242,7 @@ fn connect(number: u32) -> UnixStream {
     }
 }
 
-/// A text as requests want it: length, padding, letters, padding.
+/// Encodes a text as requests contain it: length, padding, characters, padding.
 fn named(name: &str) -> Vec<u8> {
     let mut body = (name.len() as u16).to_le_bytes().to_vec();
     body.extend([0, 0]);
@@ -251,7 +251,7 @@ fn named(name: &str) -> Vec<u8> {
     body
 }
 
-/// Numbers as the protocol writes them.
+/// Encodes numbers as the protocol does.
 pub(crate) fn words(numbers: &[u32]) -> Vec<u8> {
     numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
 }

@@ -1,4 +1,5 @@
-//! The whole window without a window, with a document behind it: what panels ask for is done, and seen in the next frame.
+//! The user interface without a real window, connected to a real document: requests of panels are applied before the next
+//! frame.
 
 use dragonfly::panels::window_status::DeviceStatus;
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
@@ -12,14 +13,14 @@ use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// See the module.
+/// The user interface, its document, and the recorded requests.
 pub(crate) struct Workbench {
     pub(crate) desk: Desk,
     pub(crate) state: State,
     pub(crate) edited: Option<Edited>,
-    /// Everything that was asked of the document.
+    /// All changes requested of the document.
     pub(crate) changes: Vec<Change>,
-    /// Why edits were refused.
+    /// Reasons for which edits were refused.
     pub(crate) refused: Vec<String>,
 }
 
@@ -37,17 +38,17 @@ impl Workbench {
         Self { desk: Desk::new(""), state, edited, changes: Vec::new(), refused: Vec::new() }
     }
 
-    /// The usual model with the panels around it.
+    /// Creates the standard model with all panels.
     pub(crate) fn full() -> Self {
         Self::new(Some(fixture::full()))
     }
 
-    /// High enough to show everything without scrolling.
+    /// Opens a window that is high enough to show everything without scrolling.
     pub(crate) fn window(self) -> Window {
         self.window_of(egui::vec2(1280.0, 1000.0), egui::Theme::Dark)
     }
 
-    /// One that draws a box for letters that no font has, as the program does.
+    /// Opens a window that draws a box for characters that no font has, as the program does.
     pub(crate) fn window_of_any_text(self) -> Window {
         let builder = Harness::builder()
             .with_size(egui::vec2(1280.0, 720.0))
@@ -63,7 +64,7 @@ impl Workbench {
         let builder = Harness::builder()
             .with_size(size)
             .with_theme(theme)
-            // As fast as a window: two clicks are a double click.
+            // At the frame rate of a real window: two clicks are a double click.
             .with_step_dt(1.0 / 60.0)
             .with_max_steps(20)
             .with_context_setup(style::install);
@@ -89,7 +90,7 @@ impl Workbench {
         }
     }
 
-    /// As the document's thread does it.
+    /// Applies a change as the thread of the document does.
     pub(crate) fn change(&mut self, change: Change) {
         let mut sent = Vec::new();
         self.state.let_through(Effect::Change(change), &mut |effect| sent.push(effect));
@@ -128,7 +129,7 @@ impl Workbench {
         self.state.show(View { generation, answered, takes, slots: adapter.slots().into(), history, ..view });
     }
 
-    /// The pose of a bone in the take and at the time shown, as the document has it.
+    /// Returns the pose of a bone in the document, in the take and at the time shown.
     pub(crate) fn pose(&self, bone: u32) -> Transform {
         let view = self.state.read().view.unwrap();
         let take = &view.takes[self.state.read().playback.take.unwrap()];
@@ -140,14 +141,14 @@ impl Workbench {
         )
     }
 
-    /// How many steps are done, and how many there are.
+    /// Returns the number of steps done, and the number of all steps.
     pub(crate) fn steps(&self) -> (usize, usize) {
         let (steps, done) = self.edited.as_ref().unwrap().steps();
         (done, steps.len())
     }
 }
 
-/// Puts the cursor into a field, takes out what is there, types, and says how to go on.
+/// Focuses a field, clears it, types a text, and presses the key `then`.
 pub(crate) fn type_into(window: &mut Window, field: &str, text: &str, then: egui::Key) {
     window.get_by_label(field).click();
     window.run_steps(2);
@@ -159,7 +160,7 @@ pub(crate) fn type_into(window: &mut Window, field: &str, text: &str, then: egui
     window.run_steps(3);
 }
 
-/// Drags from the middle of a field by so many points, in steps.
+/// Drags from the middle of a field by an offset in points, in several steps.
 pub(crate) fn drag(window: &mut Window, field: &str, by: egui::Vec2, modifiers: egui::Modifiers) {
     let from = window.get_by_label(field).rect().center();
     press(window, from);

@@ -1,17 +1,17 @@
-//! What a hand does is heard, whatever the driver does at that moment: who waits on a connection to the X server reads
-//! what comes for others as well, and drivers wait in threads of their own.
+//! Input is handled immediately even while a driver thread reads from the same X connection: a thread that waits on the
+//! connection also reads events meant for other threads, and drivers wait in threads of their own.
 
 use crate::fixture_layer::Layer;
 use crate::screen::{Screen, key, pass};
 use crate::window::{Editor, SOON, alone, eventually_shows_something};
-use crate::window_hands::{numbers, shown, wait_for};
+use crate::window_bone_rotation::{numbers, shown, wait_for};
 use std::time::Duration;
 
-/// As long as the layer reads after each picture.
+/// Time for which the test layer reads after each frame.
 const READS: Duration = Duration::from_millis(600);
 
 #[test]
-fn a_key_and_a_close_are_heard_while_a_thread_of_the_driver_reads_from_the_screen_too() {
+fn keys_and_close_requests_are_handled_while_a_driver_thread_reads() {
     let _one = alone();
     let layer = Layer::new("heard");
     let mut environment = layer.environment("none", 0, 0);
@@ -27,9 +27,9 @@ fn a_key_and_a_close_are_heard_while_a_thread_of_the_driver_reads_from_the_scree
     wait_for(&mut editor, &screen, "the start", |editor| shown(editor, "time").as_deref() == Some("0.0"));
     let [x, y, ..] = numbers::<4>(&shown(&mut editor, "viewport").expect("told"));
     let mut last = "0.0".to_owned();
-    // Nothing moves, and nothing but the hand wakes the program.
+    // Playback is paused, and only input wakes the program.
     for turn in 0..5 {
-        // The pointer moves: a picture, and the thread begins to read.
+        // The pointer moves: a frame is drawn, and the thread starts to read.
         screen.point(x as i16 + 20 + turn, y as i16 + 100);
         pass(READS / 4);
         screen.press(key::RIGHT);

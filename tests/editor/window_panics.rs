@@ -1,4 +1,4 @@
-//! A mistake in a thread of the window: the others go on, the person is told, and nothing that they did is lost.
+//! Panics in a thread of the window: the other threads continue, the user is informed, and no work is lost.
 
 use crate::screen::{key, pass};
 use crate::window::{SOON, alone, eventually_shows_something};
@@ -6,7 +6,7 @@ use crate::window_visit::Visit;
 use dragonfly_picture::gizmo::Handle;
 use std::time::Duration;
 
-/// Turns the head, which is selected, by a drag.
+/// Rotates the selected head by a drag.
 fn turn(visit: &mut Visit, done: usize) {
     let ring = visit.inside().handle("b_Head_05", Handle::Ring);
     visit.screen.point(ring.x as i16, ring.y as i16);
@@ -14,11 +14,11 @@ fn turn(visit: &mut Visit, done: usize) {
     for by in 1..8 {
         visit.screen.point(ring.x as i16 + 2 * by, ring.y as i16 + 3 * by);
     }
-    visit.screen.let_go();
+    visit.screen.release_button();
     visit.until_shown("done", &done.to_string());
 }
 
-/// Moves the mouse beside everything, for a while: inputs that may be lost.
+/// Moves the mouse over an empty area for a while: input that may be lost.
 fn stir(visit: &mut Visit) {
     for by in 0..20 {
         visit.screen.point(500 + by, 440);
@@ -27,7 +27,7 @@ fn stir(visit: &mut Visit) {
 }
 
 #[test]
-fn a_mistake_in_the_main_thread_or_the_graphics_thread_costs_no_work_and_the_window_goes_on() {
+fn a_panic_in_the_main_or_graphics_thread_loses_no_work_and_the_window_continues() {
     let _one = alone();
     for (place, object) in [
         ("panels", "Interface in thread main failed"),
@@ -42,7 +42,7 @@ fn a_mistake_in_the_main_thread_or_the_graphics_thread_costs_no_work_and_the_win
         visit.go_on(1);
         turn(&mut visit, 2);
         stir(&mut visit);
-        // It is told.
+        // A message is shown.
         let told = format!("{object}: injected fault. Nothing that you did is lost");
         visit.until("it is told", |visit| {
             let lines = visit.editor.lines.iter().filter(|line| line.contains(&told));
@@ -50,7 +50,7 @@ fn a_mistake_in_the_main_thread_or_the_graphics_thread_costs_no_work_and_the_win
         });
         visit.control(&format!("Messages: {told}"));
         eventually_shows_something(&visit.screen);
-        // It goes on.
+        // The window keeps working.
         visit.go_on(1);
         turn(&mut visit, 3);
         visit.control_and(key::Z);
@@ -65,7 +65,7 @@ fn a_mistake_in_the_main_thread_or_the_graphics_thread_costs_no_work_and_the_win
 }
 
 #[test]
-fn a_thread_that_fails_again_and_again_ends_the_program_in_order_and_the_next_start_has_the_work() {
+fn repeated_panics_end_the_program_cleanly_and_the_next_start_restores_the_work() {
     let _one = alone();
     for place in ["panels", "input", "message", "frame"] {
         println!("{place}");
@@ -77,7 +77,7 @@ fn a_thread_that_fails_again_and_again_ends_the_program_in_order_and_the_next_st
         for by in 1..8 {
             visit.screen.point(ring.x as i16 + 2 * by, ring.y as i16 + 3 * by);
         }
-        visit.screen.let_go();
+        visit.screen.release_button();
         stir(&mut visit);
         let status = visit.editor.ends(SOON);
         let log = visit.editor.log();
@@ -85,9 +85,9 @@ fn a_thread_that_fails_again_and_again_ends_the_program_in_order_and_the_next_st
         assert!(log.contains("internal error, a bug of the program: "), "{place}: {log}");
         assert!(log.contains("Your work is recorded"), "{place}: {log}");
         visit.again(None);
-        visit.editor.hears("offered unsaved work", 1, SOON);
+        visit.editor.wait_for_log("offered unsaved work", 1, SOON);
         visit.screen.press(key::ENTER);
-        visit.editor.hears("Restored the unsaved work of Fox.glb: 1 step", 1, SOON);
+        visit.editor.wait_for_log("Restored the unsaved work of Fox.glb: 1 step", 1, SOON);
         visit.go_to_the_start();
         visit.save();
         visit.end();

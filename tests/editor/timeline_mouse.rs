@@ -1,4 +1,4 @@
-//! What a hand does in the timeline: it selects, moves, copies, scales, and takes it back.
+//! Mouse input on the timeline: selecting, moving, copying and scaling keys, and cancelling a drag.
 
 use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
@@ -13,7 +13,7 @@ use egui_kittest::kittest::Queryable;
 const FRAME: f32 = 1.0 / 30.0;
 
 #[test]
-fn a_click_selects_a_key_and_a_click_beside_all_selects_none() {
+fn a_click_selects_a_key_and_a_click_on_no_key_clears_the_selection() {
     let mut animator = Animator::with_bone(3);
     let on = animator.at(animator.key(8), 2);
     animator.click(on);
@@ -41,7 +41,7 @@ fn a_box_selects_what_it_touches_in_its_rows() {
     animator.drag(from, to);
     animator.release(to);
     assert_eq!(animator.selected(), 6);
-    // Backwards, with Shift, further right.
+    // A box from right to left, with Shift, further right.
     animator.hold(Modifiers::SHIFT);
     let (from, to) = (animator.at(animator.key(22) + 0.04, 4), animator.at(animator.key(20) - 0.04, 2));
     animator.drag(from, to);
@@ -50,7 +50,7 @@ fn a_box_selects_what_it_touches_in_its_rows() {
 }
 
 #[test]
-fn where_keys_lie_side_by_side_a_drag_draws_a_box_until_they_are_selected() {
+fn a_drag_over_dense_keys_draws_a_box_until_they_are_selected() {
     let mut animator = Animator::with_bone(3);
     let far = animator.at(2.0, 2);
     for _ in 0..12 {
@@ -75,7 +75,7 @@ fn alt_click_selects_a_column_of_all_bones() {
     animator.hold(Modifiers::ALT);
     let on = animator.at(animator.key(8), 2);
     animator.click(on);
-    // Bone 0 has no translation there; each of 64 bones turns.
+    // Bone 0 has no translation there; each of the 64 bones has a rotation.
     assert_eq!(animator.selected(), 64);
 }
 
@@ -100,7 +100,7 @@ fn a_dragged_key_goes_to_the_nearest_frame_as_one_step() {
 }
 
 #[test]
-fn ctrl_turns_snapping_round() {
+fn ctrl_inverts_snapping() {
     let mut animator = Animator::with_bone(3);
     let grabbed = animator.key(8);
     animator.click(animator.at(grabbed, 2));
@@ -115,7 +115,7 @@ fn ctrl_turns_snapping_round() {
 }
 
 #[test]
-fn escape_and_the_right_button_take_a_drag_back() {
+fn escape_and_the_right_button_cancel_a_drag() {
     for escape in [true, false] {
         let mut animator = Animator::with_bone(3);
         let before = animator.times(3);
@@ -133,7 +133,7 @@ fn escape_and_the_right_button_take_a_drag_back() {
         animator.steps(2);
         assert_eq!(animator.times(3), before, "Escape: {escape}");
         assert!(matches!(animator.changes.last(), Some(Change::Cancel(_))));
-        // What the hand still does counts for nothing.
+        // Input after the cancel, until the button is released, has no effect.
         let far = animator.at(animator.key(20), 2);
         animator.move_to(far);
         animator.release(far);
@@ -145,7 +145,7 @@ fn escape_and_the_right_button_take_a_drag_back() {
 }
 
 #[test]
-fn a_drag_that_comes_back_changes_nothing() {
+fn a_drag_back_to_its_start_changes_nothing() {
     let mut animator = Animator::with_bone(3);
     let before = animator.times(3);
     let from = animator.at(animator.key(8), 2);
@@ -158,7 +158,7 @@ fn a_drag_that_comes_back_changes_nothing() {
 }
 
 #[test]
-fn alt_drags_a_copy_and_two_makes_room() {
+fn alt_drags_a_copy_and_two_inserts_time() {
     let mut animator = Animator::with_bone(3);
     animator.click(animator.at(animator.key(8), 2));
     animator.hold(Modifiers::ALT);
@@ -183,12 +183,12 @@ fn alt_drags_a_copy_and_two_makes_room() {
 }
 
 #[test]
-fn time_that_is_dragged_goes_to_keys_and_frames() {
+fn dragging_the_playhead_snaps_to_keys_and_frames() {
     let mut animator = Animator::with_bone(3);
     let time = |animator: &Animator| animator.harness.state().state.read().time();
     let ruler = animator.harness.get_by_label("Time track").rect().center().y;
     let at = |animator: &Animator, time: f32| egui::pos2(animator.at(time, 0).x, ruler);
-    // The keys of this model lie on no frames.
+    // The keys of this model are not on whole frames.
     let near = at(&animator, animator.key(8)) + vec2(2.0, 0.0);
     animator.click(near);
     assert_eq!(time(&animator), animator.times(3)[8], "to the bit, so that a pose there is no second key");
@@ -202,7 +202,7 @@ fn time_that_is_dragged_goes_to_keys_and_frames() {
 }
 
 #[test]
-fn a_row_that_is_clicked_keeps_the_others_listed_until_something_else_is_selected() {
+fn a_click_on_a_row_keeps_the_other_rows_until_another_selection() {
     let mut animator = Animator::new(fixture::full());
     let rows = |animator: &Animator| animator.harness.state().state.read().listed_bones().len();
     let all = rows(&animator);
@@ -218,7 +218,7 @@ fn a_row_that_is_clicked_keeps_the_others_listed_until_something_else_is_selecte
 }
 
 #[test]
-fn a_take_grows_where_a_pose_is_keyed_behind_its_end() {
+fn keying_a_pose_after_the_end_extends_the_take() {
     let mut animator = Animator::with_bone(3);
     animator.harness.state_mut().state.execute(Request::Command(Id::PlayPause));
     animator.request(Request::Command(Id::NewTake));
@@ -257,7 +257,7 @@ fn a_take_grows_where_a_pose_is_keyed_behind_its_end() {
     );
     animator.request(Request::Command(Id::Key));
     assert_eq!(state(&animator), (0.0, 20.0));
-    // Undone, time stays where the hand put it; playing begins at the begin.
+    // Undo leaves the playhead where the user put it; playback starts at the start.
     animator.request(Request::Command(Id::Undo));
     assert_eq!((state(&animator), time(&animator)), ((0.0, 1.0), 20.0));
     animator.request(Request::Command(Id::PlayPause));
@@ -284,7 +284,7 @@ fn the_edge_of_the_ruler_is_the_end_of_the_take() {
 }
 
 #[test]
-fn nothing_selected_is_no_key_selected_either() {
+fn without_a_selected_bone_no_key_is_selected() {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Command(Id::SelectAllKeys));
     assert_eq!(animator.selected(), 41);
@@ -295,7 +295,7 @@ fn nothing_selected_is_no_key_selected_either() {
 }
 
 #[test]
-fn keys_stay_selected_when_room_is_made_or_taken_away_before_them() {
+fn keys_stay_selected_when_time_is_inserted_or_removed_before_them() {
     let mut animator = Animator::with_bone(3);
     let (from, to) = (animator.at(animator.key(8) - 0.04, 4), animator.at(animator.key(11) + 0.04, 2));
     animator.drag(from, to);
@@ -307,7 +307,7 @@ fn keys_stay_selected_when_room_is_made_or_taken_away_before_them() {
         assert_eq!(animator.selected(), 4, "{id:?}");
     }
     assert_eq!(animator.edited.steps().1, 3);
-    // The same four: one before the gap, three behind.
+    // The same four keys: one before the gap, three after it.
     animator.request(Request::Command(Id::DeleteKeys));
     let times = animator.times(3);
     assert_eq!(times.len(), 37);
@@ -344,7 +344,7 @@ fn scale_by_the_end(alt: bool) {
 }
 
 #[test]
-fn a_locked_bone_is_not_edited_and_says_so() {
+fn editing_a_locked_bone_is_refused_with_a_message() {
     let mut animator = Animator::with_bone(3);
     animator.harness.get_by_label("Lock rib_00_left_middle").click();
     animator.steps(2);
@@ -359,7 +359,7 @@ fn a_locked_bone_is_not_edited_and_says_so() {
         line.unwrap_or_default()
     };
     assert!(said(&animator).contains("is locked"), "{}", said(&animator));
-    // Neither from elsewhere.
+    // Edits from other panels are refused too.
     let poses = vec![dragonfly_document::edit::BonePose {
         bone: dragonfly_document::edit::BoneRef::Index(3),
         translation: Some([1.0, 0.0, 0.0]),
@@ -372,7 +372,7 @@ fn a_locked_bone_is_not_edited_and_says_so() {
 }
 
 #[test]
-fn muted_bones_rest_in_the_picture_and_solo_rests_all_others() {
+fn muted_bones_show_the_rest_pose_and_solo_mutes_all_others() {
     let mut animator = Animator::new(dragonfly_kit::document::fixture::full());
     animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Mute, 3, true)));
     assert_eq!(animator.harness.state().state.read().keys.flags().still(6), [3]);
@@ -385,7 +385,7 @@ fn muted_bones_rest_in_the_picture_and_solo_rests_all_others() {
 }
 
 #[test]
-fn commands_do_to_the_selected_keys_what_they_say() {
+fn commands_change_the_selected_keys_as_named() {
     let mut animator = Animator::with_bone(3);
     animator.harness.key_press(Key::Delete);
     animator.steps(2);
@@ -438,7 +438,7 @@ fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
 }
 
 #[test]
-fn the_range_plays_and_any_time_can_be_looked_at() {
+fn the_play_range_plays_and_any_time_can_be_shown() {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Timeline(KeysRequest::Range(Some([1.0, 0.5]))));
     animator.request(Request::Seek(3.0));
@@ -459,7 +459,7 @@ fn the_range_plays_and_any_time_can_be_looked_at() {
 }
 
 #[test]
-fn a_refused_drag_leaves_everything_as_it_was() {
+fn a_refused_drag_changes_nothing() {
     let mut animator = Animator::with_bone(3);
     let before = animator.times(3);
     animator.click(animator.at(0.0, 2));
@@ -471,7 +471,7 @@ fn a_refused_drag_leaves_everything_as_it_was() {
 }
 
 #[test]
-fn keys_that_are_not_listed_any_more_are_not_deleted_unseen() {
+fn keys_that_are_no_longer_listed_are_not_deleted() {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Command(Id::SelectAllKeys));
     assert_eq!(animator.selected(), 41);
@@ -481,7 +481,7 @@ fn keys_that_are_not_listed_any_more_are_not_deleted_unseen() {
     animator.harness.key_press(Key::Delete);
     animator.steps(2);
     assert!(animator.changes.is_empty());
-    // All bones are listed where all are wanted, and one is when its name is looked for.
+    // All bones are listed in the mode "all bones", and one bone when its name is searched for.
     animator.request(Request::Timeline(KeysRequest::OnlySelected(false)));
     animator.request(Request::Command(Id::SelectAllKeys));
     let all = animator.selected();
@@ -491,11 +491,11 @@ fn keys_that_are_not_listed_any_more_are_not_deleted_unseen() {
 }
 
 #[test]
-fn time_that_is_stopped_stands_on_a_frame_as_keys_do() {
+fn pausing_moves_the_playhead_to_a_whole_frame() {
     let mut animator = Animator::with_bone(3);
     for (snaps, wanted) in [(true, 10.0 / 30.0), (false, 0.345)] {
         animator.request(Request::Timeline(KeysRequest::Snap(snaps)));
-        // It plays, however slowly, when it is stopped.
+        // It plays, however slowly, until it is paused.
         let state = &mut animator.harness.state_mut().state;
         state.execute(Request::Seek(0.345));
         state.execute(Request::Command(Id::PlayPause));

@@ -1,4 +1,4 @@
-//! A bone is picked and turned in the real window, with mouse and keys, and the numbers that are shown are the ones asked for.
+//! Picking and rotating a bone in the real window with mouse and keys; the displayed numbers are the requested ones.
 
 use crate::hands_rig::find;
 use crate::program::threads;
@@ -13,15 +13,15 @@ use glam::{Quat, Vec2};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The state of the window, as a test outside of it computes it.
-pub(crate) struct Inside {
+/// The expected state of the window, computed by the test.
+pub(crate) struct ExpectedWindow {
     pub(crate) state: State,
     corner: Vec2,
     size: Vec2,
 }
 
-impl Inside {
-    /// Fox at the start of its first take, in a picture that is there.
+impl ExpectedWindow {
+    /// Creates the state for Fox at the start of its first take, in a given viewport.
     pub(crate) fn new([x, y, width, height]: [f32; 4]) -> Self {
         let source = Source::File(data("gltf/Fox.glb"));
         let loaded = load_model(&source, &mut |_| {}, &Cancel::default()).expect("Fox opens");
@@ -43,7 +43,7 @@ impl Inside {
         GizmoView::new(&self.state.read().camera, self.size)
     }
 
-    /// Where in the window the middle of a bone is, from its joint to that of another.
+    /// Returns the window position of the middle of a bone, from its joint to another joint.
     pub(crate) fn middle(&mut self, from: &str, to: &str) -> Vec2 {
         let bones = [self.bone(from), self.bone(to)];
         self.state.execute(Request::Select(Some(bones[0])));
@@ -54,7 +54,7 @@ impl Inside {
         at.as_vec2() + self.corner
     }
 
-    /// A place in the window where a handle of the gizmo at a bone is.
+    /// Returns a window position on a handle of the gizmo at a bone.
     pub(crate) fn handle(&mut self, bone: &str, wanted: Handle) -> Vec2 {
         let bone = self.bone(bone);
         self.state.execute(Request::Select(Some(bone)));
@@ -71,7 +71,7 @@ impl Inside {
     }
 }
 
-/// What the log tells of the window: the newest value of a field.
+/// Returns the newest value of a field in the log of the window.
 pub(crate) fn shown(editor: &mut Editor, field: &str) -> Option<String> {
     editor.listen();
     let line = editor.lines.iter().rev().find(|line| line.contains("dragonfly::shown"))?;
@@ -87,7 +87,7 @@ pub(crate) fn numbers<const N: usize>(text: &str) -> [f32; N] {
     numbers.collect::<Vec<f32>>().try_into().expect("so many numbers")
 }
 
-/// Waits until a field is what it should be.
+/// Waits until a field has the expected value.
 #[track_caller]
 pub(crate) fn wait_for(
     editor: &mut Editor,
@@ -121,7 +121,7 @@ fn wait_for_turn(editor: &mut Editor, screen: &Screen, wanted: Quat) {
 }
 
 #[test]
-fn a_bone_is_picked_and_turned_by_thirty_degrees_undone_and_done_again() {
+fn a_bone_is_picked_rotated_by_thirty_degrees_undone_and_redone() {
     let _one = alone();
     let mut screen = Screen::new("hands", 1280, 800);
     let log = [("DRAGONFLY_LOG", "error,dragonfly=info,dragonfly::shown=debug")];
@@ -130,9 +130,9 @@ fn a_bone_is_picked_and_turned_by_thirty_degrees_undone_and_done_again() {
     screen.press(key::SPACE);
     screen.press(key::HOME);
     wait_for(&mut editor, &screen, "the start", |editor| shown(editor, "time").as_deref() == Some("0.0"));
-    let mut inside = Inside::new(numbers(&shown(&mut editor, "viewport").expect("told")));
+    let mut inside = ExpectedWindow::new(numbers(&shown(&mut editor, "viewport").expect("told")));
 
-    // A click on the head's bone; where nothing but skin is seen, the skin is met.
+    // A click on the bone of the head; where only skin is visible, the click hits the skin.
     let head = inside.middle("b_Head_05", "b_Neck_04");
     let head = inside.middle("b_Head_05", "b_Head_05").lerp(head, -0.6);
     screen.click(head.x as i16, head.y as i16);
@@ -142,7 +142,7 @@ fn a_bone_is_picked_and_turned_by_thirty_degrees_undone_and_done_again() {
     let before = rotation(&mut editor);
     let turned = before * Quat::from_rotation_x(30f32.to_radians());
 
-    // By the ring, with the number typed while it is held.
+    // With the ring, and the angle typed while it is held.
     let ring = inside.handle("b_Head_05", Handle::Axis(GizmoAxis::X));
     screen.point(ring.x as i16, ring.y as i16);
     screen.hold();
@@ -151,7 +151,7 @@ fn a_bone_is_picked_and_turned_by_thirty_degrees_undone_and_done_again() {
     screen.press(key::DIGIT_0);
     screen.keep("hands-drag");
     screen.press(key::ENTER);
-    screen.let_go();
+    screen.release_button();
     wait_for_turn(&mut editor, &screen, turned);
     assert_eq!(shown(&mut editor, "done").as_deref(), Some("1"), "one drag is one step");
 
@@ -163,7 +163,7 @@ fn a_bone_is_picked_and_turned_by_thirty_degrees_undone_and_done_again() {
     // By a command and keys alone: once more about the same axis.
     screen.press(key::F3);
     for letter in [27, 32, 28, 38, 28, 26, 65, 57, 32, 25] {
-        // "rotate now" on a keyboard of the United States.
+        // "rotate now" on a US keyboard.
         screen.press(letter);
     }
     screen.press(key::ENTER);
@@ -174,18 +174,18 @@ fn a_bone_is_picked_and_turned_by_thirty_degrees_undone_and_done_again() {
     wait_for_turn(&mut editor, &screen, before * Quat::from_rotation_x(60f32.to_radians()));
     assert_eq!(shown(&mut editor, "done").as_deref(), Some("2"));
 
-    // Escape in a drag leaves nothing behind.
+    // Escape during a drag leaves no change.
     let ring = inside.handle("b_Head_05", Handle::Ring);
     screen.point(ring.x as i16, ring.y as i16);
     screen.hold();
     screen.point(ring.x as i16 + 40, ring.y as i16 + 40);
     screen.press(key::ESCAPE);
-    screen.let_go();
+    screen.release_button();
     wait_for_turn(&mut editor, &screen, before * Quat::from_rotation_x(60f32.to_radians()));
     screen.keep("hands-end");
-    // Nothing of it is to be kept.
+    // The changes are discarded.
     screen.close(editor.window);
-    editor.hears("asked what becomes of unsaved work", 1, SOON);
+    editor.wait_for_log("asked what becomes of unsaved work", 1, SOON);
     screen.press_with(key::SHIFT, key::TAB);
     screen.press(key::ENTER);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
