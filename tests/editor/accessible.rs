@@ -1,4 +1,4 @@
-//! Who cannot see the window hears what is in it: every control of the whole desk has a name.
+//! Screen readers can announce the entire window: every control in every panel has a name.
 
 use crate::workbench::{Window, Workbench};
 use dragonfly::panels::Request;

@@ -1,4 +1,4 @@
-//! What the command line promises to scripts and to people.
+//! The command line: output, exit codes and error messages, for scripts and for users.
 
 use crate::program::{dragonfly, outcome, run};
 use dragonfly_kit::folder::{Folder, data};
@@ -79,7 +79,7 @@ fn a_pose_agrees_with_what_others_computed() {
     assert!(compared > 400, "only {compared} numbers were compared");
 }
 
-/// Compares numbers, however deep they lie; returns how many.
+/// Compares the numbers of two nested JSON arrays. Returns the number of values compared.
 #[track_caller]
 fn agree(ours: &Value, theirs: &Value) -> usize {
     match (ours, theirs) {
@@ -103,7 +103,7 @@ fn numbers_in_json_read_back_exactly() {
     let mut numbers = 0;
     for word in text.split([',', '[', ']', ':', '{', '}']).filter(|word| word.contains('.')) {
         let Ok(single) = word.parse::<f32>() else { continue };
-        // What is written is the shortest that means this number, and means it to readers in double precision too.
+        // The text is the shortest that parses to this number, also for readers that parse in double precision.
         assert_eq!(serde_json::to_string(&single).expect("a number"), word);
         assert_eq!(word.parse::<f64>().expect("a number") as f32, single);
         numbers += 1;
@@ -208,7 +208,7 @@ fn the_built_in_model_can_be_written_and_read_again() {
     assert_eq!(written["bones"], built_in["bones"]);
     assert_eq!(written["takes"], built_in["takes"]);
     assert_eq!(built_in["warnings"].as_array().map(Vec::len), Some(0), "{}", built_in["warnings"]);
-    // A second time over it; and nothing is left beside it.
+    // A second run overwrites the file and leaves no other file in the folder.
     run(["demo".as_ref(), "-o".as_ref(), file.as_os_str()]).expect(0);
     assert_eq!(std::fs::read_dir(folder.path()).expect("the folder").count(), 1);
     let impossible = folder.join("no/such/folder.glb");
@@ -319,7 +319,7 @@ fn without_a_display_the_editor_draws_a_picture_and_says_where_it_is() {
         assert_eq!((picture.width(), picture.height()), (1280, 720));
     }
     assert_eq!(names, ["dragonfly.png", "dragonfly.png"], "the same picture needs no second file");
-    // What a person has there is not written over.
+    // An existing file of the user is not overwritten.
     std::fs::write(folder.join("dragonfly.png"), "mine").expect("a file");
     let other = outcome(dragonfly::<&str>([]).current_dir(folder.path())).expect(0);
     assert!(other.text().starts_with("dragonfly-2.png"), "{}", other.text());

@@ -1,4 +1,4 @@
-//! What is typed into a field becomes the number that it says, or an error with its place; nothing else.
+//! Text typed into a number field evaluates to the number it expresses, or to an error with its position.
 
 use dragonfly::control::expression::{
     DEEPEST, ExpressionError, ExpressionFault, LONGEST, Quantity, evaluate, evaluate_f32,

@@ -1,4 +1,4 @@
-//! Every input finds the control that it is for, whatever the controls do meanwhile.
+//! Every input reaches the control it is meant for, whatever the controls do while it is delivered.
 
 use crate::control_probe::{Deed, Owner, Told};
 use dragonfly::control::{
@@ -18,7 +18,7 @@ fn to(x: f32, y: f32) -> InputEvent {
 const A: Key = Key::Letter('a');
 const LEFT: Button = Button::Left;
 
-/// A window with a picture in it, a tool in that, and a panel beside it.
+/// Creates a window with a viewport, a tool inside the viewport, and a panel next to it.
 fn window() -> (ControlFramework, Owner, [ControlId; 3]) {
     let (mut framework, mut owner) = (ControlFramework::new(Vec2::new(800.0, 600.0)), Owner::default());
     // The inner one first: the order of registration does not matter.
@@ -101,7 +101,7 @@ fn a_held_button_keeps_the_mouse_with_the_control_it_went_down_on() {
     assert_eq!(owner.told(tool), expected);
     assert_eq!(framework.captured(), None);
     assert_eq!((owner.told(panel), owner.told(picture)), (vec![], vec![]));
-    // A press that began beside the window belongs to nobody, even when it comes in.
+    // A press that began outside the window has no owner, even after the pointer enters the window.
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);

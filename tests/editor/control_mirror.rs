@@ -1,4 +1,4 @@
-//! Bones are paired by their names, however those are written, and every guess is told.
+//! Left and right bones are paired by name, in every naming convention, and every guess is reported.
 
 use dragonfly_anim::format::{AssetError, AssetFs, ReadOptions, read};
 use dragonfly_document::bones::{BodySide, MirrorGuess, MirrorPairs};

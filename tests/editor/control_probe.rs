@@ -1,11 +1,11 @@
-//! ControlLookup that note what they are told, for the tests of the framework.
+//! Controls that record the events they receive, for the tests of the control framework.
 
 use dragonfly::control::{
     Area, BaseControl, Button, ControlFramework, ControlId, ControlLookup, InputFlow, Key, Modifiers, Mouse,
 };
 use glam::Vec2;
 
-/// What a control was told.
+/// An event that a control received.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Told {
     Enter,
@@ -21,7 +21,7 @@ pub(crate) enum Told {
     Lost,
 }
 
-/// What a control does besides, when a button goes down on it.
+/// Side effect of a control when a mouse button is pressed on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) enum Deed {
     #[default]
@@ -35,7 +35,7 @@ pub(crate) enum Deed {
 pub(crate) struct Probe {
     pub(crate) id: ControlId,
     pub(crate) passes: bool,
-    /// Is it round, inside its area?
+    /// Center and radius, for a control that is a circle inside its area.
     pub(crate) circle: Option<(Vec2, f32)>,
     pub(crate) deed: Deed,
     /// Takes the focus whenever it loses it.
@@ -127,7 +127,7 @@ impl Owner {
         self.probes.iter_mut().find(|probe| probe.id == id).unwrap()
     }
 
-    /// What a control was told since the last time.
+    /// Returns the events that the control received since the last call.
     pub(crate) fn told(&mut self, id: ControlId) -> Vec<Told> {
         std::mem::take(&mut self.get(id).told)
     }

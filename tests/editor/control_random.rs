@@ -1,11 +1,12 @@
-//! Random controls and inputs: the framework agrees with a plain model, and no control hears half a story.
+//! Random controls and inputs: the framework agrees with a naive model, and no control receives a press, key or focus event
+//! without the event that ends it.
 
 use crate::control_probe::{Deed, Owner, Told};
 use dragonfly::control::{Area, BaseControl, Button, ControlFramework, ControlId, InputEvent, Key};
 use dragonfly_kit::random::{Random, seed};
 use glam::Vec2;
 
-/// The plain model: lists, and the rules as they are said.
+/// The naive model: plain lists, and the documented rules applied literally.
 struct Naive {
     window: Area,
     /// In the order of registration.

@@ -34,7 +34,7 @@ impl Drag {
         let place = ((x + width / 2) as u32) << 16 | (y + height / 2) as u32;
         let copy = self.wire.atom("XdndActionCopy");
         self.send(window, "XdndPosition", [0, place, 0, copy]);
-        // The window says at once that it takes it, and asks what it is.
+        // The window replies at once that it accepts the drop, and requests the data.
         let status = self.wire.atom("XdndStatus");
         let (mut takes, mut asked) = (None, false);
         while takes.is_none() || (takes == Some(true) && !asked) {

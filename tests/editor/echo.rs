@@ -1,4 +1,4 @@
-//! What the user sees of an edit before the document answers.
+//! Edits are shown before the document confirms them.
 
 use crate::hands_rig::Hand;
 use dragonfly::panels::echo::Echo;
@@ -18,7 +18,7 @@ fn set(x: f32, gesture: Option<Gesture>) -> Change {
     Change::Edit(Edit::SetPose(SetPose { take, time: 0.0, poses: vec![pose], unstep: false }), gesture)
 }
 
-/// Where bone 1 is at the start of the first take.
+/// Returns the x coordinate of bone 1 at the start of the first take.
 fn x_of(view: Option<&View>) -> f32 {
     let view = view.unwrap();
     let bone = &view.loaded.model.animation.skeleton.bones[1];

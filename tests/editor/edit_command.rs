@@ -1,4 +1,4 @@
-//! What `dragonfly edit` promises: edits from a text, saved without touching the rest.
+//! `dragonfly edit` applies edits read from a text file and saves them without touching the rest of the model.
 
 use crate::program::{dragonfly, outcome, run};
 use dragonfly_kit::folder::{Folder, data};
@@ -64,7 +64,7 @@ fn an_edit_is_saved_as_it_was_asked_and_the_rest_of_the_file_keeps_its_bytes() {
         assert!((number - wanted).abs() < 1e-6, "{number} is not {wanted}");
     }
     assert_eq!(rotation(&saved, "b_Neck_04", "0.25"), rotation(&fox(), "b_Neck_04", "0.25"));
-    // The binary chunk begins as it did, and what was appended comes behind it.
+    // The binary chunk starts with its old bytes; new data is appended after them.
     let (before, after) = (std::fs::read(data("gltf/Fox.glb")).unwrap(), std::fs::read(&saved).unwrap());
     let chunk = |bytes: &[u8]| {
         let json = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
@@ -107,7 +107,7 @@ fn a_name_that_says_another_format_is_refused() {
         assert!(said.stderr.contains("the format of the file stays .glb"), "{}", said.stderr);
         assert!(!std::path::Path::new(&out).exists());
     }
-    // What is no format, or the same in other letters, is the person's to choose.
+    // An unknown extension, or the same one in another case, is the user's choice.
     for name in ["out.vrm", "out.GLB", "out"] {
         run(["edit", &fox(), "--edits", &edits, "-o", &text(&folder.join(name))]).expect(0);
     }

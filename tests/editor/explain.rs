@@ -1,4 +1,4 @@
-//! What `dragonfly explain` promises: the same numbers as `pose`, with the way to them.
+//! `dragonfly explain` prints the same numbers as `pose`, with the steps that lead to them.
 
 use crate::program::run;
 use dragonfly_kit::folder::data;

@@ -1,5 +1,5 @@
-//! What a driver does once in years, done on purpose: a device lost at any call, memory that is not there, surfaces that
-//! change under us, no driver at all. A Vulkan layer between the program and the real driver does it (`fault_layer/`).
+//! Injects rare driver failures: a device lost at any call, failed allocations, surfaces that change while in use, no driver
+//! at all. A Vulkan layer between the program and the real driver injects them (`fault_layer/`).
 
 use crate::fixture_layer::{Layer, lines};
 use crate::program::{dragonfly, outcome};
@@ -33,7 +33,7 @@ fn settings() -> PictureSettings {
     PictureSettings { size: [160, 120], time: 1.0, ..PictureSettings::default() }
 }
 
-/// The part of the tests below that runs in another process, behind the layer.
+/// The part of the tests below that runs in a child process with the fault layer loaded.
 fn draw_behind_the_layer(reference: &str) {
     let reference: RgbaImage = image::open(reference).expect("the picture without faults").into_rgba8();
     let loaded = fox();
@@ -67,7 +67,7 @@ fn draw_behind_the_layer(reference: &str) {
     assert!(slowest < Duration::from_secs(2) * slowness(), "a picture came back only after {slowest:?}");
 }
 
-/// How much longer than on an idle machine things may take: tests share their two cores with each other.
+/// Factor by which operations may be slower than on an idle machine: the tests share its two cores.
 fn slowness() -> u32 {
     5
 }
@@ -118,7 +118,7 @@ fn a_device_lost_at_any_wait_gives_the_same_picture_again() {
 #[test]
 fn memory_that_runs_out_is_an_error_and_no_crash() {
     let _one = alone();
-    // The first allocation of a device, the second, … up to the hundredth, while there are so many.
+    // Fails the first allocation of a device, then the second, … up to the hundredth, as long as the program makes that many.
     let layer = Layer::new("memory");
     let mut finished = false;
     for (result, step) in [(OUT_OF_DEVICE_MEMORY, 1), (OUT_OF_HOST_MEMORY, 3)] {
@@ -148,7 +148,8 @@ fn memory_that_runs_out_is_an_error_and_no_crash() {
     assert!(finished, "more than a hundred allocations");
 }
 
-/// The window program behind the layer, until all faults have come; then it must show what it shows without.
+/// Runs the window program with the fault layer until all faults have occurred; then it must show the same image as without
+/// the layer.
 #[track_caller]
 fn show_through(name: &str, cases: &[(&str, i32, usize, &str)]) {
     const SIZE: (u32, u32) = (640, 480);

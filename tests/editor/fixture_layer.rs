@@ -1,4 +1,4 @@
-//! Builds the layer that makes faults, and tells a program to use it.
+//! Builds the fault layer and returns the environment variables that load it into a program.
 
 use dragonfly_kit::folder::Folder;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ impl Layer {
         Self { folder: Folder::new(&format!("layer-{name}")) }
     }
 
-    /// What makes the `n`-th `call` return `result`, `times` times in all.
+    /// Returns the environment variables that load the layer and make `call` return `result`, `times` times in all.
     pub(crate) fn environment(&self, call: &str, result: i32, times: usize) -> Vec<(String, String)> {
         let folder = library().parent().expect("a folder").display().to_string();
         [
@@ -53,7 +53,7 @@ pub(crate) fn lines(path: impl AsRef<Path>) -> usize {
     std::fs::read_to_string(path).map_or(0, |text| text.lines().count())
 }
 
-/// The built library, with the description that the Vulkan loader wants beside it.
+/// Returns the path of the built library. The manifest that the Vulkan loader needs is in the same folder.
 fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| {

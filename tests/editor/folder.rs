@@ -11,7 +11,7 @@ const AT_ONCE: Duration = Duration::from_secs(1);
 
 const LIMIT: u64 = 1 << 20;
 
-/// A model's folder with a secret beside it.
+/// A model's folder, with a secret file outside it.
 struct Place {
     scratch: Scratch,
 }
@@ -93,7 +93,7 @@ enum End {
     Read,
 }
 
-/// What hostile (and, as a control, honest) files call their buffers.
+/// Buffer names from hostile files and, as a control group, from honest ones, each with the expected result.
 fn names(place: &Place) -> Vec<(String, End)> {
     let outside = place.scratch.join("secret.bin").display().to_string();
     let mut names: Vec<(String, End)> = [
@@ -199,7 +199,7 @@ fn names_that_can_only_do_harm_are_refused_before_the_disk_is_asked() {
     assert!(folder.read(&"x".repeat(5000), LIMIT).is_err());
 }
 
-/// Makes a pipe that nobody will ever write into.
+/// Creates a named pipe that has no writer.
 #[cfg(unix)]
 fn pipe(path: &Path) {
     let status = std::process::Command::new("mkfifo").arg(path).status().expect("mkfifo");

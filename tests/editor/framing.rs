@@ -1,4 +1,4 @@
-//! Where the eye goes to see the model.
+//! Placement of the camera when the model is framed.
 
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Request, Settings, State};
@@ -17,7 +17,7 @@ use std::time::Instant;
 fn all_is_framed_as_it_stands_now() {
     let source = Source::File(data("gltf/Fox.glb"));
     let mut loaded = load_model(&source, &mut |_| {}, &Cancel::default()).expect("Fox opens");
-    // It runs far from where it stands.
+    // The take moves the model far away from its rest position.
     let take = Arc::make_mut(&mut Arc::make_mut(&mut loaded.model).animation.takes[2]);
     let hip = take.tracks.iter_mut().find(|track| !track.translation.is_empty()).expect("the hip moves");
     hip.translation.values = hip.translation.values.iter().map(|place| *place + Vec3::splat(300.0)).collect();

@@ -24,7 +24,7 @@ fn gizmo(rig: &Rig, screen: &Screen, tool: Tool, space: GizmoSpace) -> Gizmo {
     gizmo
 }
 
-/// What a rotation of a bone in a space makes of its own, where nothing is stretched.
+/// Returns the bone's local rotation after a rotation about `axis` in `space`, for parents without scale.
 fn turned(rig: &Rig, space: GizmoSpace, axes: Mat3, axis: Vec3, angle: f32) -> Quat {
     let own = rig.poses[BONE].rotation;
     match space {
@@ -112,7 +112,7 @@ fn turns_are_counted_beyond_the_first() {
 fn a_ring_seen_edge_on_turns_like_a_wheel() {
     let rig = Rig::new();
     for screen in Screen::all() {
-        // The view's own x and y axes lie in the picture: their rings are seen edge on from the middle of it.
+        // The x and y axes of the view are parallel to the image plane: from its center, their rings are seen edge on.
         let mut screen = screen;
         screen.camera.target = rig.joint(BONE);
         for (axis, way) in [(GizmoAxis::X, Vec2::Y), (GizmoAxis::Y, Vec2::X)] {
@@ -340,7 +340,7 @@ fn cancelling_gives_the_old_poses_bit_for_bit_and_coming_back_does_almost() {
         gizmo.settings.curl = random.below(2) == 0;
         rig.select(&mut gizmo, &[1, 3, 2][..1 + random.below(3)]);
         gizmo.look(screen.view());
-        // Where it would be taken hold of, away from the middle.
+        // A point where a drag could start, away from the center.
         let start =
             screen.size / 2.0 + Vec2::from_angle(random.between(0.0, 6.0)) * random.between(60.0, 90.0);
         if !gizmo.begin((random.below(4) > 0).then_some(handle), start) {

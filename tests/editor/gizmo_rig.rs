@@ -1,5 +1,5 @@
-//! What the tests of gizmos stand on: a small skeleton, cameras, and where things appear, computed the other way: with the
-//! matrices that the picture is drawn with.
+//! Fixture of the gizmo tests: a small skeleton, cameras, and screen positions computed independently, with the matrices
+//! that draw the image.
 
 use dragonfly::control::gizmo::Gizmo;
 use dragonfly_anim::animation::to_root;
@@ -128,7 +128,7 @@ impl Screen {
         GizmoView::of_pixels(&self.camera, self.size * self.pixels_per_point, self.pixels_per_point)
     }
 
-    /// Where a place appears, in points, by the matrices that draw it.
+    /// Projects a world position to the screen, in points, with the matrices that draw the image.
     pub(crate) fn at(&self, place: Vec3) -> Vec2 {
         let bounds = Sphere { center: Vec3::ZERO, radius: 3.0 };
         let clip_from_view = self.camera.clip_from_view(self.size.x / self.size.y, &bounds);
@@ -155,7 +155,7 @@ impl Screen {
     }
 }
 
-/// A place so many points along the axes from a joint.
+/// Returns the world position at an offset from a joint, in screen points along the given axes.
 pub(crate) fn along(screen: &Screen, joint: Vec3, axes: Mat3, points: Vec3) -> Vec3 {
     joint + axes * points * screen.unit(joint)
 }

@@ -230,7 +230,7 @@ fn clicks_boxes_and_lassos_ask_for_bones_in_the_way_that_is_held() {
         "{asked:?}"
     );
     assert!(matches!(asked[1], Effect::Catch(_, Choice::Toggle)), "{asked:?}");
-    // What was asked is answered, the nearest first; clicks on one place go through it.
+    // The pick result lists the nearest bone first; repeated clicks at one position cycle through the list.
     let place = egui::pos2(260.0, 120.0);
     let mut chosen = Vec::new();
     for _ in 0..4 {
@@ -290,7 +290,7 @@ fn bones_are_hidden_shown_and_chosen_by_commands() {
     assert_eq!(hand.state.read().selection.bones(), [0, 1]);
 }
 
-/// A model of so many bones, of which one is dragged.
+/// Returns the number of allocations and of bytes in 19 mouse moves while `bone` of the loaded model is dragged.
 fn allocations_of_a_move(load: crate::hands_rig::Load, bone: u32) -> (u64, u64) {
     let mut hand = Hand::new(load);
     hand.state.execute(Request::Select(Some(bone)));

@@ -120,7 +120,7 @@ fn a_hundred_thousand_events_and_commands_leave_the_document_whole() {
             (0..200).for_each(|_| hand.command(commands::Id::Undo));
         }
     }
-    // The window loses the keyboard: everything is let go.
+    // When the window loses the keyboard focus, every drag ends.
     let mut input = RawInput { events: vec![Event::WindowFocused(false)], ..RawInput::default() };
     hand.state.feed(&context, &mut input, 0, &mut effects);
     assert!(!hand.state.read().tools.controls().is_busy() && !hand.state.read().tools.controls().edits());
@@ -137,7 +137,7 @@ fn random_hands_over_the_whole_window_never_panic() {
     harness.run_steps(3);
     for step in 0..600 {
         let made = event(&mut random, pos2(620.0, 300.0));
-        // What no window system tells, egui itself does not bear.
+        // egui itself panics on coordinates that no window system sends.
         let sound = match &made {
             Event::PointerMoved(at) | Event::PointerButton { pos: at, .. } => safe(*at),
             _ => true,

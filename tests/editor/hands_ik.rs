@@ -41,7 +41,7 @@ fn facing(hand: &Hand, bone: usize) -> Quat {
     hand.state.read().posed.animation().expect("posed").to_root()[bone].to_scale_rotation_translation().1
 }
 
-/// Which channels of bones have a key at the time shown.
+/// Returns the channels that have a key at the current time, with their bones.
 fn keyed(hand: &Hand) -> Vec<(BoneIndex, Property)> {
     let slot = hand.state.read().slot().expect("a take");
     let bones = 0..arm::BONES as BoneIndex;
@@ -49,7 +49,7 @@ fn keyed(hand: &Hand) -> Vec<(BoneIndex, Property)> {
     all.filter(|&(bone, property)| slot.key_at(bone, property, hand.state.read().time()).is_some()).collect()
 }
 
-/// Takes hold of the middle of the gizmo and moves by so many points, in steps.
+/// Presses the button on `handle` and moves the pointer by `by`, in points, in four steps. Returns the end position.
 fn drag(hand: &mut Hand, handle: Handle, by: Vec2) -> Vec2 {
     let from = hand.handle(handle);
     hand.press(from);
@@ -301,7 +301,7 @@ fn a_key_of_the_path_is_pending_with_auto_key_off() {
     assert_eq!(hand.state.read().tools.path().look().expect("a path").keys.last(), Some(&last));
 }
 
-/// What the graphics thread has of the same, without bones drawn.
+/// Returns the scene that the graphics thread would hold for the same state, without drawn bones.
 fn scene(hand: &Hand) -> Scene {
     let mut scene = Scene::new(hand.state.read().now);
     let [_, _, width, height] = PICTURE.map(|number| number as u32);
@@ -366,7 +366,7 @@ fn a_bone_that_is_locked_or_muted_is_a_stiff_joint_of_the_chain() {
         assert_ne!(after[0].rotation, before[0].rotation, "{flag:?}: the others reach");
         assert!(place(&hand, 2).distance(tip) > 0.05, "{flag:?}");
     }
-    // What is locked itself is not dragged, and says so.
+    // A locked bone cannot be dragged itself, and a message gives the reason.
     let mut hand = arm(2, Id::ToolMove);
     hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 2, true)));
     hand.command(Id::ToggleIk);

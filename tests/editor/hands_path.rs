@@ -25,7 +25,7 @@ fn tip() -> Hand {
     hand
 }
 
-/// Where in the window a place of the scene is.
+/// Returns the window position of a point in the scene.
 fn seen(hand: &Hand, place: Vec3) -> Vec2 {
     let view = GizmoView::new(&hand.state.read().camera, Vec2::new(PICTURE[2], PICTURE[3]));
     view.to_screen(place.as_dvec3()).expect("before the eye").as_vec2() + Vec2::new(PICTURE[0], PICTURE[1])
@@ -109,7 +109,7 @@ fn a_key_of_the_path_takes_the_chain_along_with_ik_on_and_pins_hold() {
     let stood = at(&mut hand, time);
     let from = seen(&hand, place);
     let root = hand.state.read().posed.animation().expect("posed").to_root()[0].w_axis.truncate();
-    // Away from the gizmo, which stands at the playhead.
+    // Away from the gizmo, which is at the joint's position at the playhead.
     at(&mut hand, 0.0);
     // Towards the root, so that it can be reached.
     let to = from + (seen(&hand, root) - from) * 0.3;
@@ -180,7 +180,7 @@ fn a_key_under_a_handle_of_the_gizmo_is_taken_hold_of_but_not_in_its_middle() {
     hand.release();
     assert_eq!(hand.steps(), ["Move"]);
     hand.command(Id::Undo);
-    // At the time of the key the middle of the gizmo lies on it.
+    // At the time of the key, the center of the gizmo covers it.
     at(&mut hand, time);
     hand.press(key);
     hand.to(key + Vec2::new(9.0, 6.0));

@@ -1,4 +1,4 @@
-//! What the tests of hands stand on: the state of the window and a document beside it, turned by hand.
+//! Fixture of the viewport tool tests: the state of the window and a document, both iterated manually by the test.
 
 use dragonfly::control::gizmo::Gizmo;
 use dragonfly::control::{Button, InputEvent, Key, Modifiers};
@@ -16,7 +16,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-/// Where the picture is in the window.
+/// Rectangle of the viewport in the window: x, y, width, height, in points.
 pub(crate) const PICTURE: [f32; 4] = [200.0, 50.0, 800.0, 600.0];
 
 pub(crate) type Load = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<OpenedModel, LoadError>;
@@ -40,10 +40,10 @@ impl Receiver for Nobody {
     fn receive(&mut self, _: View, _: &mut Context) {}
 }
 
-/// State, document, and the hand between them.
+/// The state, the document, and the simulated mouse and keyboard that drive them.
 pub(crate) struct Hand {
     pub(crate) state: State,
-    /// What reached further, but changes, which the document did.
+    /// Effects other than changes; changes are sent to the document.
     pub(crate) effects: Vec<Effect>,
     /// Edits that the document refused.
     pub(crate) refused: Vec<String>,
@@ -54,7 +54,7 @@ pub(crate) struct Hand {
 }
 
 impl Hand {
-    /// With what `load` gives, at the start of its first take, paused.
+    /// Opens the model that `load` returns, paused at the start of its first take.
     pub(crate) fn new(load: Load) -> Self {
         let heard = Heard::default();
         let mut main = Thread::capture("main", || {});
@@ -80,7 +80,7 @@ impl Hand {
         hand
     }
 
-    /// Lets both threads do what waits.
+    /// Processes the queued messages of both threads.
     pub(crate) fn turn(&mut self) {
         self.thread.iterate();
         self.main.iterate();
@@ -94,7 +94,7 @@ impl Hand {
         self.state.begin_frame(self.state.read().now);
     }
 
-    /// Sends a numbered change, and lets both threads do what waits.
+    /// Sends a numbered change and processes the queued messages of both threads.
     pub(crate) fn change_numbered(&mut self, number: u64, change: Change) {
         self.document.change_numbered(number, change);
         self.turn();
@@ -117,7 +117,7 @@ impl Hand {
         self.turn();
     }
 
-    /// The same, for a list that is used again.
+    /// Does the same as [`Self::carry`] and empties the list, so that the caller can reuse it.
     pub(crate) fn carry_some(&mut self, effects: &mut Vec<Effect>) {
         if !effects.is_empty() {
             let effects = std::mem::take(effects);
@@ -126,7 +126,7 @@ impl Hand {
         }
     }
 
-    /// Where the active bone's joint appears, or the middle of the picture where it does not.
+    /// Returns the position of the active bone's joint in the viewport, or the viewport's center if the joint is not visible.
     pub(crate) fn joint_or_middle(&self) -> Vec2 {
         let middle = Vec2::new(PICTURE[2], PICTURE[3]) / 2.0;
         let bone = self.state.read().selected().unwrap_or_default();
@@ -169,14 +169,14 @@ impl Hand {
         self.send(InputEvent::KeyUp(key));
     }
 
-    /// A place in the window where this handle is.
+    /// Returns a window position on this handle.
     pub(crate) fn handle(&self, wanted: Handle) -> Vec2 {
         let corner = Vec2::new(PICTURE[0], PICTURE[1]);
         let at = find(&self.state.read().tools.controls().gizmo().gizmo, self.joint(), wanted);
         at.unwrap_or_else(|| panic!("{wanted:?} is nowhere")) + corner
     }
 
-    /// Where the active bone's joint appears, points from the corner of the picture.
+    /// Returns the position of the active bone's joint, in points from the corner of the viewport.
     pub(crate) fn joint(&self) -> Vec2 {
         let bone = self.state.read().selected().expect("a bone is selected");
         let joint = self.state.read().posed.animation().expect("posed").to_root()[bone as usize].w_axis;
@@ -184,20 +184,20 @@ impl Hand {
         view.to_screen(joint.truncate().as_dvec3()).expect("before the eye").as_vec2()
     }
 
-    /// How the active bone is turned in what is shown.
+    /// Returns the local rotation of the active bone in the pose shown.
     pub(crate) fn rotation(&self) -> Quat {
         let bone = self.state.read().selected().expect("a bone is selected");
         self.state.read().posed.animation().expect("posed").poses()[bone as usize].rotation
     }
 
-    /// Names of the steps that are done.
+    /// Returns the names of the undo steps that are applied.
     pub(crate) fn steps(&self) -> Vec<&'static str> {
         let history = &self.state.read().view.expect("open").history;
         history.steps[..history.done].to_vec()
     }
 }
 
-/// A place around `middle` where a handle is; not where another is near.
+/// Returns a position around `middle` on the wanted handle, with no other handle near.
 pub(crate) fn find(gizmo: &Gizmo, middle: Vec2, wanted: Handle) -> Option<Vec2> {
     let offsets = (-50..=50).flat_map(|y| (-50..=50).map(move |x| Vec2::new(x as f32, y as f32) * 2.0));
     let is_there = |at: &Vec2| {

@@ -1,4 +1,4 @@
-//! Everything that was done stands in a list, and a click goes there.
+//! The history panel lists every undo step; a click on one goes to that state.
 
 use crate::workbench::{Window, Workbench, type_into};
 use dragonfly::panels::Request;

@@ -1,4 +1,5 @@
-//! Saving in the document's thread: the same bytes as everywhere, nothing overwritten unasked, the journal goes along.
+//! Saving in the document's thread: the same bytes as the command line writes, nothing overwritten without being asked, and
+//! the journal follows the file.
 
 use crate::program::run;
 use dragonfly_document::edit::Edit;
@@ -98,7 +99,7 @@ fn a_file_that_somebody_else_changed_is_overwritten_only_when_asked_for_and_its_
     assert!(fs::read(&path).unwrap() != other);
     let versions = autosave_in(&autosave).versions().of(&RealFiles, &path).unwrap();
     assert!(fs::read(&versions[0].path).unwrap() == other, "what the other program wrote is kept");
-    // Gone is said too; saving puts it back.
+    // A missing file is reported too; saving restores it.
     fs::remove_file(&path).unwrap();
     desk.send(DocumentMessage::LookAtFile);
     desk.wait_for_reply(|reply| {
@@ -196,7 +197,7 @@ fn reverting_goes_back_to_what_is_saved_and_can_be_taken_back() {
     assert!(view.history.saved && view.history.steps.len() == 3);
     desk.change(Change::GoTo(3));
     same_takes(&desk.view(), &edited);
-    // Where no undo leads to it, it is read again.
+    // If no undo step leads to the saved state, the file is read again.
     desk.change(Change::GoTo(0));
     desk.edit(turn(0.1));
     assert!(!desk.view().history.saved);

@@ -1,4 +1,4 @@
-//! Keys can be those of another program, and be chosen anew; no key gives two commands.
+//! Shortcuts come from presets named after other programs and can be changed; no shortcut runs two commands.
 
 use crate::panels::{Bench, harness_of};
 use dragonfly::panels::Settings;

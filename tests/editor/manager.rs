@@ -6,7 +6,7 @@ use crate::wire::{Event, Window, WindowRect, Wire, atom, event, words};
 use std::collections::HashMap;
 use std::time::Duration;
 
-/// What a manager hears of at the root: requests to map and to configure, and that they were carried out.
+/// Event mask of a window manager on the root window: requests to map and to configure, and notices that they were done.
 const MANAGES: u32 = 1 << 19 | 1 << 20;
 
 /// Longer than any test.
@@ -16,11 +16,11 @@ struct Manager {
     wire: Wire,
     state: u32,
     full_screen: u32,
-    /// Where windows were before they filled the screen.
+    /// Rectangles of full-screen windows before they became full-screen.
     before: HashMap<Window, WindowRect>,
 }
 
-/// Lets a manager work on `screen`, beside the test, for as long as there is the screen.
+/// Starts a window manager for `screen` in another thread. It runs until the screen is closed.
 pub(crate) fn start(screen: &Screen) {
     let mut wire = screen.wire();
     let root = wire.root;
@@ -73,7 +73,7 @@ impl Manager {
         message.word(8) == self.state && states.contains(&self.full_screen)
     }
 
-    /// A window that wants to be somewhere is put there, unless it fills the screen.
+    /// Moves a window to the rectangle it requests, unless it is full-screen.
     fn configure(&mut self, event: &Event) {
         let window = event.word(8);
         let Some(mut place) = self.wire.place(window) else { return };
@@ -85,14 +85,14 @@ impl Manager {
             }
         }
         if let Some(before) = self.before.get_mut(&window) {
-            // Where it wants to be afterwards.
+            // The rectangle applies when the window leaves full screen.
             *before = place;
         } else {
             self.put(window, place);
         }
     }
 
-    /// Fills the screen with a window (1), gives it its place back (0), or whichever it is not now (2).
+    /// Makes a window full-screen (1), restores its rectangle (0), or toggles between the two (2).
     fn fill(&mut self, window: Window, action: u32) {
         let full = self.before.contains_key(&window);
         let wanted = action == 1 || action == 2 && !full;
@@ -111,7 +111,7 @@ impl Manager {
         }
     }
 
-    /// Puts a window somewhere and tells it, as managers must also where nothing has changed.
+    /// Moves a window and notifies it, as window managers must even if nothing changed.
     fn put(&mut self, window: Window, place: WindowRect) {
         let [x, y, width, height] = place.map(|side| side as u32);
         self.wire.tell(12, 0, &words(&[window, 0b1111, x, y, width, height]));

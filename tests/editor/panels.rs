@@ -1,4 +1,4 @@
-//! Every panel draws every document, and what a person does in it asks for the right thing.
+//! Every panel draws every document, and input in a panel sends the right request.
 
 use crate::shots::{self, PictureFolder};
 use dragonfly::panels::commands::Id;
@@ -93,7 +93,7 @@ fn the_panels_are_drawn_empty_full_and_loading() {
         bench.state.show_overlay(Some(overlay));
         shoot(&format!("overlay_{overlay:?}"), bench, egui::Theme::Dark, 1.0);
     }
-    // A model of the person who looks, with keys selected, a marker and a range.
+    // The viewer's own model, with selected keys, a marker and a play range.
     if let Some(path) = std::env::var_os("DRAGONFLY_SHOTS_MODEL") {
         let source = dragonfly_document::Source::File(path.into());
         let cancel = dragonfly_document::Cancel::default();
@@ -131,7 +131,7 @@ fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
     assert_eq!(animator.said(), "Undone: Add keys  ·  Survey");
     animator.request(Request::Command(Id::Redo));
     assert_eq!(animator.said(), "Redone: Add keys  ·  Survey");
-    // A drag is said when it begins, and when it is given up.
+    // A message appears when a drag starts and when it is cancelled.
     let state = &animator.harness.state().state;
     let gesture = state.read().new_gesture();
     let lines = |animator: &Animator| animator.harness.state().state.read().status.lines().count();
@@ -177,7 +177,7 @@ fn keys_that_give_way_to_others_are_counted() {
         }));
         assert_eq!(animator.selected(), last - first + 1);
     };
-    // Three keys, the first of which comes to lie on the last but one.
+    // Moves three keys so that the first one lands on the last key but one.
     select(&mut animator, 2, 4);
     let to = animator.key(39);
     animator.request(Request::Seek(to));
@@ -262,7 +262,7 @@ fn nothing_moves_behind_a_question() {
     assert!(bench.state.read().playback.playing);
     bench.state.ask(Question::Where { copy: false, then: None });
     assert!(!bench.state.read().playback.playing);
-    // Nor what is opened meanwhile.
+    // A model opened while the question is shown does not play either.
     let mut other = State::new(Settings::default(), Instant::now());
     other.ask(Question::Where { copy: false, then: None });
     other.show(fixture::full());
@@ -328,7 +328,7 @@ fn the_button_for_bones_is_pressed_whenever_they_are_shown() {
     };
     // The tab of the panel has the same name and is pressed as well.
     assert_eq!(pressed(None), (1, false));
-    // Bones and nothing else, so they are shown although nobody asked for them.
+    // The model has bones and nothing else, so they are shown without being asked for.
     assert_eq!(pressed(Some(fixture::full())), (2, true));
 }
 

@@ -17,7 +17,7 @@ use dragonfly_kit::document::made_take::{model, pose, walk};
 use dragonfly_kit::random::{Random, seed};
 use glam::{Mat4, Quat, Vec3};
 
-/// A body of two sides whose bones have axes that lie as they like, symmetric in place only.
+/// Creates a body with two sides: joint positions are symmetric, bone axes are random.
 fn body(random: &mut Random) -> Skeleton {
     let places = [
         ("hips", None, [0.0, 1.0, 0.0]),
@@ -146,7 +146,7 @@ fn pasting_puts_on_what_there_is_and_passes_over_other_models_bones() {
     let key = slot.key_at(2, Property::Translation, 0.3).unwrap();
     assert_eq!(slot.result.tracks[2].translation.value(key).unwrap(), Vec3::new(1.0, 2.0, 3.0));
     assert!(model.apply(&paste(vec![moved("tail of another model")], false, false)).is_err());
-    // What does not move and stands so anyway gets no keys.
+    // A bone that has no keys and is already in the pasted pose gets no keys.
     let still = BonePose { rotation: Some([0.0, 0.0, 0.0, 1.0]), ..pose("still") };
     assert!(model.apply(&paste(vec![still], false, false)).is_err());
     let keys = model.slots()[0].result.keys();

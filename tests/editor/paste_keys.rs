@@ -137,7 +137,7 @@ fn a_channel_without_keys_gets_the_way_of_the_keys_and_a_spline_gets_tangents() 
     assert_eq!(slot.result.tracks[4].translation.interpolation, Interpolation::Step);
     assert_eq!(slot.result.tracks[4].translation.times[..], [0.5, 1.5, 2.5]);
     assert_eq!(slot.result.end(), 2.5, "the take goes on as long as they do");
-    // Far behind the keys of a spline: the middle one runs along the way from the first to the last.
+    // Long after the last key of a spline: the tangent of the middle key points from the first key to the last.
     model.apply(&paste(walk(), 4.0, one("hip", KeyInterpolation::Linear, keys))).unwrap();
     model.check().unwrap();
     let hip = model.slots()[0].result.tracks[1].translation.clone();
@@ -167,7 +167,7 @@ fn what_cannot_be_a_key_is_refused_and_other_models_bones_are_passed_over() {
     let mut both = one("tail of another model", KeyInterpolation::Linear, vec![key(0.0, &[0.0; 3])]);
     both.extend(one("root", KeyInterpolation::Linear, vec![key(0.1, &[1.0; 3])]));
     model.apply(&paste(walk(), 0.5, both)).unwrap();
-    // Where one comes, nothing waits any more.
+    // A pasted key replaces the pending pose at its time.
     let wait = BonePose { bone: BoneRef::Index(0), translation: Some([5.0; 3]), rotation: None, scale: None };
     model.apply(&Edit::SetPending(SetPending { take: walk(), time: 0.9, poses: vec![wait] })).unwrap();
     model
@@ -177,7 +177,7 @@ fn what_cannot_be_a_key_is_refused_and_other_models_bones_are_passed_over() {
     assert_eq!(ModelAdapter::check(&model), Ok(()));
 }
 
-/// What went into the clipboard last.
+/// Returns the text copied to the clipboard last.
 fn clipboard(animator: &mut Animator) -> String {
     let effects = std::mem::take(&mut animator.harness.state_mut().effects);
     let text = |effect: Effect| if let Effect::Copy(text) = effect { Some(text) } else { None };
@@ -214,7 +214,7 @@ fn ctrl_c_copies_keys_where_the_timeline_has_the_hand_and_the_pose_elsewhere() {
     animator.steps(2);
     let pose = clipboard(&mut animator);
     assert!(from_text(&pose).is_none() && pose.contains("\"pose\""), "{pose}");
-    // Pasted they lie at the playhead, as far apart as they were, and are selected; one step.
+    // Pasted keys start at the playhead, keep their distances and are selected, in one undo step.
     let before = animator.times(3);
     animator.request(Request::Seek(2.0));
     put_in(&mut animator, &text);

@@ -33,7 +33,7 @@ fn key(time: Option<f32>) -> Edit {
     Edit::KeyPending(KeyPending { take: walk(), time, bones: Vec::new(), unstep: false })
 }
 
-/// What is pending, as (time, bone, channel, first number).
+/// Returns the pending values as (time, bone, channel, first number).
 fn waiting(model: &ModelAdapter) -> Vec<(f32, u32, Property, f32)> {
     let mut found = Vec::new();
     for at in model.slots()[0].pending() {
@@ -120,7 +120,7 @@ fn a_key_that_is_set_counts_more_than_what_was_pending_there() {
         }))
         .unwrap();
     assert_eq!(waiting(&model), [(0.3, 1, Property::Rotation, 0.0)]);
-    // An offset goes on top of what is seen.
+    // An offset is added to the pose that is shown.
     model.apply(&pend(0.5, vec![moved("root", [1.0, 2.0, 3.0])])).unwrap();
     model
         .apply(&Edit::OffsetPose(OffsetPose {

@@ -10,7 +10,7 @@ use std::time::Duration;
 use zbus::message::Header;
 use zbus::zvariant::{OwnedObjectPath, OwnedValue, Value};
 
-/// Knows nobody that could be started to answer: what is asked of somebody who is not there fails at once.
+/// Configuration without activatable services: a call to a service that does not run fails at once.
 const CONFIGURATION: &str = r#"<busconfig>
     <type>session</type>
     <listen>unix:tmpdir=/tmp</listen>
@@ -49,7 +49,7 @@ impl Bus {
         Self { daemon, address: address.trim().to_owned() }
     }
 
-    /// What `DBUS_SESSION_BUS_ADDRESS` must be for a program to find it.
+    /// Returns the value of `DBUS_SESSION_BUS_ADDRESS` with which a program finds this bus.
     pub(crate) fn address(&self) -> &str {
         &self.address
     }
@@ -65,13 +65,13 @@ impl Drop for Bus {
 /// Somebody wants a file.
 pub(crate) struct Question {
     pub(crate) title: String,
-    /// What else was said, by its name.
+    /// Names of the other options that were passed.
     pub(crate) options: Vec<String>,
     sender: String,
     handle: OwnedObjectPath,
 }
 
-/// What a person does with the dialog.
+/// The user's response to the dialog.
 pub(crate) enum Answer {
     /// Chooses the file with this address.
     File(String),
@@ -107,7 +107,7 @@ impl Chooser {
         );
         let handle = OwnedObjectPath::try_from(path).map_err(|_| wrong("no path"))?;
         let options = options.keys().cloned().collect();
-        // Whoever asks after the test has ended gets no answer, like from a dialog that stays open.
+        // A request after the end of the test gets no answer, as from a dialog that stays open.
         let _ = self.0.send(Question { title, options, sender, handle: handle.clone() });
         Ok(handle)
     }
@@ -126,7 +126,7 @@ impl Portal {
         Self { connection: pollster::block_on(build).expect("a portal on the bus"), asked }
     }
 
-    /// Waits until somebody asks for a file.
+    /// Blocks until a program asks for a file.
     #[track_caller]
     pub(crate) fn question(&self, limit: Duration) -> Question {
         self.asked.recv_timeout(limit).expect("nobody asked for a file")

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 /// Longer than any command takes on a busy machine.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// What a run of the program came to.
+/// Exit code and output of one run of the program.
 pub(crate) struct Outcome {
     /// The exit code; `None` when a signal ended it.
     pub(crate) code: Option<i32>,
@@ -41,7 +41,7 @@ impl Outcome {
     }
 }
 
-/// The program with `arguments`, without a display and with nobody's settings.
+/// Returns the command that runs the program with `arguments`, without a display and with default settings.
 pub(crate) fn dragonfly<I: AsRef<OsStr>>(arguments: impl IntoIterator<Item = I>) -> Command {
     start(env!("CARGO_BIN_EXE_dragonfly"), arguments)
 }
@@ -101,7 +101,8 @@ pub(crate) fn wait(child: &mut Child, limit: Duration) -> ExitStatus {
     }
 }
 
-/// What the threads of a process that does not end are doing: all stacks where there is a debugger, else what they wait for.
+/// Describes the threads of a process that does not exit: all stacks if a debugger is installed, else the kernel function each
+/// thread waits in.
 pub(crate) fn threads(process: u32) -> String {
     let id = process.to_string();
     let debugger = Command::new("gdb").args(["-p", &id, "-batch", "-ex", "thread apply all bt 24"]).output();
@@ -116,7 +117,7 @@ pub(crate) fn threads(process: u32) -> String {
     told.collect::<Vec<_>>().join("\n")
 }
 
-/// Reads to the end beside the test.
+/// Reads to the end in another thread.
 fn drain(mut from: impl Read + Send + 'static) -> Receiver<Vec<u8>> {
     let (sender, receiver) = channel();
     let read = move || {

@@ -21,7 +21,7 @@ fn value(window: &Window, field: &str) -> Option<f64> {
     window.get_by_label(field).accesskit_node().numeric_value()
 }
 
-/// Is it said that the text is no number, and why?
+/// Returns whether the field is marked as invalid and has a description of the reason.
 fn is_marked(field: &egui_kittest::Node<'_>) -> bool {
     let node = field.accesskit_node();
     node.data().invalid().is_some() && node.has_description()
@@ -57,7 +57,7 @@ fn tab_goes_on_to_the_next_number_and_enter_gives_the_keys_back() {
     }
     assert_eq!(window.state().pose(3).translation, Vec3::new(1.0, 2.0, 3.0));
     assert_eq!(window.state().steps(), (3, 3));
-    // What comes now is for the commands, not for a text.
+    // Further keys go to the commands, not to a text field.
     assert!(!window.ctx.egui_wants_keyboard_input());
 }
 
@@ -84,7 +84,7 @@ fn after_enter_tab_goes_on_where_the_keyboard_was_last() {
     assert_eq!(focused(&window).as_deref(), Some("Translation result X"), "and back");
     window.key_press(Key::Escape);
     window.run_steps(2);
-    // A click begins anew, and what is gone cannot be gone on from.
+    // A click restarts the Tab order, and a field that no longer exists is not a starting point.
     window.get_by_label("Walk").click();
     window.run_steps(2);
     window.key_press(Key::Tab);

@@ -96,7 +96,7 @@ fn what_is_typed_is_the_pose_that_the_rules_say() {
                 }
             }
         }
-        // And the field says what was typed.
+        // The field shows the typed number.
         let now = shown(&window, &field);
         assert!((now[axis] - number).abs() < 1e-4 * number.abs().max(1.0), "{told}: shows {now:?}");
         assert_eq!(window.state().refused, [""; 0], "{told}");
