@@ -29,7 +29,7 @@ fn window() -> (ControlFramework, Owner, [ControlId; 3]) {
 }
 
 #[test]
-fn a_control_is_the_parent_of_all_that_lie_wholly_inside_it() {
+fn a_control_is_the_parent_of_all_controls_entirely_inside_it() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     assert_eq!(framework.parent(tool), Some(picture));
     assert_eq!(framework.parent(picture), Some(ControlId::ROOT));
@@ -63,7 +63,7 @@ fn a_control_can_be_registered_inside_another_only() {
 }
 
 #[test]
-fn the_mouse_goes_to_the_deepest_control_and_on_to_its_parents_as_far_as_each_passes_it() {
+fn mouse_events_go_to_the_deepest_control_and_bubble_while_passed_on() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     owner.get(tool).passes = true;
     assert_eq!(framework.resolve_input(to(120.0, 120.0), &mut owner), Some(picture));
@@ -85,7 +85,7 @@ fn the_mouse_goes_to_the_deepest_control_and_on_to_its_parents_as_far_as_each_pa
 }
 
 #[test]
-fn a_held_button_keeps_the_mouse_with_the_control_it_went_down_on() {
+fn a_held_button_captures_the_mouse_for_the_pressed_control() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
@@ -109,7 +109,7 @@ fn a_held_button_keeps_the_mouse_with_the_control_it_went_down_on() {
 }
 
 #[test]
-fn keys_go_to_the_focus_else_to_what_is_under_the_mouse_and_end_where_they_began() {
+fn keys_go_to_the_focus_or_the_hovered_control_and_are_released_there() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     framework.resolve_input(to(300.0, 300.0), &mut owner);
     owner.forget();
@@ -132,7 +132,7 @@ fn keys_go_to_the_focus_else_to_what_is_under_the_mouse_and_end_where_they_began
 }
 
 #[test]
-fn keys_go_to_what_is_dragged_wherever_the_mouse_and_the_focus_are() {
+fn keys_go_to_the_dragged_control_regardless_of_mouse_and_focus() {
     let (mut framework, mut owner, [_, tool, panel]) = window();
     framework.set_focus(panel);
     framework.resolve_input(to(120.0, 120.0), &mut owner);
@@ -147,7 +147,7 @@ fn keys_go_to_what_is_dragged_wherever_the_mouse_and_the_focus_are() {
 }
 
 #[test]
-fn lost_input_cancels_what_is_captured_and_lets_every_key_go() {
+fn lost_input_cancels_the_capture_and_releases_every_key() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     owner.get(tool).passes = true;
     framework.resolve_input(to(120.0, 120.0), &mut owner);
@@ -172,7 +172,7 @@ fn lost_input_cancels_what_is_captured_and_lets_every_key_go() {
 }
 
 #[test]
-fn controls_come_and_go_while_an_input_is_on_its_way() {
+fn controls_can_be_added_and_removed_during_an_input() {
     let (mut framework, mut owner, [picture, tool, _]) = window();
     owner.get(tool).passes = true;
     owner.get(tool).deed = Deed::UnregisterSelf;
@@ -214,7 +214,7 @@ fn controls_come_and_go_while_an_input_is_on_its_way() {
 }
 
 #[test]
-fn two_controls_that_take_the_focus_from_each_other_come_to_rest() {
+fn two_controls_that_take_the_focus_from_each_other_do_not_loop() {
     let (mut framework, mut owner, [picture, _, panel]) = window();
     owner.get(picture).greedy = true;
     owner.get(panel).greedy = true;
@@ -244,7 +244,7 @@ fn an_input_allocates_nothing() {
 }
 
 #[test]
-fn what_grabs_the_input_has_it_everywhere_until_it_lets_go() {
+fn a_control_that_grabs_the_input_receives_all_of_it_until_it_releases_it() {
     let (mut framework, mut owner, [picture, tool, _]) = window();
     framework.grab(tool);
     assert_eq!(framework.resolve_input(to(700.0, 50.0), &mut owner), Some(tool));

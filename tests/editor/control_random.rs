@@ -159,7 +159,7 @@ fn random_rectangles_and_events_agree_with_the_plain_model() {
 }
 
 #[test]
-fn a_thousand_random_sequences_leave_no_control_with_half_a_story() {
+fn random_sequences_leave_no_press_key_or_hover_without_its_end() {
     let seed = seed(34);
     println!("seed {seed}");
     let mut random = Random::new(seed);

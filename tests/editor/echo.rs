@@ -74,7 +74,7 @@ fn a_view_without_the_newest_edit_does_not_bring_the_old_number_back() {
 }
 
 #[test]
-fn what_the_document_refused_is_dropped() {
+fn an_edit_that_the_document_refuses_is_no_longer_shown() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let before = x_of(shown.as_ref());
@@ -95,7 +95,7 @@ fn a_cancelled_drag_is_undone_at_once() {
 }
 
 #[test]
-fn an_edit_that_is_impossible_here_shows_nothing() {
+fn an_invalid_edit_shows_nothing() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let wrong = Change::Edit(
@@ -107,7 +107,7 @@ fn an_edit_that_is_impossible_here_shows_nothing() {
 }
 
 #[test]
-fn a_model_that_was_opened_meanwhile_is_shown_as_it_is() {
+fn a_model_opened_during_an_edit_is_shown_unchanged() {
     let (first, other) = (fixture::full(), fixture::full());
     let (mut echo, mut shown) = (Echo::default(), Some(first));
     echo.send(&set(3.0, None), &mut shown);

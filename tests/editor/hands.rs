@@ -54,7 +54,7 @@ fn a_ring_is_dragged_a_number_typed_and_it_is_one_step() {
 }
 
 #[test]
-fn a_drag_begun_by_a_command_is_bound_typed_and_confirmed_without_a_button() {
+fn a_drag_started_by_a_command_is_locked_typed_and_confirmed_without_a_button() {
     let mut hand = arm();
     let before = hand.rotation();
     hand.command(Id::RotateNow);
@@ -97,7 +97,7 @@ fn a_drag_that_comes_back_to_where_it_began_is_no_step() {
 }
 
 #[test]
-fn a_press_inside_the_rings_that_does_not_move_is_a_click_on_what_lies_behind() {
+fn a_click_inside_the_rings_picks_the_bone_behind() {
     let mut hand = arm();
     let ball = hand.handle(Handle::Center);
     hand.hold(Modifiers { shift: true, ..Modifiers::default() });
@@ -137,7 +137,7 @@ fn moving_and_scaling_change_their_own_channel_alone() {
 }
 
 #[test]
-fn the_rest_pose_is_not_edited_and_it_is_said_why() {
+fn the_rest_pose_cannot_be_edited_and_a_message_gives_the_reason() {
     let mut hand = arm();
     hand.state.execute(Request::ShowTake(None));
     hand.state.begin_frame(hand.state.read().now);
@@ -153,7 +153,7 @@ fn the_rest_pose_is_not_edited_and_it_is_said_why() {
 }
 
 #[test]
-fn of_several_bones_the_locked_ones_stay_and_one_that_is_locked_alone_is_not_dragged() {
+fn locked_bones_stay_and_a_single_locked_bone_cannot_be_dragged() {
     let mut hand = arm();
     let lock = |hand: &mut Hand, bone, on| {
         hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, bone, on)));
@@ -197,7 +197,7 @@ fn of_several_bones_the_locked_ones_stay_and_one_that_is_locked_alone_is_not_dra
 }
 
 #[test]
-fn taking_hold_of_the_gizmo_stops_time() {
+fn starting_a_gizmo_drag_pauses_playback() {
     let mut hand = arm();
     hand.command(Id::PlayPause);
     assert!(hand.state.read().playback.playing);
@@ -213,7 +213,7 @@ fn taking_hold_of_the_gizmo_stops_time() {
 }
 
 #[test]
-fn clicks_boxes_and_lassos_ask_for_bones_in_the_way_that_is_held() {
+fn clicks_boxes_and_lassos_select_bones_with_the_held_modifiers() {
     let mut hand = arm();
     hand.command(Id::ToolSelect);
     let at = Vec2::new(260.0, 120.0);
@@ -245,7 +245,7 @@ fn clicks_boxes_and_lassos_ask_for_bones_in_the_way_that_is_held() {
 }
 
 #[test]
-fn a_box_may_begin_on_a_handle_when_it_was_asked_for() {
+fn a_box_selection_started_by_command_can_start_on_a_handle() {
     let mut hand = arm();
     hand.command(Id::BoxSelect);
     let ring = hand.handle(Handle::Axis(GizmoAxis::X));
@@ -257,7 +257,7 @@ fn a_box_may_begin_on_a_handle_when_it_was_asked_for() {
 }
 
 #[test]
-fn what_lies_over_the_picture_takes_precedence() {
+fn overlays_on_the_viewport_take_precedence() {
     let mut hand = arm();
     let ring = hand.handle(Handle::Axis(GizmoAxis::X));
     let over = egui::Rect::from_center_size(egui::pos2(ring.x, ring.y), egui::Vec2::splat(30.0));

@@ -89,7 +89,7 @@ fn safe(at: Pos2) -> bool {
 }
 
 #[test]
-fn a_hundred_thousand_events_and_commands_leave_the_document_whole() {
+fn random_events_and_commands_leave_the_document_valid() {
     let seed = seed(2026);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
@@ -127,7 +127,7 @@ fn a_hundred_thousand_events_and_commands_leave_the_document_whole() {
 }
 
 #[test]
-fn random_hands_over_the_whole_window_never_panic() {
+fn random_input_over_the_whole_window_never_panics() {
     let seed = seed(4242);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);

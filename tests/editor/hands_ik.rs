@@ -60,7 +60,7 @@ fn drag(hand: &mut Hand, handle: Handle, by: Vec2) -> Vec2 {
 }
 
 #[test]
-fn the_tip_takes_its_chain_along_in_one_step_that_one_undo_takes_back() {
+fn dragging_the_tip_moves_its_chain_in_one_undo_step() {
     let mut hand = arm(2, Id::ToolMove);
     hand.command(Id::ToggleIk);
     let (before, takes) = (poses(&hand), hand.state.read().view.cloned().expect("open").takes);
@@ -91,7 +91,7 @@ fn the_tip_takes_its_chain_along_in_one_step_that_one_undo_takes_back() {
 }
 
 #[test]
-fn the_end_of_a_chain_comes_to_where_the_pointer_is() {
+fn the_end_of_a_chain_follows_the_pointer() {
     let mut hand = arm(2, Id::ToolMove);
     hand.command(Id::ToggleIk);
     let from = hand.joint();
@@ -110,7 +110,7 @@ fn the_end_of_a_chain_comes_to_where_the_pointer_is() {
 }
 
 #[test]
-fn a_pinned_tip_is_held_at_every_frame_that_plays_in_one_step() {
+fn a_pinned_tip_is_held_at_every_played_frame_in_one_step() {
     let mut hand = arm(2, Id::ToolMove);
     hand.command(Id::Pin);
     let (tip, direction) = (place(&hand, 2), facing(&hand, 2));
@@ -141,7 +141,7 @@ fn a_pinned_tip_is_held_at_every_frame_that_plays_in_one_step() {
 }
 
 #[test]
-fn what_cannot_hold_a_pin_is_said() {
+fn a_bone_that_cannot_be_pinned_is_reported() {
     let mut hand = arm(0, Id::ToolMove);
     hand.command(Id::Pin);
     hand.command(Id::BakePins);
@@ -194,7 +194,7 @@ fn numbers_typed_while_dragging_hold_pins_too() {
 }
 
 #[test]
-fn escape_gives_chain_and_pins_back_bit_for_bit() {
+fn escape_restores_chain_and_pins_bit_for_bit() {
     for (bone, pin) in [(2, None), (0, Some(2))] {
         let mut hand = arm(pin.unwrap_or(bone), Id::ToolMove);
         match pin {
@@ -238,7 +238,7 @@ fn with_auto_key_off_the_whole_chain_is_pending() {
 }
 
 #[test]
-fn what_is_switched_while_dragging_is_for_the_next_drag() {
+fn switching_ik_during_a_drag_applies_to_the_next_drag() {
     let mut hand = arm(2, Id::ToolMove);
     hand.command(Id::ToggleIk);
     let to = drag(&mut hand, Handle::Center, Vec2::new(20.0, 20.0));
@@ -250,7 +250,7 @@ fn what_is_switched_while_dragging_is_for_the_next_drag() {
 }
 
 #[test]
-fn what_is_drawn_of_ik_follows_what_is_switched_on() {
+fn the_ik_overlay_follows_the_ik_setting() {
     let mut hand = arm(2, Id::ToolMove);
     assert_eq!(hand.state.read().ik_look(), None);
     hand.command(Id::ToggleIk);
@@ -267,7 +267,7 @@ fn what_is_drawn_of_ik_follows_what_is_switched_on() {
 }
 
 #[test]
-fn a_muted_bone_is_taken_hold_of_where_the_picture_shows_it() {
+fn a_muted_bone_is_dragged_where_it_is_drawn() {
     let mut hand = arm(2, Id::ToolMove);
     let bent = place(&hand, 2);
     hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Mute, 1, true)));

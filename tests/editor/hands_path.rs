@@ -32,7 +32,7 @@ fn seen(hand: &Hand, place: Vec3) -> Vec2 {
 }
 
 #[test]
-fn the_path_goes_where_the_joint_goes() {
+fn the_motion_path_follows_the_joint() {
     let mut hand = tip();
     let path = Arc::clone(hand.state.read().tools.path().look().expect("a path"));
     assert_eq!(path.points.len(), 31, "a second at 30 frames");
@@ -49,7 +49,7 @@ fn the_path_goes_where_the_joint_goes() {
 }
 
 #[test]
-fn a_key_of_the_path_is_put_under_the_pointer_in_one_step() {
+fn a_key_of_the_path_is_dragged_to_the_pointer_in_one_step() {
     let mut hand = tip();
     let (time, place) = *hand.state.read().tools.path().look().expect("a path").keys.last().expect("a key");
     let from = seen(&hand, place);
@@ -78,7 +78,7 @@ fn a_key_of_the_path_is_put_under_the_pointer_in_one_step() {
 }
 
 #[test]
-fn ghosts_stand_as_many_steps_before_and_after_as_the_take_has_room_for() {
+fn ghosts_are_drawn_before_and_after_within_the_take() {
     let mut hand = tip();
     hand.command(Id::ToggleGhosts);
     let ghosts = GhostSettings { shown: true, count: [2, 3], step: 6, keys: false, skin: false };
@@ -102,7 +102,7 @@ fn ghosts_stand_as_many_steps_before_and_after_as_the_take_has_room_for() {
 }
 
 #[test]
-fn a_key_of_the_path_takes_the_chain_along_with_ik_on_and_pins_hold() {
+fn a_key_of_the_path_moves_the_chain_with_ik_on_and_pins_hold() {
     let mut hand = tip();
     hand.command(Id::ToggleIk);
     let (time, place) = *hand.state.read().tools.path().look().expect("a path").keys.last().expect("a key");
@@ -154,7 +154,7 @@ fn a_key_of_the_path_takes_the_chain_along_with_ik_on_and_pins_hold() {
 }
 
 #[test]
-fn a_key_under_a_handle_of_the_gizmo_is_taken_hold_of_but_not_in_its_middle() {
+fn a_path_key_wins_over_gizmo_handles_but_not_over_the_center() {
     let mut hand = tip();
     hand.command(Id::ToolRotate);
     let path = Arc::clone(hand.state.read().tools.path().look().expect("a path"));
@@ -189,7 +189,7 @@ fn a_key_under_a_handle_of_the_gizmo_is_taken_hold_of_but_not_in_its_middle() {
 }
 
 #[test]
-fn keys_of_a_bone_can_be_dragged_when_it_is_free_whatever_was_selected_with_it() {
+fn path_keys_of_an_unlocked_bone_can_be_dragged_in_any_selection() {
     let mut hand = tip();
     hand.state.execute(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 1, true)));
     let select = |hand: &mut Hand, bones: &[u32]| {
