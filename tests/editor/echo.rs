@@ -1,6 +1,6 @@
 //! Edits are shown before the document confirms them.
 
-use crate::hands_rig::Hand;
+use crate::viewport_tools_rig::ViewportHarness;
 use dragonfly::panels::echo::Echo;
 use dragonfly_document::edit::{BonePose, BoneRef, DropPending, Edit, ReverseTake, SetPose, TakeRef};
 use dragonfly_document::history::Gesture;
@@ -118,10 +118,11 @@ fn a_model_opened_during_an_edit_is_shown_unchanged() {
 
 #[test]
 fn the_document_answers_a_numbered_change_that_it_refuses() {
-    let mut hand = Hand::new(open_model);
-    let before = hand.state.read().view.cloned().unwrap();
-    hand.change_numbered(7, Change::Edit(Edit::ReverseTake(ReverseTake { take: TakeRef::Index(99) }), None));
-    assert_eq!(hand.refused.len(), 1);
-    let after = hand.state.read().view.unwrap();
+    let mut viewport = ViewportHarness::new(open_model);
+    let before = viewport.state.read().view.cloned().unwrap();
+    viewport
+        .change_numbered(7, Change::Edit(Edit::ReverseTake(ReverseTake { take: TakeRef::Index(99) }), None));
+    assert_eq!(viewport.refused.len(), 1);
+    let after = viewport.state.read().view.unwrap();
     assert_eq!((after.answered, after.generation), (7, before.generation));
 }
