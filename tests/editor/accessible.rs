@@ -48,7 +48,7 @@ fn fox() -> View {
 }
 
 #[test]
-fn every_control_of_the_whole_desk_has_a_name() {
+fn every_control_of_the_window_has_an_accessible_name() {
     let mut bench = Workbench::new(Some(fox()));
     bench.state.execute(Request::Select(Some(5)));
     let mut window = bench.window_of(egui::vec2(1600.0, 1000.0), egui::Theme::Dark);

@@ -19,7 +19,7 @@ fn right_click(window: &mut Window, pos: Pos2) {
 }
 
 #[test]
-fn in_the_tree_it_is_about_the_bone_under_the_pointer() {
+fn the_menu_in_the_tree_acts_on_the_bone_under_the_pointer() {
     let mut window = Workbench::full().window();
     window.state_mut().state.execute(Request::Select(Some(0)));
     window.run_steps(2);
@@ -71,7 +71,7 @@ fn the_tree_stays_as_it_is_under_a_menu_and_after_an_edit() {
 }
 
 #[test]
-fn in_the_picture_it_is_about_what_is_selected_and_escape_closes_it() {
+fn the_menu_in_the_viewport_acts_on_the_selection_and_escape_closes_it() {
     let mut window = Workbench::full().window();
     window.state_mut().state.execute(Request::Select(Some(3)));
     window.run_steps(2);
@@ -86,7 +86,7 @@ fn in_the_picture_it_is_about_what_is_selected_and_escape_closes_it() {
 }
 
 #[test]
-fn taking_a_drag_back_opens_no_menu() {
+fn cancelling_a_drag_opens_no_menu() {
     let mut window = Workbench::full().window();
     let place = window.state().state.read().viewport.center();
     button(&mut window, place, PointerButton::Primary, true);
@@ -97,7 +97,7 @@ fn taking_a_drag_back_opens_no_menu() {
 }
 
 #[test]
-fn a_menu_is_put_away_by_a_drag_beside_it_and_not_by_one_in_it() {
+fn a_drag_outside_a_menu_closes_it_and_one_inside_does_not() {
     let mut window = Workbench::full().window();
     window.run_steps(2);
     let drag = |window: &mut Window, from: Pos2| {

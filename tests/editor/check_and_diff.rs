@@ -21,7 +21,7 @@ fn edited(folder: &Folder, name: &str, edits: &str) -> PathBuf {
 }
 
 #[test]
-fn a_sound_model_passes_the_check() {
+fn a_valid_model_passes_the_check() {
     let outcome = run(["check", "demo:"]).expect(0);
     assert!(outcome.text().contains("0 errors, 0 warnings"), "{}", outcome.text());
     let reports = run(["check", "demo:", text(&fox()), "--json"]).expect(0).json();

@@ -13,7 +13,7 @@ fn fox() -> String {
 }
 
 #[test]
-fn info_says_what_is_in_a_file() {
+fn info_lists_the_contents_of_a_file() {
     let info = run(["info", &fox(), "--json"]).expect(0).json();
     assert_eq!(info["file"], "Fox.glb");
     assert_eq!(info["format"], "glb");
@@ -41,7 +41,7 @@ fn info_says_what_is_in_a_file() {
 }
 
 #[test]
-fn info_for_people_names_everything() {
+fn info_as_text_lists_everything() {
     let outcome = run(["info", &fox()]).expect(0);
     for word in ["Fox.glb", "3 takes", "Survey", "Run", "1728", "25 bones", "b_Hip_01"] {
         assert!(outcome.text().contains(word), "{word} is missing in\n{}", outcome.text());
@@ -51,7 +51,7 @@ fn info_for_people_names_everything() {
 }
 
 #[test]
-fn a_pose_agrees_with_what_others_computed() {
+fn a_pose_agrees_with_reference_values() {
     let text = std::fs::read(data("expected/gltf__SimpleSkin_embedded.gltf.unitquat.json"))
         .expect("the expected values");
     let expected: Value = serde_json::from_slice(&text).expect("JSON");
@@ -154,7 +154,7 @@ fn times_outside_a_take_are_clamped_to_it() {
 }
 
 #[test]
-fn wrong_input_is_code_2_with_file_place_and_reason() {
+fn wrong_input_exits_with_2_and_names_file_position_and_reason() {
     let folder = Folder::new("wrong");
     let cut = folder.join("cut.glb");
     let bytes = std::fs::read(data(FOX)).expect("a model");
@@ -180,7 +180,7 @@ fn wrong_input_is_code_2_with_file_place_and_reason() {
 }
 
 #[test]
-fn wrong_arguments_are_code_2_and_say_which() {
+fn wrong_arguments_exit_with_2_and_are_named() {
     for (arguments, word) in [
         (vec!["pose", "demo:"], "--time"),
         (vec!["pose", "demo:", "--time", "nan"], "finite"),
@@ -217,7 +217,7 @@ fn the_built_in_model_can_be_written_and_read_again() {
 }
 
 #[test]
-fn a_reader_that_leaves_early_is_no_trouble() {
+fn a_reader_that_closes_the_pipe_early_causes_no_error() {
     let mut child = dragonfly(["pose", "demo:", "--time", "0", "--json"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -235,7 +235,7 @@ fn a_reader_that_leaves_early_is_no_trouble() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_under_standard_output_is_told() {
+fn a_full_disk_under_standard_output_is_reported() {
     let full =
         std::fs::OpenOptions::new().write(true).open("/dev/full").expect("the device that is always full");
     let mut child = dragonfly(["info", "demo:", "--json"])
@@ -263,7 +263,7 @@ fn the_table_of_commands_has_a_line_for_each_with_its_keys() {
 }
 
 #[test]
-fn help_shows_every_command_and_how_to_begin() {
+fn help_lists_every_command_and_how_to_start() {
     let help = run(["--help"]).expect(0);
     for word in ["info", "check", "diff", "pose", "render", "demo", "Examples", "demo:", "Exit codes"] {
         assert!(help.text().contains(word), "{word} is missing in\n{}", help.text());
@@ -279,7 +279,7 @@ fn help_shows_every_command_and_how_to_begin() {
 }
 
 #[test]
-fn a_picture_is_drawn_without_any_window() {
+fn an_image_is_rendered_without_a_window() {
     let folder = Folder::new("render");
     let file = folder.join("fly.png");
     let arguments = [
@@ -306,7 +306,7 @@ fn a_picture_is_drawn_without_any_window() {
 }
 
 #[test]
-fn without_a_display_the_editor_draws_a_picture_and_says_where_it_is() {
+fn without_a_display_the_editor_renders_an_image_and_prints_its_path() {
     let folder = Folder::new("display");
     let mut names = Vec::new();
     for _ in 0..2 {

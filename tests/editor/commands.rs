@@ -17,7 +17,7 @@ fn no_two_commands_share_a_shortcut() {
 }
 
 #[test]
-fn every_name_has_one_line_and_words() {
+fn every_command_is_listed_once_with_a_title_and_help() {
     let mut seen = HashMap::new();
     for command in commands::all() {
         assert!(seen.insert(command.id, ()).is_none(), "{:?} stands twice", command.id);

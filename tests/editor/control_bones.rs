@@ -11,7 +11,7 @@ use glam::{Vec2, Vec3};
 use std::collections::BTreeSet;
 
 #[test]
-fn repeated_clicks_go_through_what_lies_behind_and_begin_again() {
+fn repeated_clicks_cycle_through_the_bones_behind() {
     let mut cycle = ClickCycle::default();
     let at = Vec2::new(100.0, 100.0);
     let hits = [7, 3, 5];
@@ -41,7 +41,7 @@ fn repeated_clicks_go_through_what_lies_behind_and_begin_again() {
 }
 
 #[test]
-fn a_bone_is_in_a_region_when_its_joint_or_its_middle_is() {
+fn a_bone_is_in_a_region_if_its_joint_or_midpoint_is() {
     let shapes = [
         (0, Vec3::ZERO, Vec3::X * 10.0),
         (1, Vec3::X * 10.0, Vec3::X * 20.0),
@@ -67,7 +67,7 @@ fn a_bone_is_in_a_region_when_its_joint_or_its_middle_is() {
 }
 
 #[test]
-fn a_lasso_holds_what_it_runs_around_and_keeps_a_bounded_line() {
+fn a_lasso_selects_what_it_encloses_with_a_bounded_number_of_points() {
     let mut lasso = Lasso::default();
     lasso.begin(Vec2::new(200.0, 100.0));
     for step in 0..100_000 {
@@ -128,7 +128,7 @@ fn shift_adds_and_ctrl_toggles() {
 }
 
 #[test]
-fn neighbours_are_found_and_hidden_bones_are_passed_over() {
+fn neighbors_are_found_and_hidden_bones_are_skipped() {
     let (tree, mut hidden) = (tree(), HiddenBones::default());
     let after = |bones: &[u32], hidden: &HiddenBones, act: &dyn Fn(&mut BoneSelection, &HiddenBones)| {
         let mut selection = select(bones);
@@ -190,7 +190,7 @@ fn growing_and_shrinking_go_bone_by_bone() {
 }
 
 #[test]
-fn hiding_takes_out_of_sight_and_of_the_selection_and_showing_selects_what_came() {
+fn hiding_bones_deselects_them_and_showing_bones_selects_them() {
     let mut hidden = HiddenBones::default();
     let mut selection = select(&[2, 3]);
     hidden.hide(&mut selection);
@@ -210,7 +210,7 @@ fn hiding_takes_out_of_sight_and_of_the_selection_and_showing_selects_what_came(
 }
 
 #[test]
-fn the_other_side_is_selected_and_the_middle_stays() {
+fn mirroring_the_selection_selects_the_other_side_and_keeps_center_bones() {
     let names = ["Hips", "Arm.L", "Arm.R", "Leg.L", "Leg.R", "Tail", "Horn.L"];
     let pairs = MirrorPairs::of_names(&names);
     let hidden = HiddenBones::default();

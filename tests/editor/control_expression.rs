@@ -7,7 +7,7 @@ use dragonfly_kit::random::{Random, seed};
 use std::f64::consts::PI;
 
 #[test]
-fn what_hands_type_is_understood() {
+fn usual_expressions_are_evaluated() {
     let plain = [
         ("45", 45.0),
         ("45/2", 22.5),
@@ -53,7 +53,7 @@ fn what_hands_type_is_understood() {
 }
 
 #[test]
-fn units_are_those_of_what_is_measured() {
+fn units_follow_the_quantity() {
     let lengths = [
         ("10cm", 0.1),
         ("1m + 5cm", 1.05),
@@ -89,7 +89,7 @@ fn units_are_those_of_what_is_measured() {
 }
 
 #[test]
-fn every_mistake_is_told_with_its_place() {
+fn every_error_reports_its_position() {
     let mistakes = [
         ("", 0, ExpressionFault::Empty),
         ("   ", 3, ExpressionFault::Empty),
@@ -125,7 +125,7 @@ fn every_mistake_is_told_with_its_place() {
 }
 
 #[test]
-fn depth_and_length_have_an_end() {
+fn depth_and_length_are_limited() {
     let deep = |depth: usize| format!("{}1{}", "(".repeat(depth), ")".repeat(depth));
     assert_eq!(evaluate(&deep(DEEPEST as usize), Quantity::Number), Ok(1.0));
     for text in [deep(DEEPEST as usize + 1), "-".repeat(4000) + "1", "2^".repeat(2000) + "1"] {
@@ -140,7 +140,7 @@ fn depth_and_length_have_an_end() {
 }
 
 #[test]
-fn any_text_has_an_answer() {
+fn any_text_gives_a_number_or_an_error() {
     let seed = seed(31);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -166,7 +166,7 @@ fn any_text_has_an_answer() {
 }
 
 #[test]
-fn a_random_sum_is_what_a_computer_says() {
+fn a_random_sum_matches_direct_evaluation() {
     let seed = seed(32);
     println!("seed {seed}");
     let mut random = Random::new(seed);

@@ -1,6 +1,6 @@
 //! Every input reaches the control it is meant for, whatever the controls do while it is delivered.
 
-use crate::control_probe::{Deed, Owner, Told};
+use crate::control_probe::{Owner, PressAction, ProbeEvent};
 use dragonfly::control::{
     Area, BaseControl, Button, ControlFramework, ControlId, InputEvent, Key, PlaceError,
 };
@@ -29,7 +29,7 @@ fn window() -> (ControlFramework, Owner, [ControlId; 3]) {
 }
 
 #[test]
-fn a_control_is_the_parent_of_all_that_lie_wholly_inside_it() {
+fn a_control_is_the_parent_of_all_controls_entirely_inside_it() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     assert_eq!(framework.parent(tool), Some(picture));
     assert_eq!(framework.parent(picture), Some(ControlId::ROOT));
@@ -63,19 +63,19 @@ fn a_control_can_be_registered_inside_another_only() {
 }
 
 #[test]
-fn the_mouse_goes_to_the_deepest_control_and_on_to_its_parents_as_far_as_each_passes_it() {
+fn mouse_events_go_to_the_deepest_control_and_bubble_while_passed_on() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     owner.get(tool).passes = true;
     assert_eq!(framework.resolve_input(to(120.0, 120.0), &mut owner), Some(picture));
-    assert_eq!(owner.told(tool), [Told::Enter, Told::Move]);
-    assert_eq!(owner.told(picture), [Told::Move]);
+    assert_eq!(owner.take_events(tool), [ProbeEvent::Enter, ProbeEvent::Move]);
+    assert_eq!(owner.take_events(picture), [ProbeEvent::Move]);
     owner.get(tool).passes = false;
     assert_eq!(framework.resolve_input(InputEvent::Wheel(Vec2::Y), &mut owner), Some(tool));
-    assert_eq!((owner.told(tool), owner.told(picture)), (vec![Told::Wheel], vec![]));
+    assert_eq!((owner.take_events(tool), owner.take_events(picture)), (vec![ProbeEvent::Wheel], vec![]));
     framework.resolve_input(to(700.0, 50.0), &mut owner);
-    assert_eq!(owner.told(tool), [Told::Leave]);
-    assert_eq!(owner.told(panel), [Told::Enter, Told::Move]);
-    assert_eq!(owner.told(picture), []);
+    assert_eq!(owner.take_events(tool), [ProbeEvent::Leave]);
+    assert_eq!(owner.take_events(panel), [ProbeEvent::Enter, ProbeEvent::Move]);
+    assert_eq!(owner.take_events(picture), []);
     // A control that is round is met on its disc only.
     owner.get(tool).circle = Some((Vec2::new(125.0, 125.0), 10.0));
     assert_eq!(framework.resolve_input(to(101.0, 101.0), &mut owner), Some(picture));
@@ -85,7 +85,7 @@ fn the_mouse_goes_to_the_deepest_control_and_on_to_its_parents_as_far_as_each_pa
 }
 
 #[test]
-fn a_held_button_keeps_the_mouse_with_the_control_it_went_down_on() {
+fn a_held_button_captures_the_mouse_for_the_pressed_control() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
@@ -95,21 +95,21 @@ fn a_held_button_keeps_the_mouse_with_the_control_it_went_down_on() {
     framework.resolve_input(to(-50.0, 50.0), &mut owner);
     assert_eq!(framework.captured(), Some(tool));
     framework.resolve_input(InputEvent::MouseUp(Button::Right), &mut owner);
-    use Told::{Down, Enter, Leave, Move, Up};
+    use ProbeEvent::{Down, Enter, Leave, Move, Up};
     let right = Button::Right;
     let expected = [Enter, Move, Down(LEFT), Move, Down(right), Up(LEFT), Move, Up(right), Leave];
-    assert_eq!(owner.told(tool), expected);
+    assert_eq!(owner.take_events(tool), expected);
     assert_eq!(framework.captured(), None);
-    assert_eq!((owner.told(panel), owner.told(picture)), (vec![], vec![]));
+    assert_eq!((owner.take_events(panel), owner.take_events(picture)), (vec![], vec![]));
     // A press that began outside the window has no owner, even after the pointer enters the window.
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
-    assert_eq!(owner.told(tool), [Enter], "after the release");
+    assert_eq!(owner.take_events(tool), [Enter], "after the release");
 }
 
 #[test]
-fn keys_go_to_the_focus_else_to_what_is_under_the_mouse_and_end_where_they_began() {
+fn keys_go_to_the_focus_or_the_hovered_control_and_are_released_there() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     framework.resolve_input(to(300.0, 300.0), &mut owner);
     owner.forget();
@@ -118,13 +118,16 @@ fn keys_go_to_the_focus_else_to_what_is_under_the_mouse_and_end_where_they_began
     framework.resolve_input(InputEvent::KeyDown(A), &mut owner);
     framework.resolve_input(InputEvent::KeyDown(Key::Enter), &mut owner);
     framework.resolve_input(InputEvent::KeyUp(A), &mut owner);
-    assert_eq!(owner.told(picture), [Told::KeyDown(A, false), Told::KeyDown(A, true), Told::KeyUp(A)]);
-    assert_eq!(owner.told(panel), [Told::Focus, Told::KeyDown(Key::Enter, false)]);
+    assert_eq!(
+        owner.take_events(picture),
+        [ProbeEvent::KeyDown(A, false), ProbeEvent::KeyDown(A, true), ProbeEvent::KeyUp(A)]
+    );
+    assert_eq!(owner.take_events(panel), [ProbeEvent::Focus, ProbeEvent::KeyDown(Key::Enter, false)]);
     framework.null_focus();
     framework.update(&mut owner);
     framework.resolve_input(InputEvent::KeyUp(Key::Enter), &mut owner);
     framework.resolve_input(InputEvent::KeyUp(Key::Enter), &mut owner);
-    assert_eq!(owner.told(panel), [Told::NoFocus, Told::KeyUp(Key::Enter)]);
+    assert_eq!(owner.take_events(panel), [ProbeEvent::NoFocus, ProbeEvent::KeyUp(Key::Enter)]);
     // Passed on like everything else.
     owner.get(tool).passes = true;
     framework.set_focus(tool);
@@ -132,7 +135,7 @@ fn keys_go_to_the_focus_else_to_what_is_under_the_mouse_and_end_where_they_began
 }
 
 #[test]
-fn keys_go_to_what_is_dragged_wherever_the_mouse_and_the_focus_are() {
+fn keys_go_to_the_dragged_control_regardless_of_mouse_and_focus() {
     let (mut framework, mut owner, [_, tool, panel]) = window();
     framework.set_focus(panel);
     framework.resolve_input(to(120.0, 120.0), &mut owner);
@@ -140,14 +143,17 @@ fn keys_go_to_what_is_dragged_wherever_the_mouse_and_the_focus_are() {
     framework.resolve_input(to(700.0, 50.0), &mut owner);
     owner.forget();
     framework.resolve_input(InputEvent::KeyDown(Key::Escape), &mut owner);
-    assert_eq!((owner.told(tool), owner.told(panel)), (vec![Told::KeyDown(Key::Escape, false)], vec![]));
+    assert_eq!(
+        (owner.take_events(tool), owner.take_events(panel)),
+        (vec![ProbeEvent::KeyDown(Key::Escape, false)], vec![])
+    );
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
     framework.resolve_input(InputEvent::KeyDown(A), &mut owner);
-    assert_eq!(owner.told(panel).last(), Some(&Told::KeyDown(A, false)));
+    assert_eq!(owner.take_events(panel).last(), Some(&ProbeEvent::KeyDown(A, false)));
 }
 
 #[test]
-fn lost_input_cancels_what_is_captured_and_lets_every_key_go() {
+fn lost_input_cancels_the_capture_and_releases_every_key() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     owner.get(tool).passes = true;
     framework.resolve_input(to(120.0, 120.0), &mut owner);
@@ -155,66 +161,70 @@ fn lost_input_cancels_what_is_captured_and_lets_every_key_go() {
     framework.resolve_input(InputEvent::KeyDown(A), &mut owner);
     owner.forget();
     framework.resolve_input(InputEvent::Lost, &mut owner);
-    assert_eq!(owner.told(tool), [Told::Lost, Told::KeyUp(A), Told::Leave]);
-    assert_eq!(owner.told(picture), [Told::Lost, Told::KeyUp(A)], "the press was passed on to it");
-    assert_eq!(owner.told(panel), []);
+    assert_eq!(owner.take_events(tool), [ProbeEvent::Lost, ProbeEvent::KeyUp(A), ProbeEvent::Leave]);
+    assert_eq!(
+        owner.take_events(picture),
+        [ProbeEvent::Lost, ProbeEvent::KeyUp(A)],
+        "the press was passed on to it"
+    );
+    assert_eq!(owner.take_events(panel), []);
     assert_eq!(framework.captured(), None);
     // The release that comes late means nothing.
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
     framework.resolve_input(InputEvent::KeyUp(A), &mut owner);
-    assert_eq!(owner.told(tool), []);
+    assert_eq!(owner.take_events(tool), []);
     // A second press without a release in between: the first was lost.
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
-    use Told::{Down, Enter, Lost, Move};
-    assert_eq!(owner.told(tool), [Enter, Move, Down(LEFT), Lost, Down(LEFT)]);
+    use ProbeEvent::{Down, Enter, Lost, Move};
+    assert_eq!(owner.take_events(tool), [Enter, Move, Down(LEFT), Lost, Down(LEFT)]);
 }
 
 #[test]
-fn controls_come_and_go_while_an_input_is_on_its_way() {
+fn controls_can_be_added_and_removed_during_an_input() {
     let (mut framework, mut owner, [picture, tool, _]) = window();
     owner.get(tool).passes = true;
-    owner.get(tool).deed = Deed::UnregisterSelf;
+    owner.get(tool).on_press = PressAction::UnregisterSelf;
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     owner.forget();
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     assert_eq!(framework.captured(), Some(picture), "the press goes on to the parent, which keeps the mouse");
     framework.resolve_input(to(700.0, 120.0), &mut owner);
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
-    assert_eq!(owner.told(picture), [Told::Down(LEFT), Told::Move, Told::Up(LEFT)]);
-    assert_eq!(owner.told(tool), [Told::Down(LEFT)]);
+    assert_eq!(owner.take_events(picture), [ProbeEvent::Down(LEFT), ProbeEvent::Move, ProbeEvent::Up(LEFT)]);
+    assert_eq!(owner.take_events(tool), [ProbeEvent::Down(LEFT)]);
 
     let (mut framework, mut owner, [picture, tool, _]) = window();
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     framework.unregister_control(tool);
     framework.resolve_input(to(130.0, 120.0), &mut owner);
-    assert_eq!(owner.told(picture), [], "nobody has a mouse whose owner is gone");
+    assert_eq!(owner.take_events(picture), [], "nobody has a mouse whose owner is gone");
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
-    assert_eq!(owner.told(picture), [Told::Enter]);
+    assert_eq!(owner.take_events(picture), [ProbeEvent::Enter]);
 
     let (mut framework, mut owner, [picture, tool, _]) = window();
     owner.get(tool).passes = true;
-    owner.get(tool).deed = Deed::Unregister(picture);
+    owner.get(tool).on_press = PressAction::Unregister(picture);
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     owner.forget();
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
-    assert_eq!(owner.told(picture), [], "it is gone, though its owner has it still");
+    assert_eq!(owner.take_events(picture), [], "it is gone, though its owner has it still");
 
     let (mut framework, mut owner, [_, tool, panel]) = window();
-    owner.get(tool).deed = Deed::Register(area(110.0, 110.0, 20.0, 20.0));
+    owner.get(tool).on_press = PressAction::Register(area(110.0, 110.0, 20.0, 20.0));
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
     assert_eq!(framework.hovered(), Some(tool), "a control that its owner does not have is not met");
-    owner.get(tool).deed = Deed::Focus(panel);
+    owner.get(tool).on_press = PressAction::Focus(panel);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
-    assert_eq!(owner.told(panel), [Told::Focus]);
+    assert_eq!(owner.take_events(panel), [ProbeEvent::Focus]);
 }
 
 #[test]
-fn two_controls_that_take_the_focus_from_each_other_come_to_rest() {
+fn two_controls_that_take_the_focus_from_each_other_do_not_loop() {
     let (mut framework, mut owner, [picture, _, panel]) = window();
     owner.get(picture).greedy = true;
     owner.get(panel).greedy = true;
@@ -225,7 +235,7 @@ fn two_controls_that_take_the_focus_from_each_other_come_to_rest() {
     framework.update(&mut owner);
     owner.forget();
     framework.update(&mut owner);
-    assert!(owner.probes.iter().all(|probe| probe.told.is_empty()));
+    assert!(owner.probes.iter().all(|probe| probe.events.is_empty()));
 }
 
 #[test]
@@ -244,7 +254,7 @@ fn an_input_allocates_nothing() {
 }
 
 #[test]
-fn what_grabs_the_input_has_it_everywhere_until_it_lets_go() {
+fn a_control_that_grabs_the_input_receives_all_of_it_until_it_releases_it() {
     let (mut framework, mut owner, [picture, tool, _]) = window();
     framework.grab(tool);
     assert_eq!(framework.resolve_input(to(700.0, 50.0), &mut owner), Some(tool));
@@ -252,21 +262,21 @@ fn what_grabs_the_input_has_it_everywhere_until_it_lets_go() {
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
     framework.resolve_input(InputEvent::KeyUp(A), &mut owner);
-    use Told::{Down, Enter, KeyDown, KeyUp, Leave, Lost, Move, Up};
+    use ProbeEvent::{Down, Enter, KeyDown, KeyUp, Leave, Lost, Move, Up};
     let told = [Enter, Move, KeyDown(A, false), Down(LEFT), Up(LEFT), KeyUp(A)];
-    assert_eq!(owner.told(tool), told);
+    assert_eq!(owner.take_events(tool), told);
     framework.release();
     framework.resolve_input(to(300.0, 300.0), &mut owner);
-    assert_eq!((owner.told(tool), owner.told(picture)), (vec![Leave], vec![Enter, Move]));
+    assert_eq!((owner.take_events(tool), owner.take_events(picture)), (vec![Leave], vec![Enter, Move]));
     framework.grab(tool);
     framework.update(&mut owner);
     framework.resolve_input(InputEvent::Lost, &mut owner);
-    assert_eq!(owner.told(tool), [Enter, Lost, Leave]);
+    assert_eq!(owner.take_events(tool), [Enter, Lost, Leave]);
     framework.grab(tool);
     framework.resolve_input(to(700.0, 50.0), &mut owner);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     framework.resolve_input(InputEvent::Lost, &mut owner);
-    assert_eq!(owner.told(tool), [Enter, Move, Down(LEFT), Lost, Leave], "told once");
+    assert_eq!(owner.take_events(tool), [Enter, Move, Down(LEFT), Lost, Leave], "told once");
     framework.grab(tool);
     framework.unregister_control(tool);
     assert_eq!(framework.captured(), None);

@@ -12,7 +12,7 @@ fn pairs(names: &[&str]) -> Vec<(u32, u32, MirrorGuess)> {
 }
 
 #[test]
-fn every_custom_of_naming_is_known() {
+fn every_naming_convention_is_recognized() {
     use MirrorGuess::{Capitals, Glued, Name, Numbers, Words};
     let customs = [
         ("arm.L", "arm.R", Name),
@@ -63,7 +63,7 @@ fn every_custom_of_naming_is_known() {
 }
 
 #[test]
-fn what_is_no_pair_is_none() {
+fn names_without_a_counterpart_are_not_paired() {
     for names in [
         ["Arm.L", "Leg.R"],
         ["Arm.L", "Arm.L.R"],
@@ -80,7 +80,7 @@ fn what_is_no_pair_is_none() {
 }
 
 #[test]
-fn a_surer_guess_comes_first_and_doubtful_counts_pair_nothing() {
+fn surer_guesses_come_first_and_ambiguous_ones_pair_nothing() {
     let names = ["Arm_R", "arm_r", "Arm_L", "arm_l"];
     assert_eq!(pairs(&names), [(2, 0, MirrorGuess::Name), (3, 1, MirrorGuess::Name)]);
     // Two figures in one file: the first with the first.
@@ -90,7 +90,7 @@ fn a_surer_guess_comes_first_and_doubtful_counts_pair_nothing() {
 }
 
 #[test]
-fn what_is_left_over_is_told_with_its_side() {
+fn unpaired_bones_are_reported_with_their_side() {
     let found = MirrorPairs::of_names(&["Hips", "Arm.L", "Arm.R", "Horn.L", "Wing_Right"]);
     let left: Vec<_> = found.unpaired.iter().map(|alone| (alone.bone, alone.side)).collect();
     assert_eq!(left, [(0, None), (3, Some(BodySide::Left)), (4, Some(BodySide::Right))]);
@@ -102,7 +102,7 @@ fn what_is_left_over_is_told_with_its_side() {
 }
 
 #[test]
-fn any_names_have_an_answer_soon() {
+fn any_names_are_paired_in_bounded_time() {
     let seed = seed(71);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -143,7 +143,7 @@ impl AssetFs for FolderFs {
 }
 
 #[test]
-fn in_the_rigs_of_the_collection_every_side_has_its_other() {
+fn in_the_sample_rigs_every_sided_bone_has_a_counterpart() {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data");
     let mut folders = Vec::from(["gltf", "bench", "collection"].map(|folder| data.join(folder)));
     let mut sided = 0;

@@ -7,7 +7,7 @@ use glam::Vec2;
 
 /// An event that a control received.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Told {
+pub(crate) enum ProbeEvent {
     Enter,
     Leave,
     Move,
@@ -23,7 +23,7 @@ pub(crate) enum Told {
 
 /// Side effect of a control when a mouse button is pressed on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) enum Deed {
+pub(crate) enum PressAction {
     #[default]
     Nothing,
     UnregisterSelf,
@@ -37,15 +37,15 @@ pub(crate) struct Probe {
     pub(crate) passes: bool,
     /// Center and radius, for a control that is a circle inside its area.
     pub(crate) circle: Option<(Vec2, f32)>,
-    pub(crate) deed: Deed,
+    pub(crate) on_press: PressAction,
     /// Takes the focus whenever it loses it.
     pub(crate) greedy: bool,
-    pub(crate) told: Vec<Told>,
+    pub(crate) events: Vec<ProbeEvent>,
 }
 
 impl Probe {
-    pub(crate) fn note(&mut self, told: Told) -> InputFlow {
-        self.told.push(told);
+    pub(crate) fn note(&mut self, event: ProbeEvent) -> InputFlow {
+        self.events.push(event);
         if self.passes { InputFlow::ToParent } else { InputFlow::Stop }
     }
 }
@@ -55,47 +55,47 @@ impl BaseControl for Probe {
         self.circle.is_none_or(|(center, radius)| center.distance(point) < radius)
     }
     fn set_focus(&mut self, _: &mut ControlFramework) {
-        self.note(Told::Focus);
+        self.note(ProbeEvent::Focus);
     }
     fn null_focus(&mut self, framework: &mut ControlFramework) {
-        self.note(Told::NoFocus);
+        self.note(ProbeEvent::NoFocus);
         if self.greedy {
             framework.set_focus(self.id);
         }
     }
     fn key_down(&mut self, key: Key, _: Modifiers, repeat: bool, _: &mut ControlFramework) -> InputFlow {
-        self.note(Told::KeyDown(key, repeat))
+        self.note(ProbeEvent::KeyDown(key, repeat))
     }
     fn key_up(&mut self, key: Key, _: Modifiers, _: &mut ControlFramework) -> InputFlow {
-        self.note(Told::KeyUp(key))
+        self.note(ProbeEvent::KeyUp(key))
     }
     fn mouse_enter(&mut self, _: &mut ControlFramework) {
-        self.note(Told::Enter);
+        self.note(ProbeEvent::Enter);
     }
     fn mouse_leave(&mut self, _: &mut ControlFramework) {
-        self.note(Told::Leave);
+        self.note(ProbeEvent::Leave);
     }
     fn mouse_move(&mut self, _: Mouse, _: &mut ControlFramework) -> InputFlow {
-        self.note(Told::Move)
+        self.note(ProbeEvent::Move)
     }
     fn mouse_wheel(&mut self, _: Vec2, _: Mouse, _: &mut ControlFramework) -> InputFlow {
-        self.note(Told::Wheel)
+        self.note(ProbeEvent::Wheel)
     }
     fn mouse_down(&mut self, button: Button, _: Mouse, framework: &mut ControlFramework) -> InputFlow {
-        match self.deed {
-            Deed::Nothing => {}
-            Deed::UnregisterSelf => assert!(framework.unregister_control(self.id)),
-            Deed::Unregister(other) => _ = framework.unregister_control(other),
-            Deed::Register(area) => _ = framework.register_control(area),
-            Deed::Focus(other) => framework.set_focus(other),
+        match self.on_press {
+            PressAction::Nothing => {}
+            PressAction::UnregisterSelf => assert!(framework.unregister_control(self.id)),
+            PressAction::Unregister(other) => _ = framework.unregister_control(other),
+            PressAction::Register(area) => _ = framework.register_control(area),
+            PressAction::Focus(other) => framework.set_focus(other),
         }
-        self.note(Told::Down(button))
+        self.note(ProbeEvent::Down(button))
     }
     fn mouse_up(&mut self, button: Button, _: Mouse, _: &mut ControlFramework) -> InputFlow {
-        self.note(Told::Up(button))
+        self.note(ProbeEvent::Up(button))
     }
     fn input_lost(&mut self, _: &mut ControlFramework) {
-        self.note(Told::Lost);
+        self.note(ProbeEvent::Lost);
     }
 }
 
@@ -119,8 +119,15 @@ impl Owner {
     }
 
     pub(crate) fn own(&mut self, id: ControlId) {
-        let told = Vec::with_capacity(256);
-        self.probes.push(Probe { id, passes: false, circle: None, deed: Deed::Nothing, greedy: false, told });
+        let events = Vec::with_capacity(256);
+        self.probes.push(Probe {
+            id,
+            passes: false,
+            circle: None,
+            on_press: PressAction::Nothing,
+            greedy: false,
+            events,
+        });
     }
 
     pub(crate) fn get(&mut self, id: ControlId) -> &mut Probe {
@@ -128,11 +135,11 @@ impl Owner {
     }
 
     /// Returns the events that the control received since the last call.
-    pub(crate) fn told(&mut self, id: ControlId) -> Vec<Told> {
-        std::mem::take(&mut self.get(id).told)
+    pub(crate) fn take_events(&mut self, id: ControlId) -> Vec<ProbeEvent> {
+        std::mem::take(&mut self.get(id).events)
     }
 
     pub(crate) fn forget(&mut self) {
-        self.probes.iter_mut().for_each(|probe| probe.told.clear());
+        self.probes.iter_mut().for_each(|probe| probe.events.clear());
     }
 }

@@ -1,7 +1,7 @@
 //! Random controls and inputs: the framework agrees with a naive model, and no control receives a press, key or focus event
 //! without the event that ends it.
 
-use crate::control_probe::{Deed, Owner, Told};
+use crate::control_probe::{Owner, PressAction, ProbeEvent};
 use dragonfly::control::{Area, BaseControl, Button, ControlFramework, ControlId, InputEvent, Key};
 use dragonfly_kit::random::{Random, seed};
 use glam::Vec2;
@@ -100,7 +100,7 @@ fn random_rectangles_and_events_agree_with_the_plain_model() {
                         owner.forget();
                         framework.resolve_input(InputEvent::MouseDown(button), &mut owner);
                         if let Some(Some(target)) = captured {
-                            assert!(owner.get(target).told.contains(&Told::Down(button)));
+                            assert!(owner.get(target).events.contains(&ProbeEvent::Down(button)));
                         }
                     }
                 }
@@ -109,7 +109,7 @@ fn random_rectangles_and_events_agree_with_the_plain_model() {
                     owner.forget();
                     framework.resolve_input(InputEvent::MouseUp(button), &mut owner);
                     if let Some(Some(target)) = captured {
-                        assert!(owner.get(target).told.contains(&Told::Up(button)));
+                        assert!(owner.get(target).events.contains(&ProbeEvent::Up(button)));
                     }
                     captured = captured.filter(|_| !held.is_empty());
                 }
@@ -138,7 +138,7 @@ fn random_rectangles_and_events_agree_with_the_plain_model() {
                     let moved: Vec<ControlId> = owner
                         .probes
                         .iter()
-                        .filter(|probe| probe.told.contains(&Told::Move))
+                        .filter(|probe| probe.events.contains(&ProbeEvent::Move))
                         .map(|probe| probe.id)
                         .collect();
                     assert!(moved.iter().all(|id| expected.contains(id)) && moved.len() == expected.len());
@@ -159,7 +159,7 @@ fn random_rectangles_and_events_agree_with_the_plain_model() {
 }
 
 #[test]
-fn a_thousand_random_sequences_leave_no_control_with_half_a_story() {
+fn random_sequences_leave_no_press_key_or_hover_without_its_end() {
     let seed = seed(34);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -176,13 +176,13 @@ fn a_thousand_random_sequences_leave_no_control_with_half_a_story() {
             owner.get(id).passes = random.below(2) == 0;
             owner.get(id).greedy = random.below(6) == 0;
             let other = random.choice(&owner.probes.iter().map(|probe| probe.id).collect::<Vec<_>>());
-            owner.get(id).deed = random.choice(&[
-                Deed::Nothing,
-                Deed::Nothing,
-                Deed::Focus(other),
-                Deed::Unregister(other),
-                Deed::UnregisterSelf,
-                Deed::Register(Area::new(a, b)),
+            owner.get(id).on_press = random.choice(&[
+                PressAction::Nothing,
+                PressAction::Nothing,
+                PressAction::Focus(other),
+                PressAction::Unregister(other),
+                PressAction::UnregisterSelf,
+                PressAction::Register(Area::new(a, b)),
             ]);
         }
         for _ in 0..60 {
@@ -206,30 +206,30 @@ fn a_thousand_random_sequences_leave_no_control_with_half_a_story() {
         framework.null_focus();
         framework.resolve_input(InputEvent::Lost, &mut owner);
         for probe in owner.probes.iter().filter(|probe| framework.area(probe.id).is_some()) {
-            whole_story(&probe.told, probe.greedy);
+            assert_complete(&probe.events, probe.greedy);
         }
     }
 }
 
-/// Everything that began has ended, once.
-fn whole_story(told: &[Told], greedy: bool) {
+/// Asserts that every hover, press, key and focus that started has ended exactly once.
+fn assert_complete(told: &[ProbeEvent], greedy: bool) {
     let (mut entered, mut focused) = (false, false);
     let (mut pressed, mut keys) = (Vec::new(), Vec::new());
     for told in told {
         match *told {
-            Told::Enter => assert!(!std::mem::replace(&mut entered, true)),
-            Told::Leave => assert!(std::mem::replace(&mut entered, false)),
-            Told::Focus => assert!(!std::mem::replace(&mut focused, true)),
-            Told::NoFocus => assert!(std::mem::replace(&mut focused, false)),
-            Told::Down(button) => {
+            ProbeEvent::Enter => assert!(!std::mem::replace(&mut entered, true)),
+            ProbeEvent::Leave => assert!(std::mem::replace(&mut entered, false)),
+            ProbeEvent::Focus => assert!(!std::mem::replace(&mut focused, true)),
+            ProbeEvent::NoFocus => assert!(std::mem::replace(&mut focused, false)),
+            ProbeEvent::Down(button) => {
                 assert!(!pressed.contains(&button), "a press while pressed");
                 pressed.push(button);
             }
-            Told::Up(button) => pressed.retain(|&held| held != button),
-            Told::Lost => pressed.clear(),
-            Told::KeyDown(key, false) => keys.push(key),
-            Told::KeyUp(key) => keys.retain(|&held| held != key),
-            Told::KeyDown(_, true) | Told::Move | Told::Wheel => {}
+            ProbeEvent::Up(button) => pressed.retain(|&held| held != button),
+            ProbeEvent::Lost => pressed.clear(),
+            ProbeEvent::KeyDown(key, false) => keys.push(key),
+            ProbeEvent::KeyUp(key) => keys.retain(|&held| held != key),
+            ProbeEvent::KeyDown(_, true) | ProbeEvent::Move | ProbeEvent::Wheel => {}
         }
     }
     assert!(!entered && pressed.is_empty() && keys.is_empty(), "{told:?}");

@@ -1,6 +1,6 @@
 //! Edits are shown before the document confirms them.
 
-use crate::hands_rig::Hand;
+use crate::viewport_tools_rig::ViewportHarness;
 use dragonfly::panels::echo::Echo;
 use dragonfly_document::edit::{BonePose, BoneRef, DropPending, Edit, ReverseTake, SetPose, TakeRef};
 use dragonfly_document::history::Gesture;
@@ -74,7 +74,7 @@ fn a_view_without_the_newest_edit_does_not_bring_the_old_number_back() {
 }
 
 #[test]
-fn what_the_document_refused_is_dropped() {
+fn an_edit_that_the_document_refuses_is_no_longer_shown() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let before = x_of(shown.as_ref());
@@ -95,7 +95,7 @@ fn a_cancelled_drag_is_undone_at_once() {
 }
 
 #[test]
-fn an_edit_that_is_impossible_here_shows_nothing() {
+fn an_invalid_edit_shows_nothing() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let wrong = Change::Edit(
@@ -107,7 +107,7 @@ fn an_edit_that_is_impossible_here_shows_nothing() {
 }
 
 #[test]
-fn a_model_that_was_opened_meanwhile_is_shown_as_it_is() {
+fn a_model_opened_during_an_edit_is_shown_unchanged() {
     let (first, other) = (fixture::full(), fixture::full());
     let (mut echo, mut shown) = (Echo::default(), Some(first));
     echo.send(&set(3.0, None), &mut shown);
@@ -118,10 +118,11 @@ fn a_model_that_was_opened_meanwhile_is_shown_as_it_is() {
 
 #[test]
 fn the_document_answers_a_numbered_change_that_it_refuses() {
-    let mut hand = Hand::new(open_model);
-    let before = hand.state.read().view.cloned().unwrap();
-    hand.change_numbered(7, Change::Edit(Edit::ReverseTake(ReverseTake { take: TakeRef::Index(99) }), None));
-    assert_eq!(hand.refused.len(), 1);
-    let after = hand.state.read().view.unwrap();
+    let mut viewport = ViewportHarness::new(open_model);
+    let before = viewport.state.read().view.cloned().unwrap();
+    viewport
+        .change_numbered(7, Change::Edit(Edit::ReverseTake(ReverseTake { take: TakeRef::Index(99) }), None));
+    assert_eq!(viewport.refused.len(), 1);
+    let after = viewport.state.read().view.unwrap();
     assert_eq!((after.answered, after.generation), (7, before.generation));
 }

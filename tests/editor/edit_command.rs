@@ -51,7 +51,7 @@ fn without_an_edit_every_file_is_saved_byte_for_byte() {
 }
 
 #[test]
-fn an_edit_is_saved_as_it_was_asked_and_the_rest_of_the_file_keeps_its_bytes() {
+fn an_edit_is_saved_and_the_rest_of_the_file_keeps_its_bytes() {
     let folder = Folder::new("edit-turn");
     let saved = text(&folder.join("turned.glb"));
     let report =
@@ -80,7 +80,7 @@ fn an_edit_is_saved_as_it_was_asked_and_the_rest_of_the_file_keeps_its_bytes() {
 }
 
 #[test]
-fn what_a_save_would_change_is_said_and_nothing_is_written() {
+fn a_dry_run_reports_what_would_change_and_writes_nothing() {
     let folder = Folder::new("edit-dry");
     let edits = edits(&folder, TURN);
     let before: Vec<_> =
@@ -98,7 +98,7 @@ fn what_a_save_would_change_is_said_and_nothing_is_written() {
 }
 
 #[test]
-fn a_name_that_says_another_format_is_refused() {
+fn an_extension_of_another_format_is_refused() {
     let folder = Folder::new("edit-ending");
     let edits = edits(&folder, TURN);
     for ending in ["gltf", "fbx", "DFM"] {
@@ -114,7 +114,7 @@ fn a_name_that_says_another_format_is_refused() {
 }
 
 #[test]
-fn a_file_may_take_its_own_place_and_edits_may_come_from_standard_input() {
+fn a_file_can_be_overwritten_and_edits_read_from_standard_input() {
     let folder = Folder::new("edit-place");
     let file = folder.join("Fox.glb");
     std::fs::copy(data("gltf/Fox.glb"), &file).unwrap();
@@ -132,7 +132,7 @@ fn a_file_may_take_its_own_place_and_edits_may_come_from_standard_input() {
 }
 
 #[test]
-fn a_model_with_files_beside_it_takes_them_along() {
+fn saving_a_model_copies_its_external_files() {
     let folder = Folder::new("edit-beside");
     let source = data("gltf/SimpleSkin2/SimpleSkin.gltf");
     let line = r#"{"edit":"retime_take","take":0,"length":2}"#;
@@ -146,7 +146,7 @@ fn a_model_with_files_beside_it_takes_them_along() {
 }
 
 #[test]
-fn what_cannot_be_done_is_code_2_with_its_line_and_writes_nothing() {
+fn an_invalid_edit_exits_with_2_names_its_line_and_writes_nothing() {
     let folder = Folder::new("edit-wrong");
     let out = folder.join("out.glb");
     for (lines, word) in [
@@ -169,7 +169,7 @@ fn what_cannot_be_done_is_code_2_with_its_line_and_writes_nothing() {
 }
 
 #[test]
-fn a_take_is_given_a_name_that_no_other_has() {
+fn the_name_of_a_take_must_be_unique() {
     let folder = Folder::new("edit-names");
     let output = folder.join("out.glb");
     for (edit, reason) in [
@@ -210,7 +210,7 @@ fn the_list_of_edits_and_their_schema_can_be_read_by_programs() {
 }
 
 #[test]
-fn our_own_format_is_edited_too() {
+fn the_native_format_can_be_edited() {
     let folder = Folder::new("edit-dfm");
     let (dfm, saved) = (folder.join("fox.dfm"), folder.join("saved.dfm"));
     let model = dragonfly_anim::format::read(
@@ -236,7 +236,7 @@ const PLAIN: &str = r#"{"asset":{"version":"2.0"},
                    "samplers":[{"input":0,"output":1}]}]}"#;
 
 #[test]
-fn a_node_that_nothing_moves_any_more_is_named_before_it_is_saved() {
+fn a_node_that_loses_its_animation_is_reported_before_saving() {
     let folder = Folder::new("edit-plain");
     let file = folder.join("plain.gltf");
     std::fs::write(&file, PLAIN).expect("a file");

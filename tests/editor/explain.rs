@@ -137,7 +137,7 @@ fn a_model_without_takes_is_explained_at_rest_and_times_are_clamped() {
 }
 
 #[test]
-fn people_get_formulas_and_sections() {
+fn the_text_output_has_formulas_and_sections() {
     let outcome = run(["explain", &fox(), "--time", "0.35", "--bone", "3"]).expect(0);
     for word in ["Fox.glb", "§2.1.5.2", "§2.1.5.1", "to_parent", "to_root", "final", "before", "mix"] {
         assert!(outcome.text().contains(word), "{word} is missing in\n{}", outcome.text());
@@ -147,7 +147,7 @@ fn people_get_formulas_and_sections() {
 }
 
 #[test]
-fn what_cannot_be_explained_is_code_2_and_says_what() {
+fn a_request_that_cannot_be_explained_exits_with_2_and_gives_the_reason() {
     for (arguments, word) in [
         (vec!["--time", "0"], "--bone"),
         (vec!["--bone", "3"], "--time"),

@@ -17,7 +17,7 @@ fn click(animator: &mut Animator, label: &str) {
 }
 
 #[test]
-fn an_eye_hides_a_bone_and_shows_it_again_with_shift_all_below_it() {
+fn the_eye_button_toggles_a_bone_and_with_shift_its_descendants() {
     let mut animator = Animator::new(fixture::full());
     animator.request(Request::Select(Some(2)));
     let hidden = |animator: &Animator| -> Vec<u32> {
@@ -40,7 +40,7 @@ fn an_eye_hides_a_bone_and_shows_it_again_with_shift_all_below_it() {
 }
 
 #[test]
-fn a_long_name_of_a_take_ends_before_the_buttons_of_the_picture() {
+fn a_long_take_name_is_cut_before_the_viewport_buttons() {
     let mut animator = Animator::new(fixture::full());
     let long = "walk ".repeat(60);
     let rename = Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: long.clone() });

@@ -116,7 +116,7 @@ fn a_device_lost_at_any_wait_gives_the_same_picture_again() {
 }
 
 #[test]
-fn memory_that_runs_out_is_an_error_and_no_crash() {
+fn out_of_memory_is_an_error_and_no_crash() {
     let _one = alone();
     // Fails the first allocation of a device, then the second, … up to the hundredth, as long as the program makes that many.
     let layer = Layer::new("memory");
@@ -194,7 +194,7 @@ fn a_device_lost_while_an_image_is_shown_comes_back() {
 }
 
 #[test]
-fn a_surface_that_is_lost_outdated_or_unfit_is_made_anew() {
+fn a_surface_that_is_lost_outdated_or_suboptimal_is_recreated() {
     let _one = alone();
     let kinds: Vec<(&str, i32, usize, &str)> = ["acquire", "present"]
         .into_iter()
@@ -204,7 +204,7 @@ fn a_surface_that_is_lost_outdated_or_unfit_is_made_anew() {
 }
 
 #[test]
-fn without_any_driver_there_is_a_message_and_what_needs_none_works() {
+fn without_a_driver_there_is_a_message_and_other_commands_work() {
     let folder = Folder::new("driverless");
     let without = |arguments: &[&str]| {
         let mut command = dragonfly(arguments);
@@ -225,7 +225,7 @@ fn without_any_driver_there_is_a_message_and_what_needs_none_works() {
 }
 
 #[test]
-fn a_window_without_any_driver_says_so_and_ends() {
+fn a_window_without_a_driver_reports_it_and_exits() {
     let _one = alone();
     let screen = Screen::new("driverless-window", 640, 480);
     let mut command = dragonfly(["demo:"]);
@@ -239,7 +239,7 @@ fn a_window_without_any_driver_says_so_and_ends() {
 }
 
 #[test]
-fn a_display_that_does_not_answer_is_no_display() {
+fn a_display_that_does_not_respond_counts_as_missing() {
     let folder = Folder::new("deaf");
     let mut command = dragonfly::<&str>([]);
     command.env("DISPLAY", ":65432").current_dir(folder.path());

@@ -174,7 +174,7 @@ fn hostile_names_of_files_are_refused_by_the_program_itself() {
 }
 
 #[test]
-fn names_that_can_only_do_harm_are_refused_before_the_disk_is_asked() {
+fn harmful_names_are_refused_before_any_disk_access() {
     let place = Place::new("names");
     let folder = place.folder();
     for name in [

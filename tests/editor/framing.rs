@@ -14,7 +14,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 #[test]
-fn all_is_framed_as_it_stands_now() {
+fn framing_uses_the_current_pose() {
     let source = Source::File(data("gltf/Fox.glb"));
     let mut loaded = load_model(&source, &mut |_| {}, &Cancel::default()).expect("Fox opens");
     // The take moves the model far away from its rest position.
@@ -42,7 +42,7 @@ fn all_is_framed_as_it_stands_now() {
 }
 
 #[test]
-fn a_skeleton_without_any_surface_is_seen() {
+fn a_skeleton_without_meshes_is_shown_and_framed() {
     let source = Source::File(data("gltf/Fox_skeleton.glb"));
     let loaded = Arc::new(load_model(&source, &mut |_| {}, &Cancel::default()).unwrap());
     let (animation, warnings) = (&loaded.model.animation, &loaded.warnings);

@@ -96,7 +96,7 @@ impl Window {
 }
 
 #[test]
-fn a_handle_is_dragged_and_what_misses_it_goes_to_the_picture() {
+fn a_handle_is_dragged_and_input_that_misses_it_goes_to_the_viewport() {
     let mut window = Window::new();
     let (own, picture) = (window.owner.gizmo.0, window.owner.picture.0);
     assert_eq!(window.to(CORNER + Vec2::splat(20.0)), Some(picture));
@@ -132,7 +132,7 @@ fn a_handle_is_dragged_and_what_misses_it_goes_to_the_picture() {
 }
 
 #[test]
-fn a_press_on_a_handle_that_does_not_move_is_a_click_on_what_lies_behind_and_changes_nothing() {
+fn a_click_on_a_handle_goes_to_the_control_behind_and_changes_nothing() {
     for (by, click) in [(0.0, true), (1.0, true), (2.5, false)] {
         let mut window = Window::new();
         let tip = window.tip;
@@ -149,7 +149,7 @@ fn a_press_on_a_handle_that_does_not_move_is_a_click_on_what_lies_behind_and_cha
 }
 
 #[test]
-fn escape_the_right_button_and_lost_input_take_the_drag_back() {
+fn escape_the_right_button_and_lost_input_cancel_the_drag() {
     for end in [InputEvent::KeyDown(Key::Escape), InputEvent::MouseDown(Button::Right), InputEvent::Lost] {
         let mut window = Window::new();
         let tip = window.tip;
@@ -167,7 +167,7 @@ fn escape_the_right_button_and_lost_input_take_the_drag_back() {
 }
 
 #[test]
-fn begun_by_a_key_it_has_mouse_and_keyboard_until_a_click() {
+fn a_drag_started_by_a_key_captures_mouse_and_keyboard_until_a_click() {
     let mut window = Window::new();
     let (own, at) = (window.owner.gizmo.0, CORNER + Vec2::splat(20.0));
     window.to(at);

@@ -76,7 +76,7 @@ fn a_ring_dragged_by_30_degrees_turns_by_30_degrees_about_its_axis() {
 }
 
 #[test]
-fn turns_are_counted_beyond_the_first() {
+fn a_ring_counts_more_than_one_full_rotation() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let joint = rig.joint(BONE);
     let on_ring = |degrees: f32| {
@@ -129,7 +129,7 @@ fn a_ring_seen_edge_on_turns_like_a_wheel() {
 }
 
 #[test]
-fn the_ball_turns_as_if_held_at_the_pointer() {
+fn the_ball_rotates_with_the_pointer() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, GizmoSpace::Local);
     let start = screen.at(rig.joint(BONE));
@@ -144,7 +144,7 @@ fn the_ball_turns_as_if_held_at_the_pointer() {
 }
 
 #[test]
-fn an_arrow_and_a_square_move_by_what_they_are_dragged() {
+fn arrows_and_squares_move_by_the_dragged_distance() {
     let rig = Rig::new();
     let joint = rig.joint(BONE);
     for screen in Screen::all() {
@@ -429,7 +429,7 @@ fn a_drag_allocates_nothing_per_move() {
 }
 
 #[test]
-fn whatever_comes_every_pose_stays_finite() {
+fn any_input_leaves_every_pose_finite() {
     let seed = seed(43);
     println!("seed {seed}");
     let mut random = Random::new(seed);

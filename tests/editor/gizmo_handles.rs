@@ -22,7 +22,7 @@ fn gizmo(rig: &Rig, screen: &Screen, tool: Tool, space: GizmoSpace) -> Gizmo {
 }
 
 #[test]
-fn every_handle_is_met_where_it_is_drawn_on_every_screen() {
+fn every_handle_is_hit_where_it_is_drawn_on_every_screen() {
     let rig = Rig::new();
     let joint = rig.joint(BONE);
     for screen in Screen::all() {
@@ -68,7 +68,7 @@ fn every_handle_is_met_where_it_is_drawn_on_every_screen() {
 }
 
 #[test]
-fn a_gizmo_is_as_large_on_every_screen() {
+fn a_gizmo_has_the_same_size_on_every_screen() {
     let rig = Rig::new();
     let mut shape = GizmoShape::default();
     for screen in Screen::all() {
@@ -107,7 +107,7 @@ fn lines_come_before_squares_and_squares_before_the_middle() {
 }
 
 #[test]
-fn behind_the_eye_there_is_nothing_to_take_hold_of() {
+fn no_handle_can_be_hit_behind_the_camera() {
     let (rig, mut screen) = (Rig::new(), Screen::plain());
     screen.camera.target = rig.joint(BONE) + screen.camera.back() * -10.0;
     screen.camera.distance = 1.0;
@@ -125,7 +125,7 @@ fn has(list: &[GizmoVertex], role: GizmoRole) -> bool {
 }
 
 #[test]
-fn what_is_drawn_shows_what_is_hovered_and_what_is_dragged() {
+fn hovered_and_dragged_handles_are_highlighted() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let mut shape = GizmoShape::default();
     for tool in TOOLS {

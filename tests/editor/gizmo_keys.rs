@@ -100,7 +100,7 @@ fn typed_angles_are_degrees_and_typed_factors_are_factors() {
 }
 
 #[test]
-fn random_numbers_are_taken_as_they_are_typed() {
+fn random_typed_numbers_are_applied_exactly() {
     let seed = seed(51);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -114,7 +114,7 @@ fn random_numbers_are_taken_as_they_are_typed() {
 }
 
 #[test]
-fn an_axis_key_binds_again_changes_the_space_and_again_sets_free() {
+fn an_axis_key_locks_the_axis_then_changes_the_space_then_unlocks() {
     for (space, other) in [
         (GizmoSpace::Local, GizmoSpace::World),
         (GizmoSpace::Parent, GizmoSpace::World),
@@ -143,7 +143,7 @@ fn an_axis_key_binds_again_changes_the_space_and_again_sets_free() {
 }
 
 #[test]
-fn a_bound_drag_is_measured_from_where_it_began() {
+fn an_axis_locked_drag_is_measured_from_its_start() {
     let (_, mut gizmo) = dragging(Tool::Move, GizmoSpace::World);
     gizmo.pointer(Vec2::new(300.0, 100.0), NONE);
     press(&mut gizmo, "y");
@@ -156,7 +156,7 @@ fn a_bound_drag_is_measured_from_where_it_began() {
 }
 
 #[test]
-fn what_is_no_number_yet_keeps_the_last_one_and_says_so() {
+fn an_incomplete_number_keeps_the_last_one_and_is_marked() {
     let (_, mut gizmo) = dragging(Tool::Move, GizmoSpace::World);
     gizmo.pointer(Vec2::new(300.0, 100.0), NONE);
     let dragged = delta(&gizmo);
@@ -177,7 +177,7 @@ fn what_is_no_number_yet_keeps_the_last_one_and_says_so() {
 }
 
 #[test]
-fn keys_mean_nothing_without_a_drag() {
+fn keys_do_nothing_without_a_drag() {
     let mut gizmo = Gizmo::new(Tool::Move);
     assert_eq!(press(&mut gizmo, "x12\n"), GizmoAnswer::Ignored);
     assert!(!gizmo.begin(None, Vec2::ONE), "nothing is selected");

@@ -29,7 +29,7 @@ fn near(a: Vec3, b: Vec3) -> bool {
 }
 
 #[test]
-fn what_hangs_on_a_selected_bone_is_not_moved_twice() {
+fn descendants_of_a_selected_bone_are_not_moved_twice() {
     let rig = Rig::new();
     for pivot in [Pivot::Individual, Pivot::Median, Pivot::Active] {
         let gizmo = dragged(&rig, Tool::Move, settings(GizmoSpace::World, pivot), &[2, 1, 3], "y2");
@@ -47,7 +47,7 @@ fn what_hangs_on_a_selected_bone_is_not_moved_twice() {
 }
 
 #[test]
-fn about_a_common_middle_the_selection_turns_and_grows_as_one() {
+fn about_a_common_pivot_the_selection_rotates_and_scales_as_one() {
     let rig = Rig::new();
     let before = rig.to_root();
     let joints = [1, 3].map(|bone| rig.joint(bone));
@@ -88,7 +88,7 @@ fn each_about_its_own_joint_keeps_its_place() {
 }
 
 #[test]
-fn what_is_done_in_the_plane_of_the_picture_is_the_same_for_all() {
+fn a_drag_in_the_view_plane_moves_all_bones_equally() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let before = rig.to_root();
     for tool in [Tool::Move, Tool::Rotate] {
@@ -128,7 +128,7 @@ fn under(scale: Vec3) -> Rig {
 }
 
 #[test]
-fn under_a_mirrored_parent_the_world_is_the_world() {
+fn under_a_mirrored_parent_world_axes_are_exact() {
     for scale in [Vec3::new(-1.0, 1.0, 1.0), Vec3::new(2.0, -2.0, 2.0), Vec3::splat(-1.5)] {
         let rig = under(scale);
         let before = rig.to_root()[1];
@@ -184,7 +184,7 @@ fn a_ball_and_a_ring_follow_the_pointer_under_a_mirrored_parent_too() {
 }
 
 #[test]
-fn under_an_uneven_parent_joints_go_where_they_should_and_own_axes_are_exact() {
+fn under_a_nonuniformly_scaled_parent_joints_and_local_axes_are_exact() {
     for scale in [Vec3::new(3.0, 0.5, 1.0), Vec3::new(-2.0, 1.0, 0.3)] {
         let rig = under(scale);
         let start = rig.poses[1];

@@ -22,7 +22,7 @@ const MOVE: &str = "Move, rib_00_left_middle  ·  Survey";
 const SCALE: &str = "Scale, rib_00_left_middle  ·  Survey";
 
 #[test]
-fn the_list_says_what_was_done_to_what() {
+fn the_list_names_each_edit_and_its_target() {
     let mut window = window();
     assert_eq!(window.query_all_by_label(MOVE).count(), 2);
     assert!(
@@ -44,7 +44,7 @@ fn the_list_says_what_was_done_to_what() {
 }
 
 #[test]
-fn the_saved_place_is_marked() {
+fn the_saved_step_is_marked() {
     let mut window = window();
     window.state_mut().edited.as_mut().unwrap().mark_saved();
     window.state_mut().change(dragonfly_document::Change::Undo);
@@ -66,7 +66,7 @@ fn the_list_is_used_with_the_keyboard() {
 }
 
 #[test]
-fn the_list_follows_and_draws_only_what_is_seen() {
+fn the_list_scrolls_along_and_draws_only_visible_rows() {
     let mut window = window();
     for step in 0..3000 {
         let name = format!("Take {step}");
@@ -85,7 +85,7 @@ fn the_list_follows_and_draws_only_what_is_seen() {
 }
 
 #[test]
-fn the_menu_says_what_it_would_undo() {
+fn the_menu_names_the_step_to_undo() {
     let mut window = window();
     window.state_mut().change(dragonfly_document::Change::Undo);
     window.run_steps(2);

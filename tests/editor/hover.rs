@@ -8,7 +8,7 @@ fn at(x: f32) -> Option<HoverPoint> {
 }
 
 #[test]
-fn one_question_is_on_its_way_and_then_the_newest_place_is_asked() {
+fn one_pick_is_in_flight_and_the_newest_position_follows() {
     let mut hover = Hover::default();
     assert!(hover.asks(at(0.0), 1));
     for x in 1..100 {
@@ -21,7 +21,7 @@ fn one_question_is_on_its_way_and_then_the_newest_place_is_asked() {
 }
 
 #[test]
-fn a_pointer_at_rest_asks_once() {
+fn a_resting_pointer_picks_once() {
     let mut hover = Hover::default();
     assert!(hover.asks(at(5.0), 1));
     assert!(hover.answered(1));
@@ -33,7 +33,7 @@ fn a_pointer_at_rest_asks_once() {
 }
 
 #[test]
-fn an_answer_comes_too_late_for_a_pointer_that_left() {
+fn a_late_pick_is_ignored_after_the_pointer_left() {
     let mut hover = Hover::default();
     assert!(hover.asks(at(5.0), 1));
     assert!(!hover.asks(None, 2));

@@ -72,7 +72,7 @@ fn a_save_writes_what_the_command_line_writes_and_announces_the_same_changes() {
 }
 
 #[test]
-fn a_file_that_somebody_else_changed_is_overwritten_only_when_asked_for_and_its_version_is_kept() {
+fn a_file_changed_elsewhere_is_overwritten_only_on_request_with_a_backup() {
     let folder = Folder::new("saving-changed");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let mut desk = TestDocument::new(&autosave);
@@ -141,7 +141,7 @@ fn saved_as_another_file_it_is_that_file_and_the_first_one_has_nothing_unsaved()
 }
 
 #[test]
-fn a_copy_leaves_what_is_open_as_unsaved_as_it_was() {
+fn saving_a_copy_does_not_change_the_unsaved_state() {
     let folder = Folder::new("saving-copy");
     let path = fox(&folder);
     let mut desk = TestDocument::new(&folder.join("autosave"));
@@ -157,7 +157,7 @@ fn a_copy_leaves_what_is_open_as_unsaved_as_it_was() {
 }
 
 #[test]
-fn another_file_is_replaced_only_when_asked_for_and_another_format_is_refused() {
+fn another_file_is_replaced_only_on_request_and_another_format_is_refused() {
     let folder = Folder::new("saving-exists");
     let path = fox(&folder);
     let other = folder.join("other.glb");
@@ -180,7 +180,7 @@ fn another_file_is_replaced_only_when_asked_for_and_another_format_is_refused() 
 }
 
 #[test]
-fn reverting_goes_back_to_what_is_saved_and_can_be_taken_back() {
+fn reverting_restores_the_saved_state_and_can_be_undone() {
     let folder = Folder::new("saving-revert");
     let path = fox(&folder);
     let mut desk = TestDocument::new(&folder.join("autosave"));
@@ -208,7 +208,7 @@ fn reverting_goes_back_to_what_is_saved_and_can_be_taken_back() {
 }
 
 #[test]
-fn what_has_no_file_asks_where_and_leaving_asks_only_while_something_is_unsaved() {
+fn saving_without_a_file_asks_for_a_path_and_closing_asks_if_unsaved() {
     let folder = Folder::new("saving-nowhere");
     let mut desk = TestDocument::new(&folder.join("autosave"));
     let leave = |desk: &mut TestDocument| {

@@ -14,7 +14,7 @@ fn of(preset: Preset) -> Keymap {
 }
 
 #[test]
-fn no_key_gives_two_commands_in_any_preset() {
+fn no_shortcut_runs_two_commands_in_any_preset() {
     for preset in Preset::ALL {
         let keymap = of(*preset);
         let mut seen = HashMap::new();
@@ -35,7 +35,7 @@ fn no_key_gives_two_commands_in_any_preset() {
 }
 
 #[test]
-fn what_every_program_needs_has_a_key_in_every_preset() {
+fn essential_commands_have_a_shortcut_in_every_preset() {
     for preset in Preset::ALL {
         let keymap = of(*preset);
         for id in [Id::Open, Id::Undo, Id::Redo, Id::PlayPause, Id::PreviousFrame, Id::NextFrame, Id::Palette]
@@ -62,7 +62,7 @@ fn every_shortcut_reads_back_from_its_text() {
 }
 
 #[test]
-fn a_chosen_key_is_taken_from_who_had_it_and_survives_the_settings_file() {
+fn a_new_shortcut_is_removed_from_its_old_command_and_saved_in_the_settings() {
     let mut settings = Settings::default();
     settings.keys.set(Id::FrameAll, &[KeyboardShortcut::new(Modifiers::COMMAND, Key::Z)]);
     let settings = Settings::parse(&settings.to_text());
@@ -75,7 +75,7 @@ fn a_chosen_key_is_taken_from_who_had_it_and_survives_the_settings_file() {
 }
 
 #[test]
-fn unknown_names_and_keys_in_the_settings_are_passed_over() {
+fn unknown_names_and_keys_in_the_settings_are_ignored() {
     let text =
         r#"{"keys": {"preset": "Maya", "own": {"Nonsense": ["Ctrl+Z"], "Undo": ["Ctrl+U", "no key"]}}}"#;
     let keymap = Keymap::new(Settings::parse(text).keys);
@@ -116,7 +116,7 @@ fn a_key_is_chosen_in_the_sheet_by_pressing_it() {
 }
 
 #[test]
-fn the_palette_says_why_a_command_cannot_be_given() {
+fn the_palette_gives_the_reason_why_a_command_is_disabled() {
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.execute(dragonfly::panels::Request::Command(Id::Undo));
     let line = bench.state.read().status.lines().last().map(|line| line.text.clone());

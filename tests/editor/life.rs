@@ -9,7 +9,7 @@ fn the_steps_are_the_eleven_of_the_thesis() {
 }
 
 #[test]
-fn a_start_that_fails_may_leave_steps_out() {
+fn a_failed_start_can_skip_steps() {
     let mut timeline = StepTrace::default();
     timeline.reach(Step::MainFunction);
     timeline.reach(Step::MainRuntime);
@@ -20,7 +20,7 @@ fn a_start_that_fails_may_leave_steps_out() {
 #[test]
 #[cfg(debug_assertions)]
 #[should_panic(expected = "GraphicsDestruction")]
-fn the_window_does_not_go_before_the_device() {
+fn the_window_is_not_dropped_before_the_device() {
     let mut timeline = StepTrace::default();
     timeline.reach(Step::GraphicsDestruction);
     timeline.reach(Step::EditorRuntimeDestruction);

@@ -43,7 +43,7 @@ fn bones(animator: &Animator) -> Vec<BoneRef> {
 }
 
 #[test]
-fn what_is_typed_for_a_drag_that_was_refused_is_no_command() {
+fn keys_typed_after_a_refused_drag_run_no_command() {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Keys(KeySettings { preset: Preset::Blender, ..KeySettings::default() }));
     animator.request(Request::Command(Id::ToggleGrid));
@@ -100,7 +100,7 @@ fn a_pose_is_pasted_on_all_bones_but_the_locked_ones() {
 }
 
 #[test]
-fn what_is_pending_of_a_locked_bone_is_neither_keyed_nor_dropped() {
+fn the_pending_pose_of_a_locked_bone_is_neither_keyed_nor_dropped() {
     for command in [Id::KeyAllPending, Id::Key, Id::DropPending] {
         let mut animator = Animator::with_bone(LEFT);
         animator.request(Request::Seek(0.5));
@@ -126,7 +126,7 @@ fn what_is_pending_of_a_locked_bone_is_neither_keyed_nor_dropped() {
 }
 
 #[test]
-fn keys_are_added_to_all_that_is_free_and_nothing_is_keyed_that_did_not_move() {
+fn keys_are_added_to_unlocked_bones_that_moved_only() {
     let mut animator = Animator::with_bone(LEFT);
     lock(&mut animator, LEFT, true);
     animator.harness.state_mut().state.execute(Request::Select(None));
@@ -146,7 +146,7 @@ fn keys_are_added_to_all_that_is_free_and_nothing_is_keyed_that_did_not_move() {
 }
 
 #[test]
-fn a_locked_bone_is_not_turned_to_another_one_and_it_is_said_why() {
+fn a_locked_bone_cannot_be_aimed_and_a_message_gives_the_reason() {
     let mut animator = Animator::with_bone(LEFT);
     lock(&mut animator, LEFT, true);
     animator.harness.state_mut().state.execute(Request::SelectBones(vec![LEFT, RIGHT], Choice::Replace));
@@ -156,7 +156,7 @@ fn a_locked_bone_is_not_turned_to_another_one_and_it_is_said_why() {
 }
 
 #[test]
-fn what_is_done_to_the_whole_take_goes_for_locked_bones_too() {
+fn edits_of_the_whole_take_include_locked_bones() {
     let mut animator = Animator::with_bone(LEFT);
     lock(&mut animator, LEFT, true);
     let before = animator.times(LEFT as usize);

@@ -20,7 +20,7 @@ fn palette(text: &str) -> Harness<'static, Bench> {
 }
 
 #[test]
-fn the_palette_runs_what_is_found() {
+fn the_palette_runs_the_command_found() {
     let mut harness = palette("ground");
     harness.key_press(egui::Key::Enter);
     harness.run_steps(4);
@@ -41,7 +41,7 @@ fn the_palette_shows_a_take_that_is_searched() {
 }
 
 #[test]
-fn the_palette_lists_what_is_called_so_before_what_is_about_it_and_shows_all_of_its_rows() {
+fn the_palette_lists_title_matches_first_and_shows_every_row() {
     let harness = palette("local");
     let place = |label: &str| {
         let mut rows = harness.query_all_by_label(label);

@@ -119,7 +119,7 @@ fn the_panels_are_drawn_empty_full_and_loading() {
 }
 
 #[test]
-fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
+fn an_edit_and_its_undo_are_each_reported_once() {
     use crate::timeline_rig::Animator;
     use dragonfly::panels::commands::Id;
     let mut animator = Animator::new(fixture::full());
@@ -160,7 +160,7 @@ fn what_was_done_is_said_once_and_so_is_that_it_was_undone() {
 }
 
 #[test]
-fn keys_that_give_way_to_others_are_counted() {
+fn overwritten_keys_are_counted() {
     use crate::timeline_rig::Animator;
     use dragonfly::panels::commands::Id;
     use dragonfly::panels::keys::KeysRequest;
@@ -241,7 +241,7 @@ fn what_is_part_of_the_program_and_was_saved_is_a_file() {
 }
 
 #[test]
-fn a_low_picture_has_all_tools_of_the_hand() {
+fn a_low_viewport_shows_all_tool_buttons() {
     for height in [700.0, 720.0, 1100.0] {
         let bench = Bench::new(Some(fixture::full()));
         let mut harness = harness_of(bench, egui::vec2(1280.0, height), 1.0, egui::Theme::Dark);
@@ -255,7 +255,7 @@ fn a_low_picture_has_all_tools_of_the_hand() {
 }
 
 #[test]
-fn nothing_moves_behind_a_question() {
+fn playback_is_paused_while_a_question_is_open() {
     use dragonfly::panels::prompts::Question;
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.execute(Request::Command(Id::PlayPause));
@@ -270,7 +270,7 @@ fn nothing_moves_behind_a_question() {
 }
 
 #[test]
-fn every_panel_draws_nothing_an_empty_file_and_a_full_one() {
+fn every_panel_draws_no_model_an_empty_one_and_a_full_one() {
     for view in [None, Some(fixture::empty()), Some(fixture::full())] {
         for theme in [egui::Theme::Dark, egui::Theme::Light] {
             for size in [egui::vec2(1280.0, 720.0), egui::vec2(320.0, 240.0), egui::vec2(40.0, 30.0)] {
@@ -358,7 +358,7 @@ fn the_search_finds_bones_and_shows_where_they_hang() {
 }
 
 #[test]
-fn enter_in_the_search_takes_the_bone_called_so_or_else_the_first() {
+fn enter_in_the_search_selects_the_exact_match_or_the_first() {
     let mut skeleton = fixture::skeleton(9);
     // A name that holds another one, and comes before it.
     skeleton.bones[1].name = "spine_05_helper".to_owned();
@@ -380,7 +380,7 @@ fn enter_in_the_search_takes_the_bone_called_so_or_else_the_first() {
 }
 
 #[test]
-fn keys_that_are_typed_do_not_play() {
+fn typing_in_a_field_does_not_start_playback() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
     harness.key_press(egui::Key::Space);
@@ -447,7 +447,7 @@ fn a_press_on_the_timeline_moves_the_time_before_it_is_a_click_or_a_drag() {
 }
 
 #[test]
-fn a_drag_that_a_command_waits_for_is_announced_beside_the_pointer() {
+fn a_drag_started_by_a_command_shows_a_hint_next_to_the_pointer() {
     use dragonfly::panels::commands::Id;
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
@@ -461,7 +461,7 @@ fn a_drag_that_a_command_waits_for_is_announced_beside_the_pointer() {
 }
 
 #[test]
-fn escape_closes_a_menu_and_leaves_what_is_selected() {
+fn escape_closes_a_menu_and_keeps_the_selection() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.state_mut().state.execute(Request::Select(Some(3)));
     harness.run_steps(4);
@@ -478,7 +478,7 @@ fn escape_closes_a_menu_and_leaves_what_is_selected() {
 }
 
 #[test]
-fn keys_do_nothing_to_the_desk_behind_what_lies_over_it() {
+fn keys_do_not_reach_panels_behind_a_dialog() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.state_mut().state.execute(Request::Select(Some(3)));
     harness.state_mut().state.execute(Request::Command(dragonfly::panels::commands::Id::About));
@@ -496,7 +496,7 @@ fn keys_do_nothing_to_the_desk_behind_what_lies_over_it() {
 }
 
 #[test]
-fn what_reaches_beyond_the_panels_comes_back_as_an_effect() {
+fn requests_that_leave_the_panels_become_effects() {
     let mut harness = harness(Bench::new(None));
     harness.run_steps(4);
     harness.get_by_label("Open a model…").click();
@@ -553,7 +553,7 @@ fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
 }
 
 #[test]
-fn a_model_is_called_as_it_was_saved_last() {
+fn a_model_has_the_name_it_was_last_saved_under() {
     let mut view = fixture::full();
     let file = FileView { title: "renamed.glb".to_owned(), path: Some("renamed.glb".into()) };
     view.file = std::sync::Arc::new(file);

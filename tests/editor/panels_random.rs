@@ -134,7 +134,7 @@ fn run(window: &mut Window, random: &mut Random, events: usize, texts: &[String]
 
 /// Fields for names and for words that something is looked for with.
 #[test]
-fn any_text_is_looked_for() {
+fn any_text_can_be_searched_for() {
     let seed = seed(0x5ea4);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -185,7 +185,7 @@ fn any_text_is_a_name_or_is_refused_and_changes_nothing() {
 }
 
 #[test]
-fn random_events_break_nothing() {
+fn random_events_never_panic() {
     let seed = seed(0xDA);
     println!("seed {seed}");
     let mut random = Random::new(seed);

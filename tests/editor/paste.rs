@@ -134,7 +134,7 @@ fn names_that_count_against_each_other_are_paired_by_where_the_bones_stand() {
 }
 
 #[test]
-fn pasting_puts_on_what_there_is_and_passes_over_other_models_bones() {
+fn pasting_applies_known_bones_and_skips_unknown_ones() {
     let mut model = model(1);
     let paste = |poses: Vec<BonePose>, mirrored, pending| {
         Edit::PastePose(PastePose { take: walk(), time: 0.3, poses, mirrored, pending, unstep: false })
@@ -156,7 +156,7 @@ fn pasting_puts_on_what_there_is_and_passes_over_other_models_bones() {
 }
 
 #[test]
-fn the_clipboard_holds_text_and_anything_else_is_no_pose() {
+fn clipboard_text_that_is_no_pose_is_refused() {
     let poses = vec![BonePose { translation: Some([0.1, 2.0, -3.5]), ..pose("hand.L") }];
     assert_eq!(from_text(&to_text(&poses)), Some(poses.clone()));
     assert_eq!(from_text(&format!("  {}\n", to_text(&poses))), Some(poses));

@@ -128,7 +128,7 @@ fn one(bone: &str, interpolation: KeyInterpolation, keys: Vec<CopiedKey>) -> Vec
 }
 
 #[test]
-fn a_channel_without_keys_gets_the_way_of_the_keys_and_a_spline_gets_tangents() {
+fn a_channel_without_keys_gets_the_pasted_interpolation_and_a_spline_gets_tangents() {
     let mut model = model(9);
     let keys = vec![key(0.0, &[0.0; 3]), key(1.0, &[1.0, 0.0, 0.0]), key(2.0, &[4.0, 0.0, 0.0])];
     model.apply(&paste(walk(), 0.5, one("still", KeyInterpolation::Step, keys.clone()))).unwrap();
@@ -148,7 +148,7 @@ fn a_channel_without_keys_gets_the_way_of_the_keys_and_a_spline_gets_tangents() 
 }
 
 #[test]
-fn what_cannot_be_a_key_is_refused_and_other_models_bones_are_passed_over() {
+fn invalid_keys_are_refused_and_unknown_bones_skipped() {
     let mut model = model(10);
     let before = model.slots()[0].clone();
     for (time, channels) in [
@@ -193,7 +193,7 @@ fn said(animator: &Animator) -> String {
 }
 
 #[test]
-fn ctrl_c_copies_keys_where_the_timeline_has_the_hand_and_the_pose_elsewhere() {
+fn ctrl_c_copies_keys_in_the_timeline_and_the_pose_elsewhere() {
     let mut animator = Animator::with_bone(3);
     animator.click(animator.at(animator.key(8), 2));
     animator.hold(Modifiers::SHIFT);
@@ -239,7 +239,7 @@ fn ctrl_c_copies_keys_where_the_timeline_has_the_hand_and_the_pose_elsewhere() {
 }
 
 #[test]
-fn keys_go_to_as_many_other_bones_as_are_selected_and_into_another_take() {
+fn keys_are_pasted_onto_the_same_number_of_bones_and_into_another_take() {
     let mut animator = Animator::with_bone(3);
     animator.click(animator.at(animator.key(8), 2));
     animator.request(Request::Command(Id::Copy));

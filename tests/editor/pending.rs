@@ -70,7 +70,7 @@ fn a_pending_pose_changes_no_key_and_is_kept_to_the_channel() {
 }
 
 #[test]
-fn keying_makes_keys_of_exactly_what_was_seen() {
+fn keying_stores_exactly_the_pose_that_was_shown() {
     let mut model = model(2);
     model.apply(&pend(0.3, vec![moved("hip", [1.0, 2.0, 3.0])])).unwrap();
     model.apply(&pend(0.6, vec![moved("root", [7.0, 0.0, 0.0])])).unwrap();
@@ -88,7 +88,7 @@ fn keying_makes_keys_of_exactly_what_was_seen() {
 }
 
 #[test]
-fn dropping_takes_away_what_is_named_and_undo_brings_it_back() {
+fn dropping_removes_the_named_pending_poses_and_undo_restores_them() {
     let mut edited = Edited::new(model(3));
     edited.apply(pend(0.3, vec![moved("hip", [1.0; 3]), moved("root", [2.0; 3])]), None).unwrap();
     let take = walk();
@@ -107,7 +107,7 @@ fn dropping_takes_away_what_is_named_and_undo_brings_it_back() {
 }
 
 #[test]
-fn a_key_that_is_set_counts_more_than_what_was_pending_there() {
+fn a_new_key_replaces_the_pending_pose_at_its_time() {
     let mut model = model(4);
     let turn = BonePose { rotation: Some([0.0, 0.6, 0.0, 0.8]), ..moved("hip", [1.0, 0.0, 0.0]) };
     model.apply(&pend(0.3, vec![turn])).unwrap();
@@ -161,7 +161,7 @@ fn pending_poses_go_along_with_the_take() {
 }
 
 #[test]
-fn what_cannot_be_a_pose_is_not_pending_either() {
+fn an_invalid_pose_cannot_become_pending() {
     let mut model = model(6);
     let wrong = [
         pend(f32::NAN, vec![moved("hip", [0.0; 3])]),
@@ -198,7 +198,7 @@ fn shown(view: &View, edited: &Edited) -> View {
 }
 
 #[test]
-fn panels_and_picture_show_the_same_pending_pose_where_time_stands() {
+fn panels_and_viewport_show_the_same_pending_pose_at_the_playhead() {
     let (view, _) = pending_view([0.0, 100.0, 0.0]);
     let mut bench = Bench::new(Some(view.clone()));
     let state = &mut bench.state;
@@ -265,7 +265,7 @@ fn the_key_command_keys_what_is_pending_here_and_else_the_selected_bones() {
 }
 
 #[test]
-fn how_many_poses_wait_is_said_and_a_click_goes_there() {
+fn the_number_of_pending_poses_is_shown_and_a_click_seeks_to_one() {
     let (view, _) = pending_view([0.0, 1.0, 0.0]);
     let mut harness = harness_of(Bench::new(Some(view)), egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
     harness.run_steps(3);

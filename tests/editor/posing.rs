@@ -112,7 +112,7 @@ fn a_pinned_foot_stays_where_and_how_it_is_while_the_hips_move() {
 }
 
 #[test]
-fn a_hand_that_is_moved_takes_its_arm_along_however_long_the_row_is() {
+fn moving_an_end_bone_moves_a_chain_of_any_length() {
     let first = seed(72);
     for number in first..first + 200 {
         let mut random = Random::new(number);
@@ -138,7 +138,7 @@ fn a_hand_that_is_moved_takes_its_arm_along_however_long_the_row_is() {
 }
 
 #[test]
-fn what_is_out_of_reach_is_come_near_to_with_a_straight_row() {
+fn a_target_out_of_reach_straightens_the_chain() {
     let rig = figure(&mut Random::new(3));
     for length in [2, 3] {
         let mut hold = hold(&rig, &[], length);
@@ -201,7 +201,7 @@ fn joint_limits_are_kept() {
 }
 
 #[test]
-fn whatever_comes_in_only_numbers_come_out() {
+fn any_input_gives_finite_output() {
     let first = seed(74);
     for number in first..first + 300 {
         let mut random = Random::new(number);
@@ -242,7 +242,7 @@ fn whatever_comes_in_only_numbers_come_out() {
 }
 
 #[test]
-fn bones_look_where_they_are_told() {
+fn bones_aim_at_their_target() {
     let first = seed(75);
     for number in first..first + 100 {
         let mut random = Random::new(number);
@@ -256,7 +256,7 @@ fn bones_look_where_they_are_told() {
 }
 
 #[test]
-fn a_move_of_the_hand_allocates_nothing_that_grows_with_the_model() {
+fn solving_a_chain_allocates_nothing_that_grows_with_the_model() {
     let bytes = |more: usize| {
         let rig = figure(&mut Random::new(9));
         let mut parents = PARENTS.to_vec();

@@ -28,7 +28,7 @@ fn is_marked(field: &egui_kittest::Node<'_>) -> bool {
 }
 
 #[test]
-fn a_typed_number_is_the_pose() {
+fn a_typed_number_sets_the_pose() {
     let mut window = window();
     let before = window.state().pose(3);
     type_into(&mut window, "Translation result Y", "1/4 + 10cm", Key::Enter);
@@ -45,7 +45,7 @@ fn a_typed_number_is_the_pose() {
 }
 
 #[test]
-fn tab_goes_on_to_the_next_number_and_enter_gives_the_keys_back() {
+fn tab_moves_to_the_next_number_and_enter_releases_the_keyboard() {
     let mut window = window();
     window.get_by_label("Translation result X").click();
     window.run_steps(2);
@@ -118,7 +118,7 @@ fn tab_goes_through_the_results_of_all_channels_before_it_comes_to_the_changes()
 }
 
 #[test]
-fn what_is_typed_after_a_double_click_takes_the_place_of_the_number() {
+fn typing_after_a_double_click_replaces_the_number() {
     let mut window = window();
     let at = window.get_by_label("Translation result X").rect().center();
     for pressed in [true, false, true, false] {
@@ -208,7 +208,7 @@ fn a_drag_ends_where_something_else_is_shown() {
 }
 
 #[test]
-fn time_stands_while_numbers_are_changed() {
+fn playback_pauses_while_numbers_are_changed() {
     let mut window = window();
     window.key_press(Key::Space);
     window.run_steps(2);
@@ -258,7 +258,7 @@ fn with_a_wrong_number() -> Window {
 }
 
 #[test]
-fn a_wrong_number_that_is_left_with_a_click_is_forgotten_and_says_so() {
+fn a_wrong_number_left_with_a_click_is_discarded_with_a_message() {
     let mut window = with_a_wrong_number();
     window.get_by_label("Rest pose").click();
     window.run_steps(1);
@@ -273,7 +273,7 @@ fn a_wrong_number_that_is_left_with_a_click_is_forgotten_and_says_so() {
 }
 
 #[test]
-fn that_a_number_was_refused_is_said_for_a_while_only() {
+fn the_message_about_a_refused_number_disappears() {
     let mut window = with_a_wrong_number();
     window.get_by_label("Find a bone").click();
     window.run_steps(60);
@@ -284,7 +284,7 @@ fn that_a_number_was_refused_is_said_for_a_while_only() {
 }
 
 #[test]
-fn what_no_number_can_do_is_refused() {
+fn numbers_that_cannot_be_applied_are_refused() {
     let mut window = window();
     window.get_by_label("Show the quaternion").click();
     window.run_steps(3);
@@ -472,7 +472,7 @@ fn a_locked_bone_is_shown_and_not_changed_and_others_change_without_it() {
 }
 
 #[test]
-fn a_slider_turns_and_is_taken_back() {
+fn a_slider_rotates_and_can_be_undone() {
     let mut window = window();
     let before = window.state().pose(3);
     let slider = window.get_by_label("Rotation change Y slider").rect();

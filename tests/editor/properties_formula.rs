@@ -40,7 +40,7 @@ fn product(order: EulerOrder, degrees: [f64; 3]) -> DQuat {
 }
 
 #[test]
-fn what_is_typed_is_the_pose_that_the_rules_say() {
+fn a_typed_formula_sets_the_pose_of_the_reference_model() {
     let seed = seed(0xF0);
     let mut random = Random::new(seed);
     let mut bench = Workbench::full();

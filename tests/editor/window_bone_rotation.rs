@@ -1,8 +1,8 @@
 //! Picking and rotating a bone in the real window with mouse and keys; the displayed numbers are the requested ones.
 
-use crate::hands_rig::find;
 use crate::program::threads;
 use crate::screen::{Screen, key};
+use crate::viewport_tools_rig::find;
 use crate::window::{Editor, SOON, alone, eventually_shows_something};
 use dragonfly::control::gizmo::Gizmo;
 use dragonfly::panels::{Request, Settings, State};

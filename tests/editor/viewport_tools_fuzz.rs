@@ -1,7 +1,7 @@
 //! Whatever mouse and keys do over the window, nothing panics and nothing stays held.
 
-use crate::hands_rig::{Hand, PICTURE};
 use crate::panels::{Bench, harness_of};
+use crate::viewport_tools_rig::{PICTURE, ViewportHarness};
 use dragonfly::panels::Request;
 use dragonfly::panels::commands;
 use dragonfly_document::{Cancel, LoadError, OpenedModel, Progress, Source};
@@ -89,11 +89,11 @@ fn safe(at: Pos2) -> bool {
 }
 
 #[test]
-fn a_hundred_thousand_events_and_commands_leave_the_document_whole() {
+fn random_events_and_commands_leave_the_document_valid() {
     let seed = seed(2026);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);
-    let mut hand = Hand::new(load);
+    let mut viewport = ViewportHarness::new(load);
     let context = egui::Context::default();
     let all: Vec<commands::Id> = commands::all()
         .map(|command| command.id)
@@ -101,33 +101,38 @@ fn a_hundred_thousand_events_and_commands_leave_the_document_whole() {
         .collect();
     let mut effects = Vec::new();
     for _ in 0..if takes_long() { 10_000_000 } else { 100_000 } {
-        let joint =
-            hand.state.read().selected().map_or(glam::Vec2::new(400.0, 300.0), |_| hand.joint_or_middle());
+        let joint = viewport
+            .state
+            .read()
+            .selected()
+            .map_or(glam::Vec2::new(400.0, 300.0), |_| viewport.joint_or_middle());
         let middle = pos2(joint.x + PICTURE[0], joint.y + PICTURE[1]);
         let mut input = RawInput { events: vec![event(&mut random, middle)], ..RawInput::default() };
-        hand.state.feed(&context, &mut input, 0, &mut effects);
-        hand.carry_some(&mut effects);
+        viewport.state.feed(&context, &mut input, 0, &mut effects);
+        viewport.carry_some(&mut effects);
         match random.below(40) {
-            0 => hand.command(all[random.below(all.len())]),
-            1 => _ = hand.state.execute(Request::Select(Some(random.below(arm::BONES) as u32))),
-            2 => drop(hand.state.execute(Request::Wheel((random.unit() - 0.5) * 400.0))),
-            3 => drop(hand.state.execute(Request::Seek(random.unit()))),
+            0 => viewport.command(all[random.below(all.len())]),
+            1 => _ = viewport.state.execute(Request::Select(Some(random.below(arm::BONES) as u32))),
+            2 => drop(viewport.state.execute(Request::Wheel((random.unit() - 0.5) * 400.0))),
+            3 => drop(viewport.state.execute(Request::Seek(random.unit()))),
             _ => {}
         }
-        let camera = hand.state.read().camera;
+        let camera = viewport.state.read().camera;
         assert!(camera.target.is_finite() && camera.distance.is_finite(), "{camera:?}");
-        if hand.steps().len() > 200 {
-            (0..200).for_each(|_| hand.command(commands::Id::Undo));
+        if viewport.steps().len() > 200 {
+            (0..200).for_each(|_| viewport.command(commands::Id::Undo));
         }
     }
     // When the window loses the keyboard focus, every drag ends.
     let mut input = RawInput { events: vec![Event::WindowFocused(false)], ..RawInput::default() };
-    hand.state.feed(&context, &mut input, 0, &mut effects);
-    assert!(!hand.state.read().tools.controls().is_busy() && !hand.state.read().tools.controls().edits());
+    viewport.state.feed(&context, &mut input, 0, &mut effects);
+    assert!(
+        !viewport.state.read().tools.controls().is_busy() && !viewport.state.read().tools.controls().edits()
+    );
 }
 
 #[test]
-fn random_hands_over_the_whole_window_never_panic() {
+fn random_input_over_the_whole_window_never_panics() {
     let seed = seed(4242);
     println!("DRAGONFLY_SEED={seed}");
     let mut random = Random::new(seed);

@@ -22,9 +22,9 @@ pub(crate) const PICTURE: [f32; 4] = [200.0, 50.0, 800.0, 600.0];
 pub(crate) type Load = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<OpenedModel, LoadError>;
 
 #[derive(Clone, Default)]
-struct Heard(Rc<RefCell<Vec<DocumentReply>>>);
+struct ReceivedReplies(Rc<RefCell<Vec<DocumentReply>>>);
 
-impl Receiver for Heard {
+impl Receiver for ReceivedReplies {
     type Message = DocumentReply;
 
     fn receive(&mut self, reply: DocumentReply, _: &mut Context) {
@@ -32,16 +32,16 @@ impl Receiver for Heard {
     }
 }
 
-struct Nobody;
+struct IgnoredViews;
 
-impl Receiver for Nobody {
+impl Receiver for IgnoredViews {
     type Message = View;
 
     fn receive(&mut self, _: View, _: &mut Context) {}
 }
 
 /// The state, the document, and the simulated mouse and keyboard that drive them.
-pub(crate) struct Hand {
+pub(crate) struct ViewportHarness {
     pub(crate) state: State,
     /// Effects other than changes; changes are sent to the document.
     pub(crate) effects: Vec<Effect>,
@@ -50,41 +50,41 @@ pub(crate) struct Hand {
     main: Captured,
     thread: Captured,
     document: DocumentHandle,
-    heard: Heard,
+    replies_received: ReceivedReplies,
 }
 
-impl Hand {
+impl ViewportHarness {
     /// Opens the model that `load` returns, paused at the start of its first take.
     pub(crate) fn new(load: Load) -> Self {
-        let heard = Heard::default();
+        let replies_received = ReceivedReplies::default();
         let mut main = Thread::capture("main", || {});
         let thread = Thread::capture("document", || {});
-        let replies = main.context().register_receiver(heard.clone());
-        let picture = main.context().register_receiver(Nobody);
+        let replies = main.context().register_receiver(replies_received.clone());
+        let picture = main.context().register_receiver(IgnoredViews);
         let document =
             Document::start_in(thread.handle(), Setup { load, ..Setup::default() }, replies, picture);
         let state = State::new(Settings::default(), Instant::now());
         let (effects, refused) = (Vec::new(), Vec::new());
-        let mut hand = Self { state, effects, refused, main, thread, document, heard };
+        let mut viewport = Self { state, effects, refused, main, thread, document, replies_received };
         let [x, y, width, height] = PICTURE;
         let rect = egui::Rect::from_min_size(egui::pos2(x, y), egui::vec2(width, height));
-        hand.state.execute(Request::Viewport(rect));
-        hand.document.open(Source::BuiltIn);
+        viewport.state.execute(Request::Viewport(rect));
+        viewport.document.open(Source::BuiltIn);
         eventually(Duration::from_secs(30), || {
-            hand.turn();
-            hand.state.read().view.is_some()
+            viewport.turn();
+            viewport.state.read().view.is_some()
         });
-        hand.state.pause();
-        hand.state.execute(Request::Seek(0.0));
-        hand.state.begin_frame(hand.state.read().now);
-        hand
+        viewport.state.pause();
+        viewport.state.execute(Request::Seek(0.0));
+        viewport.state.begin_frame(viewport.state.read().now);
+        viewport
     }
 
     /// Processes the queued messages of both threads.
     pub(crate) fn turn(&mut self) {
         self.thread.iterate();
         self.main.iterate();
-        for reply in self.heard.0.take() {
+        for reply in self.replies_received.0.take() {
             match reply {
                 DocumentReply::View(view) => self.state.show(view),
                 DocumentReply::Refused(reason) => self.refused.push(reason),
