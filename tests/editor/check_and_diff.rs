@@ -21,6 +21,12 @@ fn edited(folder: &Folder, name: &str, edits: &str) -> PathBuf {
 }
 
 #[test]
+fn the_help_of_check_states_how_many_rules_there_are() {
+    let rules = format!("{} rules", dragonfly_anim::check::RULES.len());
+    assert!(run(["check", "--help"]).expect(0).text().contains(&rules), "{rules}");
+}
+
+#[test]
 fn a_valid_model_passes_the_check() {
     let outcome = run(["check", "demo:"]).expect(0);
     assert!(outcome.text().contains("0 errors, 0 warnings"), "{}", outcome.text());

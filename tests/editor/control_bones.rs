@@ -1,4 +1,4 @@
-//! Bones are chosen by click, region, neighbour and side, as hands expect.
+//! Bones are chosen by click, region, neighbor and side, as hands expect.
 
 use crate::gizmo_rig::Rig;
 use dragonfly::control::Modifiers;

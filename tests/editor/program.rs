@@ -101,7 +101,7 @@ pub(crate) fn wait(child: &mut Child, limit: Duration) -> ExitStatus {
     }
 }
 
-/// Describes the threads of a process that does not exit: all stacks if a debugger is installed, else the kernel function each
+/// Describes the threads of a process that does not exit: all stacks if a debugger is installed, otherwise the kernel function each
 /// thread waits in.
 pub(crate) fn threads(process: u32) -> String {
     let id = process.to_string();

@@ -45,7 +45,7 @@ fn takes_are_made_copied_and_deleted_but_the_last_one_stays() {
         window.get_by_label("Delete take").click();
         window.run_steps(3);
         assert_eq!(names(&window).len(), left + 1);
-        assert!(shown(&window).is_some(), "a neighbour is shown");
+        assert!(shown(&window).is_some(), "a neighbor is shown");
     }
     assert!(window.get_by_label("Delete take").accesskit_node().is_disabled());
     give(&mut window, Id::DeleteTake);

@@ -202,7 +202,7 @@ fn works(program: u32) -> bool {
 }
 
 /// Returns the number of different colors: a blank or broken image has few.
-pub(crate) fn colours(picture: &RgbaImage) -> usize {
+pub(crate) fn colors(picture: &RgbaImage) -> usize {
     picture.pixels().collect::<std::collections::HashSet<_>>().len()
 }
 
@@ -219,7 +219,7 @@ pub(crate) fn same(screen: &Screen, now: &RgbaImage, before: &RgbaImage, otherwi
 #[track_caller]
 pub(crate) fn eventually_shows_something(screen: &Screen) {
     let deadline = Instant::now() + SOON;
-    while colours(&screen.part(VIEWPORT)) < 200 {
+    while colors(&screen.part(VIEWPORT)) < 200 {
         if Instant::now() > deadline {
             screen.keep("nothing");
             panic!("the viewport shows nothing");

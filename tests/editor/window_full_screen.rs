@@ -2,7 +2,7 @@
 
 use crate::manager;
 use crate::screen::{Screen, key};
-use crate::window::{Editor, SOON, alone, colours, rest, same, settled};
+use crate::window::{Editor, SOON, alone, colors, rest, same, settled};
 use dragonfly_kit::eventually;
 
 /// The viewport, in the window as it opens.
@@ -33,7 +33,7 @@ fn f11_and_the_menu_toggle_full_screen() {
         toggle(&mut screen);
         eventually(SOON, || screen.place(window) == [0, 0, 1600, 1000]);
         // The area that was only black screen before is drawn to the last pixel.
-        eventually(SOON, || colours(&screen.part([1400, 0, 200, 1000])) > 20);
+        eventually(SOON, || colors(&screen.part([1400, 0, 200, 1000])) > 20);
         let full = settled(&screen, [0, 0, 1600, 1000]);
         for (x, y) in [(1599, 0), (1599, 999), (0, 999)] {
             assert_ne!(full.get_pixel(x, y).0[..3], [0, 0, 0], "{way}: {x}, {y} is black");

@@ -190,7 +190,7 @@ fn phong_light_is_ambient_and_diffuse_and_a_highlight() {
     assert_eq!(brightest(&under(0.0, 0.0, 0.0, 16.0)), 0, "no light without any of the three");
     let ambient = under(0.5, 0.0, 0.0, 16.0);
     assert!(darkest(&ambient) > 20, "ambient light reaches every side: {}", darkest(&ambient));
-    assert!(ambient.iter().all(|pixel| pixel[1] > pixel[0] + 20), "and has the surface's colour");
+    assert!(ambient.iter().all(|pixel| pixel[1] > pixel[0] + 20), "and has the surface's color");
     let diffuse = under(0.0, 0.8, 0.0, 16.0);
     assert!(brightest(&diffuse) > darkest(&diffuse) + 40, "diffuse light falls from somewhere");
     assert!(brightest(&under(0.0, 0.4, 0.0, 16.0)) < brightest(&diffuse), "less of it is darker");
@@ -199,7 +199,7 @@ fn phong_light_is_ambient_and_diffuse_and_a_highlight() {
     assert!(brightest(&wide) > 150 && brightest(&narrow) > 150, "both have a highlight");
     assert!(lit(&narrow) > 0 && lit(&narrow) * 3 < lit(&wide), "{} of {}", lit(&narrow), lit(&wide));
     let glint = narrow.iter().max_by_key(|pixel| brightness(pixel)).unwrap();
-    assert!(glint[1].abs_diff(glint[0]) < 30, "a highlight has the light's colour, not the surface's");
+    assert!(glint[1].abs_diff(glint[0]) < 30, "a highlight has the light's color, not the surface's");
     let both = under(0.2, 0.8, 0.8, 80.0);
     assert!(brightest(&both) > brightest(&under(0.2, 0.8, 0.0, 80.0)) + 30, "it lies over the rest");
 }

@@ -18,7 +18,7 @@ const ANGLE_TOLERANCE: f32 = 0.01;
 /// Smaller differences of a morph weight count as equal.
 const WEIGHT_TOLERANCE: f32 = 1e-4;
 /// Millimeters in a unit of the scene, which is a meter.
-const MILLIMETRES: f32 = 1000.0;
+const MILLIMETERS: f32 = 1000.0;
 
 /// Compare the takes of two files and list the bones that differ, in mm and degrees
 #[derive(Clone, Debug, clap::Args)]
@@ -177,7 +177,7 @@ impl DiffTake {
         angle: f32,
     ) -> Self {
         let differs = |bone: &&BoneDifference| {
-            bone.distance.value * MILLIMETRES > tolerance || bone.angle.value.to_degrees() > angle
+            bone.distance.value * MILLIMETERS > tolerance || bone.angle.value.to_degrees() > angle
         };
         let mut apart: Vec<&BoneDifference> = difference.bones.iter().filter(differs).collect();
         apart.sort_by(|a, b| b.distance.value.total_cmp(&a.distance.value));
@@ -185,7 +185,7 @@ impl DiffTake {
             .into_iter()
             .map(|bone| DiffBone {
                 name: bone_name(skeleton, bone.first),
-                distance_mm: ValueAt::of(bone.distance, MILLIMETRES),
+                distance_mm: ValueAt::of(bone.distance, MILLIMETERS),
                 angle_degrees: ValueAt::of(bone.angle, 1.0_f32.to_degrees()),
             })
             .collect();

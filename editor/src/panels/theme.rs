@@ -1,9 +1,9 @@
-//! Every colour of the program, light and dark. Nowhere else is a colour written down.
+//! Every color of the program, light and dark. Nowhere else is a color written down.
 
 use dragonfly_picture::gizmo::GizmoRole;
 use egui::Color32;
 
-/// The colours of one theme. One accent: the green of a dragonfly's thorax.
+/// The colors of one theme. One accent: the green of a dragonfly's thorax.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Theme {
     /// Is it the dark one?
@@ -158,7 +158,7 @@ impl Theme {
     }
 }
 
-/// A colour as the graphics thread takes it: linear RGB.
+/// A color as the graphics thread takes it: linear RGB.
 pub fn linear(color: Color32) -> [f32; 3] {
     let rgba = egui::Rgba::from(color.to_opaque());
     [rgba.r(), rgba.g(), rgba.b()]
