@@ -80,7 +80,7 @@ fn names_that_are_now_invalid_are_still_read_from_old_journals() {
     let names: Vec<_> = takes(&view).into_iter().map(|take| take.0).collect();
     assert_eq!(names, ["", "Run", "Run"]);
     let again = Edit::RenameTake(RenameTake { take: TakeRef::Index(2), name: String::new() });
-    document.send(DocumentMessage::Change(Change::Edit(again, None)));
+    document.change(Change::Edit(again, None));
     let refused = document.wait_for_reply(|reply| match reply {
         DocumentReply::Refused(reason) => Some(reason.clone()),
         _ => None,

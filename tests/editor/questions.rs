@@ -5,7 +5,7 @@ use crate::shots::{self, PictureFolder};
 use dragonfly::panels::FileAction;
 use dragonfly::panels::prompts::Question;
 use dragonfly::panels::{Effect, Request};
-use dragonfly_document::{Decision, Offer, SaveOrder, SaveTo, Source, Then};
+use dragonfly_document::{Decision, DocumentMessage, Offer, SaveOrder, SaveTo, Source, Then};
 use dragonfly_kit::document::fixture;
 use dragonfly_store::{DocumentFileState, FileState, JournalOwner, OwnerStatus, Readability, Recoverable};
 use egui_kittest::kittest::Queryable;
@@ -161,8 +161,9 @@ fn every_question_fits_every_window_and_escape_closes_it_without_an_action() {
             harness.run_steps(4);
             let bench = harness.state();
             assert!(bench.state.read().question().is_none() || name == "recover_several", "{name} at {size}");
-            let later =
-                |effect: &Effect| matches!(effect, Effect::File(FileAction::Decide(_, Decision::Later)));
+            let later = |effect: &Effect| {
+                matches!(effect, Effect::File(FileAction::Send(DocumentMessage::Decide(_, Decision::Later))))
+            };
             assert!(bench.effects.iter().all(later), "{name}: {:?}", bench.effects);
         }
     }
@@ -178,17 +179,20 @@ fn enter_chooses_the_default_button() {
         harness.run_steps(4);
         let effects = &harness.state().effects;
         let expected = match name {
-            "unsaved" => Some(FileAction::Save(SaveOrder::own(Some(Then::Quit)))),
+            "unsaved" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder::own(Some(Then::Quit))))),
             "changed_save" => Some(FileAction::Where { copy: false, then: None }),
             "changed_focus" => Some(FileAction::Reload),
-            "gone" => Some(FileAction::Save(SaveOrder { anyway: true, ..SaveOrder::own(None) })),
-            "plan" => Some(FileAction::Save(SaveOrder::own(None))),
+            "gone" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder {
+                anyway: true,
+                ..SaveOrder::own(None)
+            }))),
+            "plan" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder::own(None)))),
             "exists" | "plan_long" => None,
-            "where_copy" => Some(FileAction::Save(SaveOrder {
+            "where_copy" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder {
                 to: SaveTo::Copy("Fox copy.glb".into()),
                 anyway: false,
                 then: None,
-            })),
+            }))),
             _ => continue,
         };
         let expected: Vec<Effect> = expected.map(Effect::File).into_iter().collect();
@@ -212,7 +216,9 @@ fn each_button_for_unsaved_work_applies_to_the_document_that_is_shown() {
         harness.run_steps(2);
         harness.get_by_label(button).click();
         harness.run_steps(4);
-        let [Effect::File(FileAction::Decide(offer, decided))] = &harness.state().effects[..] else {
+        let [Effect::File(FileAction::Send(DocumentMessage::Decide(offer, decided)))] =
+            &harness.state().effects[..]
+        else {
             panic!("{button}: {:?}", harness.state().effects)
         };
         assert!(offer.title.starts_with("A bear") && *decided == decision, "{button}");

@@ -84,7 +84,7 @@ fn two_thousand_random_inputs_lose_nothing() {
             visit.screen.click(x, y);
         }
     }
-    println!("the deeds took {:?}", began.elapsed());
+    println!("the actions took {:?}", began.elapsed());
     visit.screen.pace = pause;
     (0..4).for_each(|_| visit.screen.press(key::ESCAPE));
 

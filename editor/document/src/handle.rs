@@ -4,10 +4,11 @@ use super::message::DocumentMessage;
 use super::{Change, Source};
 use dragonfly_runtime::{Address, Thread, ThreadHandle};
 
-/// A handle to the document thread. Each method sends the message of the same name.
+/// A handle to the document thread. Messages and changes are handled in the order in which they were sent.
 pub struct DocumentHandle {
     pub(super) thread: ThreadHandle,
-    pub(super) address: Address<DocumentMessage>,
+    pub(super) messages: Address<DocumentMessage>,
+    pub(super) changes: Address<(Change, Option<u64>)>,
     /// The thread, where this handle owns it.
     pub(super) _owner: Option<Thread>,
 }
@@ -18,19 +19,15 @@ impl DocumentHandle {
         self.send(DocumentMessage::Open { source, anyway: false });
     }
 
-    /// See [`DocumentMessage::CancelLoading`].
-    pub fn cancel_loading(&self) {
-        self.send(DocumentMessage::CancelLoading);
-    }
-
-    /// See [`DocumentMessage::Change`].
+    /// Sends a change.
     pub fn change(&self, change: Change) {
-        self.send(DocumentMessage::Change(change));
+        report_stopped(self.changes.send((change, None)).is_ok());
     }
 
-    /// Sends a numbered change; see [`DocumentMessage::NumberedChange`].
+    /// Sends a change whose sender waits for the outcome: the first view with [`View::answered`](super::View::answered) at or
+    /// above the number contains the change, or was made after it was refused. Numbers ascend and begin at 1.
     pub fn change_numbered(&self, number: u64, change: Change) {
-        self.send(DocumentMessage::NumberedChange(number, change));
+        report_stopped(self.changes.send((change, Some(number))).is_ok());
     }
 
     /// Returns the document thread.
@@ -45,10 +42,14 @@ impl DocumentHandle {
 
     /// Sends a message. Returns `false` if the thread has stopped.
     pub fn send(&self, message: DocumentMessage) -> bool {
-        let sent = self.address.send(message).is_ok();
-        if !sent {
-            tracing::error!("the document thread has stopped");
-        }
-        sent
+        report_stopped(self.messages.send(message).is_ok())
     }
+}
+
+/// Logs that a message could not be sent. Returns `sent`.
+fn report_stopped(sent: bool) -> bool {
+    if !sent {
+        tracing::error!("the document thread has stopped");
+    }
+    sent
 }

@@ -1,16 +1,20 @@
-//! Loading in a job: the document continues to work while a file is read, and survives an importer that panics.
+//! The jobs of the document: it continues to work while a file is read or a folder is searched, and survives an importer that
+//! panics.
 
-use super::message::{DocumentMessage, NewsBox};
+use super::scan::RecoveryScan;
 use super::{LoadError, Loader, OpenedModel, Progress, Source};
-use dragonfly_runtime::{Address, Job};
+use dragonfly_runtime::{Address, Job, JobContext};
+use dragonfly_store::Autosave;
 
-/// News of a loading job.
+/// News of a job. A loading job has a ticket; the document ignores the news of one that it cancelled.
 #[derive(Debug)]
 pub(super) enum JobNews {
-    /// The progress so far.
-    Progress(Progress),
-    /// The result.
-    Done(Result<Box<OpenedModel>, LoadError>),
+    /// The progress of the loading job with this ticket.
+    Progress(u64, Progress),
+    /// The result of the loading job with this ticket.
+    Loaded(u64, Result<Box<OpenedModel>, LoadError>),
+    /// The result of a search for unsaved work.
+    Scanned(RecoveryScan),
 }
 
 /// Starts loading `source` in a job, whose news reach the document with `ticket`. Dropping the job cancels it without
@@ -19,25 +23,34 @@ pub(super) enum JobNews {
 /// # Errors
 /// The system cannot create a thread, or the document has stopped.
 pub(super) fn start_loading(
-    document: &Address<DocumentMessage>,
+    document: &Address<JobNews>,
     ticket: u64,
     source: Source,
     load: Loader,
 ) -> std::io::Result<Job> {
-    let news = move |news| DocumentMessage::News(ticket, NewsBox(Box::new(news)));
     let title = source.title();
     Job::start(
         document,
         "load",
         move |job| {
             let mut report =
-                |progress: Progress| job.report(progress.done, |_| news(JobNews::Progress(progress)));
+                |progress: Progress| job.report(progress.done, |_| JobNews::Progress(ticket, progress));
             let loaded = load(&source, &mut report, job.cancel_flag());
-            news(JobNews::Done(loaded.map(Box::new)))
+            JobNews::Loaded(ticket, loaded.map(Box::new))
         },
         move |panic| {
             let reason = format!("the importer failed: {panic}");
-            news(JobNews::Done(Err(LoadError::Format { title, reason })))
+            JobNews::Loaded(ticket, Err(LoadError::Format { title, reason }))
         },
     )
+}
+
+/// Starts a search for unsaved work of earlier sessions in a job, which replies also if it finds nothing.
+///
+/// # Errors
+/// The system cannot create a thread, or the document has stopped.
+pub(super) fn start_search(document: &Address<JobNews>, autosave: Autosave) -> std::io::Result<Job> {
+    let search = move |_: &JobContext<_>| JobNews::Scanned(RecoveryScan::of(&autosave));
+    let failed = |panic: &str| JobNews::Scanned(RecoveryScan::failed(panic));
+    Job::start(document, "recovery", search, failed)
 }

@@ -3,7 +3,8 @@
 //! This crate owns the open model and every change of it: the vocabulary of edits ([`edit`]), the takes in their three forms
 //! ([`adapter`]), undo and redo ([`history`]), loading, saving, the journal of unsaved work and its recovery, the thread that owns all of
 //! this ([`Document`]), the protocol of `--stdio` ([`protocol`]), sets of bones ([`bones`]), posing by hand ([`posing`]), and the built-in
-//! model ([`demo`]). Other threads send a [`DocumentMessage`] and read the published [`View`].
+//! model ([`demo`]). Other threads send a
+//! [`DocumentMessage`] or a [`Change`] and read the published [`View`].
 //!
 //! It must not know windows, panels or graphics: it depends on no crate of a user interface or of a GPU, so that the command line, tests
 //! and other front ends can use it alone.
@@ -32,6 +33,7 @@ mod open;
 mod owner;
 pub mod posing;
 pub mod protocol;
+mod receivers;
 mod recorded;
 mod recovering;
 mod replay;

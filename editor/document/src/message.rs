@@ -1,15 +1,14 @@
 //! The messages that other threads send to the document, and its replies.
 
-use super::job::JobNews;
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
-use super::scan::{Decision, RecoveryScan};
-use super::{Change, LoadedModel, Offer, Progress, Source, View};
+use super::scan::Decision;
+use super::{LoadedModel, Offer, Progress, Source, View};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A message to the document.
-#[derive(Debug)]
+/// A message to the document about files: opening, saving, recovering. What is edited is sent as a [`Change`](super::Change).
+#[derive(Clone, Debug, PartialEq)]
 pub enum DocumentMessage {
     /// Opens a model in place of the open one. A model that is still loading is cancelled. Where the open one has unsaved work,
     /// the document replies [`DocumentReply::Unsaved`] instead.
@@ -21,11 +20,6 @@ pub enum DocumentMessage {
     },
     /// Cancels loading.
     CancelLoading,
-    /// Applies an edit, undoes or redoes.
-    Change(Change),
-    /// [`Self::Change`] whose sender waits for the outcome: the first view with [`View::answered`] at or above the number
-    /// contains the change, or was made after it was refused. Numbers ascend and begin at 1.
-    NumberedChange(u64, Change),
     /// Saves.
     Save(SaveOrder),
     /// Requests the list of what a save would change, and the save that follows once the user has seen it.
@@ -44,21 +38,7 @@ pub enum DocumentMessage {
     Decide(Box<Offer>, Decision),
     /// The present path of the file that unsaved work belongs to. If it is that file, the work is restored there.
     FoundAt(Box<Offer>, PathBuf),
-    /// News of the loading job with this ticket; that of a cancelled job is ignored.
-    #[doc(hidden)]
-    News(u64, NewsBox),
-    /// The result of a search for unsaved work.
-    #[doc(hidden)]
-    Found(ScanBox),
 }
-
-/// News of a job, opaque to other crates.
-#[derive(Debug)]
-pub struct NewsBox(pub(super) Box<JobNews>);
-
-/// The result of a search for unsaved work, opaque to other crates.
-#[derive(Debug)]
-pub struct ScanBox(pub(super) RecoveryScan);
 
 /// A reply of the document to the main thread, for the panels.
 #[derive(Debug)]

@@ -2,14 +2,15 @@
 
 use super::fault::{FaultInjection, FaultPoint};
 use super::handle::DocumentHandle;
-use super::job::{JobNews, start_loading};
-use super::message::{DocumentMessage, DocumentReply, NewsBox, ScanBox};
+use super::job::{JobNews, start_loading, start_search};
+use super::message::DocumentReply;
 use super::open::Open;
+use super::receivers::{ChangeReceiver, DocumentWorker, JobReceiver, MessageReceiver};
 use super::saving::{SaveOrder, Then};
 use super::scan::{Decision, RecoveryScan};
-use super::{Change, LoadError, Loader, Offer, Source, View, open_model};
+use super::{Change, LoadError, Loader, Offer, OpenedModel, Progress, Source, View, open_model};
 use crate::text::sentence;
-use dragonfly_runtime::{Address, Context, Job, JobContext, Receiver, Thread, ThreadHandle, Worker};
+use dragonfly_runtime::{Address, Job, Thread, ThreadHandle};
 use dragonfly_store::{Autosave, FileState, Recoverable};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -61,8 +62,8 @@ pub struct Document {
     views: Address<DocumentReply>,
     /// The graphics thread; here too, the newest view replaces one that is still queued.
     picture: Address<View>,
-    /// The address of this document, for jobs.
-    own: Address<DocumentMessage>,
+    /// The address of this document for its jobs.
+    own: Address<JobNews>,
 }
 
 /// A model that is loading.
@@ -74,10 +75,6 @@ pub(super) struct LoadingModel {
     /// The unsaved work that is restored in it.
     pub(super) offer: Option<(Offer, Decision)>,
 }
-
-/// One document, as receiver and as worker of its thread. If one of the two panics, both continue with a new document: no half-applied
-/// state is seen again, and recorded work can be restored.
-struct SharedDocument(Rc<RefCell<Document>>);
 
 impl Document {
     /// Starts the document thread. It sends replies to `replies` and every state also directly to the graphics thread, `picture`. Nothing is
@@ -104,11 +101,17 @@ impl Document {
         replies: Address<DocumentReply>,
         picture: Address<View>,
     ) -> DocumentHandle {
-        let address = thread.reserve_address();
-        let own = address.clone();
+        let (messages, changes, own) =
+            (thread.reserve_address(), thread.reserve_address(), thread.reserve_address());
+        let handle = DocumentHandle {
+            thread: thread.clone(),
+            messages: messages.clone(),
+            changes: changes.clone(),
+            _owner: None,
+        };
         // Fails only if the thread has stopped, and then there is no one to report it to.
         let _ = thread.run(move |context| {
-            let at = own.clone();
+            let jobs = own.clone();
             let make = move || Self {
                 open: None,
                 generation: 0,
@@ -131,34 +134,44 @@ impl Document {
             };
             let document = Rc::new(RefCell::new(make()));
             document.borrow().search();
-            let make = Rc::new(make);
-            let again = move |fresh: &mut bool| {
-                if !std::mem::replace(fresh, false) {
-                    let mut lost = std::mem::replace(&mut *document.borrow_mut(), make());
-                    // It may be half changed: nothing more is written. The journal has all applied edits.
-                    drop(lost.open.take());
-                    let mut document = document.borrow_mut();
-                    (document.generation, document.tickets) = (lost.generation, lost.tickets);
-                    document.answered = lost.answered;
-                    document.reply(DocumentReply::Lost);
-                    document.search();
+            // A receiver or worker that panicked is made again, and with it the document.
+            let renewed = Rc::new({
+                let document = Rc::clone(&document);
+                move || document.borrow_mut().replace_lost(make())
+            });
+            let shared = move || {
+                let (document, renewed, mut first) = (Rc::clone(&document), Rc::clone(&renewed), true);
+                move || {
+                    if !std::mem::replace(&mut first, false) {
+                        renewed();
+                    }
+                    Rc::clone(&document)
                 }
-                SharedDocument(Rc::clone(&document))
             };
-            let (mut receives, mut works) = (true, true);
-            let other = again.clone();
-            context.register_restartable_receiver_at(&at, move |_| again(&mut receives));
-            context.register_restartable_worker(move |_| other(&mut works));
+            let (mut message, mut change, mut job, mut work) = (shared(), shared(), shared(), shared());
+            context.register_restartable_receiver_at(&messages, move |_| MessageReceiver(message()));
+            context.register_restartable_receiver_at(&changes, move |_| ChangeReceiver(change()));
+            context.register_restartable_receiver_at(&jobs, move |_| JobReceiver(job()));
+            context.register_restartable_worker(move |_| DocumentWorker(work()));
         });
-        DocumentHandle { thread: thread.clone(), address, _owner: None }
+        handle
     }
 
-    /// Searches for unsaved work of earlier sessions on a separate thread.
-    fn search(&self) {
+    /// Replaces a document that a panic may have left half changed with a new one; recorded work can be restored.
+    fn replace_lost(&mut self, new: Self) {
+        let mut lost = std::mem::replace(self, new);
+        // Nothing more is written of it. The journal has all applied edits.
+        drop(lost.open.take());
+        (self.generation, self.tickets) = (lost.generation, lost.tickets);
+        self.answered = lost.answered;
+        self.reply(DocumentReply::Lost);
+        self.search();
+    }
+
+    /// Searches for unsaved work of earlier sessions in a job.
+    pub(super) fn search(&self) {
         let Some(autosave) = self.autosave.clone() else { return };
-        let found = |scan| DocumentMessage::Found(ScanBox(scan));
-        let search = move |_: &JobContext<_>| found(RecoveryScan::of(&autosave));
-        match Job::start(&self.own, "recovery", search, move |panic| found(RecoveryScan::failed(panic))) {
+        match start_search(&self.own, autosave) {
             // The answer arrives although the job is dropped: the search does not look at the cancel flag.
             Ok(job) => drop(job),
             Err(error) => tracing::error!("the search for unsaved work could not be started: {error}"),
@@ -166,14 +179,14 @@ impl Document {
     }
 
     /// Opens a model, or replies that the open one has unsaved work.
-    fn open_or_ask(&mut self, source: Source, anyway: bool) {
+    pub(super) fn open_or_ask(&mut self, source: Source, anyway: bool) {
         if !anyway && self.has_unsaved_work() {
             return self.reply(DocumentReply::Unsaved(Then::Open(source)));
         }
         self.open(source, None);
     }
 
-    fn has_unsaved_work(&self) -> bool {
+    pub(super) fn has_unsaved_work(&self) -> bool {
         self.open.as_ref().is_some_and(|open| !open.edited.is_saved())
     }
 
@@ -187,21 +200,24 @@ impl Document {
         }
     }
 
-    fn cancel(&mut self) {
+    pub(super) fn cancel(&mut self) {
         if self.job.take().is_some() {
             self.reply(DocumentReply::Cancelled);
         }
     }
 
-    fn receive_news(&mut self, ticket: u64, news: JobNews) {
+    /// Reports the progress of the loading job with this ticket.
+    pub(super) fn show_progress(&self, ticket: u64, progress: Progress) {
+        if let Some(running) = self.job.as_ref().filter(|running| running.ticket == ticket) {
+            self.reply(DocumentReply::Loading { title: running.source.title(), progress });
+        }
+    }
+
+    /// Opens what the loading job with this ticket has loaded, or reports why it failed.
+    pub(super) fn finish_loading(&mut self, ticket: u64, loaded: Result<Box<OpenedModel>, LoadError>) {
         let Some(running) = self.job.take_if(|running| running.ticket == ticket) else { return };
-        match news {
-            JobNews::Progress(progress) => {
-                let title = running.source.title();
-                self.job = Some(running);
-                self.reply(DocumentReply::Loading { title, progress });
-            }
-            JobNews::Done(Ok(opened)) => {
+        match loaded {
+            Ok(opened) => {
                 self.close();
                 let open = Open::new(*opened, self.autosave.clone());
                 let loaded = Arc::clone(&open.loaded);
@@ -215,8 +231,8 @@ impl Document {
                 self.changed();
                 self.offer_late();
             }
-            JobNews::Done(Err(LoadError::Cancelled)) => self.reply(DocumentReply::Cancelled),
-            JobNews::Done(Err(error)) => {
+            Err(LoadError::Cancelled) => self.reply(DocumentReply::Cancelled),
+            Err(error) => {
                 let reason = error.to_string();
                 self.reply(DocumentReply::Failed { source: running.source, reason });
                 self.offer_late();
@@ -240,7 +256,15 @@ impl Document {
         }
     }
 
-    fn change(&mut self, change: Change, now: Instant) {
+    /// Carries out a change; `number` is that of a numbered one.
+    pub(super) fn change(&mut self, change: Change, number: Option<u64>, now: Instant) {
+        self.apply(change, now);
+        if let Some(number) = number {
+            (self.answered, self.answers) = (number, true);
+        }
+    }
+
+    fn apply(&mut self, change: Change, now: Instant) {
         self.faults.reach(FaultPoint::Change);
         let Some(open) = &mut self.open else {
             return self.reply(DocumentReply::Refused("Nothing is open".to_owned()));
@@ -253,7 +277,7 @@ impl Document {
         self.report_trouble();
     }
 
-    fn save(&mut self, order: SaveOrder, now: Instant) {
+    pub(super) fn save(&mut self, order: SaveOrder, now: Instant) {
         let autosave = self.autosave.clone();
         let Some(open) = &mut self.open else { return };
         match open.save(&order, autosave.as_ref(), now) {
@@ -267,12 +291,12 @@ impl Document {
         self.changed();
     }
 
-    fn plan(&mut self, order: Option<SaveOrder>) {
+    pub(super) fn plan(&mut self, order: Option<SaveOrder>) {
         let Some(open) = &self.open else { return };
         self.reply(DocumentReply::Plan(open.plan(), order));
     }
 
-    fn revert(&mut self, now: Instant) {
+    pub(super) fn revert(&mut self, now: Instant) {
         let Some(open) = &mut self.open else { return };
         if open.revert(now) {
             self.changed();
@@ -286,7 +310,7 @@ impl Document {
         }
     }
 
-    fn look_at_file(&mut self) {
+    pub(super) fn look_at_file(&mut self) {
         let state = self.open.as_ref().and_then(Open::changed_on_disk);
         // Reported once: the user who continued knows it.
         if let Some(state) = state.filter(|state| self.noticed != Some(*state)) {
@@ -301,10 +325,12 @@ impl Document {
         self.changed = true;
     }
 
-    /// Publishes the newest state.
-    fn publish(&mut self) {
-        let changed = std::mem::take(&mut self.changed);
-        self.answers = false;
+    /// Publishes the newest state, if it changed or a sender waits for an answer.
+    pub(super) fn publish(&mut self) {
+        let (changed, answers) = (std::mem::take(&mut self.changed), std::mem::take(&mut self.answers));
+        if !changed && !answers {
+            return;
+        }
         let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
         let view = View { answered: self.answered, ..view };
         // Errors are ignored as in `reply`. The graphics thread comes first: it has more to do.
@@ -332,66 +358,5 @@ impl Drop for Document {
         {
             tracing::warn!("{reason}");
         }
-    }
-}
-
-impl Receiver for SharedDocument {
-    type Message = DocumentMessage;
-
-    fn receive(&mut self, message: DocumentMessage, thread: &mut Context) {
-        let document = &mut *self.0.borrow_mut();
-        let now = thread.now();
-        match message {
-            DocumentMessage::Open { source, anyway } => document.open_or_ask(source, anyway),
-            DocumentMessage::CancelLoading => document.cancel(),
-            DocumentMessage::Change(change) => document.change(change, now),
-            DocumentMessage::NumberedChange(number, change) => {
-                document.change(change, now);
-                document.answered = number;
-                document.answers = true;
-            }
-            DocumentMessage::Save(order) => document.save(order, now),
-            DocumentMessage::Plan(order) => document.plan(order),
-            DocumentMessage::Revert => document.revert(now),
-            DocumentMessage::Quit => {
-                let unsaved = document.has_unsaved_work();
-                let reply = if unsaved { DocumentReply::Unsaved(Then::Quit) } else { DocumentReply::MayQuit };
-                document.reply(reply);
-            }
-            DocumentMessage::DoNotSave => {
-                if let Some(open) = &mut document.open {
-                    open.unwanted = true;
-                }
-            }
-            DocumentMessage::LookAtFile => document.look_at_file(),
-            DocumentMessage::Search => {
-                document.searched = true;
-                document.search();
-            }
-            DocumentMessage::Decide(offer, decision) => document.decide(*offer, decision),
-            DocumentMessage::FoundAt(offer, path) => document.found_at(*offer, path),
-            DocumentMessage::News(ticket, NewsBox(news)) => document.receive_news(ticket, *news),
-            DocumentMessage::Found(ScanBox(scan)) => document.offer(scan),
-        }
-    }
-}
-
-impl Worker for SharedDocument {
-    /// Runs after all messages of the iteration: publishes one view, however many changes there were, and only then does what may block on
-    /// the disk.
-    fn update(&mut self, thread: &mut Context) -> bool {
-        let document = &mut *self.0.borrow_mut();
-        if document.changed || document.answers {
-            document.publish();
-        }
-        let now = thread.now();
-        if let Some(open) = &mut document.open {
-            open.keep(now);
-            if let Some(due) = open.journal_writer.next_due() {
-                thread.wake_at(due);
-            }
-            document.report_trouble();
-        }
-        true
     }
 }

@@ -108,7 +108,7 @@ const ECHO: u64 = 1 << 63;
 pub struct View {
     /// Grows with every change. An echo (see [`Self::echo`]) has its highest bit set.
     pub generation: u64,
-    /// Number of the last [numbered change](super::DocumentMessage::NumberedChange) that was carried out or refused before
+    /// Number of the last [numbered change](super::DocumentHandle::change_numbered) that was carried out or refused before
     /// this view was made; 0 before the first.
     pub answered: u64,
     /// The model as it was opened.

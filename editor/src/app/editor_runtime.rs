@@ -127,11 +127,6 @@ impl EditorRuntime {
                     }
                 }
             }
-            Effect::CancelLoading => {
-                if let Some(document) = &running.document {
-                    document.cancel_loading();
-                }
-            }
             Effect::Send(number, change) => {
                 if let Some(document) = &running.document {
                     state_trace::asked(&change);

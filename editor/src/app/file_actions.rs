@@ -14,20 +14,16 @@ impl Running {
     /// Carries an action out. Returns whether the program is to end.
     pub(super) fn file_action(&mut self, action: FileAction) -> bool {
         match action {
-            FileAction::Save(order) => self.tell(DocumentMessage::Save(order)),
-            FileAction::Plan(order) => self.tell(DocumentMessage::Plan(order)),
-            FileAction::Revert => self.tell(DocumentMessage::Revert),
-            FileAction::Decide(offer, decision) => self.tell(DocumentMessage::Decide(offer, decision)),
+            FileAction::Send(message) => {
+                if let DocumentMessage::FoundAt(offer, _) = &message {
+                    self.parts.interface.borrow_mut().state.offer_is_answered(offer);
+                }
+                self.tell(message)
+            }
             FileAction::Find(offer) => {
                 self.ask_where_it_is(offer);
                 true
             }
-            FileAction::FoundAt(offer, path) => {
-                self.parts.interface.borrow_mut().state.offer_is_answered(&offer);
-                self.tell(DocumentMessage::FoundAt(offer, path))
-            }
-            FileAction::Search => self.tell(DocumentMessage::Search),
-            FileAction::LookAtFile => self.tell(DocumentMessage::LookAtFile),
             FileAction::Where { copy, then } => {
                 self.ask_where(copy, then);
                 true
@@ -131,10 +127,10 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             let to = if copy { Copy(path) } else { As(path) };
             // The dialog asked before it returned the name of an existing file.
             let order = SaveOrder { to, anyway: true, then };
-            interface.effects.push(Effect::File(FileAction::Save(order)));
+            interface.effects.push(Effect::File(FileAction::Send(DocumentMessage::Save(order))));
         }
         (Purpose::Find(offer), Some(path)) => {
-            interface.effects.push(Effect::File(FileAction::FoundAt(offer, path)));
+            interface.effects.push(Effect::File(FileAction::Send(DocumentMessage::FoundAt(offer, path))));
         }
         (Purpose::Find(offer), None) if quick => {
             let text = "This desktop has no dialog for opening files; type the path instead";

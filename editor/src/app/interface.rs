@@ -14,7 +14,7 @@ use crate::panels::{Desk, Effect, FileAction, Request, Settings, State, style};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::BoneSelection;
 use dragonfly_document::edit::Edit;
-use dragonfly_document::{FaultInjection, FaultPoint};
+use dragonfly_document::{DocumentMessage, FaultInjection, FaultPoint};
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{GraphicsHandle, PanelsFrame};
 use dragonfly_runtime::{Context, Worker};
@@ -230,7 +230,7 @@ impl Interface {
                 self.redraw();
             }
             WindowEvent::Focused(true) => {
-                self.effects.push(Effect::File(FileAction::LookAtFile));
+                self.effects.push(Effect::File(FileAction::Send(DocumentMessage::LookAtFile)));
                 self.redraw();
             }
             WindowEvent::Focused(_) | WindowEvent::ThemeChanged(_) | WindowEvent::RedrawRequested => {

@@ -116,12 +116,12 @@ fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
         let text = Rect::from_min_max(pos2(end + 8.0, rect.top()), pos2(right, rect.bottom()));
         widgets::text_in(ui, text, about, &TextStyle::Small, weak);
     }
-    let deed = match () {
+    let action = match () {
         () if here => "Current state",
         () if ahead => "Click to redo everything up to here",
         () => "Click to undo everything after this",
     };
     let saved = if saved && done > 0 { "\nSaved like this" } else { "" };
     let about = if about.is_empty() { String::new() } else { format!("\n{about}") };
-    response.on_hover_text(format!("{label}{about}\n{deed}{saved}"))
+    response.on_hover_text(format!("{label}{about}\n{action}{saved}"))
 }

@@ -8,10 +8,9 @@ use super::properties::look::PropertiesLook;
 use super::settings::GhostSettings;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{Change, Decision, Offer, SaveOrder, Source, Then};
+use dragonfly_document::{Change, DocumentMessage, Offer, Source, Then};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::OwnedRegion;
-use std::path::PathBuf;
 
 /// A request of a panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,8 +92,6 @@ pub enum Effect {
     CancelDrag,
     /// Ends the drag in progress; no button is held any more.
     ReleaseDrag,
-    /// Cancels loading.
-    CancelLoading,
     /// Sends a change to the document.
     Change(Change),
     /// Sends a change to the document under this number: what [`Self::Change`] and [`Self::Changes`] become when they are let
@@ -127,13 +124,11 @@ pub enum Effect {
     File(FileAction),
 }
 
-/// An action about files: what only the document, or the system's dialogs, can do.
+/// An action about files.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FileAction {
-    /// Saves.
-    Save(SaveOrder),
-    /// Computes what a save would change.
-    Plan(Option<SaveOrder>),
+    /// Sends a message to the document: saves, recovers, looks at the file.
+    Send(DocumentMessage),
     /// Asks the user where to save.
     Where {
         /// Whether the document keeps its own file.
@@ -143,42 +138,31 @@ pub enum FileAction {
     },
     /// Goes on without saving.
     DoNotSave(Then),
-    /// Goes back to the saved state.
-    Revert,
     /// Reads the file again; unsaved changes are lost.
     Reload,
-    /// Decides about unsaved work of an earlier run.
-    Decide(Box<Offer>, Decision),
     /// Asks the user where the file of unsaved work is now.
     Find(Box<Offer>),
-    /// The file of unsaved work is here.
-    FoundAt(Box<Offer>, PathBuf),
-    /// Searches for unsaved work.
-    Search,
     /// Opens another model or ends the program, unless there are unsaved changes.
     Leave(Then),
     /// Ends the program: nothing is unsaved.
     QuitNow,
     /// The program does not end: there are unsaved changes.
     Stay,
-    /// Checks whether another program changed the file.
-    LookAtFile,
 }
 
 impl FileAction {
-    /// Returns whether the action only reads, so that a drag may continue.
-    pub(super) fn only_reads(&self) -> bool {
+    /// Returns whether a drag may continue: the action does not concern the open model.
+    pub(super) fn spares_drag(&self) -> bool {
         match self {
-            Self::LookAtFile | Self::Search | Self::Stay => true,
-            Self::Save(_)
-            | Self::Plan(_)
+            Self::Send(
+                DocumentMessage::LookAtFile | DocumentMessage::Search | DocumentMessage::CancelLoading,
+            )
+            | Self::Stay => true,
+            Self::Send(_)
             | Self::Where { .. }
             | Self::DoNotSave(_)
-            | Self::Revert
             | Self::Reload
-            | Self::Decide(..)
             | Self::Find(_)
-            | Self::FoundAt(..)
             | Self::Leave(_)
             | Self::QuitNow => false,
         }

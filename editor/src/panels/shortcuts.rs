@@ -221,8 +221,8 @@ fn cap(ui: &mut Ui, title: &str, text: &str, asked: bool) -> egui::Response {
 
 fn mouse(ui: &mut Ui) {
     heading(ui, "Mouse");
-    for (gesture, deed) in MOUSE {
-        line(ui, deed, |ui| {
+    for (gesture, action) in MOUSE {
+        line(ui, action, |ui| {
             ui.label(RichText::new(*gesture).small().color(Theme::of(ui).weak));
         });
     }

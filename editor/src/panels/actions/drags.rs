@@ -32,14 +32,13 @@ pub(in crate::panels) fn let_through(
         Effect::CancelDrag => cancel_drag(workspace, pass),
         Effect::ReleaseDrag => release_drag(workspace, pass),
         Effect::File(action) => {
-            if !action.only_reads() {
+            if !action.spares_drag() {
                 cancel_drag(workspace, pass);
             }
             pass(Effect::File(action));
         }
         effect @ (Effect::Send(..)
         | Effect::OpenDialog
-        | Effect::CancelLoading
         | Effect::Copy(_)
         | Effect::PastePose { .. }
         | Effect::Pick(..)

@@ -5,7 +5,7 @@ use crate::panels::prompts::Question;
 use crate::panels::request::{Effect, FileAction};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_document::{Decision, NotSaved, Offer, SaveOrder, SaveTo};
+use dragonfly_document::{Decision, DocumentMessage, NotSaved, Offer, SaveOrder, SaveTo};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 
@@ -36,38 +36,37 @@ pub(super) fn answered(workspace: &mut Workspace, action: FileAction) -> Option<
     let finds =
         matches!(workspace.prompts.question(), Some(Question::Recover { .. } | Question::Find { .. }));
     match &action {
-        FileAction::Decide(offer, Decision::Discard | Decision::Later) => workspace.prompts.decided(offer),
+        FileAction::Send(DocumentMessage::Decide(offer, Decision::Discard | Decision::Later)) => {
+            workspace.prompts.decided(offer);
+        }
         // The dialog for files that follows may be closed without an answer.
         FileAction::Find(_) if finds => {}
-        FileAction::Save(_)
-        | FileAction::Plan(_)
+        FileAction::Send(_)
         | FileAction::Where { .. }
         | FileAction::DoNotSave(_)
-        | FileAction::Revert
         | FileAction::Reload
-        | FileAction::Decide(..)
         | FileAction::Find(_)
-        | FileAction::FoundAt(..)
-        | FileAction::Search
         | FileAction::Leave(_)
         | FileAction::QuitNow
-        | FileAction::Stay
-        | FileAction::LookAtFile => workspace.prompts.pop(),
+        | FileAction::Stay => workspace.prompts.pop(),
     }
-    Some(if let FileAction::Save(order) = action { save_as(workspace, order) } else { Effect::File(action) })
+    Some(match action {
+        FileAction::Send(DocumentMessage::Save(order)) => save_as(workspace, order),
+        action => Effect::File(action),
+    })
 }
 
 /// Closes a question without an answer. Unsaved work stays where it is.
 pub(super) fn dismiss(workspace: &mut Workspace) -> Option<Effect> {
     let (offer, decision) = workspace.prompts.dismiss()?;
-    Some(Effect::File(FileAction::Decide(Box::new(offer), decision)))
+    Some(Effect::File(FileAction::Send(DocumentMessage::Decide(Box::new(offer), decision))))
 }
 
 /// Saves to the document's own file; shows what will change first where the settings say so.
 pub(in crate::panels) fn save(workspace: &mut Workspace) -> Option<Effect> {
     let order = SaveOrder::own(None);
     if workspace.settings.show_changes && workspace.model.has_file() {
-        return Some(Effect::File(FileAction::Plan(Some(order))));
+        return Some(Effect::File(FileAction::Send(DocumentMessage::Plan(Some(order)))));
     }
     Some(save_as(workspace, order))
 }
@@ -78,7 +77,7 @@ fn save_as(workspace: &Workspace, order: SaveOrder) -> Effect {
     Effect::File(if asks {
         FileAction::Where { copy: false, then: order.then }
     } else {
-        FileAction::Save(order)
+        FileAction::Send(DocumentMessage::Save(order))
     })
 }
 

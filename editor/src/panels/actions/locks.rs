@@ -17,7 +17,6 @@ pub(super) fn unlocked(workspace: &mut Workspace, effect: Effect) -> Option<Effe
         | Effect::OpenDialog
         | Effect::CancelDrag
         | Effect::ReleaseDrag
-        | Effect::CancelLoading
         | Effect::Copy(_)
         | Effect::PastePose { .. }
         | Effect::Pick(..)

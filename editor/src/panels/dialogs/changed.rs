@@ -3,7 +3,7 @@
 use super::{Ask, Tone};
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
-use dragonfly_document::SaveOrder;
+use dragonfly_document::{DocumentMessage, SaveOrder};
 use dragonfly_store::FileState;
 
 #[derive(Clone, Copy)]
@@ -62,7 +62,10 @@ pub(super) fn show(ask: &mut Ask<'_>, file: FileState, order: Option<&SaveOrder>
     };
     let request = match pressed {
         Some(ChangedChoice::Overwrite) => {
-            Request::Answer(FileAction::Save(SaveOrder { anyway: true, ..SaveOrder::own(then) }))
+            Request::Answer(FileAction::Send(DocumentMessage::Save(SaveOrder {
+                anyway: true,
+                ..SaveOrder::own(then)
+            })))
         }
         Some(ChangedChoice::SaveAs) => Request::Answer(FileAction::Where { copy: false, then }),
         Some(ChangedChoice::Reload) => Request::Answer(FileAction::Reload),

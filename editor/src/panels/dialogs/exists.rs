@@ -3,7 +3,7 @@
 use super::{Ask, Tone};
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
-use dragonfly_document::SaveOrder;
+use dragonfly_document::{DocumentMessage, SaveOrder};
 use std::path::Path;
 
 pub(super) fn show(ask: &mut Ask<'_>, path: &Path, order: &SaveOrder) {
@@ -17,7 +17,7 @@ pub(super) fn show(ask: &mut Ask<'_>, path: &Path, order: &SaveOrder) {
     match ask.buttons(&[cancel, replace]) {
         Some(true) => {
             let order = SaveOrder { anyway: true, ..order.clone() };
-            ask.requests.push(Request::Answer(FileAction::Save(order)));
+            ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order))));
         }
         Some(false) => ask.requests.push(Request::Dismiss),
         None => {}

@@ -4,7 +4,7 @@
 use super::{Ask, Tone};
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
-use dragonfly_document::{Decision, Offer, Source};
+use dragonfly_document::{Decision, DocumentMessage, Offer, Source};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
@@ -47,7 +47,7 @@ fn is_another(ask: &mut Ask<'_>, offer: &Offer, other: &Path) {
         Some(FindChoice::Another) => Request::Answer(FileAction::Find(Box::new(offer.clone()))),
         Some(FindChoice::Beside) => {
             let offer = Offer { source: Some(Source::File(other.to_owned())), ..offer.clone() };
-            Request::Answer(FileAction::Decide(Box::new(offer), Decision::Beside))
+            Request::Answer(FileAction::Send(DocumentMessage::Decide(Box::new(offer), Decision::Beside)))
         }
         Some(FindChoice::Later) => Request::Dismiss,
         None => return,
@@ -71,8 +71,9 @@ fn typed(ask: &mut Ask<'_>, offer: &Offer, path: &mut String) {
     ask.fresh = fresh;
     let wanted = path.trim().trim_matches('"');
     if (entered || pressed == Some(true)) && !wanted.is_empty() {
-        let deed = FileAction::FoundAt(Box::new(offer.clone()), PathBuf::from(wanted));
-        ask.requests.push(Request::Answer(deed));
+        let action =
+            FileAction::Send(DocumentMessage::FoundAt(Box::new(offer.clone()), PathBuf::from(wanted)));
+        ask.requests.push(Request::Answer(action));
     } else if pressed == Some(false) {
         ask.requests.push(Request::Dismiss);
     }

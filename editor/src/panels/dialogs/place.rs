@@ -4,7 +4,7 @@ use super::{Ask, Tone};
 use crate::panels::context::PanelContext;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
-use dragonfly_document::{SaveOrder, SaveTo, Then};
+use dragonfly_document::{DocumentMessage, SaveOrder, SaveTo, Then};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
@@ -51,7 +51,7 @@ pub(super) fn show(ask: &mut Ask<'_>, copy: bool, then: Option<&Then>, path: &mu
         let path = PathBuf::from(typed);
         let to = if copy { SaveTo::Copy(path) } else { SaveTo::As(path) };
         let order = SaveOrder { to, anyway: false, then: then.cloned() };
-        ask.requests.push(Request::Answer(FileAction::Save(order)));
+        ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order))));
     } else if pressed == Some(false) {
         ask.requests.push(Request::Dismiss);
     }

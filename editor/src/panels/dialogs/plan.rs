@@ -5,7 +5,7 @@ use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use crate::panels::style::{self, GRID};
 use crate::panels::theme::Theme;
-use dragonfly_document::SaveOrder;
+use dragonfly_document::{DocumentMessage, SaveOrder};
 use egui::{Align, Frame, Label, Layout, RichText, ScrollArea, vec2};
 
 /// Height of a line of the list, in points.
@@ -55,7 +55,9 @@ pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder
     let save = ("Save", "Write exactly these changes", Tone::First, true);
     let pressed = if order.is_some() { ask.buttons(&[save, cancel]) } else { ask.buttons(&[close]) };
     match (pressed, order) {
-        (Some(true), Some(order)) => ask.requests.push(Request::Answer(FileAction::Save(order.clone()))),
+        (Some(true), Some(order)) => {
+            ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order.clone()))))
+        }
         (Some(_), _) => ask.requests.push(Request::Dismiss),
         (None, _) => {}
     }

@@ -6,7 +6,7 @@ use crate::panels::request::Request;
 use crate::panels::style::{GRID, ROW};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
-use dragonfly_document::{Decision, Offer};
+use dragonfly_document::{Decision, DocumentMessage, Offer};
 use egui::{Rect, RichText, ScrollArea, TextStyle, pos2};
 use std::time::Duration;
 
@@ -54,7 +54,10 @@ pub(super) fn show(ask: &mut Ask<'_>, offers: &[Offer], lost: bool, chosen: &mut
         ask.buttons(&[later, discard])
     };
     if let Some(decision) = pressed {
-        ask.requests.push(Request::Answer(FileAction::Decide(Box::new(offer.clone()), decision)));
+        ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Decide(
+            Box::new(offer.clone()),
+            decision,
+        ))));
     }
 }
 

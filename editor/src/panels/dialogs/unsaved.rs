@@ -3,7 +3,7 @@
 use super::{Ask, Tone};
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
-use dragonfly_document::{SaveOrder, Then};
+use dragonfly_document::{DocumentMessage, SaveOrder, Then};
 
 #[derive(Clone, Copy)]
 enum UnsavedChoice {
@@ -34,7 +34,9 @@ pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
         UnsavedChoice::DoNotSave,
     );
     let request = match ask.buttons(&[save, cancel, lose]) {
-        Some(UnsavedChoice::Save) => Request::Answer(FileAction::Save(SaveOrder::own(Some(then.clone())))),
+        Some(UnsavedChoice::Save) => {
+            Request::Answer(FileAction::Send(DocumentMessage::Save(SaveOrder::own(Some(then.clone())))))
+        }
         Some(UnsavedChoice::DoNotSave) => Request::Answer(FileAction::DoNotSave(then.clone())),
         Some(UnsavedChoice::Cancel) => Request::Dismiss,
         None => return,

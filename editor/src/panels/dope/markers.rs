@@ -44,7 +44,7 @@ impl MarkerLane {
         ui.painter().rect_filled(lane, CornerRadius::ZERO, theme.bar);
         let painter = ui.painter().with_clip_rect(lane);
         let markers = state.markers();
-        let mut ask = |deed: MarkerAction| requests.push(Request::Timeline(KeysRequest::Marker(deed)));
+        let mut ask = |action: MarkerAction| requests.push(Request::Timeline(KeysRequest::Marker(action)));
         let mut seek = None;
         for (index, marker) in markers.iter().enumerate() {
             let held = self.drag.drag().filter(|(held, _)| *held == index);
@@ -122,8 +122,8 @@ impl MarkerLane {
                 }
             });
         }
-        if let Some(deed) = self.rename(ui, lane, scale, state) {
-            ask(deed);
+        if let Some(action) = self.rename(ui, lane, scale, state) {
+            ask(action);
         }
         if let Some(time) = seek {
             requests.push(Request::Seek(time));

@@ -77,7 +77,7 @@ pub(super) fn button(
     requests: &mut Vec<Request>,
 ) {
     let keyed = at_time(state, property);
-    let (icon, now, deed) = match keyed {
+    let (icon, now, action) = match keyed {
         Keyed::Here => (Icon::KeyHere, "a key at this time", "Delete it"),
         Keyed::Elsewhere => (Icon::KeyElsewhere, "no key at this time", "Add one"),
         Keyed::Never => (Icon::KeyNever, "no keys", "Add one"),
@@ -94,7 +94,7 @@ pub(super) fn button(
         .inner
         .on_hover_ui(|ui| {
             ui.label(format!("The {name} has {now}"));
-            ui.colored_label(Theme::of(ui).weak, deed);
+            ui.colored_label(Theme::of(ui).weak, action);
         });
     if response.clicked()
         && let Some(edit) = toggled(state, property, keyed)

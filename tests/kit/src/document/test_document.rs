@@ -197,7 +197,7 @@ impl TestDocument {
 
     /// Sends a change to the document.
     pub fn change(&self, change: Change) {
-        self.send(DocumentMessage::Change(change));
+        self.document.change(change);
     }
 
     /// Sends an edit as a step of its own.

@@ -1,0 +1,98 @@
+//! The document in its thread: receiver of messages about files, of changes and of news of jobs, and worker. The messages of all
+//! three are handled in the order in which they were sent.
+
+#![deny(clippy::wildcard_enum_match_arm)]
+
+use super::Change;
+use super::job::JobNews;
+use super::message::{DocumentMessage, DocumentReply};
+use super::owner::Document;
+use super::saving::Then;
+use dragonfly_runtime::{Context, Receiver, Worker};
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// Receives messages about files.
+pub(super) struct MessageReceiver(pub(super) Rc<RefCell<Document>>);
+
+impl Receiver for MessageReceiver {
+    type Message = DocumentMessage;
+
+    fn receive(&mut self, message: DocumentMessage, thread: &mut Context) {
+        let document = &mut *self.0.borrow_mut();
+        let now = thread.now();
+        match message {
+            DocumentMessage::Open { source, anyway } => document.open_or_ask(source, anyway),
+            DocumentMessage::CancelLoading => document.cancel(),
+            DocumentMessage::Save(order) => document.save(order, now),
+            DocumentMessage::Plan(order) => document.plan(order),
+            DocumentMessage::Revert => document.revert(now),
+            DocumentMessage::Quit => {
+                let unsaved = document.has_unsaved_work();
+                let reply = if unsaved { DocumentReply::Unsaved(Then::Quit) } else { DocumentReply::MayQuit };
+                document.reply(reply);
+            }
+            DocumentMessage::DoNotSave => {
+                if let Some(open) = &mut document.open {
+                    open.unwanted = true;
+                }
+            }
+            DocumentMessage::LookAtFile => document.look_at_file(),
+            DocumentMessage::Search => {
+                document.searched = true;
+                document.search();
+            }
+            DocumentMessage::Decide(offer, decision) => document.decide(*offer, decision),
+            DocumentMessage::FoundAt(offer, path) => document.found_at(*offer, path),
+        }
+    }
+}
+
+/// Receives changes. A sender that waits for the outcome numbers them: the first view with
+/// [`View::answered`](super::View::answered) at or above the number contains the change, or was made after it was refused.
+pub(super) struct ChangeReceiver(pub(super) Rc<RefCell<Document>>);
+
+impl Receiver for ChangeReceiver {
+    /// The change, and its number if it has one. Numbers ascend and begin at 1.
+    type Message = (Change, Option<u64>);
+
+    fn receive(&mut self, (change, number): (Change, Option<u64>), thread: &mut Context) {
+        self.0.borrow_mut().change(change, number, thread.now());
+    }
+}
+
+/// Receives the news of jobs.
+pub(super) struct JobReceiver(pub(super) Rc<RefCell<Document>>);
+
+impl Receiver for JobReceiver {
+    type Message = JobNews;
+
+    fn receive(&mut self, news: JobNews, _thread: &mut Context) {
+        let document = &mut *self.0.borrow_mut();
+        match news {
+            JobNews::Progress(ticket, progress) => document.show_progress(ticket, progress),
+            JobNews::Loaded(ticket, loaded) => document.finish_loading(ticket, loaded),
+            JobNews::Scanned(scan) => document.offer(scan),
+        }
+    }
+}
+
+/// Does the work of the document after the messages of an iteration.
+pub(super) struct DocumentWorker(pub(super) Rc<RefCell<Document>>);
+
+impl Worker for DocumentWorker {
+    /// Publishes one view, however many changes there were, and only then does what may block on the disk.
+    fn update(&mut self, thread: &mut Context) -> bool {
+        let document = &mut *self.0.borrow_mut();
+        document.publish();
+        let now = thread.now();
+        if let Some(open) = &mut document.open {
+            open.keep(now);
+            if let Some(due) = open.journal_writer.next_due() {
+                thread.wake_at(due);
+            }
+            document.report_trouble();
+        }
+        true
+    }
+}
