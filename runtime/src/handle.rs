@@ -101,7 +101,7 @@ impl ThreadHandle {
     /// Interrupts a sleep or pause. [`Thread::wait_for`](crate::Thread::wait_for) waits for it.
     pub fn remote_stop(&self) {
         self.shared.stopping.store(true, Ordering::SeqCst);
-        // Fails only when it has stopped already.
+        // Fails only when the thread has stopped already.
         let _ = self.ask("stop", Context::stop);
         self.shared.mailbox.0.wake_now();
     }
@@ -109,7 +109,7 @@ impl ThreadHandle {
     /// Makes the thread sleep for `duration`, after all messages queued so far; see
     /// [`Context::sleep`].
     pub fn remote_sleep(&self, duration: Duration) {
-        // Fails only when the thread has stopped, where it has no use.
+        // Fails only when the thread has stopped, and then there is nothing to put to sleep.
         let _ = self.ask("sleep", move |thread| thread.sleep(duration));
     }
 

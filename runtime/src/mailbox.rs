@@ -78,7 +78,7 @@ impl Mailbox {
             Ok(state)
         })?;
         if state == ASLEEP {
-            self.wake_now(); // Only the first of several senders pays for it.
+            self.wake_now(); // Only the first of several senders pays for the wake-up.
         }
         Ok(())
     }
@@ -88,8 +88,8 @@ impl Mailbox {
         (self.wake)();
     }
 
-    /// Called by the owner when it is running: senders need not wake it. One that has just done so
-    /// does no harm.
+    /// Called by the owner when it is running: senders need not wake it. A wake-up that a sender has
+    /// just caused does no harm.
     pub(crate) fn set_awake(&self) {
         if self.is_asleep() {
             self.state.store(AWAKE, Ordering::SeqCst);

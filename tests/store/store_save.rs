@@ -281,7 +281,7 @@ fn a_deleted_folder_is_reported() {
     let stamp = replace(&path, b"first").unwrap().stamp;
     fs::remove_dir_all(folder.join("gone")).unwrap();
     let error = expecting(&path, b"second", &stamp).unwrap_err();
-    assert!(error.to_string().ends_with("cannot be written: it or its folder is not there"), "{error}");
+    assert!(error.to_string().ends_with("cannot be written: it or its folder does not exist"), "{error}");
     assert!(!folder.join("gone").exists());
 }
 

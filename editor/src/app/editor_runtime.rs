@@ -31,7 +31,7 @@ pub struct EditorRuntime {
     running: Option<Running>,
 }
 
-/// The run-time between initialize and destroy.
+/// State of the run-time between [`BaseRuntime::initialize`] and [`BaseRuntime::destroy`].
 pub(super) struct Running {
     pub(super) parts: Parts,
     pub(super) document: Option<DocumentHandle>,
@@ -107,7 +107,7 @@ impl EditorRuntime {
         match effect {
             // Done above.
             Effect::File(_) => {}
-            // Became other effects when they were let through.
+            // `take_effects` has replaced these by other effects.
             Effect::Change(_)
             | Effect::Changes(_)
             | Effect::Cut(..)
@@ -225,7 +225,7 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.set_frame_time(milliseconds);
             }
             GraphicsReply::Recovered { reason, losses } => {
-                let text = format!("The graphics device was lost and recovered ({losses}): {reason}");
+                let text = format!("The graphics device was lost and recovered (loss {losses} of this run): {reason}");
                 interface.state.say(MessageSeverity::Info, text);
             }
             GraphicsReply::Paused { reason } => {
@@ -236,7 +236,7 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.say(MessageSeverity::Info, format!("Wrote {}", path.display()));
             }
             GraphicsReply::Captured(Err(reason)) => {
-                interface.state.say(MessageSeverity::Error, format!("No picture was written: {reason}"));
+                interface.state.say(MessageSeverity::Error, format!("No image was written: {reason}"));
             }
             GraphicsReply::Fatal(reason) => {
                 interface.state.say(MessageSeverity::Error, format!("Drawing has stopped: {reason}"));
@@ -298,7 +298,7 @@ pub(super) fn report_faults(
     main.register_restartable_receiver_at(&address, move |_| Faults(Rc::clone(&shown)));
     thread.observe(move |fault| {
         let text = format!("{} in thread {} failed: {}", fault.object, fault.thread, fault.reason);
-        // The log has it also where nothing receives it.
+        // If nothing receives the message, the log still contains the failure.
         let _ = address.send((text, fault.outcome == Outcome::GivenUp));
     });
 }
@@ -306,7 +306,7 @@ pub(super) fn report_faults(
 struct Faults(Rc<RefCell<Interface>>);
 
 impl Receiver for Faults {
-    /// The text of the failure, and whether the part stays ended.
+    /// The text of the failure, and whether the object was removed for good.
     type Message = (String, bool);
 
     fn receive(&mut self, (text, for_good): (String, bool), _main: &mut Context) {

@@ -125,7 +125,8 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
         (Purpose::Save { copy, then, .. }, Some(path)) => {
             use dragonfly_document::SaveTo::{As, Copy};
             let to = if copy { Copy(path) } else { As(path) };
-            // The dialog asked before it returned the name of an existing file.
+            // `anyway`: the dialog has already asked the user whether to replace an existing
+            // file.
             let order = SaveOrder { to, anyway: true, then };
             interface.effects.push(Effect::File(FileAction::Send(DocumentMessage::Save(order))));
         }

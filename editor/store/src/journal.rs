@@ -263,7 +263,7 @@ impl Journal {
     /// As [`compact`](Self::compact).
     pub fn compact_as(&mut self, snapshot: &[u8], saved: bool) -> Result<(), JournalError> {
         self.ensure_fits(snapshot)?;
-        // The lock makes this name ours: an existing file with it was left by a killed program.
+        // Only the holder of the lock uses this name: an existing file with it was left by a killed program.
         let temporary = self.path.with_extension("compact");
         let _ = retry(|| self.files.remove(&temporary));
         let made = self.make_compact(&temporary, snapshot, saved).and_then(|new| {

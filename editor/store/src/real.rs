@@ -186,8 +186,8 @@ mod system {
         }
     }
 
-    /// Returns whether the error means that the file system has no locks. Network file systems report the last one
-    /// for files opened for reading only.
+    /// Returns whether the error means that the file system has no locks. `BADF` is what network file systems
+    /// report for files opened for reading only.
     pub(super) fn has_no_locks(error: &io::Error) -> bool {
         let kinds = [Errno::NOLCK, Errno::NOTSUP, Errno::OPNOTSUPP, Errno::NOSYS, Errno::BADF];
         kinds.iter().any(|kind| error.raw_os_error() == Some(kind.raw_os_error()))

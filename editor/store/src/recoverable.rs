@@ -73,7 +73,7 @@ pub struct Recoverable {
 }
 
 impl Recoverable {
-    /// A journal of which only this is known.
+    /// Returns the entry of a journal of which only the path and the readability are known.
     fn unreadable(journal: PathBuf, reading: Readability) -> Self {
         Self {
             journal,
@@ -91,7 +91,8 @@ impl Recoverable {
         }
     }
 
-    /// Returns whether a file with this stamp, at any path, has the content the document's file had last.
+    /// Returns whether a file with this stamp, at any path, has the content that the document's file had last, or
+    /// that a save without a recorded end was to write.
     pub fn held(&self, stamp: &FileStamp) -> bool {
         let then = self.stamp.map(|then| (then.size, then.hash));
         [then, self.saving].contains(&Some((stamp.size, stamp.hash)))
@@ -231,7 +232,7 @@ impl JournalContents {
     }
 }
 
-/// Inserts the entry that the document was saved before the unsaved edits that `state` counts.
+/// Inserts a [`JournalEntry::Saved`] before the unsaved edits that `state` counts.
 fn mark_saved(entries: &mut Vec<JournalEntry>, state: &JournalState) {
     let unsaved = usize::try_from(state.unsaved).unwrap_or(usize::MAX);
     entries.insert(entries.len().saturating_sub(unsaved), JournalEntry::Saved);
@@ -278,8 +279,8 @@ fn owner_status(file: &dyn VfsFile, state: &JournalState) -> io::Result<OwnerSta
         .as_ref()
         .filter(|_| !state.closed)
         .map_or(OwnerStatus::Exited, JournalOwner::owner_status);
-    // When the owner runs, the lock is its own; otherwise another process only inspects the journal and will release
-    // it soon.
+    // If the owner runs, it is the process that holds the lock; otherwise the lock is held by a process that only
+    // inspects the journal and releases it soon.
     let lock = if owner == OwnerStatus::Running { lock(file)? } else { lock_with_retries(file)? };
     Ok(match lock {
         LockResult::Held => OwnerStatus::Running,

@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_beside_is_never_longer_than_names_may_be() {
+    fn the_name_of_a_temporary_file_is_never_longer_than_file_systems_allow() {
         for length in [1, 200, 206, 207, 208, 255] {
             let target = PathBuf::from("x".repeat(length));
             let mut name = temporary_prefix(&target);
