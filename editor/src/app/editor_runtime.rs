@@ -225,7 +225,9 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.set_frame_time(milliseconds);
             }
             GraphicsReply::Recovered { reason, losses } => {
-                let text = format!("The graphics device was lost and recovered (loss {losses} of this run): {reason}");
+                let text = format!(
+                    "The graphics device was lost and recovered (loss {losses} of this run): {reason}"
+                );
                 interface.state.say(MessageSeverity::Info, text);
             }
             GraphicsReply::Paused { reason } => {
