@@ -40,7 +40,7 @@ pub(crate) fn how(is_masked: bool) -> &'static str {
     if is_masked { "masked" } else { "whole" }
 }
 
-/// Returns the weight of each bone in the masks: 0, 1/3, 2/3, 1, and again.
+/// Returns the weight of each bone in the masks: 0, 1/3, 2/3, 1, repeating.
 pub(crate) fn mask_weights(subject: &BenchModel) -> impl Iterator<Item = f32> {
     (0..subject.bones()).map(|bone| (bone % 4) as f32 / 3.0)
 }
@@ -89,7 +89,8 @@ pub(crate) fn primitive(subject: &BenchModel, most: usize) -> Primitive {
     let each = primitive.vertices.influences_per_vertex.max(1);
     for vertex in primitive.vertices.influences.chunks_mut(each) {
         for (at, influence) in vertex.iter_mut().enumerate() {
-            // None of the first is zero, because a variant may skip influences without weight.
+            // None of the first `most` weights is zero, because a variant may skip influences without
+            // weight.
             influence.weight = if at < most { 1.0 / most as f32 } else { 0.0 };
         }
     }

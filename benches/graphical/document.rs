@@ -268,13 +268,13 @@ mod tests {
         assert_eq!(
             Arc::as_ptr(&edited.takes[0].result.tracks[1].rotation.values),
             place,
-            "nobody else had it"
+            "the values are not shared, so they are changed in place"
         );
         assert_eq!(base.takes[0].number, 0);
     }
 
     #[test]
-    fn half_an_edit_is_torn_and_a_whole_edit_is_not() {
+    fn half_of_an_edit_is_detected_and_a_whole_edit_is_accepted() {
         let mut document = ModelSize::TINY.document();
         let originals = document.originals();
         drop(document.apply(key(7).prepare(&originals)));

@@ -30,8 +30,8 @@ pub trait Viewing {
     /// Draws a frame from one consistent view.
     fn frame(&mut self, frame: &mut FrameWork);
 
-    /// Called when a frame is due. Returns whether it can start; if not, called again when a message arrives, or when
-    /// this call itself has caused a wake-up.
+    /// Called when a frame is due. Returns whether it can start. If not, this is called again when a message arrives,
+    /// or at the wake-up that this call has requested.
     fn is_ready(&mut self, _thread: &mut Context) -> bool {
         true
     }

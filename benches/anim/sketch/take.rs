@@ -20,7 +20,7 @@ type PackedKey = [[u16; 8]; 3];
 struct BlockRange {
     least: [[f32; 8]; 3],
     step: [[f32; 8]; 3],
-    /// Masks of the lanes whose component left out is 0; is 0 or 1; is 0, 1 or 2.
+    /// Masks of the lanes whose left-out component is at most 0, at most 1, and at most 2.
     left_out: [[f32; 8]; 3],
 }
 

@@ -17,9 +17,9 @@ fn editor() -> (Stage, [ThreadHandle; 3], Rc<RefCell<Panel>>) {
     (stage, threads, panel)
 }
 
-/// Asks the other asker in the middle of its own message, and waits.
+/// Sends a request to the other asker while it handles a message itself, and waits for the answer.
 struct Asker {
-    /// Both askers are in the middle of a message; both have looked for their answer.
+    /// Where both askers meet: first when both are handling a message, then when both have looked for their answer.
     stations: Arc<[Barrier; 2]>,
     found: mpsc::Sender<bool>,
 }
@@ -103,7 +103,7 @@ fn race_by_reading_a_view_and_sending_a_value_computed_from_it() {
         let angle: f32 = row.split(' ').nth(1).unwrap().parse().unwrap();
         panel.borrow().drag_angle(0, angle + 1.0);
     };
-    // Twice, before the view has arrived.
+    // Called twice before the new view arrives.
     turn();
     turn();
     assert!(stage.settle(10));
@@ -117,7 +117,7 @@ fn race_by_reading_a_view_and_sending_a_value_computed_from_it() {
 }
 
 #[test]
-fn stale_view_until_the_new_one_is_delivered() {
+fn stale_view_by_reading_before_the_new_one_is_delivered() {
     let (mut stage, [main, document, _], panel) = editor();
     panel.borrow().toggle_visible(0);
     assert!(!panel.borrow().rows()[0].contains("hidden"), "not yet with the document");
@@ -160,9 +160,9 @@ fn flood_by_a_sender_without_back_pressure() {
 #[test]
 fn lost_message_by_sending_to_a_removed_receiver() {
     let (mut stage, [_, document, _], _) = editor();
-    let nobody = document.reserve_address::<Edit>();
+    let unregistered = document.reserve_address::<Edit>();
     let before = document.counters().undeliverable;
-    assert!(nobody.send(Edit::ToggleVisible { bone: 0 }).is_ok(), "accepted");
+    assert!(unregistered.send(Edit::ToggleVisible { bone: 0 }).is_ok(), "accepted");
     stage.iterate(&document);
     assert_eq!(document.counters().undeliverable - before, 1, "and counted, but not delivered");
 }

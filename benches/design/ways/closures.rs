@@ -73,24 +73,24 @@ impl ClosurePanel {
         self.selected
     }
 
-    /// The user moves a slider.
+    /// Called when the user moves a slider.
     pub fn drag_angle(&self, bone: usize, angle: f32) {
         self.document.edit(bone, move |bone| bone.angle = angle);
     }
 
     // feature: begin
-    /// The user chooses a color.
+    /// Called when the user chooses a color.
     pub fn choose_color(&self, bone: usize, color: Color) {
         self.document.edit(bone, move |bone| bone.color = color);
     }
 
-    /// The user toggles the visibility icon of a bone.
+    /// Called when the user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         self.document.edit(bone, |bone| bone.visible = !bone.visible);
     }
     // feature: end
 
-    /// The user clicks into the image; the answer arrives later.
+    /// Called when the user clicks into the image; the answer arrives later.
     pub fn click(&self, point: Point) {
         self.viewport.pick(point);
     }

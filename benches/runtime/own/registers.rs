@@ -15,7 +15,7 @@ impl Worker for IdleWorker {
     }
 }
 
-/// Measures receivers and workers, in a number for which the register is larger than a cache line.
+/// Measures receivers and workers. Their number makes the register larger than a cache line.
 pub fn all(study: &mut Study) {
     let count = study.mode.pick(10, 1_000, 1_000);
     let variants = vec![
