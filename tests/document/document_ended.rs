@@ -61,7 +61,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
     let mut in_a_drag = 0;
     for kill in 0..kills {
         let mut writer = start(test, folder.path(), number);
-        // Some kills come while it starts, most while it works.
+        // Some kills happen while the program starts, most while it works.
         let patience = if random.below(6) == 0 {
             Duration::from_millis(random.below(150) as u64)
         } else {
@@ -74,7 +74,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
         kill_process(process, signal).expect("it runs");
         let said = writer.ended();
         let said = said.edits.max(number);
-        // Every action that was reported must be there; the one in progress may be there or not.
+        // Every action that was reported must be recovered; the one in progress may or may not be.
         let mut candidates = Vec::new();
         let mut edited = kept.clone();
         for at in number..said {

@@ -85,7 +85,7 @@ pub(crate) fn apply_action(edited: &mut Edited, action: &DocumentAction) {
     }
 }
 
-/// Returns whether this process is the one to be killed. If so, it has finished editing, and the calling test must
+/// Edits the document if this process is the one to be killed. Returns whether it was; if so, the calling test must
 /// return.
 pub(crate) fn is_writer() -> bool {
     let Some(folder) = std::env::var_os(CHILD) else { return false };

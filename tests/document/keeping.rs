@@ -494,7 +494,7 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
     document.send(found_at(&folder.join("nowhere.glb")));
     document.wait_for_warning("nowhere.glb");
     assert_eq!(document.wait_for_offers(), std::slice::from_ref(&offer), "a wrong path is no answer");
-    // The right one.
+    // The path of the moved file.
     document.send(found_at(&moved));
     let after = document.wait_for_view(|view| view.history.done == 3);
     same_takes(&before, &after);

@@ -112,7 +112,7 @@ fn a_snapshot_of_every_version_is_restored() {
     assert_eq!(takes(&view), first_takes());
 }
 
-/// Until a release the file grows with the vocabulary; after that a new file is started.
+/// Before a release, new types of edits are added to this file; after the release, to a new file.
 #[test]
 fn every_edit_type_occurs_in_the_stored_records() {
     let kind = |json: &str| {

@@ -60,7 +60,7 @@ fn ghosts_show_the_skin_before_and_after_the_current_pose() {
     assert_eq!(studio.stage().device().errors(), 0);
 }
 
-/// Each ghost determines separately whether it is seen from inside.
+/// Whether a mesh is mirrored, and so seen from inside, is determined for each ghost separately.
 #[test]
 fn a_mesh_mirrored_at_one_time_is_mirrored_in_that_ghost_only() {
     let loaded = Arc::into_inner(arm::loaded()).expect("the only one");

@@ -57,7 +57,7 @@ struct GraphicsBench {
 }
 
 impl GraphicsBench {
-    /// Creates both, before the first iteration of the graphics thread.
+    /// Creates both threads, before the first iteration of the graphics thread.
     fn begin(parameters: DeviceParameters) -> Self {
         let losses = Arc::new(LoseDevice::default());
         let parameters =
@@ -71,7 +71,7 @@ impl GraphicsBench {
         Self { main, thread, graphics, replies, losses, _watch: watch }
     }
 
-    /// Creates both; skips the test where there is no adapter.
+    /// Creates both threads; skips the test where there is no adapter.
     fn new() -> Option<Self> {
         let mut bench = Self::begin(DeviceParameters::default());
         bench.settle();
@@ -85,7 +85,7 @@ impl GraphicsBench {
         }
     }
 
-    /// Creates both and shows the model of the arm.
+    /// Creates both threads and shows the model of the arm.
     fn with_arm() -> Option<Self> {
         let mut bench = Self::new()?;
         bench.graphics.show(View::opened(1, arm::loaded()));
@@ -331,11 +331,11 @@ fn an_edited_take_keeps_the_gpu_resources_of_the_model() {
     };
     let (model, items, bent) = shown(&opened);
     let still = Arc::new(Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) });
-    // The same number as before, one more, and none.
+    // As many takes as before, one more, and none.
     for takes in [vec![Arc::clone(&still)], vec![still; 2], Vec::new()] {
         let changed = View { generation: 2, takes: takes.into(), ..opened.clone() };
         let (same, kept, straight) = shown(&changed);
-        assert_eq!((same, kept), (model, items), "nothing was made anew, so nothing is uploaded");
+        assert_eq!((same, kept), (model, items), "nothing was made again, so nothing is uploaded");
         assert_ne!(straight, bent);
         assert_eq!(shown(&opened).2, bent);
     }

@@ -57,7 +57,7 @@ fn a_click_on_the_deformed_skin_picks_the_bone_with_most_influence() {
 }
 
 #[test]
-fn bones_of_the_skin_behind_follow_and_hidden_bones_are_skipped() {
+fn a_ray_hits_the_front_and_then_the_back_of_the_skin_and_skips_hidden_bones() {
     let mut skin = Skin::at(0.0);
     // The ray enters at the tip and leaves at the other side near the root.
     let (enter, leave) = (Vec3::new(0.25, 2.8, 0.05), Vec3::new(-0.25, 0.2, 0.05));

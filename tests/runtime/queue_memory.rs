@@ -30,7 +30,7 @@ fn steady(captured: &mut Captured, address: &Address<[u64; 8]>, burst: usize) ->
 }
 
 #[test]
-fn a_message_allocates_nothing_in_steady_state_for_every_flavor_of_address() {
+fn messages_allocate_nothing_in_steady_state_with_any_flavor_of_address() {
     let (mut captured, plain) = captured();
     assert_eq!(steady(&mut captured, &plain, 1), 0, "plain");
     assert_eq!(steady(&mut captured, &plain, 100), 0, "plain, in bursts");

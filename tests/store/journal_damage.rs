@@ -19,7 +19,7 @@ use std::time::Instant;
 struct Sample {
     bytes: Vec<u8>,
     entries: Vec<JournalEntry>,
-    /// Ends of the header and of each record; the first two hold no entry.
+    /// End of the header with the first record, which is not an edit; then the end of each edit.
     ends: Vec<usize>,
 }
 

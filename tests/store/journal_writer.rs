@@ -30,7 +30,7 @@ fn document(edits: u32) -> Vec<u8> {
     bytes
 }
 
-/// Returns after how many edits the document at `path` was saved, which must be complete; `None` when there is none.
+/// Returns the number of edits in the document at `path`, which must be complete; `None` when there is no document.
 #[track_caller]
 pub(crate) fn document_at(path: &Path) -> Option<u32> {
     let bytes = fs::read(path).ok()?;
@@ -66,8 +66,8 @@ fn count(entries: &[JournalEntry]) -> u32 {
     edits
 }
 
-/// Returns whether this process is the one to be killed. If so, it has finished editing and saving, and the calling
-/// test must return.
+/// Edits and saves if this process is the one to be killed. Returns whether it was; if so, the calling test must
+/// return.
 pub(crate) fn is_writer() -> bool {
     let Some(folder) = std::env::var_os(CHILD) else { return false };
     let mut out = std::io::stdout();

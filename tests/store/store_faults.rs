@@ -205,7 +205,8 @@ fn writes_by_another_program_during_a_save_are_detected_until_the_last_call() {
                 }
             }
         }
-        // No system can check and rename in one call. During an in-place save, the file changes while it is written.
+        // A write between the last check and the rename is overwritten, because no system call does both. An
+        // in-place save makes several calls after its last check.
         let most = if case.name == "one of two names" { 5 } else { 1 };
         assert!((1..=most).contains(&overwritten), "{}: {overwritten}", case.name);
     }
