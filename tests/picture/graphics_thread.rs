@@ -331,7 +331,7 @@ fn an_edited_take_keeps_the_gpu_resources_of_the_model() {
     };
     let (model, items, bent) = shown(&opened);
     let still = Arc::new(Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) });
-    // As many takes as before, one more, and none.
+    // The same number of takes as before, one more, and none.
     for takes in [vec![Arc::clone(&still)], vec![still; 2], Vec::new()] {
         let changed = View { generation: 2, takes: takes.into(), ..opened.clone() };
         let (same, kept, straight) = shown(&changed);
