@@ -128,7 +128,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_times_of_a_drag_ascend_and_it_repeats_after_its_end() {
+    fn the_recorded_drag_has_ascending_times_and_repeats_after_its_end() {
         let document = ModelSize::TINY.document();
         let script = Script::new(ModelSize::TINY, Edits::Small, &document);
         let mut last = -1.0;

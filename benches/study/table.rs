@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_shortened_by_whole_folders_only() {
+    fn case_names_are_shortened_by_whole_folders_only() {
         assert_eq!(common_folder(&["a/b/cc", "a/b/cd"]), 4);
         assert_eq!(common_folder(&["a/b", "ab/b"]), 0);
         assert_eq!(common_folder(&["alone/here"]), 6);

@@ -40,11 +40,11 @@ fn describe_action(number: u32) -> String {
 }
 
 #[test]
-fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
+fn a_document_killed_by_any_signal_at_any_moment_is_recovered_as_it_was() {
     if is_writer() {
         return;
     }
-    let test = "document_ended::a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was";
+    let test = "document_ended::a_document_killed_by_any_signal_at_any_moment_is_recovered_as_it_was";
     let kills = if takes_long() { 5000 } else { 200 };
     let seed = seed(0x646f_6373);
     println!("DRAGONFLY_SEED={seed}");

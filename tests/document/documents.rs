@@ -38,7 +38,7 @@ impl Receiver for Picture {
 }
 
 #[test]
-fn the_built_in_model_opens_with_progress() {
+fn the_built_in_model_opens_and_reports_progress() {
     let mut steps = Vec::new();
     let loaded =
         load_model(&Source::BuiltIn, &mut |progress| steps.push(progress.done), &Cancel::default()).unwrap();

@@ -139,7 +139,7 @@ fn the_history_survives_saving_closing_and_starting_again() {
 }
 
 #[test]
-fn a_history_of_another_state_of_the_file_is_reset_with_a_notice() {
+fn a_history_that_does_not_match_the_file_is_reset_with_a_notice() {
     let folder = Folder::new("keeping-other");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let mut document = TestDocument::new(&autosave);
@@ -281,7 +281,7 @@ fn postponed_recovery_keeps_the_old_work_and_allows_new_work() {
 }
 
 #[test]
-fn two_programs_with_one_file_are_warned_and_both_record_their_edits() {
+fn two_programs_that_open_one_file_are_warned_and_both_record_their_edits() {
     let folder = Folder::new("keeping-two");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let mut one = TestDocument::new(&autosave);

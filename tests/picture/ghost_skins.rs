@@ -62,7 +62,7 @@ fn ghosts_show_the_skin_before_and_after_the_current_pose() {
 
 /// Whether a mesh is mirrored, and so seen from inside, is determined for each ghost separately.
 #[test]
-fn a_mesh_mirrored_at_one_time_is_mirrored_in_that_ghost_only() {
+fn a_mesh_that_is_mirrored_at_one_time_is_mirrored_only_in_the_ghost_of_that_time() {
     let loaded = Arc::into_inner(arm::loaded()).expect("the only one");
     let mut model = Arc::into_inner(loaded.model).expect("the only one");
     let mut take = (*model.animation.takes[0]).clone();

@@ -273,8 +273,8 @@ fn an_object_is_given_up_after_more_than_three_panics_in_ten_seconds() {
 
 /// In an OS thread: 1,200 panics, in receivers and in workers, among 60,000 messages.
 #[test]
-fn a_thousand_panics_lose_no_other_message_and_no_memory() {
-    alone("panics::a_thousand_panics_lose_no_other_message_and_no_memory", || {
+fn a_thousand_panics_lose_no_other_message_and_leak_no_memory() {
+    alone("panics::a_thousand_panics_lose_no_other_message_and_leak_no_memory", || {
         const ROUNDS: u64 = 1000;
         let thread = Thread::start("panicky").unwrap();
         let handle = thread.handle().clone();

@@ -17,7 +17,7 @@ fn is_asleep(name: &str) -> bool {
 }
 
 #[test]
-fn the_os_thread_has_the_threads_name() {
+fn the_os_thread_has_the_name_of_the_runtime_thread() {
     let thread = Thread::start("named").unwrap();
     eventually(LIMIT, || os_thread("named").is_some());
     let (inside, outside) = std::sync::mpsc::channel();
@@ -51,7 +51,7 @@ fn a_thread_without_work_sleeps_and_does_not_iterate() {
 }
 
 #[test]
-fn a_sleeping_thread_wakes_for_every_message() {
+fn an_idle_thread_wakes_for_every_message() {
     let thread = Thread::start("doze").unwrap();
     let (receiver, received) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);

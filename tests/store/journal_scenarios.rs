@@ -301,7 +301,7 @@ fn a_full_disk_is_reported_and_no_edit_counts_as_done() {
 }
 
 #[test]
-fn a_journal_of_a_newer_program_is_left_alone() {
+fn a_journal_of_a_newer_program_is_neither_read_nor_changed() {
     let it = killed("scenario-newer");
     let path = only(&it.autosave).journal;
     let newer = forged(2, &[(9, b"what nobody here understands")]);

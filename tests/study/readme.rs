@@ -23,7 +23,7 @@ fn every_table_and_chart_is_made_from_the_raw_data() {
 }
 
 #[test]
-fn a_number_that_was_not_measured_is_removed() {
+fn a_number_that_was_not_measured_is_removed_from_the_page() {
     let study = report::folder();
     let readme = fs::read_to_string(study.join("README.md")).expect("the page");
     let data = Data::read(&study.join("results")).expect("the raw data");

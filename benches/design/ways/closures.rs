@@ -116,7 +116,7 @@ mod tests {
     use std::rc::Rc;
 
     #[test]
-    fn closures_edit_the_document_too() {
+    fn closures_sent_as_messages_edit_the_document() {
         let mut stage = Stage::new();
         let [main, document] = ["main", "document"].map(|name| stage.start(name));
         let to_panel = main.reserve_address();

@@ -74,7 +74,7 @@ mod tests {
     use std::rc::Rc;
 
     #[test]
-    fn a_panel_that_sends_its_messages_itself_works_the_same() {
+    fn a_panel_without_handles_works_like_the_one_with_handles() {
         let bones = ["hip", "knee", "foot"].map(|name| Bone::new(name, 0.0)).to_vec();
         let mut stage = Stage::new();
         let [main, document, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));

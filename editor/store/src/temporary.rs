@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_of_a_living_process_or_of_another_machine_is_no_leftover() {
+    fn the_temporary_file_of_a_running_process_or_another_machine_is_no_leftover() {
         let host = owner::host_hash();
         assert!(!is_leftover(&format!("{host:x}-{}-0.part", std::process::id())));
         assert!(!is_leftover(&format!("{:x}-4194999-0.part", host ^ 1)));
