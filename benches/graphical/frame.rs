@@ -107,7 +107,7 @@ impl FrameWork {
         }
     }
 
-    /// For a method that holds a view for the whole frame: checks that the view is unchanged.
+    /// Checks that the view is unchanged. For methods that hold a view for the whole frame.
     pub fn confirm(&mut self, entry: &TakeEntry) {
         let now = entry.mark(self.thorough);
         let same = self.seen.is_some_and(|seen| seen.number == now.number);

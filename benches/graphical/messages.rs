@@ -133,7 +133,8 @@ impl Receiver for DocumentOwner {
             }
             ToDocument::Publish => {
                 if self.kind.batched {
-                    // Before the view is sent: its receiver may request the next one, which must end this pause.
+                    // Paused before the view is sent, because its receiver may request the next one, which must end
+                    // this pause.
                     thread.pause();
                 }
                 if !self.changed {

@@ -105,8 +105,8 @@ fn record(size: ModelSize) -> Vec<MousePoint> {
     while points.len() < POINTS {
         let length = (150 + random.below(500)).min(POINTS - points.len());
         let target = random.between(-0.5, 0.5);
-        // Never key 0, into which edits of whole takes write their mark. Few bones, so that a short run edits all of
-        // them.
+        // Key 0 is not edited, because edits of whole takes write their mark into it. Few bones are edited, so that
+        // a short run edits each of them.
         let place = KeyPlace {
             bone: (strokes * 7 % size.bones) as u32,
             key: 1 + (strokes * 37 % (size.keys - 1)) as u32,

@@ -74,7 +74,7 @@ pub struct SharingStart<'a> {
 /// Creates the graphics thread's side, in that thread.
 pub type MakeViewing = Box<dyn FnOnce(&mut Context) -> Box<dyn Viewing> + Send>;
 
-/// Both sides of a method.
+/// Both sides of a method: that of the main thread and that of the graphics thread.
 pub struct SharingParts {
     /// The side that stays in the main thread.
     pub sharing: Box<dyn Sharing>,

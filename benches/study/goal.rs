@@ -255,7 +255,7 @@ mod tests {
         assert_eq!(verdict(&theirs, &theirs), GoalVerdict::Reached);
         // Slower by 1 %, but in every repeat.
         assert_eq!(verdict(&[10.1; 7], &[10.0; 7]), GoalVerdict::Missed);
-        // One repeat is never significant between two variants, but fails a fixed limit.
+        // A single repeat is never a significant difference between two variants, but it can miss a fixed limit.
         assert_eq!(verdict(&[11.0], &[10.0, 10.0]), GoalVerdict::Scatter);
         assert_eq!(verdict(&[11.0], &[10.0]), GoalVerdict::Missed);
     }

@@ -136,7 +136,8 @@ impl Study {
             for place in (1..variants.len()).rev() {
                 variants.swap(place, self.order.below(place + 1));
             }
-            // Measured over all variants of a repeat: the kernel counts in steps of 10 ms, too coarse for a short one.
+            // The load is measured over all variants of a repeat, because the kernel counts in steps of 10 ms, too
+            // coarse for a short variant.
             let load = CpuLoad::now();
             let begin = self.rows.len();
             for variant in &mut variants {

@@ -135,7 +135,7 @@ impl Job {
         Self::spawn(Some(address.thread()), name, move |state| {
             let context = JobContext { address: to, cancel: state.cancel.clone(), reported: Cell::new(None) };
             let message = caught(state, || work(&context)).unwrap_or_else(|text| on_panic(&text));
-            // No one is left to receive it when the thread has stopped.
+            // Fails only when the receiving thread has stopped.
             let _ = context.address.send(message);
         })
     }
@@ -281,7 +281,7 @@ impl<M: Send + 'static> JobContext<M> {
         let due = self.reported.get().is_none_or(|last| done - last >= PROGRESS_STEP);
         if due && !self.is_cancelled() {
             self.reported.set(Some(done));
-            // No one is left to receive it when the thread has stopped.
+            // Fails only when the receiving thread has stopped.
             let _ = self.address.send(message(done));
         }
     }

@@ -45,7 +45,8 @@ pub trait Receiver: 'static {
     }
 }
 
-/// One object can be both, as `Graphics` is in the thesis: register clones of the same [`Rc`].
+/// One object can be both worker and receiver, as `Graphics` is in the thesis: register clones of
+/// the same [`Rc`].
 ///
 /// Its name is the name of the type; [`Worker::name`] of the object is ignored.
 impl<W: Worker> Worker for Rc<RefCell<W>> {

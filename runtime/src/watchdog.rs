@@ -56,7 +56,7 @@ impl Watchdog {
     ) -> Self {
         let address = thread.reserve_address();
         let own = address.clone();
-        // Fails only when the thread has stopped, where a watchdog has no use.
+        // Fails only when the thread has stopped, and then it needs no watchdog.
         let _ = thread.run(move |thread| {
             let watch = Rc::new(RefCell::new(WatchdogState {
                 limit,

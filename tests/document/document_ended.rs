@@ -116,7 +116,7 @@ fn a_power_cut_costs_a_document_at_most_a_second_of_edits() {
     let look = |folder: &Path, said: &WriterReport, cut: usize| {
         let (mut document, number) = recover(folder);
         let view = document.view();
-        // No step in between is missing; of very many steps the oldest are dropped.
+        // No step is missing, except that the history drops the oldest above its limit.
         let steps = (number as usize).min(MAX_STEPS);
         assert_eq!(view.history.done, steps, "cut {cut}, said {} edits", said.edits);
         Found { edits: number, saved: 0 }

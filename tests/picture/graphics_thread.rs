@@ -216,14 +216,14 @@ fn panels_without_a_device_are_dropped_without_an_error() {
     let none = DeviceParameters { backends: wgpu::Backends::empty(), ..DeviceParameters::default() };
     let mut bench = GraphicsBench::begin(none);
     let context = egui::Context::default();
-    // Before the missing device is detected, and after.
+    // Sent before the missing device is detected, and afterwards.
     bench.graphics.show_panels(panels(&context, "early"));
     bench.settle();
     assert!(matches!(&bench.take()[..], [GraphicsReply::Fatal(_)]), "the window must hear of it, to end");
     let context = egui::Context::default();
     bench.graphics.show_panels(panels(&context, "late"));
     bench.settle();
-    // And when the thread ends with drawings in its queue.
+    // Also sent right before the thread ends, so that it is still in the queue.
     bench.graphics.show_panels(panels(&egui::Context::default(), "never"));
 }
 

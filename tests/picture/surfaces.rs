@@ -156,7 +156,7 @@ fn a_texture_may_use_the_second_set_of_coordinates() {
 fn vertex_colors_mix_in_linear_light_and_multiply_the_base_color() {
     let Some(mut studio) = studio::studio() else { return };
     let mut sheet = made::sheet();
-    // Upper left, lower left, lower right, upper right.
+    // In the order upper left, lower left, lower right, upper right.
     let (left, right) = (Vec4::new(1.0, 0.0, 0.5, 1.0), Vec4::new(0.0, 1.0, 0.5, 1.0));
     sheet.vertices.colors = vec![left, left, right, right];
     let material = Material { base_color: Vec4::new(1.0, 0.5, 1.0, 1.0), ..unlit(None) };

@@ -282,7 +282,8 @@ mod models {
 
     #[cfg(loom)]
     mod cell {
-        // Only needed for the cell that the checker tracks; with a normal cell this would be a data race.
+        // Needed only for the cell that the checker tracks; with a normal cell these accesses would be a
+        // data race.
         #![allow(unsafe_code)]
 
         pub(super) fn write(cell: *mut u32, value: u32) {

@@ -92,7 +92,7 @@ impl<M: Send + 'static> Address<M> {
 }
 
 impl Batch {
-    /// For [`deliver`](Self::deliver): the newest message first.
+    /// For [`deliver`](Self::deliver): delivers the newest message first.
     pub(crate) fn reversed_batch(&mut self, thread: &mut Context) {
         while self.len() > 0 && self.deliver_at(self.len() - 1, thread) {}
     }

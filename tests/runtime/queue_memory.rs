@@ -52,7 +52,7 @@ fn the_memory_of_an_unusually_large_batch_is_freed() {
     });
     assert!(most > flood * 64, "{most} bytes: the messages were not queued");
     let (kept, ()) = peak(|| {
-        // Two batches are swapped in turn: each must have been small a number of times.
+        // Two batches are swapped in turn, and each is freed only after several small ones.
         for _ in 0..50 {
             address.send([0; 8]).unwrap();
             captured.iterate();

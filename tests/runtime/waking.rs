@@ -40,7 +40,7 @@ fn a_thread_without_work_sleeps_and_does_not_iterate() {
     };
     eventually(LIMIT, || settled().is_some());
     let before = (settled(), idle.handle().counters());
-    // Waits 200 ms with the alarm of another thread.
+    // Waits until another thread has slept for 200 ms.
     let timer = Thread::start("timer").unwrap();
     let (rings, rang) = forwarder();
     let bell = timer.handle().register_receiver(|_| rings);
@@ -165,7 +165,7 @@ fn a_spinning_thread_needs_no_wake_up_and_sleeps_in_the_end() {
     let (receiver, received) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
     let sleeps = || os_thread("spinning").map_or(0, |os| os.waits);
-    // Spins for as long as the test runs: it never sleeps between two messages.
+    // The limit is longer than the test: the thread never sleeps between two messages.
     thread.handle().set_spin(LIMIT);
     address.send(0).unwrap();
     assert_eq!(received.recv_timeout(LIMIT), Ok(0));
@@ -176,7 +176,8 @@ fn a_spinning_thread_needs_no_wake_up_and_sleeps_in_the_end() {
     }
     let slept = sleeps() - before;
     assert!(slept < 500, "it slept {slept} times between 1,000 messages");
-    // With 1 ms it spins for a moment and then sleeps; with zero it sleeps at once.
+    // With a limit of 1 ms the thread spins for a moment and then sleeps; with zero it sleeps
+    // at once.
     for limit in [Duration::from_millis(1), Duration::ZERO] {
         thread.handle().set_spin(limit);
         eventually(LIMIT, || is_asleep("spinning"));

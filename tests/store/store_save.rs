@@ -174,7 +174,7 @@ fn changes_by_another_program_are_detected_and_not_overwritten() {
             modified(time).unwrap();
         }
         assert_eq!(stamp.state(&RealFiles, &path).unwrap(), FileState::Changed);
-        // Changed long after the file was read, so that the times alone are enough.
+        // A stamp taken long after the last change: the times alone are enough.
         let late = FileStamp { taken: i64::MAX, ..stamp };
         assert_eq!(late.state(&RealFiles, &path).unwrap(), FileState::Changed);
         let error = expecting(&path, b"mine", &stamp).unwrap_err();

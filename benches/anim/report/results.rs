@@ -74,7 +74,7 @@ impl Results {
         text += HEADER;
         text.push('\n');
         for Figure { task, variant, metric, unit, value, others } in &self.rows {
-            // More digits were not measured.
+            // Further digits would not be significant.
             let value = (value * 1e4).round() / 1e4;
             let _ = writeln!(text, "{task},{variant},{metric},{unit},{value},{others:.2}");
         }

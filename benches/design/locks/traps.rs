@@ -19,7 +19,7 @@ fn shared() -> SharedState {
 #[test]
 fn deadlock_by_a_call_under_the_lock_that_takes_it_again() {
     let shared = shared();
-    // `bones()` without the inner part would wait for the outer call, which waits for `bones()`.
+    // `shared.bones()` inside of this closure would wait for the lock, which this call of `edit` holds.
     shared.edit(0, |_| assert!(shared.document.try_lock_for(DEADLINE).is_none()));
     assert!(shared.document.try_lock().is_some());
 }
@@ -75,7 +75,7 @@ fn deadlock_by_waiting_for_an_answer_under_the_lock() {
 #[test]
 fn race_by_reading_under_one_lock_and_writing_under_the_next() {
     let shared = shared();
-    // Two sliders, each of which turns by one; both read before either writes.
+    // Two sliders, each of which adds one to the angle; both read it before either writes it.
     let first = shared.bones()[0].angle;
     let second = shared.bones()[0].angle;
     shared.edit(0, |bone| bone.angle = first + 1.0);

@@ -38,7 +38,7 @@ impl Receiver for Asker {
                 let (answer, answers) = mpsc::channel();
                 self.stations[0].wait();
                 other.send(AnswerRequest::Ask { answer }).expect("it runs");
-                // Neither can answer before this call returns: `recv()` would wait forever.
+                // Neither asker can answer before this call returns: `recv()` would wait forever.
                 let found = answers.recv_timeout(Duration::from_millis(20)).is_ok();
                 self.stations[1].wait();
                 self.found.send(found).expect("the test listens");
@@ -130,7 +130,8 @@ fn stale_view_by_reading_before_the_new_one_is_delivered() {
 #[test]
 fn stale_answer_by_two_routes_to_the_same_thread() {
     let (mut stage, [main, document, graphics], panel) = editor();
-    // Hidden first, clicked second; but one message is sent by way of the document, the other directly to the viewport.
+    // The bone is hidden before it is clicked. But one message is sent by way of the document, the other directly to
+    // the viewport.
     panel.borrow().toggle_visible(0);
     panel.borrow().click([0.5, 0.0]);
     stage.iterate(&graphics);
@@ -148,7 +149,7 @@ fn flood_by_a_sender_without_back_pressure() {
     }
     assert_eq!(document.queue_len(), 100_000, "all wait");
     drop(stage);
-    // The fix, where only the newest message counts.
+    // The fix, if only the newest message counts.
     let (_stage, [_, document, _], _) = editor();
     let newest = document.reserve_address::<Edit>().latest();
     for step in 0..100_000 {

@@ -124,7 +124,7 @@ mod tests {
         let bones = vec![Bone::new("hip", 0.0)];
         let to_document =
             document.register_receiver(|_| ClosureDocument::new(bones, move |view| show.show(view)));
-        // Nothing is drawn here.
+        // The viewport has no receiver, because this test draws nothing.
         let viewport = ViewportHandle(main.reserve_address());
         let panel = Rc::new(RefCell::new(ClosurePanel::new(ClosureHandle(to_document), viewport)));
         stage.context(&main).register_receiver_at(&to_panel, Rc::clone(&panel));

@@ -71,7 +71,7 @@ fn run(
             for number in 0..count {
                 while let Err(SendError::Full(_)) = address.send(SmallMessage::of(number)) {
                     refused += 1;
-                    // The sender is too fast; the receiver may need its core.
+                    // The receiver has fallen behind, and may need the sender's core.
                     std::thread::yield_now();
                 }
                 if number % 16 == 0 {

@@ -105,7 +105,7 @@ impl EditorRuntime {
         let graphics = &running.parts.graphics;
         let mut interface = running.parts.interface.borrow_mut();
         match effect {
-            // Done above.
+            // Handled above.
             Effect::File(_) => {}
             // `take_effects` has replaced these by other effects.
             Effect::Change(_)

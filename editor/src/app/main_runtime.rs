@@ -80,7 +80,7 @@ impl MainRuntime {
         let replies = main.handle().reserve_address();
         let hears = Rc::clone(&init);
         main.context().register_restartable_receiver_at(&replies, move |_| Rc::clone(&hears));
-        // Drawing the panels is the first work of every turn, and a bug in a panel must not end the turn.
+        // Drawing the panels is the first work of every iteration, and a bug in a panel must not end the program.
         main.context().register_restartable_worker(move |_| Rc::clone(&seen));
         main.context().register_restartable_worker(move |_| Rc::clone(&kept));
         timeline.borrow_mut().reach(Step::MainRuntime);
@@ -101,7 +101,7 @@ impl MainRuntime {
         Ok(Self { main, window, interface, init, graphics, timeline, mistakes: Vec::new() })
     }
 
-    /// Does one turn of the main thread: messages, panels, custom run-time. Returns when the next is due.
+    /// Runs one iteration of the main thread: messages, panels, custom run-time. Returns when the next one is due.
     pub(super) fn iterate(&mut self) -> Next {
         self.main.iterate()
     }

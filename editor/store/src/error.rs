@@ -62,7 +62,7 @@ pub enum FileSaveError {
     /// A folder, pipe, device or socket.
     #[error("{path}: is not a regular file", path = .path.display())]
     NotRegular {
-        /// What was found.
+        /// Path of the folder, pipe, device or socket.
         path: PathBuf,
     },
     /// The path does not end in a file name, or its links form a circle.

@@ -160,8 +160,8 @@ impl Autosave {
         for _ in 0..INSPECT_ATTEMPTS {
             let file = retry(|| self.files.open(path)).map_err(fail)?;
             let found = self.read_summary(&*file, path)?;
-            // Its owner may have replaced it by a restarted one; then the file that was read is no longer the
-            // journal.
+            // The owner may have replaced the journal by a restarted one; then the file that was read is no longer
+            // the journal.
             if same(&*self.files, &*file, path).map_err(fail)? {
                 return Ok(found);
             }

@@ -213,7 +213,7 @@ impl Autosave {
                 let owner = contents(&*file, path).ok().and_then(|contents| contents.state.owner);
                 return Err(JournalError::Held { path: path.to_path_buf(), owner });
             }
-            // Its owner may have replaced it by a restarted one of the same name before releasing the lock.
+            // The owner may have replaced the journal by a restarted one of the same name before releasing the lock.
             if same(&*self.files, &*file, path).map_err(fail)? {
                 return Ok((file, lock == LockResult::Ours));
             }

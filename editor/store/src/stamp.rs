@@ -113,7 +113,7 @@ impl FileStamp {
         }
         let same = (data.modified, data.changed, data.device, data.inode)
             == (self.modified, self.changed, self.device, self.inode);
-        // A second write within the same tick of the clock would leave the same times.
+        // Recent times prove nothing: a second write within the same tick of the clock would leave them the same.
         let newest = self.modified.max(self.changed);
         if same && self.taken.saturating_sub(newest) > TICK {
             return Ok(FileState::Same);

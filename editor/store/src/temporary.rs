@@ -84,7 +84,7 @@ mod tests {
         assert!(!is_leftover(&format!("{:x}-4194999-0.part", host ^ 1)));
         assert!(!is_leftover("part"));
         assert!(!is_leftover(&format!("{host:x}-4194999-0-1.part")));
-        // Larger than any process number.
+        // 4194999 is larger than any process number.
         assert_eq!(is_leftover(&format!("{host:x}-4194999-0.part")), cfg!(unix));
     }
 

@@ -154,7 +154,7 @@ impl Actor for Barber {
                 let steps = self.random.below(STEPS);
                 work(&mut self.random, steps);
                 self.haircuts += 1;
-                // The room first: it may close as soon as the last customer has left.
+                // First to the room, which may close as soon as the last customer has left.
                 let room = self.room.as_ref().expect("the barber knows the room before a customer enters");
                 cx.send(room, RoomMessage::Next);
                 cx.send(&customer, CustomerMessage::Done);

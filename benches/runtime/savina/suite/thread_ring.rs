@@ -50,7 +50,7 @@ impl Actor for Node {
             NodeMessage::Token { left: 1.. } => cx.send(next, NodeMessage::Token { left: left - 1 }),
             NodeMessage::End { left: 1 } => cx.finish(hops as u64, None),
             _ => {
-                // All others know the end; no further message is sent to this actor.
+                // The end goes around the ring once; `left` is the number of actors that it still has to reach.
                 let left = if left == 0 { self.actors - 1 } else { left - 1 };
                 cx.send(next, NodeMessage::End { left });
             }
