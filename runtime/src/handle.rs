@@ -46,14 +46,15 @@ impl ThreadHandle {
         self.ask("run", call).map_err(|_| SendError::Stopped(()))
     }
 
-    /// Adds the worker that `make` returns after the others; see [`Context::register_worker`].
+    /// Adds the worker that `make` returns, after the others; see [`Context::register_worker`].
     pub fn register_worker<W: Worker>(&self, make: impl ContextFn<W>) -> WorkerId {
         let id = self.shared.new_id() | WORKER;
         self.insert(id, |thread| Object::worker(make(thread)));
         WorkerId(id)
     }
 
-    /// Adds the worker that `make` returns after all others; see [`Context::register_last_worker`].
+    /// Adds the worker that `make` returns, after all others; see
+    /// [`Context::register_last_worker`].
     pub fn register_last_worker<W: Worker>(&self, make: impl ContextFn<W>) -> WorkerId {
         let id = self.shared.new_id() | LAST;
         self.insert(id, |thread| Object::worker(make(thread)));
@@ -113,8 +114,8 @@ impl ThreadHandle {
         let _ = self.ask("sleep", move |thread| thread.sleep(duration));
     }
 
-    /// Suspends the thread as soon as the call that is running there returns, before all queued
-    /// messages. Messages are queued until [`resume`](Self::resume).
+    /// Suspends the thread as soon as the call that is running there returns, before it delivers
+    /// any queued message. Messages are queued until [`resume`](Self::resume).
     pub fn pause(&self) {
         self.shared.paused.store(true, Ordering::SeqCst);
     }

@@ -72,7 +72,8 @@ impl EditorRuntime {
         }
     }
 
-    /// Returns where the document records unsaved changes: next to the settings where those have a folder of their own.
+    /// Returns the setup of the document. Its journals are in the autosave folder of the options, otherwise next to the
+    /// settings if these have a folder of their own.
     fn setup(&self) -> Setup {
         let beside = self.options.settings_folder.as_ref().map(|folder| folder.join("autosave"));
         let folder = self.options.autosave_folder.clone().or(beside);
@@ -122,7 +123,7 @@ impl EditorRuntime {
                 match file_dialog::ask(Purpose::Open, folder, running.answers.clone()) {
                     Ok(()) => interface.asking = true,
                     Err(error) => {
-                        let text = format!("No dialog could be opened: {error}");
+                        let text = format!("The file dialog could not be opened: {error}");
                         interface.state.say(MessageSeverity::Error, text);
                     }
                 }
@@ -272,7 +273,7 @@ impl BaseRuntime for EditorRuntime {
 }
 
 impl Running {
-    /// Asks which bone is under the pointer, where that may have changed and no answer is pending.
+    /// Asks which bone is under the pointer, if that may have changed and no answer is pending.
     fn ask_under_pointer(&mut self) {
         let interface = self.parts.interface.borrow();
         let (state, scale) = (interface.state.read(), interface.pixels_per_point());

@@ -6,7 +6,7 @@
 
 use dragonfly_picture::camera::Camera;
 
-/// A position in the viewport, and what the answer depends on in addition to the time of the take.
+/// A position in the viewport, and the state on which the bone there depends, except the time of the take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoverPoint {
     /// Physical pixels from the window's top left.

@@ -46,8 +46,8 @@ pub struct Interface {
     graphics: Option<GraphicsHandle>,
     store: Store,
     saved: Settings,
-    /// Physical pixels per point, as the desktop reports; the window's own answer is late (winit on X11 reports a change and
-    /// continues to answer with the old scale).
+    /// Physical pixels per point, as reported by the desktop. The scale of the window itself is late: winit on
+    /// X11 reports a change, but continues to return the old scale.
     desktop_scale: f64,
     /// When the panels are to be drawn next.
     due: Option<Instant>,

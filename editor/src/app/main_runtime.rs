@@ -120,8 +120,8 @@ impl MainRuntime {
         }
     }
 
-    /// Handles a request to close the window. Returns whether the custom run-time runs: then it asks about unsaved changes and
-    /// decides.
+    /// Handles a request to close the window. Returns whether the custom run-time is running; if so, it asks about
+    /// unsaved changes and decides.
     pub(super) fn may_ask_before_closing(&mut self) -> bool {
         let asks = self.init.borrow().is_running();
         if asks {
