@@ -15,21 +15,21 @@ pub(crate) fn posed(subject: &BenchModel, take: usize, part: f32) -> Vec<Transfo
     poses
 }
 
-/// Returns the to-root matrices of one pose.
+/// Returns the to-root matrices of one pose, which all tasks on matrices use.
 pub(crate) fn roots(subject: &BenchModel) -> Vec<Mat4> {
     let mut roots = vec![Mat4::IDENTITY; subject.bones()];
     to_root(&subject.model.animation.skeleton, &posed(subject, 0, 0.4), &mut roots);
     roots
 }
 
-/// Returns the final matrices of the same pose.
+/// Returns the final matrices of the pose of [`roots`].
 pub(crate) fn finals(subject: &BenchModel) -> Vec<Mat4> {
     let mut finals = vec![Mat4::IDENTITY; subject.skin().bones.len()];
     final_poses(subject.skin(), &roots(subject), &mut finals);
     finals
 }
 
-/// Blends: the number of layers, and whether they have masks.
+/// Cases of blending: the number of layers, and whether they have masks.
 pub(crate) const BLENDS: [(usize, bool); 4] = [(2, false), (4, false), (2, true), (4, true)];
 
 /// Weights of the layers.
@@ -57,8 +57,8 @@ pub(crate) struct BenchLimb {
     pub(crate) pole: Vec3,
 }
 
-/// Returns the last bone that has some distance to its parent and grandparent in [`roots`], with these two. The target is
-/// nearer to the grandparent, so that the limb bends.
+/// Returns a limb that ends in the last bone whose distances to its parent and grandparent in
+/// [`roots`] are not zero. The target is nearer to the grandparent, so that the limb bends.
 pub(crate) fn limb(subject: &BenchModel) -> BenchLimb {
     let roots = roots(subject);
     let bones = &subject.model.animation.skeleton.bones;

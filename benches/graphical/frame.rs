@@ -79,7 +79,7 @@ impl FrameWork {
         self.read_copy(entry.mark(self.thorough), &entry.result);
     }
 
-    /// Returns the mark that a copy of the shown take must contain; called together with the copy.
+    /// Returns the mark that a copy of the shown take must contain. Called when the copy is made.
     pub fn mark(&self, entry: &TakeEntry) -> EditMark {
         entry.mark(self.thorough)
     }

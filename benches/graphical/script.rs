@@ -28,9 +28,9 @@ struct MousePoint {
 /// Size of the edits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edits {
-    /// One key each.
+    /// Each edit changes one key.
     Small,
-    /// A whole take each; every second edit replaces a take that is not shown.
+    /// Each edit changes a whole take; every second one replaces a take that is not shown.
     Large,
 }
 

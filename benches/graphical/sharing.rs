@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 
 /// The main thread's side: edits, and reads a little.
 pub trait Sharing {
-    /// Makes the edit, or sends it. `begins`: it is the first of a gesture; edits of one gesture replace one another.
+    /// Makes the edit, or sends it. `begins` is whether it is the first of a gesture: a method may replace queued
+    /// edits of the same gesture.
     fn edit(&mut self, edit: NumberedEdit, begins: bool);
 
     /// Asks a question and waits for the answer.
@@ -94,7 +95,7 @@ pub struct SharingMethod {
 }
 
 impl SharingMethod {
-    /// Returns a method that is compared in the core case only.
+    /// Returns a method that is compared only in the case `drag`, with all others.
     pub const fn new(name: &'static str, start: fn(SharingStart) -> SharingParts) -> Self {
         Self { name, start, in_every_case: false }
     }

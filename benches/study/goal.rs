@@ -131,7 +131,8 @@ const OURS: &str = "dragonfly";
 const SPINNING: &str = "dragonfly, spinning";
 /// Limit for "not slower": medians of equal code differ by this factor between runs.
 const EQUAL: f64 = 1.05;
-/// Limit for "no allocation": the queue's memory grows at the start, which is divided among all messages.
+/// Limit for "no allocation". Not zero, because the queue allocates memory at the start, which is divided among
+/// all messages.
 const NONE: f64 = 0.001;
 
 /// Returns the goals for which `rows` contains both sides.

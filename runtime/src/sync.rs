@@ -63,8 +63,8 @@ impl<T> BriefLock<T> {
     }
 }
 
-/// Checks that no thread takes a lock inside another. Not under the checkers, which run all threads in
-/// one OS thread.
+/// Checks that no thread takes a lock inside another. Left out under the checkers, which run all
+/// threads in one OS thread.
 mod alone {
     #[cfg(all(debug_assertions, not(any(loom, shuttle))))]
     thread_local!(static INSIDE: std::cell::Cell<bool> = const { std::cell::Cell::new(false) });

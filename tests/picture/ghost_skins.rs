@@ -12,7 +12,8 @@ use glam::Vec3;
 use image::RgbaImage;
 use std::sync::Arc;
 
-/// Returns the number of pixels outside the fox, which is orange, in which one channel is dominant.
+/// Returns the number of pixels that are orange in neither image (the fox is orange), and have become more
+/// red, or more blue.
 fn tinted(picture: &RgbaImage, before: &RgbaImage, red: bool) -> usize {
     let more = |now: &image::Rgba<u8>, then: &image::Rgba<u8>| {
         let by = |channel: usize| i32::from(now[channel]) - i32::from(then[channel]);

@@ -59,7 +59,7 @@ impl Results {
         Ok(results)
     }
 
-    /// Reads a file; an error names it.
+    /// Reads a file. An error contains its path.
     pub(crate) fn read(path: &Path) -> Result<Self, String> {
         let text = std::fs::read_to_string(path).map_err(|error| error.to_string());
         text.and_then(|text| Self::parse(&text)).map_err(|error| format!("{}: {error}", path.display()))
@@ -81,7 +81,7 @@ impl Results {
         text
     }
 
-    /// Returns a number.
+    /// Returns the value of this task, variant and metric, if it was recorded.
     pub(crate) fn value(&self, task: &str, variant: &str, metric: &str) -> Option<f64> {
         let wanted = |row: &&Figure| row.task == task && row.variant == variant && row.metric == metric;
         self.rows.iter().find(wanted).map(|row| row.value)

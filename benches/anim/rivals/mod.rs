@@ -52,7 +52,7 @@ const CASES: [(&str, &str, &str); 30] = [
     ("ACL", "pipeline/pab/1000", "acl_crowd1000(per char)"),
 ];
 
-/// The programs of the rivals, built.
+/// The built programs of the rivals.
 pub(crate) struct Rivals {
     folder: PathBuf,
 }

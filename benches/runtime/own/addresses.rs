@@ -32,7 +32,8 @@ pub fn all(study: &mut Study) {
     }
 }
 
-/// Sends the numbers below `count`, the last one until it is accepted. It must arrive, and no message twice.
+/// Sends the numbers below `count`, the last one until it is accepted. The last one must arrive, and none may
+/// arrive twice.
 fn run(
     make: fn(&Address<SmallMessage>) -> Address<SmallMessage>,
     count: u64,

@@ -55,7 +55,8 @@ fn workers_inside(count: u64, measured: &mut RunValues) {
     write(count, made, begin.elapsed(), measured);
 }
 
-/// Measures from the first request until the thread has processed all, and the same for the removal.
+/// Measures the time from the first request to register until the thread has processed all requests,
+/// and the same for the removal.
 fn receivers_by_message(count: u64, measured: &mut RunValues) {
     let thread = Thread::start("registers").expect("the system has a thread left");
     let handle = thread.handle();

@@ -246,8 +246,8 @@ impl Journal {
         })
     }
 
-    /// Restarts the journal with `snapshot`, the whole document with its history, in one step: before it, after it
-    /// and when it fails, a complete journal exists.
+    /// Restarts the journal with `snapshot`, the whole document with its history, in one step: a complete journal
+    /// exists at every moment, also if this fails.
     ///
     /// # Errors
     /// When the new journal is not on the disk. The old one stays in use.
