@@ -234,8 +234,8 @@ mod models {
         Thread::wait_for(&[handle], never()).unwrap();
     }
 
-    /// A chain of `stages` threads forwards `messages` messages: all arrive at its end, in order,
-    /// without any further message.
+    /// A chain of `stages` threads forwards `messages` messages: all arrive at its end, in order, even if
+    /// no further message is sent.
     pub(crate) fn chain(stages: usize, messages: u32) {
         run_chain(stages, messages, false);
     }
