@@ -267,7 +267,7 @@ impl Context {
         self.shared().finish();
     }
 
-    /// All of [`finish`](Self::finish) before the wake-up.
+    /// Does everything that [`finish`](Self::finish) does before the wake-up.
     pub(crate) fn drop_everything(&mut self) {
         let mut left = std::mem::take(&mut self.batch);
         left.append(&mut self.shared().mailbox.0.close());

@@ -311,7 +311,7 @@ impl<T> JobAnswer<T> {
     }
 }
 
-/// Why a [`JobAnswer`] holds no result.
+/// Reasons why a [`JobAnswer`] holds no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum JobError {
     /// The work panicked with this text.

@@ -43,7 +43,8 @@ pub(crate) struct MailboxContent {
 }
 
 impl Mailbox {
-    /// `wake` must end the owner's sleep; it is called from sending threads.
+    /// Creates an empty mailbox. `wake` must end the owner's sleep; it is called from sending
+    /// threads.
     pub(crate) fn new(wake: Box<dyn Fn() + Send + Sync>) -> Self {
         Self { stored: BriefLock::new(MailboxContent::default()), state: AtomicU8::new(AWAKE), wake }
     }

@@ -89,7 +89,7 @@ impl Stage {
         self.context(thread).iterate()
     }
 
-    /// Returns the inside of `thread`, for registering objects directly.
+    /// Returns the context of `thread`, for registering objects directly.
     pub fn context(&mut self, thread: &ThreadHandle) -> &mut Context {
         let found = self.threads.iter_mut().find(|one| one.handle() == thread);
         found.unwrap_or_else(|| panic!("thread {:?} is not on this stage", thread.name()))

@@ -184,7 +184,7 @@ impl Captured {
         self.context.iterate()
     }
 
-    /// Returns the inside of the thread, for registering objects directly. Call
+    /// Returns the context of the thread, for registering objects directly. Call
     /// [`iterate`](Self::iterate) afterwards, so that alarms and stops requested here take effect.
     pub fn context(&mut self) -> &mut Context {
         &mut self.context

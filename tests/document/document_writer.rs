@@ -11,10 +11,10 @@ use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant, SystemTime};
 
-/// The folder to work in, for the program that is started.
+/// Environment variable with the folder in which the started process works.
 const CHILD: &str = "DRAGONFLY_DOCUMENT_CHILD";
 
-/// Number of the first action to perform.
+/// Environment variable with the number of the first action to perform.
 const FIRST: &str = "DRAGONFLY_DOCUMENT_CHILD_FIRST";
 
 /// Time after which the process ends by itself, so that it does not outlive the test.

@@ -23,7 +23,7 @@ fn sampled(model: &ModelAdapter, take: &Take, time: f32) -> Vec<Transform> {
     poses
 }
 
-/// Returns the largest difference of two poses in any number; q and -q count as the same rotation.
+/// Returns the largest difference between the numbers of two poses; q and -q count as the same rotation.
 fn apart(a: &[Transform], b: &[Transform]) -> f32 {
     let of = |(a, b): (&Transform, &Transform)| {
         let turn = (a.rotation - b.rotation).length().min((a.rotation + b.rotation).length());

@@ -15,8 +15,8 @@ use crate::{Address, Context, Next, SendError, Thread, ThreadHandle};
 use std::time::Instant;
 
 impl Mailbox {
-    /// For [`send`](Self::send): reads before it stores the message whether the owner must be woken. An owner that falls
-    /// asleep in between is not woken.
+    /// For [`send`](Self::send): reads whether the owner must be woken before it stores the message. An owner that
+    /// falls asleep in between is not woken.
     pub(crate) fn lost_notify<C: LetterContent>(&self, row: u32, letter: Letter<C>) -> Result<(), C> {
         let early = self.state();
         self.stored.with(|stored| {

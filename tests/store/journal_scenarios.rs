@@ -49,7 +49,8 @@ impl Killed {
 // A second implementation of the format, written from its description, to create journals of other machines and
 // versions.
 
-/// Returns the journal 77 of `/nowhere/fox.glb` in format `version`, with records of these kinds and bytes.
+/// Returns a journal with the number 77 of the document `/nowhere/fox.glb`, in format `version`, with records of
+/// these kinds and bytes.
 fn forged(version: u32, records: &[(u8, &[u8])]) -> Vec<u8> {
     let text = r#"{"number":77,"document":"/nowhere/fox.glb","stamp":null,"later":"ignored"}"#;
     forged_with(text, version, records)

@@ -16,10 +16,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};
 
-/// The folder to work in, for the program that is started.
+/// Environment variable with the folder in which the started process works.
 const CHILD: &str = "DRAGONFLY_STORE_CHILD";
 
-/// Set when the process only saves, without a journal: syncing a journal may also sync other data.
+/// Environment variable that is set when the process only saves, without a journal: syncing a journal may also sync
+/// other data.
 const ONLY_SAVES: &str = "DRAGONFLY_STORE_CHILD_ONLY_SAVES";
 
 /// Returns the document after this number of edits.

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 const OLD: &[u8] = b"the old file, which somebody worked on for a week";
 
-/// More bytes than one chunk of a copy.
+/// Returns the new content: more bytes than one chunk of a copy.
 fn new() -> Vec<u8> {
     (0..100_000_u32).map(|number| number as u8).collect()
 }

@@ -30,7 +30,7 @@ pub enum JournalError {
     Io {
         /// The journal or its folder.
         path: PathBuf,
-        /// What failed.
+        /// The operation that failed, in words.
         what: &'static str,
         /// Error of the system.
         #[source]
@@ -250,7 +250,8 @@ impl Journal {
     /// exists at every moment, also if this fails.
     ///
     /// # Errors
-    /// When the new journal is not on the disk. The old one stays in use.
+    /// When the new journal could not be written: then the old one stays in use. Or when the new one is in use, but
+    /// the disk did not confirm its name: then it is [`broken`](Self::broken).
     pub fn compact(&mut self, snapshot: &[u8]) -> Result<(), JournalError> {
         let saved = self.state.unsaved == 0;
         self.compact_as(snapshot, saved)

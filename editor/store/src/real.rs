@@ -222,8 +222,8 @@ mod system {
 
     pub(super) fn nonblocking(_: &mut OpenOptions) {}
 
-    /// File numbers, owners and link counts are not available here. Two files then differ only in size, times and
-    /// content.
+    /// Returns the metadata that this system provides: no file numbers, owners or link counts. Two files then
+    /// differ only in size, times and content.
     pub(super) fn data(metadata: &Metadata) -> FileData {
         FileData {
             kind: super::kind_of(metadata),
@@ -247,7 +247,7 @@ mod system {
         std::fs::create_dir_all(path)
     }
 
-    /// Folders cannot be opened here; the system journals names itself.
+    /// Does nothing, because folders cannot be opened on this system, which journals file names itself.
     pub(super) fn sync_folder(_: &Path) -> io::Result<()> {
         Ok(())
     }

@@ -272,7 +272,7 @@ pub(super) fn same(files: &dyn Vfs, file: &dyn VfsFile, path: &Path) -> io::Resu
     Ok((opened.device, opened.inode) == (named.device, named.inode))
 }
 
-/// Returns whether a process has the journal in `file` open.
+/// Returns whether the process that opened the journal in `file` still runs.
 fn owner_status(file: &dyn VfsFile, state: &JournalState) -> io::Result<OwnerStatus> {
     let owner = state
         .owner
