@@ -204,7 +204,6 @@ fn a_failed_append_leaves_no_record_and_the_next_append_works() {
         drop(journal);
         // Even if the disk stays full: the rest of the failed record, which could not be cut off, does not count as
         // work.
-        // work.
         let sound = crate::journal::autosave(&folder, RealFiles);
         let found = only(&sound);
         assert_eq!(sound.entries(&found).unwrap().len(), usize::from(first) + usize::from(error.is_ok()));
