@@ -49,15 +49,15 @@ pub const LOCKS: &[SourceFile] = &[
 pub struct Costs {
     /// The data and its drawing, which all designs share; not included in the others.
     pub same: Cost,
-    /// Messages sent through typed handles: the whole editor.
+    /// Messages sent through typed handles; covers the whole editor.
     pub messages: Cost,
     /// The part of `messages` that defines edits as values.
     pub edits: Cost,
-    /// Messages without handles: cost of the feature, not the whole editor.
+    /// Messages without handles; covers the feature, not the whole editor.
     pub raw: Cost,
-    /// Closures as messages: cost of the feature, not the whole editor.
+    /// Closures as messages; covers the feature, not the whole editor.
     pub closures: Cost,
-    /// One lock: the whole editor.
+    /// One lock; covers the whole editor.
     pub locks: Cost,
 }
 
