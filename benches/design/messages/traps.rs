@@ -19,7 +19,8 @@ fn editor() -> (Stage, [ThreadHandle; 3], Rc<RefCell<Panel>>) {
 
 /// Sends a request to the other asker while it handles a message itself, and waits for the answer.
 struct Asker {
-    /// Meeting points of the askers: first when both are handling a message, then when both have looked for their answer.
+    /// Meeting points of the askers: the first when both are handling a message, the second when both have looked for
+    /// their answer.
     stations: Arc<[Barrier; 2]>,
     found: mpsc::Sender<bool>,
 }

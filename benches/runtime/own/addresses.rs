@@ -72,7 +72,7 @@ fn run(
             for number in 0..count {
                 while let Err(SendError::Full(_)) = address.send(SmallMessage::of(number)) {
                     refused += 1;
-                    // The receiver has fallen behind, and may need the sender's core.
+                    // The receiver is too slow, perhaps because it needs the sender's core.
                     std::thread::yield_now();
                 }
                 if number % 16 == 0 {
