@@ -37,7 +37,8 @@ fn main() -> io::Result<()> {
     fs::write(Path::new(&folder).join("before.rs"), all)
 }
 
-/// Returns the text without the feature, its tests, comments and list of modules, as a part of one file.
+/// Returns the text of a module before the feature, without its tests, comments and `mod` lines, so that it can be a
+/// part of one file.
 fn before(text: &str) -> String {
     let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or(text);
     let code = code.replace("#[cfg(test)]\nmod traps;", "").replace("crate::design::", "super::super::");

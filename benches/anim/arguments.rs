@@ -17,7 +17,7 @@ pub(crate) enum BenchMode {
     List,
     /// Prints the goals that are numbers of instructions.
     Goals,
-    /// Writes the tables of `anim/README.md` from the results that are there.
+    /// Writes the tables of `anim/README.md` from the results of earlier runs.
     Report,
     /// Writes the instructions that the script `instructions` counted.
     Instructions,
@@ -83,7 +83,8 @@ impl BenchArguments {
     }
 }
 
-/// Returns whether `part` can be a part of a name that starts with `prefix`, from one of its slashes on.
+/// Returns whether a name that starts with `prefix` can contain `part`: within the prefix, or from the start of one
+/// of its components on.
 fn within(prefix: &str, part: &str) -> bool {
     let starts = prefix.match_indices('/').map(|(slash, _)| slash + 1).chain([0]);
     prefix.contains(part)

@@ -45,8 +45,8 @@ pub(crate) struct BenchCase {
 }
 
 impl BenchCase {
-    /// `setup` returns the closure that handles `units` of `unit` in each call and wraps its results in [`black_box`].
-    /// It is called just before the case is measured.
+    /// Creates a case. `setup` is called just before the case is measured. It returns the closure that handles `units`
+    /// of `unit` in each call and wraps its results in [`black_box`].
     pub(crate) fn new<W: FnMut() + 'static>(
         variant: impl Into<String>,
         task: impl Into<String>,

@@ -6,7 +6,7 @@ use crate::rivals::RivalSize;
 use dragonfly_anim::compressed::{CompressionSettings, Exactness, compress};
 use std::time::Instant;
 
-/// CompressionSettings that all codecs are given, in meters.
+/// Exactness that all codecs are given, in meters, with its name in the results.
 const SETTINGS: [(&str, Exactness); 2] =
     [("0.1 mm at 3 cm", Exactness::FINE), ("1 mm at 10 cm", Exactness::COARSE)];
 
@@ -15,7 +15,8 @@ const MILLIMETERS: f64 = 1e3;
 
 /// Returns bytes and errors of the takes of the bench rig, of this library and of the rivals.
 ///
-/// Where ACL's error is smaller than the setting asks for, this library is asked for ACL's error.
+/// Where ACL's error is smaller than the setting allows, this library gets ACL's error as its
+/// tolerance, so that the sizes can be compared.
 pub(crate) fn sizes(rig: &BenchModel, rivals: &[RivalSize]) -> Vec<Figure> {
     let mut rows = Vec::new();
     for take in &rig.model.animation.takes {

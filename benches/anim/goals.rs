@@ -1,8 +1,8 @@
 //! Goals of the fast path, on the bench rig.
 //!
 //! A goal in time is a ratio to another case of the same run, because nanoseconds differ from machine to machine. The
-//! ratios were chosen from a prototype: sampling was to take at most twice the sketch's time and a little more, a whole
-//! character a fifth more. A goal in instructions is absolute; the script `instructions` checks it.
+//! ratios are based on a prototype: sampling may take slightly more than twice the sketch's time, and a whole character
+//! about a fifth more. A goal in instructions is absolute; the script `instructions` checks it.
 
 use crate::measure::CaseTimes;
 use crate::report::results::{Figure, GOAL};

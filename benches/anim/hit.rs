@@ -18,7 +18,7 @@ use std::time::Instant;
 const MODELS: [(&str, &str); 2] =
     [("fox", "../tests/data/gltf/Fox.glb"), ("pab", "../tests/data/bench/pab.glb")];
 
-/// Number of rays, or of spheres, in one call; their costs differ much.
+/// Number of rays, or of spheres, in one call. Many, because their costs differ much.
 const RAYS: usize = 64;
 
 /// A model in a pose, with the rays and spheres that are tested against it.
@@ -190,7 +190,7 @@ impl HitScene {
     }
 }
 
-/// Writes all positions to `out`, without allocating.
+/// Writes the skinned positions of all vertices to `out`, without allocating.
 fn skin(evaluator: &Evaluator, out: &mut [Vec3]) {
     let mut rest = &mut *out;
     for instance in 0..evaluator.model().instances.len() {

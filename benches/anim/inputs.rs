@@ -15,21 +15,21 @@ pub(crate) fn posed(subject: &BenchModel, take: usize, part: f32) -> Vec<Transfo
     poses
 }
 
-/// Returns the to-root matrices of one pose.
+/// Returns the to-root matrices of one pose, which all tasks on matrices use.
 pub(crate) fn roots(subject: &BenchModel) -> Vec<Mat4> {
     let mut roots = vec![Mat4::IDENTITY; subject.bones()];
     to_root(&subject.model.animation.skeleton, &posed(subject, 0, 0.4), &mut roots);
     roots
 }
 
-/// Returns the final matrices of the same pose.
+/// Returns the final matrices of the pose of [`roots`].
 pub(crate) fn finals(subject: &BenchModel) -> Vec<Mat4> {
     let mut finals = vec![Mat4::IDENTITY; subject.skin().bones.len()];
     final_poses(subject.skin(), &roots(subject), &mut finals);
     finals
 }
 
-/// Blends: the number of layers, and whether they have masks.
+/// Cases of blending: the number of layers, and whether they have masks.
 pub(crate) const BLENDS: [(usize, bool); 4] = [(2, false), (4, false), (2, true), (4, true)];
 
 /// Weights of the layers.
@@ -40,7 +40,7 @@ pub(crate) fn how(is_masked: bool) -> &'static str {
     if is_masked { "masked" } else { "whole" }
 }
 
-/// Returns the weight of each bone in the masks: 0, 1/3, 2/3, 1, and again.
+/// Returns the weight of each bone in the masks: 0, 1/3, 2/3, 1, repeating.
 pub(crate) fn mask_weights(subject: &BenchModel) -> impl Iterator<Item = f32> {
     (0..subject.bones()).map(|bone| (bone % 4) as f32 / 3.0)
 }
@@ -57,8 +57,8 @@ pub(crate) struct BenchLimb {
     pub(crate) pole: Vec3,
 }
 
-/// Returns the last bone that has some distance to its parent and grandparent in [`roots`], with these two. The target is
-/// nearer to the grandparent, so that the limb bends.
+/// Returns a limb that ends in the last bone whose distances to its parent and grandparent in
+/// [`roots`] are not zero. The target is nearer to the grandparent, so that the limb bends.
 pub(crate) fn limb(subject: &BenchModel) -> BenchLimb {
     let roots = roots(subject);
     let bones = &subject.model.animation.skeleton.bones;
@@ -89,7 +89,8 @@ pub(crate) fn primitive(subject: &BenchModel, most: usize) -> Primitive {
     let each = primitive.vertices.influences_per_vertex.max(1);
     for vertex in primitive.vertices.influences.chunks_mut(each) {
         for (at, influence) in vertex.iter_mut().enumerate() {
-            // None of the first is zero, because a variant may skip influences without weight.
+            // None of the first `most` weights is zero, because a variant may skip influences without
+            // weight.
             influence.weight = if at < most { 1.0 / most as f32 } else { 0.0 };
         }
     }

@@ -180,7 +180,7 @@ fn groups(cases: Vec<BenchCase>) -> Vec<Vec<BenchCase>> {
             None => groups.push(vec![case]),
         }
     }
-    // The tasks of a group one after the other, the variants of each in their order.
+    // Within a group, sorts by task, and keeps the order of the variants of each task.
     for group in &mut groups {
         let tasks: Vec<String> = group.iter().map(|case| case.task.clone()).collect();
         group.sort_by_cached_key(|case| tasks.iter().position(|task| *task == case.task));

@@ -56,7 +56,7 @@ impl CaseTimes {
     }
 }
 
-/// Returns the number that `percent` of `numbers` are below.
+/// Returns the percentile: `percent` of `numbers` are below it.
 fn percentile(numbers: &[f64], percent: usize) -> f64 {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);

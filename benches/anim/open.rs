@@ -114,7 +114,7 @@ fn reaching(subject: &'static BenchModel) -> BenchCase {
         };
         let unsolved = [limb.root, limb.middle].map(|bone| (bone as usize, poses[bone as usize]));
         move || {
-            // The solver starts from the poses, so they have to be the same each time.
+            // The solver starts from the poses, so these must be the same in each call.
             for (bone, pose) in unsolved {
                 poses[bone] = pose;
             }

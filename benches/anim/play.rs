@@ -36,7 +36,8 @@ pub(crate) struct CrowdMember {
 }
 
 impl CrowdMember {
-    /// Advances the time by a sixtieth of a second at the speed of the member; loops.
+    /// Advances the time by a sixtieth of a second at the speed of the member, and starts again
+    /// after the end of the take.
     pub(crate) fn step(&mut self) {
         self.time += self.speed / 60.0;
         if self.time >= self.start + self.length {

@@ -2,8 +2,8 @@
 //! feature.
 //!
 //! A line that ends in `// feature` belongs to the feature, and so do those between `// feature: begin` and `//
-//! feature: end`. A line that ends in `// feature, before: …` replaced that other line. The build script uses this file
-//! too, so it depends on no other.
+//! feature: end`. A line that ends in `// feature, before: …` replaced the line that the comment contains. The build
+//! script uses this file too, so it depends on no other.
 
 /// Name and text of a file.
 pub type SourceFile = (&'static str, &'static str);

@@ -96,7 +96,7 @@ mod tests {
 }
 
 #[test]
-fn the_counts_are_those_that_the_page_contains_in_words() {
+fn the_counts_agree_with_the_sentences_of_the_readme() {
     let costs = costs();
     assert!(costs.messages.added > 4 * costs.locks.added, "messages cost more than four times the lines");
     assert_eq!(
@@ -124,7 +124,7 @@ fn handles_have_the_method_names_of_the_objects() {
 }
 
 #[test]
-fn mistakes_are_found_in_their_files() {
+fn the_mistakes_of_each_design_are_listed_from_its_files() {
     for (way, refused, compiling) in mistakes() {
         println!("{way}: {refused:#?} {compiling:#?}");
         assert_eq!(refused.len(), 6);

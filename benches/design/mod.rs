@@ -29,7 +29,7 @@ pub const MESSAGES: &[SourceFile] = &[
     ("messages/handles.rs", include_str!("messages/handles.rs")),
 ];
 
-/// The part of it that defines edits as values and applies them.
+/// The part of [`MESSAGES`] that defines edits as values and applies them.
 pub const EDITS: SourceFile = ("messages/document.rs", include_str!("messages/document.rs"));
 
 /// The panel that sends messages itself, without handles.
@@ -49,15 +49,15 @@ pub const LOCKS: &[SourceFile] = &[
 pub struct Costs {
     /// The data and its drawing, which all designs share; not included in the others.
     pub same: Cost,
-    /// Messages sent through typed handles: the whole editor.
+    /// Messages sent through typed handles; covers the whole editor.
     pub messages: Cost,
-    /// The part of it that defines edits as values.
+    /// The part of `messages` that defines edits as values.
     pub edits: Cost,
-    /// Messages without handles: cost of the feature, not the whole editor.
+    /// Messages without handles; covers the feature, not the whole editor.
     pub raw: Cost,
-    /// Closures as messages: cost of the feature, not the whole editor.
+    /// Closures as messages; covers the feature, not the whole editor.
     pub closures: Cost,
-    /// One lock: the whole editor.
+    /// One lock; covers the whole editor.
     pub locks: Cost,
 }
 
@@ -73,8 +73,8 @@ pub fn costs() -> Costs {
     }
 }
 
-/// Returns the file, the mistakes that do not compile, and those that compile, for each design. Each mistake is an
-/// example or a test in the file.
+/// Returns the name, the mistakes that do not compile, and those that compile, for each design. Each mistake is an
+/// example or a test in a file of the design.
 pub fn mistakes() -> [(&'static str, Vec<&'static str>, Vec<String>); 2] {
     [
         (

@@ -34,7 +34,7 @@ const PAUSE: Duration = Duration::from_millis(4);
 /// Allowed time at the 99th percentile.
 const LIMIT: Duration = Duration::from_millis(4);
 
-/// Fails if it takes longer than [`LIMIT`].
+/// Fails if the 99th percentile of a model is above [`LIMIT`].
 fn main() -> ExitCode {
     let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     let cases: [(&str, LoadFn, &str); 2] =
@@ -94,7 +94,7 @@ fn thousand(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opene
     .into())
 }
 
-/// The work of the graphics thread before it draws; then it reports that, so that the next move can follow.
+/// Does the work of the graphics thread before it draws, then sends [`ViewTaken`], so that the next move can follow.
 struct SceneReceiver(Scene, Address<ViewTaken>);
 
 /// Sent when a view was received.

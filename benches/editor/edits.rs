@@ -34,7 +34,8 @@ fn measure(name: &str, times: usize, mut work: impl FnMut(usize)) {
     );
 }
 
-/// With `shared`, all channels share a column of times, as in files that sample everything at once.
+/// Returns the model. With `shared`, all channels share a column of times, as in files that sample
+/// all bones at the same times.
 fn model(shared: bool) -> AnimationData {
     let bones = (0..BONES).map(|bone| Bone {
         name: format!("bone {bone}"),
@@ -47,7 +48,7 @@ fn model(shared: bool) -> AnimationData {
     let keys = RATE * SECONDS;
     let column = || -> Arc<[f32]> { (0..keys).map(|key| key as f32 / RATE as f32).collect() };
     let times = column();
-    // The values do not matter, nor that all channels share them.
+    // The values do not matter, so all channels share them.
     let translation: Arc<[Vec3]> = (0..keys).map(|key| Vec3::splat(key as f32 * 1e-4)).collect();
     let rotation: Arc<[Quat]> = (0..keys).map(|key| Quat::from_rotation_y(key as f32 * 1e-4)).collect();
     let tracks = (0..BONES).map(|bone| {
@@ -69,7 +70,8 @@ fn take() -> TakeRef {
     TakeRef::Index(0)
 }
 
-/// Returns 500 keys at the end of each of 200 channels, listed one by one as by a timeline.
+/// Returns the last 500 keys of each of 200 channels: a set for each channel, which lists the times
+/// of its keys.
 fn chosen() -> Vec<KeySet> {
     let last = RATE * SECONDS;
     let set = |bone| KeySet {
@@ -122,7 +124,7 @@ pub(crate) fn run() {
             let pose = BonePose { bone: BoneRef::Index(7), translation: None, rotation, scale: None };
             let edit = Edit::SetPose(SetPose { take: take(), time, poses: vec![pose], unstep: false });
             edited.apply(edit, Some(Gesture(1))).expect("a pose can be set");
-            // The versions that the panels and the viewport still show.
+            // Two old versions stay in memory: those that the panels and the viewport still show.
             if shown.len() == 2 {
                 shown.remove(0);
             }

@@ -101,7 +101,7 @@ fn drag_keys(
             for effect in passed {
                 let Effect::Send(number, change) = effect else { continue };
                 edits += 1;
-                // The document ends with the bench.
+                // Does not fail: the document's thread runs until the bench ends.
                 let _ = ask.send((number, change));
             }
         }
@@ -122,7 +122,7 @@ fn newest(answers: &Receiver<View>) -> Option<View> {
     answers.try_iter().last()
 }
 
-/// Answers edits until nobody asks any more.
+/// Answers edits until their sender is dropped.
 fn document(first: View, asked: &Receiver<(u64, Change)>, answer: &Sender<View>) {
     let mut edited = Edited::new(ModelAdapter::new(&first.loaded.model.animation));
     let mut generation = first.generation;

@@ -20,7 +20,7 @@ enum MethodSelection {
     All,
     /// The best method of each kind, and the lock that is held for the frame.
     BestOfEachKind,
-    /// The same, and further methods that this case is about.
+    /// The same as [`BestOfEachKind`](Self::BestOfEachKind), and the methods that this case is about.
     And(&'static [&'static str]),
 }
 
@@ -189,7 +189,7 @@ fn questions(study: &mut Study, bed: &ScenarioSetup, core: Scenario) {
     }
 }
 
-/// The same drag in long takes.
+/// Cases with the same drag in longer takes.
 fn large(study: &mut Study, draws: u32, core: Scenario) {
     if study.mode == StudyMode::Check {
         return;

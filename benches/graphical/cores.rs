@@ -1,4 +1,4 @@
-//! Restricts this program to fewer cores for a while, with the command that every Linux has for it.
+//! Restricts this program to fewer cores for a while, with the command `taskset` of Linux.
 
 use std::process::Command;
 
@@ -25,6 +25,6 @@ fn set(cores: &str) -> bool {
 
 impl Drop for Pinned {
     fn drop(&mut self) {
-        assert!(set(&self.before), "what could be done can be undone");
+        assert!(set(&self.before), "the program cannot be given its cores back");
     }
 }

@@ -33,7 +33,7 @@ pub struct TakeEntry {
 pub struct KeyPlace {
     /// Index in the skeleton.
     pub bone: u32,
-    /// Index in the channels.
+    /// Index of the key in the channels of the bone.
     pub key: u32,
 }
 
@@ -73,7 +73,7 @@ pub struct PreparedEdit {
     result: Option<Arc<Take>>,
 }
 
-/// Replaced data, which the caller drops outside of its lock.
+/// Replaced data. The caller drops it after releasing its lock, because that takes long.
 pub type Remains = Option<(Arc<Take>, Arc<Take>)>;
 
 impl NumberedEdit {
@@ -101,7 +101,7 @@ impl TakeEntry {
         Self { original, changes: nothing, result, number: 0, place: KeyPlace::default(), replaced: 0 }
     }
 
-    /// Applies the edit. Data with one owner is changed in place, shared data is copied before.
+    /// Applies the edit. Data that is not shared is changed in place; shared data is copied first.
     pub fn apply(&mut self, ready: PreparedEdit) -> Remains {
         let PreparedEdit { edit, result } = ready;
         let remains = match (edit.change, result) {
@@ -268,13 +268,13 @@ mod tests {
         assert_eq!(
             Arc::as_ptr(&edited.takes[0].result.tracks[1].rotation.values),
             place,
-            "nobody else had it"
+            "the values are not shared, so they are changed in place"
         );
         assert_eq!(base.takes[0].number, 0);
     }
 
     #[test]
-    fn half_an_edit_is_torn_and_a_whole_edit_is_not() {
+    fn half_of_an_edit_is_detected_and_a_whole_edit_is_accepted() {
         let mut document = ModelSize::TINY.document();
         let originals = document.originals();
         drop(document.apply(key(7).prepare(&originals)));

@@ -111,7 +111,8 @@ impl<'a> EditDriver<'a> {
         self.began = Instant::now();
     }
 
-    /// Posts edits for `length`, and asks questions at the interval `questions`; does something else during `stall`.
+    /// Posts edits for `length`, and asks questions at the interval `questions`. During `stall` the thread does other
+    /// work.
     pub fn replay(
         &mut self,
         rate: Rate,

@@ -79,7 +79,7 @@ impl FrameWork {
         self.read_copy(entry.mark(self.thorough), &entry.result);
     }
 
-    /// Returns the mark that a copy of the shown take must contain; called together with the copy.
+    /// Returns the mark that a copy of the shown take must contain. Called when the copy is made.
     pub fn mark(&self, entry: &TakeEntry) -> EditMark {
         entry.mark(self.thorough)
     }
@@ -107,7 +107,7 @@ impl FrameWork {
         }
     }
 
-    /// For a method that holds a view for the whole frame: checks that the view is unchanged.
+    /// Checks that the view is unchanged. For methods that hold a view for the whole frame.
     pub fn confirm(&mut self, entry: &TakeEntry) {
         let now = entry.mark(self.thorough);
         let same = self.seen.is_some_and(|seen| seen.number == now.number);

@@ -145,7 +145,7 @@ impl Drop for GraphicsState {
     }
 }
 
-/// Makes `thread` render frames from now on until it is stopped, and returns where the measurements arrive then.
+/// Makes `thread` render frames until it is stopped. Returns the channel on which the measurements arrive at the end.
 pub fn register(
     thread: &Thread,
     viewing: MakeViewing,

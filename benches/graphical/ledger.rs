@@ -32,7 +32,7 @@ impl Ledger {
         Self { begin, intended, completed, published, applied, seen, frames, recorded_from, recording }
     }
 
-    /// Records that edit `number` is to happen at `when`, before it happens; `None` for one that no frame shows.
+    /// Records the intended time of edit `number`, before the edit is made; `None` for an edit that no frame shows.
     pub fn intend(&self, number: u64, when: Option<Instant>) {
         let since = when.map_or(0, |when| when.saturating_duration_since(self.begin).as_nanos() as u64);
         self.intended[number as usize & (self.intended.len() - 1)].store(since, Ordering::Relaxed);

@@ -25,10 +25,10 @@ impl<T: Send + 'static> AnyLock<T> for std::sync::Mutex<T> {
         Self::new(value)
     }
     fn read<R>(&self, work: impl FnOnce(&T) -> R) -> R {
-        work(&self.lock().expect("nobody panics with it"))
+        work(&self.lock().expect("no thread panics with the lock"))
     }
     fn write<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
-        work(&mut self.lock().expect("nobody panics with it"))
+        work(&mut self.lock().expect("no thread panics with the lock"))
     }
 }
 
@@ -37,10 +37,10 @@ impl<T: Send + Sync + 'static> AnyLock<T> for std::sync::RwLock<T> {
         Self::new(value)
     }
     fn read<R>(&self, work: impl FnOnce(&T) -> R) -> R {
-        work(&Self::read(self).expect("nobody panics with it"))
+        work(&Self::read(self).expect("no thread panics with the lock"))
     }
     fn write<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
-        work(&mut Self::write(self).expect("nobody panics with it"))
+        work(&mut Self::write(self).expect("no thread panics with the lock"))
     }
 }
 

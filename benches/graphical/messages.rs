@@ -58,22 +58,22 @@ pub fn newest(start: SharingStart) -> SharingParts {
     begin(start, MessageMethod::default())
 }
 
-/// The same, with views sent to the main thread, which forwards them.
+/// As [`newest`], with views sent to the main thread, which forwards them.
 pub fn relayed(start: SharingStart) -> SharingParts {
     begin(start, MessageMethod { relayed: true, ..MessageMethod::default() })
 }
 
-/// The main thread receives the views too, and reads answers from them.
+/// As [`newest`], with views also sent to the main thread, which reads answers from them.
 pub fn read(start: SharingStart) -> SharingParts {
     begin(start, MessageMethod { read: true, ..MessageMethod::default() })
 }
 
-/// Queued edits of one gesture replace one another, and so do queued views.
+/// As [`newest`], with queued edits of one gesture replacing one another.
 pub fn merged(start: SharingStart) -> SharingParts {
     begin(start, MessageMethod { merges: true, ..MessageMethod::default() })
 }
 
-/// A view when a frame requests it.
+/// A message for every edit; a view when a frame requests one.
 pub fn on_demand(start: SharingStart) -> SharingParts {
     begin(start, MessageMethod { on_demand: true, ..MessageMethod::default() })
 }
@@ -83,7 +83,7 @@ pub fn batched(start: SharingStart) -> SharingParts {
     begin(start, MessageMethod { on_demand: true, batched: true, ..MessageMethod::default() })
 }
 
-/// The document's thread spins before it sleeps.
+/// As [`newest`], with a document's thread that spins before it sleeps.
 pub fn spinning(start: SharingStart) -> SharingParts {
     begin(start, MessageMethod { spin: Duration::from_millis(2), ..MessageMethod::default() })
 }
@@ -133,7 +133,8 @@ impl Receiver for DocumentOwner {
             }
             ToDocument::Publish => {
                 if self.kind.batched {
-                    // Before the view is sent: its receiver may request the next one, which must end this pause.
+                    // Paused before the view is sent, because its receiver may request the next one, which must end
+                    // this pause.
                     thread.pause();
                 }
                 if !self.changed {

@@ -28,9 +28,9 @@ struct MousePoint {
 /// Size of the edits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edits {
-    /// One key each.
+    /// Each edit changes one key.
     Small,
-    /// A whole take each; every second edit replaces a take that is not shown.
+    /// Each edit changes a whole take; every second one replaces a take that is not shown.
     Large,
 }
 
@@ -105,8 +105,8 @@ fn record(size: ModelSize) -> Vec<MousePoint> {
     while points.len() < POINTS {
         let length = (150 + random.below(500)).min(POINTS - points.len());
         let target = random.between(-0.5, 0.5);
-        // Never key 0, into which edits of whole takes write their mark. Few bones, so that a short run edits all of
-        // them.
+        // Key 0 is not edited, because edits of whole takes write their mark into it. Few bones are edited, so that
+        // a short run edits each of them.
         let place = KeyPlace {
             bone: (strokes * 7 % size.bones) as u32,
             key: 1 + (strokes * 37 % (size.keys - 1)) as u32,
@@ -128,7 +128,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_times_of_a_drag_ascend_and_it_repeats_after_its_end() {
+    fn the_recorded_drag_has_ascending_times_and_repeats_after_its_end() {
         let document = ModelSize::TINY.document();
         let script = Script::new(ModelSize::TINY, Edits::Small, &document);
         let mut last = -1.0;

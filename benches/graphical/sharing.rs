@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 
 /// The main thread's side: edits, and reads a little.
 pub trait Sharing {
-    /// Makes the edit, or sends it. `begins`: it is the first of a gesture; edits of one gesture replace one another.
+    /// Makes the edit, or sends it. `begins` is whether it is the first of a gesture: a method may replace queued
+    /// edits of the same gesture.
     fn edit(&mut self, edit: NumberedEdit, begins: bool);
 
     /// Asks a question and waits for the answer.
@@ -30,8 +31,8 @@ pub trait Viewing {
     /// Draws a frame from one consistent view.
     fn frame(&mut self, frame: &mut FrameWork);
 
-    /// Called when a frame is due. Returns whether it can start; if not, called again when a message arrives, or when
-    /// this call itself has caused a wake-up.
+    /// Called when a frame is due. Returns whether it can start. If not, this is called again when a message arrives,
+    /// or at the wake-up that this call has requested.
     fn is_ready(&mut self, _thread: &mut Context) -> bool {
         true
     }
@@ -74,7 +75,7 @@ pub struct SharingStart<'a> {
 /// Creates the graphics thread's side, in that thread.
 pub type MakeViewing = Box<dyn FnOnce(&mut Context) -> Box<dyn Viewing> + Send>;
 
-/// Both sides of a method.
+/// Both sides of a method: that of the main thread and that of the graphics thread.
 pub struct SharingParts {
     /// The side that stays in the main thread.
     pub sharing: Box<dyn Sharing>,
@@ -94,7 +95,7 @@ pub struct SharingMethod {
 }
 
 impl SharingMethod {
-    /// Returns a method that is compared in the core case only.
+    /// Returns a method that is compared only in the case `drag`, with all others.
     pub const fn new(name: &'static str, start: fn(SharingStart) -> SharingParts) -> Self {
         Self { name, start, in_every_case: false }
     }

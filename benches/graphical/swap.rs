@@ -15,8 +15,8 @@ struct SwapSharing {
 
 impl Sharing for SwapSharing {
     fn edit(&mut self, edit: NumberedEdit, _begins: bool) {
-        // There is only one writer, so the copy is not in a hurry; with several writers this would be `rcu`, which may
-        // repeat it.
+        // With one writer the version cannot change during the copy. Several writers would need `rcu`, which may
+        // repeat the copy.
         let ready = edit.prepare(&self.originals);
         let mut document = SharedDocument::clone(&self.newest.load());
         drop(document.apply(ready));

@@ -14,7 +14,7 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard};
 
-/// Flag in addition to the number of the exchanged document, when it is newer than the one that is drawn.
+/// Flag that is added to the number of the exchanged document if it is newer than the one that is drawn.
 const FRESH: usize = 4;
 
 struct Buffers {

@@ -37,7 +37,7 @@ impl Viewing for NewestView {
         frame.confirm(shown(&view.takes));
     }
 
-    /// The edit that was published before the messages of this iteration were taken from the queue.
+    /// Returns the edit that was published before the messages of this iteration were taken from the queue.
     fn promise(&mut self, ledger: &Ledger) -> u64 {
         std::mem::replace(&mut self.promised, ledger.published())
     }
@@ -68,7 +68,7 @@ pub(super) struct OnDemandView {
 const PATIENCE: Duration = Duration::from_millis(2);
 
 impl OnDemandView {
-    /// Returns a side that requests views from `document`, which arrive in `newest`.
+    /// Returns a graphics thread's side that requests views from `document`, which arrive in `newest`.
     pub(super) fn new(
         newest: NewestView,
         document: Address<ToDocument>,

@@ -25,7 +25,8 @@ impl Cases {
         self.round_trips(name, round_trip::run::<P>);
     }
 
-    /// Adds a peer that can exist only once at a time, so to all cases except round trips.
+    /// Adds a peer that can exist only once at a time, to all cases except round trips, which
+    /// need two.
     pub fn add_one_way<P: Peer>(&mut self, name: &'static str) {
         self.one_way::<P, WordMessage<1>>(name, 1, "one_way/1_producer/8_bytes");
         self.one_way::<P, WordMessage<8>>(name, 1, "one_way/1_producer/64_bytes");

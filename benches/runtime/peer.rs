@@ -40,7 +40,7 @@ pub trait Message: Copy + Send + Sync + 'static {
     fn number(self) -> u64;
 }
 
-/// A message of `N` words of 8 bytes.
+/// A message of `COUNT` words of 8 bytes.
 #[derive(Clone, Copy)]
 pub struct WordMessage<const COUNT: usize>([u64; COUNT]);
 

@@ -131,7 +131,8 @@ const OURS: &str = "dragonfly";
 const SPINNING: &str = "dragonfly, spinning";
 /// Limit for "not slower": medians of equal code differ by this factor between runs.
 const EQUAL: f64 = 1.05;
-/// Limit for "no allocation": the queue's memory grows at the start, which is divided among all messages.
+/// Limit for "no allocation". Not zero, because the queue allocates memory at the start, which is divided among
+/// all messages.
 const NONE: f64 = 0.001;
 
 /// Returns the goals for which `rows` contains both sides.
@@ -255,7 +256,7 @@ mod tests {
         assert_eq!(verdict(&theirs, &theirs), GoalVerdict::Reached);
         // Slower by 1 %, but in every repeat.
         assert_eq!(verdict(&[10.1; 7], &[10.0; 7]), GoalVerdict::Missed);
-        // One repeat is never significant between two variants, but fails a fixed limit.
+        // A single repeat is never a significant difference between two variants, but it can miss a fixed limit.
         assert_eq!(verdict(&[11.0], &[10.0, 10.0]), GoalVerdict::Scatter);
         assert_eq!(verdict(&[11.0], &[10.0]), GoalVerdict::Missed);
     }

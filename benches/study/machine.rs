@@ -24,7 +24,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Reads and measures them, in about half a second.
+    /// Reads and measures all properties, which takes about half a second.
     pub fn measure() -> Self {
         let cpu = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
         let processor = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));

@@ -20,7 +20,7 @@ pub enum StudyMode {
 }
 
 impl StudyMode {
-    /// Returns one of three values, by thoroughness.
+    /// Returns the one of three values that belongs to this mode.
     pub fn pick<T>(self, check: T, short: T, full: T) -> T {
         match self {
             Self::Check => check,
@@ -37,7 +37,7 @@ pub struct Variant<'a> {
 }
 
 impl<'a> Variant<'a> {
-    /// `run` prepares the work, does it, checks its result, and records the measured values.
+    /// Returns a variant. `run` prepares the work, does it, checks its result, and records the measured values.
     pub fn new(name: &'a str, run: impl FnMut(&mut RunValues) + 'a) -> Self {
         Self { name, run: Box::new(run) }
     }
@@ -136,7 +136,8 @@ impl Study {
             for place in (1..variants.len()).rev() {
                 variants.swap(place, self.order.below(place + 1));
             }
-            // Measured over all variants of a repeat: the kernel counts in steps of 10 ms, too coarse for a short one.
+            // The load is measured over all variants of a repeat, because the kernel counts in steps of 10 ms, too
+            // coarse for a short variant.
             let load = CpuLoad::now();
             let begin = self.rows.len();
             for variant in &mut variants {

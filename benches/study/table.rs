@@ -78,7 +78,7 @@ pub fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     found
 }
 
-/// Returns the length of the folders that all names share.
+/// Returns the length of the start that all names share, in whole folders.
 pub fn common_folder(names: &[&str]) -> usize {
     let Some(first) = names.first() else { return 0 };
     let shared = |end: &usize| names.iter().all(|name| name.starts_with(&first[..*end]));
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_shortened_by_whole_folders_only() {
+    fn case_names_are_shortened_by_whole_folders_only() {
         assert_eq!(common_folder(&["a/b/cc", "a/b/cd"]), 4);
         assert_eq!(common_folder(&["a/b", "ab/b"]), 0);
         assert_eq!(common_folder(&["alone/here"]), 6);

@@ -131,13 +131,13 @@ impl<M: Send + 'static> Address<M> {
         self.0.thread.mailbox.0.is_closed()
     }
 
-    /// The thread of the receiver.
+    /// Returns the shared part of the receiver's thread.
     pub(crate) fn thread(&self) -> &Arc<ThreadShared> {
         &self.0.thread
     }
 
-    /// The number of the receiver in `thread`. Panics when the address belongs to another thread,
-    /// which is a bug of the caller.
+    /// Returns the number of the receiver in `thread`. Panics when the address belongs to another
+    /// thread, which is a bug of the caller.
     pub(crate) fn receiver_in(&self, thread: &Arc<ThreadShared>) -> u32 {
         let (own, other) = (&self.0.thread.name, &thread.name);
         assert!(
@@ -151,8 +151,9 @@ impl<M: Send + 'static> Address<M> {
         self.0.thread.send(self.0.receiver, self.0.row, content)
     }
 
-    /// Replaces the message of a `latest` address. The sender that finds none queues a letter,
-    /// whose delivery takes the message out again; every other sender relies on that letter.
+    /// Stores `message` as the newest one of a `latest` address. If none was stored, also queues a
+    /// letter, whose delivery will take the stored message; otherwise such a letter is queued
+    /// already.
     fn replace(&self, waiting: &BriefLock<Option<M>>, message: M) -> Result<(), SendError<M>> {
         if self.is_stopped() {
             return Err(SendError::Stopped(message));
@@ -165,8 +166,8 @@ impl<M: Send + 'static> Address<M> {
         self.announce()
     }
 
-    /// Queues the letter of a `latest` address. If the thread has stopped since, the message is
-    /// returned, or a newer one if another sender has replaced it.
+    /// Queues the letter of a `latest` address. If the thread has stopped in the meantime, fails
+    /// with the stored message, which another sender may have replaced by a newer one.
     pub(crate) fn announce(&self) -> Result<(), SendError<M>> {
         let back = self.put(LatestLetter(Arc::clone(&self.0))).err().and_then(Envelope::open);
         back.map_or(Ok(()), |newest| Err(SendError::Stopped(newest)))
@@ -201,7 +202,8 @@ impl<M: Send + 'static> Envelope for PlainLetter<M> {
 impl<M: Send + 'static> Envelope for LatestLetter<M> {
     type Message = M;
 
-    /// `None` when the message was returned to its sender because the thread stopped.
+    /// Takes the stored message. Returns `None` when it was returned to its sender because the
+    /// thread had stopped.
     fn open(self) -> Option<M> {
         let Flavor::Latest(waiting) = &self.0.flavor else { return None };
         waiting.with(Option::take)
@@ -211,7 +213,7 @@ impl<M: Send + 'static> Envelope for LatestLetter<M> {
 impl<M: Send + 'static> Envelope for BoundedLetter<M> {
     type Message = M;
 
-    /// Frees the room of the message as soon as it has left the queue.
+    /// Returns the message, and frees the room that it took up at its bounded address.
     fn open(self) -> Option<M> {
         self.2.release(self.1);
         Some(self.0)

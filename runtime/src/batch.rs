@@ -72,7 +72,8 @@ pub(crate) struct Batch {
     /// Rows by number; `None` where no letter of that type has arrived yet.
     rows: Vec<Option<Box<dyn MessageRow>>>,
     len: usize,
-    /// Largest number of letters so far, which is the number that there is memory for.
+    /// Largest number of letters queued at once so far; the memory of the rows suffices for that
+    /// many.
     most: usize,
     /// Number of consecutive batches that left most of that memory unused.
     small_batches: u32,
@@ -91,10 +92,10 @@ trait MessageRow: Any + Send {
     fn discard(&mut self) -> usize;
 }
 
-/// Number of letters whose memory is never freed.
+/// Number of letters up to which the memory of a batch is never freed.
 const ALWAYS_KEPT: usize = 4096;
 
-/// Number of consecutive small batches after which more memory than that is freed.
+/// Number of consecutive small batches after which the memory of a larger batch is freed.
 const SMALL_BATCHES: u32 = 16;
 
 impl Batch {
@@ -140,7 +141,8 @@ impl Batch {
         while let Some((row, count)) = self.order.front_mut() {
             let before = *count;
             if let Some(row) = &mut self.rows[*row as usize] {
-                // The count lives outside of what a panic unwinds, so it stays correct.
+                // `count` is stored outside of the closure, so it stays correct when a panic unwinds
+                // out of it.
                 thread.catch_and_report("message", "drop", |thread| row.deliver(0, count, thread));
             }
             self.len -= (before - *count) as usize;

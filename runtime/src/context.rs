@@ -1,4 +1,4 @@
-//! The inside of a thread: what a worker or receiver can use while it is called.
+//! The context of a thread: what a worker or receiver can use while it is called.
 
 use crate::batch::Batch;
 use crate::handle::ThreadHandle;
@@ -9,7 +9,7 @@ use crate::{Address, Fault, Receiver, Timer, TraceSnapshot, Worker};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// The inside of a thread: the state of its loop and the register of its objects.
+/// The context of a thread: the state of its loop and the register of its objects.
 ///
 /// Every call in the thread gets it as `&mut Context`. Changes of the register take effect at once:
 /// a message queued for a removed receiver is undeliverable, and a removed worker is not called

@@ -46,14 +46,15 @@ impl ThreadHandle {
         self.ask("run", call).map_err(|_| SendError::Stopped(()))
     }
 
-    /// Adds the worker that `make` returns after the others; see [`Context::register_worker`].
+    /// Adds the worker that `make` returns, after the others; see [`Context::register_worker`].
     pub fn register_worker<W: Worker>(&self, make: impl ContextFn<W>) -> WorkerId {
         let id = self.shared.new_id() | WORKER;
         self.insert(id, |thread| Object::worker(make(thread)));
         WorkerId(id)
     }
 
-    /// Adds the worker that `make` returns after all others; see [`Context::register_last_worker`].
+    /// Adds the worker that `make` returns, after all others; see
+    /// [`Context::register_last_worker`].
     pub fn register_last_worker<W: Worker>(&self, make: impl ContextFn<W>) -> WorkerId {
         let id = self.shared.new_id() | LAST;
         self.insert(id, |thread| Object::worker(make(thread)));
@@ -101,7 +102,7 @@ impl ThreadHandle {
     /// Interrupts a sleep or pause. [`Thread::wait_for`](crate::Thread::wait_for) waits for it.
     pub fn remote_stop(&self) {
         self.shared.stopping.store(true, Ordering::SeqCst);
-        // Fails only when it has stopped already.
+        // Fails only when the thread has stopped already.
         let _ = self.ask("stop", Context::stop);
         self.shared.mailbox.0.wake_now();
     }
@@ -109,12 +110,12 @@ impl ThreadHandle {
     /// Makes the thread sleep for `duration`, after all messages queued so far; see
     /// [`Context::sleep`].
     pub fn remote_sleep(&self, duration: Duration) {
-        // Fails only when the thread has stopped, where it has no use.
+        // Fails only when the thread has stopped, and then there is nothing to put to sleep.
         let _ = self.ask("sleep", move |thread| thread.sleep(duration));
     }
 
-    /// Suspends the thread as soon as the call that is running there returns, before all queued
-    /// messages. Messages are queued until [`resume`](Self::resume).
+    /// Suspends the thread as soon as the call that is running there returns, before it delivers
+    /// any queued message. Messages are queued until [`resume`](Self::resume).
     pub fn pause(&self) {
         self.shared.paused.store(true, Ordering::SeqCst);
     }

@@ -35,12 +35,12 @@ impl Context {
             return Next::Stopped;
         }
         if let Some(next) = self.suspended() {
-            self.shared().mailbox.0.set_awake(); // New messages need not wake it.
+            self.shared().mailbox.0.set_awake(); // The thread runs: new messages need not wake it.
             return next;
         }
         self.again = false;
         if !self.alarms.is_empty() {
-            let now = self.now(); // Reading the clock costs as much as a message.
+            let now = self.now(); // Reading the clock costs as much as delivering a message.
             self.alarms.retain(|(_, when)| *when > now);
         }
         self.shared().tallies.0.iterations.add_own(1);
@@ -96,7 +96,7 @@ impl Context {
                 return;
             };
             let event = |label: Label, _, end| TraceEvent::Worker { name: label.name, end };
-            // A worker that panicked has not done its work, as if it had returned `false`.
+            // A panic counts as `false`: the worker has not done its work.
             if self.call(id, &mut (), event) != CallEnd::Done(true) {
                 return;
             }
@@ -186,8 +186,8 @@ impl Context {
         catch_unwind(AssertUnwindSafe(|| call(self)))
     }
 
-    /// Runs `call`. Reports a panic as one that happened while `object` was in the state `what`,
-    /// such as `"drop"`.
+    /// Runs `call`. Reports a panic in it as a [`Fault`] of `object`, with `what` as its
+    /// [`call`](Fault::call), such as `"drop"`.
     pub(crate) fn catch_and_report(
         &mut self,
         object: &str,
@@ -267,7 +267,7 @@ impl Context {
         self.shared().finish();
     }
 
-    /// All of [`finish`](Self::finish) before the wake-up.
+    /// Does everything that [`finish`](Self::finish) does before the wake-up.
     pub(crate) fn drop_everything(&mut self) {
         let mut left = std::mem::take(&mut self.batch);
         left.append(&mut self.shared().mailbox.0.close());

@@ -105,7 +105,7 @@ impl CancelFlag {
 #[doc(alias = "spawn")]
 pub struct Job(Arc<JobState>);
 
-/// ThreadShared by a [`Job`], its OS thread and the thread that it belongs to.
+/// The state shared by a [`Job`], its OS thread and the thread that it belongs to.
 struct JobState {
     name: Arc<str>,
     cancel: CancelFlag,
@@ -135,7 +135,7 @@ impl Job {
         Self::spawn(Some(address.thread()), name, move |state| {
             let context = JobContext { address: to, cancel: state.cancel.clone(), reported: Cell::new(None) };
             let message = caught(state, || work(&context)).unwrap_or_else(|text| on_panic(&text));
-            // No one is left to receive it when the thread has stopped.
+            // Fails only when the receiving thread has stopped.
             let _ = context.address.send(message);
         })
     }
@@ -181,7 +181,7 @@ impl Job {
         &self.0.name
     }
 
-    /// Asks the work to end soon, like dropping the job, but keeps it.
+    /// Asks the work to end soon, as dropping the job does, but keeps the job.
     pub fn cancel(&self) {
         self.0.cancel.cancel();
     }
@@ -219,7 +219,7 @@ impl Job {
         })?;
         let job = Self(Arc::clone(&state));
         match owner {
-            // If it stopped since the check above, dropping the job cancels it.
+            // If the owner has stopped since the check above, dropping the job cancels it.
             Some(owner) if !owner.jobs.add(RunningJob { state, os_thread }) => Err(stopped(owner)),
             _ => Ok(job),
         }
@@ -228,7 +228,8 @@ impl Job {
 
 /// Runs `work` of the job `state`. Logs a panic and returns its text.
 fn caught<T>(state: &JobState, work: impl FnOnce() -> T) -> Result<T, String> {
-    // Nothing that the work left half done is seen again: it owned all of it.
+    // The work owns everything that it may leave half changed, so catching the panic exposes none of
+    // it.
     catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
         let text = panic_text(&*payload).to_owned();
         tracing::error!(job = &*state.name, reason = text, "panic");
@@ -271,14 +272,16 @@ impl<M: Send + 'static> JobContext<M> {
         &self.cancel
     }
 
-    /// Reports that the part `done` of the work, 0 to 1, is finished: sends what `message` makes
-    /// of it. May be called for every item: less than one hundredth more than the last report is
-    /// not sent, nor is anything after a cancellation, and `message` is not called then.
+    /// Reports that the part `done` of the work, from 0 to 1, is finished: sends the message that
+    /// `message` returns for it.
+    ///
+    /// May be called for every item. Nothing is sent, and `message` is not called, after a
+    /// cancellation, or while `done` is less than one hundredth above the last value that was sent.
     pub fn report(&self, done: f32, message: impl FnOnce(f32) -> M) {
         let due = self.reported.get().is_none_or(|last| done - last >= PROGRESS_STEP);
         if due && !self.is_cancelled() {
             self.reported.set(Some(done));
-            // No one is left to receive it when the thread has stopped.
+            // Fails only when the receiving thread has stopped.
             let _ = self.address.send(message(done));
         }
     }
@@ -308,7 +311,7 @@ impl<T> JobAnswer<T> {
     }
 }
 
-/// Why a [`JobAnswer`] holds no result.
+/// Reasons why a [`JobAnswer`] holds no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum JobError {
     /// The work panicked with this text.

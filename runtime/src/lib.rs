@@ -2,9 +2,10 @@
 //! has one owner.
 //!
 //! A [`Thread`] is one loop. It owns [`Worker`]s, which do the work, and [`Receiver`]s (elsewhere
-//! called actors), which get messages through its mailbox. In its own thread an object is called; from another thread it is sent a message.
-//! Whole programs are made of that: an editor's window, its document and its graphics are three
-//! such threads. The names are those of the thesis that this crate follows (§2.2.3 and §3.2.6).
+//! called actors), which get messages through its mailbox. In its own thread an object is called; from
+//! another thread it is sent a message. Whole programs are made of that: an editor's window, its
+//! document and its graphics are three such threads. The names are those of the thesis that this crate
+//! follows (§2.2.3 and §3.2.6).
 //!
 //! # Hello
 //!
@@ -149,7 +150,7 @@
 //! * **Order.** Messages from one thread to another arrive in the order of sending, whichever
 //!   receivers they are for. Registering, removing, sleeping and stopping from another thread are
 //!   messages too and keep this order. Only [`Address::latest`] and [`pause`](ThreadHandle::pause)
-//!   overtake.
+//!   overtake other messages.
 //! * **Sending never blocks.** It costs one short lock of the queue and the move of the message; no
 //!   allocation, once the queue has grown to its usual length. Where a producer can be too fast, use
 //!   [`Address::bounded`] or [`Address::latest`].

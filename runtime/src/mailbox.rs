@@ -43,7 +43,8 @@ pub(crate) struct MailboxContent {
 }
 
 impl Mailbox {
-    /// `wake` must end the owner's sleep; it is called from sending threads.
+    /// Creates an empty mailbox. `wake` must end the owner's sleep; it is called from sending
+    /// threads.
     pub(crate) fn new(wake: Box<dyn Fn() + Send + Sync>) -> Self {
         Self { stored: BriefLock::new(MailboxContent::default()), state: AtomicU8::new(AWAKE), wake }
     }
@@ -78,7 +79,7 @@ impl Mailbox {
             Ok(state)
         })?;
         if state == ASLEEP {
-            self.wake_now(); // Only the first of several senders pays for it.
+            self.wake_now(); // Only the first of several senders pays for the wake-up.
         }
         Ok(())
     }
@@ -88,8 +89,8 @@ impl Mailbox {
         (self.wake)();
     }
 
-    /// Called by the owner when it is running: senders need not wake it. One that has just done so
-    /// does no harm.
+    /// Called by the owner when it is running: senders need not wake it. A wake-up that a sender has
+    /// just caused does no harm.
     pub(crate) fn set_awake(&self) {
         if self.is_asleep() {
             self.state.store(AWAKE, Ordering::SeqCst);

@@ -10,7 +10,8 @@ use std::rc::Rc;
 /// Need not be [`Send`]: it is made, used and dropped in one thread.
 #[doc(alias = "system")]
 pub trait Worker: 'static {
-    /// Works once, for as long as it takes; messages that arrive during the call are queued.
+    /// Does the work of one iteration, for as long as it takes; messages that arrive during the
+    /// call are queued.
     ///
     /// Returning `false` ends this iteration: the workers after this one are not called, because
     /// what they depend on was not done. It does not affect the next iteration; request one with
@@ -44,7 +45,8 @@ pub trait Receiver: 'static {
     }
 }
 
-/// One object can be both, as `Graphics` is in the thesis: register clones of the same [`Rc`].
+/// One object can be both worker and receiver, as `Graphics` is in the thesis: register clones of
+/// the same [`Rc`].
 ///
 /// Its name is the name of the type; [`Worker::name`] of the object is ignored.
 impl<W: Worker> Worker for Rc<RefCell<W>> {
@@ -57,7 +59,7 @@ impl<W: Worker> Worker for Rc<RefCell<W>> {
     }
 }
 
-/// As for [`Worker`].
+/// For an object that is both worker and receiver: see the implementation of [`Worker`] for `Rc`.
 impl<R: Receiver> Receiver for Rc<RefCell<R>> {
     type Message = R::Message;
 

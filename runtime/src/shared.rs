@@ -17,7 +17,7 @@ use std::sync::atomic::{self as std_atomic, AtomicU32, AtomicU64, AtomicUsize};
 #[repr(align(128))]
 pub(crate) struct CacheAligned<T>(pub(crate) T);
 
-/// ThreadShared by a thread's loop, its handles and the addresses of its receivers.
+/// The state shared by a thread's loop, its handles and the addresses of its receivers.
 pub(crate) struct ThreadShared {
     pub(crate) name: Arc<str>,
     pub(crate) clock: ThreadClock,

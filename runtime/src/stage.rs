@@ -7,10 +7,11 @@ use crate::{Context, Next, ThreadHandle};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A test scheduler: threads without OS threads, and one clock for all that the test advances.
+/// A test scheduler: threads without OS threads, and one clock for all of them, which the test
+/// advances.
 ///
 /// Everything runs in the caller's thread, in the order of the caller's calls, so a test built on it
-/// is deterministic. The loop is the one of every other thread.
+/// is deterministic. The loop is the same as in every other thread.
 ///
 /// ```
 /// # use dragonfly_runtime::{Context, Next, Receiver, Stage};
@@ -83,12 +84,12 @@ impl Stage {
     /// Runs one iteration of `thread`.
     ///
     /// # Panics
-    /// When `thread` is not on this stage, as for all methods that take a thread.
+    /// When `thread` is not on this stage. The same holds for all methods that take a thread.
     pub fn iterate(&mut self, thread: &ThreadHandle) -> Next {
         self.context(thread).iterate()
     }
 
-    /// Returns the inside of `thread`, for registering objects directly.
+    /// Returns the context of `thread`, for registering objects directly.
     pub fn context(&mut self, thread: &ThreadHandle) -> &mut Context {
         let found = self.threads.iter_mut().find(|one| one.handle() == thread);
         found.unwrap_or_else(|| panic!("thread {:?} is not on this stage", thread.name()))

@@ -37,7 +37,7 @@ macro_rules! mutant {
 }
 pub(crate) use mutant;
 
-/// The only kind of lock in the crate. The thesis's queue has one for the same reason (§3.2.6.1).
+/// The only kind of lock in the crate: a short one, as in the queue of the thesis (§3.2.6.1).
 ///
 /// It cannot be held: there is no guard, only a closure. The closure moves a few bytes and returns;
 /// it calls no user code and takes no second lock, so no two locks can be taken in the wrong order.
@@ -63,8 +63,8 @@ impl<T> BriefLock<T> {
     }
 }
 
-/// Checks that no thread takes a lock inside another. Not under the checkers, which run all threads in
-/// one OS thread.
+/// Checks that no thread takes a lock inside another. Left out under the checkers, which run all
+/// threads in one OS thread.
 mod alone {
     #[cfg(all(debug_assertions, not(any(loom, shuttle))))]
     thread_local!(static INSIDE: std::cell::Cell<bool> = const { std::cell::Cell::new(false) });

@@ -50,8 +50,8 @@ impl Thread {
     /// Makes a runtime thread of the calling OS thread, whose loop calls [`Captured::iterate`]. For
     /// the main thread, whose loop belongs to the window system.
     ///
-    /// `wake` is called from sending threads when a message arrives after `iterate` returned that it
-    /// waits for one, and by [`resume`](ThreadHandle::resume) and
+    /// `wake` is called from sending threads when a message arrives between two calls of `iterate`
+    /// while the thread waits for messages, and by [`resume`](ThreadHandle::resume) and
     /// [`remote_stop`](ThreadHandle::remote_stop). It must be fast and make the caller's loop call
     /// `iterate` soon; an unnecessary call does no harm.
     pub fn capture(name: &str, wake: impl Fn() + Send + Sync + 'static) -> Captured {
@@ -98,7 +98,7 @@ impl Drop for Thread {
         };
         self.handle.remote_stop();
         if os_thread.thread().id() == thread::current().id() {
-            return; // Dropped by itself; the stop is in its queue.
+            return; // Dropped in the thread itself, which ends when it reaches the queued stop.
         }
         let waited = Self::wait_for(std::slice::from_ref(&self.handle), Instant::now() + DROP_DEADLINE);
         if waited.is_err() {
@@ -184,7 +184,7 @@ impl Captured {
         self.context.iterate()
     }
 
-    /// Returns the inside of the thread, for registering objects directly. Call
+    /// Returns the context of the thread, for registering objects directly. Call
     /// [`iterate`](Self::iterate) afterwards, so that alarms and stops requested here take effect.
     pub fn context(&mut self) -> &mut Context {
         &mut self.context

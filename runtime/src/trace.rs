@@ -1,9 +1,10 @@
 //! Trace of a thread: each message with its sender, its receiver, its time in the queue and the
 //! duration of the call.
 //!
-//! Off, it costs one relaxed load for each message sent, and nearly nothing for each call. On, each
-//! message and each worker call becomes a [`TraceRecord`] in a ring that belongs to the traced thread,
-//! and an event of the `tracing` crate at level TRACE, target `dragonfly_runtime::trace`.
+//! While it is off, it costs one relaxed load for each message sent, and nearly nothing for each call.
+//! While it is on, each message and each worker call becomes a [`TraceRecord`] in a ring that belongs
+//! to the traced thread, and an event of the `tracing` crate at level TRACE, target
+//! `dragonfly_runtime::trace`.
 
 use crate::clock::ThreadClock;
 use std::cell::RefCell;

@@ -8,7 +8,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Usual duration of a call above which a watchdog reports it.
+/// Usual limit of a watchdog: it reports calls that take longer.
 pub const STALL_LIMIT: Duration = Duration::from_secs(5);
 
 /// A running call that has taken longer than the limit.
@@ -56,7 +56,7 @@ impl Watchdog {
     ) -> Self {
         let address = thread.reserve_address();
         let own = address.clone();
-        // Fails only when the thread has stopped, where a watchdog has no use.
+        // Fails only when the thread has stopped, and then it needs no watchdog.
         let _ = thread.run(move |thread| {
             let watch = Rc::new(RefCell::new(WatchdogState {
                 limit,

@@ -40,11 +40,11 @@ fn describe_action(number: u32) -> String {
 }
 
 #[test]
-fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
+fn a_document_killed_by_any_signal_at_any_moment_is_recovered_as_it_was() {
     if is_writer() {
         return;
     }
-    let test = "document_ended::a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was";
+    let test = "document_ended::a_document_killed_by_any_signal_at_any_moment_is_recovered_as_it_was";
     let kills = if takes_long() { 5000 } else { 200 };
     let seed = seed(0x646f_6373);
     println!("DRAGONFLY_SEED={seed}");
@@ -61,7 +61,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
     let mut in_a_drag = 0;
     for kill in 0..kills {
         let mut writer = start(test, folder.path(), number);
-        // Some kills come while it starts, most while it works.
+        // Some kills happen while the program starts, most while it works.
         let patience = if random.below(6) == 0 {
             Duration::from_millis(random.below(150) as u64)
         } else {
@@ -74,7 +74,7 @@ fn a_document_killed_in_any_way_at_any_moment_comes_back_as_it_was() {
         kill_process(process, signal).expect("it runs");
         let said = writer.ended();
         let said = said.edits.max(number);
-        // Every action that was reported must be there; the one in progress may be there or not.
+        // Every action that was reported must be recovered; the one in progress may or may not be.
         let mut candidates = Vec::new();
         let mut edited = kept.clone();
         for at in number..said {
@@ -116,7 +116,7 @@ fn a_power_cut_costs_a_document_at_most_a_second_of_edits() {
     let look = |folder: &Path, said: &WriterReport, cut: usize| {
         let (mut document, number) = recover(folder);
         let view = document.view();
-        // No step in between is missing; of very many steps the oldest are dropped.
+        // No step is missing, except that the history drops the oldest above its limit.
         let steps = (number as usize).min(MAX_STEPS);
         assert_eq!(view.history.done, steps, "cut {cut}, said {} edits", said.edits);
         Found { edits: number, saved: 0 }

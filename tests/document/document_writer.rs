@@ -11,10 +11,10 @@ use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant, SystemTime};
 
-/// The folder to work in, for the program that is started.
+/// Environment variable with the folder in which the started process works.
 const CHILD: &str = "DRAGONFLY_DOCUMENT_CHILD";
 
-/// Number of the first action to perform.
+/// Environment variable with the number of the first action to perform.
 const FIRST: &str = "DRAGONFLY_DOCUMENT_CHILD_FIRST";
 
 /// Time after which the process ends by itself, so that it does not outlive the test.
@@ -85,7 +85,7 @@ pub(crate) fn apply_action(edited: &mut Edited, action: &DocumentAction) {
     }
 }
 
-/// Returns whether this process is the one to be killed. If so, it has finished editing, and the calling test must
+/// Edits the document if this process is the one to be killed. Returns whether it was; if so, the calling test must
 /// return.
 pub(crate) fn is_writer() -> bool {
     let Some(folder) = std::env::var_os(CHILD) else { return false };

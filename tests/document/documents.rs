@@ -38,7 +38,7 @@ impl Receiver for Picture {
 }
 
 #[test]
-fn the_built_in_model_opens_with_progress() {
+fn the_built_in_model_opens_and_reports_progress() {
     let mut steps = Vec::new();
     let loaded =
         load_model(&Source::BuiltIn, &mut |progress| steps.push(progress.done), &Cancel::default()).unwrap();
@@ -219,8 +219,8 @@ impl DocumentBench {
         Self { stage, main, thread, graphics, document, heard, picture }
     }
 
-    /// Opens a file and delivers the messages up to its change; the iteration of the document thread is not finished
-    /// yet.
+    /// Opens a file and delivers the messages until the document has changed; the iteration of its thread is not
+    /// finished yet.
     fn change(&mut self, name: &str) {
         self.document.open(Source::File(name.into()));
         assert!(self.stage.deliver(&self.thread, 0), "what was asked for");

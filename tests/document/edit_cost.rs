@@ -83,7 +83,7 @@ fn a_mouse_move_in_a_drag_allocates_a_constant_amount() {
             let edit = Edit::SetPose(SetPose { take: TakeRef::Index(0), time, poses, unstep: true });
             let (count, done) = counting::count(|| edited.apply(edit, Some(Gesture(1))));
             done.unwrap();
-            // Memory for the copies that are shown at the same time is allocated first.
+            // The first moves also allocate memory for the versions that are shown at the same time.
             if step >= 8 {
                 most = most.max(count.bytes);
             }

@@ -23,7 +23,7 @@ fn sampled(model: &ModelAdapter, take: &Take, time: f32) -> Vec<Transform> {
     poses
 }
 
-/// Returns the largest difference of two poses in any number; q and -q count as the same rotation.
+/// Returns the largest difference between the numbers of two poses; q and -q count as the same rotation.
 fn apart(a: &[Transform], b: &[Transform]) -> f32 {
     let of = |(a, b): (&Transform, &Transform)| {
         let turn = (a.rotation - b.rotation).length().min((a.rotation + b.rotation).length());
@@ -59,7 +59,8 @@ fn setting_a_value_changes_the_result_and_not_the_original() {
     let track = &slot.result.tracks[0];
     assert_eq!(track.translation.values[2], Vec3::new(1.0, 2.0, 3.0));
     assert!((track.rotation.values[2] - turn).length() < 1e-6);
-    // A product cannot reach every number; the nearest one differs in the last bit.
+    // The change is a factor, and no factor gives exactly this number; the nearest one differs in the last
+    // bit.
     assert!((track.scale.values[2] - Vec3::new(2.0, 0.5, 1.0)).abs().max_element() < 2e-7);
     assert_eq!(*slot.original, *before);
     assert_eq!(slot.changes(0, Property::Translation).len(), 1);
@@ -98,12 +99,12 @@ fn a_pose_on_a_constant_step_channel_is_interpolated() {
 
 #[test]
 fn deliberate_step_keys_stay_step_keys() {
-    // Keys set one at a time: a pose that holds, then another one.
+    // A step channel whose two keys differ, because an edit has set one of them.
     let mut model = model(41);
     model.apply(&stands("hip", 0.5, 9.0, false)).unwrap();
     model.apply(&stands("hip", 0.7, 3.0, true)).unwrap();
     assert_eq!(model.slots()[2].result.tracks[1].translation.interpolation, Interpolation::Step);
-    // More than two keys, even if they are equal.
+    // A step channel with more than two keys, even if they are equal.
     let hand = BonePose { translation: Some([1.0; 3]), ..pose("hand.L") };
     model
         .apply(&Edit::SetPose(SetPose { take: walk(), time: 0.3, poses: vec![hand], unstep: true }))
@@ -322,7 +323,7 @@ fn reversing_a_take_plays_it_backwards_and_reversing_twice_restores_it() {
 }
 
 #[test]
-fn the_two_parts_of_a_split_take_play_the_same_motion() {
+fn the_two_parts_of_a_split_take_play_the_motion_of_the_whole() {
     let mut model = model(12);
     let before = Arc::clone(&model.slots()[0].result);
     model.apply(&Edit::SplitTake(SplitTake { take: walk(), time: 0.44, name: "end".to_owned() })).unwrap();

@@ -76,7 +76,7 @@ fn work_of_a_killed_program_is_offered_and_recovered_with_its_history() {
     document.change(Change::GoTo(0));
     same_takes(&document.view(), &opened);
     assert!(document.view().history.saved);
-    // A gesture of this run is not one of the earlier run.
+    // A gesture of this run is not joined with one of the earlier run, even if both have the same number.
     document.change(Change::GoTo(4));
     document.change(Change::Edit(turn(0.3), Some(Gesture(1))));
     assert_eq!(document.view().history.done, 5);
@@ -139,7 +139,7 @@ fn the_history_survives_saving_closing_and_starting_again() {
 }
 
 #[test]
-fn a_history_of_another_state_of_the_file_is_reset_with_a_notice() {
+fn a_history_that_does_not_match_the_file_is_reset_with_a_notice() {
     let folder = Folder::new("keeping-other");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let mut document = TestDocument::new(&autosave);
@@ -206,7 +206,7 @@ fn work_opened_separately_is_a_new_document_and_the_original_is_unchanged() {
     let again = third.wait_for_view(|view| view.history.done == 1);
     same_takes(&before, &again);
     assert_eq!(again.file.path, None);
-    // It is saved to the path that the user chose, and the first file is unchanged.
+    // The work is saved to the path that the user chose, and the first file is unchanged.
     let bytes = fs::read(&path).unwrap();
     let copy = folder.join("Fox 2.glb");
     third.save(SaveTo::As(copy.clone()));
@@ -281,7 +281,7 @@ fn postponed_recovery_keeps_the_old_work_and_allows_new_work() {
 }
 
 #[test]
-fn two_programs_with_one_file_are_warned_and_both_record_their_edits() {
+fn two_programs_that_open_one_file_are_warned_and_both_record_their_edits() {
     let folder = Folder::new("keeping-two");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let mut one = TestDocument::new(&autosave);
@@ -396,7 +396,7 @@ fn a_temporary_disk_failure_at_any_call_loses_no_step() {
             let mut after = TestDocument::new(&second);
             after.open(&path);
             if troubled && !said.iter().any(|said| said.contains("not being recorded")) {
-                // A warning reported that nothing is recorded.
+                // The user was warned that nothing is recorded, so the edits may be missing.
                 continue;
             }
             println!("{said:?}: {:?}", autosave_in(&second).recoverable());
@@ -494,7 +494,7 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
     document.send(found_at(&folder.join("nowhere.glb")));
     document.wait_for_warning("nowhere.glb");
     assert_eq!(document.wait_for_offers(), std::slice::from_ref(&offer), "a wrong path is no answer");
-    // The right one.
+    // The path of the moved file.
     document.send(found_at(&moved));
     let after = document.wait_for_view(|view| view.history.done == 3);
     same_takes(&before, &after);
@@ -502,7 +502,7 @@ fn work_on_a_moved_file_continues_at_its_new_path() {
     assert_eq!((after.file.title.as_str(), after.file.path.as_deref()), ("renamed.glb", Some(&*moved)));
     assert_eq!(fs::read(&moved).unwrap(), bytes, "nobody saved");
     document.wait_for_warning("Restored the unsaved work of renamed.glb: 2 steps");
-    // After another kill it is offered for the new path of the file, and only once.
+    // After another kill the work is offered for the new path of the file, and only once.
     let third = folder.join("third");
     copy_after_kill(&second, &third);
     let mut again = TestDocument::new(&third);

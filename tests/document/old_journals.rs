@@ -12,7 +12,7 @@ use dragonfly_store::{FileStamp, RealFiles};
 use std::fs;
 use std::path::Path;
 
-/// Every edit of the first vocabulary. Each of them changes something in Fox.
+/// Returns every type of edit in the first vocabulary. Each of them changes something in Fox.
 fn first_edits() -> Vec<String> {
     let text = fs::read_to_string(data("journals/edits-1.jsonl")).unwrap();
     text.lines().map(str::to_owned).collect()
@@ -40,8 +40,8 @@ fn header(path: &Path) -> String {
     serde_json::json!({"number": 77, "document": path, "stamp": stamp}).to_string()
 }
 
-/// Names of takes, lengths in milliseconds and numbers of keys, as `dragonfly info` printed them when the records
-/// were stored.
+/// Returns names of takes, lengths in milliseconds and numbers of keys, which `dragonfly info` printed when the
+/// records were stored.
 fn takes(view: &View) -> Vec<(String, i32, usize)> {
     let keys = |take: &dragonfly_anim::data::Take| {
         let of = |track: &dragonfly_anim::data::Track| {
@@ -112,7 +112,7 @@ fn a_snapshot_of_every_version_is_restored() {
     assert_eq!(takes(&view), first_takes());
 }
 
-/// Until a release the file grows with the vocabulary; after that a new file is started.
+/// Before a release, new types of edits are added to this file; after the release, to a new file.
 #[test]
 fn every_edit_type_occurs_in_the_stored_records() {
     let kind = |json: &str| {

@@ -19,7 +19,7 @@ fn open(path: &Path) -> Editable {
     }
 }
 
-/// The models of the repository that have a skeleton of their own to edit, copied into `folder`.
+/// Copies the models of the repository into `folder`. Returns their paths.
 fn models(folder: &Folder) -> Vec<PathBuf> {
     let mut models = Vec::new();
     for entry in std::fs::read_dir(data("gltf")).expect("models").flatten() {
@@ -53,8 +53,8 @@ fn with_keys(take: &Take, skeleton: &Skeleton) -> Take {
     take
 }
 
-/// Makes each rotation the one of q and -q that is nearer to the key before, as reading a file does where no spline
-/// goes through them.
+/// Replaces each rotation q by -q where that is nearer to the key before. Reading a file does the same, except for
+/// splines.
 fn in_one_hemisphere(channel: &mut Channel<Quat>) {
     if channel.interpolation != Interpolation::CubicSpline {
         let mut values = channel.values.to_vec();
@@ -67,7 +67,7 @@ fn in_one_hemisphere(channel: &mut Channel<Quat>) {
     }
 }
 
-/// Converts channels with one key: a spline has two keys at least (glTF 2.0, 3.11), so only the value counts.
+/// Makes a channel with one key linear, without tangents: a spline has two keys at least (glTF 2.0, 3.11).
 fn of_one_key<T: Copy>(channel: &mut Channel<T>) {
     if channel.len() == 1 && channel.interpolation == Interpolation::CubicSpline {
         channel.values = [channel.values[1]].into();

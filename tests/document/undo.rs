@@ -103,7 +103,7 @@ fn undo_and_redo_of_random_edits_are_exact_to_the_bit() {
         for (forth, state) in states.iter().enumerate().skip(1) {
             assert!(edited.redo() && same(state, edited.adapter()), "seed {number}: redo to {forth}");
         }
-        assert!(edited.go_to(0) && same(&states[0], edited.adapter()), "seed {number}: back to the begin");
+        assert!(edited.go_to(0) && same(&states[0], edited.adapter()), "seed {number}: back to the start");
     }
 }
 

@@ -31,7 +31,7 @@ fn a_panic_in_the_main_or_graphics_thread_loses_no_work_and_the_window_continues
     let _one = alone();
     for (place, object) in [
         ("panels", "Interface in thread main failed"),
-        ("input", "An input failed in thread main"),
+        ("input", "Handling input failed in the main thread"),
         ("message", "Graphics in thread graphics failed"),
         ("frame", "Graphics in thread graphics failed"),
     ] {

@@ -41,7 +41,7 @@ fn yaw_and_pitch_zero_look_at_the_front() {
 }
 
 #[test]
-fn the_target_is_in_the_middle_and_nearer_is_deeper() {
+fn the_target_is_centered_and_nearer_points_have_a_larger_depth() {
     for camera in cameras() {
         let (pixel, depth) = pixel_of(&camera, camera.target);
         near(pixel, SIZE / 2.0);
@@ -72,7 +72,7 @@ fn panning_follows_the_pointer_by_the_pixel() {
 }
 
 #[test]
-fn zooming_keeps_what_is_under_the_cursor() {
+fn zooming_keeps_the_point_under_the_cursor_in_place() {
     for mut camera in cameras() {
         let cursor = Vec2::new(620.0, 130.0);
         let unit = camera.units_per_pixel(SIZE.y);

@@ -77,7 +77,7 @@ fn three_device_losses_within_a_minute_exceed_the_limit() {
 }
 
 #[test]
-fn a_device_lost_too_often_draws_no_scene_until_asked() {
+fn no_scene_is_drawn_after_too_many_device_losses_until_drawing_is_resumed() {
     use dragonfly_picture::stage::DeviceEvent;
     let Some(mut studio) = studio::studio() else { return };
     let loaded = arm::loaded();

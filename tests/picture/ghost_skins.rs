@@ -12,7 +12,8 @@ use glam::Vec3;
 use image::RgbaImage;
 use std::sync::Arc;
 
-/// Returns the number of pixels outside the fox, which is orange, in which one channel is dominant.
+/// Returns the number of pixels that are orange in neither image (the fox is orange), and have become more
+/// red, or more blue.
 fn tinted(picture: &RgbaImage, before: &RgbaImage, red: bool) -> usize {
     let more = |now: &image::Rgba<u8>, then: &image::Rgba<u8>| {
         let by = |channel: usize| i32::from(now[channel]) - i32::from(then[channel]);
@@ -60,9 +61,9 @@ fn ghosts_show_the_skin_before_and_after_the_current_pose() {
     assert_eq!(studio.stage().device().errors(), 0);
 }
 
-/// Each ghost determines separately whether it is seen from inside.
+/// Whether a mesh is mirrored, and so seen from inside, is determined for each ghost separately.
 #[test]
-fn a_mesh_mirrored_at_one_time_is_mirrored_in_that_ghost_only() {
+fn a_mesh_that_is_mirrored_at_one_time_is_mirrored_only_in_the_ghost_of_that_time() {
     let loaded = Arc::into_inner(arm::loaded()).expect("the only one");
     let mut model = Arc::into_inner(loaded.model).expect("the only one");
     let mut take = (*model.animation.takes[0]).clone();

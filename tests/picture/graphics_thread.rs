@@ -57,7 +57,7 @@ struct GraphicsBench {
 }
 
 impl GraphicsBench {
-    /// Creates both, before the first iteration of the graphics thread.
+    /// Creates both threads, before the first iteration of the graphics thread.
     fn begin(parameters: DeviceParameters) -> Self {
         let losses = Arc::new(LoseDevice::default());
         let parameters =
@@ -71,7 +71,7 @@ impl GraphicsBench {
         Self { main, thread, graphics, replies, losses, _watch: watch }
     }
 
-    /// Creates both; skips the test where there is no adapter.
+    /// Creates both threads; skips the test where there is no adapter.
     fn new() -> Option<Self> {
         let mut bench = Self::begin(DeviceParameters::default());
         bench.settle();
@@ -85,7 +85,7 @@ impl GraphicsBench {
         }
     }
 
-    /// Creates both and shows the model of the arm.
+    /// Creates both threads and shows the model of the arm.
     fn with_arm() -> Option<Self> {
         let mut bench = Self::new()?;
         bench.graphics.show(View::opened(1, arm::loaded()));
@@ -216,14 +216,14 @@ fn panels_without_a_device_are_dropped_without_an_error() {
     let none = DeviceParameters { backends: wgpu::Backends::empty(), ..DeviceParameters::default() };
     let mut bench = GraphicsBench::begin(none);
     let context = egui::Context::default();
-    // Before the missing device is detected, and after.
+    // Sent before the missing device is detected, and afterwards.
     bench.graphics.show_panels(panels(&context, "early"));
     bench.settle();
     assert!(matches!(&bench.take()[..], [GraphicsReply::Fatal(_)]), "the window must hear of it, to end");
     let context = egui::Context::default();
     bench.graphics.show_panels(panels(&context, "late"));
     bench.settle();
-    // And when the thread ends with drawings in its queue.
+    // Also sent right before the thread ends, so that it is still in the queue.
     bench.graphics.show_panels(panels(&egui::Context::default(), "never"));
 }
 
@@ -331,11 +331,11 @@ fn an_edited_take_keeps_the_gpu_resources_of_the_model() {
     };
     let (model, items, bent) = shown(&opened);
     let still = Arc::new(Take { tracks: Vec::new(), ..Take::clone(&opened.takes[0]) });
-    // The same number as before, one more, and none.
+    // The same number of takes as before, one more, and none.
     for takes in [vec![Arc::clone(&still)], vec![still; 2], Vec::new()] {
         let changed = View { generation: 2, takes: takes.into(), ..opened.clone() };
         let (same, kept, straight) = shown(&changed);
-        assert_eq!((same, kept), (model, items), "nothing was made anew, so nothing is uploaded");
+        assert_eq!((same, kept), (model, items), "nothing was made again, so nothing is uploaded");
         assert_ne!(straight, bent);
         assert_eq!(shown(&opened).2, bent);
     }

@@ -29,7 +29,7 @@ impl Appearance for First {}
 impl Appearance for Second {}
 
 #[test]
-fn each_type_of_appearance_has_one_value_the_one_set_last() {
+fn setting_an_appearance_replaces_the_earlier_value_of_its_type() {
     let mut appearances = Appearances::default();
     assert_eq!(appearances.get::<First>(), None);
     appearances.set(First(1));

@@ -73,5 +73,5 @@ fn picking_ignores_points_outside_the_viewport_and_includes_hidden_bones() {
     assert_eq!(pick(&scene, [99.0, 200.0]), None);
     assert_eq!(pick(&scene, on_bone), Some(0));
     scene.look.skeleton = false;
-    assert_eq!(pick(&scene, on_bone), Some(0), "bones that are not drawn are met all the same");
+    assert_eq!(pick(&scene, on_bone), Some(0), "bones that are not drawn can be picked too");
 }

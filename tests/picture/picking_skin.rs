@@ -48,7 +48,7 @@ fn a_click_on_the_deformed_skin_picks_the_bone_with_most_influence() {
         assert!((hits[0].distance - 9.77).abs() < 0.05, "{}", hits[0].distance);
     }
     assert!(skin.hits(&towards(Vec3::X * 3.0), &none).is_empty());
-    // In the bent pose the tip is elsewhere.
+    // The tip is at another place in the bent pose.
     let tip = |skin: &Skin| skin.evaluator.to_root()[2].transform_point3(Vec3::Y * 0.8);
     let mut bent = Skin::at(arm::LENGTH);
     assert!(tip(&bent).distance(tip(&skin)) > 0.5);
@@ -57,7 +57,7 @@ fn a_click_on_the_deformed_skin_picks_the_bone_with_most_influence() {
 }
 
 #[test]
-fn bones_of_the_skin_behind_follow_and_hidden_bones_are_skipped() {
+fn a_ray_hits_the_front_and_then_the_back_of_the_skin_and_skips_hidden_bones() {
     let mut skin = Skin::at(0.0);
     // The ray enters at the tip and leaves at the other side near the root.
     let (enter, leave) = (Vec3::new(0.25, 2.8, 0.05), Vec3::new(-0.25, 0.2, 0.05));
@@ -83,7 +83,8 @@ fn an_invalid_ray_hits_nothing() {
     {
         assert!(skin.hits(&CameraRay { origin, direction }, &HiddenBones::default()).is_empty());
     }
-    // From inside, and from far away where floats are coarse: the search ends in both cases.
+    // A ray from the inside, and one from far away where floats are coarse: the search ends for
+    // both.
     skin.hits(&CameraRay { origin: Vec3::Y, direction: Vec3::Y }, &HiddenBones::default());
     skin.hits(&CameraRay { origin: Vec3::new(0.0, 1.0, 1e8), direction: -Vec3::Z }, &HiddenBones::default());
 }

@@ -7,7 +7,7 @@ use dragonfly_picture::PictureSettings;
 use image::RgbaImage;
 
 #[test]
-fn the_model_is_seen_and_moves_with_time() {
+fn the_model_is_visible_and_moves_with_time() {
     let Some(mut studio) = studio::studio() else { return };
     let loaded = arm::loaded();
     let camera = Some(studio.camera(&loaded, &settings()));

@@ -81,7 +81,7 @@ fn no_playback_command_makes_the_time_jump() {
         let before = state.time_at(now);
         let speed = [-2.0, -1.0, 0.25, 1.0, 3.0][random.below(5)];
         let playing = random.below(2) == 0;
-        // Another repeat mode may change only a time beyond the end, and there is none here.
+        // The repeat mode affects only times beyond the end, which do not occur here.
         state = state.with(playing, speed, REPEATS[random.below(3)], now);
         let after = state.time_at(now);
         assert!((after - before).abs() < 1e-4, "{before} became {after}");

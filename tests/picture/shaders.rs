@@ -16,7 +16,7 @@ fn every_shader_is_valid() {
 }
 
 #[test]
-fn every_file_is_in_the_list() {
+fn every_shader_file_is_in_the_list_of_the_program() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shaders");
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

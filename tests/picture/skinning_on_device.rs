@@ -160,7 +160,7 @@ fn check_made(model: ModelData) {
 }
 
 #[test]
-fn the_built_in_dragonfly_flies_as_computed() {
+fn the_device_skins_the_built_in_dragonfly_like_the_processor() {
     let Some(mut studio) = studio::studio() else { return };
     let mut loaded = open(&Source::BuiltIn);
     // The comparison uses the first take, so the requested take is moved there.
@@ -192,7 +192,7 @@ fn scaled_bones_keep_the_shading_correct() {
 }
 
 #[test]
-fn the_morphed_cube_of_the_sample_is_as_computed() {
+fn the_device_morphs_the_sample_cube_like_the_processor() {
     let Some(mut studio) = studio::studio() else { return };
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/gltf/AnimatedMorphCube.glb");
     let loaded = open(&Source::File(folder.into()));
@@ -282,7 +282,7 @@ fn every_instance_has_its_own_matrices_and_weights() {
 }
 
 #[test]
-fn unequal_scales_tilt_normals_as_computed() {
+fn unequal_scales_tilt_normals_like_on_the_processor() {
     check_made(carried(Transform {
         rotation: Quat::from_rotation_z(0.6),
         scale: Vec3::new(3.0, 0.4, 1.0),

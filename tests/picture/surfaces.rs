@@ -97,7 +97,7 @@ fn a_mask_discards_pixels_below_its_threshold() {
     assert_eq!(under(AlphaMode::Mask(0.5)), [RED, NOTHING, NOTHING, WHITE]);
     assert_eq!(under(AlphaMode::Mask(0.25)), [RED, NOTHING, BLUE, WHITE]);
     assert_eq!(under(AlphaMode::Mask(0.75)), [RED, NOTHING, NOTHING, NOTHING]);
-    assert_eq!(under(AlphaMode::Opaque), [RED, GREEN, BLUE, WHITE], "opaque surfaces do not know alpha");
+    assert_eq!(under(AlphaMode::Opaque), [RED, GREEN, BLUE, WHITE], "opaque surfaces ignore alpha");
     let blended = under(AlphaMode::Blend).map(|pixel| pixel[3]);
     assert_eq!(blended, [255, 0, 100, 160]);
 }
@@ -156,7 +156,7 @@ fn a_texture_may_use_the_second_set_of_coordinates() {
 fn vertex_colors_mix_in_linear_light_and_multiply_the_base_color() {
     let Some(mut studio) = studio::studio() else { return };
     let mut sheet = made::sheet();
-    // Upper left, lower left, lower right, upper right.
+    // In the order upper left, lower left, lower right, upper right.
     let (left, right) = (Vec4::new(1.0, 0.0, 0.5, 1.0), Vec4::new(0.0, 1.0, 0.5, 1.0));
     sheet.vertices.colors = vec![left, left, right, right];
     let material = Material { base_color: Vec4::new(1.0, 0.5, 1.0, 1.0), ..unlit(None) };
@@ -173,7 +173,7 @@ fn vertex_colors_mix_in_linear_light_and_multiply_the_base_color() {
 }
 
 #[test]
-fn phong_light_is_ambient_and_diffuse_and_a_highlight() {
+fn phong_lighting_consists_of_ambient_and_diffuse_light_and_a_highlight() {
     let Some(mut studio) = studio::studio() else { return };
     let mut under = |ambient: f32, diffuse: f32, specular: f32, specular_power: f32| {
         let [ambient, diffuse, specular] = [ambient, diffuse, specular].map(Vec3::splat);

@@ -103,7 +103,7 @@ fn a_send_to_a_full_address_returns_the_message() {
 }
 
 #[test]
-fn a_bound_can_be_in_bytes() {
+fn a_bounded_address_can_count_bytes_instead_of_messages() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
     let receiver = fn_receiver(|_: Vec<u8>, _| ());

@@ -57,7 +57,7 @@ fn removing_an_object_removes_its_alarm() {
 }
 
 #[test]
-fn a_sleeping_thread_delivers_nothing_and_loses_nothing() {
+fn a_thread_that_sleeps_on_request_delivers_nothing_and_loses_nothing() {
     let (mut stage, log) = (Stage::new(), Log::default());
     let thread = stage.start("thread");
     stage.context(&thread).register_worker(log_calls(&log, "|"));

@@ -72,7 +72,7 @@ fn dropping_a_job_cancels_it_without_waiting_for_it() {
     drop(job);
     assert_eq!(answer.wait(deadline()), Ok(true));
 
-    // This one looks at its flag only after the drop has returned.
+    // The job checks its flag only after the drop has returned.
     let (release, released) = mpsc::channel::<()>();
     let blocked = move |cancel: &CancelFlag| {
         released.recv_timeout(LIMIT).unwrap();
@@ -102,7 +102,7 @@ fn a_cancelled_job_can_still_be_observed_until_its_answer_comes() {
 }
 
 #[test]
-fn progress_is_rationed_to_one_message_for_each_hundredth() {
+fn progress_is_sent_at_most_once_for_each_hundredth_of_the_work() {
     let thread = Thread::start("owner").unwrap();
     let (receiver, messages) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
@@ -129,7 +129,7 @@ fn progress_is_rationed_to_one_message_for_each_hundredth() {
         }
     }
     assert!((50..=101).contains(&reports.len()), "{}", reports.len());
-    assert_eq!(made.load(Ordering::Relaxed), reports.len(), "what is not sent is not made");
+    assert_eq!(made.load(Ordering::Relaxed), reports.len(), "a message was made but not sent");
     assert_eq!(reports[0], 0.0, "the first report is sent at once");
     assert!(reports.is_sorted(), "progress went back");
 }
@@ -148,7 +148,7 @@ fn a_thread_that_ends_cancels_its_jobs_and_joins_them() {
 }
 
 #[test]
-fn a_job_sees_its_thread_drop_its_objects_first() {
+fn a_job_is_cancelled_after_its_thread_has_dropped_its_objects() {
     /// Sets the flag when it is dropped.
     struct DropFlag(Arc<AtomicBool>);
     impl Drop for DropFlag {
@@ -186,7 +186,7 @@ fn a_job_that_ignores_its_cancellation_delays_the_end_by_no_more_than_the_deadli
 }
 
 #[test]
-fn a_detached_job_is_not_waited_for_and_sees_the_end_of_its_thread() {
+fn a_detached_job_is_cancelled_but_not_waited_for_when_its_thread_ends() {
     let mut stage = Stage::new();
     let thread = stage.start("owner");
     let (looks, look) = mpsc::channel::<()>();
@@ -208,7 +208,7 @@ fn a_detached_job_is_not_waited_for_and_sees_the_end_of_its_thread() {
 }
 
 #[test]
-fn a_listener_belongs_to_no_thread() {
+fn a_job_that_is_started_detached_belongs_to_no_thread() {
     let (inside, outside) = mpsc::channel();
     Job::start_detached("signals", move || {
         inside.send(std::thread::current().name() == Some("signals")).unwrap()

@@ -64,7 +64,7 @@ mod models {
             match next {
                 Next::Now => {}
                 Next::OnMessage | Next::At(_) => thread::park(),
-                Next::Stopped => panic!("nobody stopped it"),
+                Next::Stopped => panic!("the thread was not stopped"),
             }
         }
     }
@@ -115,7 +115,7 @@ mod models {
         let counters = handle.counters();
         assert_eq!(counters.delivered, delivered as u64);
         assert_eq!(accepted as u64, counters.delivered + counters.undelivered);
-        assert_eq!(handle.queue_len(), 0, "left lying");
+        assert_eq!(handle.queue_len(), 0, "a message was left in the queue");
     }
 
     /// The newest message of a `latest` address always arrives.
@@ -234,13 +234,14 @@ mod models {
         Thread::wait_for(&[handle], never()).unwrap();
     }
 
-    /// A chain of `stages` threads forwards `messages` messages: all arrive at its end, in order,
-    /// without any further message.
+    /// A chain of `stages` threads forwards `messages` messages: all arrive at its end, in order, even if
+    /// no further message is sent.
     pub(crate) fn chain(stages: usize, messages: u32) {
         run_chain(stages, messages, false);
     }
 
-    /// The same when the chain is stopped at once, from its head to its end: no message is left inside.
+    /// As [`chain`], but the chain is stopped at once, from its head to its end: no message is left
+    /// inside.
     pub(crate) fn stopped_chain(stages: usize, messages: u32) {
         run_chain(stages, messages, true);
     }
@@ -281,7 +282,8 @@ mod models {
 
     #[cfg(loom)]
     mod cell {
-        // Only needed for the cell that the checker tracks; with a normal cell this would be a data race.
+        // Needed only for the cell that the checker tracks; with a normal cell these accesses would be a
+        // data race.
         #![allow(unsafe_code)]
 
         pub(super) fn write(cell: *mut u32, value: u32) {
@@ -296,7 +298,7 @@ mod models {
 
         /// Lets a cell that the checker tracks be sent to another thread.
         pub(super) struct CheckedCell<T>(pub(super) T);
-        // SAFETY: as above; loom's cell is to be shared by threads, that is its purpose.
+        // SAFETY: as above; loom's cell exists to be shared by threads.
         unsafe impl<T> Send for CheckedCell<T> {}
         impl<T> CheckedCell<T> {
             pub(super) fn take(self) -> T {
@@ -307,7 +309,7 @@ mod models {
     #[cfg(loom)]
     use cell::{CheckedCell, read, write};
 
-    /// The same name for a value that needs no such cell under shuttle.
+    /// Under shuttle the value needs no tracked cell; only the name is needed.
     #[cfg(shuttle)]
     struct CheckedCell<T>(T);
     #[cfg(shuttle)]
@@ -413,7 +415,7 @@ mod run {
 
 #[cfg(not(any(loom, shuttle)))]
 mod race {
-    // Safe Rust cannot contain a data race.
+    // Unsafe, because safe Rust cannot contain a data race.
     #![allow(unsafe_code)]
 
     use dragonfly_runtime::{Context, Receiver, Thread};
@@ -473,7 +475,7 @@ mod exercise {
     /// A message with a hop count on the heap, so that memory moves from thread to thread.
     struct RingMessage(Box<u32>);
 
-    /// Sends balls on for a number of hops; some through the other flavors of addresses.
+    /// Forwards messages for a number of hops, and sends others through `latest` and bounded addresses.
     struct Player {
         next: Address<RingMessage>,
         latest: Address<RingMessage>,
@@ -490,7 +492,8 @@ mod exercise {
             let RingMessage(mut hops) = ball;
             *hops += 1;
             self.caught.push(*hops);
-            // At the end of a round the others may have stopped already, or their addresses be full.
+            // At the end of a round, other players may have stopped already, or their addresses may be
+            // full.
             match (*hops).cmp(&HOPS) {
                 std::cmp::Ordering::Less => {
                     let _ = self.latest.send(RingMessage(Box::new(HOPS)));

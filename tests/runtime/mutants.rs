@@ -3,7 +3,8 @@
 //! A model that cannot fail proves nothing. `.ci/models` sets `PLANTED` to the name of each function here in turn: the
 //! runtime then runs it in place of the one that calls it in `mutant!`, and a model must fail.
 //!
-//! Most of them check something under one lock and act on it under another, so that a second thread comes between.
+//! Most of them check something under one lock and act on it under another, so that a second thread can act in
+//! between.
 
 use crate::batch::{Batch, Letter, LetterContent};
 use crate::mailbox::{ASLEEP, AWAKE, CLOSED, Mailbox, MailboxContent};
@@ -14,8 +15,8 @@ use crate::{Address, Context, Next, SendError, Thread, ThreadHandle};
 use std::time::Instant;
 
 impl Mailbox {
-    /// For [`send`](Self::send): reads before it stores the message whether the owner must be woken. An owner that falls
-    /// asleep in between is not woken.
+    /// For [`send`](Self::send): reads whether the owner must be woken before it stores the message. An owner that
+    /// falls asleep in between is not woken.
     pub(crate) fn lost_notify<C: LetterContent>(&self, row: u32, letter: Letter<C>) -> Result<(), C> {
         let early = self.state();
         self.stored.with(|stored| {
@@ -73,7 +74,8 @@ impl Mailbox {
 }
 
 impl<M: Send + 'static> Address<M> {
-    /// For `replace`: takes a message for queued that was delivered in between, so the new one is not.
+    /// For `replace`: treats a message that was delivered in between as still queued, so the new one is never
+    /// delivered.
     pub(crate) fn announced_too_long(
         &self,
         waiting: &BriefLock<Option<M>>,
@@ -90,7 +92,7 @@ impl<M: Send + 'static> Address<M> {
 }
 
 impl Batch {
-    /// For [`deliver`](Self::deliver): the newest message first.
+    /// For [`deliver`](Self::deliver): delivers the newest message first.
     pub(crate) fn reversed_batch(&mut self, thread: &mut Context) {
         while self.len() > 0 && self.deliver_at(self.len() - 1, thread) {}
     }
@@ -109,7 +111,7 @@ impl Context {
         self.shared().paused.load(Ordering::SeqCst).then_some(Next::OnMessage)
     }
 
-    /// For [`finish`](Self::finish): wakes those who wait before the objects are dropped.
+    /// For [`finish`](Self::finish): wakes the waiting threads before the objects are dropped.
     pub(crate) fn finished_too_early(&mut self) {
         self.shared().finish();
         self.drop_everything();
@@ -117,7 +119,7 @@ impl Context {
 }
 
 impl ThreadShared {
-    /// For [`finish`](Self::finish): what the thread wrote may not be visible yet to those it wakes.
+    /// For [`finish`](Self::finish): what the thread wrote may not be visible yet to the threads that it wakes.
     pub(crate) fn relaxed_finish(&self) {
         self.finished.store(true, Ordering::Relaxed);
         self.waiters.with(std::mem::take).into_iter().for_each(|waiter| waiter.unpark());

@@ -32,12 +32,12 @@ fn locks_in(source: &str, file: &str) -> Vec<String> {
 /// The only file that may name a lock. It hands out a closure's argument, never a guard.
 const LOCK_FILE: &str = "sync.rs";
 
-/// The only file that may wait for a channel: at the end of a thread for its jobs, and for the answer of a job where the
-/// caller asks for that. Both waits have a deadline.
+/// The only file that may wait for a channel: a thread that ends waits for its jobs, and a caller may wait for
+/// the answer of a job. Both waits have a deadline.
 const JOB_FILE: &str = "job.rs";
 
 #[test]
-fn the_runtime_has_one_lock_and_no_guard_of_it() {
+fn the_runtime_has_a_single_lock_and_never_returns_a_guard_of_it() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut files = 0;
     let mut found = Vec::new();

@@ -251,14 +251,14 @@ fn an_object_is_given_up_after_more_than_three_panics_in_ten_seconds() {
     let seen = faults(stage.context(&thread));
     let address = thread.reserve_address();
     stage.context(&thread).register_restartable_receiver_at(&address, trapped(1, &log));
-    // One in four seconds: a thousand are allowed.
+    // One panic every four seconds: a thousand of them are tolerated.
     for _ in 0..1000 {
         stage.advance(Duration::from_secs(4));
         address.send(1).unwrap();
         stage.iterate(&thread);
     }
     assert!(seen.borrow().iter().all(|fault| fault.outcome == Outcome::Restarted));
-    // Without a pause: the fourth is the last.
+    // Panics in quick succession: the object is not restarted after the fourth.
     stage.advance(Duration::from_secs(10));
     seen.borrow_mut().clear();
     for _ in 0..5 {
@@ -273,8 +273,8 @@ fn an_object_is_given_up_after_more_than_three_panics_in_ten_seconds() {
 
 /// In an OS thread: 1,200 panics, in receivers and in workers, among 60,000 messages.
 #[test]
-fn a_thousand_panics_lose_no_other_message_and_no_memory() {
-    alone("panics::a_thousand_panics_lose_no_other_message_and_no_memory", || {
+fn a_thousand_panics_lose_no_other_message_and_leak_no_memory() {
+    alone("panics::a_thousand_panics_lose_no_other_message_and_leak_no_memory", || {
         const ROUNDS: u64 = 1000;
         let thread = Thread::start("panicky").unwrap();
         let handle = thread.handle().clone();

@@ -30,7 +30,7 @@ fn steady(captured: &mut Captured, address: &Address<[u64; 8]>, burst: usize) ->
 }
 
 #[test]
-fn a_message_allocates_nothing_in_steady_state_for_every_flavor_of_address() {
+fn messages_allocate_nothing_in_steady_state_with_any_flavor_of_address() {
     let (mut captured, plain) = captured();
     assert_eq!(steady(&mut captured, &plain, 1), 0, "plain");
     assert_eq!(steady(&mut captured, &plain, 100), 0, "plain, in bursts");
@@ -52,7 +52,7 @@ fn the_memory_of_an_unusually_large_batch_is_freed() {
     });
     assert!(most > flood * 64, "{most} bytes: the messages were not queued");
     let (kept, ()) = peak(|| {
-        // Two batches are swapped in turn: each must have been small a number of times.
+        // Two batches are swapped in turn, and each is freed only after several small ones.
         for _ in 0..50 {
             address.send([0; 8]).unwrap();
             captured.iterate();

@@ -1,13 +1,13 @@
 #!/bin/sh
 # Promise R4: the runtime's tests under ThreadSanitizer and AddressSanitizer (with LeakSanitizer).
 #
-# A planted race must be reported in the same run, or the silence of the others says nothing.
+# A planted race must be reported in the same run; otherwise the absence of other reports proves nothing.
 # The standard library is not instrumented, so ThreadSanitizer cannot see how `std::sync::Mutex`,
-# `mpsc`, a join and the test harness keep order. Three answers, none of which hides a race of ours:
+# `mpsc`, a join and the test harness synchronize threads. Three measures, none of which hides a race of ours:
 # * it gets a program without harness and `mpsc`, which exercises all that threads share;
 # * the runtime's one lock is taken from a crate (`--cfg tsan`), instrumented like everything else;
 # * one suppression: `race:drop_slow`, the last drop of an `Arc`.
-# AddressSanitizer has no such trouble and gets the whole test suite. Takes some minutes.
+# AddressSanitizer does not have this problem and runs the whole test suite. Takes some minutes.
 set -eu
 cd "$(dirname "$0")/../.."
 host=$(rustc -vV | sed -n 's/^host: //p')

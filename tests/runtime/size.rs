@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 /// Largest number of lines of code in the core: the thread, its objects and its messages.
 const CORE: usize = 1500;
 
-/// Largest number of lines of code in one file. There is no limit on the whole crate: a reader of the core needs none of
-/// the files that use it, so another one costs that reader nothing.
+/// Largest number of lines of code in one file. There is no limit on the whole crate: a reader of the core needs none
+/// of the files that only use it, so further ones cost that reader nothing.
 const FILE: usize = 250;
 
 /// Files that only use the core: background jobs, the trace, the watchdog, and the scheduler for tests.

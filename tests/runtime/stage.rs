@@ -83,7 +83,7 @@ fn settle_runs_until_nothing_is_due() {
 }
 
 #[test]
-fn settle_gives_up_on_what_never_settles() {
+fn settle_returns_false_if_the_threads_never_come_to_rest() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
     stage.context(&thread).register_worker(fn_worker(|thread| {

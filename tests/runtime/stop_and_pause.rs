@@ -62,7 +62,7 @@ fn messages_left_in_a_stopped_thread_are_dropped() {
     let thread = Thread::start("left").unwrap();
     let content = Arc::new(());
     let address = thread.handle().register_receiver(|_| fn_receiver(|_: Arc<()>, _| ()));
-    // Both in one batch, whether the thread is awake or not.
+    // Paused so that the stop and the message are in one batch.
     thread.handle().pause();
     thread.handle().run(|thread| thread.stop()).unwrap();
     address.send(Arc::clone(&content)).unwrap();

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 const SECOND: Duration = Duration::from_secs(1);
 
 #[test]
-fn many_objects_measure_with_one_timer() {
+fn many_objects_can_measure_time_with_one_timer() {
     let mut stage = Stage::new();
     let thread = stage.start("thread");
     let timer = stage.context(&thread).timer();

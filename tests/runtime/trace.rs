@@ -162,7 +162,7 @@ impl tracing::Subscriber for EventLog {
 }
 
 #[test]
-fn records_go_to_tracing_and_errors_do_so_even_without_a_trace() {
+fn records_are_logged_with_tracing_and_errors_even_without_a_trace() {
     let listener = EventLog::default();
     tracing::subscriber::with_default(listener.clone(), || {
         let mut stage = Stage::new();

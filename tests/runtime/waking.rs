@@ -17,7 +17,7 @@ fn is_asleep(name: &str) -> bool {
 }
 
 #[test]
-fn the_os_thread_has_the_threads_name() {
+fn the_os_thread_has_the_name_of_the_runtime_thread() {
     let thread = Thread::start("named").unwrap();
     eventually(LIMIT, || os_thread("named").is_some());
     let (inside, outside) = std::sync::mpsc::channel();
@@ -40,7 +40,7 @@ fn a_thread_without_work_sleeps_and_does_not_iterate() {
     };
     eventually(LIMIT, || settled().is_some());
     let before = (settled(), idle.handle().counters());
-    // Waits 200 ms with the alarm of another thread.
+    // Waits until another thread has slept for 200 ms.
     let timer = Thread::start("timer").unwrap();
     let (rings, rang) = forwarder();
     let bell = timer.handle().register_receiver(|_| rings);
@@ -51,7 +51,7 @@ fn a_thread_without_work_sleeps_and_does_not_iterate() {
 }
 
 #[test]
-fn a_sleeping_thread_wakes_for_every_message() {
+fn an_idle_thread_wakes_for_every_message() {
     let thread = Thread::start("doze").unwrap();
     let (receiver, received) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
@@ -165,7 +165,7 @@ fn a_spinning_thread_needs_no_wake_up_and_sleeps_in_the_end() {
     let (receiver, received) = forwarder();
     let address = thread.handle().register_receiver(|_| receiver);
     let sleeps = || os_thread("spinning").map_or(0, |os| os.waits);
-    // Spins for as long as the test runs: it never sleeps between two messages.
+    // The limit is longer than the test: the thread never sleeps between two messages.
     thread.handle().set_spin(LIMIT);
     address.send(0).unwrap();
     assert_eq!(received.recv_timeout(LIMIT), Ok(0));
@@ -176,7 +176,8 @@ fn a_spinning_thread_needs_no_wake_up_and_sleeps_in_the_end() {
     }
     let slept = sleeps() - before;
     assert!(slept < 500, "it slept {slept} times between 1,000 messages");
-    // With 1 ms it spins for a moment and then sleeps; with zero it sleeps at once.
+    // With a limit of 1 ms the thread spins for a moment and then sleeps; with zero it sleeps
+    // at once.
     for limit in [Duration::from_millis(1), Duration::ZERO] {
         thread.handle().set_spin(limit);
         eventually(LIMIT, || is_asleep("spinning"));

@@ -52,7 +52,7 @@ fn appended_records_are_read_back_in_order() {
     }
     let long = vec![7; 3 << 20];
     journal.append(&long, now).unwrap();
-    // Not even synced: the journal is dropped as a killed program drops it.
+    // Dropped without a sync, as by a killed program.
     drop(journal);
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, found.owner_status), (4, 4, OwnerStatus::Exited));
@@ -136,7 +136,7 @@ fn saved_edits_are_not_unsaved_work_and_their_history_is_kept() {
     assert_eq!((journal.unsaved(), journal.stamp()), (0, Some(&saved.stamp)));
     journal.append(b"two", now).unwrap();
     assert_eq!(journal.unsaved(), 1);
-    // A copy elsewhere is not the document.
+    // A copy at another path is not a save of the document.
     save_document(&RealFiles, &mut journal, &folder.join("copy.glb"), b"copy", &SaveOptions::default())
         .unwrap();
     assert_eq!(journal.unsaved(), 1);
@@ -175,7 +175,7 @@ fn a_save_counts_even_if_the_program_is_killed_before_the_journal_records_it() {
     drop(journal);
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &DocumentFileState::Same));
-    // The save was recorded in the journal, so it counts even when the file no longer shows it.
+    // The journal has recorded the save, so it counts even when the file no longer has the saved content.
     fs::write(&path, "somebody else's").unwrap();
     let found = only(&autosave);
     assert_eq!((found.work, found.unsaved, &found.file), (2, 1, &DocumentFileState::Changed));
@@ -202,7 +202,7 @@ fn a_failed_append_leaves_no_record_and_the_next_append_works() {
         let first = journal.append(b"first", now).is_ok();
         let error = journal.append(&[9; 100_000], now);
         drop(journal);
-        // Even if the disk stays full: the part of the failed record that could not be cut off does not count as
+        // Even if the disk stays full: the rest of the failed record, which could not be cut off, does not count as
         // work.
         let sound = crate::journal::autosave(&folder, RealFiles);
         let found = only(&sound);

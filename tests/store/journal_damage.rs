@@ -19,7 +19,7 @@ use std::time::Instant;
 struct Sample {
     bytes: Vec<u8>,
     entries: Vec<JournalEntry>,
-    /// Ends of the header and of each record; the first two hold no entry.
+    /// End of the header with the first record, which is not an edit; then the end of each edit.
     ends: Vec<usize>,
 }
 
@@ -234,11 +234,11 @@ fn records_out_of_order_or_from_another_journal_are_rejected() {
     assert_eq!(put(&[begin, record(2)]), sample.entries[..1], "one is left out");
     assert_eq!(put(&[begin, record(0)]), sample.entries[..1], "one is there twice");
     assert_eq!(put(&[begin, record(2), record(1)]), sample.entries[..1]);
-    // Another journal of the same document, with the same start.
+    // Records of another journal of the same document, which starts in the same way.
     let other = self::sample();
     let of_other = &other.bytes[other.ends[1]..other.ends[2]];
     assert_eq!(put(&[begin, of_other]), sample.entries[..1]);
-    // Zeros or ones, which a file system may leave after a power cut.
+    // Zeros or ones at the end, as a file system may leave them after a power cut.
     assert_eq!(put(&[begin, &[0; 4096]]), sample.entries[..1]);
     assert_eq!(put(&[begin, &[0xff; 4096]]), sample.entries[..1]);
 }

@@ -84,7 +84,7 @@ fn a_failure_of_any_system_call_loses_no_recorded_edit() {
             let (done, errors) = work(&mut journal, &stamp);
             assert!(errors.is_empty() || !fault.is_harmless(), "{place}: {errors:?}");
             noticed += errors.len();
-            // Whether the program is killed or closes the journal in order, all edits are found.
+            // All edits are found, whether the program is killed or closes the journal in order.
             let closed = match number % 2 {
                 0 => journal.close().is_ok(),
                 _ => {

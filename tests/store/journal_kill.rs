@@ -24,7 +24,7 @@ fn a_program_killed_at_any_instant_loses_no_edit_and_no_save() {
     let (mut recovered, mut met) = (0, 0);
     for kill in 0..kills {
         let mut writer = start(test, folder.path());
-        // Some kills come while it starts, most while it works.
+        // Some kills happen while the program starts, most while it works.
         let patience = if random.below(4) == 0 {
             Duration::from_millis(random.below(40) as u64)
         } else {
@@ -46,7 +46,7 @@ fn a_program_killed_at_any_instant_loses_no_edit_and_no_save() {
         assert!(found.edits >= said.edits, "kill {kill}: {found:?} {said:?}");
         assert!(found.edits <= said.edits.max(recovered) + 1, "kill {kill}: {found:?} {said:?}");
         assert!(found.saved >= said.saved, "kill {kill}: {found:?} {said:?}");
-        assert!(found.edits >= recovered, "kill {kill}: what was had back once is still there");
+        assert!(found.edits >= recovered, "kill {kill}: an edit that was recovered before is gone");
         recovered = found.edits;
     }
     println!("{kills} kills, {recovered} edits");

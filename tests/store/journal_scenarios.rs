@@ -49,7 +49,8 @@ impl Killed {
 // A second implementation of the format, written from its description, to create journals of other machines and
 // versions.
 
-/// Returns the journal 77 of `/nowhere/fox.glb` in format `version`, with records of these kinds and bytes.
+/// Returns a journal with the number 77 of the document `/nowhere/fox.glb`, in format `version`, with records of
+/// these kinds and bytes.
 fn forged(version: u32, records: &[(u8, &[u8])]) -> Vec<u8> {
     let text = r#"{"number":77,"document":"/nowhere/fox.glb","stamp":null,"later":"ignored"}"#;
     forged_with(text, version, records)
@@ -73,7 +74,7 @@ fn work_from_a_crash_can_be_kept_or_opened_as_a_new_document_or_discarded() {
         panic!("opening the document does not pass it over")
     };
     assert_eq!(*again, found);
-    // Opened separately: it is a new document, and the other one stays.
+    // Opened separately: the work becomes a new document, and the old journal stays.
     let beside = it.autosave.copy(&found, None).unwrap();
     assert_eq!((beside.entries, beside.journal.document()), (edits(["one", "two"]), None));
     drop(beside.journal);
@@ -82,13 +83,13 @@ fn work_from_a_crash_can_be_kept_or_opened_as_a_new_document_or_discarded() {
     let beside = all.iter().find(|other| other.journal != found.journal).unwrap();
     assert_eq!((beside.work, beside.unsaved), (2, 2));
     assert_eq!(it.autosave.entries(beside).unwrap(), edits(["one", "two"]));
-    // Discarded: moved to the bin, and restored from there.
+    // Discarded: the journal is moved to the bin, and restored from there.
     let bin = it.autosave.discard(beside).unwrap();
     assert_eq!(it.autosave.discarded().unwrap(), std::slice::from_ref(&bin));
     assert_eq!(only(&it.autosave), found);
     let back = it.autosave.restore(&bin).unwrap();
     assert_eq!(back, beside.journal);
-    // Kept.
+    // Kept: the journal is resumed.
     assert_eq!(it.autosave.resume(&found, Claim::IfFree).unwrap().entries, edits(["one", "two"]));
     it.untouched();
 }
@@ -250,7 +251,7 @@ fn a_journal_owned_by_another_machine_is_claimed_only_on_request() {
 }
 
 #[test]
-fn a_read_only_folder_loses_no_work() {
+fn work_in_read_only_folders_is_not_lost() {
     if !may_mount("read-only folder") {
         return;
     }
@@ -301,7 +302,7 @@ fn a_full_disk_is_reported_and_no_edit_counts_as_done() {
 }
 
 #[test]
-fn a_journal_of_a_newer_program_is_left_alone() {
+fn a_journal_of_a_newer_program_is_neither_read_nor_changed() {
     let it = killed("scenario-newer");
     let path = only(&it.autosave).journal;
     let newer = forged(2, &[(9, b"what nobody here understands")]);

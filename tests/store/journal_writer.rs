@@ -16,10 +16,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};
 
-/// The folder to work in, for the program that is started.
+/// Environment variable with the folder in which the started process works.
 const CHILD: &str = "DRAGONFLY_STORE_CHILD";
 
-/// Set when the process only saves, without a journal: syncing a journal may also sync other data.
+/// Environment variable that is set when the process only saves, without a journal: syncing a journal may also sync
+/// other data.
 const ONLY_SAVES: &str = "DRAGONFLY_STORE_CHILD_ONLY_SAVES";
 
 /// Returns the document after this number of edits.
@@ -30,7 +31,7 @@ fn document(edits: u32) -> Vec<u8> {
     bytes
 }
 
-/// Returns after how many edits the document at `path` was saved, which must be complete; `None` when there is none.
+/// Returns the number of edits in the document at `path`, which must be complete; `None` when there is no document.
 #[track_caller]
 pub(crate) fn document_at(path: &Path) -> Option<u32> {
     let bytes = fs::read(path).ok()?;
@@ -66,8 +67,8 @@ fn count(entries: &[JournalEntry]) -> u32 {
     edits
 }
 
-/// Returns whether this process is the one to be killed. If so, it has finished editing and saving, and the calling
-/// test must return.
+/// Edits and saves if this process is the one to be killed. Returns whether it was; if so, the calling test must
+/// return.
 pub(crate) fn is_writer() -> bool {
     let Some(folder) = std::env::var_os(CHILD) else { return false };
     let mut out = std::io::stdout();

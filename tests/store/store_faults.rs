@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 const OLD: &[u8] = b"the old file, which somebody worked on for a week";
 
-/// More bytes than one chunk of a copy.
+/// Returns the new content: more bytes than one chunk of a copy.
 fn new() -> Vec<u8> {
     (0..100_000_u32).map(|number| number as u8).collect()
 }
@@ -205,7 +205,8 @@ fn writes_by_another_program_during_a_save_are_detected_until_the_last_call() {
                 }
             }
         }
-        // No system can check and rename in one call. During an in-place save, the file changes while it is written.
+        // A write between the last check and the rename is overwritten, because no system call does both. An
+        // in-place save makes several calls after its last check.
         let most = if case.name == "one of two names" { 5 } else { 1 };
         assert!((1..=most).contains(&overwritten), "{}: {overwritten}", case.name);
     }

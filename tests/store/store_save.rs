@@ -59,7 +59,7 @@ fn all_hard_links_of_a_file_show_the_new_content() {
     let versions = Versions::new(folder.join("versions"), VersionLimits::default());
     let options = SaveOptions { versions: Some(&versions), ..SaveOptions::default() };
     let saved = save(&RealFiles, &one, b"new", &options).unwrap();
-    assert_eq!(saved.links, 2, "that it was overwritten in place is told");
+    assert_eq!(saved.links, 2, "the outcome contains the number of names");
     assert_eq!(fs::read(&other).unwrap(), b"new");
     assert_eq!(fs::metadata(&one).unwrap().ino(), fs::metadata(&other).unwrap().ino());
     assert_eq!(saved.stamp.state(&RealFiles, &other).unwrap(), FileState::Same);
@@ -174,7 +174,7 @@ fn changes_by_another_program_are_detected_and_not_overwritten() {
             modified(time).unwrap();
         }
         assert_eq!(stamp.state(&RealFiles, &path).unwrap(), FileState::Changed);
-        // Changed long after the file was read, so that the times alone are enough.
+        // A stamp taken long after the last change: the times alone are enough.
         let late = FileStamp { taken: i64::MAX, ..stamp };
         assert_eq!(late.state(&RealFiles, &path).unwrap(), FileState::Changed);
         let error = expecting(&path, b"mine", &stamp).unwrap_err();
@@ -216,7 +216,7 @@ fn a_change_within_a_tick_of_the_clock_is_detected() {
     let path = folder.join("model.glb");
     fs::write(&path, "as it was read").unwrap();
     let stamp = FileStamp::take(&RealFiles, &path).unwrap();
-    // Stamps as of a file with the same size and times but other bytes.
+    // The stamp of a file whose size and times are the same, but whose bytes differ.
     let newest = stamp.modified.max(stamp.changed);
     let other = |taken| FileStamp { hash: !stamp.hash, taken, ..stamp };
     for taken in [newest - 1, newest, newest + 1_900_000_000] {
@@ -281,7 +281,7 @@ fn a_deleted_folder_is_reported() {
     let stamp = replace(&path, b"first").unwrap().stamp;
     fs::remove_dir_all(folder.join("gone")).unwrap();
     let error = expecting(&path, b"second", &stamp).unwrap_err();
-    assert!(error.to_string().ends_with("cannot be written: it or its folder is not there"), "{error}");
+    assert!(error.to_string().ends_with("cannot be written: it or its folder does not exist"), "{error}");
     assert!(!folder.join("gone").exists());
 }
 
@@ -315,7 +315,7 @@ fn read_only_disks_and_immutable_files_are_not_changed() {
     let error = error.unwrap_err().to_string();
     assert!(error.ends_with("is write-protected; it was not overwritten"), "{error}");
     assert_eq!(fs::read(&path).unwrap(), b"first");
-    assert_eq!(count(folder.path()), 2, "nothing is left beside it");
+    assert_eq!(count(folder.path()), 2, "a temporary file is left");
 }
 
 #[test]

@@ -106,7 +106,8 @@ fn verdict(start: fn(SharingStart) -> SharingParts) -> RunDefects {
         edits: Edits::Small,
         rate: Rate::Every(Duration::from_micros(50)),
         period: None,
-        // Six thousand edits, however irregular the mouse is: the last one has an even number.
+        // Gives exactly 6,000 edits, however irregular the mouse is. The last one has an even number, so it is
+        // published.
         length: Duration::from_micros(299_980),
         warm_up: Duration::ZERO,
         graphics_stall: None,
@@ -133,6 +134,6 @@ fn a_document_that_is_published_too_late_is_reported_as_stale() {
 }
 
 #[test]
-fn the_same_method_without_the_error_passes() {
+fn a_document_that_is_published_after_every_edit_passes() {
     assert_eq!(verdict(|start| rarely_published(start, 1)), RunDefects::default());
 }

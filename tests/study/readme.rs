@@ -13,7 +13,7 @@ fn every_table_and_chart_is_made_from_the_raw_data() {
         let kept = fs::read_to_string(study.join(path)).unwrap_or_default();
         assert!(kept == *text, "{} does not match the raw data: run the report", path.display());
     }
-    // No file is left over from an older run.
+    // No file of an older run is left.
     for entry in fs::read_dir(study.join("results")).into_iter().flatten() {
         let name = entry.expect("a file").file_name();
         let name = name.to_str().expect("a plain name");
@@ -23,7 +23,7 @@ fn every_table_and_chart_is_made_from_the_raw_data() {
 }
 
 #[test]
-fn a_number_that_was_not_measured_is_removed() {
+fn a_number_that_was_not_measured_is_removed_from_the_page() {
     let study = report::folder();
     let readme = fs::read_to_string(study.join("README.md")).expect("the page");
     let data = Data::read(&study.join("results")).expect("the raw data");

@@ -59,7 +59,7 @@ impl Results {
         Ok(results)
     }
 
-    /// Reads a file; an error names it.
+    /// Reads a file. An error contains its path.
     pub(crate) fn read(path: &Path) -> Result<Self, String> {
         let text = std::fs::read_to_string(path).map_err(|error| error.to_string());
         text.and_then(|text| Self::parse(&text)).map_err(|error| format!("{}: {error}", path.display()))
@@ -74,14 +74,14 @@ impl Results {
         text += HEADER;
         text.push('\n');
         for Figure { task, variant, metric, unit, value, others } in &self.rows {
-            // More digits were not measured.
+            // Further digits would not be significant.
             let value = (value * 1e4).round() / 1e4;
             let _ = writeln!(text, "{task},{variant},{metric},{unit},{value},{others:.2}");
         }
         text
     }
 
-    /// Returns a number.
+    /// Returns the value of this task, variant and metric, if it was recorded.
     pub(crate) fn value(&self, task: &str, variant: &str, metric: &str) -> Option<f64> {
         let wanted = |row: &&Figure| row.task == task && row.variant == variant && row.metric == metric;
         self.rows.iter().find(wanted).map(|row| row.value)

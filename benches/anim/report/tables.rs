@@ -55,7 +55,7 @@ pub(super) fn all(recorded: &RecordedResults) -> Result<Vec<(&'static str, Strin
     ])
 }
 
-/// Returns three significant digits: `0.08`, `1.33`, `12.9`, `5,532`.
+/// Formats a number with three significant digits: `0.08`, `1.33`, `12.9`, `5,532`.
 fn digits(value: f64) -> String {
     match value.abs() {
         size if size < 0.995 => format!("{value:.2}"),
@@ -65,7 +65,7 @@ fn digits(value: f64) -> String {
     }
 }
 
-/// Returns a whole number with commas: `92,773`.
+/// Formats a whole number with commas: `92,773`.
 fn grouped(value: f64) -> String {
     let whole = format!("{value:.0}");
     let groups: Vec<&str> =

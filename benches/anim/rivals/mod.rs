@@ -52,7 +52,7 @@ const CASES: [(&str, &str, &str); 30] = [
     ("ACL", "pipeline/pab/1000", "acl_crowd1000(per char)"),
 ];
 
-/// The programs of the rivals, built.
+/// The built programs of the rivals.
 pub(crate) struct Rivals {
     folder: PathBuf,
 }
@@ -74,7 +74,8 @@ impl Rivals {
     pub(crate) fn build() -> Result<Option<Self>, String> {
         let Some(sources) = env::var_os(FOLDER) else { return Ok(None) };
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        // Cargo runs a bench in the folder of its package; a relative path is meant from where the caller is.
+        // Cargo runs a bench in the folder of its package, so a relative path is also tried from the root of the
+        // repository.
         let sources =
             [Path::new(&sources).to_owned(), root.join(&sources)].into_iter().find(|path| path.is_dir());
         let sources = sources.ok_or_else(|| format!("{FOLDER} names no folder"))?;
@@ -151,7 +152,7 @@ fn case_of(
     let case = BenchCase::with(variant, task, all[index].1, unit, move || {
         Box::new(RivalCase { process: shared, index }) as Box<dyn RunCase>
     });
-    // The orders of one take are one group, as for this library.
+    // The playback orders of one take (forward, backward, random) form one group, as for this library.
     let group = task.starts_with("sample/").then(|| task.rsplit_once('/').map(|(group, _)| group.to_owned()));
     Ok(match group.flatten() {
         Some(group) => case.among(group),

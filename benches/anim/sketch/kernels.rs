@@ -4,7 +4,7 @@ use dragonfly_anim::fast::PoseBlock;
 use dragonfly_anim::fast::matrix::{IDENTITY, Matrix34};
 use dragonfly_anim::fast::simd::{Float4, Float8, Simd};
 
-/// Reason why a matrix has first eight and last four numbers.
+/// Reason why a matrix can be split into its first eight and its last four numbers.
 pub(super) const TWELVE: &str = "a matrix has twelve numbers";
 
 /// Returns `a * b`, computed with two rows in a register.

@@ -33,7 +33,8 @@ use take::SketchTake;
 /// A model in the layout of the sketch.
 struct Sketch {
     subject: &'static BenchModel,
-    /// One per lane: 0 for a root, else 1 + the parent.
+    /// Index in [`SketchBuffers::roots`] of each lane's parent: 0, the identity, for a root, otherwise 1 + the parent
+    /// bone.
     parents: Vec<u32>,
     joints: Vec<u32>,
     offsets: Vec<Matrix34>,

@@ -20,7 +20,7 @@ type PackedKey = [[u16; 8]; 3];
 struct BlockRange {
     least: [[f32; 8]; 3],
     step: [[f32; 8]; 3],
-    /// Masks of the lanes whose component left out is 0; is 0 or 1; is 0, 1 or 2.
+    /// Masks of the lanes whose left-out component is at most 0, at most 1, and at most 2.
     left_out: [[f32; 8]; 3],
 }
 
@@ -182,7 +182,8 @@ impl MovingBlocks {
     }
 }
 
-/// Returns the component to leave out, and the others at every key, with the sign that makes the one left out positive.
+/// Returns the index of the component to leave out, and the other three at every key, with signs for which the left-out
+/// one is positive.
 fn three_of_four(keys: &[[f32; 4]]) -> (usize, Vec<[f32; 3]>) {
     let least = |component: usize| keys.iter().map(|key| key[component].abs()).fold(f32::MAX, f32::min);
     let left_out = (0..4).max_by(|&a, &b| least(a).total_cmp(&least(b))).unwrap_or(3);

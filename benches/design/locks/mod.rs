@@ -104,7 +104,7 @@ pub fn open(bones: Vec<Bone>, screen: impl FnMut(&[Line]) + Send + 'static) -> i
 impl Drop for Editor {
     fn drop(&mut self) {
         self.shared.close();
-        // A panic of the screen was reported in its thread.
+        // If the screen's closure panicked, its thread has reported that already.
         let _ = self.graphics.take().map(JoinHandle::join);
     }
 }

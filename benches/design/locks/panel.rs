@@ -27,24 +27,24 @@ impl Panel {
         self.selected
     }
 
-    /// The user moves a slider.
+    /// Called when the user moves a slider.
     pub fn drag_angle(&self, bone: usize, angle: f32) {
         self.shared.edit(bone, |bone| bone.angle = angle);
     }
 
     // feature: begin
-    /// The user chooses a color.
+    /// Called when the user chooses a color.
     pub fn choose_color(&self, bone: usize, color: Color) {
         self.shared.edit(bone, |bone| bone.color = color);
     }
 
-    /// The user toggles the visibility icon of a bone.
+    /// Called when the user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         self.shared.edit(bone, |bone| bone.visible = !bone.visible);
     }
     // feature: end
 
-    /// The user clicks into the image.
+    /// Called when the user clicks into the image.
     pub fn click(&mut self, point: Point) {
         self.selected = self.shared.pick(point);
     }

@@ -8,7 +8,8 @@ use std::sync::{Arc, Barrier, mpsc};
 use std::thread;
 use std::time::Duration;
 
-/// A lock that is not free within this time counts as deadlocked; none of these would ever become free.
+/// A lock that is not free within this time counts as deadlocked; the locks in these tests would never become
+/// free.
 const DEADLINE: Duration = Duration::from_millis(20);
 
 fn shared() -> SharedState {
@@ -18,7 +19,7 @@ fn shared() -> SharedState {
 #[test]
 fn deadlock_by_a_call_under_the_lock_that_takes_it_again() {
     let shared = shared();
-    // `bones()` without the inner part would wait for the outer call, which waits for `bones()`.
+    // `shared.bones()` inside of this closure would wait for the lock, which this call of `edit` holds.
     shared.edit(0, |_| assert!(shared.document.try_lock_for(DEADLINE).is_none()));
     assert!(shared.document.try_lock().is_some());
 }
@@ -57,7 +58,7 @@ fn deadlock_by_waiting_for_an_answer_under_the_lock() {
     let shared = &shared;
     thread::scope(|scope| {
         let viewport = scope.spawn(move || {
-            // It needs the lock for the answer.
+            // The viewport needs the lock for the answer.
             let bone = questions.recv().expect("it was asked");
             let name =
                 shared.document.try_lock_for(DEADLINE).map(|document| document.bones[bone].name.clone());
@@ -74,13 +75,13 @@ fn deadlock_by_waiting_for_an_answer_under_the_lock() {
 #[test]
 fn race_by_reading_under_one_lock_and_writing_under_the_next() {
     let shared = shared();
-    // Two sliders, each of which turns by one; both read before either writes.
+    // Two sliders, each of which adds one to the angle; both read it before either writes it.
     let first = shared.bones()[0].angle;
     let second = shared.bones()[0].angle;
     shared.edit(0, |bone| bone.angle = first + 1.0);
     shared.edit(0, |bone| bone.angle = second + 1.0);
     assert_eq!(shared.bones()[0].angle, 1.0, "one of two is lost");
-    // The fix: one lock for both steps.
+    // The fix: both steps under one lock.
     shared.edit(0, |bone| bone.angle += 1.0);
     assert_eq!(shared.bones()[0].angle, 2.0);
 }
@@ -88,7 +89,7 @@ fn race_by_reading_under_one_lock_and_writing_under_the_next() {
 #[test]
 fn torn_view_by_two_locks_for_data_that_belongs_together() {
     let shared = shared();
-    // A rule of this program, for example: both bones have the same angle. A frame reads them one after the other.
+    // Suppose that both bones must always have the same angle. A frame reads them one after the other.
     let hip = shared.document.lock().bones[0].angle;
     shared.edit(0, |bone| bone.angle = 1.0);
     shared.edit(1, |bone| bone.angle = 1.0);
@@ -97,7 +98,7 @@ fn torn_view_by_two_locks_for_data_that_belongs_together() {
 }
 
 #[test]
-fn stale_answer_by_using_it_after_the_lock() {
+fn stale_answer_by_using_it_after_the_lock_was_released() {
     let shared = shared();
     shared.keep(crate::design::skeleton::draw(&shared.bones()));
     let picked = shared.pick([0.5, 0.0]).expect("the hip is there");
@@ -118,7 +119,7 @@ fn missed_wake_up_by_a_change_that_bypasses_the_interface() {
 
 #[test]
 fn half_an_edit_by_a_panic_under_the_lock() {
-    // A panic in the middle of a change of two values, and the next reader sees half of it.
+    // After a panic in the middle of a change of two values, the next reader sees half of the change.
     let half = Mutex::new((0, 0));
     let broken = catch_unwind(AssertUnwindSafe(|| {
         let mut both = half.lock();
@@ -132,7 +133,7 @@ fn half_an_edit_by_a_panic_under_the_lock() {
     let poisoned = Arc::new(std::sync::Mutex::new(0));
     let theirs = Arc::clone(&poisoned);
     let broken = catch_unwind(AssertUnwindSafe(move || {
-        let _guard = theirs.lock().expect("nobody panicked yet");
+        let _guard = theirs.lock().expect("no thread has panicked yet");
         panic!("on purpose");
     }));
     assert!(broken.is_err() && poisoned.lock().is_err());

@@ -1,14 +1,14 @@
 //! Handles: the same method names as the objects, from any thread (the thesis's method pairs, §2.2.6.2).
 //!
-//! An object whose thread has stopped no longer shows or edits anything, because the program is ending. That is decided
-//! here, once.
+//! A message to an object whose thread has stopped is dropped, because the program is ending. Only the handles have to
+//! decide this.
 
 use super::{Edit, PanelMessage, View, ViewportMessage};
 use crate::design::skeleton::Color; // feature
 use crate::design::skeleton::Point;
 use dragonfly_runtime::Address;
 
-/// [`Document`](super::Document), from any thread.
+/// Sends the calls of [`Document`](super::Document) from any thread.
 #[derive(Clone)]
 pub struct DocumentHandle(pub Address<Edit>);
 
@@ -31,7 +31,7 @@ impl DocumentHandle {
     // feature: end
 }
 
-/// [`Viewport`](super::Viewport), from any thread.
+/// Sends the calls of [`Viewport`](super::Viewport) from any thread.
 #[derive(Clone)]
 pub struct ViewportHandle(pub Address<ViewportMessage>);
 
@@ -47,7 +47,7 @@ impl ViewportHandle {
     }
 }
 
-/// [`Panel`](super::Panel), from any thread.
+/// Sends the calls of [`Panel`](super::Panel) from any thread.
 #[derive(Clone)]
 pub struct PanelHandle(pub Address<PanelMessage>);
 

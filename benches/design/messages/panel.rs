@@ -38,24 +38,24 @@ impl Panel {
         self.selected
     }
 
-    /// The user moves a slider.
+    /// Called when the user moves a slider.
     pub fn drag_angle(&self, bone: usize, angle: f32) {
         self.document.set_angle(bone, angle);
     }
 
     // feature: begin
-    /// The user chooses a color.
+    /// Called when the user chooses a color.
     pub fn choose_color(&self, bone: usize, color: Color) {
         self.document.set_color(bone, color);
     }
 
-    /// The user toggles the visibility icon of a bone.
+    /// Called when the user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         self.document.toggle_visible(bone);
     }
     // feature: end
 
-    /// The user clicks into the image; the answer arrives later.
+    /// Called when the user clicks into the image; the answer arrives later.
     pub fn click(&self, point: Point) {
         self.viewport.pick(point);
     }

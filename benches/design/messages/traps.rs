@@ -17,9 +17,10 @@ fn editor() -> (Stage, [ThreadHandle; 3], Rc<RefCell<Panel>>) {
     (stage, threads, panel)
 }
 
-/// Asks the other asker in the middle of its own message, and waits.
+/// Sends a request to the other asker while it handles a message itself, and waits for the answer.
 struct Asker {
-    /// Both askers are in the middle of a message; both have looked for their answer.
+    /// Meeting points of the askers: the first when both are handling a message, the second when both have looked for
+    /// their answer.
     stations: Arc<[Barrier; 2]>,
     found: mpsc::Sender<bool>,
 }
@@ -38,7 +39,7 @@ impl Receiver for Asker {
                 let (answer, answers) = mpsc::channel();
                 self.stations[0].wait();
                 other.send(AnswerRequest::Ask { answer }).expect("it runs");
-                // Neither can answer before this call returns: `recv()` would wait forever.
+                // Neither asker can answer before this call returns: `recv()` would wait forever.
                 let found = answers.recv_timeout(Duration::from_millis(20)).is_ok();
                 self.stations[1].wait();
                 self.found.send(found).expect("the test listens");
@@ -103,7 +104,7 @@ fn race_by_reading_a_view_and_sending_a_value_computed_from_it() {
         let angle: f32 = row.split(' ').nth(1).unwrap().parse().unwrap();
         panel.borrow().drag_angle(0, angle + 1.0);
     };
-    // Twice, before the view has arrived.
+    // Called twice before the new view arrives.
     turn();
     turn();
     assert!(stage.settle(10));
@@ -117,7 +118,7 @@ fn race_by_reading_a_view_and_sending_a_value_computed_from_it() {
 }
 
 #[test]
-fn stale_view_until_the_new_one_is_delivered() {
+fn stale_view_by_reading_before_the_new_one_is_delivered() {
     let (mut stage, [main, document, _], panel) = editor();
     panel.borrow().toggle_visible(0);
     assert!(!panel.borrow().rows()[0].contains("hidden"), "not yet with the document");
@@ -130,7 +131,8 @@ fn stale_view_until_the_new_one_is_delivered() {
 #[test]
 fn stale_answer_by_two_routes_to_the_same_thread() {
     let (mut stage, [main, document, graphics], panel) = editor();
-    // Hidden first, clicked second; but one message is sent by way of the document, the other directly to the viewport.
+    // The bone is hidden before it is clicked. But one message is sent by way of the document, the other directly to
+    // the viewport.
     panel.borrow().toggle_visible(0);
     panel.borrow().click([0.5, 0.0]);
     stage.iterate(&graphics);
@@ -148,7 +150,7 @@ fn flood_by_a_sender_without_back_pressure() {
     }
     assert_eq!(document.queue_len(), 100_000, "all wait");
     drop(stage);
-    // The fix, where only the newest message counts.
+    // The fix, if only the newest message counts.
     let (_stage, [_, document, _], _) = editor();
     let newest = document.reserve_address::<Edit>().latest();
     for step in 0..100_000 {
@@ -160,9 +162,9 @@ fn flood_by_a_sender_without_back_pressure() {
 #[test]
 fn lost_message_by_sending_to_a_removed_receiver() {
     let (mut stage, [_, document, _], _) = editor();
-    let nobody = document.reserve_address::<Edit>();
+    let unregistered = document.reserve_address::<Edit>();
     let before = document.counters().undeliverable;
-    assert!(nobody.send(Edit::ToggleVisible { bone: 0 }).is_ok(), "accepted");
+    assert!(unregistered.send(Edit::ToggleVisible { bone: 0 }).is_ok(), "accepted");
     stage.iterate(&document);
     assert_eq!(document.counters().undeliverable - before, 1, "and counted, but not delivered");
 }

@@ -73,24 +73,24 @@ impl ClosurePanel {
         self.selected
     }
 
-    /// The user moves a slider.
+    /// Called when the user moves a slider.
     pub fn drag_angle(&self, bone: usize, angle: f32) {
         self.document.edit(bone, move |bone| bone.angle = angle);
     }
 
     // feature: begin
-    /// The user chooses a color.
+    /// Called when the user chooses a color.
     pub fn choose_color(&self, bone: usize, color: Color) {
         self.document.edit(bone, move |bone| bone.color = color);
     }
 
-    /// The user toggles the visibility icon of a bone.
+    /// Called when the user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         self.document.edit(bone, |bone| bone.visible = !bone.visible);
     }
     // feature: end
 
-    /// The user clicks into the image; the answer arrives later.
+    /// Called when the user clicks into the image; the answer arrives later.
     pub fn click(&self, point: Point) {
         self.viewport.pick(point);
     }
@@ -116,7 +116,7 @@ mod tests {
     use std::rc::Rc;
 
     #[test]
-    fn closures_edit_the_document_too() {
+    fn closures_sent_as_messages_edit_the_document() {
         let mut stage = Stage::new();
         let [main, document] = ["main", "document"].map(|name| stage.start(name));
         let to_panel = main.reserve_address();
@@ -124,7 +124,7 @@ mod tests {
         let bones = vec![Bone::new("hip", 0.0)];
         let to_document =
             document.register_receiver(|_| ClosureDocument::new(bones, move |view| show.show(view)));
-        // Nothing is drawn here.
+        // The viewport has no receiver, because this test draws nothing.
         let viewport = ViewportHandle(main.reserve_address());
         let panel = Rc::new(RefCell::new(ClosurePanel::new(ClosureHandle(to_document), viewport)));
         stage.context(&main).register_receiver_at(&to_panel, Rc::clone(&panel));

@@ -30,24 +30,24 @@ impl RawPanel {
         self.selected
     }
 
-    /// The user moves a slider.
+    /// Called when the user moves a slider.
     pub fn drag_angle(&self, bone: usize, angle: f32) {
         let _ = self.document.send(Edit::SetAngle { bone, angle });
     }
 
     // feature: begin
-    /// The user chooses a color.
+    /// Called when the user chooses a color.
     pub fn choose_color(&self, bone: usize, color: Color) {
         let _ = self.document.send(Edit::SetColor { bone, color });
     }
 
-    /// The user toggles the visibility icon of a bone.
+    /// Called when the user toggles the visibility icon of a bone.
     pub fn toggle_visible(&self, bone: usize) {
         let _ = self.document.send(Edit::ToggleVisible { bone });
     }
     // feature: end
 
-    /// The user clicks into the image; the answer arrives later.
+    /// Called when the user clicks into the image; the answer arrives later.
     pub fn click(&self, point: Point) {
         let _ = self.viewport.send(ViewportMessage::Pick(point));
     }
@@ -74,7 +74,7 @@ mod tests {
     use std::rc::Rc;
 
     #[test]
-    fn a_panel_that_sends_its_messages_itself_works_the_same() {
+    fn a_panel_without_handles_works_like_the_one_with_handles() {
         let bones = ["hip", "knee", "foot"].map(|name| Bone::new(name, 0.0)).to_vec();
         let mut stage = Stage::new();
         let [main, document, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));

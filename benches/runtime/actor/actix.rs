@@ -6,7 +6,7 @@ use ::actix::{Actor, ActorContext, Addr, Context, Handler, System};
 use std::sync::mpsc;
 use std::thread::JoinHandle;
 
-/// Passes its messages to a function; stops its system when it has ended.
+/// Passes its messages to a function; stops its system when the function ends it.
 pub struct ActixConsumer<M>(pub OnMessage<M>);
 
 /// A message, as actix requires it.

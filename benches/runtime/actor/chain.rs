@@ -70,14 +70,14 @@ impl Score {
             return ChainTurn::Again;
         }
         let allocations = counting::so_far().allocations - self.allocated;
-        *self.result.lock().expect("nobody panicked with it") = (self.begin.elapsed(), allocations);
+        *self.result.lock().expect("no thread panics with the lock") = (self.begin.elapsed(), allocations);
         ChainTurn::Over
     }
 }
 
 /// Records the result of [`Score`].
 pub fn write(plan: ChainPlan, result: &Mutex<(Duration, u64)>, measured: &mut RunValues) {
-    let (time, allocations) = *result.lock().expect("nobody panicked with it");
+    let (time, allocations) = *result.lock().expect("no thread panics with the lock");
     let messages = (plan.batches * plan.batch) as f64;
     measured.value("per_message", "ns", time.as_nanos() as f64 / messages);
     measured.value("allocations", "1/msg", allocations as f64 / messages);

@@ -43,8 +43,11 @@ pub fn run<P: LocalPeer>(count: u64, measured: &mut RunValues) {
                 let (left, tell) = (Arc::clone(&left), Arc::clone(&tell));
                 let take = move |_| {
                     if left.fetch_sub(1, Ordering::Relaxed) == 1 {
-                        let _ =
-                            tell.lock().expect("nobody panicked with it").take().map(|tell| tell.send(()));
+                        let _ = tell
+                            .lock()
+                            .expect("no thread panics with the lock")
+                            .take()
+                            .map(|tell| tell.send(()));
                     }
                     ControlFlow::Continue(())
                 };

@@ -67,8 +67,9 @@ impl Peer for KameoCurrentThread {
     }
 }
 
-/// The same on tokio's default runtime with two workers, which all actors share. tokio runs a task that another one
-/// wakes on the same worker where possible, so two actors that answer each other never cross threads.
+/// As [`KameoCurrentThread`], on tokio's default runtime with two workers, which all actors share. tokio runs a
+/// task that another one wakes on the same worker where possible, so two actors that answer each other never cross
+/// threads.
 pub struct KameoTwoWorkers;
 
 impl Peer for KameoTwoWorkers {

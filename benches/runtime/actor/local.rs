@@ -38,7 +38,7 @@ impl LocalPeer for Dragonfly {
     fn run(stage: &mut Captured, mut over: oneshot::Receiver<()>) {
         let mut next = Next::Now;
         while over.try_recv().is_err() {
-            assert_eq!(next, Next::Now, "nobody will send anything");
+            assert_eq!(next, Next::Now, "no one will send anything");
             next = stage.iterate();
         }
     }
@@ -57,7 +57,7 @@ impl LocalPeer for kameo::KameoCurrentThread {
     }
 
     fn run(stage: &mut Runtime, over: oneshot::Receiver<()>) {
-        stage.block_on(over).expect("somebody says that it is over");
+        stage.block_on(over).expect("an actor reports the end");
     }
 }
 
@@ -76,7 +76,7 @@ impl LocalPeer for ractor::RactorCurrentThread {
     }
 
     fn run(stage: &mut Runtime, over: oneshot::Receiver<()>) {
-        stage.block_on(over).expect("somebody says that it is over");
+        stage.block_on(over).expect("an actor reports the end");
     }
 }
 
@@ -92,6 +92,6 @@ impl LocalPeer for actix::Actix {
     }
 
     fn run(stage: &mut SystemRunner, over: oneshot::Receiver<()>) {
-        stage.block_on(over).expect("somebody says that it is over");
+        stage.block_on(over).expect("an actor reports the end");
     }
 }

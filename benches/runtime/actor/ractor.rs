@@ -68,7 +68,7 @@ impl Peer for RactorCurrentThread {
     }
 }
 
-/// The same on tokio's default runtime with two workers, which all actors share; see
+/// As [`RactorCurrentThread`], on tokio's default runtime with two workers, which all actors share; see
 /// [`KameoTwoWorkers`](super::kameo::KameoTwoWorkers) for the consequence.
 pub struct RactorTwoWorkers;
 

@@ -139,9 +139,9 @@ pub fn round_trips(plan: RoundTripPlan, measured: &mut RunValues) {
     measured.distribution("trip", &trips(plan, None));
 }
 
-/// The same with both ends bound to cores.
+/// As [`round_trips`], with both ends bound to cores.
 pub fn placed(plan: RoundTripPlan, [away, here]: [CoreChoice; 2], measured: &mut RunValues) {
-    // It runs on the measuring thread, which is unbound afterwards.
+    // This end runs on the measuring thread, which is unbound afterwards.
     if threads::stay(here) {
         let all = trips(plan, Some(away));
         if threads::roam() {

@@ -32,7 +32,8 @@ pub fn all(study: &mut Study) {
     }
 }
 
-/// Sends the numbers below `count`, the last one until it is accepted. It must arrive, and no message twice.
+/// Sends the numbers below `count`, the last one until it is accepted. The last one must arrive, and none may
+/// arrive twice.
 fn run(
     make: fn(&Address<SmallMessage>) -> Address<SmallMessage>,
     count: u64,
@@ -71,7 +72,7 @@ fn run(
             for number in 0..count {
                 while let Err(SendError::Full(_)) = address.send(SmallMessage::of(number)) {
                     refused += 1;
-                    // The sender is too fast; the receiver may need its core.
+                    // The receiver is too slow, perhaps because it needs the sender's core.
                     std::thread::yield_now();
                 }
                 if number % 16 == 0 {

@@ -15,7 +15,7 @@ impl Worker for IdleWorker {
     }
 }
 
-/// Measures receivers and workers, in a number for which the register is larger than a cache line.
+/// Measures receivers and workers. Their number makes the register larger than a cache line.
 pub fn all(study: &mut Study) {
     let count = study.mode.pick(10, 1_000, 1_000);
     let variants = vec![
@@ -55,7 +55,8 @@ fn workers_inside(count: u64, measured: &mut RunValues) {
     write(count, made, begin.elapsed(), measured);
 }
 
-/// Measures from the first request until the thread has processed all, and the same for the removal.
+/// Measures the time from the first request to register until the thread has processed all requests,
+/// and the same for the removal.
 fn receivers_by_message(count: u64, measured: &mut RunValues) {
     let thread = Thread::start("registers").expect("the system has a thread left");
     let handle = thread.handle();

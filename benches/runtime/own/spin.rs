@@ -78,7 +78,7 @@ pub fn all(study: &mut Study) {
     let repeats = study.mode.pick(1, 3, 7);
     let mut on_two = variants(plan, [CoreChoice::First, CoreChoice::Last]);
     if study.mode != StudyMode::Check {
-        // Meaningless where both threads share a core, as they may in tests.
+        // The result is meaningless where both threads share a core, as they may in tests.
         on_two.push(Variant::new("bare", move |measured| bare(plan, measured)));
     }
     study.compare("own/spin/two_cores", repeats, on_two);

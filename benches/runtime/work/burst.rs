@@ -10,7 +10,7 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Makes the consumer wait until all messages of the burst are sent.
+/// Message that makes the consumer wait until all messages of the burst are sent.
 const HOLD: u64 = u64::MAX;
 
 /// Sends two bursts of `messages` each, the first as a warm-up. Measures the time of the sender and of the consumer in

@@ -19,7 +19,7 @@ pub struct LatePlan {
     pub messages: u64,
 }
 
-/// Sends messages at their times. All must arrive, in order.
+/// Sends messages at their intended times. All must arrive, in order.
 pub fn run<P: Peer>(plan: LatePlan, measured: &mut RunValues) {
     let _noise = Noise::start();
     let warm_up = plan.messages / 10;

@@ -29,7 +29,7 @@ pub fn run<P: Peer>(plan: RoundTripPlan, measured: &mut RunValues) {
 /// Measures round trips between two consumers of `P`, each bound to a core. Measures nothing where threads cannot be
 /// bound.
 pub fn placed<P: Peer>(plan: RoundTripPlan, places: [CoreChoice; 2], measured: &mut RunValues) {
-    // A new thread starts on the core of the thread that starts it. This one ends with the measurement.
+    // A new thread starts on the core of the thread that starts it, so the measurement runs in a thread of its own.
     let trips = threads::start("places", move || {
         let mut places = places.into_iter();
         trips::<P>(plan, || places.next().is_some_and(threads::stay))

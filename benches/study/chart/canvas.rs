@@ -7,19 +7,20 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 /// Width of every chart, in pixels.
 pub(super) const WIDTH: i32 = 900;
 
-/// Text.
+/// Color of text.
 pub(super) const INK: RGBColor = RGBColor(0x22, 0x28, 0x30);
-/// Secondary text.
+/// Color of secondary text.
 pub(super) const SOFT: RGBColor = RGBColor(0x5c, 0x66, 0x73);
-/// Lines of the grid.
+/// Color of the grid.
 pub(super) const GRID: RGBColor = RGBColor(0xe3, 0xe7, 0xec);
-/// Our variant.
+/// Color of our variant.
 pub(super) const ACCENT: RGBColor = RGBColor(0xd5, 0x5e, 0x00);
-/// Our variants in a chart with several of them, which also differ in shape.
+/// Colors of our variants in a chart with several of them, which also differ in shape.
 pub(super) const OURS: [RGBColor; 3] = [ACCENT, RGBColor(0xe6, 0x9f, 0x00), RGBColor(0x8c, 0x3a, 0x00)];
-/// All other variants in a chart with a label for each.
+/// Color of all other variants in a chart with a label for each.
 pub(super) const OTHERS: RGBColor = RGBColor(0x6b, 0x7d, 0x93);
-/// All other variants in a chart with a legend: colors of Okabe and Ito, which color-blind readers can distinguish.
+/// Colors of all other variants in a chart with a legend, from Okabe and Ito: color-blind readers can distinguish
+/// them.
 pub(super) const PALETTE: [RGBColor; 7] = [
     RGBColor(0x00, 0x72, 0xb2),
     RGBColor(0x00, 0x9e, 0x73),

@@ -62,7 +62,7 @@ pub fn ratios(title: &str, rows: &[DataRow], metric: &str, ours: &str, peers: &[
         }
         for (line, number, times) in points {
             let [low, median, high] = times.map(|value| axis.place(value));
-            // Spread over the height of the row, so that equal marks do not cover each other.
+            // The marks are spread over the height of the row, so that equal ones do not cover each other.
             let count = peers.len().max(2) as i32 - 1;
             let y = TOP + line * ROW + 7 + number as i32 * (ROW - 14) / count;
             let color = PALETTE[number % PALETTE.len()];

@@ -12,7 +12,7 @@ const TOP: i32 = 92;
 const ROW: i32 = 24;
 const HEAD: i32 = 26;
 
-/// One shape for each metric, the first filled. More could not be distinguished in one row.
+/// One shape for each metric, the first filled. More shapes could not be distinguished in one row.
 const MARKS: [MarkShape; 4] = [MarkShape::Disc, MarkShape::Ring, MarkShape::Triangle, MarkShape::Cross];
 
 /// Draws the metrics of `columns`; bars from zero for one metric on a linear scale, marks otherwise.

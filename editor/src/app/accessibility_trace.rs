@@ -34,14 +34,14 @@ struct ControlRecord {
 }
 
 impl AccessibilityTrace {
-    /// Enables the accessibility tree where the log records it (`DRAGONFLY_LOG=dragonfly::reader=debug`).
+    /// Enables the accessibility tree if the log records it (`DRAGONFLY_LOG=dragonfly::reader=debug`).
     pub(super) fn listen(&self, context: &Context) {
         if enabled!(target: TARGET, tracing::Level::DEBUG) {
             context.enable_accesskit();
         }
     }
 
-    /// Logs each control that changed or is gone, as a JSON object for each.
+    /// Logs each control that has changed or is gone, as one line of JSON.
     pub(super) fn tell(&mut self, output: &PlatformOutput, pixels_per_point: f32) {
         let Some(update) = &output.accesskit_update else { return };
         if !enabled!(target: TARGET, tracing::Level::DEBUG) {

@@ -20,13 +20,14 @@ pub trait BaseRuntime {
     /// Starts the run-time, when all parts exist. Called once, in the main thread.
     fn initialize(&mut self, parts: Parts, main: &mut Context);
 
-    /// Handles a reply of the graphics thread, except that it is ready.
+    /// Handles a reply of the graphics thread. The first is [`GraphicsReply::Ready`], right after
+    /// [`initialize`](Self::initialize).
     fn graphics_said(&mut self, reply: GraphicsReply, main: &mut Context);
 
-    /// Sends out what followed from input of the window, without waiting until the panels are drawn.
+    /// Carries out the effects of window input, without waiting until the panels are drawn.
     fn flush_effects(&mut self) {}
 
-    /// Does one turn of the main loop, after the window's turn.
+    /// Called in every iteration of the main thread, after the worker that draws the panels.
     fn update(&mut self, main: &mut Context);
 
     /// Releases everything. Input is off already, the graphics thread still runs.

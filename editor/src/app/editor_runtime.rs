@@ -31,7 +31,7 @@ pub struct EditorRuntime {
     running: Option<Running>,
 }
 
-/// The run-time between initialize and destroy.
+/// State of the run-time between [`BaseRuntime::initialize`] and [`BaseRuntime::destroy`].
 pub(super) struct Running {
     pub(super) parts: Parts,
     pub(super) document: Option<DocumentHandle>,
@@ -72,7 +72,8 @@ impl EditorRuntime {
         }
     }
 
-    /// Returns where the document records unsaved changes: next to the settings where those have a folder of their own.
+    /// Returns the setup of the document. Its journals are in the autosave folder of the options, otherwise next to the
+    /// settings if these have a folder of their own.
     fn setup(&self) -> Setup {
         let beside = self.options.settings_folder.as_ref().map(|folder| folder.join("autosave"));
         let folder = self.options.autosave_folder.clone().or(beside);
@@ -105,9 +106,9 @@ impl EditorRuntime {
         let graphics = &running.parts.graphics;
         let mut interface = running.parts.interface.borrow_mut();
         match effect {
-            // Done above.
+            // Handled above.
             Effect::File(_) => {}
-            // Became other effects when they were let through.
+            // `take_effects` has replaced these by other effects.
             Effect::Change(_)
             | Effect::Changes(_)
             | Effect::Cut(..)
@@ -122,7 +123,7 @@ impl EditorRuntime {
                 match file_dialog::ask(Purpose::Open, folder, running.answers.clone()) {
                     Ok(()) => interface.asking = true,
                     Err(error) => {
-                        let text = format!("No dialog could be opened: {error}");
+                        let text = format!("The file dialog could not be opened: {error}");
                         interface.state.say(MessageSeverity::Error, text);
                     }
                 }
@@ -225,7 +226,9 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.set_frame_time(milliseconds);
             }
             GraphicsReply::Recovered { reason, losses } => {
-                let text = format!("The graphics device was lost and recovered ({losses}): {reason}");
+                let text = format!(
+                    "The graphics device was lost and recovered (loss {losses} of this run): {reason}"
+                );
                 interface.state.say(MessageSeverity::Info, text);
             }
             GraphicsReply::Paused { reason } => {
@@ -236,7 +239,7 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.say(MessageSeverity::Info, format!("Wrote {}", path.display()));
             }
             GraphicsReply::Captured(Err(reason)) => {
-                interface.state.say(MessageSeverity::Error, format!("No picture was written: {reason}"));
+                interface.state.say(MessageSeverity::Error, format!("No image was written: {reason}"));
             }
             GraphicsReply::Fatal(reason) => {
                 interface.state.say(MessageSeverity::Error, format!("Drawing has stopped: {reason}"));
@@ -270,7 +273,7 @@ impl BaseRuntime for EditorRuntime {
 }
 
 impl Running {
-    /// Asks which bone is under the pointer, where that may have changed and no answer is pending.
+    /// Asks which bone is under the pointer, if that may have changed and no answer is pending.
     fn ask_under_pointer(&mut self) {
         let interface = self.parts.interface.borrow();
         let (state, scale) = (interface.state.read(), interface.pixels_per_point());
@@ -298,7 +301,7 @@ pub(super) fn report_faults(
     main.register_restartable_receiver_at(&address, move |_| Faults(Rc::clone(&shown)));
     thread.observe(move |fault| {
         let text = format!("{} in thread {} failed: {}", fault.object, fault.thread, fault.reason);
-        // The log has it also where nothing receives it.
+        // If nothing receives the message, the log still contains the failure.
         let _ = address.send((text, fault.outcome == Outcome::GivenUp));
     });
 }
@@ -306,7 +309,7 @@ pub(super) fn report_faults(
 struct Faults(Rc<RefCell<Interface>>);
 
 impl Receiver for Faults {
-    /// The text of the failure, and whether the part stays ended.
+    /// The text of the failure, and whether the object was removed for good.
     type Message = (String, bool);
 
     fn receive(&mut self, (text, for_good): (String, bool), _main: &mut Context) {

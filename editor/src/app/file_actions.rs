@@ -77,13 +77,15 @@ impl Running {
     fn ask_where_it_is(&mut self, offer: Box<Offer>) {
         let mut interface = self.parts.interface.borrow_mut();
         if interface.asking {
-            return interface.state.say(MessageSeverity::Info, "A dialog for files is open already");
+            return interface.state.say(MessageSeverity::Info, "A file dialog is open already");
         }
         let folder = offer.found.document.as_deref().and_then(Path::parent).map(Path::to_owned);
         match file_dialog::ask(Purpose::Find(offer), folder, self.answers.clone()) {
             Ok(()) => interface.asking = true,
             Err(error) => {
-                interface.state.say(MessageSeverity::Error, format!("No dialog could be opened: {error}"));
+                interface
+                    .state
+                    .say(MessageSeverity::Error, format!("The file dialog could not be opened: {error}"));
             }
         }
     }
@@ -91,7 +93,7 @@ impl Running {
     fn ask_where(&mut self, copy: bool, then: Option<Then>) {
         let mut interface = self.parts.interface.borrow_mut();
         if interface.asking {
-            return interface.state.say(MessageSeverity::Info, "A dialog for files is open already");
+            return interface.state.say(MessageSeverity::Info, "A file dialog is open already");
         }
         let Some(view) = interface.state.read().view else { return };
         let near = view.file.path.as_deref().or(view.loaded.path.as_deref());
@@ -108,7 +110,9 @@ impl Running {
         match file_dialog::ask(purpose, folder, self.answers.clone()) {
             Ok(()) => interface.asking = true,
             Err(error) => {
-                interface.state.say(MessageSeverity::Error, format!("No dialog could be opened: {error}"));
+                interface
+                    .state
+                    .say(MessageSeverity::Error, format!("The file dialog could not be opened: {error}"));
             }
         }
     }
@@ -125,7 +129,8 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
         (Purpose::Save { copy, then, .. }, Some(path)) => {
             use dragonfly_document::SaveTo::{As, Copy};
             let to = if copy { Copy(path) } else { As(path) };
-            // The dialog asked before it returned the name of an existing file.
+            // `anyway`: the dialog has already asked the user whether to replace an existing
+            // file.
             let order = SaveOrder { to, anyway: true, then };
             interface.effects.push(Effect::File(FileAction::Send(DocumentMessage::Save(order))));
         }

@@ -7,13 +7,13 @@ use std::path::PathBuf;
 /// The purpose of a file dialog.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Purpose {
-    /// To open it.
+    /// Choose a model to open.
     Open,
-    /// To restore unsaved work of this file, which was moved.
+    /// Find this file, which was moved, to restore its unsaved work.
     Find(Box<Offer>),
-    /// To save there.
+    /// Choose where to save.
     Save {
-        /// Whether the document keeps its own file.
+        /// Whether to save a copy, so that the document keeps its own file.
         copy: bool,
         /// The action to run after saving.
         then: Option<Then>,

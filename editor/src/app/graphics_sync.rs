@@ -29,8 +29,8 @@ pub(super) struct GraphicsSync {
 }
 
 impl GraphicsSync {
-    /// Sends the values that differ from those sent last. The view that these times and bones refer to comes from the
-    /// document itself, which sent it before.
+    /// Sends the values that differ from those sent last. The document itself has already sent the view that these
+    /// times and bones refer to.
     pub(super) fn update(&mut self, graphics: &GraphicsHandle, interface: &Interface) {
         let state = &interface.state.read();
         if self.playback != Some(state.playback) {
@@ -100,7 +100,7 @@ impl GraphicsSync {
     }
 }
 
-/// The look of the viewport in this state.
+/// Returns the look of the viewport in this state.
 fn look(
     state: &PanelContext<'_>,
     selected: Vec<BoneIndex>,

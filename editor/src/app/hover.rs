@@ -1,11 +1,12 @@
 //! Finds the bone under a pointer that moves over the viewport, with one question at a time.
 //!
-//! The pointer reports far more positions than can be answered: while a question is pending none follows, and then only the
-//! newest position is asked for. Nothing is asked where nothing changed, so a pointer at rest costs nothing.
+//! The pointer reports far more positions than can be answered. So while a question is pending no other is
+//! sent, and afterwards only the newest position is asked for. No question is sent if nothing has changed,
+//! so a pointer at rest costs nothing.
 
 use dragonfly_picture::camera::Camera;
 
-/// A position in the viewport, and what the answer depends on in addition to the time of the take.
+/// A position in the viewport, and the state on which the bone there depends, except the time of the take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoverPoint {
     /// Physical pixels from the window's top left.
@@ -26,7 +27,8 @@ pub struct Hover {
 }
 
 impl Hover {
-    /// Returns whether `place` is to be asked for now, with `ticket`; then no other is until it is answered.
+    /// Returns whether to ask for `place` now, as question `ticket`. No other question is asked until this
+    /// one is answered.
     pub fn asks(&mut self, place: Option<HoverPoint>, ticket: u64) -> bool {
         let Some(place) = place else {
             self.asked = None;
@@ -39,7 +41,8 @@ impl Hover {
         true
     }
 
-    /// Takes an answer. Returns whether it is to a question asked here, about a pointer that is still over the viewport.
+    /// Records the answer to question `ticket`. Returns whether it was asked here and the pointer is still
+    /// over the viewport.
     pub fn answered(&mut self, ticket: u64) -> bool {
         let own = self.ticket == Some(ticket);
         if own {

@@ -20,17 +20,17 @@ pub struct InitManager {
 }
 
 impl InitManager {
-    /// Stores what is needed to start.
+    /// Creates a manager that will start the run-time that `prepared` creates.
     pub fn new(prepared: MakeRuntime, timeline: Rc<RefCell<StepTrace>>) -> Self {
         Self { prepared: Some(prepared), runtime: None, parts: None, timeline, fatal: None }
     }
 
-    /// The parts that the run-time will get.
+    /// Sets the parts that the run-time will get.
     pub(super) fn set_parts(&mut self, parts: Parts) {
         self.parts = Some(parts);
     }
 
-    /// Returns why nothing can be drawn, if so.
+    /// Returns the reason why nothing can be drawn, if the graphics thread has reported one.
     pub(super) fn fatal(&self) -> Option<&str> {
         self.fatal.as_deref()
     }
@@ -40,7 +40,7 @@ impl InitManager {
         self.runtime.is_some()
     }
 
-    /// Starts the run-time; the graphics thread is ready.
+    /// Starts the run-time, now that the graphics thread is ready.
     fn initialize(&mut self, main: &mut Context) {
         let (Some(make), Some(parts)) = (self.prepared.take(), self.parts.take()) else { return };
         let reach = |step| self.timeline.borrow_mut().reach(step);
@@ -53,7 +53,7 @@ impl InitManager {
         reach(Step::RunTime);
     }
 
-    /// Sends out what followed from input of the window.
+    /// Carries out the effects of window input; see [`BaseRuntime::flush_effects`].
     pub(super) fn flush_effects(&mut self) {
         if let Some(runtime) = &mut self.runtime {
             runtime.flush_effects();

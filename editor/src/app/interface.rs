@@ -37,7 +37,7 @@ pub struct Interface {
     pub state: State,
     /// Effects that the panels asked for and that only the run-time can carry out.
     pub effects: Vec<Effect>,
-    /// Whether the system's dialog for files is open: one is enough.
+    /// Whether a file dialog of the system is open; a second one is not opened.
     pub(super) asking: bool,
     /// The window's title.
     title: String,
@@ -46,8 +46,8 @@ pub struct Interface {
     graphics: Option<GraphicsHandle>,
     store: Store,
     saved: Settings,
-    /// Physical pixels per point, as the desktop reports; the window's own answer is late (winit on X11 reports a change and
-    /// continues to answer with the old scale).
+    /// Physical pixels per point, as reported by the desktop. The scale of the window itself is late: winit on
+    /// X11 reports a change, but continues to return the old scale.
     desktop_scale: f64,
     /// When the panels are to be drawn next.
     due: Option<Instant>,
@@ -102,7 +102,8 @@ impl Interface {
         self.graphics = Some(graphics);
     }
 
-    /// Returns the effects that the panels asked for; before an effect that would cut a drag in two, the cancelling of the drag.
+    /// Returns the effects that the panels asked for. Before an effect that would cut a drag in two, inserts the
+    /// one that cancels the drag.
     pub(super) fn take_effects(&mut self) -> Vec<Effect> {
         let mut passed = Vec::with_capacity(self.effects.len());
         for effect in self.effects.drain(..) {
@@ -151,7 +152,8 @@ impl Interface {
         self.state.read().settings.scale * (self.desktop_scale / self.window.scale_factor()) as f32
     }
 
-    /// Takes the desktop's new scale. Given the same scale again, winit would enlarge the window a second time.
+    /// Sets the desktop's scale. If it has not changed, keeps the size of the window, which winit would enlarge a
+    /// second time.
     fn set_desktop_scale(&mut self, scale: f64, size: &InnerSizeWriter) {
         if self.desktop_scale == scale {
             // Fails only when the size is already set.
@@ -328,13 +330,13 @@ impl Interface {
         let output = context.run_ui(input, |ui| {
             // Caught here, so that egui finishes its frame.
             let drawn = catch_unwind(AssertUnwindSafe(|| {
-                // egui may run a frame twice; the requests of the first run count. Commands get no keys while a question is
-                // shown or something is dragged.
+                // egui may run a frame twice; the requests of both runs are carried out. Commands get no keys
+                // while a question is shown or something is dragged.
                 if state.question().is_none() && !state.dragging.is_open() {
                     requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
                 }
                 desk.show(ui, &state, &mut requests);
-                // A frame may take two passes, but is one drawing.
+                // Reached once per frame, even if egui runs it twice.
                 passes += 1;
                 if passes == 1 {
                     faults.reach(FaultPoint::Panels(steps));
@@ -377,7 +379,7 @@ impl Interface {
         if self.state.read().dragging.is_open() && !context.input(|input| input.pointer.any_down()) {
             self.effects.push(Effect::ReleaseDrag);
         }
-        // The next drawing shows the effect of the requests.
+        // The next drawing shows what the requests have changed.
         let changed = tells_more || before != Redrawn::of(&self.state);
 
         self.state_trace.tell(&self.state.read());
@@ -392,7 +394,7 @@ impl Interface {
     }
 }
 
-/// The part of the state whose change by a request needs another drawing.
+/// The part of the state that requires another drawing if a request has changed it.
 #[derive(PartialEq)]
 struct Redrawn {
     playback: PlaybackClock,

@@ -25,7 +25,7 @@ use winit::window::Window;
 /// Time limit for the graphics thread to end.
 const END: Duration = Duration::from_millis(1200);
 
-/// See the module.
+/// The base of a program with a window: the window, the captured main thread and the graphics thread.
 pub struct MainRuntime {
     main: Captured,
     window: Arc<Window>,
@@ -80,7 +80,7 @@ impl MainRuntime {
         let replies = main.handle().reserve_address();
         let hears = Rc::clone(&init);
         main.context().register_restartable_receiver_at(&replies, move |_| Rc::clone(&hears));
-        // Drawing the panels is the first work of every turn, and a bug in a panel must not end the turn.
+        // Drawing the panels is the first work of every iteration, and a bug in a panel must not end the program.
         main.context().register_restartable_worker(move |_| Rc::clone(&seen));
         main.context().register_restartable_worker(move |_| Rc::clone(&kept));
         timeline.borrow_mut().reach(Step::MainRuntime);
@@ -101,14 +101,14 @@ impl MainRuntime {
         Ok(Self { main, window, interface, init, graphics, timeline, mistakes: Vec::new() })
     }
 
-    /// Does one turn of the main thread: messages, panels, custom run-time. Returns when the next is due.
+    /// Runs one iteration of the main thread: messages, panels, custom run-time. Returns when the next one is due.
     pub(super) fn iterate(&mut self) -> Next {
         self.main.iterate()
     }
 
     /// Handles an event of the window.
     pub(super) fn window_event(&mut self, event: &WindowEvent) {
-        // Caught here: the window system does not support a panic.
+        // Caught here, because a panic must not unwind through the window system.
         let taken = caught(|| {
             let heard = self.interface.borrow_mut().window_event(event);
             if heard {
@@ -120,8 +120,8 @@ impl MainRuntime {
         }
     }
 
-    /// Handles a request to close the window. Returns whether the custom run-time runs: then it asks about unsaved changes and
-    /// decides.
+    /// Handles a request to close the window. Returns whether the custom run-time is running; if so, it asks about
+    /// unsaved changes and decides.
     pub(super) fn may_ask_before_closing(&mut self) -> bool {
         let asks = self.init.borrow().is_running();
         if asks {
@@ -148,12 +148,12 @@ impl MainRuntime {
         let now = Instant::now();
         self.mistakes.retain(|then| now.saturating_duration_since(*then) < RESTART_WINDOW);
         self.mistakes.push(now);
-        tracing::error!(reason, "an input failed");
-        let text = format!("An input failed in thread main: {reason}");
+        tracing::error!(reason, "handling input failed");
+        let text = format!("Handling input failed in the main thread: {reason}");
         self.interface.borrow_mut().failed(text, self.mistakes.len() > RESTARTS);
     }
 
-    /// Destroys what uses before what is used: input, custom run-time, graphics, window (T-095, T-096).
+    /// Destroys users before what they use: input, custom run-time, graphics, window (T-095, T-096).
     pub(super) fn destroy(self) {
         let Self { mut main, window, interface, init, graphics, timeline, mistakes: _ } = self;
         interface.borrow_mut().close();
@@ -161,7 +161,7 @@ impl MainRuntime {
         graphics.stop();
         match Thread::wait_for(std::slice::from_ref(graphics.thread()), Instant::now() + END) {
             Ok(()) => timeline.borrow_mut().reach(Step::GraphicsDestruction),
-            // The driver blocks it. The process ends without it; the user's work is not in that thread.
+            // The driver blocks the thread. The process ends without it; the user's work is not in that thread.
             Err(late) => tracing::warn!(?late, "did not end in time"),
         }
         drop(graphics);

@@ -45,22 +45,22 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::WindowId;
 
-/// Why there is no window.
+/// Reasons why the editor could not start or had to end.
 #[derive(Debug, Error)]
 pub enum AppError {
-    /// There is no display for it.
+    /// There is no display to open a window on.
     #[error("no display: {0}")]
     Display(String),
-    /// The display on which it was shown is gone.
+    /// The display on which the window was shown is gone.
     #[error("the display is gone: {0}")]
     DisplayGone(String),
-    /// The display refused it.
-    #[error("no window: {0}")]
+    /// The display refused to open a window.
+    #[error("the window could not be opened: {0}")]
     Window(String),
-    /// The system refused a thread.
-    #[error("no thread: {0}")]
+    /// The system refused to start a thread.
+    #[error("a thread could not be started: {0}")]
     Thread(String),
-    /// The system asked the program to end, and it did, in order.
+    /// This signal asked the program to end, and it ended normally.
     #[error("ended by signal {0}")]
     Signal(i32),
     /// A part of the program failed repeatedly, and the program cannot run without it.
@@ -68,7 +68,7 @@ pub enum AppError {
         "internal error, a bug of the program: {0}\n  Your work is recorded and will be offered at the next start."
     )]
     Mistake(String),
-    /// Nothing can draw into it.
+    /// No graphics device can draw into the window.
     #[error("no graphics: {0}")]
     Graphics(String),
 }
@@ -91,7 +91,7 @@ pub fn run(options: Options) -> Result<(), AppError> {
         timeline: Rc::clone(&timeline),
     };
     let ended = event_loop.run_app(&mut shell);
-    // Also when the loop ended by an error of the display, which calls no handler.
+    // Needed when an error of the display ended the loop, because winit then calls no handler.
     shell.destroy();
     if let Some(error) = shell.error {
         return Err(error);
@@ -105,7 +105,7 @@ pub fn run(options: Options) -> Result<(), AppError> {
     Ok(())
 }
 
-/// Passes the events of winit on.
+/// Passes the events of winit to the run-time.
 struct Shell {
     options: Options,
     proxy: EventLoopProxy<UserEvent>,
@@ -161,7 +161,7 @@ impl ApplicationHandler<UserEvent> for Shell {
                 self.error.get_or_insert(AppError::Signal(signal));
                 event_loop.exit();
             }
-            // The turn follows in `about_to_wait`.
+            // `about_to_wait` follows and runs the iteration.
             (UserEvent::Wake, _) | (_, None) => {}
             (UserEvent::AccessKit(event), Some(runtime)) => runtime.accesskit_event(event),
         }

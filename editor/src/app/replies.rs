@@ -32,7 +32,7 @@ impl Receiver for Replies {
     }
 }
 
-/// Shows a reply of the document: the one place that takes replies apart.
+/// Shows a reply of the document. All kinds of replies are handled here.
 fn show(interface: &mut Interface, reply: DocumentReply) {
     let state = &mut interface.state;
     match reply {
@@ -67,7 +67,7 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
             state.ask(Question::Plan(Arc::from(lines), order));
         }
         DocumentReply::Plan(Err(reason), _) => {
-            state.say(MessageSeverity::Error, format!("It cannot be saved: {reason}"));
+            state.say(MessageSeverity::Error, format!("The document cannot be saved: {reason}"));
         }
         DocumentReply::Unsaved(then) => {
             state.ask(Question::Unsaved(then));

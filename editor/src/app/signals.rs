@@ -12,7 +12,7 @@ use winit::event_loop::EventLoopProxy;
 pub(super) fn watch(proxy: EventLoopProxy<UserEvent>) {
     #[cfg(unix)]
     if let Err(error) = unix::watch(proxy) {
-        tracing::warn!("signals end the program without order: {error}");
+        tracing::warn!("signals cannot be handled, so one ends the program at once: {error}");
     }
     #[cfg(not(unix))]
     drop(proxy);
@@ -36,7 +36,8 @@ mod unix {
     use std::time::{Duration, Instant};
     use winit::event_loop::EventLoopProxy;
 
-    /// Systems send two signals at once to be sure; a user who sends a second one has waited longer than this.
+    /// Time after the first signal from which another one ends the program at once. Systems may send two signals
+    /// together; a user who sends a second one has waited longer than this.
     const PATIENCE: Duration = Duration::from_secs(1);
 
     pub(super) fn watch(proxy: EventLoopProxy<UserEvent>) -> std::io::Result<()> {
@@ -50,7 +51,7 @@ mod unix {
                 if first.get_or_insert_with(Instant::now).elapsed() > PATIENCE {
                     super::end_by(signal);
                 }
-                // The loop may have ended, and the program ends soon.
+                // Fails only when the loop has ended, and then the program ends soon.
                 let _ = proxy.send_event(UserEvent::Signal(signal));
             }
         };
@@ -69,7 +70,7 @@ mod unix {
         use super::*;
 
         #[test]
-        fn what_was_to_be_ignored_is_found() {
+        fn the_ignored_signals_are_read_from_the_status_file_of_the_process() {
             let ignored = ignored("Name:\tdragonfly\nSigIgn:\t0000000000001001\nSigCgt:\tffffffffffffffff\n");
             assert!(ignored(SIGHUP) && ignored(13));
             assert!(!ignored(SIGTERM) && !ignored(SIGINT) && !ignored(0) && !ignored(99));

@@ -10,10 +10,10 @@ use tracing::{debug, enabled};
 /// Target of the lines about the state.
 const TARGET: &str = "dragonfly::shown";
 
-/// Target of the lines about changes that the document was asked for.
+/// Target of the lines about changes that were sent to the document.
 const ASKED: &str = "dragonfly::asked";
 
-/// Logs a change that the document is asked for, as a line that `dragonfly --stdio` understands
+/// Logs a change that is sent to the document, as a line that `dragonfly --stdio` accepts
 /// (`DRAGONFLY_LOG=dragonfly::asked=debug`).
 pub(super) fn asked(change: &Change) {
     if !enabled!(target: ASKED, tracing::Level::DEBUG) {
@@ -25,7 +25,7 @@ pub(super) fn asked(change: &Change) {
     }
 }
 
-/// The state that was logged last: it is logged again only where it differs.
+/// The state that was logged last. A state is logged only if it differs from this one.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct StateTrace(Option<StateRecord>);
 
@@ -41,7 +41,8 @@ struct StateRecord {
 }
 
 impl StateTrace {
-    /// Logs the state where it differs (`DRAGONFLY_LOG=dragonfly::shown=debug`).
+    /// Logs the state if it has changed and playback is paused
+    /// (`DRAGONFLY_LOG=dragonfly::shown=debug`).
     pub(super) fn tell(&mut self, state: &PanelContext<'_>) {
         if !enabled!(target: TARGET, tracing::Level::DEBUG) || state.playback.playing {
             return;

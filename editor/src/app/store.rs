@@ -9,9 +9,9 @@ pub struct Store {
     folder: Option<PathBuf>,
 }
 
-/// Settings.
+/// File name of the settings.
 pub const SETTINGS: &str = "settings.json";
-/// Positions of panels.
+/// File name of the positions of panels.
 pub const LAYOUT: &str = "layout.json";
 /// A file larger than this was not written by this program.
 const LARGEST: u64 = 1 << 20;

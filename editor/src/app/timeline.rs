@@ -7,19 +7,19 @@ pub enum Step {
     MainFunction,
     /// The main window exists, the main thread is captured, the custom run-time is prepared.
     MainRuntime,
-    /// The second thread runs.
+    /// The graphics thread runs.
     Graphics,
-    /// The device exists in the second thread.
+    /// The graphics thread has created its device.
     GraphicsInitialisation,
-    /// The custom run-time is notified of it.
+    /// The custom run-time has been created, because the device exists.
     EditorRuntime,
-    /// It has what it needs and opens the model.
+    /// The custom run-time has received its parts and opens the model.
     EditorRuntimeInitialisation,
     /// All parts run.
     RunTime,
     /// Input is off; the custom run-time has released everything.
     EditorRuntimeDestruction,
-    /// Scene, device and second thread are gone.
+    /// Scene, device and graphics thread are gone.
     GraphicsDestruction,
     /// The window is gone.
     MainRuntimeDestruction,
@@ -66,14 +66,15 @@ impl Step {
     }
 }
 
-/// Records the order. A start that fails skips steps, but never changes their order.
+/// The steps in the order in which they were reached. A start that fails skips steps, but never changes their
+/// order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StepTrace {
     reached: Vec<Step>,
 }
 
 impl StepTrace {
-    /// Notes that `step` is reached.
+    /// Records that `step` is reached.
     ///
     /// # Panics
     /// In debug builds, when a later step was reached before.

@@ -53,7 +53,8 @@ impl RunCommand for CheckArguments {
         for file in &self.files {
             match CheckReport::of(file, self.deny) {
                 Ok(report) => reports.push(report),
-                // The files after it are checked too; the first unreadable one decides the exit code.
+                // The files after it are still checked; the last unreadable one decides the exit
+                // code.
                 Err(error) => {
                     if let Some(earlier) = failure.replace(error) {
                         earlier.report();

@@ -87,7 +87,7 @@ fn offer(takes: &[std::sync::Arc<Take>]) -> String {
 /// Clamps `time` to take number `take`; unchanged for the rest pose, which is the same at all times.
 pub(super) fn clamp_time(model: &ModelData, take: Option<usize>, time: f32) -> f32 {
     match take.and_then(|take| model.animation.takes.get(take)) {
-        // Not `clamp`, which panics if the start is after the end.
+        // `clamp` would panic if the start is after the end.
         Some(take) => time.min(take.end()).max(take.start),
         None => time,
     }

@@ -175,7 +175,7 @@ pub(super) fn read_edits(path: &Path) -> Result<Vec<(usize, Edit)>, Failure> {
 /// Writes the files of the plan. Returns their paths and sizes.
 fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, Failure> {
     if output == Path::new("-") && editable.needs_others(plan) {
-        return Err(Failure::input("-", "the model has further files; give -o a path"));
+        return Err(Failure::input("-", "the model consists of several files; give -o the path of a file"));
     }
     check_extension(output, &editable.ending()).map_err(Failure::Input)?;
     let mut written = Vec::new();

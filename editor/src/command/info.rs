@@ -105,7 +105,7 @@ struct InfoSphere {
 impl Info {
     fn of(loaded: LoadedModel) -> Self {
         let model = Arc::new(loaded.model);
-        // The model in its rest pose.
+        // The bounds of the rest pose.
         let bounds = Evaluator::new(Arc::clone(&model)).bounds();
         Self {
             file: loaded.title,

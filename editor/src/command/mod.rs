@@ -1,7 +1,7 @@
-//! The command line: one file a command, one line in [`Commands`].
+//! The command line: one file per command, one line per command in [`Commands`].
 //!
 //! Results go to stdout, messages and progress to stderr. Exit codes: 0 done, 1 the check or comparison found
-//! difference, 2 wrong input, 3 system error.
+//! something, 2 wrong input, 3 system error.
 
 mod check;
 mod choice;

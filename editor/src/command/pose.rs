@@ -27,7 +27,7 @@ pub(super) struct PoseArguments {
     /// Time in seconds, clamped to the take; repeat for more poses
     #[arg(long, value_name = "S", required = true, value_parser = finite, allow_negative_numbers = true)]
     time: Vec<f32>,
-    /// Number of vertex positions of each mesh [default: all in JSON, none in text]
+    /// Number of vertex positions per primitive [default: all in JSON, none in text]
     #[arg(long, value_name = "N")]
     vertices: Option<usize>,
     /// Print one JSON document instead of text

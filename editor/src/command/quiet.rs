@@ -1,7 +1,8 @@
 //! Suppression of messages that libraries write to our stderr.
 
-/// Prevents a misleading message of Mesa. Mesa asks a Wayland server for the graphics device, even if there is none, and
-/// libwayland then prints "error: XDG_RUNTIME_DIR is invalid" to stderr. Below a message of ours that looks like a failure.
+/// Prevents a misleading message of Mesa. Mesa asks a Wayland server for the graphics device, even
+/// if no server runs, and libwayland then prints "error: XDG_RUNTIME_DIR is invalid" to stderr.
+/// After a message of this program, that looks like a failure.
 ///
 /// Only an environment variable disables this, and it must be set when the process starts. So where
 /// there is no Wayland server, the program executes itself again, in the same process.
@@ -21,7 +22,7 @@ pub(super) fn about_wayland() {
         if let Some(name) = arguments.next() {
             command.arg0(name);
         }
-        // Returns only if it failed; then the message appears, and nothing else changes.
+        // `exec` returns only if it failed; then Mesa's message appears, and nothing else changes.
         let _ = command.args(arguments).env(FORBID, "1").exec();
     }
 }

@@ -13,8 +13,8 @@ use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Number of names tried for the journal of one document: journals written by newer programs and damaged ones keep
-/// theirs.
+/// Number of names tried for the journal of one document. Damaged journals, and journals written by newer programs,
+/// keep their names.
 const TRIES: usize = 100;
 /// Result of [`Autosave::begin`].
 #[derive(Debug)]

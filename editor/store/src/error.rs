@@ -16,7 +16,7 @@ pub enum SaveStep {
     Write,
     /// Flushing the bytes to the disk.
     Sync,
-    /// Keeping the old version where it must be kept.
+    /// Keeping or removing the copy of the old content of a file that is overwritten in place.
     Keep,
     /// Renaming the new file over the old one.
     Replace,
@@ -62,7 +62,7 @@ pub enum FileSaveError {
     /// A folder, pipe, device or socket.
     #[error("{path}: is not a regular file", path = .path.display())]
     NotRegular {
-        /// What was found.
+        /// Path of the folder, pipe, device or socket.
         path: PathBuf,
     },
     /// The path does not end in a file name, or its links form a circle.
@@ -134,9 +134,9 @@ pub(super) fn reason(error: &io::Error) -> String {
         QuotaExceeded => "your disk quota is used up",
         ReadOnlyFilesystem => "the disk is read-only",
         PermissionDenied => "no permission",
-        NotFound => "it or its folder is not there",
+        NotFound => "it or its folder does not exist",
         NotADirectory => "a part of its path is not a folder",
-        IsADirectory => "is a folder",
+        IsADirectory => "it is a folder",
         _ => return error.to_string(),
     };
     plain.to_owned()

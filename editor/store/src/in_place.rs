@@ -36,7 +36,7 @@ pub fn interrupted_save(files: &dyn Vfs, target: &Path) -> Result<Option<PathBuf
     Ok(metadata_if_exists(files, &old).map_err(FileSaveError::at(&target, SaveStep::Look))?.map(|_| old))
 }
 
-/// As [`interrupted_save`], but an interrupted save is an error.
+/// Returns an error if an earlier save of the file at `target` was interrupted; see [`interrupted_save`].
 pub(super) fn ensure_not_interrupted(files: &dyn Vfs, target: &Path) -> Result<(), FileSaveError> {
     let old = old_content_path(target);
     match metadata_if_exists(files, &old).map_err(FileSaveError::at(target, SaveStep::Look))? {

@@ -30,7 +30,7 @@ pub enum JournalError {
     Io {
         /// The journal or its folder.
         path: PathBuf,
-        /// What failed.
+        /// The operation that failed, in words.
         what: &'static str,
         /// Error of the system.
         #[source]
@@ -246,11 +246,12 @@ impl Journal {
         })
     }
 
-    /// Restarts the journal with `snapshot`, the whole document with its history, in one step: before it, after it
-    /// and when it fails, a complete journal exists.
+    /// Restarts the journal with `snapshot`, the whole document with its history, in one step: a complete journal
+    /// exists at every moment, also if this fails.
     ///
     /// # Errors
-    /// When the new journal is not on the disk. The old one stays in use.
+    /// When the new journal could not be written: then the old one stays in use. Or when the new one is in use, but
+    /// the disk did not confirm its name: then it is [`broken`](Self::broken).
     pub fn compact(&mut self, snapshot: &[u8]) -> Result<(), JournalError> {
         let saved = self.state.unsaved == 0;
         self.compact_as(snapshot, saved)
@@ -263,7 +264,7 @@ impl Journal {
     /// As [`compact`](Self::compact).
     pub fn compact_as(&mut self, snapshot: &[u8], saved: bool) -> Result<(), JournalError> {
         self.ensure_fits(snapshot)?;
-        // The lock makes this name ours: an existing file with it was left by a killed program.
+        // Only the holder of the lock uses this name: an existing file with it was left by a killed program.
         let temporary = self.path.with_extension("compact");
         let _ = retry(|| self.files.remove(&temporary));
         let made = self.make_compact(&temporary, snapshot, saved).and_then(|new| {

@@ -55,7 +55,8 @@ pub(super) fn next_path(folder: &Path, present: &[NumberedFile], name: &str) -> 
     folder.join(format!("{number:06}-{name}"))
 }
 
-/// Removes the oldest files until `bounds` hold. Failing to remove one does no harm.
+/// Removes the oldest files until the folder is within `bounds`. Failing to remove one does no
+/// harm.
 pub(super) fn trim(files: &dyn Vfs, folder: &Path, bounds: FolderLimits) {
     let present = self::files(files, folder).unwrap_or_default();
     let (mut bytes, mut stays) = (0_u64, true);

@@ -18,7 +18,7 @@ pub struct JournalOwner {
 pub enum OwnerStatus {
     /// It runs.
     Running,
-    /// It ended, in order or not.
+    /// It has exited, normally or not.
     Exited,
     /// It ran on another computer and did not record that it closed the journal.
     OnOtherHost,
@@ -30,7 +30,8 @@ impl JournalOwner {
         Self { process: std::process::id(), host: system::host() }
     }
 
-    /// Returns what the process number alone shows, for file systems without locks.
+    /// Returns the status of this process as far as its number and computer show it, for file systems
+    /// without locks.
     pub(super) fn owner_status(&self) -> OwnerStatus {
         if self.host != system::host() {
             return OwnerStatus::OnOtherHost;
@@ -67,7 +68,7 @@ mod system {
         let process = i32::try_from(process).ok().filter(|process| *process > 0).and_then(Pid::from_raw)?;
         match test_kill_process(process) {
             Err(rustix::io::Errno::SRCH) => Some(false),
-            // It exists, even if we may not signal it.
+            // The process exists, even if this one may not signal it.
             _ => Some(true),
         }
     }

@@ -186,8 +186,8 @@ mod system {
         }
     }
 
-    /// Returns whether the error means that the file system has no locks. Network file systems report the last one
-    /// for files opened for reading only.
+    /// Returns whether the error means that the file system has no locks. `BADF` is what network file systems
+    /// report for files opened for reading only.
     pub(super) fn has_no_locks(error: &io::Error) -> bool {
         let kinds = [Errno::NOLCK, Errno::NOTSUP, Errno::OPNOTSUPP, Errno::NOSYS, Errno::BADF];
         kinds.iter().any(|kind| error.raw_os_error() == Some(kind.raw_os_error()))
@@ -222,8 +222,8 @@ mod system {
 
     pub(super) fn nonblocking(_: &mut OpenOptions) {}
 
-    /// File numbers, owners and link counts are not available here. Two files then differ only in size, times and
-    /// content.
+    /// Returns the metadata that this system provides: no file numbers, owners or link counts. Two files then
+    /// differ only in size, times and content.
     pub(super) fn data(metadata: &Metadata) -> FileData {
         FileData {
             kind: super::kind_of(metadata),
@@ -247,7 +247,7 @@ mod system {
         std::fs::create_dir_all(path)
     }
 
-    /// Folders cannot be opened here; the system journals names itself.
+    /// Does nothing, because folders cannot be opened on this system, which journals file names itself.
     pub(super) fn sync_folder(_: &Path) -> io::Result<()> {
         Ok(())
     }

@@ -46,7 +46,7 @@ pub(super) enum Tag {
     Saving = 4,
     /// The document was saved; content: its [`FileStamp`].
     Saved = 5,
-    /// The process that had the journal closed it in order.
+    /// The process that had the journal closed it normally.
     Closed = 6,
 }
 

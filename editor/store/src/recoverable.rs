@@ -73,7 +73,7 @@ pub struct Recoverable {
 }
 
 impl Recoverable {
-    /// A journal of which only this is known.
+    /// Returns the entry of a journal of which only the path and the readability are known.
     fn unreadable(journal: PathBuf, reading: Readability) -> Self {
         Self {
             journal,
@@ -91,7 +91,8 @@ impl Recoverable {
         }
     }
 
-    /// Returns whether a file with this stamp, at any path, has the content the document's file had last.
+    /// Returns whether a file with this stamp, at any path, has the content that the document's file had last, or
+    /// that a save without a recorded end was to write.
     pub fn held(&self, stamp: &FileStamp) -> bool {
         let then = self.stamp.map(|then| (then.size, then.hash));
         [then, self.saving].contains(&Some((stamp.size, stamp.hash)))
@@ -159,8 +160,8 @@ impl Autosave {
         for _ in 0..INSPECT_ATTEMPTS {
             let file = retry(|| self.files.open(path)).map_err(fail)?;
             let found = self.read_summary(&*file, path)?;
-            // Its owner may have replaced it by a restarted one; then the file that was read is no longer the
-            // journal.
+            // The owner may have replaced the journal by a restarted one; then the file that was read is no longer
+            // the journal.
             if same(&*self.files, &*file, path).map_err(fail)? {
                 return Ok(found);
             }
@@ -231,7 +232,7 @@ impl JournalContents {
     }
 }
 
-/// Inserts the entry that the document was saved before the unsaved edits that `state` counts.
+/// Inserts a [`JournalEntry::Saved`] before the unsaved edits that `state` counts.
 fn mark_saved(entries: &mut Vec<JournalEntry>, state: &JournalState) {
     let unsaved = usize::try_from(state.unsaved).unwrap_or(usize::MAX);
     entries.insert(entries.len().saturating_sub(unsaved), JournalEntry::Saved);
@@ -271,15 +272,15 @@ pub(super) fn same(files: &dyn Vfs, file: &dyn VfsFile, path: &Path) -> io::Resu
     Ok((opened.device, opened.inode) == (named.device, named.inode))
 }
 
-/// Returns whether a process has the journal in `file` open.
+/// Returns whether the process that opened the journal in `file` still runs.
 fn owner_status(file: &dyn VfsFile, state: &JournalState) -> io::Result<OwnerStatus> {
     let owner = state
         .owner
         .as_ref()
         .filter(|_| !state.closed)
         .map_or(OwnerStatus::Exited, JournalOwner::owner_status);
-    // When the owner runs, the lock is its own; otherwise another process only inspects the journal and will release
-    // it soon.
+    // If the owner runs, it is the process that holds the lock; otherwise the lock is held by a process that only
+    // inspects the journal and releases it soon.
     let lock = if owner == OwnerStatus::Running { lock(file)? } else { lock_with_retries(file)? };
     Ok(match lock {
         LockResult::Held => OwnerStatus::Running,

@@ -70,7 +70,7 @@ impl Autosave {
         let saving = contents.state.saving;
         let settled = contents.compare_file(&*self.files);
         let JournalContents { scan, mut state, entries, .. } = contents;
-        // Settled again when the record below is written.
+        // `compare_file` has settled this save; writing the record below settles it again.
         state.saving = saving;
         let mut journal = Journal {
             files: Arc::clone(&self.files),
@@ -109,7 +109,7 @@ impl Autosave {
         let copied = entries.iter().try_for_each(|entry| match entry {
             JournalEntry::Snapshot(bytes) => journal.write(Tag::Snapshot, bytes),
             JournalEntry::Edit(bytes) => journal.write(Tag::Edit, bytes),
-            // The stamp does not show which of several saves it was, and only the last one matters.
+            // All saves get the stamp of the last one: earlier stamps are not known, and only the last save matters.
             JournalEntry::Saved => match state.stamp.filter(|_| document.is_some()) {
                 Some(stamp) => journal.write_json(Tag::Saved, &stamp),
                 None => Ok(()),
@@ -165,7 +165,7 @@ impl Autosave {
     /// Moves a discarded journal out of the bin again and returns its path.
     ///
     /// # Errors
-    /// When it cannot be moved, or another journal has its name by now. It stays in the bin.
+    /// When it cannot be moved, or another journal has taken its name. In both cases it stays in the bin.
     pub fn restore(&self, discarded: &Path) -> Result<PathBuf, JournalError> {
         let fail = |error| JournalError::io(discarded, "cannot be restored from the bin")(error);
         let name = discarded.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -179,8 +179,8 @@ impl Autosave {
         Ok(to)
     }
 
-    /// Moves the oldest journals without unsaved work into the bin until the others are within `bounds`. Returns how
-    /// many.
+    /// Moves the oldest journals without unsaved work into the bin until the others are within `bounds`. Returns the
+    /// number of journals moved.
     ///
     /// # Errors
     /// When the folder of journals cannot be read.
@@ -213,7 +213,7 @@ impl Autosave {
                 let owner = contents(&*file, path).ok().and_then(|contents| contents.state.owner);
                 return Err(JournalError::Held { path: path.to_path_buf(), owner });
             }
-            // Its owner may have replaced it by a restarted one of the same name before releasing the lock.
+            // The owner may have replaced the journal by a restarted one of the same name before releasing the lock.
             if same(&*self.files, &*file, path).map_err(fail)? {
                 return Ok((file, lock == LockResult::Ours));
             }

@@ -66,7 +66,7 @@ pub fn save(
     if let (Some(versions), Some(_)) = (options.versions, &old) {
         match versions.keep(files, &target) {
             Ok(path) => kept = Some(path),
-            // The new work matters more than the old version.
+            // Saving the new work matters more than keeping the old version.
             Err(error) => notices.push(format!("the old version could not be kept: {error}")),
         }
     }
@@ -158,24 +158,25 @@ fn inherit(
     if (new.owner, new.group) != (old.owner, old.group)
         && !allowed(retry(|| file.set_owner(Some(old.owner), old.group)))?
     {
-        // Without permission to change the owner, the group may still be possible.
+        // Without permission to change the owner, changing the group may still be possible.
         let group = allowed(retry(|| file.set_owner(None, old.group)))?;
         let what = if group { "owner" } else { "owner and group" };
         notices.push(format!("its {what} could not be kept: it now belongs to you"));
-        // Clears the set-user-ID and set-group-ID bits, so that it does not run with the rights of another user.
+        // Clears the set-user-ID and set-group-ID bits, so that the file does not run with the rights of another
+        // user.
         mode &= 0o1777;
         if !group {
             mode &= !0o070;
         }
     }
     retry(|| file.set_mode(mode))?;
-    // The source may have become unreadable since, even to its owner.
+    // The old file may have become unreadable in the meantime, even to its owner.
     let source = match retry(|| files.open(target)) {
         Err(error) if error.kind() == io::ErrorKind::PermissionDenied => return Ok(()),
         other => other?,
     };
     for (name, value) in retry(|| source.attributes())? {
-        // The system gives every file its own security label.
+        // A security label is not missed, because the system gives every file its own.
         if !allowed(retry(|| file.set_attribute(&name, &value)))? && !name.starts_with(b"security.") {
             let name = String::from_utf8_lossy(&name).into_owned();
             notices.push(format!("its attribute {name} could not be kept"));

@@ -113,7 +113,7 @@ impl FileStamp {
         }
         let same = (data.modified, data.changed, data.device, data.inode)
             == (self.modified, self.changed, self.device, self.inode);
-        // A second write within the same tick of the clock would leave the same times.
+        // Recent times prove nothing: a second write within the same tick of the clock would leave them the same.
         let newest = self.modified.max(self.changed);
         if same && self.taken.saturating_sub(newest) > TICK {
             return Ok(FileState::Same);
@@ -134,9 +134,9 @@ fn now() -> i64 {
     i64::try_from(since.as_nanos()).unwrap_or(i64::MAX)
 }
 
-/// FNV-1a with 64 bits. Journals, file names of old versions and journal names contain it, so another function would
-/// lose them all. An accidental change goes undetected once in 10¹⁹ cases; it is no protection against deliberate
-/// ones, which nothing here needs.
+/// FNV-1a with 64 bits. Its values are stored in journals and in the names of journals and old versions, so with
+/// another function none of them would be found again. An accidental change goes undetected once in 10¹⁹ cases; the
+/// hash does not protect against deliberate changes, and nothing here needs that.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hash(u64);
 

@@ -54,8 +54,8 @@ impl JournalState {
         true
     }
 
-    /// Records that the document was saved. Edits made during the save are not in the file. A save that was started
-    /// and produced another file than this one failed, so it does not count.
+    /// Records that the document was saved. Edits made during the save are not in the file. If the save that was
+    /// started last was to write another file than this one, it failed and does not count.
     fn saved(&mut self, stamp: FileStamp) {
         let begun = self.saving.take().filter(|(saving, _)| saving.made(&stamp));
         let before = begun.map_or(self.work, |(_, work)| work);

@@ -78,18 +78,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_of_a_living_process_or_of_another_machine_is_no_leftover() {
+    fn the_temporary_file_of_a_running_process_or_another_machine_is_no_leftover() {
         let host = owner::host_hash();
         assert!(!is_leftover(&format!("{host:x}-{}-0.part", std::process::id())));
         assert!(!is_leftover(&format!("{:x}-4194999-0.part", host ^ 1)));
         assert!(!is_leftover("part"));
         assert!(!is_leftover(&format!("{host:x}-4194999-0-1.part")));
-        // Larger than any process number.
+        // 4194999 is larger than any process number.
         assert_eq!(is_leftover(&format!("{host:x}-4194999-0.part")), cfg!(unix));
     }
 
     #[test]
-    fn a_name_beside_is_never_longer_than_names_may_be() {
+    fn the_name_of_a_temporary_file_is_never_longer_than_file_systems_allow() {
         for length in [1, 200, 206, 207, 208, 255] {
             let target = PathBuf::from("x".repeat(length));
             let mut name = temporary_prefix(&target);

@@ -16,7 +16,7 @@ mod tests {
     use dragonfly_kit::random::seed;
 
     #[test]
-    fn every_target_has_seeds_and_survives_them() {
+    fn every_target_has_seeds_and_parses_them_without_a_panic() {
         for target in TARGETS {
             let seeds = seeds(target);
             assert!(!seeds.is_empty(), "{} has no seed in tests/data", target.name);
@@ -27,7 +27,7 @@ mod tests {
     }
 
     #[test]
-    fn every_target_survives_mutations_of_its_seeds() {
+    fn no_target_panics_on_mutations_of_its_seeds() {
         let seed = seed(0x6675_7a7a);
         println!("DRAGONFLY_SEED={seed}");
         for target in TARGETS {

@@ -34,8 +34,8 @@ thread_local! {
     static UNCOUNTED: Cell<i64> = const { Cell::new(0) };
 }
 
-/// Number of bytes after which a thread updates [`PROCESS`]. So the threads do not contend for it in every call, and its
-/// error is at most this number for each thread.
+/// Number of bytes after which a thread updates [`PROCESS`]. So threads do not contend for `PROCESS` in every call,
+/// and its error is at most this number for each thread.
 const STEP: i64 = 1 << 16;
 
 /// Bytes in use by the process now and at the peak.

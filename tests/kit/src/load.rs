@@ -27,7 +27,7 @@ impl CpuLoad {
     pub fn with(processes: &[u32]) -> Self {
         let number = |word: &str| word.parse::<u64>().unwrap_or(0);
         let stat = fs::read_to_string("/proc/stat").unwrap_or_default();
-        // user nice system idle iowait irq softirq steal; the rest repeats user time.
+        // The columns are: user nice system idle iowait irq softirq steal. The others repeat user time.
         let first: Vec<u64> =
             stat.lines().next().unwrap_or("").split_whitespace().skip(1).map(number).collect();
         let all = first.iter().take(8).sum::<u64>() - first.get(3).unwrap_or(&0) - first.get(4).unwrap_or(&0);

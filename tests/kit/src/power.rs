@@ -131,7 +131,7 @@ pub fn cut(
         assert!(found.edits >= said.synced, "{place}");
         assert!(found.saved >= said.saved, "{place}");
         let more = found.edits >= all.edits && found.saved >= all.saves;
-        assert!(more, "{place}: what was had back once is still there");
+        assert!(more, "{place}: an edit that was recovered before is gone");
         if let Some((_, at)) = said.times.iter().find(|(edit, _)| *edit > found.edits) {
             all.oldest = all.oldest.max(began - at);
         }

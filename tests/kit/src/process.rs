@@ -70,8 +70,8 @@ fn read_thread(task: &std::path::Path) -> Option<OsThread> {
     })
 }
 
-/// Returns whether this process ignores `signal`, and with it every process that it starts. What a script starts in the
-/// background ignores Ctrl+C.
+/// Returns whether this process, and so every process that it starts, ignores `signal`. For example, a program that a
+/// script starts in the background ignores Ctrl+C.
 #[cfg(unix)]
 pub fn ignores(signal: rustix::process::Signal) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

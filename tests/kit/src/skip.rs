@@ -1,7 +1,7 @@
 //! Tests that cannot run here, counted.
 //!
-//! A test that lacks something calls [`skip`] and returns. `./test` counts the calls and prints them at the end; the gate
-//! fails on them, but for the needs in `.ci/may-skip`.
+//! A test that lacks something calls [`skip`] and returns. `./test` counts the calls and prints them at the end; the
+//! gate fails on them, except for the needs in `.ci/may-skip`.
 
 use std::env;
 use std::fmt::Display;

@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-/// Time limit: longer than the process takes to start on a busy machine. The process ends by itself after it.
+/// Time after which the process ends by itself: longer than it takes to start on a busy machine.
 pub const LIMIT: Duration = Duration::from_secs(30);
 
 /// The running process.

@@ -123,7 +123,7 @@ impl Actor for WaitingRoom {
                 None => self.asleep = true,
             },
             RoomMessage::Close { haircuts } => {
-                assert!(self.waiting.is_empty(), "somebody still waits");
+                assert!(self.waiting.is_empty(), "a customer still waits");
                 cx.send(&self.barber, BarberMessage::Close { haircuts, refused: self.refused });
                 cx.stop();
             }
@@ -154,8 +154,8 @@ impl Actor for Barber {
                 let steps = self.random.below(STEPS);
                 work(&mut self.random, steps);
                 self.haircuts += 1;
-                // The room first: it may close as soon as the last customer has left.
-                let room = self.room.as_ref().expect("it is hired before anybody enters");
+                // First to the room, which may close as soon as the last customer has left.
+                let room = self.room.as_ref().expect("the barber knows the room before a customer enters");
                 cx.send(room, RoomMessage::Next);
                 cx.send(&customer, CustomerMessage::Done);
             }

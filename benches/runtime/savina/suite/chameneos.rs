@@ -118,7 +118,7 @@ impl Actor for Creature {
         match message {
             CreatureMessage::Begin => self.arrive(cx),
             CreatureMessage::Meet(other) => {
-                assert_ne!(other.index, self.index, "nobody meets itself");
+                assert_ne!(other.index, self.index, "no creature meets itself");
                 self.color = self.color.with(other.color);
                 self.meetings += 1;
                 cx.send(&other.address, CreatureMessage::Change(self.color));

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 /// Number of keys that each worker owns.
 const KEYS: usize = 64;
-/// One request in this number is a write.
+/// One in this number of requests is a write.
 const WRITES: usize = 10;
 
 pub(super) fn start(world: &mut World, mode: StudyMode) {

@@ -51,7 +51,7 @@ impl ForkMarks {
     /// Removes both marks.
     fn release_forks(&self, philosopher: usize) {
         for fork in self.forks(philosopher) {
-            assert!(fork.swap(false, Ordering::SeqCst), "{philosopher} gives back a fork that nobody holds");
+            assert!(fork.swap(false, Ordering::SeqCst), "{philosopher} gives back a fork that no one holds");
         }
     }
 }

@@ -67,7 +67,7 @@ impl Actor for Arbiter {
             }
             ArbiterMessage::Smoked { from } => {
                 assert_eq!(from, self.chosen, "who was chosen smokes");
-                assert!(self.smoke.swap(false, Ordering::SeqCst), "somebody has smoked");
+                assert!(self.smoke.swap(false, Ordering::SeqCst), "a smoker has smoked");
                 self.choose(cx);
             }
             ArbiterMessage::Ended { smoked } => {

@@ -3,15 +3,15 @@
 //! Original: 100 actors, 100,000 hops. Counted: hops, including those of the final message. Checked: the token arrives
 //! in the order of the ring, and the final message reaches every actor once.
 //!
-//! Neighbors share a thread where there are several threads, as in a real program; the token changes the thread once
-//! for each thread and round.
+//! Neighbors share a thread where there are several threads, as in a real program; in each round, the token enters
+//! each thread once.
 
 use super::super::{Actor, Address, Cx, World};
 use crate::StudyMode;
 
 pub(super) fn start(world: &mut World, mode: StudyMode) {
     let (actors, hops) = mode.pick((10, 105), (100, 20_000), (100, 100_000));
-    // Number of placements: the largest number of threads of a system here. Each has a contiguous part of the ring.
+    // Two placements, because a system has at most two threads here. Each gets a contiguous part of the ring.
     let place = |index: usize| index * 2 / actors;
     let nodes: Vec<Address<Node>> = (0..actors)
         .map(|index| world.spawn(place(index), Node { index, actors, hops, next: None }))
@@ -50,7 +50,7 @@ impl Actor for Node {
             NodeMessage::Token { left: 1.. } => cx.send(next, NodeMessage::Token { left: left - 1 }),
             NodeMessage::End { left: 1 } => cx.finish(hops as u64, None),
             _ => {
-                // All others know the end; no further message is sent to this actor.
+                // The end goes around the ring once; `left` is the number of actors that it still has to reach.
                 let left = if left == 0 { self.actors - 1 } else { left - 1 };
                 cx.send(next, NodeMessage::End { left });
             }

@@ -1,4 +1,5 @@
-//! An explanation as JSON: bones, takes and nodes by the numbers of `dragonfly info --json`.
+//! An explanation as JSON. Bones, takes and nodes are identified by the indices that `dragonfly
+//! info --json` lists.
 
 use dragonfly_anim::data::{Interpolation, ModelData};
 use dragonfly_anim::explain::{BoneStep, ChannelStep, Explanation, MovementStep, Subject, VertexResult};

@@ -6,7 +6,7 @@ use dragonfly_document::LoadedModel;
 use glam::{Mat4, Quat, Vec3, Vec4};
 use std::sync::Arc;
 
-/// Names of the bones from root to tip.
+/// Number of bones, from root to tip.
 pub const BONES: usize = 3;
 /// Length of the take in seconds.
 pub const LENGTH: f32 = 1.0;

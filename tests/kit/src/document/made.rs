@@ -86,7 +86,7 @@ pub fn sheet() -> Primitive {
 }
 
 /// Returns bones in a row, each the child of the one before and `step` away from it, and a take of one second in
-/// which each moves from rest to `end` of its index.
+/// which each moves from rest to `end(index)`.
 pub fn chain(count: u32, step: Vec3, end: impl Fn(u32) -> Transform) -> AnimationData {
     let rest = |index| if index == 0 { Vec3::ZERO } else { step };
     let bones = (0..count).map(|index| Bone {

@@ -247,7 +247,7 @@ impl TestDocument {
         })
     }
 
-    /// Ends the document in order.
+    /// Ends the document normally.
     pub fn end(self) {
         drop(self);
     }
@@ -261,7 +261,7 @@ impl Drop for TestDocument {
     }
 }
 
-/// Returns whether the text of the reply would fill pages.
+/// Returns whether the text of the reply is too long to print.
 fn is_large(reply: &DocumentReply) -> bool {
     matches!(reply, DocumentReply::View(_) | DocumentReply::Opened(_) | DocumentReply::Loading { .. })
 }

@@ -17,7 +17,7 @@ const WORDS: &str = "unexpected graphics error";
 /// Number of validation errors in this process since it started.
 static COMPLAINTS: AtomicUsize = AtomicUsize::new(0);
 
-/// A guard for code that draws. When it is dropped, no validation error may have occurred.
+/// A guard for code that draws. Dropping it fails the test if a validation error has occurred.
 #[derive(Debug)]
 pub struct NoComplaints(());
 
