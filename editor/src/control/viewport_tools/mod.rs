@@ -24,7 +24,8 @@ mod shield;
 
 pub use shield::Shield;
 
-use super::base::{Area, BaseControl, ControlId, ControlLookup};
+use super::area::{Area, ControlId};
+use super::base::{BaseControl, ControlLookup};
 use super::framework::ControlFramework;
 use super::gizmo::GizmoControl;
 use super::input::InputEvent;
