@@ -1,17 +1,8 @@
 //! Loading in a job: the document continues to work while a file is read, and survives an importer that panics.
 
-use super::message::{DocumentMessage, NewsBox};
-use super::{LoadError, Loader, OpenedModel, Progress, Source};
+use super::message::{DocumentMessage, JobNews, NewsBox};
+use super::{LoadError, Loader, Progress, Source};
 use dragonfly_runtime::{Address, Job};
-
-/// News of a loading job.
-#[derive(Debug)]
-pub(super) enum JobNews {
-    /// The progress so far.
-    Progress(Progress),
-    /// The result.
-    Done(Result<Box<OpenedModel>, LoadError>),
-}
 
 /// Starts loading `source` in a job, whose news reach the document with `ticket`. Dropping the job cancels it without
 /// waiting for its end.

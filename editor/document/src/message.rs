@@ -1,9 +1,8 @@
 //! The messages that other threads send to the document, and its replies.
 
-use super::job::JobNews;
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
 use super::scan::{Decision, RecoveryScan};
-use super::{Change, LoadedModel, Offer, Progress, Source, View};
+use super::{Change, LoadError, LoadedModel, Offer, OpenedModel, Progress, Source, View};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -50,6 +49,15 @@ pub enum DocumentMessage {
     /// The result of a search for unsaved work.
     #[doc(hidden)]
     Found(ScanBox),
+}
+
+/// News of a loading job.
+#[derive(Debug)]
+pub(super) enum JobNews {
+    /// The progress so far.
+    Progress(Progress),
+    /// The result.
+    Done(Result<Box<OpenedModel>, LoadError>),
 }
 
 /// News of a job, opaque to other crates.

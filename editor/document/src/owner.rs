@@ -2,8 +2,8 @@
 
 use super::fault::{FaultInjection, FaultPoint};
 use super::handle::DocumentHandle;
-use super::job::{JobNews, start_loading};
-use super::message::{DocumentMessage, DocumentReply, NewsBox, ScanBox};
+use super::job::start_loading;
+use super::message::{DocumentMessage, DocumentReply, JobNews, NewsBox, ScanBox};
 use super::open::Open;
 use super::saving::{SaveOrder, Then};
 use super::scan::{Decision, RecoveryScan};
