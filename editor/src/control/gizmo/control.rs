@@ -7,7 +7,7 @@ use crate::control::framework::ControlFramework;
 use crate::control::input::Button;
 use crate::control::key::{Key, Modifiers};
 use crate::control::viewport::CLICK;
-use crate::control::viewport_tools::ViewportTool;
+use crate::control::viewport_tools::tool::ViewportTool;
 use dragonfly_picture::gizmo::{GizmoView, Handle, Tool};
 use glam::Vec2;
 
