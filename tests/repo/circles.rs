@@ -11,7 +11,7 @@ const LARGEST: usize = 3;
 const CRATES: &[(&str, usize)] = &[
     // A context can reach every object of its thread, and every object receives the context.
     ("runtime", 9),
-    ("anim", 36),
+    ("anim", LARGEST),
     ("editor/store", LARGEST),
     ("editor/document", LARGEST),
     ("editor/picture", LARGEST),
