@@ -3,10 +3,13 @@
 //! A rule is a function from files to complaints. Each is also run on planted files that break it, so that a rule
 //! that never reports anything is detected.
 
+mod circles;
 mod crates;
 mod direction;
+mod imports;
 mod layout;
 mod licenses;
 mod skips;
+mod tokens;
 mod tree;
 mod words;

@@ -1,6 +1,7 @@
 //! Compression of a take: encodes with several choices, measures each, and keeps the smallest.
 
 use super::encode::{EncodeChoice, Encoder};
+use super::extents::ByteSizes;
 use super::frames::{SampledFrames, all_to_root};
 use super::metric::{LargestError, largest_error};
 use super::plan::TrackPlan;
@@ -27,28 +28,6 @@ pub struct CompressionReport {
     pub channels: [usize; 4],
     /// Number of morph tracks of the take: these are not part of a compressed take.
     pub morphs_left_out: usize,
-}
-
-/// Sizes in bytes, by content.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ByteSizes {
-    /// Name, times, checksums.
-    pub header: usize,
-    /// Constant channels.
-    pub constants: usize,
-    /// Ranges and widths of packed channels.
-    pub ranges: usize,
-    /// Keys stored whole.
-    pub whole: usize,
-    /// Packed keys.
-    pub keys: usize,
-}
-
-impl ByteSizes {
-    /// Returns the sum: the length of [`CompressedTake::as_bytes`].
-    pub fn total(&self) -> usize {
-        self.header + self.constants + self.ranges + self.whole + self.keys
-    }
 }
 
 /// Shares of the tolerance tried for the first and the last joint of a chain.

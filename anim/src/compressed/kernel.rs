@@ -91,7 +91,7 @@ impl<'a> KeyPair<'a> {
     #[inline(always)]
     fn new(tables: &'a Tables, bytes: &'a [u8], key: u32, mix: f32) -> Option<Self> {
         // Checked here so that no load has to check.
-        if bytes.len() < super::write::AHEAD {
+        if bytes.len() < super::extents::AHEAD {
             return None;
         }
         let after = (key + 1).min(tables.clock.frames - 1);

@@ -117,6 +117,7 @@ mod bits;
 mod compress;
 mod encode;
 mod error;
+mod extents;
 mod frames;
 mod grid;
 mod head;
@@ -135,8 +136,9 @@ mod track;
 mod whole;
 mod write;
 
-pub use compress::{ByteSizes, CompressionReport, compress};
+pub use compress::{CompressionReport, compress};
 pub use error::{CompressError, FormatError};
+pub use extents::ByteSizes;
 pub use metric::LargestError;
 pub use settings::{CompressionSettings, Exactness};
 pub use take::CompressedTake;

@@ -2,6 +2,7 @@
 
 use super::bits::BitReader;
 use super::encode::TURN_UNIT;
+use super::extents::{AHEAD, PREFACE, SUMMED};
 use super::frames::FrameClock;
 use super::grid::{FLOATS, MOST_BITS, rotation_from};
 use super::stored::{
@@ -9,7 +10,6 @@ use super::stored::{
 };
 use super::table::{SegmentPlace, Tables};
 use super::whole::WholeTrack;
-use super::write::{AHEAD, PREFACE, SUMMED};
 use super::{FormatError, MAGIC, MAX_BONES, MAX_BYTES, MAX_FRAMES, MAX_VALUES, VERSION};
 use crate::checksum::CRC_32;
 use crate::data::Transform;

@@ -2,20 +2,14 @@
 
 use super::bits::BitWriter;
 use super::encode::TURN_UNIT;
+use super::extents::{AHEAD, ByteSizes, PREFACE, SUMMED};
 use super::frames::limit;
 use super::grid::{FLOATS, WHOLE_BITS, rotation_numbers};
 use super::lane_groups::{TrackSlot, groups, slots};
 use super::stored::{PARTS, PackedChannel, StoredChannel, StoredTake};
-use super::{ByteSizes, CompressError, MAGIC, MAX_BYTES, VERSION};
+use super::{CompressError, MAGIC, MAX_BYTES, VERSION};
 use crate::checksum::CRC_32;
 use glam::Quat;
-
-/// Bytes before the keys: magic number, version, length, checksum, and the end of the keys.
-pub(super) const PREFACE: usize = 20;
-/// The first byte that the checksum covers.
-pub(super) const SUMMED: usize = 16;
-/// Smallest number of bytes after the keys, so that the numbers of eight lanes can be read at once from any position.
-pub(super) const AHEAD: usize = 32;
 
 /// Returns the bytes of `stored`, and their sizes by content.
 pub(super) fn write(stored: &StoredTake) -> Result<(Vec<u8>, ByteSizes), CompressError> {

@@ -2,7 +2,7 @@
 
 use super::context::ImportContext;
 use super::edited::{EditableFile, SurgicalFile};
-use super::{AssetFs, ExportError, ImportError, Imported, Place, ReadOptions, Warning};
+use super::{AssetFs, ExportError, ImportError, Place, ReadOptions, Warning};
 use crate::data::ModelData;
 use crate::limits::FILE_BYTES;
 use std::fmt;
@@ -174,4 +174,15 @@ impl fmt::Debug for WriteSupport {
             Self::Surgical(_) => "Surgical",
         })
     }
+}
+
+/// A model that was read from a file.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The model: every index in range, every number finite.
+    pub model: ModelData,
+    /// Format of the file.
+    pub format: Format,
+    /// Descriptions of corrected and omitted content, in the order in which it was found.
+    pub warnings: Vec<Warning>,
 }

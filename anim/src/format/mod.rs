@@ -43,15 +43,13 @@ mod registry;
 pub mod uri;
 
 pub use context::ImportContext;
-pub use definition::{Format, OpenSurgical, ReadModel, WholeFile, WriteModel, WriteSupport};
+pub use definition::{Format, Imported, OpenSurgical, ReadModel, WholeFile, WriteModel, WriteSupport};
 pub use edited::{ChangeReport, EditableFile, EditedTake, OutputFile, SavePlan, SurgicalFile};
 pub(crate) use error::one_line;
 pub use error::{ExportError, ImportError, Place, Warning};
 pub use files::{AssetError, AssetFs, NoFiles};
 pub use read_options::{ByteBudget, OverBudget, ReadOptions};
 pub use registry::Formats;
-
-use crate::data::ModelData;
 
 /// The formats of this crate, in the order of precedence.
 pub const BUILTIN: &[Format] = &[
@@ -61,17 +59,6 @@ pub const BUILTIN: &[Format] = &[
     #[cfg(feature = "gltf")]
     gltf::GLTF,
 ];
-
-/// A model that was read from a file.
-#[derive(Clone, Debug)]
-pub struct Imported {
-    /// The model: every index in range, every number finite.
-    pub model: ModelData,
-    /// Format of the file.
-    pub format: Format,
-    /// Descriptions of corrected and omitted content, in the order in which it was found.
-    pub warnings: Vec<Warning>,
-}
 
 /// Reads a model from the bytes of a file in one of the [`BUILTIN`] formats.
 ///

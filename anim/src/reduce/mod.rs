@@ -57,6 +57,7 @@
 
 mod channel_keys;
 mod contact;
+mod error;
 mod frames;
 mod measure;
 mod minimize;
@@ -64,11 +65,12 @@ mod rebuild;
 mod search;
 mod settings;
 
+pub use error::{Deviation, ReduceError};
 pub use frames::SAMPLES;
 pub use measure::{Measurement, measure};
 pub use settings::{Contact, ContactSearch, Contacts, ReduceSettings};
 
-use crate::data::{BoneIndex, Skeleton, Take};
+use crate::data::{Skeleton, Take};
 use settings::Lengths;
 
 /// A reduced take, and its comparison with the original.
@@ -84,42 +86,6 @@ pub struct Reduced {
     pub measurement: Measurement,
     /// Every contact that was considered: the given ones, then those found.
     pub contacts: Vec<Contact>,
-}
-
-/// An error at one place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Deviation {
-    /// The bone.
-    pub bone: BoneIndex,
-    /// Time in seconds.
-    pub time: f32,
-    /// Distance in millimeters of the worst point of the bone's shell from its position in the original.
-    pub millimeters: f64,
-    /// Allowed distance there in millimeters: less in a contact.
-    pub tolerance: f64,
-}
-
-impl Deviation {
-    fn holds(&self) -> bool {
-        self.millimeters <= self.tolerance
-    }
-}
-
-/// Reasons why a take cannot be reduced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ReduceError {
-    /// The take is too large to process in memory at once.
-    #[error(
-        "{frames} frames of {bones} bones are more than {limit} poses; reduce a part of the take, or use fewer frames per second"
-    )]
-    TooLarge {
-        /// Number of key times, and frames between them.
-        frames: usize,
-        /// Number of bones of the skeleton.
-        bones: usize,
-        /// The limit, [`SAMPLES`].
-        limit: usize,
-    },
 }
 
 /// Removes the redundant keys of `take`.

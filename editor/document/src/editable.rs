@@ -1,7 +1,7 @@
 //! A file that is edited: its data, and everything needed to save it without changing the rest.
 
 use super::adapter::{ModelAdapter, TakeId, TakeVersions};
-use super::load::{LoadError, Source, file_name};
+use super::source::{LoadError, Source, file_name};
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use super::{Cancel, Folder, LoadedModel, import, read_file};
 use crate::demo::DRAGONFLY_GLB;

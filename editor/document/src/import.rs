@@ -1,6 +1,6 @@
 //! Imports the bytes of a model with the importers of the library.
 
-use super::load::{LoadError, file_name};
+use super::source::{LoadError, file_name};
 use super::{Cancel, Folder};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::ModelData;

@@ -1,58 +1,14 @@
 //! Opening a model: bytes, data, pixels; with progress, cancelable, for window and command line.
 
-use super::{Cancel, Editable, FileAccessError, LoadStage, LoadedModel, Progress, read_file};
+use super::source::{LoadError, Source};
+use super::{Cancel, Editable, LoadStage, LoadedModel, Progress, read_file};
 use super::{images, import};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_store::{FileData, FileStamp, RealFiles};
 use std::cell::RefCell;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use thiserror::Error;
-
-/// The model to open.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Source {
-    /// The model that is part of the program.
-    BuiltIn,
-    /// A file.
-    File(PathBuf),
-}
-
-impl Source {
-    /// Returns the file name without folder, or "Dragonfly" for the built-in model.
-    pub fn title(&self) -> String {
-        match self {
-            Self::BuiltIn => "Dragonfly".to_owned(),
-            Self::File(path) => file_name(path),
-        }
-    }
-}
-
-/// The reason why a model could not be opened, with its place.
-#[derive(Debug, Error)]
-pub enum LoadError {
-    /// The file could not be read.
-    #[error("{}: file: {reason}", path.display())]
-    File {
-        /// The path.
-        path: PathBuf,
-        /// The reason.
-        reason: FileAccessError,
-    },
-    /// Its contents are wrong.
-    #[error("{title}: {reason}")]
-    Format {
-        /// The title.
-        title: String,
-        /// Place in the file, and reason.
-        reason: String,
-    },
-    /// It was cancelled.
-    #[error("cancelled")]
-    Cancelled,
-}
 
 /// An open model: the data to show, and everything needed to save it.
 #[derive(Debug)]
@@ -178,9 +134,4 @@ impl<'a> Read<'a> {
 
 fn check(cancel: &Cancel) -> Result<(), LoadError> {
     if cancel.is_cancelled() { Err(LoadError::Cancelled) } else { Ok(()) }
-}
-
-/// Returns the last part of `path`, or all of it where it has no parts.
-pub(super) fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into_owned())
 }

@@ -155,7 +155,7 @@ impl Open {
 
     /// Makes `path` the file of the document and of its journal.
     fn move_to(&mut self, path: &Path, autosave: Option<&Autosave>, now: Instant) {
-        let title = super::load::file_name(path);
+        let title = super::source::file_name(path);
         self.file = Arc::new(FileView { title, path: Some(path.to_path_buf()) });
         self.about = super::recorded::EditsOrigin::new(None);
         let Some(autosave) = autosave else { return };

@@ -1,11 +1,9 @@
 //! Data that another thread sets for a control or a pass, one value per type (thesis §3.2.9.2: its appearance).
 //!
 //! A control or pass that needs data declares a type for it in its own file, implements [`Appearance`] for the type, and
-//! reads the value with [`Appearances::get`]. The main thread sets it with [`AppearanceSender::update`]. Nothing in
+//! reads the value with [`Appearances::get`]. The main thread sets it with [`AppearanceSender::update`](crate::AppearanceSender::update). Nothing in
 //! between, neither the scene nor the messages nor the handle, knows the type.
 
-use super::GraphicsHandle;
-use super::message::GraphicsMessage;
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
 
@@ -42,26 +40,5 @@ impl Appearances {
     /// Returns the value of type `T`; `None` if it was never set.
     pub fn get<T: Appearance>(&self) -> Option<&T> {
         self.values.get(&TypeId::of::<T>())?.downcast_ref()
-    }
-}
-
-/// Sends appearances to the graphics thread when they have changed. Allocates only for a change.
-#[derive(Default)]
-pub struct AppearanceSender {
-    /// By type: the value sent last, and one to fill, as `Box<(T, T)>`.
-    values: HashMap<TypeId, Box<dyn Any>>,
-}
-
-impl AppearanceSender {
-    /// Calls `fill` to write the present value over an older one, whose memory it can reuse, and sends the result if it
-    /// differs from the value sent last.
-    pub fn update<T: Appearance>(&mut self, graphics: &GraphicsHandle, fill: impl FnOnce(&mut T)) {
-        let values = self.values.entry(TypeId::of::<T>()).or_insert_with(|| Box::<(T, T)>::default());
-        let Some((sent, next)) = values.downcast_mut::<(T, T)>() else { return };
-        fill(next);
-        if next != sent {
-            graphics.send(GraphicsMessage::Appearance(AnyAppearance::new(next.clone())));
-            std::mem::swap(sent, next);
-        }
     }
 }

@@ -7,7 +7,6 @@
 //!
 //! Wayland keeps one queue per reader, and the other systems have no such stream.
 
-use super::surface::TargetWindow;
 use std::fmt;
 use std::sync::Arc;
 use wgpu::rwh::{DisplayHandle, HandleError, HasDisplayHandle, HasWindowHandle, WindowHandle};
@@ -22,7 +21,7 @@ enum OwnConnection {}
 
 #[cfg(not(all(unix, not(target_vendor = "apple"))))]
 impl OwnConnection {
-    fn beside(_: &MainDisplay) -> Option<Self> {
+    fn beside(_: &dyn HasDisplayHandle) -> Option<Self> {
         None
     }
 
@@ -48,7 +47,7 @@ pub struct Connection {
 impl Connection {
     /// Opens a second connection to the same server as the main thread's, if that is needed and possible.
     pub fn beside(shared: MainDisplay) -> Self {
-        let own = OwnConnection::beside(&shared);
+        let own = OwnConnection::beside(&*shared);
         Self { shared, own }
     }
 }
@@ -63,6 +62,12 @@ impl fmt::Debug for Connection {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.debug_struct("Connection").field("own", &self.own.is_some()).finish_non_exhaustive()
     }
+}
+
+/// A window that frames can be presented in. The window system belongs to the caller; only its handles are needed here.
+pub trait TargetWindow: HasWindowHandle + HasDisplayHandle + Send + Sync + 'static {
+    /// Notifies the window system that a frame is about to be presented.
+    fn pre_present_notify(&self);
 }
 
 /// A window as the driver reaches it over a connection.

@@ -1,6 +1,6 @@
 //! The objects that every creator and drawer of resources needs: device, queue, formats, and this frame's uniform.
 
-use super::device::GraphicsError;
+use super::error::GraphicsError;
 use super::losses::DeviceReports;
 use super::surface::WindowSurface;
 use super::uniform::FrameUniform;

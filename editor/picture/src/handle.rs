@@ -2,7 +2,7 @@
 
 use super::message::{GraphicsMessage, Look, PanelsFrame};
 use crate::camera::Camera;
-use crate::pick::OwnedRegion;
+use crate::pick::region::OwnedRegion;
 use crate::playback::PlaybackClock;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;

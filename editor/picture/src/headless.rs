@@ -1,6 +1,7 @@
 //! Rendering images without a window, with the same scene, passes and frames.
 
-use super::device::{DeviceParameters, GraphicsError};
+use super::device::DeviceParameters;
+use super::error::GraphicsError;
 use super::message::{Look, Shading};
 use super::stage::{FrameOpening, RenderStage};
 use crate::camera::Camera;

@@ -13,11 +13,13 @@
 //! ```
 
 mod appearance;
+mod appearance_sender;
 pub mod body;
 pub mod camera;
 pub mod connection;
 pub mod control;
 pub mod device;
+mod error;
 pub mod ghosts;
 pub mod gizmo;
 pub mod gpu;
@@ -44,15 +46,17 @@ mod worker;
 #[cfg(all(unix, not(target_vendor = "apple")))]
 mod x11;
 
-pub use appearance::{AnyAppearance, Appearance, AppearanceSender, Appearances};
-pub use connection::Connection;
+pub use appearance::{AnyAppearance, Appearance, Appearances};
+pub use appearance_sender::AppearanceSender;
+pub use connection::{Connection, TargetWindow};
 pub use control::{
     GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance, IkLook, PathAppearance,
     PathLook,
 };
-pub use device::{Device, DeviceListener, DeviceParameters, DeviceState, GraphicsError};
+pub use device::{Device, DeviceListener, DeviceParameters, DeviceState};
+pub use error::GraphicsError;
 pub use handle::GraphicsHandle;
 pub use headless::{PictureSettings, Studio, render_picture};
 pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading};
-pub use surface::{SurfaceSource, TargetWindow};
+pub use surface::SurfaceSource;
 pub use worker::{Drawer, Graphics, Present};

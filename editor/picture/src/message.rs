@@ -3,7 +3,7 @@
 use super::appearance::AnyAppearance;
 use crate::camera::Camera;
 use crate::gizmo::RoleColors;
-use crate::pick::OwnedRegion;
+use crate::pick::region::OwnedRegion;
 use crate::playback::PlaybackClock;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;

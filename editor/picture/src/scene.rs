@@ -4,8 +4,7 @@
 
 use super::appearance::Appearances;
 use super::control::{ControlFrame, SceneControls};
-use super::message::{BoneLook, Look, Shading};
-use super::pick::{pick_all, pick_met};
+use super::message::{Look, Shading};
 use super::posed::PosedModel;
 use super::skin::SkinPicker;
 use super::uniform::FrameUniform;
@@ -142,30 +141,10 @@ impl Scene {
         inside.then(|| (self.camera.ray(pixel, size), pixel))
     }
 
-    /// Returns the bones at a pixel of the window in the pose prepared last, nearest first: the bones drawn there; if
-    /// there are none, or bones are not shown, those with the most influence on the skin there; and then those that
-    /// the pixel just misses.
-    pub fn pick_all(&mut self, position: [f32; 2]) -> Vec<BoneIndex> {
-        let mut bones = Vec::new();
-        let hidden = Arc::clone(&self.look.hidden);
-        // Lines have no area, so they are picked by distance.
-        match (self.look.skeleton, self.look.bone_look) {
-            (true, BoneLook::Lines) => pick_all(self, position, &hidden, &mut bones),
-            (true, _) => pick_met(self, position, &hidden, &mut bones),
-            (false, _) => {}
-        }
-        if bones.is_empty()
-            && self.look.surface
-            && let Some((ray, _)) = self.ray(position)
-            && let Some(model) = &self.model
-        {
-            let skin = self.skin.get_or_insert_with(|| SkinPicker::new(model));
-            skin.pick(model, &ray, &hidden, &mut bones);
-        }
-        if bones.is_empty() {
-            pick_all(self, position, &hidden, &mut bones);
-        }
-        bones
+    /// Returns the model and the picker of its skin, which is created when it is first needed; `None` without a model.
+    pub(crate) fn skin_picker(&mut self) -> Option<(&PosedModel, &mut SkinPicker)> {
+        let model = self.model.as_ref()?;
+        Some((model, self.skin.get_or_insert_with(|| SkinPicker::new(model))))
     }
 
     fn frame_uniform(&self, bounds: &Sphere) -> FrameUniform {

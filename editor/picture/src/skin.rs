@@ -2,7 +2,7 @@
 
 use super::posed::PosedModel;
 use crate::camera::CameraRay;
-use crate::pick::{SkinHit, pick_skin};
+use crate::pick::surface::{SkinHit, pick_skin};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::hit::{HitPose, HitTree};

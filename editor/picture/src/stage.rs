@@ -4,7 +4,8 @@
 //! without a window does the same. Everything that touches the device is guarded: a panic there means that the device
 //! is lost.
 
-use super::device::{Device, DeviceParameters, DeviceState, GraphicsError};
+use super::device::{Device, DeviceParameters, DeviceState};
+use super::error::GraphicsError;
 use super::guard::caught;
 use super::losses::LossTolerance;
 use super::pass::{self, FrameCommands, Pass, PassLayer, Passes, SharedPass, Surroundings};

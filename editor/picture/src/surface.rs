@@ -1,16 +1,9 @@
 //! The window's surface: configured before use, never with a size of zero.
 
-use super::connection::{ConnectedWindow, Connection};
-use super::device::GraphicsError;
+use super::connection::{ConnectedWindow, Connection, TargetWindow};
+use super::error::GraphicsError;
 use super::gpu::Gpu;
 use std::sync::Arc;
-use wgpu::rwh::{HasDisplayHandle, HasWindowHandle};
-
-/// A window that frames can be presented in. The window system belongs to the caller; only its handles are needed here.
-pub trait TargetWindow: HasWindowHandle + HasDisplayHandle + Send + Sync + 'static {
-    /// Notifies the window system that a frame is about to be presented.
-    fn pre_present_notify(&self);
-}
 
 /// The window and connection that a surface is made from. Kept, so that the surface can be made again after a loss.
 #[derive(Clone)]

@@ -2,7 +2,8 @@
 //! pass, and last [`Present`]. A worker that cannot do its part ends the iteration, so an unfinished frame is never
 //! presented.
 
-use super::device::{DeviceParameters, GraphicsError};
+use super::device::DeviceParameters;
+use super::error::GraphicsError;
 use super::guard::caught;
 use super::message::{GraphicsMessage, GraphicsReply};
 use super::pass::SharedPass;

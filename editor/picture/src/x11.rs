@@ -2,14 +2,13 @@
 
 #![allow(unsafe_code)]
 
-use super::connection::MainDisplay;
 use std::ffi::c_int;
 use std::num::NonZeroU32;
 use std::ptr::NonNull;
 use std::sync::Arc;
 use wgpu::rwh::{
-    DisplayHandle, HandleError, RawDisplayHandle, RawWindowHandle, WindowHandle, XcbDisplayHandle,
-    XcbWindowHandle,
+    DisplayHandle, HandleError, HasDisplayHandle, RawDisplayHandle, RawWindowHandle, WindowHandle,
+    XcbDisplayHandle, XcbWindowHandle,
 };
 use x11rb::xcb_ffi::XCBConnection;
 
@@ -24,7 +23,7 @@ pub(super) struct OwnConnection {
 impl OwnConnection {
     /// Connects to the server that the environment names, as the main thread did. `None` on another window system, or
     /// when the server accepts no more connections.
-    pub(super) fn beside(shared: &MainDisplay) -> Option<Self> {
+    pub(super) fn beside(shared: &dyn HasDisplayHandle) -> Option<Self> {
         let RawDisplayHandle::Xlib(_) = shared.display_handle().ok()?.as_raw() else { return None };
         match XCBConnection::connect(None) {
             Ok((connection, screen)) => {

@@ -1,9 +1,10 @@
 //! `dragonfly check FILE…`: lists all problems of models, with their paths in the file.
 
+use super::Failure;
 use super::choice::{load, plain, source};
 use super::output::{print, print_json};
+use super::run_command::RunCommand;
 use super::table::count;
-use super::{Failure, RunCommand};
 use dragonfly_anim::check::{Severity, check};
 use serde::Serialize;
 use std::io::{self, Write};

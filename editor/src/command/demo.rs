@@ -1,6 +1,7 @@
 //! `dragonfly demo -o FILE.glb`: writes the built-in model to a file, to open elsewhere or to learn from.
 
-use super::{Failure, RunCommand, output, tell};
+use super::run_command::RunCommand;
+use super::{Failure, output, tell};
 use std::path::PathBuf;
 
 /// Write the built-in model, a dragonfly with three takes, to a GLB file

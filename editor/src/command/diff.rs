@@ -1,10 +1,11 @@
 //! `dragonfly diff A B`: compares the takes of two files.
 
+use super::Failure;
 use super::choice::{finite, load, plain, source};
 use super::info::named;
 use super::output::{print, print_json};
+use super::run_command::RunCommand;
 use super::table::{Side, Table, count};
-use super::{Failure, RunCommand};
 use dragonfly_anim::compare::{BoneDifference, Peak, TakeDifference, compare_takes, pair_bones};
 use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
 use serde::Serialize;

@@ -2,7 +2,8 @@
 
 use super::choice::{model_help, source};
 use super::output::{print, print_json, write_file};
-use super::{Failure, RunCommand, tell};
+use super::run_command::RunCommand;
+use super::{Failure, tell};
 use dragonfly_anim::format::SavePlan;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{EDITS, Edit, VERSION, parse_lines};

@@ -1,9 +1,10 @@
 //! `dragonfly info FILE`: lists the contents of a file.
 
+use super::Failure;
 use super::choice::{File, plain};
 use super::output::{print, print_json};
+use super::run_command::RunCommand;
 use super::table::{Side, Table, count};
-use super::{Failure, RunCommand};
 use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_document::LoadedModel;

@@ -19,6 +19,7 @@ mod pose;
 mod progress;
 mod quiet;
 mod render;
+mod run_command;
 mod stdio;
 mod table;
 
@@ -26,15 +27,10 @@ pub use failure::{Failure, tell};
 
 use crate::app::Options;
 use clap::Parser;
+use run_command::RunCommand;
 use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
-
-/// A subcommand of the command line.
-trait RunCommand {
-    /// Runs the subcommand.
-    fn run(self) -> Result<(), Failure>;
-}
 
 /// All subcommands; without one, the editor opens.
 #[derive(Debug, clap::Subcommand)]

@@ -1,10 +1,11 @@
 //! `dragonfly pose FILE --time S`: prints the pose of every bone and vertex at a time.
 
+use super::Failure;
 use super::choice::{File, TakeChoice, clamp_time, finite};
 use super::info::named;
 use super::output::{print, print_json};
+use super::run_command::RunCommand;
 use super::table::{Side, Table};
-use super::{Failure, RunCommand};
 use dragonfly_anim::data::{ModelData, Transform};
 use dragonfly_anim::evaluator::Evaluator;
 use glam::{EulerRot, Mat4, Vec3};

@@ -1,7 +1,8 @@
 //! `dragonfly render FILE -o out.png`: renders one image without a window.
 
 use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
-use super::{Failure, RunCommand, output, quiet, tell};
+use super::run_command::RunCommand;
+use super::{Failure, output, quiet, tell};
 use dragonfly_document::LoadedModel;
 use dragonfly_picture::{GraphicsError, PictureSettings, render_picture};
 use std::io::Cursor;

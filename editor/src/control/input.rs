@@ -1,8 +1,18 @@
 //! The inputs of the controls.
 
 use super::key::{Key, Modifiers};
-use super::viewport::Button;
 use glam::Vec2;
+
+/// A mouse button.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Button {
+    /// Clicks and draws boxes; with Alt it orbits, with Ctrl and Alt it draws a lasso.
+    Left,
+    /// Orbits; with Shift or Alt it pans.
+    Middle,
+    /// With Alt it zooms.
+    Right,
+}
 
 /// An input. Positions are points from the top left of the window, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! Keys by their label, not by their position.
 
-use super::base::ControlId;
+use super::area::ControlId;
 use dragonfly_document::bones::Choice;
 
 /// A key of the keyboard.

@@ -1,5 +1,6 @@
 //! The controls in the viewport: a state machine of what the mouse does there, testable without a window.
 
+mod area;
 mod base;
 pub mod expression;
 mod framework;
@@ -11,10 +12,11 @@ mod places;
 mod viewport;
 pub mod viewport_tools;
 
-pub use base::{Area, BaseControl, ControlId, ControlLookup, InputFlow, Mouse, PassFlags};
+pub use area::{Area, ControlId};
+pub use base::{BaseControl, ControlLookup, InputFlow, Mouse, PassFlags};
 pub use framework::ControlFramework;
-pub use input::{InputEvent, PlaceError};
+pub use input::{Button, InputEvent, PlaceError};
 pub use key::{Key, Modifiers};
 pub(crate) use viewport::orbit;
-pub use viewport::{Button, Catch, ViewportControl, ViewportOutcome};
+pub use viewport::{Catch, ViewportControl, ViewportOutcome};
 pub use viewport_tools::{ViewportTool, ViewportTools};

@@ -2,9 +2,9 @@
 
 use super::base::{BaseControl, InputFlow, Mouse};
 use super::framework::ControlFramework;
+use super::input::Button;
 use super::key::{Key, Modifiers};
-use super::viewport::Button;
-use super::viewport_tools::ViewportTool;
+use super::viewport_tools::tool::ViewportTool;
 use dragonfly_picture::gizmo::{AXIS_FROM, GizmoView};
 use glam::{DVec3, Vec2, Vec3};
 

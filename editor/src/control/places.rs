@@ -1,6 +1,6 @@
 //! The areas of the controls, and the tree that they form.
 
-use super::base::{Area, ControlId};
+use super::area::{Area, ControlId};
 
 /// A registered control.
 #[derive(Clone, Copy, Debug)]

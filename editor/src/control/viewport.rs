@@ -2,22 +2,12 @@
 
 use super::base::{BaseControl, InputFlow, Mouse};
 use super::framework::ControlFramework;
+use super::input::Button;
 use super::key::{Key, Modifiers};
 use dragonfly_document::bones::Choice;
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::{Lasso, OwnedRegion, Region};
 use glam::Vec2;
-
-/// A mouse button.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Button {
-    /// Clicks and draws boxes; with Alt it orbits, with Ctrl and Alt it draws a lasso.
-    Left,
-    /// Orbits; with Shift or Alt it pans.
-    Middle,
-    /// With Alt it zooms.
-    Right,
-}
 
 /// A request of the viewport apart from moving the camera. Positions are points from its top left.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,10 +2,9 @@
 //! here.
 
 use super::code::{DFM_CHECKSUM, DFM_ENDING, DFM_LENGTH, DFM_NEWER, DFM_PARTS, DFM_SIZE};
-use super::part::{DfmPart, PARTS};
-use super::record::{DfmRecord, RecordFields};
-use super::take::{KeyframeRecord, TrackRecord};
-use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, invalid};
+use super::error::invalid;
+use super::part::{DIRECTORY_TAG, DfmPart, ENDING_MAGIC, PartLayout, PartList, VERSION};
+use super::record::RecordFields;
 use crate::checksum::CRC_32;
 use crate::format::ImportContext;
 use crate::format::{ImportError, Place};
@@ -30,8 +29,9 @@ pub(super) struct FoundPart<'a> {
     pub(super) bytes: &'a [u8],
 }
 
-/// Finds every part, in the order of [`PARTS`].
+/// Finds every part of the list.
 pub(super) fn open<'a>(
+    parts: &PartList,
     bytes: &'a [u8],
     context: &ImportContext<'_>,
 ) -> Result<Vec<FoundPart<'a>>, ImportError> {
@@ -47,16 +47,15 @@ pub(super) fn open<'a>(
         return Err(invalid(directory_at, DFM_PARTS, reason));
     }
     let entries = entries.chunks_exact(ENTRY);
-    check_count(entries.len(), newer, directory_at)?;
-    let mut found = context.vec(&Place::Byte(directory_at as u64), PARTS.len())?;
+    check_count(entries.len(), parts.len(), newer, directory_at)?;
+    let mut found = context.vec(&Place::Byte(directory_at as u64), parts.len())?;
     let mut at = 4;
     for (number, entry) in entries.enumerate() {
         let entry_at = directory_at + HEADER + number * ENTRY;
-        let layout = PARTS.get(number);
-        let part =
-            extent(bytes, entry, (entry_at, at, directory_at), layout.map(|layout| layout.tag), context)?;
+        let layout = parts.get(number);
+        let part = extent(bytes, entry, (entry_at, at, directory_at), layout, context)?;
         if let Some(layout) = layout {
-            found.push(header_of(layout.part, at, part, newer)?);
+            found.push(header_of(layout, at, part, newer)?);
         }
         at += part.len();
     }
@@ -128,11 +127,11 @@ fn altered(at: usize, what: &str, computed: u32, written: u32) -> ImportError {
 }
 
 /// Checks the number of parts. A newer file may have more; one of this version has exactly these.
-fn check_count(count: usize, newer: bool, at: usize) -> Result<(), ImportError> {
-    if count == PARTS.len() || (newer && count > PARTS.len()) {
+fn check_count(count: usize, known: usize, newer: bool, at: usize) -> Result<(), ImportError> {
+    if count == known || (newer && count > known) {
         return Ok(());
     }
-    Err(invalid(at, DFM_PARTS, format!("{count} parts, this version has {}", PARTS.len())))
+    Err(invalid(at, DFM_PARTS, format!("{count} parts, this version has {known}")))
 }
 
 /// Returns the bytes of the part that `entry` describes, which must start at `at`, end before the directory, and be
@@ -141,13 +140,13 @@ fn extent<'a>(
     bytes: &'a [u8],
     entry: &[u8],
     (entry_at, at, directory_at): (usize, usize, usize),
-    expected: Option<[u8; 4]>,
+    layout: Option<&PartLayout>,
     context: &ImportContext<'_>,
 ) -> Result<&'a [u8], ImportError> {
     let mut fields = RecordFields::new(entry);
     let tag: [u8; 4] = fields.take();
     let (offset, size, checksum) = (fields.u32() as usize, fields.u32() as usize, fields.u32());
-    if let Some(expected) = expected.filter(|&expected| expected != tag) {
+    if let Some(expected) = layout.map(|layout| layout.tag).filter(|&expected| expected != tag) {
         let reason = format!("part {} where {} should stand", tag.escape_ascii(), expected.escape_ascii());
         return Err(invalid(entry_at, DFM_PARTS, reason));
     }
@@ -162,7 +161,7 @@ fn extent<'a>(
         context.work(piece.len())?;
         hasher.update(piece);
     }
-    let name = PARTS.iter().find(|layout| layout.tag == tag).map_or("unknown elements", |layout| layout.name);
+    let name = layout.map_or("unknown elements", |layout| layout.name);
     let computed = hasher.finalize();
     if computed != checksum && !cfg!(fuzzing) {
         return Err(altered(at, name, computed, checksum));
@@ -171,8 +170,13 @@ fn extent<'a>(
 }
 
 /// Splits `bytes`, found at `at`, into header and elements.
-fn header_of(part: DfmPart, at: usize, bytes: &[u8], newer: bool) -> Result<FoundPart<'_>, ImportError> {
-    let layout = part.layout();
+fn header_of<'a>(
+    layout: &PartLayout,
+    at: usize,
+    bytes: &'a [u8],
+    newer: bool,
+) -> Result<FoundPart<'a>, ImportError> {
+    let part = layout.part;
     let Some((header, elements)) = bytes.split_at_checked(part.header_bytes()) else {
         let reason = format!("the {} end within their header", layout.name);
         return Err(invalid(at + bytes.len(), DFM_SIZE, reason));
@@ -187,17 +191,16 @@ fn header_of(part: DfmPart, at: usize, bytes: &[u8], newer: bool) -> Result<Foun
     }
     let (count, size) = (fields.u32(), fields.u32() as usize);
     let mut sizes = [size, 0, 0];
-    let mut known = [layout.size, 0, 0];
     if part == DfmPart::Takes {
         sizes = [size, fields.u32() as usize, fields.u32() as usize];
-        known = [layout.size, TrackRecord::SIZE, KeyframeRecord::SIZE];
     } else if (count as usize).checked_mul(size) != Some(elements.len()) {
         let reason = format!("{count} {} of {size} bytes in {} bytes", layout.name, elements.len());
         return Err(invalid(at, DFM_SIZE, reason));
     }
     let fits = |(&size, &known): (&usize, &usize)| size == known || (newer && size > known);
-    if !sizes.iter().zip(&known).all(fits) {
-        let reason = format!("{}: elements of {sizes:?} bytes, this version has {known:?}", layout.name);
+    if !sizes.iter().zip(&layout.sizes).all(fits) {
+        let reason =
+            format!("{}: elements of {sizes:?} bytes, this version has {:?}", layout.name, layout.sizes);
         return Err(invalid(at, DFM_SIZE, reason));
     }
     Ok(FoundPart { at, count, sizes, bytes: elements })

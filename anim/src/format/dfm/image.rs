@@ -1,10 +1,10 @@
 //! Images: the data and file names of the thesis's materials, stored once for all materials.
 
+use super::error::{WriteError, refuse};
 use super::part::DfmPart;
 use super::reader::DfmReader;
 use super::record::{DfmRecord, Put, RecordFields, only_bits};
 use super::writer::DfmWriter;
-use super::{WriteError, refuse};
 use crate::data::{Image, ModelData};
 use crate::format::ImportError;
 use crate::limits::{IMAGE_PIXELS, IMAGE_SIDE, IMAGES_PIXELS};

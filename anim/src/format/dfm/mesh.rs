@@ -1,12 +1,12 @@
 //! Meshes: how the thesis's lists of vertices and indices are split, and the additional columns.
 
 use super::code::{DFM_INDEX, DFM_VALUE};
+use super::error::{WriteError, refuse};
 use super::part::DfmPart;
 use super::reader::DfmReader;
 use super::record::{DfmRecord, Put, RecordFields, only_bits, or_none, some};
 use super::vertex::{FIRST_INFLUENCES, InfluenceRecord, VertexRecord};
 use super::writer::DfmWriter;
-use super::{WriteError, refuse};
 use crate::data::{Influence, MAX_INFLUENCES, Mesh, ModelData, Primitive, Skin, Vertices};
 use crate::format::ImportError;
 use crate::limits::VERTICES;

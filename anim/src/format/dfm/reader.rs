@@ -2,14 +2,15 @@
 
 use super::code::{DFM_COUNT, DFM_TEXT, DFM_VALUE};
 use super::container::{FoundPart, open};
-use super::invalid;
-use super::part::{DfmPart, PARTS};
+use super::error::invalid;
+use super::part::{DfmPart, PartLayout, PartList};
 use super::record::{DfmRecord, RecordFields};
 use crate::format::ImportContext;
 use crate::format::{ImportError, Place};
 
 /// A file whose parts were found.
 pub(super) struct DfmReader<'a, 'g> {
+    layouts: &'static PartList,
     parts: Vec<Stream<'a>>,
     pub(super) context: &'g ImportContext<'g>,
     /// Whether to accept only what an importer guarantees: finite numbers, increasing key times, values within the
@@ -31,19 +32,20 @@ struct Stream<'a> {
 impl<'a, 'g> DfmReader<'a, 'g> {
     /// Finds the parts and verifies their checksums.
     pub(super) fn new(
+        layouts: &'static PartList,
         bytes: &'a [u8],
         context: &'g ImportContext<'g>,
         strict: bool,
     ) -> Result<Self, ImportError> {
-        let found = open(bytes, context)?;
-        let stream = |(found, layout): (FoundPart<'a>, &super::part::PartLayout)| Stream {
+        let found = open(layouts, bytes, context)?;
+        let stream = |(found, layout): (FoundPart<'a>, &PartLayout)| Stream {
             count: found.count,
             sizes: found.sizes,
             at: found.at + layout.part.header_bytes(),
             rest: found.bytes,
         };
-        let parts = found.into_iter().zip(&PARTS).map(stream).collect();
-        Ok(Self { parts, context, strict, last: 0 })
+        let parts = found.into_iter().zip(layouts).map(stream).collect();
+        Ok(Self { layouts, parts, context, strict, last: 0 })
     }
 
     /// Returns the number of elements in the header of `part`.
@@ -67,7 +69,7 @@ impl<'a, 'g> DfmReader<'a, 'g> {
         self.context.work(1)?;
         let stream = &mut self.parts[part as usize];
         let Some((element, rest)) = stream.rest.split_at_checked(stream.sizes[kind]) else {
-            return Err(ends(part, stream.at));
+            return Err(ends(&self.layouts[part as usize], stream.at));
         };
         self.last = stream.at;
         stream.at += element.len();
@@ -75,7 +77,7 @@ impl<'a, 'g> DfmReader<'a, 'g> {
         let mut fields = RecordFields::new(element);
         let record = R::get(&mut fields).map_err(|reason| self.wrong(DFM_VALUE, reason))?;
         if self.strict && !fields.finite {
-            let reason = format!("{}: a number is NaN or infinite", part.layout().name);
+            let reason = format!("{}: a number is NaN or infinite", self.layouts[part as usize].name);
             return Err(self.wrong(DFM_VALUE, reason));
         }
         Ok(record)
@@ -95,7 +97,7 @@ impl<'a, 'g> DfmReader<'a, 'g> {
     pub(super) fn vec<T>(&self, part: DfmPart, kind: usize, count: usize) -> Result<Vec<T>, ImportError> {
         let stream = &self.parts[part as usize];
         if count > stream.rest.len() / stream.sizes[kind].max(1) {
-            return Err(ends(part, stream.at));
+            return Err(ends(&self.layouts[part as usize], stream.at));
         }
         self.context.vec(&self.place(), count)
     }
@@ -105,7 +107,7 @@ impl<'a, 'g> DfmReader<'a, 'g> {
         let stream = &mut self.parts[part as usize];
         // In a newer version the elements could be larger than a byte; such a file cannot be read.
         let taken = stream.rest.split_at_checked(count).filter(|_| stream.sizes[0] == 1);
-        let Some((bytes, rest)) = taken else { return Err(ends(part, stream.at)) };
+        let Some((bytes, rest)) = taken else { return Err(ends(&self.layouts[part as usize], stream.at)) };
         self.last = stream.at;
         stream.at += count;
         stream.rest = rest;
@@ -152,7 +154,7 @@ impl<'a, 'g> DfmReader<'a, 'g> {
 
     /// Checks that every element of every part was read.
     pub(super) fn finish(self) -> Result<(), ImportError> {
-        for (stream, layout) in self.parts.iter().zip(&PARTS) {
+        for (stream, layout) in self.parts.iter().zip(self.layouts) {
             if !stream.rest.is_empty() {
                 let reason = format!("there are more {} than the file uses, from here on", layout.name);
                 return Err(invalid(stream.at, DFM_COUNT, reason));
@@ -162,6 +164,6 @@ impl<'a, 'g> DfmReader<'a, 'g> {
     }
 }
 
-fn ends(part: DfmPart, at: usize) -> ImportError {
-    invalid(at, DFM_COUNT, format!("there are no more {}, but the file needs more", part.layout().name))
+fn ends(layout: &PartLayout, at: usize) -> ImportError {
+    invalid(at, DFM_COUNT, format!("there are no more {}, but the file needs more", layout.name))
 }

@@ -1,11 +1,11 @@
 //! Skins, and the instances of meshes.
 
 use super::code::DFM_INDEX;
+use super::error::{WriteError, refuse};
 use super::part::DfmPart;
 use super::reader::DfmReader;
 use super::record::{DfmRecord, Put, RecordFields, only_bits, or_none, some};
 use super::writer::DfmWriter;
-use super::{WriteError, refuse};
 use crate::data::{BoneIndex, Mesh, MeshInstance, ModelData, Skin};
 use crate::format::ImportError;
 use crate::limits::JOINTS_PER_SKIN;

@@ -2,12 +2,12 @@
 
 use super::bone::{get_pose, put_pose};
 use super::code::{DFM_INDEX, DFM_VALUE};
+use super::error::{WriteError, refuse};
 use super::keys;
 use super::part::DfmPart;
 use super::reader::DfmReader;
 use super::record::{DfmRecord, Put, RecordFields, choice, number_of};
 use super::writer::DfmWriter;
-use super::{WriteError, refuse};
 use crate::data::{Interpolation, MeshInstance, ModelData, MorphTrack, Skeleton, Take, Transform};
 use crate::format::ImportError;
 use crate::limits::{CLIP_SECONDS, KEYS, KEYS_PER_CHANNEL};

@@ -1,22 +1,22 @@
 //! Collects the parts of a file and concatenates them, with the total length and the checksums at the end.
 
-use super::part::{DfmPart, PARTS};
+use super::error::WriteError;
+use super::part::{DIRECTORY_TAG, DfmPart, ENDING_MAGIC, PartLayout, PartList, VERSION};
 use super::record::{DfmRecord, Put};
-use super::take::{KeyframeRecord, TrackRecord};
-use super::{DIRECTORY_TAG, ENDING_MAGIC, VERSION, WriteError};
 use crate::checksum::CRC_32;
 
 /// A file that is being written.
 pub(super) struct DfmWriter {
+    layouts: &'static PartList,
     /// Elements of each part, without its header.
-    parts: [Vec<u8>; PARTS.len()],
+    parts: Vec<Vec<u8>>,
     /// Number of takes, since their elements differ in size.
     pub(super) takes: usize,
 }
 
 impl DfmWriter {
-    pub(super) fn new() -> Self {
-        Self { parts: [const { Vec::new() }; PARTS.len()], takes: 0 }
+    pub(super) fn new(layouts: &'static PartList) -> Self {
+        Self { layouts, parts: vec![Vec::new(); layouts.len()], takes: 0 }
     }
 
     /// Appends an element to `part`.
@@ -46,24 +46,25 @@ impl DfmWriter {
     pub(super) fn count(&self, part: DfmPart) -> usize {
         match part {
             DfmPart::Takes => self.takes,
-            part => self.parts[part as usize].len() / part.layout().size,
+            part => self.parts[part as usize].len() / self.layouts[part as usize].sizes[0],
         }
     }
 
     /// Returns the whole file, or an error above the 4 GiB that the first four bytes can represent.
     pub(super) fn finish(self) -> Result<Vec<u8>, WriteError> {
-        let parts = PARTS
+        let parts = self
+            .layouts
             .iter()
             .map(|layout| (layout.part.header_bytes() + self.parts[layout.part as usize].len()) as u64);
-        let bytes = 4 + parts.sum::<u64>() + 12 + 16 * (PARTS.len() as u64 + 1);
+        let bytes = 4 + parts.sum::<u64>() + 12 + 16 * (self.layouts.len() as u64 + 1);
         let total = total(bytes)?;
         let mut file = Vec::with_capacity(bytes as usize);
         // Overwritten at the end, as in the thesis.
         file.u32(0);
         let mut directory = Vec::new();
-        for layout in &PARTS {
+        for layout in self.layouts {
             let at = file.len();
-            self.header(layout.part, &mut file);
+            self.header(layout, &mut file);
             file.extend_from_slice(&self.parts[layout.part as usize]);
             directory.extend_from_slice(&layout.tag);
             directory.u32(at as u32);
@@ -76,15 +77,16 @@ impl DfmWriter {
         Ok(file)
     }
 
-    fn header(&self, part: DfmPart, file: &mut Vec<u8>) {
+    fn header(&self, layout: &PartLayout, file: &mut Vec<u8>) {
+        let part = layout.part;
         if !part.is_of_thesis() {
-            file.extend_from_slice(&part.layout().tag);
+            file.extend_from_slice(&layout.tag);
         }
         file.u32(self.count(part) as u32);
-        file.u32(part.layout().size as u32);
-        if part == DfmPart::Takes {
-            file.u32(TrackRecord::SIZE as u32);
-            file.u32(KeyframeRecord::SIZE as u32);
+        // Takes have three sizes, all others one.
+        let sizes = if part == DfmPart::Takes { &layout.sizes[..] } else { &layout.sizes[..1] };
+        for size in sizes {
+            file.u32(*size as u32);
         }
     }
 }

@@ -5,7 +5,7 @@ use super::change::{KeyChange, triple};
 use super::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use super::pending::PendingPose;
 use super::slot::{TakeVersions, extent};
-use crate::edit::{Property, SAME_TIME};
+use crate::edit::target::{Property, SAME_TIME};
 use dragonfly_anim::data::Take;
 use std::sync::Arc;
 use thiserror::Error;

@@ -12,7 +12,9 @@ use super::plan::PoseMode;
 use super::plan::pose::{changed, rotation, vector};
 use super::slot::TakeVersions;
 use super::{EditError, Inverse, ModelAdapter};
-use crate::edit::{BonePose, Edit, Property, TakeRef};
+use crate::edit::Edit;
+use crate::edit::pose::BonePose;
+use crate::edit::target::{Property, TakeRef};
 use std::sync::Arc;
 
 /// Number of states of a take that are kept to be overwritten: those that panels and graphics show, and a free one.

@@ -1,6 +1,6 @@
 //! The reason why an edit cannot be applied.
 
-use super::super::edit::{BoneRef, Property, TakeRef};
+use crate::edit::target::{BoneRef, Property, TakeRef};
 use std::fmt;
 use thiserror::Error;
 

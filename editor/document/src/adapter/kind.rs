@@ -1,6 +1,6 @@
 //! The three channels of a bone, each with its rule of how original and change make the result.
 
-use super::super::edit::Property;
+use crate::edit::target::Property;
 use dragonfly_anim::data::{Channel, Track, Transform};
 use dragonfly_anim::sample::Value;
 use glam::{Quat, Vec3};
@@ -43,13 +43,13 @@ pub(crate) enum ScaleChannel {}
 macro_rules! with_kind {
     ($property:expr, $function:ident :: <K $(, $more:ty)*> ( $($argument:expr),* $(,)? )) => {
         match $property {
-            $crate::edit::Property::Translation => {
+            $crate::edit::target::Property::Translation => {
                 $function::<$crate::adapter::kind::TranslationChannel $(, $more)*>($($argument),*)
             }
-            $crate::edit::Property::Rotation => {
+            $crate::edit::target::Property::Rotation => {
                 $function::<$crate::adapter::kind::RotationChannel $(, $more)*>($($argument),*)
             }
-            $crate::edit::Property::Scale => {
+            $crate::edit::target::Property::Scale => {
                 $function::<$crate::adapter::kind::ScaleChannel $(, $more)*>($($argument),*)
             }
         }

@@ -16,6 +16,7 @@
 //! algorithms that edits share. The cost of an edit, in time and in the size of its inverse, is in proportion to what
 //! it touches: a change of a key touches the column of its channel.
 
+mod apply;
 pub(crate) mod change;
 mod check;
 mod drag;
@@ -28,6 +29,7 @@ pub(crate) mod plan;
 pub(crate) mod slot;
 mod times;
 
+pub use apply::Inverse;
 pub use change::KeyChange;
 pub use check::BrokenInvariant;
 pub(crate) use drag::ValueDrag;
@@ -37,10 +39,8 @@ pub use name::take_name;
 pub use pending::{Pending, PendingAt, PendingPose};
 pub use slot::{ChannelChanges, TakeId, TakeVersions};
 
-use super::edit::{BoneRef, Edit, TakeRef};
+use crate::edit::target::{BoneRef, TakeRef};
 use dragonfly_anim::data::{AnimationData, Skeleton, Take};
-use op::Op;
-use plan::Transaction;
 use std::sync::Arc;
 
 /// The takes of a model in their three forms. A clone is cheap: large data is shared.
@@ -50,24 +50,6 @@ pub struct ModelAdapter {
     slots: Vec<Arc<TakeVersions>>,
     /// Number of the next created take.
     next: u32,
-}
-
-/// The operations that undo or redo an edit.
-#[derive(Clone)]
-pub struct Inverse(Vec<Op>);
-
-impl std::fmt::Debug for Inverse {
-    /// Writes only their number: the data would fill pages.
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(out, "Inverse({} operations)", self.0.len())
-    }
-}
-
-impl Inverse {
-    /// Returns its size in bytes, about.
-    pub fn bytes(&self) -> usize {
-        self.0.iter().map(Op::bytes).sum()
-    }
 }
 
 impl ModelAdapter {
@@ -130,33 +112,6 @@ impl ModelAdapter {
     /// [`EditError::NoBone`].
     pub fn bone(&self, bone: &BoneRef) -> Result<u32, EditError> {
         bone.find_in(&self.skeleton).ok_or_else(|| EditError::NoBone(bone.clone()))
-    }
-
-    /// Applies an edit and returns what undoes it.
-    ///
-    /// # Errors
-    ///
-    /// The reason why it cannot be applied; nothing has changed then.
-    pub fn apply(&mut self, edit: &Edit) -> Result<Inverse, EditError> {
-        let mut work = Transaction::on(self.clone());
-        edit.plan(&mut work)?;
-        let (adapter, mut undo) = work.done();
-        *self = adapter;
-        undo.reverse();
-        Ok(Inverse(undo))
-    }
-
-    /// Undoes the edit of `inverse`, and returns the inverse that redoes it. Inverses are used in the opposite order
-    /// of their edits.
-    pub fn revert(&mut self, inverse: Inverse) -> Inverse {
-        let mut work = Transaction::on(self.clone());
-        for op in inverse.0 {
-            work.perform(op);
-        }
-        let (adapter, mut redo) = work.done();
-        *self = adapter;
-        redo.reverse();
-        Inverse(redo)
     }
 
     /// Returns an identifier that no take has had.

@@ -6,7 +6,7 @@ use super::kind::AnyChannel;
 use super::pending::PendingAt;
 use super::slot::{ChannelContent, KeyContent, TakeId, TakeVersions};
 use super::times::SharedTimes;
-use crate::edit::Property;
+use crate::edit::target::Property;
 use dragonfly_anim::data::MorphTrack;
 use std::sync::Arc;
 

@@ -3,8 +3,8 @@
 //! With auto-key off, a changed pose is *pending*: it is part of the document and of undo and is shown at its time,
 //! and it is in no key and in no saved file until the user keys it.
 
-use super::super::edit::{Property, SAME_TIME};
 use super::kind::ChannelNumbers;
+use crate::edit::target::{Property, SAME_TIME};
 use dragonfly_anim::data::Transform;
 use glam::{Quat, Vec3};
 use std::sync::Arc;

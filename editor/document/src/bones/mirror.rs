@@ -9,6 +9,7 @@
 //! positions of bones decide: a pair that is clearly not symmetric is split if other bones are its mirror images.
 
 use super::mirror_names::{SideWord, glued_side_words, side_words};
+use super::mirror_pair::{BodySide, MirrorGuess, MirrorPair};
 use super::mirror_place::Stance;
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_anim::retarget::normalized_name;
@@ -16,60 +17,6 @@ use std::collections::HashMap;
 
 /// Maximum number of pairs of bones whose positions are compared.
 const MOST_COMPARED: usize = 1 << 20;
-
-/// A side of the body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BodySide {
-    /// Left, usually of the character.
-    Left,
-    /// Right.
-    Right,
-}
-
-/// The reason for a pair, the most reliable first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum MirrorGuess {
-    /// The same name with the side exchanged.
-    Name,
-    /// The same but for capitals.
-    Capitals,
-    /// The same words in another spelling.
-    Words,
-    /// The same but for a number at the end.
-    Numbers,
-    /// The side without a separator from another word.
-    Glued,
-    /// Their positions are symmetric; their names disagree or name only the side.
-    Place,
-}
-
-impl MirrorGuess {
-    /// The reasons from names, the most reliable first.
-    pub const NAMES: [Self; 5] = [Self::Name, Self::Capitals, Self::Words, Self::Numbers, Self::Glued];
-
-    /// Returns the text for lists.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Name => "same name",
-            Self::Capitals => "same but for capitals",
-            Self::Words => "same words",
-            Self::Numbers => "same but for a number",
-            Self::Glued => "same with the side glued on",
-            Self::Place => "opposite places",
-        }
-    }
-}
-
-/// Two bones that mirror each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MirrorPair {
-    /// The left bone.
-    pub left: BoneIndex,
-    /// The right bone.
-    pub right: BoneIndex,
-    /// The reason for the pair.
-    pub guess: MirrorGuess,
-}
 
 /// A bone without a mirror bone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

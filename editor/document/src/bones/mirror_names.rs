@@ -1,6 +1,6 @@
 //! Words for left and right in names of bones.
 
-use super::mirror::BodySide;
+use super::mirror_pair::BodySide;
 use std::ops::Range;
 
 /// Words for left and right in lower case, as programs and users write them.

@@ -1,6 +1,6 @@
 //! Symmetry of the rest pose, and the plane that mirrors it.
 
-use super::mirror::MirrorPair;
+use super::mirror_pair::MirrorPair;
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use dragonfly_anim::sample::rest_pose;

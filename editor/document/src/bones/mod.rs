@@ -3,10 +3,12 @@
 mod hidden;
 mod mirror;
 mod mirror_names;
+mod mirror_pair;
 mod mirror_place;
 mod selection;
 
 pub use hidden::HiddenBones;
-pub use mirror::{BodySide, MirrorGuess, MirrorPair, MirrorPairs, Unpaired};
+pub use mirror::{MirrorPairs, Unpaired};
+pub use mirror_pair::{BodySide, MirrorGuess, MirrorPair};
 pub use mirror_place::{MirrorPlane, Stance};
 pub use selection::{BoneSelection, Choice};

@@ -1,13 +1,14 @@
 //! The left half of the trunk: thorax and abdomen, each a tube whose outline is drawn by a few
 //! measured sections.
 
+use super::chart;
 use super::legs::{Limb, add_limb};
 use super::mesh::{Bind, DemoMesh, MeshPatch, even};
 use super::num::{bump, cos, curve, sin, smooth};
 use super::skeleton::{
-    ABDOMEN, ABDOMEN_LENGTH, HEAD, HINGES, NECK, RINGS, THORAX, abdomen_axis, abdomen_joints, wing,
+    ABDOMEN, ABDOMEN_LENGTH, HEAD, NECK, RINGS, THORAX, abdomen_axis, abdomen_joints, wing,
 };
-use super::texture;
+use super::wing_plan::HINGES;
 use glam::Vec3;
 use std::f32::consts::PI;
 
@@ -118,7 +119,7 @@ pub(super) fn add(mesh: &mut DemoMesh) {
             -p.z,
         )
     };
-    let chart = texture::THORAX;
+    let chart = chart::THORAX;
     let patch = MeshPatch { surface: &thorax, us: &even(25), vs: &even(13), chart, flip: true };
     mesh.grid(&patch, &thorax_bind);
 
@@ -142,8 +143,7 @@ pub(super) fn add(mesh: &mut DemoMesh) {
         }));
         Bind::chain(&chain, u * ABDOMEN_LENGTH)
     };
-    let patch =
-        MeshPatch { surface: &abdomen, us: &rows, vs: &even(10), chart: texture::ABDOMEN, flip: true };
+    let patch = MeshPatch { surface: &abdomen, us: &rows, vs: &even(10), chart: chart::ABDOMEN, flip: true };
     mesh.grid(&patch, &abdomen_bind);
 
     for (pair, hinge) in HINGES.into_iter().enumerate() {
@@ -156,7 +156,7 @@ pub(super) fn add(mesh: &mut DemoMesh) {
             bow: Vec3::ZERO,
             rows: 7,
             sides: 8,
-            chart: texture::SOCKET,
+            chart: chart::SOCKET,
         };
         add_limb(mesh, &socket, &|u, _| {
             let grip = smooth(0.2, 0.8, u);
@@ -173,7 +173,7 @@ pub(super) fn add(mesh: &mut DemoMesh) {
         bow: Vec3::new(0.004, 0.003, 0.0),
         rows: 8,
         sides: 6,
-        chart: texture::DARK,
+        chart: chart::DARK,
     };
     add_limb(mesh, &clasper, &|_, _| Bind::to(ABDOMEN + 7));
 }

@@ -1,10 +1,10 @@
 //! The left half of the head: its capsule and face, the feeler, and the great compound eye.
 
+use super::chart;
 use super::legs::{Limb, add_limb};
 use super::mesh::{Bind, DemoMesh, MeshPatch, even};
 use super::num::{cos, curve, sin};
 use super::skeleton::{ANTENNA, ANTENNA_ENDS, HEAD};
-use super::texture;
 use glam::Vec3;
 use std::f32::consts::FRAC_PI_2;
 
@@ -47,7 +47,7 @@ pub(super) fn add(mesh: &mut DemoMesh) {
         surface: &capsule,
         us: &even(29),
         vs: &[0.0, 0.09, 0.2, 0.32, 0.45, 0.6, 0.78, 0.98],
-        chart: texture::HEAD,
+        chart: chart::HEAD,
         flip: false,
     };
     mesh.grid(&patch, &|_, _| Bind::to(HEAD));
@@ -61,7 +61,7 @@ pub(super) fn add(mesh: &mut DemoMesh) {
         bow: Vec3::new(0.0, 0.004, 0.002),
         rows: 9,
         sides: 5,
-        chart: texture::DARK,
+        chart: chart::DARK,
     };
     add_limb(mesh, &feeler, &|_, _| Bind::to(ANTENNA));
 }
@@ -100,6 +100,6 @@ pub(super) fn add_eye(mesh: &mut DemoMesh) {
         at
     };
     let (us, vs) = (even(19), even(19));
-    let patch = MeshPatch { surface: &surface, us: &us, vs: &vs, chart: texture::EYE, flip: false };
+    let patch = MeshPatch { surface: &surface, us: &us, vs: &vs, chart: chart::EYE, flip: false };
     mesh.grid(&patch, &|_, _| Bind::to(HEAD));
 }

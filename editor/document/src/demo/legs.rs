@@ -1,9 +1,9 @@
 //! Limbs: slender rounded pieces between two points, and the left legs made of them.
 
-use super::mesh::{Bind, Chart, DemoMesh, MeshPatch, even};
+use super::chart::{self, Chart};
+use super::mesh::{Bind, DemoMesh, MeshPatch, even};
 use super::num::{cos, curve, sin};
 use super::skeleton::{LEG_JOINTS, THORAX, leg};
-use super::texture;
 use glam::Vec3;
 use std::f32::consts::TAU;
 
@@ -62,10 +62,10 @@ pub(super) fn add(mesh: &mut DemoMesh) {
             let (from, to) = (joints[part], joints[part + 1]);
             let along = (to - from).normalize();
             let (radius, chart, rows, sides) = match part {
-                0 => (COXA, texture::COXA, 6, 7),
-                1 => (FEMUR, texture::FEMUR, 9, 7),
-                2 => (TIBIA, texture::TIBIA, 8, 6),
-                _ => (TARSUS, texture::TARSUS, 8, 5),
+                0 => (COXA, chart::COXA, 6, 7),
+                1 => (FEMUR, chart::FEMUR, 9, 7),
+                2 => (TIBIA, chart::TIBIA, 8, 6),
+                _ => (TARSUS, chart::TARSUS, 8, 5),
             };
             // Pieces overlap as balls in sockets, so a joint may fold without a gap.
             let overlap = [0.010, 0.005, 0.004, 0.0025][part];
@@ -115,7 +115,7 @@ fn spines(mesh: &mut DemoMesh, pair: usize, part: usize) {
             let foot = from.lerp(to, t) + Vec3::Y * bow * 4.0 * t * (1.0 - t) + out * radius * 0.7;
             let length = if part == 1 { 0.010 } else { 0.017 };
             let tip = foot + (out + along * 0.7).normalize() * length;
-            let uv = texture::DARK.uv(0.5, 0.5);
+            let uv = chart::DARK.uv(0.5, 0.5);
             mesh.spine(foot, tip, 0.0010, uv, Bind::to(leg(0, pair, part)));
         }
     }
@@ -126,6 +126,6 @@ fn claws(mesh: &mut DemoMesh, toe: Vec3, along: Vec3, bind: Bind) {
     let side = along.cross(Vec3::Y).normalize();
     for row in [-1.0, 1.0_f32] {
         let tip = toe + along * 0.007 + side * row * 0.005 - Vec3::Y * 0.001;
-        mesh.spine(toe - along * 0.002, tip, 0.0014, texture::DARK.uv(0.5, 0.5), bind);
+        mesh.spine(toe - along * 0.002, tip, 0.0014, chart::DARK.uv(0.5, 0.5), bind);
     }
 }

@@ -1,32 +1,10 @@
 //! Vertices, and the one way every surface of the model is made: a smooth function of two
 //! parameters, sampled on a grid, with its normal and tangent taken from the function itself.
 
+use super::chart::Chart;
 use super::num::smooth;
 use super::skeleton::mirrored;
 use glam::{Vec2, Vec3, Vec4};
-
-/// A rectangle of a texture, in texels of that texture.
-#[derive(Clone, Copy)]
-pub(super) struct Chart {
-    pub(super) x: f32,
-    pub(super) y: f32,
-    pub(super) w: f32,
-    pub(super) h: f32,
-    /// Width and height of the whole texture.
-    pub(super) size: (f32, f32),
-}
-
-impl Chart {
-    /// Texture coordinates of the point (`a`, `b`) of the chart, each 0..1. A small margin is
-    /// left at the rim so that filtering does not reach the neighboring chart.
-    pub(super) fn uv(&self, a: f32, b: f32) -> Vec2 {
-        const MARGIN: f32 = 2.0;
-        Vec2::new(
-            (self.x + MARGIN + a * (self.w - 2.0 * MARGIN)) / self.size.0,
-            (self.y + MARGIN + b * (self.h - 2.0 * MARGIN)) / self.size.1,
-        )
-    }
-}
 
 /// Bones and weights of a vertex, in 255ths that sum to 255.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -5,6 +5,7 @@
 //! costs nothing; a test keeps the two equal.
 
 mod body;
+mod chart;
 mod glb;
 mod head;
 mod legs;
@@ -16,6 +17,7 @@ mod stance;
 mod takes;
 mod texture;
 mod veins;
+mod wing_plan;
 mod wings;
 
 /// The finished model: a binary glTF 2.0 file of under one megabyte.

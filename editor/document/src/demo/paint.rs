@@ -4,10 +4,22 @@
 
 use super::body::ring_at;
 use super::head::eye_direction;
-use super::num::{bump, fractal, hash, mix, noise, smooth};
+use super::num::{bump, cos, fractal, hash, mix, noise, smooth};
 use super::skeleton::ABDOMEN_LENGTH;
-use super::texture::{Paint, sheen};
 use glam::Vec3;
+
+/// The paint at one point of a surface.
+#[derive(Clone, Copy)]
+pub(super) struct Paint {
+    /// Color as it is stored, 0..1 (sRGB).
+    pub(super) color: Vec3,
+    /// Height above the smooth surface, in texels.
+    pub(super) height: f32,
+    pub(super) roughness: f32,
+    pub(super) metallic: f32,
+    /// 1 open to the sky, 0 at the bottom of a fold.
+    pub(super) openness: f32,
+}
 
 const fn rgb(hex: u32) -> Vec3 {
     const fn part(byte: u32) -> f32 {
@@ -309,4 +321,11 @@ pub(super) fn eye(a: f32, b: f32) -> Paint {
         metallic: 0.0,
         openness: 1.0 - 0.6 * rim,
     }
+}
+
+/// A color that drifts through green, teal and violet as `turn` (0..1) goes round once: the
+/// sheen of thin layers, baked in because it must show without reflections.
+pub(super) fn sheen(turn: f32) -> Vec3 {
+    let wave = |shift: f32| 0.5 + 0.5 * cos(std::f32::consts::TAU * (turn + shift));
+    Vec3::new(wave(0.0), wave(-0.36), wave(-0.66))
 }

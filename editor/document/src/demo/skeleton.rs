@@ -5,6 +5,7 @@
 //! of rotations about the axes of the model.
 
 use super::num::curve;
+use super::wing_plan::PLANS;
 use glam::Vec3;
 
 /// One joint of the skeleton.
@@ -80,8 +81,6 @@ pub(super) fn abdomen_joints() -> [f32; 8] {
     joints
 }
 
-/// The left wings' hinges, fore and hind.
-pub(super) const HINGES: [Vec3; 2] = [Vec3::new(0.040, 0.243, 0.214), Vec3::new(0.041, 0.238, 0.146)];
 /// Starts of the second and third wing bones, as fractions of the span.
 pub(super) const WING_JOINTS: [f32; 2] = [0.36, 0.68];
 
@@ -141,7 +140,7 @@ pub(super) fn bones() -> Vec<DemoBone> {
             for (part, along) in [0.0, WING_JOINTS[0], WING_JOINTS[1]].into_iter().enumerate() {
                 let parent = if part == 0 { THORAX } else { wing(side, pair, part - 1) };
                 let name = format!("wing_{place}_{}_{}", SIDE_NAMES[side], part + 1);
-                let head = super::wings::PLANS[pair].axis(along);
+                let head = PLANS[pair].axis(along);
                 add(name, Some(parent), on_side(side, head));
             }
         }

@@ -1,49 +1,14 @@
-//! The textures: the area of each part, and how painted points become images.
+//! The textures: how painted points become images.
 
-use super::mesh::Chart;
-use super::num::cos;
+use super::chart::{
+    ABDOMEN, COXA, Chart, DARK, EYE, EYES, FEMUR, HEAD, SKIN, SOCKET, TARSUS, THORAX, TIBIA, WINGS,
+};
+use super::paint::Paint;
 use super::{paint, veins};
 use glam::Vec3;
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
-
-const SKIN: (f32, f32) = (1024.0, 512.0);
-const EYES: (f32, f32) = (512.0, 512.0);
-const WINGS: (f32, f32) = (1024.0, 512.0);
-
-const fn chart(x: f32, y: f32, w: f32, h: f32, size: (f32, f32)) -> Chart {
-    Chart { x, y, w, h, size }
-}
-
-// U runs along a part, front to back or root to tip; V runs round it from its upper side.
-pub(super) const ABDOMEN: Chart = chart(0.0, 0.0, 1024.0, 176.0, SKIN);
-pub(super) const THORAX: Chart = chart(0.0, 176.0, 336.0, 336.0, SKIN);
-pub(super) const HEAD: Chart = chart(336.0, 176.0, 272.0, 272.0, SKIN);
-pub(super) const FEMUR: Chart = chart(608.0, 176.0, 416.0, 80.0, SKIN);
-pub(super) const TIBIA: Chart = chart(608.0, 256.0, 416.0, 64.0, SKIN);
-pub(super) const TARSUS: Chart = chart(608.0, 320.0, 416.0, 48.0, SKIN);
-pub(super) const COXA: Chart = chart(608.0, 368.0, 208.0, 80.0, SKIN);
-pub(super) const SOCKET: Chart = chart(816.0, 368.0, 208.0, 80.0, SKIN);
-pub(super) const DARK: Chart = chart(336.0, 448.0, 688.0, 64.0, SKIN);
-pub(super) const EYE: Chart = chart(0.0, 0.0, 512.0, 512.0, EYES);
-pub(super) const FORE_WING: Chart = chart(4.0, 4.0, 960.0, 204.0, WINGS);
-pub(super) const HIND_WING: Chart = chart(4.0, 216.0, 920.0, 292.0, WINGS);
-/// Texels of a wing picture to one unit of the model.
-pub(super) const WING_SCALE: f32 = 1410.0;
-
-/// The paint at one point of a surface.
-#[derive(Clone, Copy)]
-pub(super) struct Paint {
-    /// Color as it is stored, 0..1 (sRGB).
-    pub(super) color: Vec3,
-    /// Height above the smooth surface, in texels.
-    pub(super) height: f32,
-    pub(super) roughness: f32,
-    pub(super) metallic: f32,
-    /// 1 open to the sky, 0 at the bottom of a fold.
-    pub(super) openness: f32,
-}
 
 /// An encoded image and its media type.
 pub(super) struct Picture {
@@ -178,11 +143,4 @@ fn png(name: &'static str, data: &[u8], size: (f32, f32), kind: ExtendedColorTyp
     .write_image(data, size.0 as u32, size.1 as u32, kind)
     .expect("the buffer is as long as its size says and memory takes every byte");
     Picture { name, mime: "image/png", bytes }
-}
-
-/// A color that drifts through green, teal and violet as `turn` (0..1) goes round once: the
-/// sheen of thin layers, baked in because it must show without reflections.
-pub(super) fn sheen(turn: f32) -> Vec3 {
-    let wave = |shift: f32| 0.5 + 0.5 * cos(std::f32::consts::TAU * (turn + shift));
-    Vec3::new(wave(0.0), wave(-0.36), wave(-0.66))
 }

@@ -2,9 +2,10 @@
 //! those of a real wing: strong ones along the leading edge, rungs between them, a field of small polygonal cells
 //! after them.
 
+use super::chart::WING_SCALE;
 use super::num::{curve, fractal, hash, mix, smooth};
-use super::texture::{WING_SCALE, sheen};
-use super::wings::{PICTURE, PLANS, WingPlan};
+use super::paint::sheen;
+use super::wing_plan::{PICTURE, PLANS, WingPlan};
 use glam::{Vec2, Vec3};
 
 /// Lengthwise veins: (fraction of the span, fraction of the chord from the leading edge) and width in texels. The last

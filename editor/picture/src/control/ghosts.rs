@@ -1,6 +1,6 @@
 //! Ghosts: the skeleton some frames or keys before and after the present time, fainter with distance.
 
-use super::{ControlFrame, GraphicComponent};
+use super::component::{ControlFrame, GraphicComponent};
 use crate::appearance::Appearance;
 use crate::gizmo::{GizmoRole, GizmoShape};
 use dragonfly_anim::animation::Animation;

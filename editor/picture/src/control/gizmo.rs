@@ -1,7 +1,7 @@
 //! Draws the gizmo at the selected bones in the pose of the frame, so that it moves with them without delay. During a
 //! drag it draws the shape computed by the tool, which has the start of the drag.
 
-use super::{ControlFrame, GraphicComponent};
+use super::component::{ControlFrame, GraphicComponent};
 use crate::appearance::Appearance;
 use crate::gizmo::{GizmoPlacement, GizmoSettings, GizmoShape, GizmoView, Handle, PosedSkeleton, Tool};
 use glam::Vec2;

@@ -1,7 +1,7 @@
 //! Drawing inverse kinematics: a small frame around a pinned joint, and a line along the chain of bones that rotate when
 //! its end is moved, with a dot at its fixed root.
 
-use super::{ControlFrame, GraphicComponent};
+use super::component::{ControlFrame, GraphicComponent};
 use crate::appearance::Appearance;
 use crate::gizmo::{GizmoRole, GizmoShape, GizmoView};
 use dragonfly_anim::data::BoneIndex;

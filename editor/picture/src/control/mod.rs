@@ -4,43 +4,23 @@
 //! A new control is a file here with its [`Appearance`](crate::Appearance) and its component, and a line in
 //! [`SceneControls::default`].
 
+mod component;
 mod ghosts;
 mod gizmo;
 mod ik;
 mod path;
 
+pub use component::{ControlFrame, GraphicComponent};
 pub use ghosts::GhostAppearance;
 pub use gizmo::{GizmoAppearance, GizmoDragAppearance, GizmoLook};
 pub use ik::{IkAppearance, IkLook};
 pub use path::{PathAppearance, PathLook};
 
-use super::appearance::Appearances;
-use super::message::Look;
-use super::posed::PosedModel;
-use crate::camera::Camera;
 use crate::gizmo::GizmoShape;
 use ghosts::GhostsGraphic;
 use gizmo::GizmoGraphic;
 use ik::IkGraphic;
 use path::PathGraphic;
-
-/// The frame that a component draws itself in.
-pub struct ControlFrame<'a> {
-    /// The model in the pose of this frame.
-    pub model: &'a PosedModel,
-    /// The camera.
-    pub camera: &'a Camera,
-    /// The look of the viewport, with the selection.
-    pub look: &'a Look,
-    /// The data set for controls.
-    pub appearances: &'a Appearances,
-}
-
-/// A control in the graphics thread.
-pub trait GraphicComponent {
-    /// Adds the shape of the control in this frame. Allocates only as the shape grows.
-    fn present(&mut self, frame: &ControlFrame<'_>, shape: &mut GizmoShape);
-}
 
 /// All components, and the shape that they draw together.
 pub struct SceneControls {

@@ -1,6 +1,6 @@
 //! Drawing the motion path: a line from frame to frame, a dot at each frame and a larger one at each key.
 
-use super::{ControlFrame, GraphicComponent};
+use super::component::{ControlFrame, GraphicComponent};
 use crate::appearance::Appearance;
 use crate::gizmo::{GizmoRole, GizmoShape, GizmoView};
 use glam::{Vec2, Vec3};

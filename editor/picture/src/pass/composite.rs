@@ -1,6 +1,6 @@
 //! Copies the finished scene into the window: encoded for the screen exactly once, and only within the viewport.
 
-use super::{FrameCommands, Pass, PassLayer, Surroundings};
+use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::shaders;

@@ -1,7 +1,7 @@
 //! The controls of the scene, drawn over everything (the thesis's ControlRender, §3.2.9.2): lines with a width in
 //! points, and triangles, in the colors of the theme.
 
-use super::{FrameCommands, Pass, PassLayer, Surroundings};
+use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gizmo::{GizmoRole, GizmoVertex};
 use crate::gpu::{DEPTH_FORMAT, Gpu, scene_samples, scene_target, uniform_binding};

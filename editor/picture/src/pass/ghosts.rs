@@ -1,6 +1,6 @@
 //! Ghosts: the model at other times, drawn as transparent skins.
 
-use super::{FrameCommands, Pass, PassLayer, Surroundings};
+use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::control::GhostAppearance;
 use crate::device::DeviceListener;
 use crate::ghosts::GhostSkins;

@@ -1,6 +1,6 @@
 //! The transparent surfaces of the model, drawn after the solid ones and the ground.
 
-use super::{FrameCommands, Pass, PassLayer, Surroundings};
+use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::model::GpuModel;

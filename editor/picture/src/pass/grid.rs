@@ -1,6 +1,6 @@
 //! The ground grid.
 
-use super::{FrameCommands, Pass, PassLayer, Surroundings, scene_pipeline};
+use super::definition::{FrameCommands, Pass, PassLayer, Surroundings, scene_pipeline};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::shaders;

@@ -3,7 +3,7 @@
 //! egui sends each of its textures once. A copy is kept here, so that the textures can be loaded on a new device; the
 //! textures of frames that were never drawn are applied too.
 
-use super::{FrameCommands, Pass, PassLayer, Surroundings};
+use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::message::PanelsFrame;

@@ -1,6 +1,6 @@
 //! The bones in their pose, in front of the surface or hidden by it.
 
-use super::{FrameCommands, Pass, PassLayer, Surroundings, scene_pipeline};
+use super::definition::{FrameCommands, Pass, PassLayer, Surroundings, scene_pipeline};
 use crate::body::{BodyVertex, triangles};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;

@@ -1,6 +1,6 @@
 //! The solid surfaces of the model.
 
-use super::{FrameCommands, Pass, PassLayer, Surroundings};
+use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::model::GpuModel;

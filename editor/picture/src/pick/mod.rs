@@ -9,9 +9,10 @@ use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::HiddenBones;
 use glam::{Mat4, Vec2, Vec3, Vec4Swizzles};
 
+mod click;
 mod cycle;
-mod region;
-mod surface;
+pub(crate) mod region;
+pub(crate) mod surface;
 
 pub use cycle::ClickCycle;
 pub use region::{Lasso, OwnedRegion, Region, bones_in_region};

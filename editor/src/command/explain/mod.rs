@@ -2,9 +2,10 @@
 
 mod json;
 
+use super::Failure;
 use super::choice::{File, TakeChoice, clamp_time, finite, plain};
 use super::output::{print, print_json};
-use super::{Failure, RunCommand};
+use super::run_command::RunCommand;
 use dragonfly_anim::data::{BoneIndex, ModelData};
 use dragonfly_anim::explain::{ExplainTarget, explain};
 use json::ExplainedDocument;

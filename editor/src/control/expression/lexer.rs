@@ -1,6 +1,6 @@
 //! Splits a text into numbers, names and signs. Looks one character ahead and does not allocate.
 
-use super::{ExpressionError, ExpressionFault};
+use super::error::{ExpressionError, ExpressionFault};
 
 /// A token.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 //! A new one is one line here: in [`CONSTANTS`], [`FUNCTIONS`], [`LENGTHS`] or [`ANGLES`]. Nothing else lists them, and a test
 //! below checks every line.
 
-use super::Quantity;
+use super::quantity::Quantity;
 use std::f64::consts::{E, PI, TAU};
 
 /// Units of the arguments and the result of a function.

@@ -1,8 +1,9 @@
 //! Parses tokens into one number by recursive descent, at most [`DEEPEST`] levels deep.
 
+use super::error::{DEEPEST, ExpressionError, ExpressionFault};
 use super::lexer::{Lexer, Token};
 use super::name::{Function, FunctionKind, MOST_ARGUMENTS, Unit, constant, function};
-use super::{DEEPEST, ExpressionError, ExpressionFault, Quantity};
+use super::quantity::Quantity;
 
 type ParseResult = Result<f64, ExpressionError>;
 

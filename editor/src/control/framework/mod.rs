@@ -9,11 +9,12 @@
 //! An input allocates nothing. Ids of unregistered controls are recognized, so a control may be unregistered while an input is
 //! processed, by itself or by another.
 
+mod resolve;
 mod route;
 mod settle;
 
-use super::base::{Area, ControlId, ControlLookup};
-use super::input::{InputEvent, PlaceError};
+use super::area::{Area, ControlId};
+use super::input::PlaceError;
 use super::key::{HeldKeys, Modifiers};
 use super::places::ControlTree;
 use glam::Vec2;
@@ -176,44 +177,5 @@ impl ControlFramework {
     /// Returns the control that was notified that the mouse is in it.
     pub fn hovered(&self) -> Option<ControlId> {
         self.entered
-    }
-
-    /// Routes an input to its control, then to the parents as far as it is passed on. Returns the control that stopped
-    /// it; `None` if it reached the root.
-    pub fn resolve_input(
-        &mut self,
-        event: InputEvent,
-        controls: &mut dyn ControlLookup,
-    ) -> Option<ControlId> {
-        self.settle(controls);
-        let stopped = match event {
-            InputEvent::MouseMove(at) => self.mouse_move(at, controls),
-            InputEvent::MouseGone => {
-                self.mouse_gone = true;
-                None
-            }
-            InputEvent::MouseDown(button) => self.mouse_down(button, controls),
-            InputEvent::MouseUp(button) => self.mouse_up(button, controls),
-            InputEvent::Wheel(by) => self.wheel(by, controls),
-            InputEvent::KeyDown(key) => self.key_down(key, controls),
-            InputEvent::KeyUp(key) => self.key_up(key, controls),
-            InputEvent::Modifiers(modifiers) => {
-                self.modifiers = modifiers;
-                // The modifier keys may change a drag, although the mouse rests.
-                self.pointer().and_then(|at| self.mouse_move(at, controls))
-            }
-            InputEvent::Lost => {
-                self.lost(controls);
-                None
-            }
-        };
-        self.settle(controls);
-        stopped
-    }
-
-    /// Notifies the controls if mouse or focus changed without an input, for example because a control was moved.
-    /// Called once per frame.
-    pub fn update(&mut self, controls: &mut dyn ControlLookup) {
-        self.settle(controls);
     }
 }

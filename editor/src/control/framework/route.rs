@@ -1,8 +1,9 @@
 //! Routes one input: to the control that it is for, then to its parents.
 
 use super::{Capture, ControlFramework};
-use crate::control::Button;
-use crate::control::base::{BaseControl, ControlId, ControlLookup, InputFlow, Mouse};
+use crate::control::area::ControlId;
+use crate::control::base::{BaseControl, ControlLookup, InputFlow, Mouse};
+use crate::control::input::Button;
 use crate::control::key::Key;
 use glam::Vec2;
 

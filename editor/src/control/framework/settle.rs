@@ -1,7 +1,8 @@
 //! Notifies controls when mouse and focus change.
 
 use super::{Capture, ControlFramework, ROUNDS};
-use crate::control::base::{BaseControl, ControlId, ControlLookup};
+use crate::control::area::ControlId;
+use crate::control::base::{BaseControl, ControlLookup};
 use crate::control::key::{HELD_KEYS, Modifiers};
 use glam::Vec2;
 

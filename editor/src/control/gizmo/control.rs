@@ -1,11 +1,13 @@
 //! The gizmo as a control of the scene: its area is that of its handles, and everything while it drags.
 
 use super::{Gizmo, GizmoAnswer};
-use crate::control::base::{BaseControl, ControlId, InputFlow, Mouse};
+use crate::control::area::ControlId;
+use crate::control::base::{BaseControl, InputFlow, Mouse};
 use crate::control::framework::ControlFramework;
+use crate::control::input::Button;
 use crate::control::key::{Key, Modifiers};
-use crate::control::viewport::{Button, CLICK};
-use crate::control::viewport_tools::ViewportTool;
+use crate::control::viewport::CLICK;
+use crate::control::viewport_tools::tool::ViewportTool;
 use dragonfly_picture::gizmo::{GizmoView, Handle, Tool};
 use glam::Vec2;
 

@@ -21,10 +21,13 @@
 //! 5. if a command starts it, a row in `panels/commands/table/tools.rs`.
 
 mod shield;
+pub(super) mod tool;
 
 pub use shield::Shield;
+pub use tool::ViewportTool;
 
-use super::base::{Area, BaseControl, ControlId, ControlLookup};
+use super::area::{Area, ControlId};
+use super::base::{BaseControl, ControlLookup};
 use super::framework::ControlFramework;
 use super::gizmo::GizmoControl;
 use super::input::InputEvent;
@@ -47,23 +50,6 @@ pub struct ViewportTools {
     pointer: Option<Vec2>,
     modifiers: Modifiers,
     revision: u64,
-}
-
-/// A tool in the viewport that a press can begin to drag.
-pub trait ViewportTool: BaseControl {
-    /// Sets the top left of the viewport, points from that of the window.
-    fn place(&mut self, corner: Vec2);
-
-    /// Sets the view.
-    fn look(&mut self, view: GizmoView);
-
-    /// Whether a drag of the tool changes the document.
-    fn is_dragging(&self) -> bool;
-
-    /// Whether the tool has mouse and keyboard although no button is held.
-    fn is_modal(&self) -> bool {
-        false
-    }
 }
 
 /// The controls; the framework knows only their areas.

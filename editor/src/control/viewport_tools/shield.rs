@@ -2,7 +2,7 @@
 
 use crate::control::base::{BaseControl, InputFlow, Mouse, PassFlags};
 use crate::control::framework::ControlFramework;
-use crate::control::viewport::Button;
+use crate::control::input::Button;
 
 /// A toolbar of the panels over the viewport: it stops the mouse, and passes keys on.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,6 +1,7 @@
 //! All commands of the program in one table: menus, tooltips, keys, palette and shortcut sheet read it.
 
 mod category;
+mod command;
 pub(super) mod id;
 pub(super) mod key_settings;
 mod keymap;
@@ -10,6 +11,7 @@ mod table;
 mod when;
 
 pub use category::Category;
+pub use command::Command;
 pub use id::Id;
 pub use key_settings::KeySettings;
 pub use keymap::Keymap;
@@ -19,27 +21,8 @@ pub use table::TABLE;
 pub use when::When;
 
 use super::context::PanelContext;
-use super::request::Effect;
-use super::workspace::Workspace;
-use egui::{Key, KeyboardShortcut, Modifiers, Popup};
+use egui::{Key, Modifiers, Popup};
 use std::borrow::Cow;
-
-/// A command.
-#[derive(Clone, Copy, Debug)]
-pub struct Command {
-    /// Its name in the code.
-    pub id: Id,
-    /// Its name on the screen.
-    pub title: &'static str,
-    /// Its keys; tooltips name the first.
-    pub shortcuts: &'static [KeyboardShortcut],
-    /// The tooltip: the action in one sentence.
-    pub help: &'static str,
-    /// Condition under which it can be run.
-    pub when: When,
-    /// Runs the command. Returns what reaches further than the panels.
-    pub(super) run: fn(&mut Workspace) -> Option<Effect>,
-}
 
 /// Returns every command, in the order of the table.
 pub fn all() -> impl Iterator<Item = &'static Command> {

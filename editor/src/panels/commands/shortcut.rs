@@ -1,6 +1,10 @@
 //! Shortcuts as text, as users read them and settings store them.
 
+use super::id::Id;
 use egui::{Key, KeyboardShortcut, Modifiers};
+
+/// Commands with keys that differ from the table.
+pub(super) type PresetKeys = &'static [(Id, &'static [KeyboardShortcut])];
 
 pub(super) const NONE: Modifiers = Modifiers::NONE;
 pub(super) const CTRL: Modifiers = Modifiers::COMMAND;

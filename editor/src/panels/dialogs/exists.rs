@@ -1,6 +1,6 @@
 //! The question when the typed name belongs to another file.
 
-use super::{Ask, Tone};
+use super::ask::{Ask, Tone};
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use dragonfly_document::{DocumentMessage, SaveOrder};

@@ -1,7 +1,7 @@
 //! The question where the file of unsaved work is now, with a field for the path, for desktops without a file dialog;
 //! and the question what to do with the work if the chosen file is a different one.
 
-use super::{Ask, Tone};
+use super::ask::{Ask, Tone};
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use dragonfly_document::{Decision, DocumentMessage, Offer, Source};

@@ -1,5 +1,6 @@
 //! The questions to the user, one per file. A question covers everything else until it is answered.
 
+mod ask;
 mod changed;
 mod exists;
 mod find;
@@ -11,9 +12,10 @@ mod unsaved;
 use super::context::PanelContext;
 use super::prompts::Question;
 use super::request::Request;
-use super::style::{GRID, RADIUS};
+use super::style::GRID;
 use super::theme::Theme;
-use egui::{Button, CornerRadius, Id, Modal, Response, RichText, Ui, vec2};
+use ask::Ask;
+use egui::{Id, Modal, Ui};
 
 /// State of the controls in questions.
 #[derive(Debug, Default)]
@@ -69,91 +71,4 @@ impl Dialogs {
             requests.push(Request::Dismiss);
         }
     }
-}
-
-/// A question that is being drawn.
-struct Ask<'a> {
-    ui: &'a mut Ui,
-    state: &'a PanelContext<'a>,
-    /// Whether this is its first frame, in which the default button gets the focus.
-    fresh: bool,
-    requests: &'a mut Vec<Request>,
-}
-
-/// Style of a button.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Tone {
-    /// The default button, which Enter presses.
-    First,
-    Plain,
-    /// The button of a choice that discards something, or moves it where it is hard to find.
-    Loses,
-}
-
-impl Ask<'_> {
-    fn title(&mut self, text: &str) {
-        self.ui.label(RichText::new(text).heading());
-    }
-
-    /// Draws a sentence.
-    fn says(&mut self, text: impl Into<String>) {
-        self.ui.label(text.into());
-    }
-
-    /// Draws a secondary sentence.
-    fn adds(&mut self, text: impl Into<String>) {
-        let weak = Theme::of(self.ui).weak;
-        self.ui.label(RichText::new(text).color(weak));
-    }
-
-    /// Draws a warning.
-    fn warns(&mut self, text: impl Into<String>) {
-        let warning = Theme::of(self.ui).warning;
-        self.ui.label(RichText::new(text).color(warning));
-    }
-
-    /// Draws the row of buttons: those that discard something on the left, the others on the right with the default one
-    /// last. Returns the one that was pressed.
-    fn buttons<T: Copy>(&mut self, choices: &[(&str, &str, Tone, T)]) -> Option<T> {
-        self.ui.add_space(GRID);
-        let mut pressed = None;
-        let fresh = self.fresh;
-        self.ui.horizontal(|ui| {
-            for (title, help, tone, choice) in choices.iter().filter(|(_, _, tone, _)| *tone == Tone::Loses) {
-                if button(ui, title, *tone, true).on_hover_text(*help).clicked() {
-                    pressed = Some(*choice);
-                }
-            }
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let rest = choices.iter().filter(|(_, _, tone, _)| *tone != Tone::Loses);
-                for (title, help, tone, choice) in rest {
-                    let response = button(ui, title, *tone, true).on_hover_text(*help);
-                    if fresh && *tone == Tone::First {
-                        response.request_focus();
-                    }
-                    if response.clicked() {
-                        pressed = Some(*choice);
-                    }
-                }
-            });
-        });
-        pressed
-    }
-}
-
-/// Draws a button of a question.
-fn button(ui: &mut Ui, title: &str, tone: Tone, able: bool) -> Response {
-    let theme = Theme::of(ui);
-    let text = match tone {
-        Tone::First => RichText::new(title).color(theme.on_accent),
-        Tone::Plain => RichText::new(title),
-        Tone::Loses => RichText::new(title).color(theme.error),
-    };
-    let mut button = Button::new(text).min_size(vec2(88.0, 28.0)).corner_radius(CornerRadius::same(RADIUS));
-    if tone == Tone::First {
-        button = button.fill(theme.accent);
-    }
-    let response = ui.add_enabled(able, button);
-    super::widgets::focus_ring(ui, &response, response.rect.expand(2.0));
-    response
 }

@@ -1,6 +1,6 @@
 //! A field for the path to save at, for desktops without a file dialog.
 
-use super::{Ask, Tone};
+use super::ask::{Ask, Tone};
 use crate::panels::context::PanelContext;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;

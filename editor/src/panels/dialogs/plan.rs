@@ -1,6 +1,6 @@
 //! The list of changes that a save would make, before it is written.
 
-use super::{Ask, Tone};
+use super::ask::{Ask, Tone};
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use crate::panels::style::{self, GRID};

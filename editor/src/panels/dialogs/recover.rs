@@ -1,6 +1,6 @@
 //! The question what to do with unsaved work of an earlier session.
 
-use super::{Ask, Tone};
+use super::ask::{Ask, Tone};
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use crate::panels::style::{GRID, ROW};

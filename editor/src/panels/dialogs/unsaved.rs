@@ -1,6 +1,6 @@
 //! The question when the user is about to leave unsaved changes.
 
-use super::{Ask, Tone};
+use super::ask::{Ask, Tone};
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use dragonfly_document::{DocumentMessage, SaveOrder, Then};

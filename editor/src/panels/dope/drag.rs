@@ -3,7 +3,7 @@
 
 use super::head::to_frame;
 use super::rows::RowKind;
-use super::{ROW, Sheet};
+use super::sheet::{ROW, Sheet};
 use crate::panels::drag::{DragEvent, DragMachine, PointerInput, Press, SelectionBox, choice_of, readout};
 use crate::panels::keys::{ChannelId, KeyDragOp, KeysRequest, channel};
 use crate::panels::request::Request;

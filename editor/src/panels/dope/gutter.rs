@@ -2,7 +2,7 @@
 
 use super::areas::DopeAreas;
 use super::rows::RowKind;
-use super::{ROW, Sheet};
+use super::sheet::{ROW, Sheet};
 use crate::panels::bone_menu;
 use crate::panels::commands::{self, Id};
 use crate::panels::context::PanelContext;

@@ -1,7 +1,7 @@
 //! The ruler: drags of the playhead and of the play range, and the bar that scales the selected keys.
 
-use super::Sheet;
 use super::areas::DopeAreas;
+use super::sheet::Sheet;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
 use crate::panels::drag::{DragEvent, DragMachine, PointerInput};

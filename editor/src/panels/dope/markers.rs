@@ -1,7 +1,7 @@
 //! The lane of markers below the ruler.
 
-use super::Sheet;
 use super::head::to_frame;
+use super::sheet::Sheet;
 use crate::panels::context::PanelContext;
 use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
 use crate::panels::keys::{KeysRequest, MarkerAction, TimeScale};

@@ -1,7 +1,7 @@
 //! The keys as triangles, made when something that they depend on changed.
 
 use super::rows::{DopeRow, RowKind};
-use super::{ROW, Sheet};
+use super::sheet::{ROW, Sheet};
 use crate::panels::keys::columns::Columns;
 use crate::panels::keys::intervals::Intervals;
 use crate::panels::keys::{Drawn, KeySelection, Shift, TimeScale, channel};

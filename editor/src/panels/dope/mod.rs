@@ -11,9 +11,10 @@ mod menu;
 mod overlay;
 mod rows;
 mod scroll;
+mod sheet;
 
 use super::context::PanelContext;
-use super::keys::{Drawn, TimeScale};
+use super::keys::TimeScale;
 use super::request::Request;
 use super::theme::Theme;
 use areas::DopeAreas;
@@ -21,12 +22,14 @@ use drag::DopeDrag;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo};
 use marks::KeysMesh;
 use rows::DopeRows;
+use sheet::Sheet;
 
 pub(super) use head::{Scrub, ticks, to_frame};
 pub(super) use marks::Pen;
 pub(super) use menu::show as key_menu;
 pub(super) use overlay::{line as playhead, shade};
 pub(super) use scroll::{pan, time_bar, wheel};
+pub(super) use sheet::ROW;
 
 /// The dope sheet with its view state; it contains nothing of the document.
 #[derive(Debug, Default)]
@@ -40,22 +43,6 @@ pub(super) struct Dope {
     markers: markers::MarkerLane,
     menu: menu::KeyMenu,
     filter: String,
-}
-
-/// Height of a row.
-pub(super) const ROW: f32 = 20.0;
-
-/// Everything that the parts of the dope sheet read in one frame.
-#[derive(Clone, Copy)]
-struct Sheet<'a> {
-    areas: &'a DopeAreas,
-    rows: &'a DopeRows,
-    /// Number of points by which the rows are scrolled up.
-    scroll: f32,
-    scale: &'a TimeScale,
-    drawn: &'a Drawn,
-    state: &'a PanelContext<'a>,
-    theme: &'a Theme,
 }
 
 impl Dope {

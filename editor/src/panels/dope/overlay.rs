@@ -1,7 +1,7 @@
 //! The parts drawn below and above the keys: rows, the range that does not play, the playhead.
 
 use super::rows::RowKind;
-use super::{ROW, Sheet};
+use super::sheet::{ROW, Sheet};
 use crate::panels::context::PanelContext;
 use crate::panels::keys::TimeScale;
 use crate::panels::theme::Theme;

@@ -2,6 +2,7 @@
 
 mod axes;
 mod cards;
+mod glass;
 mod ik;
 mod overlay;
 mod readout;
@@ -15,7 +16,7 @@ use super::theme::Theme;
 use super::{Panel, PanelPlace, widgets};
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Color32, CornerRadius, FontId, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Color32, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, pos2};
 
 /// The viewport and its overlays. Mouse input in it goes to the controls of the scene ([`crate::control::ViewportTools`])
 /// before the panels get it.
@@ -88,21 +89,4 @@ fn name(ui: &Ui, at: Pos2, width: f32, text: &str, what: &str, (size, color): (f
         response.on_hover_text(widgets::shortened(text));
     }
     place.bottom()
-}
-
-/// Draws the background of an overlay.
-fn glass(ui: &Ui, rect: Rect) {
-    let theme = Theme::of(ui);
-    let stroke = Stroke::new(1.0, theme.glass_line);
-    ui.painter().rect(rect, CornerRadius::same(6), theme.glass, stroke, egui::StrokeKind::Inside);
-}
-
-fn divider(ui: &mut Ui) {
-    let (rect, _) = ui.allocate_exact_size(vec2(7.0, 16.0), Sense::hover());
-    ui.painter().vline(rect.center().x, rect.y_range(), Stroke::new(1.0, Theme::of(ui).glass_line));
-}
-
-fn divider_across(ui: &mut Ui) {
-    let (rect, _) = ui.allocate_exact_size(vec2(16.0, 7.0), Sense::hover());
-    ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(1.0, Theme::of(ui).glass_line));
 }

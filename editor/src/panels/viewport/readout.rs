@@ -1,7 +1,7 @@
 //! The text next to the pointer: how far a drag is, or what the next one will do.
 
 use super::super::style::{GRID, NUMBER};
-use super::glass;
+use super::glass::glass;
 use crate::control::Catch;
 use crate::control::gizmo::GizmoReadout;
 use crate::panels::context::PanelContext;

@@ -1,6 +1,6 @@
 //! The toolbar for camera and shading, at the top right of the viewport.
 
-use super::{divider, glass};
+use super::glass::{divider, glass};
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;

@@ -1,6 +1,7 @@
 //! The toolbar on the left of the viewport: tool, axes and pivot of the gizmo.
 
-use super::{divider_across, glass, ik};
+use super::glass::{divider_across, glass};
+use super::ik;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;

@@ -9,7 +9,7 @@ use super::json::patch::{TextPatch, sort};
 use super::json::style::{Fresh, JsonSpot, JsonStyle};
 use super::json::token::quoted;
 use super::json::tree::{JsonKind, ValueId};
-use super::plan::Plan;
+use super::planned::Plan;
 use super::reuse::MARK;
 use crate::format::OutputFile;
 use crate::format::uri::relative_path;

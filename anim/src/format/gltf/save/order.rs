@@ -5,7 +5,7 @@ use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
 use super::json::patch::{TextPatch, patched, sort};
 use super::json::style::Fresh;
-use super::plan::TakeDraft;
+use super::planned::TakeDraft;
 use std::collections::HashSet;
 
 /// Writes the list. Animations that stay in order keep their position and bytes. Where the order changes, each position

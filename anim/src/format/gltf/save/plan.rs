@@ -1,66 +1,24 @@
 //! From takes to the bytes that change.
 
 use super::animation::{Draft, SamplerNumbers};
-use super::buffer::{BufferTail, TargetBuffer};
+use super::buffer::TargetBuffer;
 use super::changes::{ChangedChannel, Changes, ChannelChange, TakeChange, WrittenAccessor};
 use super::channels::{Action, ChannelEdit, edits, placeholder};
 use super::columns::shape_width;
 use super::document::{FileAnimation, SourceDocument, TargetPath};
 use super::draw::Draw;
 use super::error::SaveError;
-use super::json::patch::TextPatch;
 use super::json::style::Fresh;
 use super::json::token::number;
 use super::needs::{Need, Needs};
 use super::nodes::without_matrix;
 use super::order::write_animations;
+use super::planned::{Plan, TakeDraft};
 use super::reuse::{Granted, MARK, RoomRequest, SavedSlot, grant, slots};
 use super::source::SourceFile;
 use crate::data::ModelData;
-use crate::format::{EditedTake, OutputFile};
+use crate::format::EditedTake;
 use std::collections::{HashMap, HashSet};
-
-/// A planned save: made by [`plan`], described by [`Plan::changes`], carried out by [`Plan::write`].
-#[derive(Clone)]
-pub struct Plan<'a> {
-    pub(super) source: &'a SourceFile,
-    pub(super) patches: Vec<TextPatch>,
-    /// The replaced end of the binary chunk.
-    pub(super) chunk: Option<BufferTail>,
-    pub(super) beside: Option<OutputFile>,
-    pub(super) changes: Changes,
-}
-
-impl Plan<'_> {
-    /// Returns the description of the changes.
-    pub fn changes(&self) -> &Changes {
-        &self.changes
-    }
-
-    /// Returns the files to write, in the order in which to write them: referenced files first, the main file last.
-    /// Exactly the opened bytes if nothing changes.
-    pub fn write(&self) -> Vec<OutputFile> {
-        let chunk = self.chunk.as_ref().map(|tail| (tail.from, tail.bytes.as_slice()));
-        let bytes = if self.patches.is_empty() && chunk.is_none() {
-            self.source.bytes.to_vec()
-        } else {
-            self.source.container.write(&self.source.bytes, &self.patches, chunk)
-        };
-        let file = OutputFile { name: self.source.name.clone(), bytes };
-        self.beside.iter().cloned().chain([file]).collect()
-    }
-}
-
-/// An edited take.
-pub(super) struct TakeDraft {
-    /// The animation that it replaces or is a copy of.
-    pub(super) base: Option<usize>,
-    /// Whether it is a copy of that animation.
-    pub(super) is_copy: bool,
-    pub(super) name: String,
-    edits: Vec<ChannelEdit>,
-    pub(super) draft: Draft,
-}
 
 /// Plans a save after which `source` contains the takes `now`, in this order.
 ///

@@ -3,7 +3,7 @@
 use super::super::op::ChannelAddress;
 use super::super::slot::TakeId;
 use super::{EditError, Transaction, finite};
-use crate::edit::{BoneRef, KeySet, Property, SAME_TIME};
+use crate::edit::target::{BoneRef, KeySet, Property, SAME_TIME};
 use std::collections::HashMap;
 
 /// Sets of the same channels, with the times of all of them.

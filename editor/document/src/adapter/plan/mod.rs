@@ -23,7 +23,7 @@ use super::op::{ChannelAddress, Op};
 use super::slot::{ChannelContent, TakeId, TakeVersions};
 use super::times::SharedTimes;
 use super::{EditError, ModelAdapter};
-use crate::edit::{BoneRef, Property, TakeRef};
+use crate::edit::target::{BoneRef, Property, TakeRef};
 use dragonfly_anim::data::{Bone, Channel, Skeleton};
 use std::collections::BTreeSet;
 use std::sync::Arc;

@@ -4,7 +4,7 @@ use super::super::op::Op;
 use super::super::pending::{PendingAt, remapped};
 use super::super::slot::TakeId;
 use super::{EditError, Transaction, finite};
-use crate::edit::{BoneRef, Property};
+use crate::edit::target::{BoneRef, Property};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

@@ -7,7 +7,9 @@ use super::super::slot::KeyContent;
 use super::keys::insert;
 use super::pending::overwritten;
 use super::{EditError, Transaction, finite, key_at, key_time, unstep};
-use crate::edit::{BonePose, NewKey, Property, TakeRef};
+use crate::edit::mode::NewKey;
+use crate::edit::pose::BonePose;
+use crate::edit::target::{Property, TakeRef};
 use glam::{Quat, Vec3};
 
 /// How a given pose changes the value of a channel.

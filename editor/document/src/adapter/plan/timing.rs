@@ -4,7 +4,7 @@ use super::super::kind::with_kind;
 use super::super::op::ChannelAddress;
 use super::arrange::{KeyMove, arrange};
 use super::{EditError, Transaction, key_time};
-use crate::edit::{KeySet, TakeRef};
+use crate::edit::target::{KeySet, TakeRef};
 
 /// Moves keys to the times that `to` returns.
 pub(crate) fn move_keys(

@@ -4,7 +4,7 @@ use super::{ChannelChanges, ChannelContent, KeyContent, TakeVersions};
 use crate::adapter::change::{KeyChange, put, triple};
 use crate::adapter::kind::{ChannelKind, ChannelValue};
 use crate::adapter::times::SharedTimes;
-use crate::edit::Property;
+use crate::edit::target::Property;
 use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::Value;
 use std::sync::Arc;

@@ -6,7 +6,7 @@ use super::change::{KeyChange, Triple, triple};
 use super::kind::{AnyChannel, ChannelKind, ChannelNumbers, with_kind};
 use super::pending::{Pending, PendingAt, place_of};
 use super::times::SharedTimes;
-use crate::edit::{Property, SAME_TIME};
+use crate::edit::target::{Property, SAME_TIME};
 use channel::{exchange, refresh, replaced, retimed, spliced};
 use dragonfly_anim::data::{Channel, MorphTrack, Take};
 use std::collections::BTreeMap;

@@ -8,12 +8,9 @@ mod game_engines;
 mod maya;
 
 use super::id::Id;
-use super::shortcut::{ALT, CTRL, NONE, SHIFT, key};
-use egui::{Key, KeyboardShortcut};
+use super::shortcut::{ALT, CTRL, NONE, PresetKeys, SHIFT, key};
+use egui::Key;
 use serde::{Deserialize, Serialize};
-
-/// Commands with keys that differ from the table.
-type PresetKeys = &'static [(Id, &'static [KeyboardShortcut])];
 
 /// A set of keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -14,22 +14,11 @@ mod takes;
 mod tools;
 mod window;
 
+use super::command::{Command, command};
 use super::shortcut::{ALT, CTRL, NONE, SHIFT, key};
-use super::{Category, Command, Id, When};
+use super::{Category, Id, When};
 use crate::panels::request::Effect;
-use crate::panels::workspace::Workspace;
-use egui::{Key, KeyboardShortcut};
-
-const fn command(
-    id: Id,
-    when: When,
-    title: &'static str,
-    shortcuts: &'static [KeyboardShortcut],
-    help: &'static str,
-    run: fn(&mut Workspace) -> Option<Effect>,
-) -> Command {
-    Command { id, title, shortcuts, help, when, run }
-}
+use egui::Key;
 
 /// The commands of each category, in the order in which they are shown.
 pub const TABLE: &[(Category, &[Command])] = &[

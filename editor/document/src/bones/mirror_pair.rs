@@ -1,0 +1,57 @@
+//! A mirror pair: a left and a right bone, and the reason for it.
+
+use dragonfly_anim::data::BoneIndex;
+
+/// A side of the body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum BodySide {
+    /// Left, usually of the character.
+    Left,
+    /// Right.
+    Right,
+}
+
+/// The reason for a pair, the most reliable first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum MirrorGuess {
+    /// The same name with the side exchanged.
+    Name,
+    /// The same but for capitals.
+    Capitals,
+    /// The same words in another spelling.
+    Words,
+    /// The same but for a number at the end.
+    Numbers,
+    /// The side without a separator from another word.
+    Glued,
+    /// Their positions are symmetric; their names disagree or name only the side.
+    Place,
+}
+
+impl MirrorGuess {
+    /// The reasons from names, the most reliable first.
+    pub const NAMES: [Self; 5] = [Self::Name, Self::Capitals, Self::Words, Self::Numbers, Self::Glued];
+
+    /// Returns the text for lists.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Name => "same name",
+            Self::Capitals => "same but for capitals",
+            Self::Words => "same words",
+            Self::Numbers => "same but for a number",
+            Self::Glued => "same with the side glued on",
+            Self::Place => "opposite places",
+        }
+    }
+}
+
+/// Two bones that mirror each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MirrorPair {
+    /// The left bone.
+    pub left: BoneIndex,
+    /// The right bone.
+    pub right: BoneIndex,
+    /// The reason for the pair.
+    pub guess: MirrorGuess,
+}

@@ -1,0 +1,9 @@
+//! What every subcommand can do.
+
+use super::Failure;
+
+/// A subcommand of the command line.
+pub(super) trait RunCommand {
+    /// Runs the subcommand.
+    fn run(self) -> Result<(), Failure>;
+}

@@ -1,0 +1,36 @@
+//! A command: a row of the table.
+
+use super::id::Id;
+use super::when::When;
+use crate::panels::request::Effect;
+use crate::panels::workspace::Workspace;
+use egui::KeyboardShortcut;
+
+/// A command.
+#[derive(Clone, Copy, Debug)]
+pub struct Command {
+    /// Its name in the code.
+    pub id: Id,
+    /// Its name on the screen.
+    pub title: &'static str,
+    /// Its keys; tooltips name the first.
+    pub shortcuts: &'static [KeyboardShortcut],
+    /// The tooltip: the action in one sentence.
+    pub help: &'static str,
+    /// Condition under which it can be run.
+    pub when: When,
+    /// Runs the command. Returns what reaches further than the panels.
+    pub(in crate::panels) run: fn(&mut Workspace) -> Option<Effect>,
+}
+
+/// Returns a row.
+pub(super) const fn command(
+    id: Id,
+    when: When,
+    title: &'static str,
+    shortcuts: &'static [KeyboardShortcut],
+    help: &'static str,
+    run: fn(&mut Workspace) -> Option<Effect>,
+) -> Command {
+    Command { id, title, shortcuts, help, when, run }
+}

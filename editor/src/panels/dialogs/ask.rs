@@ -1,0 +1,95 @@
+//! A question as it is drawn: its sentences, and its row of buttons.
+
+use crate::panels::context::PanelContext;
+use crate::panels::request::Request;
+use crate::panels::style::{GRID, RADIUS};
+use crate::panels::theme::Theme;
+use crate::panels::widgets;
+use egui::{Button, CornerRadius, Response, RichText, Ui, vec2};
+
+/// A question that is being drawn.
+pub(super) struct Ask<'a> {
+    pub(super) ui: &'a mut Ui,
+    pub(super) state: &'a PanelContext<'a>,
+    /// Whether this is its first frame, in which the default button gets the focus.
+    pub(super) fresh: bool,
+    pub(super) requests: &'a mut Vec<Request>,
+}
+
+/// Style of a button.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Tone {
+    /// The default button, which Enter presses.
+    First,
+    Plain,
+    /// The button of a choice that discards something, or moves it where it is hard to find.
+    Loses,
+}
+
+impl Ask<'_> {
+    pub(super) fn title(&mut self, text: &str) {
+        self.ui.label(RichText::new(text).heading());
+    }
+
+    /// Draws a sentence.
+    pub(super) fn says(&mut self, text: impl Into<String>) {
+        self.ui.label(text.into());
+    }
+
+    /// Draws a secondary sentence.
+    pub(super) fn adds(&mut self, text: impl Into<String>) {
+        let weak = Theme::of(self.ui).weak;
+        self.ui.label(RichText::new(text).color(weak));
+    }
+
+    /// Draws a warning.
+    pub(super) fn warns(&mut self, text: impl Into<String>) {
+        let warning = Theme::of(self.ui).warning;
+        self.ui.label(RichText::new(text).color(warning));
+    }
+
+    /// Draws the row of buttons: those that discard something on the left, the others on the right with the default one
+    /// last. Returns the one that was pressed.
+    pub(super) fn buttons<T: Copy>(&mut self, choices: &[(&str, &str, Tone, T)]) -> Option<T> {
+        self.ui.add_space(GRID);
+        let mut pressed = None;
+        let fresh = self.fresh;
+        self.ui.horizontal(|ui| {
+            for (title, help, tone, choice) in choices.iter().filter(|(_, _, tone, _)| *tone == Tone::Loses) {
+                if button(ui, title, *tone, true).on_hover_text(*help).clicked() {
+                    pressed = Some(*choice);
+                }
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let rest = choices.iter().filter(|(_, _, tone, _)| *tone != Tone::Loses);
+                for (title, help, tone, choice) in rest {
+                    let response = button(ui, title, *tone, true).on_hover_text(*help);
+                    if fresh && *tone == Tone::First {
+                        response.request_focus();
+                    }
+                    if response.clicked() {
+                        pressed = Some(*choice);
+                    }
+                }
+            });
+        });
+        pressed
+    }
+}
+
+/// Draws a button of a question.
+pub(super) fn button(ui: &mut Ui, title: &str, tone: Tone, able: bool) -> Response {
+    let theme = Theme::of(ui);
+    let text = match tone {
+        Tone::First => RichText::new(title).color(theme.on_accent),
+        Tone::Plain => RichText::new(title),
+        Tone::Loses => RichText::new(title).color(theme.error),
+    };
+    let mut button = Button::new(text).min_size(vec2(88.0, 28.0)).corner_radius(CornerRadius::same(RADIUS));
+    if tone == Tone::First {
+        button = button.fill(theme.accent);
+    }
+    let response = ui.add_enabled(able, button);
+    widgets::focus_ring(ui, &response, response.rect.expand(2.0));
+    response
+}
