@@ -1,6 +1,7 @@
 //! The controls in the viewport: a state machine of what the mouse does there, testable without a window.
 
 mod base;
+pub(crate) mod drag;
 pub mod expression;
 mod framework;
 pub mod gizmo;

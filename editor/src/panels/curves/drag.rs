@@ -6,7 +6,9 @@ use super::tangents::{TangentHandle, Tangents};
 use super::values::{ValueKey, value_edit};
 use crate::panels::context::PanelContext;
 use crate::panels::dope::to_frame;
-use crate::panels::drag::{DragEvent, DragMachine, PointerInput, Press, SelectionBox, choice_of, readout};
+use crate::panels::drag::{
+    DragEvent, PanelDrag, PointerInput, Press, SelectionBox, choice_of, position, readout,
+};
 use crate::panels::keys::intervals::keys_between;
 use crate::panels::keys::{ChannelId, Drawn, KeyDragOp, KeysRequest, TimeScale};
 use crate::panels::request::Request;
@@ -17,7 +19,7 @@ use std::sync::Arc;
 /// The drag on the curves.
 #[derive(Debug, Default)]
 pub(super) struct CurveDrag {
-    machine: DragMachine<CurveTarget, CurveDragged>,
+    machine: PanelDrag<CurveTarget, CurveDragged>,
     /// Component of the key that was pressed on last.
     component: usize,
 }
@@ -118,7 +120,7 @@ impl CurveDrag {
         match self.machine.step(&input, response.is_pointer_button_down_on(), |at| canvas.target_at(at)) {
             DragEvent::Nothing | DragEvent::Cancelled(CurveDragged::Box(_)) => {}
             DragEvent::Pressed => {
-                if let Some(Press { on: CurveTarget::Key(key), .. }) = self.machine.press() {
+                if let Some(Press { on: CurveTarget::Key(key), .. }) = self.machine.pressed() {
                     self.component = key.component;
                 }
             }
@@ -130,7 +132,7 @@ impl CurveDrag {
                     self.advance(ui, pointer, canvas, &input, requests);
                 }
             }
-            DragEvent::Moved(pointer) => self.advance(ui, pointer, canvas, &input, requests),
+            DragEvent::Moved(at) => self.advance(ui, position(at), canvas, &input, requests),
             DragEvent::Clicked(press) => click(&press, requests),
             DragEvent::Dropped(CurveDragged::Box(drawn)) => {
                 if let Some(pointer) = pointer.or(input.pointer) {

@@ -4,7 +4,9 @@
 use super::head::to_frame;
 use super::rows::RowKind;
 use super::{ROW, Sheet};
-use crate::panels::drag::{DragEvent, DragMachine, PointerInput, Press, SelectionBox, choice_of, readout};
+use crate::panels::drag::{
+    DragEvent, PanelDrag, PointerInput, Press, SelectionBox, choice_of, position, readout,
+};
 use crate::panels::keys::{ChannelId, KeyDragOp, KeysRequest, channel};
 use crate::panels::request::Request;
 use dragonfly_document::bones::Choice;
@@ -15,7 +17,7 @@ use std::sync::Arc;
 /// The drag on the keys.
 #[derive(Debug, Default)]
 pub(super) struct DopeDrag {
-    machine: DragMachine<Option<DopeKey>, DopeDragged>,
+    machine: PanelDrag<Option<DopeKey>, DopeDragged>,
 }
 
 /// What is dragged.
@@ -93,7 +95,7 @@ impl DopeDrag {
                     return self.advance(ui, pointer, sheet, &input, requests);
                 }
             }
-            DragEvent::Moved(pointer) => return self.advance(ui, pointer, sheet, &input, requests),
+            DragEvent::Moved(at) => return self.advance(ui, position(at), sheet, &input, requests),
             DragEvent::Clicked(press) => click(&press, sheet, requests),
             DragEvent::Dropped(DopeDragged::Keys(_)) => {
                 requests.push(Request::Timeline(KeysRequest::Release));

@@ -4,7 +4,7 @@ use super::Sheet;
 use super::areas::DopeAreas;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
-use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
+use crate::panels::drag::{DragEvent, PanelDrag, PointerInput};
 use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest, TimeScale};
 use crate::panels::request::Request;
 use crate::panels::theme::Theme;
@@ -24,7 +24,7 @@ pub(in crate::panels) struct Scrub {
 #[derive(Debug, Default)]
 pub(super) struct Head {
     scrub: Scrub,
-    scaling: DragMachine<(), Scaling>,
+    scaling: PanelDrag<(), Scaling>,
     /// Name of the end of the bar that is dragged.
     grip: Option<&'static str>,
     /// Times of the first and the last selected key, computed when the selection changed.
@@ -166,7 +166,7 @@ impl Head {
         };
         let extent = extent.map(|extent| drawn.shift.stretch(extent));
         let Some([from, to]) = extent.filter(|[from, to]| to - from > scale.seconds(6.0)) else {
-            self.scaling = DragMachine::default();
+            self.scaling = PanelDrag::default();
             return;
         };
         let (left, right) = (scale.x_of(from), scale.x_of(to));
@@ -194,7 +194,7 @@ impl Head {
             );
             if response.drag_started_by(PointerButton::Primary) {
                 let other = if end == from { to } else { from };
-                self.scaling = DragMachine::dragging(Scaling { other, grabbed: end, requested: false });
+                self.scaling = PanelDrag::dragging(Scaling { other, grabbed: end, requested: false });
                 self.grip = Some(name);
             }
             if self.grip == Some(name) {

@@ -3,7 +3,7 @@
 use super::Sheet;
 use super::head::to_frame;
 use crate::panels::context::PanelContext;
-use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
+use crate::panels::drag::{DragEvent, PanelDrag, PointerInput};
 use crate::panels::keys::{KeysRequest, MarkerAction, TimeScale};
 use crate::panels::request::Request;
 use crate::panels::theme::Theme;
@@ -18,7 +18,7 @@ use egui::{
 pub(super) struct MarkerLane {
     renaming: Option<(usize, String, MarkerNameStage)>,
     /// Index and time, seconds, of the dragged marker. It moves when it is released, so that the order stays during the drag.
-    drag: DragMachine<(), (usize, f32)>,
+    drag: PanelDrag<(), (usize, f32)>,
     /// Index of the marker whose drag `drag` follows.
     dragged: Option<usize>,
 }
@@ -90,7 +90,7 @@ impl MarkerLane {
                 self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
             }
             if response.drag_started_by(PointerButton::Primary) {
-                self.drag = DragMachine::dragging((index, marker.time));
+                self.drag = PanelDrag::dragging((index, marker.time));
                 self.dragged = Some(index);
             }
             if self.dragged == Some(index) {

@@ -5,6 +5,7 @@ mod time;
 
 use super::commands::Id;
 use super::context::PanelContext;
+use super::drag::{DragEvent, PanelDrag, PointerInput};
 use super::icons::Icon;
 use super::request::Request;
 use super::style::{GRID, RADIUS, ROW};
@@ -14,8 +15,8 @@ use dragonfly_document::Change;
 use dragonfly_document::edit::{Edit, MoveTake, TakeRef};
 use egui::accesskit::Role;
 use egui::{
-    Color32, CornerRadius, CursorIcon, Key, PointerButton, Rect, Response, ScrollArea, Sense, Stroke,
-    TextStyle, Ui, WidgetInfo, pos2, vec2,
+    Color32, CornerRadius, CursorIcon, PointerButton, Rect, Response, ScrollArea, Sense, Stroke, TextStyle,
+    Ui, WidgetInfo, pos2, vec2,
 };
 use rename::Rename;
 use time::TimeSheet;
@@ -37,7 +38,7 @@ pub struct Takes {
     /// Number of points by which the list is scrolled.
     scrolled: f32,
     /// The take that is dragged to another position.
-    moving: Option<usize>,
+    moving: PanelDrag<(), usize>,
 }
 
 /// Number of takes from which on there is a search field.
@@ -99,7 +100,7 @@ impl Panel for Takes {
             }
             if found.is_some() {
                 // During a search the neighbors of the new position are hidden.
-                self.moving = None;
+                self.moving.spend();
             }
             self.drop_line(ui, top, count, requests);
         });
@@ -190,7 +191,7 @@ impl Takes {
             requests.push(Request::RenameTake(Some(index)));
         }
         if response.drag_started_by(PointerButton::Primary) {
-            self.moving = Some(index);
+            self.moving = PanelDrag::dragging(index);
         }
         response.context_menu(|ui| {
             for (at, group) in MENU.iter().enumerate() {
@@ -202,7 +203,7 @@ impl Takes {
                 }
             }
         });
-        if self.moving.is_none() {
+        if self.moving.drag().is_none() {
             response.on_hover_text(format!(
                 "{}\n{}",
                 widgets::shortened(&take.name),
@@ -231,24 +232,28 @@ impl Takes {
 
     /// Draws the line where the dragged take would be inserted, and moves the take when it is released.
     fn drop_line(&mut self, ui: &Ui, top: f32, count: usize, requests: &mut Vec<Request>) {
-        let Some(from) = self.moving else { return };
-        let (pointer, released, escape) = ui.input(|input| {
-            (input.pointer.interact_pos(), !input.pointer.primary_down(), input.key_pressed(Key::Escape))
-        });
-        let Some(pointer) = pointer.filter(|_| !escape && from < count) else {
-            self.moving = None;
+        if !self.moving.is_busy() {
             return;
-        };
+        }
+        let input = PointerInput::read(ui);
+        let Some(pointer) = input.pointer else { return self.moving.spend() };
         // Rows below that of the rest pose.
         let gap = (((pointer.y - top) / ROW).round() as isize - 1).clamp(0, count as isize) as usize;
-        let to = if gap > from { gap - 1 } else { gap };
-        if released {
-            self.moving = None;
-            if to != from {
-                let edit = Edit::MoveTake(MoveTake { take: TakeRef::Index(from), to });
-                requests.push(Request::Change(Change::Edit(edit, None)));
+        match self.moving.step(&input, true, |_| ()) {
+            DragEvent::Moved(_) => {}
+            DragEvent::Dropped(from) => {
+                let to = if gap > from { gap - 1 } else { gap };
+                if to != from && from < count {
+                    let edit = Edit::MoveTake(MoveTake { take: TakeRef::Index(from), to });
+                    requests.push(Request::Change(Change::Edit(edit, None)));
+                }
+                return;
             }
-            return;
+            DragEvent::Nothing
+            | DragEvent::Pressed
+            | DragEvent::Started(_)
+            | DragEvent::Clicked(_)
+            | DragEvent::Cancelled(_) => return,
         }
         ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
         let y = ui.painter().round_to_pixel_center(top + (gap + 1) as f32 * ROW);
