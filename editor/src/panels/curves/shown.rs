@@ -45,13 +45,15 @@ impl ShownCurves {
                 .collect();
             self.version += 1;
         }
-        let mut budget = BUDGET;
+        let (mut budget, mut more) = (BUDGET, false);
         for entry in &mut self.entries {
             if entry.curve.as_ref().is_some_and(|curve| curve.is_of(take, form)) {
                 entry.next = None;
                 continue;
             }
-            if entry.next.as_ref().is_none_or(|next| !next.is_of(take, form)) {
+            // A curve that is being computed is finished although the take changed since: during a drag of many keys the take
+            // changes faster than a long curve is computed.
+            if entry.next.as_ref().is_none_or(|next| next.form() != form) {
                 entry.next = Curve::new(take, entry.id, form).map(Box::new);
                 if entry.next.is_none() && entry.curve.take().is_some() {
                     self.version += 1;
@@ -65,8 +67,10 @@ impl ShownCurves {
                     self.version += 1;
                 }
             }
+            more |=
+                entry.next.is_some() || entry.curve.as_ref().is_some_and(|curve| !curve.is_of(take, form));
         }
-        self.entries.iter().any(|entry| entry.next.is_some())
+        more
     }
 
     /// Returns a number that grows with every change of a curve.

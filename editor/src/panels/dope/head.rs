@@ -164,7 +164,6 @@ impl Head {
             Some((_, extent)) => *extent,
             None => self.extent.insert((drawn.clone(), drawn.selection.extent(&drawn.take))).1,
         };
-        let extent = extent.map(|extent| drawn.shift.stretch(extent));
         let Some([from, to]) = extent.filter(|[from, to]| to - from > scale.seconds(6.0)) else {
             self.scaling = PanelDrag::default();
             return;

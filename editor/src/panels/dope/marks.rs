@@ -4,7 +4,7 @@ use super::rows::{DopeRow, RowKind};
 use super::{ROW, Sheet};
 use crate::panels::keys::columns::Columns;
 use crate::panels::keys::intervals::Intervals;
-use crate::panels::keys::{Drawn, KeySelection, Shift, TimeScale, channel};
+use crate::panels::keys::{Drawn, KeySelection, TimeScale, channel};
 use dragonfly_anim::data::Take;
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
 use std::sync::Arc;
@@ -102,13 +102,12 @@ impl KeysMesh {
             for &id in rows.of(row.kind) {
                 let times = channel::times(&drawn.take, id);
                 let selected = drawn.selection.of(id);
-                let stay = if drawn.copies { &none } else { selected };
-                self.plain.mark(times, stay, false, Shift::NONE);
-                self.chosen.mark(times, selected, true, drawn.shift);
+                self.plain.mark(times, selected, false);
+                self.chosen.mark(times, selected, true);
             }
             if row.kind == RowKind::Morphs {
                 for morph in &drawn.take.morphs {
-                    self.plain.mark(&morph.times, &none, false, Shift::NONE);
+                    self.plain.mark(&morph.times, &none, false);
                 }
             }
             let color = match row.kind {
@@ -134,7 +133,6 @@ impl KeysMeshKey {
         let (a, b) = (&self.drawn, &other.drawn);
         Arc::ptr_eq(&a.take, &b.take)
             && a.selection.same(&b.selection)
-            && (a.shift, a.copies) == (b.shift, b.copies)
             && Arc::ptr_eq(&self.rows, &other.rows)
             && (self.scale, self.canvas, self.scroll) == (other.scale, other.canvas, other.scroll)
             && (self.pixels_per_point, self.dark, self.flags)
