@@ -1,6 +1,7 @@
 //! Overlays drawn over the panels: command palette, shortcut sheet, about, path field.
 
 use super::context::PanelContext;
+use super::overlay_title;
 use super::palette::Palette;
 use super::prompts::Overlay;
 use super::request::Request;
@@ -82,7 +83,7 @@ impl Overlays {
 
 fn about(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.set_width(420.0);
-    title(ui, "Dragonfly", requests);
+    overlay_title::show(ui, "Dragonfly", requests);
     let theme = Theme::of(ui);
     ui.label(RichText::new(concat!("Version ", env!("CARGO_PKG_VERSION"))).color(theme.weak));
     ui.add_space(2.0 * GRID);
@@ -96,15 +97,4 @@ fn about(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     if let super::window_status::DeviceStatus::Ready { adapter } = state.window.device() {
         ui.label(RichText::new(adapter).small().color(theme.faint));
     }
-}
-
-pub(super) fn title(ui: &mut Ui, text: &str, requests: &mut Vec<Request>) {
-    ui.horizontal(|ui| {
-        ui.label(RichText::new(text).heading());
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if widgets::icon_button(ui, super::icons::Icon::Close, "Close", false).clicked() {
-                requests.push(Request::Overlay(None));
-            }
-        });
-    });
 }

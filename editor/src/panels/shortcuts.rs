@@ -3,6 +3,7 @@
 use super::commands::{self, Category, Command, Id, KeySettings, Keymap, MOUSE, Preset};
 use super::context::PanelContext;
 use super::icons::Icon;
+use super::overlay_title;
 use super::request::Request;
 use super::style::{self, GRID};
 use super::theme::Theme;
@@ -29,7 +30,7 @@ impl ShortcutSheet {
     pub(super) fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         let room = ui.ctx().content_rect();
         ui.set_width((room.width() - 96.0).clamp(320.0, 860.0));
-        super::overlays::title(ui, "Keys and mouse", requests);
+        overlay_title::show(ui, "Keys and mouse", requests);
         self.listen(ui, &state.settings.keys, requests);
         self.head(ui, &state.settings.keys, requests);
         let height = (room.height() - 220.0).max(120.0);
