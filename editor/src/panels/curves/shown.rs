@@ -103,8 +103,8 @@ impl ShownCurves {
 /// Returns the channels whose curves are wanted: of the selected bones, or those with selected keys.
 ///
 /// If the bones have none of the wanted properties, those that they have: an empty panel explains nothing.
-pub(super) fn wanted(state: &PanelContext<'_>, drawn: &Drawn, properties: u8) -> Vec<ChannelId> {
-    let of_bones: Vec<ChannelId> = state
+pub(super) fn wanted(context: &PanelContext<'_>, drawn: &Drawn, properties: u8) -> Vec<ChannelId> {
+    let of_bones: Vec<ChannelId> = context
         .selection
         .bones()
         .iter()
@@ -112,7 +112,7 @@ pub(super) fn wanted(state: &PanelContext<'_>, drawn: &Drawn, properties: u8) ->
         .flat_map(|&bone| channel::channels(&drawn.take, bone))
         .take(3 * MOST)
         .collect();
-    let all = if state.selection.bones().is_empty() {
+    let all = if context.selection.bones().is_empty() {
         drawn.selection.channels().map(|(id, _)| id).take(3 * MOST).collect()
     } else {
         of_bones

@@ -123,7 +123,7 @@ impl DopeDrag {
         let canvas = sheet.areas.canvas;
         match self.machine.drag_mut() {
             // The document refused the drag, or a key cancelled it.
-            Some(DopeDragged::Keys(keys)) if keys.requested && !sheet.state.keys.is_dragging() => {
+            Some(DopeDragged::Keys(keys)) if keys.requested && !sheet.context.keys.is_dragging() => {
                 self.machine.spend();
             }
             Some(DopeDragged::Keys(keys)) => {
@@ -183,17 +183,17 @@ fn start(
 impl DraggedKeys {
     /// Shows how far the keys are dragged, and returns the operation that brings them there.
     fn op(&self, ui: &Ui, pointer: Pos2, sheet: &Sheet<'_>, input: &PointerInput) -> KeyDragOp {
-        let state = sheet.state;
+        let context = sheet.context;
         let by = sheet.scale.time_at(pointer.x) - self.pressed;
-        let snap = state.keys.snap() != input.modifiers.command;
-        let by = if snap { to_frame(self.grabbed + by, state) - self.grabbed } else { by };
+        let snap = context.keys.snap() != input.modifiers.command;
+        let by = if snap { to_frame(self.grabbed + by, context) - self.grabbed } else { by };
         ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
         let (verb, op) = match self.mode {
             DragMode::Move => ("", KeyDragOp::Move(by)),
             DragMode::Duplicate => ("Duplicate ", KeyDragOp::Duplicate(by)),
             DragMode::Ripple { from } => ("Ripple ", KeyDragOp::Ripple { from, by }),
         };
-        let frames = by * state.settings.frame_rate as f32;
+        let frames = by * context.settings.frame_rate as f32;
         readout(ui, pointer, &format!("{verb}{by:+.3} s   {frames:+.1} frames"));
         op
     }

@@ -34,7 +34,7 @@ enum MarkerNameStage {
 
 impl MarkerLane {
     pub(super) fn show(&mut self, ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
-        let Sheet { areas, scale, state, .. } = *sheet;
+        let Sheet { areas, scale, context, .. } = *sheet;
         let lane = areas.markers;
         if lane.height() < 4.0 {
             *self = Self::default();
@@ -43,7 +43,7 @@ impl MarkerLane {
         let theme = Theme::of(ui);
         ui.painter().rect_filled(lane, CornerRadius::ZERO, theme.bar);
         let painter = ui.painter().with_clip_rect(lane);
-        let markers = state.markers();
+        let markers = context.markers();
         let mut ask = |deed: MarkerAction| requests.push(Request::Timeline(KeysRequest::Marker(deed)));
         let mut seek = None;
         for (index, marker) in markers.iter().enumerate() {
@@ -97,9 +97,9 @@ impl MarkerLane {
                 let input = PointerInput::of_widget(ui, &response);
                 match self.drag.step(&input, input.primary_down, |_| ()) {
                     DragEvent::Moved(pointer) => {
-                        let snap = state.keys.snap() != input.modifiers.command;
+                        let snap = context.keys.snap() != input.modifiers.command;
                         let time = scale.time_at(pointer.x);
-                        let time = if snap { to_frame(time, state) } else { time };
+                        let time = if snap { to_frame(time, context) } else { time };
                         self.drag.begin((index, time));
                     }
                     DragEvent::Dropped((index, time)) => ask(MarkerAction::Move(index, time)),
@@ -122,7 +122,7 @@ impl MarkerLane {
                 }
             });
         }
-        if let Some(deed) = self.rename(ui, lane, scale, state) {
+        if let Some(deed) = self.rename(ui, lane, scale, context) {
             ask(deed);
         }
         if let Some(time) = seek {
@@ -136,10 +136,10 @@ impl MarkerLane {
         ui: &mut Ui,
         lane: Rect,
         scale: &TimeScale,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
     ) -> Option<MarkerAction> {
         let (index, name, stage) = self.renaming.as_mut()?;
-        let Some(marker) = state.markers().get(*index) else {
+        let Some(marker) = context.markers().get(*index) else {
             self.renaming = None;
             return None;
         };

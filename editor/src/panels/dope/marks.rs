@@ -56,9 +56,9 @@ impl KeysMesh {
 
     /// Draws the keys in sight.
     pub(super) fn paint(&mut self, painter: &Painter, sheet: &Sheet<'_>) {
-        let Sheet { areas, rows, scroll, scale, drawn, state, theme } = *sheet;
-        let live = state.keys.selection();
-        if let Some(take) = state.shared_take()
+        let Sheet { areas, rows, scroll, scale, drawn, context, theme } = *sheet;
+        let live = context.keys.selection();
+        if let Some(take) = context.shared_take()
             && !self
                 .count
                 .as_ref()
@@ -74,7 +74,7 @@ impl KeysMesh {
             scroll,
             pixels_per_point: painter.pixels_per_point(),
             dark: theme.dark,
-            flags: state.keys.flags().version(),
+            flags: context.keys.flags().version(),
         };
         let same = self.made_of.as_ref().is_some_and(|old| old.same(&made_of));
         if !same {
@@ -87,7 +87,7 @@ impl KeysMesh {
     }
 
     fn rebuild(&mut self, sheet: &Sheet<'_>, pixels_per_point: f32) {
-        let Sheet { areas, rows, scroll, scale, drawn, state, theme } = *sheet;
+        let Sheet { areas, rows, scroll, scale, drawn, context, theme } = *sheet;
         let mut mesh = Mesh::default();
         let canvas = areas.canvas;
         let pen = Pen { feather: 1.0 / pixels_per_point };
@@ -113,7 +113,7 @@ impl KeysMesh {
             let color = match row.kind {
                 RowKind::Summary => theme.weak,
                 RowKind::Morphs => theme.faint,
-                RowKind::Bone(bone) | RowKind::Channel(bone, _) if state.keys.flags().locked(bone) => {
+                RowKind::Bone(bone) | RowKind::Channel(bone, _) if context.keys.flags().locked(bone) => {
                     theme.faint
                 }
                 RowKind::Bone(_) => theme.key,
