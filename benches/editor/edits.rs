@@ -2,7 +2,10 @@
 
 use dragonfly_anim::data::{AnimationData, Bone, Channel, Interpolation, Skeleton, Take, Track, Transform};
 use dragonfly_document::adapter::ModelAdapter;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, KeySet, MoveKeys, Property, SetPose, TakeRef};
+use dragonfly_document::edit::{
+    BonePose, BoneRef, DuplicateKeys, Edit, KeySet, MoveKeys, Property, RippleKeys, ScaleKeys, SetPose,
+    TakeRef,
+};
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_kit::counting;
 use glam::{Mat4, Quat, Vec3};
@@ -34,10 +37,14 @@ fn measure(name: &str, times: usize, mut work: impl FnMut(usize)) {
     );
 }
 
+fn model(shared: bool) -> AnimationData {
+    model_of(BONES, RATE * SECONDS, shared)
+}
+
 /// Returns the model. With `shared`, all channels share a column of times, as in files that sample
 /// all bones at the same times.
-fn model(shared: bool) -> AnimationData {
-    let bones = (0..BONES).map(|bone| Bone {
+fn model_of(bone_count: u32, keys: usize, shared: bool) -> AnimationData {
+    let bones = (0..bone_count).map(|bone| Bone {
         name: format!("bone {bone}"),
         parent: bone.checked_sub(1),
         rest: Transform::IDENTITY,
@@ -45,13 +52,12 @@ fn model(shared: bool) -> AnimationData {
         offset: Mat4::IDENTITY,
         node: None,
     });
-    let keys = RATE * SECONDS;
     let column = || -> Arc<[f32]> { (0..keys).map(|key| key as f32 / RATE as f32).collect() };
     let times = column();
     // The values do not matter, so all channels share them.
     let translation: Arc<[Vec3]> = (0..keys).map(|key| Vec3::splat(key as f32 * 1e-4)).collect();
     let rotation: Arc<[Quat]> = (0..keys).map(|key| Quat::from_rotation_y(key as f32 * 1e-4)).collect();
-    let tracks = (0..BONES).map(|bone| {
+    let tracks = (0..bone_count).map(|bone| {
         let own = || if shared { Arc::clone(&times) } else { column() };
         let linear = Interpolation::Linear;
         Track {
@@ -92,6 +98,33 @@ fn one_by_one() -> Vec<KeySet> {
     chosen().into_iter().flat_map(alone).collect()
 }
 
+/// Measures drags of all keys of a rig: the limit up to which the panels show an edit before the document answers follows from
+/// these.
+fn of_a_rig() {
+    for (bones, keys) in [(67, 100), (67, 300), (167, 200)] {
+        let data = model_of(bones, keys, true);
+        let title =
+            |what: &str| format!("editor/edits/{what}_{}_keys_of_{bones}_bones", bones as usize * 3 * keys);
+        let all = || vec![KeySet::default()];
+        let drag = |what: &str, edit: &dyn Fn(f32) -> Edit| {
+            let mut edited = Edited::new(ModelAdapter::new(&data));
+            measure(&title(what), 15, |run| {
+                edited.apply(edit(run as f32), Some(Gesture(1))).expect("all keys can be moved");
+            });
+        };
+        drag("move", &|run| Edit::MoveKeys(MoveKeys { take: take(), keys: all(), by: 0.01 + run * 0.25 }));
+        drag("scale", &|run| {
+            Edit::ScaleKeys(ScaleKeys { take: take(), keys: all(), about: 0.0, factor: 0.9 + run * 0.02 })
+        });
+        drag("duplicate", &|run| {
+            Edit::DuplicateKeys(DuplicateKeys { take: take(), keys: all(), by: 0.003 + run * 0.25 })
+        });
+        drag("ripple", &|run| {
+            Edit::RippleKeys(RippleKeys { take: take(), from: 0.0, by: 0.01 + run * 0.25 })
+        });
+    }
+}
+
 pub(crate) fn run() {
     let (same, apart) = (model(true), model(false));
     for (name, data) in [("one column of times", &same), ("a column of times each", &apart)] {
@@ -109,6 +142,7 @@ pub(crate) fn run() {
             edited.apply(edit, Some(Gesture(1))).expect("keys move among others");
         });
     }
+    of_a_rig();
     let mut edited = Edited::new(ModelAdapter::new(&same));
     let keys = one_by_one();
     measure("editor/edits/drag_100_000_keys_named_one_by_one", 5, |run| {

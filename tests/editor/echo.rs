@@ -2,7 +2,9 @@
 
 use crate::viewport_tools_rig::ViewportHarness;
 use dragonfly::panels::echo::Echo;
-use dragonfly_document::edit::{BonePose, BoneRef, DropPending, Edit, ReverseTake, SetPose, TakeRef};
+use dragonfly_document::edit::{
+    BonePose, BoneRef, DropPending, Edit, KeySet, MoveKeys, PoseAt, ReverseTake, SetPose, SetPoses, TakeRef,
+};
 use dragonfly_document::history::Gesture;
 use dragonfly_document::{Change, View, open_model};
 use dragonfly_kit::document::fixture;
@@ -16,6 +18,25 @@ fn set(x: f32, gesture: Option<Gesture>) -> Change {
     let pose = BonePose { bone: BoneRef::Index(1), translation, rotation: None, scale: None };
     let take = TakeRef::Index(0);
     Change::Edit(Edit::SetPose(SetPose { take, time: 0.0, poses: vec![pose], unstep: false }), gesture)
+}
+
+/// Puts bone 1 of the first take at `x` at its start, by an edit that takes too long for a preview.
+fn set_slowly(x: f32, gesture: Option<Gesture>) -> Change {
+    let pose =
+        BonePose { bone: BoneRef::Index(1), translation: Some([x, 0.0, 0.0]), rotation: None, scale: None };
+    let at = vec![PoseAt { time: 0.0, poses: vec![pose] }; 5000];
+    Change::Edit(Edit::SetPoses(SetPoses { take: TakeRef::Index(0), at, unstep: false }), gesture)
+}
+
+/// Moves all keys of the first take.
+fn move_keys(by: f32, gesture: Option<Gesture>) -> Change {
+    let keys = vec![KeySet::default()];
+    Change::Edit(Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys, by }), gesture)
+}
+
+/// Returns the start of the first take.
+fn start_of(view: Option<&View>) -> f32 {
+    view.unwrap().takes[0].start
 }
 
 /// Returns the x coordinate of bone 1 at the start of the first take.
@@ -114,6 +135,93 @@ fn a_model_opened_during_an_edit_is_shown_unchanged() {
     let now = echo.receive(other.clone(), &mut shown);
     assert_eq!(now.generation, other.generation);
     assert!(Arc::ptr_eq(&now.takes, &other.takes));
+}
+
+#[test]
+fn each_edit_of_a_drag_moves_the_keys_from_where_they_were_at_its_start() {
+    let first = fixture::full();
+    let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
+    let start = start_of(shown.as_ref());
+    let mut changes = Vec::new();
+    for by in [0.25, 0.5, 0.75] {
+        changes.push(move_keys(by, Some(GESTURE)));
+        let number = echo.send(changes.last().unwrap(), &mut shown);
+        assert!(echo.shows(number) && !echo.has_answered(number));
+        assert!((start_of(shown.as_ref()) - start - by).abs() < 1e-5, "{by}, at once");
+        let now = echo.receive(answer(&first, number, &changes), &mut shown);
+        assert!((start_of(Some(&now)) - start - by).abs() < 1e-5, "{by}, in the view of the document");
+        shown = Some(now);
+    }
+    let number = echo.send(&Change::Cancel(GESTURE), &mut shown);
+    assert!(echo.shows(number));
+    assert_eq!(start_of(shown.as_ref()), start, "cancelled");
+}
+
+#[test]
+fn an_edit_that_takes_long_is_shown_when_it_is_answered() {
+    let first = fixture::full();
+    let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
+    let before = x_of(shown.as_ref());
+    let number = echo.send(&set_slowly(3.0, None), &mut shown);
+    assert!(!echo.shows(number));
+    assert_eq!(x_of(shown.as_ref()), before);
+    let now = echo.receive(answer(&first, number, &[set_slowly(3.0, None)]), &mut shown);
+    assert!(echo.shows(number));
+    assert_eq!(x_of(Some(&now)), 3.0);
+}
+
+#[test]
+fn an_edit_after_one_that_takes_long_is_not_shown_without_it() {
+    let first = fixture::full();
+    let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
+    let start = start_of(shown.as_ref());
+    let changes = [set_slowly(3.0, None), move_keys(0.5, None)];
+    let long = echo.send(&changes[0], &mut shown);
+    let after = echo.send(&changes[1], &mut shown);
+    assert_eq!(start_of(shown.as_ref()), start);
+    shown = Some(echo.receive(answer(&first, long, &changes[..1]), &mut shown));
+    shown = Some(echo.receive(answer(&first, after, &changes), &mut shown));
+    assert!((start_of(shown.as_ref()) - start - 0.5).abs() < 1e-5);
+    let number = echo.send(&move_keys(0.5, None), &mut shown);
+    assert!(echo.shows(number), "nothing is unanswered any more");
+    assert!((start_of(shown.as_ref()) - start - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn a_drag_that_began_during_an_edit_that_takes_long_is_shown_as_the_document_answers_it() {
+    let first = fixture::full();
+    let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
+    let start = start_of(shown.as_ref());
+    let mut changes = vec![set_slowly(3.0, None), move_keys(0.25, Some(GESTURE))];
+    echo.send(&changes[0], &mut shown);
+    let number = echo.send(&changes[1], &mut shown);
+    shown = Some(echo.receive(answer(&first, number, &changes), &mut shown));
+    assert!((start_of(shown.as_ref()) - start - 0.25).abs() < 1e-5);
+    changes.push(move_keys(0.5, Some(GESTURE)));
+    let number = echo.send(&changes[2], &mut shown);
+    assert!(!echo.shows(number), "the takes from the start of the drag are not known here");
+    assert!((start_of(shown.as_ref()) - start - 0.25).abs() < 1e-5);
+    shown = Some(echo.receive(answer(&first, number, &changes), &mut shown));
+    assert!((start_of(shown.as_ref()) - start - 0.5).abs() < 1e-5);
+}
+
+#[test]
+fn a_drag_may_change_between_edits_that_are_quick_and_edits_that_take_long() {
+    let first = fixture::full();
+    let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
+    let start = start_of(shown.as_ref());
+    let mut changes = vec![set_slowly(3.0, Some(GESTURE))];
+    let number = echo.send(&changes[0], &mut shown);
+    shown = Some(echo.receive(answer(&first, number, &changes), &mut shown));
+    assert_eq!(x_of(shown.as_ref()), 3.0);
+    changes.push(move_keys(0.5, Some(GESTURE)));
+    let number = echo.send(&changes[1], &mut shown);
+    assert!(echo.shows(number));
+    assert_ne!(x_of(shown.as_ref()), 3.0, "an edit of a drag replaces the one before");
+    assert!((start_of(shown.as_ref()) - start - 0.5).abs() < 1e-5);
+    let guess = (x_of(shown.as_ref()), start_of(shown.as_ref()));
+    let now = echo.receive(answer(&first, number, &changes), &mut shown);
+    assert_eq!((x_of(Some(&now)), start_of(Some(&now))), guess);
 }
 
 #[test]

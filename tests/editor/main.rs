@@ -55,6 +55,7 @@ mod stdio;
 mod store_full;
 mod takes_panel;
 mod timeline_curves;
+mod timeline_many;
 mod timeline_markers;
 mod timeline_mouse;
 mod timeline_random;

@@ -22,7 +22,9 @@ impl Bench {
     pub(crate) fn new(view: Option<View>) -> Self {
         let now = Instant::now();
         let mut state = State::new(Settings::default(), now);
-        state.set_device(DeviceStatus::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
+        state
+            .window_mut()
+            .set_device(DeviceStatus::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
         if let Some(view) = view {
             state.show(view);
             state.pause();

@@ -39,7 +39,7 @@ fn snapping_listing_and_ik_settings_are_restored() {
 fn bone_flags_and_pins_of_a_file_are_restored_with_it() {
     let mut state = State::new(Settings::default(), Instant::now());
     state.show(file("Fox.glb"));
-    assert_eq!(state.unsaved_marks(), None, "nothing is marked");
+    assert_eq!(state.side_files().unsaved_marks(), None, "nothing is marked");
     flag(&mut state, BoneFlag::Mute, 2);
     flag(&mut state, BoneFlag::Solo, 3);
     flag(&mut state, BoneFlag::Lock, 4);
@@ -53,10 +53,10 @@ fn bone_flags_and_pins_of_a_file_are_restored_with_it() {
             && state.read().pins.is_empty()
             && state.read().ik.pole.is_none()
     );
-    let text = state.unsaved_marks().expect("changed");
-    assert_eq!(state.unsaved_marks(), None, "said once");
+    let text = state.side_files().unsaved_marks().expect("changed");
+    assert_eq!(state.side_files().unsaved_marks(), None, "said once");
     let mut again = State::new(Settings::default(), Instant::now());
-    again.read_marks(&text);
+    again.side_files().read_marks(&text);
     again.show(file("Crow.glb"));
     assert!(!again.read().keys.flags().any_locked());
     again.show(file("Fox.glb"));
@@ -66,7 +66,7 @@ fn bone_flags_and_pins_of_a_file_are_restored_with_it() {
     };
     assert_eq!(has(&again), [true; 3]);
     assert_eq!((again.read().pins.to_vec(), again.read().ik.pole), (vec![5], Some(5)));
-    assert_eq!(again.unsaved_marks(), None, "as it was read");
+    assert_eq!(again.side_files().unsaved_marks(), None, "as it was read");
     // Flags that were removed stay removed.
     for (flag, bone) in [(BoneFlag::Mute, 2), (BoneFlag::Solo, 3), (BoneFlag::Lock, 4)] {
         again.execute(Request::Timeline(KeysRequest::Flag(flag, bone, false)));
@@ -74,7 +74,7 @@ fn bone_flags_and_pins_of_a_file_are_restored_with_it() {
     again.execute(Request::Command(Id::FreePins));
     again.execute(Request::Select(Some(5)));
     again.execute(Request::Command(Id::IkPole));
-    let text = again.unsaved_marks().expect("changed");
+    let text = again.side_files().unsaved_marks().expect("changed");
     assert!(!text.contains("Fox"), "{text}");
 }
 
@@ -84,15 +84,15 @@ fn saving_a_model_elsewhere_copies_its_bone_flags() {
     let mut view = file("Fox.glb");
     state.show(view.clone());
     flag(&mut state, BoneFlag::Lock, 4);
-    assert!(state.unsaved_marks().is_some());
+    assert!(state.side_files().unsaved_marks().is_some());
     let mut moved = (*view.file).clone();
     moved.path = Some("Wolf.glb".into());
     view.file = std::sync::Arc::new(moved);
     state.show(view);
-    let text = state.unsaved_marks().expect("of the new file too");
+    let text = state.side_files().unsaved_marks().expect("of the new file too");
     for name in ["Fox.glb", "Wolf.glb"] {
         let mut again = State::new(Settings::default(), Instant::now());
-        again.read_marks(&text);
+        again.side_files().read_marks(&text);
         again.show(file(name));
         assert!(again.read().keys.flags().has(BoneFlag::Lock, 4), "{name}");
     }
@@ -105,18 +105,18 @@ fn the_number_of_remembered_files_is_limited_and_a_damaged_text_gives_none() {
         state.show(file(&format!("model {number}.glb")));
         flag(&mut state, BoneFlag::Lock, 1);
     }
-    let text = state.unsaved_marks().expect("changed");
+    let text = state.side_files().unsaved_marks().expect("changed");
     assert_eq!(text.matches("\"path\"").count(), marks::FILES);
     assert!(!text.contains("model 9.glb") && text.contains("model 10.glb"), "the oldest go");
     for damaged in ["", "[]", "{\"files\":3}", "{\"files\":[{\"lock\":[true]}]}", &text[..text.len() / 2]] {
         let mut state = State::new(Settings::default(), Instant::now());
-        state.read_marks(damaged);
+        state.side_files().read_marks(damaged);
         state.show(file("model 20.glb"));
         assert!(!state.read().keys.flags().any_locked());
     }
     // Bones that the file no longer has are skipped.
     let mut state = State::new(Settings::default(), Instant::now());
-    state.read_marks(&text.replace("\"spine_00\"", "\"gone\""));
+    state.side_files().read_marks(&text.replace("\"spine_00\"", "\"gone\""));
     state.show(file("model 20.glb"));
     assert!(!state.read().keys.flags().any_locked());
 }

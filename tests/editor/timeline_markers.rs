@@ -57,17 +57,17 @@ fn markers_are_added_named_moved_jumped_to_and_deleted() {
 fn markers_are_restored_with_the_file_and_a_damaged_text_gives_none() {
     let mut animator = Animator::with_bone(3);
     marker(&mut animator, MarkerAction::Add(0.5));
-    let (file, text) = animator.harness.state_mut().state.unsaved_markers().unwrap();
+    let (file, text) = animator.harness.state_mut().state.side_files().unsaved_markers().unwrap();
     assert!(file.starts_with("markers/") && file.ends_with(".json"));
-    assert_eq!(animator.harness.state_mut().state.unsaved_markers(), None, "said once");
+    assert_eq!(animator.harness.state_mut().state.side_files().unsaved_markers(), None, "said once");
     let mut again = Bench::new(Some(fixture::full())).state;
-    assert_eq!(again.wanted_markers(), Some(file));
-    assert_eq!(again.wanted_markers(), None, "asked once");
-    again.read_markers(&text);
+    assert_eq!(again.side_files().wanted_markers(), Some(file));
+    assert_eq!(again.side_files().wanted_markers(), None, "asked once");
+    again.side_files().read_markers(&text);
     assert_eq!(again.read().markers().len(), 1);
     for damaged in ["", "{", "[1,2]", &text.replace("0.5", "1e999"), &text[..text.len() / 2]] {
         let mut other = Bench::new(Some(fixture::full())).state;
-        other.read_markers(damaged);
+        other.side_files().read_markers(damaged);
         assert!(other.read().markers().len() <= 1);
     }
 }
@@ -120,10 +120,10 @@ fn markers_follow_save_as_and_renamed_takes() {
     let mut animator = Animator::with_bone(3);
     // As the window does when a file is opened.
     let state = &mut animator.harness.state_mut().state;
-    assert!(state.wanted_markers().is_some());
-    state.read_markers("");
+    assert!(state.side_files().wanted_markers().is_some());
+    state.side_files().read_markers("");
     marker(&mut animator, MarkerAction::Add(0.5));
-    let first = animator.harness.state_mut().state.unsaved_markers().unwrap();
+    let first = animator.harness.state_mut().state.side_files().unsaved_markers().unwrap();
     let rename = Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: "March".to_owned() });
     animator.request(Request::Change(Change::Edit(rename, None)));
     animator.steps(2);
@@ -132,15 +132,15 @@ fn markers_follow_save_as_and_renamed_takes() {
     let other = Arc::new(FileView { title: "other.glb".to_owned(), path: Some("other.glb".into()) });
     view.file = Arc::clone(&other);
     state.show(view);
-    let (file, text) = state.unsaved_markers().expect("of the new file too");
+    let (file, text) = state.side_files().unsaved_markers().expect("of the new file too");
     assert_ne!(file, first.0);
     // Until it is saved the file contains the old name of the take, afterwards the new one.
     let renamed = fixture::view("other.glb", fixture::skeleton(3), &[("March", 2.0, 21)]);
     for mut opened in [fixture::full(), renamed] {
         opened.file = Arc::clone(&other);
         let mut again = Bench::new(Some(opened)).state;
-        assert_eq!(again.wanted_markers().as_ref(), Some(&file));
-        again.read_markers(&text);
+        assert_eq!(again.side_files().wanted_markers().as_ref(), Some(&file));
+        again.side_files().read_markers(&text);
         assert_eq!(again.read().markers().len(), 1);
     }
 }

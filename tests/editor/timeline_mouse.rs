@@ -100,6 +100,31 @@ fn a_dragged_key_goes_to_the_nearest_frame_as_one_step() {
 }
 
 #[test]
+fn the_selection_follows_the_dragged_keys_and_cancelling_restores_it() {
+    let mut animator = Animator::with_bone(1);
+    let (from, to) = (animator.key(4), 3.0);
+    animator.click(animator.at(from, 1));
+    let before = animator.times(1);
+    animator.press(animator.at(from, 1));
+    for part in 1..=4 {
+        animator.move_to(animator.at(from + (to - from) * (part as f32 / 4.0), 1));
+        assert_eq!(animator.selected(), 1, "step {part}");
+        let panels = animator.harness.state().state.read();
+        let drawn = panels.drawn_keys().unwrap();
+        let time = drawn.selection.extent(&drawn.take).unwrap()[0];
+        assert_eq!(panels.keys.selection().extent(panels.take().unwrap()), Some([time; 2]));
+        let moved = panels.keys.drag().is_some() && part > 1;
+        assert!(!moved || !before.contains(&time), "what is drawn contains the key where it was dragged");
+    }
+    animator.harness.key_press(egui::Key::Escape);
+    animator.steps(3);
+    assert_eq!(animator.times(1), before);
+    let panels = animator.harness.state().state.read();
+    let [time, _] = panels.keys.selection().extent(panels.take().unwrap()).unwrap();
+    assert!((time - from).abs() < 1e-4, "{time}");
+}
+
+#[test]
 fn ctrl_inverts_snapping() {
     let mut animator = Animator::with_bone(3);
     let grabbed = animator.key(8);

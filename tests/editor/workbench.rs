@@ -29,7 +29,9 @@ pub(crate) type Window = Harness<'static, Workbench>;
 impl Workbench {
     pub(crate) fn new(view: Option<View>) -> Self {
         let mut state = State::new(Settings::default(), Instant::now());
-        state.set_device(DeviceStatus::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
+        state
+            .window_mut()
+            .set_device(DeviceStatus::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
         let edited = view.as_ref().map(|view| Edited::new(ModelAdapter::new(&view.loaded.model.animation)));
         if let Some(view) = view {
             state.show(view);

@@ -206,7 +206,7 @@ impl BaseRuntime for EditorRuntime {
         match reply {
             GraphicsReply::Ready { adapter, max_texture_side } => {
                 interface.set_max_texture_side(max_texture_side);
-                interface.state.set_device(DeviceStatus::Ready { adapter });
+                interface.state.window_mut().set_device(DeviceStatus::Ready { adapter });
             }
             GraphicsReply::Picked { bone, ticket } => {
                 // A pointer that stays on its bone changes nothing, so nothing is drawn.
@@ -223,7 +223,7 @@ impl BaseRuntime for EditorRuntime {
                 }
             }
             GraphicsReply::Statistics { milliseconds, .. } => {
-                interface.state.set_frame_time(milliseconds);
+                interface.state.window_mut().set_frame_time(milliseconds);
             }
             GraphicsReply::Recovered { reason, losses } => {
                 let text = format!(
@@ -233,7 +233,7 @@ impl BaseRuntime for EditorRuntime {
             }
             GraphicsReply::Paused { reason } => {
                 interface.state.say(MessageSeverity::Warning, format!("The viewport is paused: {reason}"));
-                interface.state.set_device(DeviceStatus::Paused { reason });
+                interface.state.window_mut().set_device(DeviceStatus::Paused { reason });
             }
             GraphicsReply::Captured(Ok(path)) => {
                 interface.state.say(MessageSeverity::Info, format!("Wrote {}", path.display()));

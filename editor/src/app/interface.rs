@@ -71,7 +71,7 @@ impl Interface {
         style::install(egui.egui_ctx());
         let saved = settings.clone();
         let mut state = State::new(settings, now);
-        state.read_marks(&store.read(marks::FILE));
+        state.side_files().read_marks(&store.read(marks::FILE));
         Self {
             desktop_scale: window.scale_factor(),
             window,
@@ -183,7 +183,7 @@ impl Interface {
 
     /// Switches between the whole screen and a window.
     pub fn toggle_full_screen(&mut self) {
-        let full = self.state.toggle_full_screen().then_some(Fullscreen::Borderless(None));
+        let full = self.state.window_mut().toggle_full_screen().then_some(Fullscreen::Borderless(None));
         self.window.set_fullscreen(full);
     }
 
@@ -286,10 +286,10 @@ impl Interface {
         if let Some(layout) = self.desk.changed_layout() {
             self.keep(store::LAYOUT, &layout);
         }
-        if let Some((name, text)) = self.state.unsaved_markers() {
+        if let Some((name, text)) = self.state.side_files().unsaved_markers() {
             self.keep(&name, &text);
         }
-        if let Some(text) = self.state.unsaved_marks() {
+        if let Some(text) = self.state.side_files().unsaved_marks() {
             self.keep(marks::FILE, &text);
         }
     }
@@ -318,9 +318,9 @@ impl Interface {
         let dropped: Vec<_> = input.dropped_files.iter().map(|file| file.path().to_owned()).collect();
         self.accessibility_trace.listen(&context);
         let mut requests = Vec::new();
-        if let Some(name) = self.state.wanted_markers() {
+        if let Some(name) = self.state.side_files().wanted_markers() {
             let text = self.store.read(&name);
-            self.state.read_markers(&text);
+            self.state.side_files().read_markers(&text);
         }
         self.state.begin_frame(now);
         let (steps, faults) = (self.steps(), &self.faults);

@@ -2,6 +2,7 @@
 
 mod area;
 mod base;
+pub(crate) mod drag;
 pub mod expression;
 mod framework;
 pub mod gizmo;

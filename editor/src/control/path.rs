@@ -1,6 +1,7 @@
 //! The keys of a motion path as a control of the scene: each can be dragged.
 
 use super::base::{BaseControl, InputFlow, Mouse};
+use super::drag::{DragEvent, DragMachine};
 use super::framework::ControlFramework;
 use super::input::Button;
 use super::key::{Key, Modifiers};
@@ -31,8 +32,9 @@ pub enum PathAnswer {
     Cancelled,
 }
 
+/// A key that is dragged, and where the pointer was at its press.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Going {
+struct DraggedPathKey {
     key: PathKey,
     start: Vec2,
 }
@@ -50,7 +52,8 @@ pub struct PathControl {
     keys: Vec<PathKey>,
     view: Option<GizmoView>,
     hovered: Option<usize>,
-    going: Option<Going>,
+    /// A press on a key is a drag at once: the keys are small, and a click does nothing.
+    machine: DragMachine<(), DraggedPathKey>,
     answer: Option<PathAnswer>,
 }
 
@@ -65,7 +68,7 @@ impl PathControl {
     /// Returns the time of the key that is dragged or under the pointer.
     pub fn hovered(&self) -> Option<f32> {
         let under = self.hovered.and_then(|key| self.keys.get(key));
-        self.going.map(|going| going.key.time).or(under.map(|key| key.time))
+        self.machine.drag().map(|drag| drag.key.time).or(under.map(|key| key.time))
     }
 
     /// Returns the outcome of the drag since the last call.
@@ -91,20 +94,30 @@ impl PathControl {
     }
 
     /// Returns the position of the dragged key under the pointer, at its distance from the camera.
-    fn put(&self, going: &Going, at: Vec2) -> Option<Vec3> {
+    fn put(&self, drag: &DraggedPathKey, at: Vec2) -> Option<Vec3> {
         let view = self.view?;
-        let place: DVec3 = going.key.place.as_dvec3();
-        let by = view.move_by(place, (at - going.start).as_dvec2())?;
+        let place: DVec3 = drag.key.place.as_dvec3();
+        let by = view.move_by(place, (at - drag.start).as_dvec2())?;
         let put = (place + by).as_vec3();
         put.is_finite().then_some(put)
     }
 
-    fn end(&mut self, answer: PathAnswer) -> InputFlow {
-        if self.going.take().is_none() {
-            return InputFlow::ToParent;
-        }
-        self.answer = Some(answer);
+    fn end(&mut self, event: &DragEvent<(), DraggedPathKey>) -> InputFlow {
+        self.answer = Some(match event {
+            DragEvent::Dropped(_) => PathAnswer::Done,
+            DragEvent::Cancelled(_) => PathAnswer::Cancelled,
+            DragEvent::Nothing
+            | DragEvent::Pressed
+            | DragEvent::Started(())
+            | DragEvent::Moved(_)
+            | DragEvent::Clicked(()) => return InputFlow::ToParent,
+        });
         InputFlow::Stop
+    }
+
+    fn cancel(&mut self) -> InputFlow {
+        let event = self.machine.cancelled();
+        self.end(&event)
     }
 }
 
@@ -118,21 +131,21 @@ impl ViewportTool for PathControl {
     }
 
     fn is_dragging(&self) -> bool {
-        self.going.is_some()
+        self.machine.drag().is_some()
     }
 }
 
 impl BaseControl for PathControl {
     fn is_pos_on(&self, point: Vec2) -> bool {
-        self.going.is_some() || self.key_at(point - self.corner).is_some()
+        self.machine.drag().is_some() || self.key_at(point - self.corner).is_some()
     }
 
     fn mouse_move(&mut self, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
         let at = mouse.at - self.corner;
-        match self.going {
-            Some(going) => {
-                if let Some(place) = self.put(&going, at) {
-                    self.answer = Some(PathAnswer::Moved(PathKey { place, ..going.key }));
+        match self.machine.drag() {
+            Some(drag) => {
+                if let Some(place) = self.put(drag, at) {
+                    self.answer = Some(PathAnswer::Moved(PathKey { place, ..drag.key }));
                 }
                 InputFlow::Stop
             }
@@ -150,14 +163,14 @@ impl BaseControl for PathControl {
 
     fn mouse_down(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
         if button == Button::Right {
-            return self.end(PathAnswer::Cancelled);
+            return self.cancel();
         }
         let at = mouse.at - self.corner;
         let key = self.key_at(at).and_then(|key| self.keys.get(key)).copied();
-        let begins = button == Button::Left && !mouse.modifiers.alt && self.going.is_none();
+        let begins = button == Button::Left && !mouse.modifiers.alt && self.machine.drag().is_none();
         match key.filter(|_| begins) {
             Some(key) => {
-                self.going = Some(Going { key, start: at });
+                self.machine.begin(DraggedPathKey { key, start: at });
                 InputFlow::Stop
             }
             None => InputFlow::ToParent,
@@ -165,14 +178,18 @@ impl BaseControl for PathControl {
     }
 
     fn mouse_up(&mut self, button: Button, _mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
-        if button == Button::Left { self.end(PathAnswer::Done) } else { InputFlow::ToParent }
+        if button != Button::Left {
+            return InputFlow::ToParent;
+        }
+        let event = self.machine.released();
+        self.end(&event)
     }
 
     fn key_down(&mut self, key: Key, _: Modifiers, _: bool, _framework: &mut ControlFramework) -> InputFlow {
-        if key == Key::Escape { self.end(PathAnswer::Cancelled) } else { InputFlow::ToParent }
+        if key == Key::Escape { self.cancel() } else { InputFlow::ToParent }
     }
 
     fn input_lost(&mut self, _framework: &mut ControlFramework) {
-        self.end(PathAnswer::Cancelled);
+        self.cancel();
     }
 }

@@ -1,6 +1,7 @@
 //! The mouse in the viewport: orbit, pan, zoom, click, box and lasso, with the usual keys and buttons.
 
 use super::base::{BaseControl, InputFlow, Mouse};
+use super::drag::{DragEvent, DragMachine};
 use super::framework::ControlFramework;
 use super::input::Button;
 use super::key::{Key, Modifiers};
@@ -27,27 +28,20 @@ pub enum Catch {
     Lasso,
 }
 
-/// State of the mouse.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-enum MouseMode {
-    #[default]
-    Idle,
-    /// A button is down and has not moved: may become a click, or `catch`.
-    Pressed {
-        at: Vec2,
-        catch: Catch,
-    },
-    Catching {
-        from: Vec2,
-        to: Vec2,
-        catch: Catch,
-    },
-    Drag {
-        kind: CameraMove,
-        button: Button,
-        last: Vec2,
-        before: Camera,
-    },
+/// A press of the left button: may become a click, or a region from there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct RegionPress {
+    at: Vec2,
+    catch: Catch,
+}
+
+/// What the mouse drags.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum ViewportDrag {
+    /// A region that selects bones.
+    Region { press: RegionPress, to: Vec2 },
+    /// The camera; it follows the mouse at once, without a threshold.
+    Camera { kind: CameraMove, button: Button, last: Vec2, before: Camera },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +61,7 @@ pub struct ViewportControl {
     pub corner: Vec2,
     /// Size of the viewport, points.
     pub size: Vec2,
-    mode: MouseMode,
+    machine: DragMachine<RegionPress, ViewportDrag>,
     lasso: Lasso,
     /// The next press selects in this shape, whatever is under it.
     armed: Option<Catch>,
@@ -79,18 +73,16 @@ const ORBIT: f32 = 0.008;
 /// Change of the logarithm of the distance per point of wheel or drag.
 const ZOOM_WHEEL: f32 = 0.002;
 const ZOOM_DRAG: f32 = 0.008;
-/// Distance beyond which a press is not a click, points.
-pub(super) const CLICK: f32 = 4.0;
 
 impl ViewportControl {
     /// Whether a drag is in progress.
     pub fn is_dragging(&self) -> bool {
-        matches!(self.mode, MouseMode::Drag { .. } | MouseMode::Catching { .. })
+        self.machine.drag().is_some()
     }
 
     /// Whether the mouse moves the camera.
     pub fn moves_camera(&self) -> bool {
-        matches!(self.mode, MouseMode::Drag { .. })
+        matches!(self.machine.drag(), Some(ViewportDrag::Camera { .. }))
     }
 
     /// Makes the next press of the left button begin a selection, even on a handle.
@@ -105,10 +97,12 @@ impl ViewportControl {
 
     /// Returns the box or lasso in progress.
     pub fn catching(&self) -> Option<Region<'_>> {
-        match self.mode {
-            MouseMode::Catching { from, to, catch: Catch::Box } => Some(Region::Box(from, to)),
-            MouseMode::Catching { catch: Catch::Lasso, .. } => Some(self.lasso.region()),
-            _ => None,
+        match self.machine.drag()? {
+            ViewportDrag::Region { press, to } => Some(match press.catch {
+                Catch::Box => Region::Box(press.at, *to),
+                Catch::Lasso => self.lasso.region(),
+            }),
+            ViewportDrag::Camera { .. } => None,
         }
     }
 
@@ -132,21 +126,17 @@ impl ViewportControl {
     }
 
     fn moved(&mut self, at: Vec2) {
-        match &mut self.mode {
-            MouseMode::Idle => {}
-            MouseMode::Pressed { at: from, catch } => {
-                if from.distance(at) > CLICK {
-                    let (from, catch) = (*from, *catch);
-                    self.lasso.begin(from);
-                    self.lasso.push(at);
-                    self.mode = MouseMode::Catching { from, to: at, catch };
-                }
-            }
-            MouseMode::Catching { to, .. } => {
+        if let DragEvent::Started(press) = self.machine.moved(at) {
+            self.lasso.begin(press.at);
+            self.machine.begin(ViewportDrag::Region { press, to: at });
+        }
+        match self.machine.drag_mut() {
+            None => {}
+            Some(ViewportDrag::Region { to, .. }) => {
                 *to = at;
                 self.lasso.push(at);
             }
-            MouseMode::Drag { kind, last, .. } => {
+            Some(ViewportDrag::Camera { kind, last, .. }) => {
                 let by = at - *last;
                 *last = at;
                 match *kind {
@@ -160,9 +150,9 @@ impl ViewportControl {
         }
     }
 
-    fn caught(&mut self, from: Vec2, to: Vec2, catch: Catch, modifiers: Modifiers) {
-        let region = match catch {
-            Catch::Box => OwnedRegion::Box(from, to),
+    fn caught(&mut self, press: RegionPress, to: Vec2, modifiers: Modifiers) {
+        let region = match press.catch {
+            Catch::Box => OwnedRegion::Box(press.at, to),
             Catch::Lasso => self.lasso.region().to_owned(),
         };
         // Ctrl and Alt together mean the lasso itself.
@@ -184,35 +174,46 @@ impl BaseControl for ViewportControl {
 
     fn mouse_down(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
         let at = mouse.at - self.corner;
-        match self.mode {
-            MouseMode::Idle => {
-                let armed = self.armed.take().filter(|_| button == Button::Left);
-                self.mode = match begins(button, mouse.modifiers) {
-                    _ if armed.is_some() => MouseMode::Pressed { at, catch: armed.unwrap_or(Catch::Box) },
-                    Begins::Catch(catch) => MouseMode::Pressed { at, catch },
-                    Begins::Drag(kind) => MouseMode::Drag { kind, button, last: at, before: self.camera },
-                    Begins::Nothing => MouseMode::Idle,
-                };
+        if self.moves_camera() {
+            return InputFlow::Stop;
+        }
+        // Another button cancels a box.
+        if self.machine.can_cancel() {
+            self.machine.cancelled();
+            return InputFlow::Stop;
+        }
+        let armed = self.armed.take().filter(|_| button == Button::Left);
+        match armed.map_or_else(|| begins(button, mouse.modifiers), Begins::Catch) {
+            Begins::Catch(catch) => self.machine.press(at, RegionPress { at, catch }),
+            Begins::Drag(kind) => {
+                self.machine.begin(ViewportDrag::Camera { kind, button, last: at, before: self.camera });
             }
-            // Another button cancels a box.
-            MouseMode::Pressed { .. } | MouseMode::Catching { .. } => self.mode = MouseMode::Idle,
-            MouseMode::Drag { .. } => {}
+            Begins::Nothing => {}
         }
         InputFlow::Stop
     }
 
     fn mouse_up(&mut self, button: Button, mouse: Mouse, _framework: &mut ControlFramework) -> InputFlow {
-        match self.mode {
-            MouseMode::Pressed { at, .. } if button == Button::Left => {
-                self.mode = MouseMode::Idle;
-                self.outcome = Some(ViewportOutcome::Pick(at, Choice::from(mouse.modifiers)));
+        let held = match self.machine.drag() {
+            Some(ViewportDrag::Camera { button, .. }) => *button,
+            Some(ViewportDrag::Region { .. }) | None => Button::Left,
+        };
+        if button != held {
+            return InputFlow::Stop;
+        }
+        match self.machine.released() {
+            DragEvent::Clicked(press) => {
+                self.outcome = Some(ViewportOutcome::Pick(press.at, Choice::from(mouse.modifiers)));
             }
-            MouseMode::Catching { from, to, catch } if button == Button::Left => {
-                self.mode = MouseMode::Idle;
-                self.caught(from, to, catch, mouse.modifiers);
+            DragEvent::Dropped(ViewportDrag::Region { press, to }) => {
+                self.caught(press, to, mouse.modifiers);
             }
-            MouseMode::Drag { button: held, .. } if button == held => self.mode = MouseMode::Idle,
-            _ => {}
+            DragEvent::Dropped(ViewportDrag::Camera { .. })
+            | DragEvent::Nothing
+            | DragEvent::Pressed
+            | DragEvent::Started(_)
+            | DragEvent::Moved(_)
+            | DragEvent::Cancelled(_) => {}
         }
         InputFlow::Stop
     }
@@ -225,21 +226,20 @@ impl BaseControl for ViewportControl {
         _repeat: bool,
         _framework: &mut ControlFramework,
     ) -> InputFlow {
-        let busy = self.mode != MouseMode::Idle || self.armed.is_some();
+        let busy = self.machine.can_cancel() || self.armed.is_some();
         if key != Key::Escape || !busy {
             return InputFlow::ToParent;
         }
-        if let MouseMode::Drag { before, .. } = self.mode {
+        if let DragEvent::Cancelled(ViewportDrag::Camera { before, .. }) = self.machine.cancelled() {
             self.camera = before;
         }
-        self.mode = MouseMode::Idle;
         self.armed = None;
         InputFlow::Stop
     }
 
     /// The release would never arrive: the camera stays where it is, and a box is dropped.
     fn input_lost(&mut self, _framework: &mut ControlFramework) {
-        self.mode = MouseMode::Idle;
+        self.machine.cancelled();
         self.armed = None;
     }
 }

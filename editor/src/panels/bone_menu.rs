@@ -20,12 +20,12 @@ const GROUPS: &[&[Id]] = &[
 /// a menu is about what is under the pointer. While the other button is down the right one takes a drag back, and no more.
 pub(super) fn show(
     response: &Response,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     at: Option<u32>,
     requests: &mut Vec<Request>,
 ) {
     let open = response.secondary_clicked() && !response.ctx.input(|input| input.pointer.primary_down());
-    if open && let Some(bone) = at.filter(|&bone| !state.selection.contains(bone)) {
+    if open && let Some(bone) = at.filter(|&bone| !context.selection.contains(bone)) {
         requests.push(Request::Select(Some(bone)));
     }
     let command = match () {
@@ -33,14 +33,14 @@ pub(super) fn show(
         () if response.clicked() => Some(SetOpenCommand::Bool(false)),
         () => None,
     };
-    Popup::menu(response).open_memory(command).at_pointer_fixed().show(|ui| entries(ui, state, requests));
+    Popup::menu(response).open_memory(command).at_pointer_fixed().show(|ui| entries(ui, context, requests));
 }
 
-fn entries(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn entries(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     for (index, group) in GROUPS.iter().enumerate() {
         if index > 0 {
             ui.separator();
         }
-        group.iter().for_each(|&id| menu::item(ui, state, id, false, requests));
+        group.iter().for_each(|&id| menu::item(ui, context, id, false, requests));
     }
 }

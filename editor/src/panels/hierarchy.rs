@@ -39,49 +39,49 @@ impl Panel for Hierarchy {
         PanelPlace::Left
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let of = state.view.map(|view| &view.loaded);
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let of = context.view.map(|view| &view.loaded);
         if self.of.as_ref().map(Arc::as_ptr) != of.map(Arc::as_ptr) {
             *self = Self { of: of.cloned(), query: std::mem::take(&mut self.query), ..Self::default() };
         }
-        if state.view.is_none() {
+        if context.view.is_none() {
             return widgets::empty(ui, "", "Bones appear here");
         }
-        if state.digest.rows.is_empty() {
+        if context.digest.rows.is_empty() {
             return widgets::empty(ui, "No bones", "This model has no skeleton");
         }
-        let entered = search_field::show(ui, &mut self.query, "Find a bone", state.find);
-        let rows = self.visible(state);
+        let entered = search_field::show(ui, &mut self.query, "Find a bone", context.find);
+        let rows = self.visible(context);
         if entered {
-            let found = self.best(state, &rows);
+            let found = self.best(context, &rows);
             requests.extend(found.map(|bone| Request::Select(Some(bone))));
         }
         if rows.is_empty() {
             return widgets::empty(ui, "No bone matches the search", "");
         }
-        self.tree(ui, state, &rows, requests);
+        self.tree(ui, context, &rows, requests);
     }
 }
 
 impl Hierarchy {
     /// Returns the bone that Enter selects: the one with exactly this name, otherwise the first match.
-    fn best(&self, state: &PanelContext<'_>, rows: &[(HierarchyRow, bool)]) -> Option<BoneIndex> {
+    fn best(&self, context: &PanelContext<'_>, rows: &[(HierarchyRow, bool)]) -> Option<BoneIndex> {
         let query = self.query.trim().to_lowercase();
         let found = || rows.iter().filter(|(_, hit)| *hit).map(|(row, _)| row.bone);
-        let exact = found().find(|&bone| state.bone_name(bone).to_lowercase() == query);
+        let exact = found().find(|&bone| context.bone_name(bone).to_lowercase() == query);
         exact.or_else(|| found().next()).filter(|_| !query.is_empty())
     }
 
     /// The rows to show: those that match and their ancestors, or those that no ancestor hides.
-    fn visible(&mut self, state: &PanelContext<'_>) -> Vec<(HierarchyRow, bool)> {
-        let rows = &state.digest.rows;
+    fn visible(&mut self, context: &PanelContext<'_>) -> Vec<(HierarchyRow, bool)> {
+        let rows = &context.digest.rows;
         let query = self.query.trim().to_lowercase();
         if !query.is_empty() {
-            return matching(rows, |bone| state.bone_name(bone).to_lowercase().contains(&query));
+            return matching(rows, |bone| context.bone_name(bone).to_lowercase().contains(&query));
         }
         // A selection made elsewhere is brought to light.
-        if state.selected() != self.followed
-            && let (Some(selected), Some(loaded)) = (state.selected(), state.loaded())
+        if context.selected() != self.followed
+            && let (Some(selected), Some(loaded)) = (context.selected(), context.loaded())
         {
             let bones = &loaded.model.animation.skeleton.bones;
             let mut above = bones.get(selected as usize).and_then(|bone| bone.parent);
@@ -105,15 +105,15 @@ impl Hierarchy {
     fn tree(
         &mut self,
         ui: &mut Ui,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         rows: &[(HierarchyRow, bool)],
         requests: &mut Vec<Request>,
     ) {
         ui.spacing_mut().item_spacing.y = 0.0;
         let mut area = ScrollArea::vertical().auto_shrink(false);
-        if state.selected() != self.followed {
-            self.followed = state.selected();
-            let place = rows.iter().position(|(row, _)| Some(row.bone) == state.selected());
+        if context.selected() != self.followed {
+            self.followed = context.selected();
+            let place = rows.iter().position(|(row, _)| Some(row.bone) == context.selected());
             if let Some(place) = place {
                 let middle = place as f32 * ROW - ui.available_height() / 2.0 + ROW / 2.0;
                 let tall = rows.len() as f32 * ROW - ui.available_height();
@@ -122,8 +122,8 @@ impl Hierarchy {
         }
         area.show_rows(ui, ROW, rows.len(), |ui, range| {
             for &(row, hit) in &rows[range] {
-                if self.row(ui, state, row, hit, requests) {
-                    choose(ui, state, rows, row.bone, requests);
+                if self.row(ui, context, row, hit, requests) {
+                    choose(ui, context, rows, row.bone, requests);
                 }
             }
         });
@@ -133,16 +133,16 @@ impl Hierarchy {
     fn row(
         &mut self,
         ui: &mut Ui,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         row: HierarchyRow,
         hit: bool,
         requests: &mut Vec<Request>,
     ) -> bool {
         let theme = Theme::of(ui);
-        let hidden = state.hidden.is_hidden(row.bone);
-        let name = state.bone_name(row.bone);
-        let selected = state.selection.contains(row.bone);
-        let (rect, response) = widgets::row(ui, &name, selected, state.highlighted() == Some(row.bone));
+        let hidden = context.hidden.is_hidden(row.bone);
+        let name = context.bone_name(row.bone);
+        let selected = context.selection.contains(row.bone);
+        let (rect, response) = widgets::row(ui, &name, selected, context.highlighted() == Some(row.bone));
         // Very deep skeletons stay readable: the indentation is limited, the order of the rows is not.
         let indent = 10.0 + (row.depth as f32 * 12.0).min(rect.width() * 0.5);
         let color = match (selected, hit) {
@@ -163,17 +163,17 @@ impl Hierarchy {
             let tone = if toggle.hovered() { theme.text } else { theme.weak };
             fold_mark(ui, mark.center(), folded, tone);
             if toggle.clicked() {
-                self.fold(row, state, ui.input(|input| input.modifiers.shift || input.modifiers.alt));
+                self.fold(row, context, ui.input(|input| input.modifiers.shift || input.modifiers.alt));
             }
         }
         let text =
             Rect::from_min_max(pos2(left + 18.0, rect.top()), pos2(rect.right() - 34.0, rect.bottom()));
         widgets::text_in(ui, text, &name, &TextStyle::Body, color);
-        eye(ui, state, row, &name, rect, response.id.with("eye"), requests);
+        eye(ui, context, row, &name, rect, response.id.with("eye"), requests);
         if response.hovered() {
             requests.push(Request::Hover(row.bone));
         }
-        super::bone_menu::show(&response, state, Some(row.bone), requests);
+        super::bone_menu::show(&response, context, Some(row.bone), requests);
         // The row that was clicked stays where it is, and so does one that a menu is about.
         if response.clicked() || (response.secondary_clicked() && !selected) {
             self.followed = Some(row.bone);
@@ -185,11 +185,11 @@ impl Hierarchy {
     }
 
     /// Folds or unfolds one bone; with `all`, everything below it too.
-    fn fold(&mut self, row: HierarchyRow, state: &PanelContext<'_>, all: bool) {
+    fn fold(&mut self, row: HierarchyRow, context: &PanelContext<'_>, all: bool) {
         let fold = !self.collapsed.contains(&row.bone);
         let count = if all { row.below as usize } else { 0 };
-        let start = state.digest.rows.iter().position(|other| other.bone == row.bone).unwrap_or(0);
-        for row in state.digest.rows.iter().skip(start).take(count + 1).filter(|row| row.parent) {
+        let start = context.digest.rows.iter().position(|other| other.bone == row.bone).unwrap_or(0);
+        for row in context.digest.rows.iter().skip(start).take(count + 1).filter(|row| row.parent) {
             if fold {
                 self.collapsed.insert(row.bone);
             } else {
@@ -203,7 +203,7 @@ impl Hierarchy {
 /// that are seen it is faint, and only there while the row is under the pointer.
 fn eye(
     ui: &mut Ui,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     row: HierarchyRow,
     name: &str,
     rect: Rect,
@@ -211,7 +211,7 @@ fn eye(
     requests: &mut Vec<Request>,
 ) {
     let theme = Theme::of(ui);
-    let hidden = state.hidden.is_hidden(row.bone);
+    let hidden = context.hidden.is_hidden(row.bone);
     let place = Rect::from_center_size(pos2(rect.right() - 20.0, rect.center().y), vec2(20.0, ROW));
     let over = ui.rect_contains_pointer(rect);
     let response = ui.interact(place, id, Sense::click());
@@ -228,7 +228,7 @@ fn eye(
     if response.clicked() {
         let all = ui.input(|input| input.modifiers.shift || input.modifiers.alt);
         let count = if all { row.below as usize } else { 0 };
-        let rows = &state.digest.rows;
+        let rows = &context.digest.rows;
         let start = rows.iter().position(|other| other.bone == row.bone).unwrap_or(0);
         let bones = rows.iter().skip(start).take(count + 1).map(|row| row.bone).collect();
         requests.push(Request::Hide { bones, hide: !hidden });
@@ -240,14 +240,14 @@ fn eye(
 /// Selects by a click on a row: with Ctrl it toggles, with Shift it adds all rows from the active bone to this one.
 fn choose(
     ui: &Ui,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     rows: &[(HierarchyRow, bool)],
     bone: BoneIndex,
     requests: &mut Vec<Request>,
 ) {
     let modifiers = ui.input(|input| input.modifiers);
     let place = |bone: BoneIndex| rows.iter().position(|(row, _)| row.bone == bone);
-    let from = state.selected().and_then(place).zip(place(bone)).filter(|_| modifiers.shift);
+    let from = context.selected().and_then(place).zip(place(bone)).filter(|_| modifiers.shift);
     requests.push(match from {
         _ if modifiers.command => Request::SelectBones(vec![bone], Choice::Toggle),
         Some((from, to)) => {

@@ -30,12 +30,12 @@ impl Panel for History {
         PanelPlace::Right
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let Some(view) = state.view else {
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let Some(view) = context.view else {
             return widgets::empty(ui, "", "The history of edits appears here");
         };
         let history = &view.history;
-        buttons(ui, state, history, requests);
+        buttons(ui, context, history, requests);
         ui.spacing_mut().item_spacing.y = 0.0;
         let here = (history.done, history.steps.len());
         let follow = self.followed.replace(here) != Some(here);
@@ -55,14 +55,14 @@ impl Panel for History {
     }
 }
 
-fn buttons(ui: &mut Ui, state: &PanelContext<'_>, history: &HistoryView, requests: &mut Vec<Request>) {
+fn buttons(ui: &mut Ui, context: &PanelContext<'_>, history: &HistoryView, requests: &mut Vec<Request>) {
     ui.add_space(GRID);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         ui.add_space(2.0 * GRID);
         for (icon, id) in [(Icon::Revert, Id::Undo), (Icon::Redo, Id::Redo)] {
             let when = super::commands::get(id).when;
-            ui.add_enabled_ui(when.holds(state), |ui| {
+            ui.add_enabled_ui(when.holds(context), |ui| {
                 let _ = widgets::command_button(ui, icon, id, false, requests)
                     .on_disabled_hover_text(when.reason());
             });

@@ -106,11 +106,11 @@ impl Layout {
         &mut self,
         ui: &mut Ui,
         panels: &mut [Box<dyn Panel>],
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let viewport = self.find(VIEWPORT);
-        let mut drag = LayoutDrag { panels, state, requests, viewport, changed: false };
+        let mut drag = LayoutDrag { panels, context, requests, viewport, changed: false };
         self.tree.ui(&mut drag, ui);
         self.changed |= drag.changed;
     }
@@ -140,7 +140,7 @@ fn sound(tree: &Tree<Pane>, panels: &[Box<dyn Panel>]) -> bool {
 /// Draws the tiles and follows their drags for egui_tiles.
 struct LayoutDrag<'a> {
     panels: &'a mut [Box<dyn Panel>],
-    state: &'a PanelContext<'a>,
+    context: &'a PanelContext<'a>,
     requests: &'a mut Vec<Request>,
     viewport: Option<TileId>,
     changed: bool,
@@ -153,11 +153,11 @@ impl Behavior<Pane> for LayoutDrag<'_> {
         };
         ui.set_clip_rect(ui.max_rect().intersect(ui.clip_rect()));
         if pane.0 == VIEWPORT {
-            panel.show(ui, self.state, self.requests);
+            panel.show(ui, self.context, self.requests);
         } else {
             let fill = Theme::of(ui).panel;
             ui.painter().rect_filled(ui.max_rect(), 0.0, fill);
-            Frame::NONE.show(ui, |ui| panel.show(ui, self.state, self.requests));
+            Frame::NONE.show(ui, |ui| panel.show(ui, self.context, self.requests));
         }
         UiResponse::None
     }
@@ -191,9 +191,9 @@ impl Behavior<Pane> for LayoutDrag<'_> {
         SimplificationOptions { all_panes_must_have_tabs: true, ..SimplificationOptions::default() }
     }
 
-    fn resize_stroke(&self, style: &egui::Style, state: ResizeState) -> Stroke {
+    fn resize_stroke(&self, style: &egui::Style, context: ResizeState) -> Stroke {
         let theme = Theme::get(style.visuals.dark_mode);
-        match state {
+        match context {
             ResizeState::Idle => Stroke::new(2.0, theme.gap),
             ResizeState::Hovering | ResizeState::Dragging => Stroke::new(2.0, theme.accent),
         }
@@ -212,9 +212,9 @@ impl Behavior<Pane> for LayoutDrag<'_> {
         visuals: &Visuals,
         _tiles: &Tiles<Pane>,
         _tile: TileId,
-        state: &TabState,
+        context: &TabState,
     ) -> Color32 {
-        if state.active { Theme::get(visuals.dark_mode).panel } else { Color32::TRANSPARENT }
+        if context.active { Theme::get(visuals.dark_mode).panel } else { Color32::TRANSPARENT }
     }
 
     fn tab_outline_stroke(&self, _: &Visuals, _: &Tiles<Pane>, _: TileId, _: &TabState) -> Stroke {
@@ -225,9 +225,9 @@ impl Behavior<Pane> for LayoutDrag<'_> {
         Stroke::new(1.0, Theme::get(visuals.dark_mode).panel)
     }
 
-    fn tab_text_color(&self, visuals: &Visuals, _: &Tiles<Pane>, _: TileId, state: &TabState) -> Color32 {
+    fn tab_text_color(&self, visuals: &Visuals, _: &Tiles<Pane>, _: TileId, context: &TabState) -> Color32 {
         let theme = Theme::get(visuals.dark_mode);
-        if state.active { theme.text } else { theme.weak }
+        if context.active { theme.text } else { theme.weak }
     }
 
     fn drag_preview_stroke(&self, visuals: &Visuals) -> Stroke {

@@ -13,21 +13,21 @@ use egui::{Align, Button, Layout, MenuBar, RichText, Slider, Ui};
 /// Draws the bar; `panels` are id, title and whether they are shown.
 pub fn show(
     ui: &mut Ui,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     panels: &[(&'static str, &'static str, bool)],
     requests: &mut Vec<Request>,
 ) {
     MenuBar::new().ui(ui, |ui| {
         ui.add_space(GRID);
-        ui.menu_button("File", |ui| file(ui, state, requests));
-        ui.menu_button("Edit", |ui| list(ui, state, &[Category::Edit, Category::Selection], requests));
-        ui.menu_button("Pose", |ui| pose(ui, state, requests));
-        ui.menu_button("Tools", |ui| list(ui, state, &[Category::Tools], requests));
-        ui.menu_button("Play", |ui| list(ui, state, &[Category::Playback], requests));
-        ui.menu_button("Keys", |ui| list(ui, state, &[Category::Keys], requests));
-        ui.menu_button("Take", |ui| list(ui, state, &[Category::Takes], requests));
-        ui.menu_button("View", |ui| view(ui, state, panels, requests));
-        ui.menu_button("Help", |ui| list(ui, state, &[Category::Help], requests));
+        ui.menu_button("File", |ui| file(ui, context, requests));
+        ui.menu_button("Edit", |ui| list(ui, context, &[Category::Edit, Category::Selection], requests));
+        ui.menu_button("Pose", |ui| pose(ui, context, requests));
+        ui.menu_button("Tools", |ui| list(ui, context, &[Category::Tools], requests));
+        ui.menu_button("Play", |ui| list(ui, context, &[Category::Playback], requests));
+        ui.menu_button("Keys", |ui| list(ui, context, &[Category::Keys], requests));
+        ui.menu_button("Take", |ui| list(ui, context, &[Category::Takes], requests));
+        ui.menu_button("View", |ui| view(ui, context, panels, requests));
+        ui.menu_button("Help", |ui| list(ui, context, &[Category::Help], requests));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(2.0 * GRID);
             let hint = format!("Find a command  {}", commands::shortcut_text(ui.ctx(), Id::Palette));
@@ -41,42 +41,42 @@ pub fn show(
 }
 
 /// One line: title, shortcut, a mark when `on`.
-pub(super) fn item(ui: &mut Ui, state: &PanelContext<'_>, id: Id, on: bool, requests: &mut Vec<Request>) {
+pub(super) fn item(ui: &mut Ui, context: &PanelContext<'_>, id: Id, on: bool, requests: &mut Vec<Request>) {
     let command = commands::get(id);
     let shortcut =
         RichText::new(commands::shortcut_text(ui.ctx(), id)).size(style::SMALL).color(Theme::of(ui).faint);
-    let title = RichText::new(super::commands::title(state, id)).color(if on {
+    let title = RichText::new(super::commands::title(context, id)).color(if on {
         Theme::of(ui).accent
     } else {
         Theme::of(ui).text
     });
     let button = Button::new(title).shortcut_text(shortcut).frame_when_inactive(false);
-    let response = ui.add_enabled(command.when.holds(state), button);
+    let response = ui.add_enabled(command.when.holds(context), button);
     if response.on_hover_text(command.help).on_disabled_hover_text(command.when.reason()).clicked() {
         requests.push(Request::Command(id));
         ui.close();
     }
 }
 
-fn list(ui: &mut Ui, state: &PanelContext<'_>, categories: &[Category], requests: &mut Vec<Request>) {
+fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], requests: &mut Vec<Request>) {
     for command in categories.iter().flat_map(|category| commands::of(*category)) {
-        let on = command.id == Id::ToggleSnap && state.keys.snap();
-        item(ui, state, command.id, on, requests);
+        let on = command.id == Id::ToggleSnap && context.keys.snap();
+        item(ui, context, command.id, on, requests);
     }
 }
 
-fn pose(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     for command in commands::of(Category::Pose) {
         let on = match command.id {
-            Id::AutoKey => state.settings.auto_key,
-            Id::ToggleIk => state.ik.on,
+            Id::AutoKey => context.settings.auto_key,
+            Id::ToggleIk => context.ik.on,
             _ => false,
         };
         // Lists "paste" directly above "paste mirrored".
         if command.id == Id::PasteMirrored {
-            item(ui, state, Id::PastePose, false, requests);
+            item(ui, context, Id::PastePose, false, requests);
         }
-        item(ui, state, command.id, on, requests);
+        item(ui, context, command.id, on, requests);
         if matches!(
             command.id,
             Id::AutoKey | Id::DropPending | Id::PasteMirrored | Id::ResetToRest | Id::LookAt
@@ -86,14 +86,14 @@ fn pose(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     }
 }
 
-fn file(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    item(ui, state, Id::Open, false, requests);
-    item(ui, state, Id::OpenPath, false, requests);
+fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    item(ui, context, Id::Open, false, requests);
+    item(ui, context, Id::OpenPath, false, requests);
     ui.menu_button("Open recent", |ui| {
-        if state.settings.recent.is_empty() {
+        if context.settings.recent.is_empty() {
             ui.add_enabled(false, Button::new("No recent files").frame(false));
         }
-        for path in &state.settings.recent {
+        for path in &context.settings.recent {
             let name = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
             let button = Button::new(name).frame_when_inactive(false);
             if ui.add(button).on_hover_text(path.display().to_string()).clicked() {
@@ -102,26 +102,26 @@ fn file(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
             }
         }
     });
-    item(ui, state, Id::OpenBuiltIn, false, requests);
-    if state.loading.is_some() {
-        item(ui, state, Id::CancelLoading, false, requests);
+    item(ui, context, Id::OpenBuiltIn, false, requests);
+    if context.loading.is_some() {
+        item(ui, context, Id::CancelLoading, false, requests);
     }
     ui.separator();
-    item(ui, state, Id::Save, false, requests);
-    item(ui, state, Id::SaveAs, false, requests);
-    item(ui, state, Id::SaveCopy, false, requests);
-    item(ui, state, Id::Revert, false, requests);
-    item(ui, state, Id::WhatWillBeSaved, false, requests);
-    item(ui, state, Id::ToggleShowChanges, state.settings.show_changes, requests);
+    item(ui, context, Id::Save, false, requests);
+    item(ui, context, Id::SaveAs, false, requests);
+    item(ui, context, Id::SaveCopy, false, requests);
+    item(ui, context, Id::Revert, false, requests);
+    item(ui, context, Id::WhatWillBeSaved, false, requests);
+    item(ui, context, Id::ToggleShowChanges, context.settings.show_changes, requests);
     ui.separator();
-    item(ui, state, Id::UnsavedWork, false, requests);
+    item(ui, context, Id::UnsavedWork, false, requests);
     ui.separator();
-    item(ui, state, Id::Quit, false, requests);
+    item(ui, context, Id::Quit, false, requests);
 }
 
 fn view(
     ui: &mut Ui,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     panels: &[(&'static str, &'static str, bool)],
     requests: &mut Vec<Request>,
 ) {
@@ -134,40 +134,40 @@ fn view(
             }
         }
         ui.separator();
-        item(ui, state, Id::ResetLayout, false, requests);
+        item(ui, context, Id::ResetLayout, false, requests);
     });
-    ui.menu_button("Camera", |ui| list(ui, state, &[Category::Camera], requests));
+    ui.menu_button("Camera", |ui| list(ui, context, &[Category::Camera], requests));
     ui.separator();
-    let look = &state.settings.look;
-    item(ui, state, Id::ToggleGrid, look.grid, requests);
-    item(ui, state, Id::ToggleSurface, look.surface, requests);
-    item(ui, state, Id::ToggleSkeleton, state.shows_skeleton(), requests);
-    item(ui, state, Id::ToggleXRay, look.bones_in_front, requests);
+    let look = &context.settings.look;
+    item(ui, context, Id::ToggleGrid, look.grid, requests);
+    item(ui, context, Id::ToggleSurface, look.surface, requests);
+    item(ui, context, Id::ToggleSkeleton, context.shows_skeleton(), requests);
+    item(ui, context, Id::ToggleXRay, look.bones_in_front, requests);
     ui.menu_button("Bones", |ui| {
-        item(ui, state, Id::BonesOctahedra, look.bone_look == BoneLook::Octahedra, requests);
-        item(ui, state, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
-        item(ui, state, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
+        item(ui, context, Id::BonesOctahedra, look.bone_look == BoneLook::Octahedra, requests);
+        item(ui, context, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
+        item(ui, context, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
     });
-    let hand = &state.settings.tools;
-    item(ui, state, Id::TogglePath, hand.path, requests);
-    ui.menu_button("Ghosts", |ui| ghosts(ui, state, requests));
+    let hand = &context.settings.tools;
+    item(ui, context, Id::TogglePath, hand.path, requests);
+    ui.menu_button("Ghosts", |ui| ghosts(ui, context, requests));
     ui.menu_button("Shading", |ui| {
-        item(ui, state, Id::ShadeMaterial, look.shading == Shading::Material, requests);
-        item(ui, state, Id::ShadeClay, look.shading == Shading::Clay, requests);
-        item(ui, state, Id::ShadeUnlit, look.shading == Shading::Unlit, requests);
+        item(ui, context, Id::ShadeMaterial, look.shading == Shading::Material, requests);
+        item(ui, context, Id::ShadeClay, look.shading == Shading::Clay, requests);
+        item(ui, context, Id::ShadeUnlit, look.shading == Shading::Unlit, requests);
     });
     ui.separator();
     ui.menu_button("Theme", |ui| {
-        let theme = state.settings.theme;
-        item(ui, state, Id::ThemeSystem, theme == ThemeChoice::System, requests);
-        item(ui, state, Id::ThemeDark, theme == ThemeChoice::Dark, requests);
-        item(ui, state, Id::ThemeLight, theme == ThemeChoice::Light, requests);
+        let theme = context.settings.theme;
+        item(ui, context, Id::ThemeSystem, theme == ThemeChoice::System, requests);
+        item(ui, context, Id::ThemeDark, theme == ThemeChoice::Dark, requests);
+        item(ui, context, Id::ThemeLight, theme == ThemeChoice::Light, requests);
     });
     ui.menu_button("Interface size", |ui| {
-        item(ui, state, Id::ScaleUp, false, requests);
-        item(ui, state, Id::ScaleDown, false, requests);
-        item(ui, state, Id::ScaleReset, false, requests);
-        let mut scale = state.settings.scale;
+        item(ui, context, Id::ScaleUp, false, requests);
+        item(ui, context, Id::ScaleDown, false, requests);
+        item(ui, context, Id::ScaleReset, false, requests);
+        let mut scale = context.settings.scale;
         let slider = Slider::new(&mut scale, SCALES).step_by(0.05).update_while_editing(false);
         let response = ui.add(slider).accessible_name("Scale");
         // Not while dragging: the slider would slide away under the pointer.
@@ -175,16 +175,16 @@ fn view(
             requests.push(Request::Scale(scale));
         }
     });
-    item(ui, state, Id::FullScreen, state.window.is_full_screen(), requests);
-    if matches!(state.window.device(), super::window_status::DeviceStatus::Paused { .. }) {
-        item(ui, state, Id::RetryDevice, false, requests);
+    item(ui, context, Id::FullScreen, context.window.is_full_screen(), requests);
+    if matches!(context.window.device(), super::window_status::DeviceStatus::Paused { .. }) {
+        item(ui, context, Id::RetryDevice, false, requests);
     }
 }
 
 /// How the skeleton is shown before and after.
-fn ghosts(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let mut ghosts = state.settings.tools.ghosts;
-    item(ui, state, Id::ToggleGhosts, ghosts.shown, requests);
+fn ghosts(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let mut ghosts = context.settings.tools.ghosts;
+    item(ui, context, Id::ToggleGhosts, ghosts.shown, requests);
     let number = |ui: &mut Ui, title: &str, value: &mut u32, range: std::ops::RangeInclusive<u32>| {
         ui.horizontal(|ui| {
             let field = ui.add(egui::DragValue::new(value).range(range).speed(0.1));
@@ -201,7 +201,7 @@ fn ghosts(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.separator();
     ui.radio_value(&mut ghosts.skin, false, "as skeletons");
     ui.radio_value(&mut ghosts.skin, true, "as skins");
-    if ghosts != state.settings.tools.ghosts {
+    if ghosts != context.settings.tools.ghosts {
         requests.push(Request::Ghosts(ghosts));
     }
 }

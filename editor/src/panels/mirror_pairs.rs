@@ -12,10 +12,10 @@ use egui::{Rect, RichText, ScrollArea, TextStyle, Ui, pos2};
 use std::sync::Arc;
 
 /// Draws the list; a click on a pair selects both bones.
-pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.set_width(520.0);
     ui.label(RichText::new("Mirror pairs").heading());
-    let Some(loaded) = state.loaded() else {
+    let Some(loaded) = context.loaded() else {
         ui.label(RichText::new("No model is open").color(Theme::of(ui).weak));
         return;
     };
@@ -40,8 +40,8 @@ pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Req
         pairs.pairs.len(),
         |ui, rows| {
             for pair in &pairs.pairs[rows] {
-                let [left, right] = [pair.left, pair.right].map(|bone| state.bone_name(bone));
-                let both = [pair.left, pair.right].iter().all(|&bone| state.selection.contains(bone));
+                let [left, right] = [pair.left, pair.right].map(|bone| context.bone_name(bone));
+                let both = [pair.left, pair.right].iter().all(|&bone| context.selection.contains(bone));
                 let name = format!("{left} and {right}, {}", pair.guess.title());
                 let (rect, response) = widgets::row(ui, &name, both, false);
                 if ui.is_rect_visible(rect) {

@@ -36,6 +36,7 @@ pub mod number_field;
 pub mod number_slider;
 pub mod number_text;
 pub mod open_model;
+mod overlay_title;
 pub mod overlays;
 mod palette;
 pub mod panel;
@@ -49,6 +50,7 @@ mod search_field;
 mod selected_bones;
 pub mod settings;
 mod shortcuts;
+pub mod side_files;
 pub mod state;
 pub mod status;
 pub mod status_line;
@@ -120,8 +122,8 @@ impl Desk {
     }
 
     /// Draws everything once.
-    pub fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        commands::Keymap::install(&state.settings.keys, ui.ctx());
+    pub fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        commands::Keymap::install(&context.settings.keys, ui.ctx());
         close_menus_beside_a_drag(ui.ctx());
         let theme = theme::Theme::of(ui);
         let bar = egui::Frame::NONE.fill(theme.bar);
@@ -133,18 +135,18 @@ impl Desk {
                     .iter()
                     .map(|panel| (panel.id(), panel.title(), self.layout.is_shown(panel.id())))
                     .collect();
-                ui.centered_and_justified(|ui| menu::show(ui, state, &shown, requests));
+                ui.centered_and_justified(|ui| menu::show(ui, context, &shown, requests));
             },
         );
         egui::Panel::bottom("status").exact_size(24.0).frame(bar).show_separator_line(false).show(ui, |ui| {
-            status_line::show(ui, state, requests);
+            status_line::show(ui, context, requests);
         });
         egui::CentralPanel::no_frame().show(ui, |ui| {
-            self.layout.show(ui, &mut self.panels, state, requests);
+            self.layout.show(ui, &mut self.panels, context, requests);
         });
         drop_hint(ui);
-        self.overlays.show(ui, state, requests);
-        self.dialogs.show(ui, state, requests);
+        self.overlays.show(ui, context, requests);
+        self.dialogs.show(ui, context, requests);
     }
 }
 

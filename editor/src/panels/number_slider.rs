@@ -1,6 +1,6 @@
 //! A slider for the number of a field: a position on a line, starting from the middle.
 
-use super::drag::{DragEvent, DragMachine, PointerInput};
+use super::drag::{DragEvent, PanelDrag, PointerInput};
 use super::number_field::FieldEvent;
 use super::number_text::exact;
 use super::theme::Theme;
@@ -71,7 +71,7 @@ struct KnobDrag {
     beside: f64,
 }
 
-type GripDrag = DragMachine<(), KnobDrag>;
+type GripDrag = PanelDrag<(), KnobDrag>;
 
 impl NumberSlider<'_> {
     /// Draws the slider into `rect`; the line is as long as `rect` is wide.

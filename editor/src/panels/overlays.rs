@@ -1,6 +1,7 @@
 //! Overlays drawn over the panels: command palette, shortcut sheet, about, path field.
 
 use super::context::PanelContext;
+use super::overlay_title;
 use super::palette::Palette;
 use super::prompts::Overlay;
 use super::request::Request;
@@ -22,15 +23,15 @@ pub struct Overlays {
 }
 
 impl Overlays {
-    /// Draws the overlay that the state names.
-    pub fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let fresh = self.shown != state.overlay;
+    /// Draws the overlay that `context` names.
+    pub fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let fresh = self.shown != context.overlay;
         if fresh {
-            self.shown = state.overlay;
+            self.shown = context.overlay;
             self.palette = Palette::default();
             self.shortcuts.begin(ui);
         }
-        let Some(overlay) = state.overlay else { return };
+        let Some(overlay) = context.overlay else { return };
         let id = WidgetId::unique(("overlay", format!("{overlay:?}")));
         let mut modal = Modal::new(id).backdrop_color(Theme::of(ui).backdrop);
         let margin = if overlay == Overlay::Palette { 8 } else { 20 };
@@ -39,10 +40,10 @@ impl Overlays {
             modal = modal.area(Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, 72.0)));
         }
         let response = modal.show(ui.ctx(), |ui| match overlay {
-            Overlay::Palette => self.palette.show(ui, fresh, state, requests),
-            Overlay::Shortcuts => self.shortcuts.show(ui, state, requests),
-            Overlay::About => about(ui, state, requests),
-            Overlay::MirrorPairs => super::mirror_pairs::show(ui, state, requests),
+            Overlay::Palette => self.palette.show(ui, fresh, context, requests),
+            Overlay::Shortcuts => self.shortcuts.show(ui, context, requests),
+            Overlay::About => about(ui, context, requests),
+            Overlay::MirrorPairs => super::mirror_pairs::show(ui, context, requests),
             Overlay::OpenPath => self.open_path(ui, fresh, requests),
         });
         if response.should_close() {
@@ -80,9 +81,9 @@ impl Overlays {
     }
 }
 
-fn about(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn about(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.set_width(420.0);
-    title(ui, "Dragonfly", requests);
+    overlay_title::show(ui, "Dragonfly", requests);
     let theme = Theme::of(ui);
     ui.label(RichText::new(concat!("Version ", env!("CARGO_PKG_VERSION"))).color(theme.weak));
     ui.add_space(2.0 * GRID);
@@ -93,18 +94,7 @@ fn about(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
             .small()
             .color(theme.weak),
     );
-    if let super::window_status::DeviceStatus::Ready { adapter } = state.window.device() {
+    if let super::window_status::DeviceStatus::Ready { adapter } = context.window.device() {
         ui.label(RichText::new(adapter).small().color(theme.faint));
     }
-}
-
-pub(super) fn title(ui: &mut Ui, text: &str, requests: &mut Vec<Request>) {
-    ui.horizontal(|ui| {
-        ui.label(RichText::new(text).heading());
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if widgets::icon_button(ui, super::icons::Icon::Close, "Close", false).clicked() {
-                requests.push(Request::Overlay(None));
-            }
-        });
-    });
 }

@@ -33,7 +33,7 @@ impl Palette {
         &mut self,
         ui: &mut Ui,
         fresh: bool,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         ui.set_width(460.0);
@@ -50,7 +50,7 @@ impl Palette {
         if response.changed() {
             self.chosen = 0;
         }
-        let found = search(&self.query, state);
+        let found = search(&self.query, context);
         if found.is_empty() {
             ui.label(RichText::new("No command or take matches").color(Theme::of(ui).weak));
             return;
@@ -68,7 +68,7 @@ impl Palette {
         let height = (found.len() as f32 * ROW).min(12.0 * ROW);
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             for (index, entry) in found.iter().enumerate() {
-                let response = entry.row(ui, state, index == self.chosen);
+                let response = entry.row(ui, context, index == self.chosen);
                 if index == self.chosen && (up || down) {
                     response.scroll_to_me(None);
                 }
@@ -86,7 +86,7 @@ impl Palette {
 
 /// Returns the commands whose title, category or help contains every word of `query`, and the takes whose names do;
 /// those with a match in the title first.
-fn search<'a>(query: &str, state: &'a PanelContext<'a>) -> Vec<PaletteEntry<'a>> {
+fn search<'a>(query: &str, context: &'a PanelContext<'a>) -> Vec<PaletteEntry<'a>> {
     let words: Vec<String> = query.to_lowercase().split_whitespace().map(str::to_owned).collect();
     let has = |text: &str| {
         let text = text.to_lowercase();
@@ -99,13 +99,13 @@ fn search<'a>(query: &str, state: &'a PanelContext<'a>) -> Vec<PaletteEntry<'a>>
     };
     let commands = commands::all().filter(|command| command.id != Id::Palette).map(PaletteEntry::Command);
     // An empty field lists the commands; takes have a list of their own.
-    let takes = if words.is_empty() { &[][..] } else { &state.digest.takes };
+    let takes = if words.is_empty() { &[][..] } else { &context.digest.takes };
     let takes = takes.iter().enumerate().map(|(index, take)| PaletteEntry::Take(index, &take.name));
     let takes = takes.filter(|entry| has(&entry.about())).take(TAKES);
     let mut found: Vec<PaletteEntry<'_>> =
         commands.filter(|entry| has(&entry.about())).chain(takes).collect();
     // Matches in the title come first, and commands that are not available now come last, with the reason.
-    found.sort_by_key(|entry| (!has(entry.title()), !entry.is_able(state)));
+    found.sort_by_key(|entry| (!has(entry.title()), !entry.is_able(context)));
     found
 }
 
@@ -131,9 +131,9 @@ impl<'a> PaletteEntry<'a> {
         format!("{} {} {help}", self.category(), self.title())
     }
 
-    fn is_able(self, state: &PanelContext<'_>) -> bool {
+    fn is_able(self, context: &PanelContext<'_>) -> bool {
         match self {
-            Self::Command(command) => command.when.holds(state),
+            Self::Command(command) => command.when.holds(context),
             Self::Take(..) => true,
         }
     }
@@ -145,10 +145,10 @@ impl<'a> PaletteEntry<'a> {
         }
     }
 
-    fn row(self, ui: &mut Ui, state: &PanelContext<'_>, chosen: bool) -> egui::Response {
+    fn row(self, ui: &mut Ui, context: &PanelContext<'_>, chosen: bool) -> egui::Response {
         let theme = Theme::of(ui);
         let (rect, response) = widgets::row(ui, self.title(), chosen, false);
-        let able = self.is_able(state);
+        let able = self.is_able(context);
         let color = match (able, chosen) {
             (false, _) => theme.faint,
             (true, true) => theme.accent,

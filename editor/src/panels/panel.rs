@@ -36,5 +36,5 @@ pub trait Panel {
     fn place(&self) -> PanelPlace;
 
     /// Draws it. What the user did is pushed to `requests`.
-    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>);
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>);
 }

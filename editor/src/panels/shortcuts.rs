@@ -3,6 +3,7 @@
 use super::commands::{self, Category, Command, Id, KeySettings, Keymap, MOUSE, Preset};
 use super::context::PanelContext;
 use super::icons::Icon;
+use super::overlay_title;
 use super::request::Request;
 use super::style::{self, GRID};
 use super::theme::Theme;
@@ -26,12 +27,12 @@ impl ShortcutSheet {
         Keymap::set_asking(ui.ctx(), false);
     }
 
-    pub(super) fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    pub(super) fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         let room = ui.ctx().content_rect();
         ui.set_width((room.width() - 96.0).clamp(320.0, 860.0));
-        super::overlays::title(ui, "Keys and mouse", requests);
-        self.listen(ui, &state.settings.keys, requests);
-        self.head(ui, &state.settings.keys, requests);
+        overlay_title::show(ui, "Keys and mouse", requests);
+        self.listen(ui, &context.settings.keys, requests);
+        self.head(ui, &context.settings.keys, requests);
         let height = (room.height() - 220.0).max(120.0);
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             let columns = if ui.available_width() > 700.0 { 2 } else { 1 };
@@ -41,7 +42,7 @@ impl ShortcutSheet {
                 for category in Category::ALL {
                     let column = (before / half.max(1)).min(columns.len() - 1);
                     before += commands::of(*category).len();
-                    self.sheet(&mut columns[column], *category, &state.settings.keys, requests);
+                    self.sheet(&mut columns[column], *category, &context.settings.keys, requests);
                 }
                 if self.query.is_empty() {
                     mouse(&mut columns[0]);

@@ -3,13 +3,13 @@
 
 use super::actions::{bones, drags, execute, feed, files, input, playback, show};
 use super::context::PanelContext;
-use super::marks::Marks;
 use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
 use super::request::{Effect, Request};
 use super::settings::Settings;
+use super::side_files::SideFiles;
 use super::status::MessageSeverity;
-use super::window_status::DeviceStatus;
+use super::window_status::WindowStatus;
 use super::workspace::Workspace;
 use crate::control::InputEvent;
 use dragonfly_anim::data::BoneIndex;
@@ -169,19 +169,9 @@ impl State {
         self.workspace.model.take_passed_over()
     }
 
-    /// Sets the state of the graphics device.
-    pub fn set_device(&mut self, device: DeviceStatus) {
-        self.workspace.window.set_device(device);
-    }
-
-    /// Sets the duration of the last frame, milliseconds.
-    pub fn set_frame_time(&mut self, milliseconds: f32) {
-        self.workspace.window.set_frame_time(milliseconds);
-    }
-
-    /// Switches between the whole screen and a window. Returns whether the window is to fill the screen now.
-    pub fn toggle_full_screen(&mut self) -> bool {
-        self.workspace.window.toggle_full_screen()
+    /// Returns the state of the window and of the graphics device, to change it.
+    pub fn window_mut(&mut self) -> &mut WindowStatus {
+        &mut self.workspace.window
     }
 
     /// Returns the settings, to change them.
@@ -194,29 +184,8 @@ impl State {
         self.workspace.player.next_display()
     }
 
-    /// Returns the file that holds the markers of the model, once after it was opened.
-    pub fn wanted_markers(&mut self) -> Option<String> {
-        self.workspace.keys.markers_mut().wanted()
-    }
-
-    /// Reads the text of the file of markers.
-    pub fn read_markers(&mut self, text: &str) {
-        show::read_markers(&mut self.workspace, text);
-    }
-
-    /// Returns the file of markers and its text, when they changed since the last call.
-    pub fn unsaved_markers(&mut self) -> Option<(String, String)> {
-        show::unsaved_markers(&mut self.workspace)
-    }
-
-    /// Reads the marks of bones that are remembered, before a model is open.
-    pub fn read_marks(&mut self, text: &str) {
-        self.workspace.marks = Marks::read(text);
-    }
-
-    /// Returns the text of the marks of bones, when they changed since the last call.
-    pub fn unsaved_marks(&mut self) -> Option<String> {
-        show::note_marks(&mut self.workspace);
-        self.workspace.marks.unsaved()
+    /// Returns the markers and marks as the text of their files.
+    pub fn side_files(&mut self) -> SideFiles<'_> {
+        SideFiles::of(&mut self.workspace)
     }
 }

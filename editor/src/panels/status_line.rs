@@ -13,19 +13,19 @@ use dragonfly_document::edit::SAME_TIME;
 use egui::{Align, Color32, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
 
 /// Draws the line.
-pub fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+pub fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.add_space(3.0 * GRID);
-        corner(ui, state);
+        corner(ui, context);
         ui.add_space(3.0 * GRID);
-        pending(ui, state, requests);
-        message(ui, state);
+        pending(ui, context, requests);
+        message(ui, context);
     });
 }
 
-fn corner(ui: &mut Ui, state: &PanelContext<'_>) {
+fn corner(ui: &mut Ui, context: &PanelContext<'_>) {
     let theme = Theme::of(ui);
-    match state.window.device() {
+    match context.window.device() {
         DeviceStatus::Starting => {
             ui.label(RichText::new("Starting the graphics device…").small().color(theme.faint));
         }
@@ -33,7 +33,7 @@ fn corner(ui: &mut Ui, state: &PanelContext<'_>) {
             ui.label(RichText::new("Viewport paused").small().color(theme.warning));
         }
         DeviceStatus::Ready { adapter } => {
-            let time = state.window.frame_time().map_or(String::new(), |time| format!("{time:>5.1} ms"));
+            let time = context.window.frame_time().map_or(String::new(), |time| format!("{time:>5.1} ms"));
             let font = egui::FontId::monospace(10.0);
             let label = ui.label(RichText::new(time).font(font).color(theme.faint));
             label.on_hover_text(format!("{adapter}\nTime that the last frame took"));
@@ -46,8 +46,8 @@ fn corner(ui: &mut Ui, state: &PanelContext<'_>) {
 }
 
 /// Shows the number of pending poses; a click goes to the next one.
-fn pending(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let (here, all) = state.pending_poses();
+fn pending(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let (here, all) = context.pending_poses();
     if all == 0 {
         return;
     }
@@ -61,18 +61,18 @@ fn pending(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     );
     let button = egui::Button::new(RichText::new(text).small().color(theme.warning)).frame(false);
     if ui.add(button).on_hover_text(hint).clicked() {
-        let now = state.time();
-        let next = state.pending_times().find(|&time| time > now + SAME_TIME);
-        requests.extend(next.or(state.pending_times().next()).map(Request::Seek));
+        let now = context.time();
+        let next = context.pending_times().find(|&time| time > now + SAME_TIME);
+        requests.extend(next.or(context.pending_times().next()).map(Request::Seek));
     }
     ui.add_space(2.0 * GRID);
 }
 
-fn message(ui: &mut Ui, state: &PanelContext<'_>) {
+fn message(ui: &mut Ui, context: &PanelContext<'_>) {
     let theme = Theme::of(ui);
     let size = vec2(ui.available_width(), ui.available_height());
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let (text, level) = match (state.loading, state.status.last()) {
+    let (text, level) = match (context.loading, context.status.last()) {
         (Some(loading), _) => {
             let percent = (loading.progress.done * 100.0) as u32;
             let text = format!("{} {}… {percent} %", loading.progress.stage.title(), loading.title);
@@ -96,7 +96,7 @@ fn message(ui: &mut Ui, state: &PanelContext<'_>) {
         ScrollArea::vertical().max_height(260.0).stick_to_bottom(true).show(ui, |ui| {
             ui.set_width(ui.available_width());
             let mut any = false;
-            for line in state.status.lines() {
+            for line in context.status.lines() {
                 any = true;
                 let (_, color) = tone(line.level, Theme::of(ui));
                 ui.label(RichText::new(sentence(line)).size(style::SMALL).color(color));

@@ -27,20 +27,21 @@ impl Panel for TimelinePanel {
         PanelPlace::Below
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.spacing_mut().item_spacing.y = 0.0;
-        transport::show(ui, state, requests);
+        transport::show(ui, context, requests);
         let rect = ui.available_rect_before_wrap();
         if rect.height() < 32.0 || rect.width() < 140.0 {
             return;
         }
-        if state.take().is_none() {
-            let text = if state.view.is_none() { "Keys appear here" } else { "The rest pose does not move" };
+        if context.take().is_none() {
+            let text =
+                if context.view.is_none() { "Keys appear here" } else { "The rest pose does not move" };
             ui.painter().rect_filled(rect, CornerRadius::ZERO, Theme::of(ui).sunken);
             widgets::empty(ui, text, "");
             return;
         }
-        self.dope.show(ui, rect, state, requests);
+        self.dope.show(ui, rect, context, requests);
     }
 }
 

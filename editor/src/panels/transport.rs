@@ -14,36 +14,37 @@ use dragonfly_picture::playback::{LATEST, Repeat};
 use egui::{Align, Button, DragValue, Layout, RichText, Ui, vec2};
 
 /// Draws the bar.
-pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let able = state.playback.take.is_some();
+pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let able = context.playback.take.is_some();
     ui.horizontal(|ui| {
         ui.set_height(32.0);
         ui.add_space(2.0 * GRID);
         ui.spacing_mut().item_spacing.x = 2.0;
-        ui.add_enabled_ui(able, |ui| buttons(ui, state, requests));
+        ui.add_enabled_ui(able, |ui| buttons(ui, context, requests));
         divider(ui);
-        keying(ui, state, requests);
+        keying(ui, context, requests);
         divider(ui);
-        repeat(ui, state, requests);
+        repeat(ui, context, requests);
         divider(ui);
-        speed(ui, state, requests);
+        speed(ui, context, requests);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(2.0 * GRID);
             ui.spacing_mut().item_spacing.x = GRID;
-            frame_rate(ui, state, requests);
+            frame_rate(ui, context, requests);
             divider(ui);
-            ui.add_enabled_ui(able, |ui| time(ui, state, requests));
+            ui.add_enabled_ui(able, |ui| time(ui, context, requests));
         });
     });
 }
 
-fn buttons(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let playing = state.playback.playing;
-    let (forward, backward) = (playing && state.playback.speed >= 0.0, playing && state.playback.speed < 0.0);
+fn buttons(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let playing = context.playback.playing;
+    let (forward, backward) =
+        (playing && context.playback.speed >= 0.0, playing && context.playback.speed < 0.0);
     command_button(ui, Icon::First, Id::Start, false, requests);
     command_button(ui, Icon::KeyBack, Id::PreviousKey, false, requests);
     command_button(ui, Icon::FrameBack, Id::PreviousFrame, false, requests);
-    ui.add_enabled_ui(state.take_bounds().1 > 0.0, |ui| {
+    ui.add_enabled_ui(context.take_bounds().1 > 0.0, |ui| {
         let icon = if backward { Icon::Pause } else { Icon::Reverse };
         command_button(ui, icon, Id::PlayBackwards, backward, requests);
         let icon = if forward { Icon::Pause } else { Icon::Play };
@@ -54,30 +55,30 @@ fn buttons(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     command_button(ui, Icon::Last, Id::End, false, requests);
 }
 
-fn keying(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    command_button(ui, Icon::AutoKey, Id::AutoKey, state.settings.auto_key, requests);
-    let waits = state.pending_here().is_some();
-    ui.add_enabled_ui(state.take().is_some(), |ui| {
+fn keying(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    command_button(ui, Icon::AutoKey, Id::AutoKey, context.settings.auto_key, requests);
+    let waits = context.pending_here().is_some();
+    ui.add_enabled_ui(context.take().is_some(), |ui| {
         command_button(ui, Icon::Key, Id::Key, waits, requests);
     });
 }
 
-fn repeat(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn repeat(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let shortcut = commands::shortcut_text(ui.ctx(), Id::CycleRepeat);
     for (icon, repeat, name) in [
         (Icon::Loop, Repeat::Loop, "Loop"),
         (Icon::PingPong, Repeat::PingPong, "Back and forth"),
         (Icon::Once, Repeat::Once, "Once"),
     ] {
-        let button = icon_button(ui, icon, name, state.playback.repeat == repeat);
+        let button = icon_button(ui, icon, name, context.playback.repeat == repeat);
         if button.on_hover_text(format!("{name} ({shortcut} for the next)")).clicked() {
             requests.push(Request::Repeat(repeat));
         }
     }
 }
 
-fn speed(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let mut speed = state.settings.speed;
+fn speed(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let mut speed = context.settings.speed;
     let field = DragValue::new(&mut speed)
         .range(SPEEDS)
         .speed(0.01)
@@ -91,8 +92,8 @@ fn speed(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     }
 }
 
-fn frame_rate(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let rate = state.settings.frame_rate;
+fn frame_rate(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let rate = context.settings.frame_rate;
     let button = Button::new(RichText::new(format!("{rate} fps")).color(Theme::of(ui).weak)).frame(false);
     let response = ui.add(button).on_hover_text("Frames per second, for display and stepping");
     egui::Popup::menu(&response).show(|ui| {
@@ -106,13 +107,13 @@ fn frame_rate(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>
 }
 
 /// Right to left: frames, seconds.
-fn time(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
-    let rate = state.settings.frame_rate;
-    let (start, length) = state.take_bounds();
+    let rate = context.settings.frame_rate;
+    let (start, length) = context.take_bounds();
     let last = ruler::frame_of(start + length, rate);
     ui.label(RichText::new(format!("/ {last}")).monospace().color(theme.weak));
-    let mut frame = ruler::frame_of(state.time(), rate);
+    let mut frame = ruler::frame_of(context.time(), rate);
     let field = DragValue::new(&mut frame)
         .range(ruler::frame_of(start.min(0.0), rate)..=ruler::frame_of(LATEST, rate))
         .speed(0.2)
@@ -127,7 +128,7 @@ fn time(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     {
         requests.push(Request::Seek(ruler::time_of(frame, rate)));
     }
-    let mut seconds = state.time();
+    let mut seconds = context.time();
     let field = DragValue::new(&mut seconds)
         .range(start.min(0.0)..=LATEST)
         .speed(0.005)

@@ -37,6 +37,10 @@ impl EditKind for DeleteKeys {
         EditedBones::of_keys(&self.keys, skeleton)
     }
 
+    fn keys(&self) -> &[KeySet] {
+        &self.keys
+    }
+
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let take = work.take(&self.take)?;
         let found = work.keys(take, &self.keys)?;

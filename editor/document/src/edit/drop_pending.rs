@@ -1,9 +1,9 @@
 //! Discards pending poses.
 
 use super::kind::EditKind;
-use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef};
-use crate::adapter::EditError;
+use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef, cost};
 use crate::adapter::plan::{Transaction, pending};
+use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -38,6 +38,10 @@ impl EditKind for DropPending {
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
         EditedBones::listed(&self.bones, skeleton)
+    }
+
+    fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
+        Some(cost::of_poses(adapter.pending_poses()))
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

@@ -38,6 +38,10 @@ impl EditKind for DuplicateKeys {
         EditedBones::of_keys(&self.keys, skeleton)
     }
 
+    fn keys(&self) -> &[KeySet] {
+        &self.keys
+    }
+
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         finite("the distance", self.by)?;
         if self.by.abs() <= SAME_TIME {

@@ -1,11 +1,11 @@
 //! Keys pending poses.
 
 use super::kind::EditKind;
-use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef};
-use crate::adapter::EditError;
+use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, with_kind};
 use crate::adapter::op::ChannelAddress;
 use crate::adapter::plan::{PoseMode, Transaction, pending, pose};
+use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -44,6 +44,10 @@ impl EditKind for KeyPending {
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
         EditedBones::listed(&self.bones, skeleton)
+    }
+
+    fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
+        Some(cost::of_poses(adapter.pending_poses()))
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

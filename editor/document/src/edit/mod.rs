@@ -19,6 +19,7 @@ mod add_keys;
 mod arbitrary;
 mod bones;
 mod copied;
+mod cost;
 mod create_take;
 mod delete_keys;
 mod delete_take;

@@ -38,6 +38,10 @@ impl EditKind for MoveKeys {
         EditedBones::of_keys(&self.keys, skeleton)
     }
 
+    fn keys(&self) -> &[KeySet] {
+        &self.keys
+    }
+
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         finite("the distance", self.by)?;
         move_keys(work, &self.take, &self.keys, KeyMove::PLAIN, |time| time + self.by)

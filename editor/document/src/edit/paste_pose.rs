@@ -1,14 +1,14 @@
 //! Pastes a copied pose.
 
 use super::kind::EditKind;
-use super::{Arbitrary, BonePose, BoneRef, EditedBones, Example, SetPending, SetPose, TakeRef};
+use super::{Arbitrary, BonePose, BoneRef, EditedBones, Example, SetPending, SetPose, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use crate::adapter::plan::{
     Transaction, key_time,
     pose::{rotation, vector},
     rest,
 };
-use crate::adapter::{EditError, TakeId};
+use crate::adapter::{EditError, ModelAdapter, TakeId};
 use crate::bones::MirrorPairs;
 use crate::posing::mirror::Mirror;
 use dragonfly_anim::data::Channel;
@@ -59,6 +59,10 @@ impl EditKind for PastePose {
         let given = self.poses.iter().filter_map(|pose| pose.bone.find_in(skeleton));
         let target = |bone| pairs.as_ref().map_or(Some(bone), |pairs| pairs.mirror_of(bone));
         EditedBones::Named(given.filter_map(target).collect())
+    }
+
+    fn cost(&self, _adapter: &ModelAdapter) -> Option<usize> {
+        Some(cost::of_poses(self.poses.len()))
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

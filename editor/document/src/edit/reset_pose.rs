@@ -1,11 +1,11 @@
 //! Resets keys to the original or to the rest pose.
 
 use super::kind::EditKind;
-use super::{Arbitrary, BoneRef, EditedBones, Example, Property, ResetTo, TakeRef};
-use crate::adapter::EditError;
+use super::{Arbitrary, BoneRef, EditedBones, Example, Property, ResetTo, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, with_kind};
 use crate::adapter::op::{ChannelAddress, Op};
 use crate::adapter::plan::{Transaction, finite, key_at, pending, pose, rest};
+use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -48,6 +48,10 @@ impl EditKind for ResetPose {
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
         EditedBones::listed(&self.bones, skeleton)
+    }
+
+    fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
+        Some(cost::of_poses(adapter.skeleton().len()))
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

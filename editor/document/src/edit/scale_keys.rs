@@ -40,6 +40,10 @@ impl EditKind for ScaleKeys {
         EditedBones::of_keys(&self.keys, skeleton)
     }
 
+    fn keys(&self) -> &[KeySet] {
+        &self.keys
+    }
+
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let (about, factor) = (finite("the time", self.about)?, finite("the factor", self.factor)?);
         if factor == 0.0 {

@@ -2,8 +2,7 @@
 
 use super::kind::EditKind;
 use super::set_pose::pose_label;
-use super::{Arbitrary, BonePose, EditedBones, Example, Property, TakeRef};
-use crate::adapter::EditError;
+use super::{Arbitrary, BonePose, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::PendingAt;
 use crate::adapter::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use crate::adapter::op::Op;
@@ -11,6 +10,7 @@ use crate::adapter::plan::{
     Transaction, key_time,
     pose::{rotation, vector},
 };
+use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -50,6 +50,10 @@ impl EditKind for SetPending {
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
         EditedBones::named(self.poses.iter().map(|pose| &pose.bone), skeleton)
+    }
+
+    fn cost(&self, _adapter: &ModelAdapter) -> Option<usize> {
+        Some(cost::of_poses(self.poses.len()))
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

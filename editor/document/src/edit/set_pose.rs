@@ -1,9 +1,9 @@
 //! Sets the pose of bones at a time.
 
 use super::kind::EditKind;
-use super::{Arbitrary, BonePose, EditedBones, Example, TakeRef};
-use crate::adapter::EditError;
+use super::{Arbitrary, BonePose, EditedBones, Example, TakeRef, cost};
 use crate::adapter::plan::{PoseMode, Transaction, pose};
+use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,6 +40,10 @@ impl EditKind for SetPose {
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
         EditedBones::named(self.poses.iter().map(|pose| &pose.bone), skeleton)
+    }
+
+    fn cost(&self, _adapter: &ModelAdapter) -> Option<usize> {
+        Some(cost::of_poses(self.poses.len()))
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

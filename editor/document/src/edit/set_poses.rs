@@ -2,9 +2,9 @@
 
 use super::kind::EditKind;
 use super::set_pose::pose_label;
-use super::{Arbitrary, EditedBones, Example, PoseAt, TakeRef};
-use crate::adapter::EditError;
+use super::{Arbitrary, EditedBones, Example, PoseAt, TakeRef, cost};
 use crate::adapter::plan::{PoseMode, Transaction, pose};
+use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,6 +40,10 @@ impl EditKind for SetPoses {
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
         let poses = self.at.iter().flat_map(|at| &at.poses);
         EditedBones::named(poses.map(|pose| &pose.bone), skeleton)
+    }
+
+    fn cost(&self, _adapter: &ModelAdapter) -> Option<usize> {
+        Some(cost::of_poses(self.at.iter().map(|at| at.poses.len()).sum()))
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

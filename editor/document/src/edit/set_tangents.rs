@@ -1,12 +1,12 @@
 //! Sets the tangents of a key.
 
 use super::kind::EditKind;
-use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef};
-use crate::adapter::EditError;
+use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::change::{KeyChange, Triple, subtract};
 use crate::adapter::kind::{ChannelKind, ChannelNumbers, with_kind};
 use crate::adapter::op::{ChannelAddress, Op};
 use crate::adapter::plan::{Transaction, finite, key_at, pose::numbers};
+use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Interpolation;
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
@@ -48,6 +48,10 @@ impl EditKind for SetTangents {
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
         EditedBones::named([&self.bone], skeleton)
+    }
+
+    fn cost(&self, _adapter: &ModelAdapter) -> Option<usize> {
+        Some(cost::of_poses(1))
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

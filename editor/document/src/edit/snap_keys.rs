@@ -38,6 +38,10 @@ impl EditKind for SnapKeys {
         EditedBones::of_keys(&self.keys, skeleton)
     }
 
+    fn keys(&self) -> &[KeySet] {
+        &self.keys
+    }
+
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         if !(1.0..=1000.0).contains(&self.rate) {
             return Err(EditError::Number { what: "the frame rate", value: self.rate });

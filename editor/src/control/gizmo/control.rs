@@ -3,10 +3,10 @@
 use super::{Gizmo, GizmoAnswer};
 use crate::control::area::ControlId;
 use crate::control::base::{BaseControl, InputFlow, Mouse};
+use crate::control::drag::{DragEvent, DragMachine, THRESHOLD};
 use crate::control::framework::ControlFramework;
 use crate::control::input::Button;
 use crate::control::key::{Key, Modifiers};
-use crate::control::viewport::CLICK;
 use crate::control::viewport_tools::tool::ViewportTool;
 use dragonfly_picture::gizmo::{GizmoView, Handle, Tool};
 use glam::Vec2;
@@ -21,24 +21,29 @@ pub struct GizmoControl {
     pub corner: Vec2,
     /// Whether poses can be changed. If not, a press on a handle is only noted, see [`Self::take_refused`].
     pub editable: bool,
-    /// Whether a key began the drag, so that no button is held.
-    by_key: bool,
+    /// A press on a handle that is released where it was is a click on the object behind the handle.
+    machine: DragMachine<HandlePress, DragOrigin>,
     answer: Option<GizmoAnswer>,
-    /// A press on a handle, until the pointer moves: if released there, it is a click on the object behind the handle.
-    pressed: Option<Pressed>,
     clicked: Option<Mouse>,
     refused: bool,
 }
 
 /// A press that may still be a click.
 #[derive(Clone, Copy, Debug)]
-struct Pressed {
+struct HandlePress {
     /// Position and modifier keys.
     mouse: Mouse,
-    /// Distance that the pointer may move and still be a click, points.
-    slack: f32,
-    /// Whether nothing moves until then.
+    /// Whether nothing moves as long as it may be a click.
     waits: bool,
+}
+
+/// How a drag began.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum DragOrigin {
+    /// By the left button, which is held.
+    Button,
+    /// By a key: no button is held.
+    Key,
 }
 
 /// Slack of rings and arrows, points: even the smallest drag of them may be intended.
@@ -50,9 +55,8 @@ impl Default for GizmoControl {
             gizmo: Gizmo::default(),
             corner: Vec2::ZERO,
             editable: true,
-            by_key: false,
+            machine: DragMachine::default(),
             answer: None,
-            pressed: None,
             clicked: None,
             refused: false,
         }
@@ -65,8 +69,7 @@ impl GizmoControl {
     pub fn begin_by_key(&mut self, own: ControlId, at: Vec2, framework: &mut ControlFramework) -> bool {
         let begins = self.gizmo.begin(None, at - self.corner);
         if begins {
-            self.by_key = true;
-            self.pressed = None;
+            self.machine.begin(DragOrigin::Key);
             framework.grab(own);
             self.answer = Some(GizmoAnswer::Changed);
         }
@@ -102,10 +105,10 @@ impl GizmoControl {
         }
         self.answer = Some(answer);
         if answer != GizmoAnswer::Changed {
-            self.pressed = None;
-            if std::mem::take(&mut self.by_key) {
+            if self.is_modal() {
                 framework.release();
             }
+            self.machine.cancelled();
         }
         InputFlow::Stop
     }
@@ -125,7 +128,7 @@ impl ViewportTool for GizmoControl {
     }
 
     fn is_modal(&self) -> bool {
-        self.by_key
+        self.machine.drag() == Some(&DragOrigin::Key)
     }
 }
 
@@ -137,9 +140,10 @@ impl BaseControl for GizmoControl {
     fn mouse_move(&mut self, mouse: Mouse, framework: &mut ControlFramework) -> InputFlow {
         let at = mouse.at - self.corner;
         if self.gizmo.is_dragging() {
-            self.pressed =
-                self.pressed.filter(|pressed| pressed.mouse.at.distance(mouse.at) <= pressed.slack);
-            if self.pressed.is_some_and(|pressed| pressed.waits) {
+            if let DragEvent::Started(_) = self.machine.moved(mouse.at) {
+                self.machine.begin(DragOrigin::Button);
+            }
+            if self.machine.pressed().is_some_and(|press| press.waits) {
                 return InputFlow::Stop;
             }
             let answer = self.gizmo.pointer(at, mouse.modifiers);
@@ -166,10 +170,14 @@ impl BaseControl for GizmoControl {
                 }
                 // The ball is large, and covers bones that may be meant.
                 let ball = handle == Some(Handle::Center) && self.gizmo.tool == Tool::Rotate;
-                let slack = if ball { CLICK } else { STEADY };
-                self.pressed = handle.is_some().then_some(Pressed { mouse, slack, waits: ball });
+                let slack = if ball { THRESHOLD } else { STEADY };
                 let begins = handle.is_some() && self.gizmo.begin(handle, at);
-                if begins { GizmoAnswer::Changed } else { GizmoAnswer::Ignored }
+                if begins {
+                    self.machine.press_within(mouse.at, HandlePress { mouse, waits: ball }, slack);
+                    GizmoAnswer::Changed
+                } else {
+                    GizmoAnswer::Ignored
+                }
             }
             Button::Right => self.gizmo.cancel(),
             Button::Left | Button::Middle => GizmoAnswer::Ignored,
@@ -178,11 +186,21 @@ impl BaseControl for GizmoControl {
     }
 
     fn mouse_up(&mut self, button: Button, _mouse: Mouse, framework: &mut ControlFramework) -> InputFlow {
-        if button != Button::Left || self.by_key {
+        if button != Button::Left || self.is_modal() {
             return InputFlow::ToParent;
         }
-        self.clicked = self.pressed.take().map(|pressed| pressed.mouse);
-        let answer = if self.clicked.is_some() { self.gizmo.cancel() } else { self.gizmo.confirm() };
+        let answer = match self.machine.released() {
+            DragEvent::Clicked(press) => {
+                self.clicked = Some(press.mouse);
+                self.gizmo.cancel()
+            }
+            DragEvent::Dropped(_) => self.gizmo.confirm(),
+            DragEvent::Nothing
+            | DragEvent::Pressed
+            | DragEvent::Started(_)
+            | DragEvent::Moved(_)
+            | DragEvent::Cancelled(_) => GizmoAnswer::Ignored,
+        };
         self.note(answer, framework)
     }
 

@@ -1,4 +1,4 @@
-//! Keys through the clipboard.
+//! Keys and poses through the clipboard.
 
 use super::{edit, keys, locks, pose};
 use crate::panels::count_text::{count, grouped};
@@ -8,6 +8,7 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::edit::{BoneRef, CopiedChannel, Edit, PasteKeys};
+use dragonfly_document::posing;
 use std::sync::Arc;
 
 /// Copies the selected keys where the timeline was used last, otherwise the pose.
@@ -48,9 +49,25 @@ fn keys_text(workspace: &mut Workspace, verb: &str) -> Option<String> {
     Some(clipboard::to_text(channels))
 }
 
+/// Pastes the pose, or the keys, in a text of the clipboard; any other text is refused with a message.
+pub(super) fn paste(workspace: &mut Workspace, text: &str, mirrored: bool) -> Option<Effect> {
+    if let Some(poses) = posing::clipboard::from_text(text) {
+        return pose::paste(workspace, poses, mirrored);
+    }
+    match clipboard::from_text(text) {
+        Some(channels) if !mirrored => return paste_keys(workspace, channels),
+        Some(_) => {
+            let text = "The clipboard contains keys; only poses can be pasted mirrored";
+            workspace.say(MessageSeverity::Info, text);
+        }
+        None => workspace.say(MessageSeverity::Info, "The clipboard contains no pose and no keys"),
+    }
+    None
+}
+
 /// Inserts copied keys at the time shown: on the bones they are of, or, where the same number of other bones is selected, on
 /// these in their order. Locked bones stay as they are.
-pub(super) fn paste_keys(workspace: &mut Workspace, mut channels: Vec<CopiedChannel>) -> Option<Effect> {
+fn paste_keys(workspace: &mut Workspace, mut channels: Vec<CopiedChannel>) -> Option<Effect> {
     let Some(take) = workspace.read().take_ref() else {
         workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
         return None;

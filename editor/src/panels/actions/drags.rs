@@ -70,6 +70,8 @@ fn send(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)
     let number = workspace.model.send(&change, &mut workspace.dragging.echo);
     if let Change::Edit(_, Some(gesture)) | Change::Cancel(gesture) = change {
         workspace.keys.sent(gesture, number);
+        let take = workspace.read().shared_take().cloned();
+        workspace.keys.follow_drag(take.as_deref(), &workspace.dragging.echo);
     }
     pass(Effect::Send(number, change));
 }

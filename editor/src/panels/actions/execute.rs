@@ -2,7 +2,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
-use super::{bones, drags, files, framing, keys, locks, look, playback, pose, takes};
+use super::{bones, clipboard, drags, files, framing, keys, locks, look, playback, takes};
 use crate::panels::commands;
 use crate::panels::keys::KeysRequest;
 use crate::panels::request::{Effect, FileAction, Request};
@@ -46,7 +46,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Hide { bones, hide } => workspace.bones.hide(&bones, hide),
         Request::Timeline(request) => return keys_request(workspace, request),
         Request::Change(change) => return Some(Effect::Change(change)),
-        Request::PastePose { text, mirrored } => return pose::paste(workspace, &text, mirrored),
+        Request::PastePose { text, mirrored } => return clipboard::paste(workspace, &text, mirrored),
         Request::Hover(bone) => workspace.bones.hover(Some(bone)),
         Request::ShowTake(take) => playback::show_take(workspace, take),
         Request::Seek(time) => playback::seek(workspace, time),

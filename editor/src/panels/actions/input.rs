@@ -1,11 +1,10 @@
 //! Input of the viewport: events reach the tools as they happen, and what follows goes out at once.
 
-use super::{ik, locks, playback, tools};
+use super::{locks, playback, tools};
 use crate::control::gizmo::GizmoAnswer;
 use crate::control::path::{PathAnswer, PathKey};
 use crate::control::{Button, InputEvent, ViewportOutcome};
 use crate::panels::request::Effect;
-use crate::panels::status::MessageSeverity;
 use crate::panels::tool_drag::Alone;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::Change;
@@ -62,7 +61,7 @@ fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
         effects.push(Effect::Pick(pos2(mouse.at.x, mouse.at.y), Choice::from(mouse.modifiers)));
     }
     if refused {
-        say_refused(workspace);
+        tools::say_refused(workspace);
     }
     if let Some(answer) = gizmo {
         gizmo_answered(workspace, answer, effects);
@@ -72,20 +71,12 @@ fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
     }
 }
 
-/// Reports why a pose cannot be changed.
-pub(super) fn say_refused(workspace: &mut Workspace) {
-    if let Some(bone) = workspace.bones.active().filter(|_| workspace.player.take().is_some()) {
-        return locks::say_locked(workspace, bone);
-    }
-    workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
-}
-
 fn gizmo_answered(workspace: &mut Workspace, answer: GizmoAnswer, effects: &mut Vec<Effect>) {
     let idle = workspace.tools.controls().gizmo().gizmo.is_identity();
     match answer {
         GizmoAnswer::Ignored => {}
         GizmoAnswer::Changed => {
-            begin_following(workspace);
+            tools::begin_following(workspace);
             // A press that changes nothing yet is no edit.
             if !idle || workspace.tools.drag().gesture().is_some() {
                 let poses = workspace.tools.dragged_poses();
@@ -123,14 +114,6 @@ fn end_drag(workspace: &mut Workspace, cancel: bool, effects: &mut Vec<Effect>) 
     if let Some(gesture) = workspace.tools.drag_mut().end() {
         let end = if cancel { Change::Cancel } else { Change::Release };
         effects.push(Effect::Change(end(gesture)));
-    }
-}
-
-/// Records the poses at the start of a drag of the gizmo. Does nothing during the drag.
-pub(super) fn begin_following(workspace: &mut Workspace) {
-    if workspace.tools.drag().is_undecided() {
-        let hold = if workspace.read().bones_follow() { ik::hold(workspace) } else { None };
-        workspace.tools.drag_mut().follow(hold);
     }
 }
 

@@ -1,8 +1,7 @@
 //! Commands for the pose at the time shown: key, drop, copy, paste, reset.
 
-use super::{clipboard as key_clipboard, edit, locks};
+use super::{edit, locks};
 use crate::panels::count_text::count;
-use crate::panels::keys;
 use crate::panels::keys::channel::named;
 use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
@@ -95,19 +94,8 @@ pub(in crate::panels) fn copy(workspace: &mut Workspace) -> Option<Effect> {
     Some(Effect::Copy(clipboard::to_text(&copied)))
 }
 
-/// Pastes the pose, or the keys, in a text of the clipboard; any other text is refused with a message.
-pub(super) fn paste(workspace: &mut Workspace, text: &str, mirrored: bool) -> Option<Effect> {
-    let Some(mut poses) = clipboard::from_text(text) else {
-        match keys::clipboard::from_text(text) {
-            Some(channels) if !mirrored => return key_clipboard::paste_keys(workspace, channels),
-            Some(_) => {
-                let text = "The clipboard contains keys; only poses can be pasted mirrored";
-                workspace.say(MessageSeverity::Info, text);
-            }
-            None => workspace.say(MessageSeverity::Info, "The clipboard contains no pose and no keys"),
-        }
-        return None;
-    };
+/// Pastes copied poses at the time shown.
+pub(super) fn paste(workspace: &mut Workspace, mut poses: Vec<BonePose>, mirrored: bool) -> Option<Effect> {
     let Some(take) = workspace.read().take_ref() else {
         workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
         return None;

@@ -113,16 +113,3 @@ fn guess_frame_rate(workspace: &mut Workspace) {
         workspace.say(MessageSeverity::Info, text);
     }
 }
-
-/// Reads the text of the file of markers.
-pub(in crate::panels) fn read_markers(workspace: &mut Workspace, text: &str) {
-    if let Some(view) = workspace.model.view() {
-        workspace.keys.markers_mut().read(text, &view.slots);
-    }
-}
-
-/// Returns the file of markers and its text, when they changed since the last call.
-pub(in crate::panels) fn unsaved_markers(workspace: &mut Workspace) -> Option<(String, String)> {
-    let view = workspace.model.view()?;
-    workspace.keys.markers_mut().unsaved(&view.slots)
-}

@@ -1,6 +1,6 @@
 //! The tools of the viewport: which one is active, where the gizmo is, the motion path.
 
-use super::{input, playback};
+use super::{ik, locks, playback};
 use crate::control::Catch;
 use crate::panels::status::MessageSeverity;
 use crate::panels::tool_state::PlacedGizmo;
@@ -36,7 +36,7 @@ pub(in crate::panels) fn drag_now(workspace: &mut Workspace, tool: Tool) {
     workspace.tools.controls_mut().look(workspace.camera.camera());
     if !workspace.tools.controls().gizmo().editable {
         workspace.tools.refuse_drag(Instant::now());
-        return input::say_refused(workspace);
+        return say_refused(workspace);
     }
     if !workspace.tools.controls_mut().begin_by_key() {
         workspace.say(MessageSeverity::Info, "The selected bone is behind the camera");
@@ -44,7 +44,7 @@ pub(in crate::panels) fn drag_now(workspace: &mut Workspace, tool: Tool) {
     // Nothing is changed before the mouse moves.
     workspace.tools.controls_mut().gizmo_mut().take_answer();
     if workspace.tools.controls().edits() {
-        input::begin_following(workspace);
+        begin_following(workspace);
     }
 }
 
@@ -92,5 +92,21 @@ pub(super) fn update_path(workspace: &mut Workspace) {
     };
     if changed {
         workspace.tools.show_path_keys();
+    }
+}
+
+/// Reports why a pose cannot be changed.
+pub(super) fn say_refused(workspace: &mut Workspace) {
+    if let Some(bone) = workspace.bones.active().filter(|_| workspace.player.take().is_some()) {
+        return locks::say_locked(workspace, bone);
+    }
+    workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
+}
+
+/// Records the poses at the start of a drag of the gizmo. Does nothing during the drag.
+pub(super) fn begin_following(workspace: &mut Workspace) {
+    if workspace.tools.drag().is_undecided() {
+        let hold = if workspace.read().bones_follow() { ik::hold(workspace) } else { None };
+        workspace.tools.drag_mut().follow(hold);
     }
 }

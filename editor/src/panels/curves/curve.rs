@@ -3,7 +3,7 @@
 
 use super::form::RotationForm;
 use crate::panels::keys::intervals::Intervals;
-use crate::panels::keys::{ChannelId, Shift, channel};
+use crate::panels::keys::{ChannelId, channel};
 use dragonfly_anim::data::{Channel, Interpolation, Take};
 use dragonfly_anim::sample::sample_channel;
 use dragonfly_document::edit::Property;
@@ -31,8 +31,6 @@ pub(super) struct Curve {
     /// Extents of blocks of keys; a block of each level is [`BLOCK`] blocks of the one before.
     levels: Vec<Vec<Extent>>,
     whole: bool,
-    /// Of a curve with shifted keys: whether each key was shifted.
-    moved: Option<Vec<bool>>,
 }
 
 /// Least and greatest numbers of some keys.
@@ -76,8 +74,7 @@ impl Curve {
             Property::Scale => CurveColumns::Vector(track.scale.clone()),
             Property::Rotation => CurveColumns::Turn(track.rotation.clone()),
         };
-        let curve =
-            Self { id, columns, form, numbers: Vec::new(), levels: Vec::new(), whole: false, moved: None };
+        let curve = Self { id, columns, form, numbers: Vec::new(), levels: Vec::new(), whole: false };
         (!curve.times().is_empty()).then_some(curve)
     }
 
@@ -234,70 +231,13 @@ impl Curve {
 
     /// Whether the key is selected, if `chosen` are the selected ones.
     pub(super) fn is_chosen(&self, key: usize, chosen: &Intervals) -> bool {
-        match &self.moved {
-            Some(moved) => moved.get(key) == Some(&true),
-            None => self.times().get(key).is_some_and(|&time| chosen.holds(time)),
-        }
+        self.times().get(key).is_some_and(|&time| chosen.holds(time))
     }
 
     /// Returns the form in which its rotations are shown.
     pub(super) fn form(&self) -> RotationForm {
         self.form
     }
-
-    /// Returns the curve with the keys in `chosen` shifted, if it is short enough to be computed in every frame.
-    pub(super) fn shifted(&self, chosen: &Intervals, shift: Shift, copies: bool) -> Option<Self> {
-        let times = self.times();
-        if chosen.is_empty() || times.len() > SHORT || !self.whole {
-            return None;
-        }
-        // Time, key, and whether it was moved: a moved key overwrites one that stays.
-        let mut keys: Vec<(f32, usize, bool)> = Vec::with_capacity(times.len());
-        for (key, &time) in times.iter().enumerate() {
-            let moves = chosen.holds(time);
-            if moves {
-                keys.push((shift.apply(time), key, true));
-            }
-            if !moves || copies {
-                keys.push((time, key, false));
-            }
-        }
-        keys.retain(|(time, ..)| time.is_finite());
-        keys.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.2.cmp(&a.2)));
-        keys.dedup_by(|later, earlier| later.0 - earlier.0 <= dragonfly_document::edit::SAME_TIME);
-        let steeper = match shift {
-            Shift::Scale { factor, .. } => 1.0 / factor,
-            _ => 1.0,
-        };
-        let columns = match &self.columns {
-            CurveColumns::Vector(channel) => CurveColumns::Vector(rearranged(channel, &keys, steeper)),
-            CurveColumns::Turn(channel) => CurveColumns::Turn(rearranged(channel, &keys, steeper)),
-        };
-        let numbers = keys.iter().map(|&(_, key, _)| self.key(key)).collect();
-        let moved = Some(keys.iter().map(|&(.., moved)| moved).collect());
-        Some(Self { columns, numbers, levels: Vec::new(), moved, ..*self })
-    }
-}
-
-/// Largest number of keys of a curve that is recomputed in every frame of a drag.
-const SHORT: usize = 4096;
-
-fn rearranged<T: Copy + std::ops::Mul<f32, Output = T>>(
-    channel: &Channel<T>,
-    keys: &[(f32, usize, bool)],
-    steeper: f32,
-) -> Channel<T> {
-    let per_key = channel.values_per_key();
-    let mut values = Vec::with_capacity(keys.len() * per_key);
-    for &(_, key, moved) in keys {
-        for part in 0..per_key {
-            let Some(&value) = channel.values.get(key * per_key + part) else { continue };
-            let tangent = per_key == 3 && part != 1 && moved;
-            values.push(if tangent { value * steeper } else { value });
-        }
-    }
-    let times: Vec<f32> = keys.iter().map(|key| key.0).collect();
-    Channel { times: times.into(), values: values.into(), interpolation: channel.interpolation }
 }
 
 fn vector(value: Vec3) -> CurveNumbers {
@@ -339,7 +279,6 @@ mod tests {
                 levels: levels(&numbers),
                 numbers,
                 whole: true,
-                moved: None,
             };
             for _ in 0..200 {
                 let from = random.below(count);

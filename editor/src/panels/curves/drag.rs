@@ -6,7 +6,9 @@ use super::tangents::{TangentHandle, Tangents};
 use super::values::{ValueKey, value_edit};
 use crate::panels::context::PanelContext;
 use crate::panels::dope::to_frame;
-use crate::panels::drag::{DragEvent, DragMachine, PointerInput, Press, SelectionBox, choice_of, readout};
+use crate::panels::drag::{
+    DragEvent, PanelDrag, PointerInput, Press, SelectionBox, choice_of, position, readout,
+};
 use crate::panels::keys::intervals::keys_between;
 use crate::panels::keys::{ChannelId, Drawn, KeyDragOp, KeysRequest, TimeScale};
 use crate::panels::request::Request;
@@ -17,7 +19,7 @@ use std::sync::Arc;
 /// The drag on the curves.
 #[derive(Debug, Default)]
 pub(super) struct CurveDrag {
-    machine: DragMachine<CurveTarget, CurveDragged>,
+    machine: PanelDrag<CurveTarget, CurveDragged>,
     /// Component of the key that was pressed on last.
     component: usize,
 }
@@ -79,7 +81,7 @@ pub(super) struct CurveCanvas<'a> {
     /// A bit for each component that is shown.
     pub(super) components: u8,
     pub(super) tangents: &'a Tangents,
-    pub(super) state: &'a PanelContext<'a>,
+    pub(super) context: &'a PanelContext<'a>,
 }
 
 impl CurveKey {
@@ -118,7 +120,7 @@ impl CurveDrag {
         match self.machine.step(&input, response.is_pointer_button_down_on(), |at| canvas.target_at(at)) {
             DragEvent::Nothing | DragEvent::Cancelled(CurveDragged::Box(_)) => {}
             DragEvent::Pressed => {
-                if let Some(Press { on: CurveTarget::Key(key), .. }) = self.machine.press() {
+                if let Some(Press { on: CurveTarget::Key(key), .. }) = self.machine.pressed() {
                     self.component = key.component;
                 }
             }
@@ -130,7 +132,7 @@ impl CurveDrag {
                     self.advance(ui, pointer, canvas, &input, requests);
                 }
             }
-            DragEvent::Moved(pointer) => self.advance(ui, pointer, canvas, &input, requests),
+            DragEvent::Moved(at) => self.advance(ui, position(at), canvas, &input, requests),
             DragEvent::Clicked(press) => click(&press, requests),
             DragEvent::Dropped(CurveDragged::Box(drawn)) => {
                 if let Some(pointer) = pointer.or(input.pointer) {
@@ -155,7 +157,7 @@ impl CurveDrag {
     ) {
         let Some(drag) = self.machine.drag_mut() else { return };
         // The document refused the drag, or a key cancelled it.
-        if drag.was_requested() && !canvas.state.keys.is_dragging() {
+        if drag.was_requested() && !canvas.context.keys.is_dragging() {
             return self.machine.spend();
         }
         if let Some(op) = drag.op(ui, pointer, canvas, input) {
@@ -182,14 +184,14 @@ impl CurveDragged {
         canvas: &CurveCanvas<'_>,
         input: &PointerInput,
     ) -> Option<KeyDragOp> {
-        let state = canvas.state;
+        let context = canvas.context;
         match self {
             Self::Times { grabbed, pressed, copies, requested } => {
                 let by = canvas.time.time_at(pointer.x) - *pressed;
-                let snap = state.keys.snap() != input.modifiers.command;
-                let by = if snap { to_frame(*grabbed + by, state) - *grabbed } else { by };
+                let snap = context.keys.snap() != input.modifiers.command;
+                let by = if snap { to_frame(*grabbed + by, context) - *grabbed } else { by };
                 ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
-                let frames = by * state.settings.frame_rate as f32;
+                let frames = by * context.settings.frame_rate as f32;
                 readout(ui, pointer, &format!("{by:+.3} s   {frames:+.1} frames"));
                 *requested = true;
                 Some(if *copies { KeyDragOp::Duplicate(by) } else { KeyDragOp::Move(by) })
@@ -206,7 +208,7 @@ impl CurveDragged {
                     by = (by / step).round() * step;
                 }
                 readout(ui, pointer, &format!("{} {by:+.3}", component_name(*component)));
-                let edit = value_edit(state.take_ref()?, keys, *component, by)?;
+                let edit = value_edit(context.take_ref()?, keys, *component, by)?;
                 *requested = true;
                 Some(KeyDragOp::Edit(edit))
             }
@@ -214,7 +216,7 @@ impl CurveDragged {
                 let slope = handle.slope_at(pointer, canvas.time, canvas.value);
                 ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
                 readout(ui, pointer, &format!("{} {slope:+.3} / s", component_name(handle.component)));
-                let edit = handle.edit(state.take_ref()?, curve, slope, input.modifiers.alt)?;
+                let edit = handle.edit(context.take_ref()?, curve, slope, input.modifiers.alt)?;
                 *requested = true;
                 Some(KeyDragOp::Edit(edit))
             }
@@ -345,7 +347,7 @@ impl CurveCanvas<'_> {
         let number = on.curve.key(on.key)[on.component];
         format!(
             "{} {} {}  {number:.3}  at {:.3} s",
-            self.state.bone_name(bone),
+            self.context.bone_name(bone),
             property.name(),
             component_name(on.component),
             on.time()

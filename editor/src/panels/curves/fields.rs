@@ -56,13 +56,14 @@ pub(super) struct FieldsContext<'a> {
     pub(super) window: ValueWindow,
     /// Component of the key that was pressed on last: shown where there is no space for all.
     pub(super) component: usize,
-    pub(super) state: &'a PanelContext<'a>,
+    pub(super) context: &'a PanelContext<'a>,
 }
 
 impl Fields {
     /// Draws the fields from right to left: time, then the values that fit.
     pub(super) fn show(&mut self, ui: &mut Ui, about: &FieldsContext<'_>, requests: &mut Vec<Request>) {
-        self.held.take_if(|held| held.by != 0.0 && !about.state.keys.drag().is_some_and(|drag| drag.held()));
+        self.held
+            .take_if(|held| held.by != 0.0 && !about.context.keys.drag().is_some_and(|drag| drag.held()));
         let key = self.held.map(|held| held.key).or_else(|| only_key(about.curves, about.drawn));
         let Some(key) = key.filter(|_| ui.available_width() >= WIDTH) else { return };
         ui.spacing_mut().item_spacing.x = GRID;
@@ -82,7 +83,7 @@ impl Fields {
 
     fn time(&mut self, ui: &mut Ui, key: &ValueKey, about: &FieldsContext<'_>, requests: &mut Vec<Request>) {
         let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, CONTROL), Sense::hover());
-        let frame = f64::from(about.state.frame_seconds());
+        let frame = f64::from(about.context.frame_seconds());
         let shown = key.time + self.by(KeyNumber::Time);
         let field = NumberField {
             name: "Time of the key",
@@ -96,10 +97,10 @@ impl Fields {
             ..field(KeyNumber::Time)
         };
         let (event, _) = field.show(ui, rect);
-        let snap = about.state.keys.snap() != ui.input(|input| input.modifiers.command);
+        let snap = about.context.keys.snap() != ui.input(|input| input.modifiers.command);
         let event = match event {
             FieldEvent::Dragged(by) if snap => {
-                FieldEvent::Dragged(f64::from(to_frame(key.time + by as f32, about.state) - key.time))
+                FieldEvent::Dragged(f64::from(to_frame(key.time + by as f32, about.context) - key.time))
             }
             event => event,
         };
@@ -141,7 +142,7 @@ impl Fields {
             ..field(KeyNumber::Value(component))
         };
         let (event, _) = field.show(ui, rect);
-        let edit = |by: f32| value_edit(about.state.take_ref()?, &[*key], component, by);
+        let edit = |by: f32| value_edit(about.context.take_ref()?, &[*key], component, by);
         match event {
             FieldEvent::Typed(value) => {
                 let edit = edit(value as f32 - number);

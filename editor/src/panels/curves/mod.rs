@@ -72,17 +72,17 @@ impl Panel for Curves {
         PanelPlace::BelowRight
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.spacing_mut().item_spacing.y = 0.0;
-        let drawn = state.drawn_keys();
+        let drawn = context.drawn_keys();
         if let Some(drawn) = &drawn {
-            self.follow(ui, state, drawn);
+            self.follow(ui, context, drawn);
         }
         let (fields, curves, component) = (&mut self.fields, &self.mesh.drawn, self.drag.component());
         let window = self.window.unwrap_or_default();
-        let fit = toolbar::show(ui, &mut self.chosen, curves, state, requests, |ui, chosen, requests| {
+        let fit = toolbar::show(ui, &mut self.chosen, curves, context, requests, |ui, chosen, requests| {
             let Some(drawn) = &drawn else { return };
-            fields.show(ui, &FieldsContext { chosen, curves, drawn, window, component, state }, requests);
+            fields.show(ui, &FieldsContext { chosen, curves, drawn, window, component, context }, requests);
         });
         let rect = ui.available_rect_before_wrap();
         if rect.height() < HEAD + 24.0 || rect.width() < STRIP + 40.0 {
@@ -93,28 +93,28 @@ impl Panel for Curves {
         let Some(drawn) = drawn else {
             self.mesh.drawn.clear();
             let text =
-                if state.view.is_none() { "Curves appear here" } else { "The rest pose does not move" };
+                if context.view.is_none() { "Curves appear here" } else { "The rest pose does not move" };
             return widgets::empty(ui, text, "");
         };
         if fit {
             self.fitted = None;
             requests.push(Request::Command(super::commands::Id::FitKeys));
         }
-        self.body(ui, rect, state, &drawn, requests);
+        self.body(ui, rect, context, &drawn, requests);
     }
 }
 
 impl Curves {
     /// Updates the numbers, and fits the range of values when other curves are shown.
-    fn follow(&mut self, ui: &Ui, state: &PanelContext<'_>, drawn: &Drawn) {
-        let ids = shown::wanted(state, drawn, self.chosen.properties);
+    fn follow(&mut self, ui: &Ui, context: &PanelContext<'_>, drawn: &Drawn) {
+        let ids = shown::wanted(context, drawn, self.chosen.properties);
         let more = self.shown.update(&drawn.take, &ids, self.chosen.form);
         if more {
             ui.ctx().request_repaint();
         }
         let fitted = Fitted {
-            model: state.view.map_or(0, |view| std::sync::Arc::as_ptr(&view.loaded) as usize),
-            take: state.playback.take,
+            model: context.view.map_or(0, |view| std::sync::Arc::as_ptr(&view.loaded) as usize),
+            take: context.playback.take,
             ids,
             chosen: (self.chosen.properties, self.chosen.components, self.chosen.form),
         };
@@ -135,7 +135,7 @@ impl Curves {
         &mut self,
         ui: &mut Ui,
         rect: Rect,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         drawn: &Drawn,
         requests: &mut Vec<Request>,
     ) {
@@ -149,7 +149,7 @@ impl Curves {
         let time = TimeScale {
             left: canvas.left() + 16.0,
             width: (canvas.width() - 36.0).max(1.0),
-            window: state.keys.window(&drawn.take),
+            window: context.keys.window(&drawn.take),
         };
         let value = ValueScale { rect: canvas, window: self.window.unwrap_or_default() };
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
@@ -161,12 +161,12 @@ impl Curves {
         painter.hline(rect.x_range(), head.bottom(), Stroke::new(1.0, theme.line));
         let right =
             painter.with_clip_rect(Rect::from_min_max(head.min, rect.max).intersect(painter.clip_rect()));
-        dope::ticks(&right, head, rect.bottom(), &time, state, theme);
+        dope::ticks(&right, head, rect.bottom(), &time, context, theme);
         if self.shown.curves().next().is_some() {
             axis::paint(&painter, strip, &value, theme);
         }
         painter.vline(strip.right() - 0.5, rect.y_range(), Stroke::new(1.0, theme.line));
-        dope::shade(&painter, canvas, &time, state, theme);
+        dope::shade(&painter, canvas, &time, context, theme);
 
         let response = ui.interact(canvas, ui.scope_id().with("curves"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Curves of keys"));
@@ -176,9 +176,9 @@ impl Curves {
         self.mesh.paint(&inside, &look);
         self.tangents.update(&self.mesh.drawn, drawn, &time, &value, self.chosen.components);
         self.tangents.paint(&inside, theme);
-        self.legend(&inside, canvas, state, drawn, theme);
+        self.legend(&inside, canvas, context, drawn, theme);
 
-        self.scrub.show(ui, head, "Time track of the curves", &time, state, requests);
+        self.scrub.show(ui, head, "Time track of the curves", &time, context, requests);
         self.values(ui, strip, &response, &value);
         self.wheel(ui, &response, &time, &value, requests);
         let panned = dope::pan(ui, &response, &time, requests);
@@ -192,14 +192,14 @@ impl Curves {
             value: &value,
             components: self.chosen.components,
             tangents: &self.tangents,
-            state,
+            context,
         };
         self.drag.update(ui, &response, &curve_canvas, requests);
         if !self.drag.is_busy() {
-            response.context_menu(|ui| dope::key_menu(ui, state, requests));
+            response.context_menu(|ui| dope::key_menu(ui, context, requests));
         }
         dope::time_bar(ui, canvas, &time, &drawn.take, requests);
-        dope::playhead(&painter, head, rect.bottom(), &time, state, theme);
+        dope::playhead(&painter, head, rect.bottom(), &time, context, theme);
     }
 
     /// Shows a range of values that the user chose.
@@ -255,16 +255,16 @@ impl Curves {
         &self,
         painter: &egui::Painter,
         canvas: Rect,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         _drawn: &Drawn,
         theme: &Theme,
     ) {
         let mut bones: Vec<u32> = self.mesh.drawn.iter().map(|curve| curve.id.0).collect();
         bones.dedup();
         let text = match bones.as_slice() {
-            [] if state.selected().is_none() => "Select a bone to see its curves".to_owned(),
+            [] if context.selected().is_none() => "Select a bone to see its curves".to_owned(),
             [] => "The selected bone has no keys in this take".to_owned(),
-            [bone] => state.bone_name(*bone),
+            [bone] => context.bone_name(*bone),
             all => format!("{} bones", all.len()),
         };
         let (at, align) = if bones.is_empty() {

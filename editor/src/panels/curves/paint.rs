@@ -18,7 +18,7 @@ use std::sync::Arc;
 pub(super) struct CurveMesh {
     made_of: Option<CurveMeshKey>,
     mesh: Arc<Mesh>,
-    /// The curves as they are drawn: during a drag, those that it results in.
+    /// The curves as they are drawn.
     pub(super) drawn: Vec<Arc<Curve>>,
 }
 
@@ -86,7 +86,6 @@ impl CurveMesh {
 
     fn rebuild(&mut self, look: &CurveLook<'_>, pixels_per_point: f32) {
         let CurveLook { shown, drawn, time, value, components, theme } = *look;
-        let moves = drawn.shift != crate::panels::keys::Shift::NONE;
         self.drawn.clear();
         let options = TessellationOptions::default();
         let mut canvas = Canvas {
@@ -99,17 +98,10 @@ impl CurveMesh {
         let count = shown.curves().count();
         for curve in shown.curves() {
             let chosen = drawn.selection.of(curve.id);
-            let shifted =
-                if moves { curve.shifted(chosen, drawn.shift, drawn.copies).map(Arc::new) } else { None };
-            let ghost = moves && shifted.is_none() && !chosen.is_empty();
-            let curve = shifted.unwrap_or_else(|| Arc::clone(curve));
             let strength = if count > 6 { 0.7 } else { 1.0 };
-            canvas.curve(&curve, components, theme, strength);
-            if ghost {
-                canvas.ghost(&curve, components, chosen, drawn, theme);
-            }
-            canvas.dots(&curve, components, chosen, theme, 1.0 / pixels_per_point);
-            self.drawn.push(curve);
+            canvas.curve(curve, components, theme, strength);
+            canvas.dots(curve, components, chosen, theme, 1.0 / pixels_per_point);
+            self.drawn.push(Arc::clone(curve));
         }
         self.mesh = Arc::new(canvas.mesh);
     }
@@ -120,7 +112,6 @@ impl CurveMeshKey {
         let (a, b) = (&self.drawn, &other.drawn);
         Arc::ptr_eq(&a.take, &b.take)
             && a.selection.same(&b.selection)
-            && (a.shift, a.copies) == (b.shift, b.copies)
             && (self.version, self.scales, self.components, self.dark)
                 == (other.version, other.scales, other.components, other.dark)
             && self.pixels_per_point == other.pixels_per_point
@@ -239,29 +230,6 @@ impl Canvas<'_> {
         let rect = Rect::from_min_max(pos2(x, top - thin), pos2(x + 1.0, bottom + thin));
         if rect.intersects(self.rect()) {
             self.mesh.add_colored_rect(rect.intersect(self.rect()), color);
-        }
-    }
-
-    /// Draws where the selected keys of a long curve move during a drag.
-    fn ghost(&mut self, curve: &Curve, components: u8, chosen: &Intervals, drawn: &Drawn, theme: &Theme) {
-        let (factor, offset) = drawn.shift.affine();
-        if factor == 0.0 {
-            return;
-        }
-        let rect = self.rect();
-        let source = |x: f32| ((f64::from(self.time.time_at(x)) - offset) / factor) as f32;
-        let mut x = rect.left();
-        while x < rect.right() {
-            let (a, b) = (source(x), source(x + 1.0));
-            let keys = keys_between(curve.times(), [a.min(b), a.max(b)]);
-            let met = chosen.next(curve.times(), keys.start, true).is_some_and(|key| key < keys.end);
-            if met {
-                let extent = curve.extent(keys);
-                for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
-                    self.column(x, extent.low[at], extent.high[at], theme.accent);
-                }
-            }
-            x += 1.0;
         }
     }
 

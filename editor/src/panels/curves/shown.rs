@@ -45,13 +45,15 @@ impl ShownCurves {
                 .collect();
             self.version += 1;
         }
-        let mut budget = BUDGET;
+        let (mut budget, mut more) = (BUDGET, false);
         for entry in &mut self.entries {
             if entry.curve.as_ref().is_some_and(|curve| curve.is_of(take, form)) {
                 entry.next = None;
                 continue;
             }
-            if entry.next.as_ref().is_none_or(|next| !next.is_of(take, form)) {
+            // A curve that is being computed is finished although the take changed since: during a drag of many keys the take
+            // changes faster than a long curve is computed.
+            if entry.next.as_ref().is_none_or(|next| next.form() != form) {
                 entry.next = Curve::new(take, entry.id, form).map(Box::new);
                 if entry.next.is_none() && entry.curve.take().is_some() {
                     self.version += 1;
@@ -65,8 +67,10 @@ impl ShownCurves {
                     self.version += 1;
                 }
             }
+            more |=
+                entry.next.is_some() || entry.curve.as_ref().is_some_and(|curve| !curve.is_of(take, form));
         }
-        self.entries.iter().any(|entry| entry.next.is_some())
+        more
     }
 
     /// Returns a number that grows with every change of a curve.
@@ -99,8 +103,8 @@ impl ShownCurves {
 /// Returns the channels whose curves are wanted: of the selected bones, or those with selected keys.
 ///
 /// If the bones have none of the wanted properties, those that they have: an empty panel explains nothing.
-pub(super) fn wanted(state: &PanelContext<'_>, drawn: &Drawn, properties: u8) -> Vec<ChannelId> {
-    let of_bones: Vec<ChannelId> = state
+pub(super) fn wanted(context: &PanelContext<'_>, drawn: &Drawn, properties: u8) -> Vec<ChannelId> {
+    let of_bones: Vec<ChannelId> = context
         .selection
         .bones()
         .iter()
@@ -108,7 +112,7 @@ pub(super) fn wanted(state: &PanelContext<'_>, drawn: &Drawn, properties: u8) ->
         .flat_map(|&bone| channel::channels(&drawn.take, bone))
         .take(3 * MOST)
         .collect();
-    let all = if state.selection.bones().is_empty() {
+    let all = if context.selection.bones().is_empty() {
         drawn.selection.channels().map(|(id, _)| id).take(3 * MOST).collect()
     } else {
         of_bones

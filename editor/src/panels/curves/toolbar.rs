@@ -42,7 +42,7 @@ pub(super) fn show(
     ui: &mut Ui,
     chosen: &mut Chosen,
     curves: &[Arc<Curve>],
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     requests: &mut Vec<Request>,
     rest: impl FnOnce(&mut Ui, &Chosen, &mut Vec<Request>),
 ) -> bool {
@@ -88,7 +88,7 @@ pub(super) fn show(
         divider(ui);
         form(ui, chosen);
         divider(ui);
-        between(ui, curves, state, requests);
+        between(ui, curves, context, requests);
         if icon_button(ui, Icon::Fit, "Fit the curves", false)
             .on_hover_text("Fit the curves\nShows all values, and the selected keys or the whole take")
             .clicked()
@@ -134,8 +134,8 @@ fn form(ui: &mut Ui, chosen: &mut Chosen) {
 }
 
 /// Draws the buttons for the interpolation of the shown channels; one is pressed if all of them have it.
-fn between(ui: &mut Ui, curves: &[Arc<Curve>], state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let able = !state.keys.selection().is_empty();
+fn between(ui: &mut Ui, curves: &[Arc<Curve>], context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let able = !context.keys.selection().is_empty();
     for (icon, id, kind, _) in [
         (Icon::Step, Id::InterpolateStep, Interpolation::Step, KeyInterpolation::Step),
         (Icon::Linear, Id::InterpolateLinear, Interpolation::Linear, KeyInterpolation::Linear),

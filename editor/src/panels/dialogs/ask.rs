@@ -10,7 +10,7 @@ use egui::{Button, CornerRadius, Response, RichText, Ui, vec2};
 /// A question that is being drawn.
 pub(super) struct Ask<'a> {
     pub(super) ui: &'a mut Ui,
-    pub(super) state: &'a PanelContext<'a>,
+    pub(super) context: &'a PanelContext<'a>,
     /// Whether this is its first frame, in which the default button gets the focus.
     pub(super) fresh: bool,
     pub(super) requests: &'a mut Vec<Request>,

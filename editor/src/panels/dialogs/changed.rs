@@ -16,7 +16,7 @@ enum ChangedChoice {
 
 pub(super) fn show(ask: &mut Ask<'_>, file: FileState, order: Option<&SaveOrder>) {
     ask.ui.set_width(480.0);
-    let Some(view) = &ask.state.view else { return };
+    let Some(view) = &ask.context.view else { return };
     let (title, saved) = (view.file.title.clone(), view.history.saved);
     let gone = file == FileState::Missing;
     let then = order.and_then(|order| order.then.clone());

@@ -29,11 +29,11 @@ pub(super) struct Dialogs {
 
 impl Dialogs {
     /// Draws the question that is open.
-    pub(super) fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let number = state.prompts.question_number();
+    pub(super) fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let number = context.prompts.question_number();
         let fresh = self.shown != number;
         self.shown = number;
-        let Some(question) = state.question() else { return };
+        let Some(question) = context.question() else { return };
         if fresh {
             self.told = false;
             // The keyboard focus arrives with the next frame.
@@ -41,7 +41,7 @@ impl Dialogs {
             self.chosen = 0;
             self.path = match question {
                 Question::Find { offer, .. } => find::proposal(offer),
-                question => place::proposal(state, matches!(question, Question::Where { copy: true, .. })),
+                question => place::proposal(context, matches!(question, Question::Where { copy: true, .. })),
             };
         }
         if !fresh && !std::mem::replace(&mut self.told, true) {
@@ -52,7 +52,7 @@ impl Dialogs {
             .frame(egui::Frame::popup(ui.style()).inner_margin(20));
         let response = modal.show(ui.ctx(), |ui| {
             ui.spacing_mut().item_spacing.y = 2.0 * GRID;
-            let mut ask = Ask { ui, state, fresh, requests };
+            let mut ask = Ask { ui, context, fresh, requests };
             match question {
                 Question::Unsaved(then) => unsaved::show(&mut ask, then),
                 Question::Changed(file, order) => changed::show(&mut ask, *file, order.as_ref()),

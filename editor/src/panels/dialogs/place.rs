@@ -9,8 +9,8 @@ use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
 /// Returns the name that the field contains at first.
-pub(super) fn proposal(state: &PanelContext<'_>, copy: bool) -> String {
-    let Some(view) = state.view else { return String::new() };
+pub(super) fn proposal(context: &PanelContext<'_>, copy: bool) -> String {
+    let Some(view) = context.view else { return String::new() };
     let read = view.loaded.path.as_deref();
     let own = view.file.path.as_deref();
     let beside = |path: &Path, what: &str| {

@@ -14,7 +14,7 @@ enum UnsavedChoice {
 
 pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
     ask.ui.set_width(440.0);
-    let title = ask.state.view.map_or(String::new(), |view| view.file.title.clone());
+    let title = ask.context.view.map_or(String::new(), |view| view.file.title.clone());
     ask.title(&format!("Save {title}?"));
     ask.says(match then {
         Then::Quit => "It has unsaved changes, and the program is about to close.".to_owned(),
@@ -22,7 +22,7 @@ pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
             format!("It has unsaved changes, and {} is about to be opened.", source.title())
         }
     });
-    if let Some(last) = ask.state.view.and_then(|view| view.history.last_unsaved()) {
+    if let Some(last) = ask.context.view.and_then(|view| view.history.last_unsaved()) {
         ask.adds(last);
     }
     let save = ("Save", "Save, then continue", Tone::First, UnsavedChoice::Save);

@@ -35,7 +35,7 @@ pub(super) const ROOM_RIGHT: f32 = 20.0;
 pub(super) const SCROLL: f32 = 8.0;
 
 impl DopeAreas {
-    pub(super) fn of(all: Rect, state: &PanelContext<'_>) -> Self {
+    pub(super) fn of(all: Rect, context: &PanelContext<'_>) -> Self {
         // A narrow panel keeps at least half of itself for keys.
         let gutter = if all.width() < 480.0 { (all.width() * 0.3).clamp(64.0, 120.0) } else { 192.0 };
         let left = all.left() + gutter;
@@ -46,7 +46,7 @@ impl DopeAreas {
             )
         };
         let head = lane(all.top(), RULER);
-        let markers = lane(head.bottom(), if state.markers().is_empty() { 0.0 } else { MARKERS });
+        let markers = lane(head.bottom(), if context.markers().is_empty() { 0.0 } else { MARKERS });
         let bar = lane(markers.bottom(), BAR);
         let below = all.bottom().max(bar.bottom());
         Self {

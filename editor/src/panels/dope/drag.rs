@@ -4,7 +4,9 @@
 use super::head::to_frame;
 use super::rows::RowKind;
 use super::sheet::{ROW, Sheet};
-use crate::panels::drag::{DragEvent, DragMachine, PointerInput, Press, SelectionBox, choice_of, readout};
+use crate::panels::drag::{
+    DragEvent, PanelDrag, PointerInput, Press, SelectionBox, choice_of, position, readout,
+};
 use crate::panels::keys::{ChannelId, KeyDragOp, KeysRequest, channel};
 use crate::panels::request::Request;
 use dragonfly_document::bones::Choice;
@@ -15,7 +17,7 @@ use std::sync::Arc;
 /// The drag on the keys.
 #[derive(Debug, Default)]
 pub(super) struct DopeDrag {
-    machine: DragMachine<Option<DopeKey>, DopeDragged>,
+    machine: PanelDrag<Option<DopeKey>, DopeDragged>,
 }
 
 /// What is dragged.
@@ -93,7 +95,7 @@ impl DopeDrag {
                     return self.advance(ui, pointer, sheet, &input, requests);
                 }
             }
-            DragEvent::Moved(pointer) => return self.advance(ui, pointer, sheet, &input, requests),
+            DragEvent::Moved(at) => return self.advance(ui, position(at), sheet, &input, requests),
             DragEvent::Clicked(press) => click(&press, sheet, requests),
             DragEvent::Dropped(DopeDragged::Keys(_)) => {
                 requests.push(Request::Timeline(KeysRequest::Release));
@@ -121,7 +123,7 @@ impl DopeDrag {
         let canvas = sheet.areas.canvas;
         match self.machine.drag_mut() {
             // The document refused the drag, or a key cancelled it.
-            Some(DopeDragged::Keys(keys)) if keys.requested && !sheet.state.keys.is_dragging() => {
+            Some(DopeDragged::Keys(keys)) if keys.requested && !sheet.context.keys.is_dragging() => {
                 self.machine.spend();
             }
             Some(DopeDragged::Keys(keys)) => {
@@ -181,17 +183,17 @@ fn start(
 impl DraggedKeys {
     /// Shows how far the keys are dragged, and returns the operation that brings them there.
     fn op(&self, ui: &Ui, pointer: Pos2, sheet: &Sheet<'_>, input: &PointerInput) -> KeyDragOp {
-        let state = sheet.state;
+        let context = sheet.context;
         let by = sheet.scale.time_at(pointer.x) - self.pressed;
-        let snap = state.keys.snap() != input.modifiers.command;
-        let by = if snap { to_frame(self.grabbed + by, state) - self.grabbed } else { by };
+        let snap = context.keys.snap() != input.modifiers.command;
+        let by = if snap { to_frame(self.grabbed + by, context) - self.grabbed } else { by };
         ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
         let (verb, op) = match self.mode {
             DragMode::Move => ("", KeyDragOp::Move(by)),
             DragMode::Duplicate => ("Duplicate ", KeyDragOp::Duplicate(by)),
             DragMode::Ripple { from } => ("Ripple ", KeyDragOp::Ripple { from, by }),
         };
-        let frames = by * state.settings.frame_rate as f32;
+        let frames = by * context.settings.frame_rate as f32;
         readout(ui, pointer, &format!("{verb}{by:+.3} s   {frames:+.1} frames"));
         op
     }

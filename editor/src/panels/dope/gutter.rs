@@ -24,7 +24,7 @@ const FLAG: f32 = 20.0;
 
 /// Draws the names of the rows in sight. Returns the bone whose triangle was clicked.
 pub(super) fn show(ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) -> Option<BoneIndex> {
-    let Sheet { areas, rows, scroll, state, theme, .. } = *sheet;
+    let Sheet { areas, rows, scroll, context, theme, .. } = *sheet;
     let names = areas.names;
     let first = (scroll / ROW).floor().max(0.0) as usize;
     let last = ((scroll + names.height()) / ROW).ceil().max(0.0) as usize;
@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) 
         match row.kind {
             RowKind::Bone(bone) => {
                 let label = BoneLabel { bone, name: &row.name };
-                if label.show(ui, rect, row.open, state, requests) {
+                if label.show(ui, rect, row.open, context, requests) {
                     toggled = Some(bone);
                 }
             }
@@ -76,7 +76,7 @@ impl BoneLabel<'_> {
         ui: &mut Ui,
         rect: Rect,
         open: bool,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) -> bool {
         let Self { bone, name } = *self;
@@ -88,7 +88,7 @@ impl BoneLabel<'_> {
         let over = ui.rect_contains_pointer(visible);
         let wide = rect.width() > 150.0;
         // Flags that are not drawn leave their space to the name.
-        let marked = over || BoneFlag::ALL.into_iter().any(|flag| state.keys.flags().has(flag, bone));
+        let marked = over || BoneFlag::ALL.into_iter().any(|flag| context.keys.flags().has(flag, bone));
         let flags = if wide && marked { 3.0 * FLAG + 8.0 } else { 6.0 };
         let label = Rect::from_min_max(
             pos2(rect.left() + 28.0, rect.top()),
@@ -96,12 +96,12 @@ impl BoneLabel<'_> {
         );
         let response =
             ui.interact(label.intersect(visible), ui.scope_id().with(("bone", bone)), Sense::click());
-        let selected = state.selection.contains(bone);
+        let selected = context.selection.contains(bone);
         response
             .widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("Keys of {name}")));
         widgets::focus_ring(ui, &response, label);
         let color = match () {
-            () if state.keys.flags().locked(bone) => theme.faint,
+            () if context.keys.flags().locked(bone) => theme.faint,
             () if selected => theme.accent,
             () => theme.text,
         };
@@ -109,7 +109,7 @@ impl BoneLabel<'_> {
         if response.hovered() {
             requests.push(Request::Hover(bone));
         }
-        bone_menu::show(&response, state, Some(bone), requests);
+        bone_menu::show(&response, context, Some(bone), requests);
         if response.clicked() {
             let modifiers = ui.input(|input| input.modifiers);
             let choice = choice_of(modifiers);
@@ -135,7 +135,7 @@ impl BoneLabel<'_> {
             for (at, flag) in BoneFlag::ALL.into_iter().enumerate() {
                 let left = rect.right() - 6.0 - FLAG * (3 - at) as f32;
                 let place = Rect::from_min_size(pos2(left, rect.top() + 1.0), vec2(FLAG, ROW - 2.0));
-                self.flag(ui, place.intersect(visible), flag, over, state, requests);
+                self.flag(ui, place.intersect(visible), flag, over, context, requests);
             }
         }
         arrow.clicked()
@@ -148,12 +148,12 @@ impl BoneLabel<'_> {
         rect: Rect,
         flag: BoneFlag,
         over: bool,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let Self { bone, name } = *self;
         let theme = Theme::of(ui);
-        let on = state.keys.flags().has(flag, bone);
+        let on = context.keys.flags().has(flag, bone);
         let response = ui.interact(rect, ui.scope_id().with((flag.name(), bone)), Sense::click());
         response
             .widget_info(|| WidgetInfo::selected(Role::Button, true, on, format!("{} {name}", flag.name())));
@@ -188,7 +188,7 @@ pub(super) fn tools(
     ui: &mut Ui,
     areas: &DopeAreas,
     filter: &mut String,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) {
     let rect = areas.tools;
@@ -200,8 +200,8 @@ pub(super) fn tools(
         pos2(rect.left() + 8.0, rect.top() + 2.0),
         pos2(rect.right() - buttons - 8.0, rect.bottom() - 2.0),
     );
-    if *filter != state.keys.filter() {
-        state.keys.filter().clone_into(filter);
+    if *filter != context.keys.filter() {
+        context.keys.filter().clone_into(filter);
     }
     let edit = TextEdit::singleline(filter)
         .font(TextStyle::Small)
@@ -234,7 +234,7 @@ pub(super) fn tools(
         widgets::focus_ring(ui, &response, place);
         response.on_hover_text(help).clicked()
     };
-    let only = state.keys.only_selected();
+    let only = context.keys.only_selected();
     if button(
         ui,
         Icon::Bone,
@@ -245,7 +245,7 @@ pub(super) fn tools(
         requests.push(Request::Timeline(KeysRequest::OnlySelected(!only)));
     }
     let snap = commands::tooltip(ui.ctx(), Id::ToggleSnap);
-    if button(ui, Icon::Snap, "Snap", snap, state.keys.snap()) {
+    if button(ui, Icon::Snap, "Snap", snap, context.keys.snap()) {
         requests.push(Request::Command(Id::ToggleSnap));
     }
     let fit = commands::tooltip(ui.ctx(), Id::FitKeys);

@@ -4,7 +4,7 @@ use super::areas::DopeAreas;
 use super::sheet::Sheet;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
-use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
+use crate::panels::drag::{DragEvent, PanelDrag, PointerInput};
 use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest, TimeScale};
 use crate::panels::request::Request;
 use crate::panels::theme::Theme;
@@ -24,7 +24,7 @@ pub(in crate::panels) struct Scrub {
 #[derive(Debug, Default)]
 pub(super) struct Head {
     scrub: Scrub,
-    scaling: DragMachine<(), Scaling>,
+    scaling: PanelDrag<(), Scaling>,
     /// Name of the end of the bar that is dragged.
     grip: Option<&'static str>,
     /// Times of the first and the last selected key, computed when the selection changed.
@@ -50,7 +50,7 @@ pub(super) fn back(
     painter: &Painter,
     areas: &DopeAreas,
     scale: &TimeScale,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     theme: &Theme,
 ) {
     let top = Rect::from_min_max(areas.all.min, pos2(areas.all.right(), areas.bar.bottom()));
@@ -58,7 +58,7 @@ pub(super) fn back(
     painter.hline(top.x_range(), top.bottom(), Stroke::new(1.0, theme.line));
     let right = painter
         .with_clip_rect(Rect::from_min_max(areas.head.min, areas.all.max).intersect(painter.clip_rect()));
-    ticks(&right, areas.head, areas.all.bottom(), scale, state, theme);
+    ticks(&right, areas.head, areas.all.bottom(), scale, context, theme);
 }
 
 /// Draws the lines and numbers of a ruler; also used by the curves.
@@ -67,10 +67,10 @@ pub(in crate::panels) fn ticks(
     head: Rect,
     bottom: f32,
     scale: &TimeScale,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     theme: &Theme,
 ) {
-    let rate = state.settings.frame_rate;
+    let rate = context.settings.frame_rate;
     let ruler = scale.ruler();
     let decimals = ruler.decimals(rate);
     let fine = Stroke::new(1.0, theme.line.gamma_multiply(0.55));
@@ -96,19 +96,19 @@ impl Scrub {
         head: Rect,
         name: &'static str,
         scale: &TimeScale,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         let response = ui.interact(head, ui.scope_id().with(name), Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::slider(true, f64::from(state.time()), name));
+        response.widget_info(|| WidgetInfo::slider(true, f64::from(context.time()), name));
         let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal);
         // Scrubbing starts with the press: a drag starts only after a movement, and a press is a click only after a
         // quick release, which a slow frame can miss.
         let (primary, modifiers) = ui.input(|input| (input.pointer.primary_down(), input.modifiers));
         let down = response.is_pointer_button_down_on() && primary;
-        if down && state.playback.playing && self.resume.is_none() {
+        if down && context.playback.playing && self.resume.is_none() {
             // Playback pauses while the pointer is down, and resumes in the same direction.
-            let command = if state.playback.speed < 0.0 { Id::PlayBackwards } else { Id::PlayPause };
+            let command = if context.playback.speed < 0.0 { Id::PlayBackwards } else { Id::PlayPause };
             self.resume = Some(command);
             requests.push(Request::Command(command));
         }
@@ -120,8 +120,8 @@ impl Scrub {
             let window = scale.window;
             let time = f64::from(scale.time_at(pointer.x));
             let time = time.clamp(window.start, window.start + window.length) as f32;
-            let snap = state.keys.snap() != modifiers.command;
-            requests.push(Request::Seek(if snap { to_key_or_frame(time, scale, state) } else { time }));
+            let snap = context.keys.snap() != modifiers.command;
+            requests.push(Request::Seek(if snap { to_key_or_frame(time, scale, context) } else { time }));
         }
         if !down && let Some(command) = self.resume.take() {
             requests.push(Request::Command(command));
@@ -138,7 +138,7 @@ impl Scrub {
                 Id::RangeWhole,
                 Id::FitKeys,
             ] {
-                super::super::menu::item(ui, state, id, false, requests);
+                super::super::menu::item(ui, context, id, false, requests);
             }
         });
         super::scroll::wheel(ui, &response, scale, requests);
@@ -147,9 +147,9 @@ impl Scrub {
 
 impl Head {
     pub(super) fn show(&mut self, ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
-        let Sheet { areas, scale, state, .. } = *sheet;
-        self.scrub.show(ui, areas.head, "Time track", scale, state, requests);
-        range_ends(ui, areas, scale, state, requests);
+        let Sheet { areas, scale, context, .. } = *sheet;
+        self.scrub.show(ui, areas.head, "Time track", scale, context, requests);
+        range_ends(ui, areas, scale, context, requests);
         self.bar(ui, sheet, requests);
     }
 
@@ -164,9 +164,8 @@ impl Head {
             Some((_, extent)) => *extent,
             None => self.extent.insert((drawn.clone(), drawn.selection.extent(&drawn.take))).1,
         };
-        let extent = extent.map(|extent| drawn.shift.stretch(extent));
         let Some([from, to]) = extent.filter(|[from, to]| to - from > scale.seconds(6.0)) else {
-            self.scaling = DragMachine::default();
+            self.scaling = PanelDrag::default();
             return;
         };
         let (left, right) = (scale.x_of(from), scale.x_of(to));
@@ -194,7 +193,7 @@ impl Head {
             );
             if response.drag_started_by(PointerButton::Primary) {
                 let other = if end == from { to } else { from };
-                self.scaling = DragMachine::dragging(Scaling { other, grabbed: end, requested: false });
+                self.scaling = PanelDrag::dragging(Scaling { other, grabbed: end, requested: false });
                 self.grip = Some(name);
             }
             if self.grip == Some(name) {
@@ -204,12 +203,12 @@ impl Head {
     }
 
     fn scale_by(&mut self, ui: &Ui, response: &Response, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
-        let state = sheet.state;
+        let context = sheet.context;
         let input = PointerInput::of_widget(ui, response);
         match self.scaling.step(&input, input.primary_down, |_| ()) {
             DragEvent::Moved(pointer) => {
                 let Some(scaling) = self.scaling.drag_mut() else { return };
-                if scaling.requested && !state.keys.is_dragging() {
+                if scaling.requested && !context.keys.is_dragging() {
                     return self.scaling.spend();
                 }
                 if let Some(op) = scaling.op(pointer.x, &input, sheet) {
@@ -230,13 +229,13 @@ impl Head {
 impl Scaling {
     /// Returns the operation that brings the dragged end to `x`; `None` if no factor does.
     fn op(&self, x: f32, input: &PointerInput, sheet: &Sheet<'_>) -> Option<KeyDragOp> {
-        let state = sheet.state;
-        let snap = state.keys.snap() != input.modifiers.command;
+        let context = sheet.context;
+        let snap = context.keys.snap() != input.modifiers.command;
         let time = sheet.scale.time_at(x);
-        let time = if snap { to_frame(time, state) } else { time };
+        let time = if snap { to_frame(time, context) } else { time };
         // Read in every frame: Alt may be pressed in the middle of the drag.
-        let now = state.time();
-        let by_playhead = input.modifiers.alt && (now - self.grabbed).abs() > state.frame_seconds() * 0.5;
+        let now = context.time();
+        let by_playhead = input.modifiers.alt && (now - self.grabbed).abs() > context.frame_seconds() * 0.5;
         let about = if by_playhead { now } else { self.other };
         let factor = (time - about) / (self.grabbed - about);
         // Zero would bring all keys to one time, so a thousandth is the least.
@@ -247,17 +246,17 @@ impl Scaling {
 
 /// Returns the key or the end of the take under the pointer, or else the frame nearest to a time, seconds. A pose set
 /// slightly off a key would add a second key.
-fn to_key_or_frame(time: f32, scale: &TimeScale, state: &PanelContext<'_>) -> f32 {
-    let reach = scale.seconds(NEAR).min(state.frame_seconds() * 0.5);
-    let beside = [true, false].into_iter().filter_map(|forward| state.next_key_from(time, forward));
-    let end = state.take().map(|take| take.end());
+fn to_key_or_frame(time: f32, scale: &TimeScale, context: &PanelContext<'_>) -> f32 {
+    let reach = scale.seconds(NEAR).min(context.frame_seconds() * 0.5);
+    let beside = [true, false].into_iter().filter_map(|forward| context.next_key_from(time, forward));
+    let end = context.take().map(|take| take.end());
     let nearest = beside.chain(end).min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()));
-    nearest.filter(|key| (key - time).abs() <= reach).unwrap_or_else(|| to_frame(time, state))
+    nearest.filter(|key| (key - time).abs() <= reach).unwrap_or_else(|| to_frame(time, context))
 }
 
 /// Returns the frame nearest to a time, seconds.
-pub(in crate::panels) fn to_frame(time: f32, state: &PanelContext<'_>) -> f32 {
-    let rate = state.settings.frame_rate;
+pub(in crate::panels) fn to_frame(time: f32, context: &PanelContext<'_>) -> f32 {
+    let rate = context.settings.frame_rate;
     crate::panels::ruler::time_of(crate::panels::ruler::frame_of(time, rate), rate)
 }
 
@@ -266,10 +265,10 @@ fn range_ends(
     ui: &Ui,
     areas: &DopeAreas,
     scale: &TimeScale,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) {
-    let Some([from, to]) = state.keys.range() else { return };
+    let Some([from, to]) = context.keys.range() else { return };
     let theme = Theme::of(ui);
     let painter = ui.painter().with_clip_rect(areas.head);
     let band = Rect::from_min_max(
@@ -300,12 +299,12 @@ fn range_ends(
         if response.dragged_by(PointerButton::Primary)
             && let Some(pointer) = response.interact_pointer_pos()
         {
-            let at = to_frame(scale.time_at(pointer.x), state);
+            let at = to_frame(scale.time_at(pointer.x), context);
             // An end that is dragged past the other one stops there.
             let range = if first {
-                [at.min(to - state.frame_seconds()), to]
+                [at.min(to - context.frame_seconds()), to]
             } else {
-                [from, at.max(from + state.frame_seconds())]
+                [from, at.max(from + context.frame_seconds())]
             };
             requests.push(Request::Timeline(KeysRequest::Range(Some(range))));
         }

@@ -3,7 +3,7 @@
 use super::head::to_frame;
 use super::sheet::Sheet;
 use crate::panels::context::PanelContext;
-use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
+use crate::panels::drag::{DragEvent, PanelDrag, PointerInput};
 use crate::panels::keys::{KeysRequest, MarkerAction, TimeScale};
 use crate::panels::request::Request;
 use crate::panels::theme::Theme;
@@ -18,7 +18,7 @@ use egui::{
 pub(super) struct MarkerLane {
     renaming: Option<(usize, String, MarkerNameStage)>,
     /// Index and time, seconds, of the dragged marker. It moves when it is released, so that the order stays during the drag.
-    drag: DragMachine<(), (usize, f32)>,
+    drag: PanelDrag<(), (usize, f32)>,
     /// Index of the marker whose drag `drag` follows.
     dragged: Option<usize>,
 }
@@ -34,7 +34,7 @@ enum MarkerNameStage {
 
 impl MarkerLane {
     pub(super) fn show(&mut self, ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
-        let Sheet { areas, scale, state, .. } = *sheet;
+        let Sheet { areas, scale, context, .. } = *sheet;
         let lane = areas.markers;
         if lane.height() < 4.0 {
             *self = Self::default();
@@ -43,7 +43,7 @@ impl MarkerLane {
         let theme = Theme::of(ui);
         ui.painter().rect_filled(lane, CornerRadius::ZERO, theme.bar);
         let painter = ui.painter().with_clip_rect(lane);
-        let markers = state.markers();
+        let markers = context.markers();
         let mut ask = |action: MarkerAction| requests.push(Request::Timeline(KeysRequest::Marker(action)));
         let mut seek = None;
         for (index, marker) in markers.iter().enumerate() {
@@ -90,16 +90,16 @@ impl MarkerLane {
                 self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
             }
             if response.drag_started_by(PointerButton::Primary) {
-                self.drag = DragMachine::dragging((index, marker.time));
+                self.drag = PanelDrag::dragging((index, marker.time));
                 self.dragged = Some(index);
             }
             if self.dragged == Some(index) {
                 let input = PointerInput::of_widget(ui, &response);
                 match self.drag.step(&input, input.primary_down, |_| ()) {
                     DragEvent::Moved(pointer) => {
-                        let snap = state.keys.snap() != input.modifiers.command;
+                        let snap = context.keys.snap() != input.modifiers.command;
                         let time = scale.time_at(pointer.x);
-                        let time = if snap { to_frame(time, state) } else { time };
+                        let time = if snap { to_frame(time, context) } else { time };
                         self.drag.begin((index, time));
                     }
                     DragEvent::Dropped((index, time)) => ask(MarkerAction::Move(index, time)),
@@ -122,7 +122,7 @@ impl MarkerLane {
                 }
             });
         }
-        if let Some(action) = self.rename(ui, lane, scale, state) {
+        if let Some(action) = self.rename(ui, lane, scale, context) {
             ask(action);
         }
         if let Some(time) = seek {
@@ -136,10 +136,10 @@ impl MarkerLane {
         ui: &mut Ui,
         lane: Rect,
         scale: &TimeScale,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
     ) -> Option<MarkerAction> {
         let (index, name, stage) = self.renaming.as_mut()?;
-        let Some(marker) = state.markers().get(*index) else {
+        let Some(marker) = context.markers().get(*index) else {
             self.renaming = None;
             return None;
         };

@@ -4,7 +4,7 @@ use super::rows::{DopeRow, RowKind};
 use super::sheet::{ROW, Sheet};
 use crate::panels::keys::columns::Columns;
 use crate::panels::keys::intervals::Intervals;
-use crate::panels::keys::{Drawn, KeySelection, Shift, TimeScale, channel};
+use crate::panels::keys::{Drawn, KeySelection, TimeScale, channel};
 use dragonfly_anim::data::Take;
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
 use std::sync::Arc;
@@ -56,9 +56,9 @@ impl KeysMesh {
 
     /// Draws the keys in sight.
     pub(super) fn paint(&mut self, painter: &Painter, sheet: &Sheet<'_>) {
-        let Sheet { areas, rows, scroll, scale, drawn, state, theme } = *sheet;
-        let live = state.keys.selection();
-        if let Some(take) = state.shared_take()
+        let Sheet { areas, rows, scroll, scale, drawn, context, theme } = *sheet;
+        let live = context.keys.selection();
+        if let Some(take) = context.shared_take()
             && !self
                 .count
                 .as_ref()
@@ -74,7 +74,7 @@ impl KeysMesh {
             scroll,
             pixels_per_point: painter.pixels_per_point(),
             dark: theme.dark,
-            flags: state.keys.flags().version(),
+            flags: context.keys.flags().version(),
         };
         let same = self.made_of.as_ref().is_some_and(|old| old.same(&made_of));
         if !same {
@@ -87,7 +87,7 @@ impl KeysMesh {
     }
 
     fn rebuild(&mut self, sheet: &Sheet<'_>, pixels_per_point: f32) {
-        let Sheet { areas, rows, scroll, scale, drawn, state, theme } = *sheet;
+        let Sheet { areas, rows, scroll, scale, drawn, context, theme } = *sheet;
         let mut mesh = Mesh::default();
         let canvas = areas.canvas;
         let pen = Pen { feather: 1.0 / pixels_per_point };
@@ -102,19 +102,18 @@ impl KeysMesh {
             for &id in rows.of(row.kind) {
                 let times = channel::times(&drawn.take, id);
                 let selected = drawn.selection.of(id);
-                let stay = if drawn.copies { &none } else { selected };
-                self.plain.mark(times, stay, false, Shift::NONE);
-                self.chosen.mark(times, selected, true, drawn.shift);
+                self.plain.mark(times, selected, false);
+                self.chosen.mark(times, selected, true);
             }
             if row.kind == RowKind::Morphs {
                 for morph in &drawn.take.morphs {
-                    self.plain.mark(&morph.times, &none, false, Shift::NONE);
+                    self.plain.mark(&morph.times, &none, false);
                 }
             }
             let color = match row.kind {
                 RowKind::Summary => theme.weak,
                 RowKind::Morphs => theme.faint,
-                RowKind::Bone(bone) | RowKind::Channel(bone, _) if state.keys.flags().locked(bone) => {
+                RowKind::Bone(bone) | RowKind::Channel(bone, _) if context.keys.flags().locked(bone) => {
                     theme.faint
                 }
                 RowKind::Bone(_) => theme.key,
@@ -134,7 +133,6 @@ impl KeysMeshKey {
         let (a, b) = (&self.drawn, &other.drawn);
         Arc::ptr_eq(&a.take, &b.take)
             && a.selection.same(&b.selection)
-            && (a.shift, a.copies) == (b.shift, b.copies)
             && Arc::ptr_eq(&self.rows, &other.rows)
             && (self.scale, self.canvas, self.scroll) == (other.scale, other.canvas, other.scroll)
             && (self.pixels_per_point, self.dark, self.flags)

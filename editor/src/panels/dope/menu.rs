@@ -17,46 +17,46 @@ impl KeyMenu {
         &self,
         canvas: &Response,
         drag: &DopeDrag,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
         // A right-click that cancels a drag opens no menu.
         if drag.is_busy() {
             return;
         }
-        canvas.context_menu(|ui| show(ui, state, requests));
+        canvas.context_menu(|ui| show(ui, context, requests));
     }
 }
 
 /// Draws the entries, for the dope sheet and for the curves.
-pub(in crate::panels) fn show(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+pub(in crate::panels) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let button = Button::new("Add keys at the playhead").frame_when_inactive(false);
     let hint = "Add keys that keep the motion, for the selected bones or for all";
-    if ui.add_enabled(state.take().is_some(), button).on_hover_text(hint).clicked() {
-        requests.extend(state.key_edit().map(|edit| Request::Change(Change::Edit(edit, None))));
+    if ui.add_enabled(context.take().is_some(), button).on_hover_text(hint).clicked() {
+        requests.extend(context.key_edit().map(|edit| Request::Change(Change::Edit(edit, None))));
         ui.close();
     }
     for id in [Id::CutKeys, Id::CopyKeys, Id::PastePose] {
-        item(ui, state, id, false, requests);
+        item(ui, context, id, false, requests);
     }
     ui.separator();
     for id in [Id::DuplicateKeys, Id::DeleteKeys, Id::SnapKeys] {
-        item(ui, state, id, false, requests);
+        item(ui, context, id, false, requests);
     }
     ui.separator();
     for id in [Id::InterpolateStep, Id::InterpolateLinear, Id::InterpolateSpline] {
-        item(ui, state, id, false, requests);
+        item(ui, context, id, false, requests);
     }
     ui.separator();
     for id in [Id::KeysSlower, Id::KeysFaster, Id::KeysReverse] {
-        item(ui, state, id, false, requests);
+        item(ui, context, id, false, requests);
     }
     ui.separator();
     for id in [Id::RippleOpen, Id::RippleClose] {
-        item(ui, state, id, false, requests);
+        item(ui, context, id, false, requests);
     }
     ui.separator();
     for id in [Id::SelectAllKeys, Id::RangeOfKeys, Id::FitKeys] {
-        item(ui, state, id, false, requests);
+        item(ui, context, id, false, requests);
     }
 }

@@ -51,21 +51,21 @@ impl Dope {
         &mut self,
         ui: &mut Ui,
         rect: Rect,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) {
-        let Some(drawn) = state.drawn_keys() else { return };
-        self.rows.update(state, &drawn.take);
-        let areas = DopeAreas::of(rect, state);
+        let Some(drawn) = context.drawn_keys() else { return };
+        self.rows.update(context, &drawn.take);
+        let areas = DopeAreas::of(rect, context);
         let scale = TimeScale {
             left: areas.canvas.left() + areas::ROOM,
             width: (areas.canvas.width() - areas::ROOM - areas::ROOM_RIGHT).max(1.0),
-            window: state.keys.window(&drawn.take),
+            window: context.keys.window(&drawn.take),
         };
         let theme = Theme::of(ui);
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         painter.rect_filled(rect, CornerRadius::ZERO, theme.sunken);
-        head::back(&painter, &areas, &scale, state, theme);
+        head::back(&painter, &areas, &scale, context, theme);
 
         let canvas = ui.interact(areas.canvas, ui.scope_id().with("keys"), Sense::click_and_drag());
         let selected = self.keys.selected();
@@ -82,20 +82,20 @@ impl Dope {
             scroll: self.scroll,
             scale: &scale,
             drawn: &drawn,
-            state,
+            context,
             theme,
         };
         overlay::rows(&painter, &sheet);
         overlay::outside_range(&painter, &sheet);
         self.keys.paint(&painter, &sheet);
         self.scroll = (self.scroll + self.drag.update(ui, &canvas, &sheet, requests)).max(0.0);
-        self.menu.show(&canvas, &self.drag, state, requests);
+        self.menu.show(&canvas, &self.drag, context, requests);
         self.head.show(ui, &sheet, requests);
         self.markers.show(ui, &sheet, requests);
         overlay::pending(&painter, &sheet);
         overlay::playhead(&painter, &sheet);
         let toggled = gutter::show(ui, &sheet, requests);
-        gutter::tools(ui, &areas, &mut self.filter, state, requests);
+        gutter::tools(ui, &areas, &mut self.filter, context, requests);
         if self.rows.is_empty() {
             overlay::nothing(&painter, &sheet);
         }
@@ -104,17 +104,17 @@ impl Dope {
         }
         scroll::show(ui, &areas, &mut self.scroll, content, &scale, &drawn.take, requests);
         painter.vline(areas.canvas.left() - 0.5, rect.y_range(), Stroke::new(1.0, theme.line));
-        follow(&scale, state, requests);
+        follow(&scale, context, requests);
     }
 }
 
 /// Moves the window by a page when the playhead leaves it during playback.
-fn follow(scale: &TimeScale, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn follow(scale: &TimeScale, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     use super::keys::KeysRequest;
-    if !state.playback.playing {
+    if !context.playback.playing {
         return;
     }
-    let (time, window) = (f64::from(state.time()), scale.window);
+    let (time, window) = (f64::from(context.time()), scale.window);
     if time < window.start || time > window.start + window.length {
         let turned = super::keys::TimeWindow { start: time - window.length * 0.02, ..window };
         requests.push(Request::Timeline(KeysRequest::Window(Some(turned))));

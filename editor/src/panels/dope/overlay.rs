@@ -9,7 +9,7 @@ use egui::{Align2, Color32, CornerRadius, FontId, Painter, Rect, Shape, Stroke, 
 
 /// Draws the backgrounds of the rows: selected bones highlighted, the summary row set apart, lines in between.
 pub(super) fn rows(painter: &Painter, sheet: &Sheet<'_>) {
-    let Sheet { areas, rows, scroll, state, theme, .. } = *sheet;
+    let Sheet { areas, rows, scroll, context, theme, .. } = *sheet;
     let body = Rect::from_min_max(areas.names.min, areas.canvas.max);
     let painter = painter.with_clip_rect(body.intersect(painter.clip_rect()));
     let first = (scroll / ROW).floor().max(0.0) as usize;
@@ -19,7 +19,7 @@ pub(super) fn rows(painter: &Painter, sheet: &Sheet<'_>) {
         let rect = Rect::from_min_max(pos2(body.left(), top), pos2(body.right(), top + ROW));
         let fill = match row.kind {
             RowKind::Summary => theme.bar,
-            RowKind::Bone(bone) if state.selection.contains(bone) => theme.accent_soft.gamma_multiply(0.45),
+            RowKind::Bone(bone) if context.selection.contains(bone) => theme.accent_soft.gamma_multiply(0.45),
             RowKind::Bone(_) | RowKind::Morphs => theme.bar.gamma_multiply(0.5),
             RowKind::Channel(..) => Color32::TRANSPARENT,
         };
@@ -33,11 +33,11 @@ pub(in crate::panels) fn shade(
     painter: &Painter,
     rect: Rect,
     scale: &TimeScale,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     theme: &Theme,
 ) {
-    let (start, length) = state.take_bounds();
-    let [from, to] = state.keys.range().unwrap_or([start, start + length]);
+    let (start, length) = context.take_bounds();
+    let [from, to] = context.keys.range().unwrap_or([start, start + length]);
     let color = theme.gap.gamma_multiply(0.45);
     let (left, right) = (scale.x_of(from), scale.x_of(to));
     // On a dark background the shade alone is hard to see.
@@ -55,12 +55,12 @@ pub(in crate::panels) fn shade(
 }
 
 pub(super) fn outside_range(painter: &Painter, sheet: &Sheet<'_>) {
-    shade(painter, sheet.areas.canvas, sheet.scale, sheet.state, sheet.theme);
+    shade(painter, sheet.areas.canvas, sheet.scale, sheet.context, sheet.theme);
 }
 
 pub(super) fn playhead(painter: &Painter, sheet: &Sheet<'_>) {
-    let Sheet { areas, scale, state, theme, .. } = *sheet;
-    line(painter, areas.head, areas.all.bottom(), scale, state, theme);
+    let Sheet { areas, scale, context, theme, .. } = *sheet;
+    line(painter, areas.head, areas.all.bottom(), scale, context, theme);
 }
 
 /// Draws the playhead: its line, and its flag in a ruler.
@@ -69,12 +69,12 @@ pub(in crate::panels) fn line(
     head: Rect,
     bottom: f32,
     scale: &TimeScale,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     theme: &Theme,
 ) {
     let right = Rect::from_min_max(head.min, pos2(head.right(), bottom));
     let painter = painter.with_clip_rect(right.intersect(painter.clip_rect()));
-    let x = painter.round_to_pixel_center(scale.x_of(state.time()));
+    let x = painter.round_to_pixel_center(scale.x_of(context.time()));
     painter.vline(x, head.bottom() - 4.0..=bottom, Stroke::new(1.0, theme.accent));
     let y = head.bottom() - 1.0;
     let flag = vec![
@@ -89,9 +89,9 @@ pub(in crate::panels) fn line(
 
 /// Draws a small hollow diamond in the ruler at each time with pending poses.
 pub(super) fn pending(painter: &Painter, sheet: &Sheet<'_>) {
-    let Sheet { areas, scale, state, theme, .. } = *sheet;
+    let Sheet { areas, scale, context, theme, .. } = *sheet;
     let painter = painter.with_clip_rect(areas.head.intersect(painter.clip_rect()));
-    for time in state.pending_times() {
+    for time in context.pending_times() {
         let center = pos2(scale.x_of(time), areas.head.bottom() - 5.0);
         let points = [vec2(0.0, -4.0), vec2(4.0, 0.0), vec2(0.0, 4.0), vec2(-4.0, 0.0)];
         let points = points.into_iter().map(|offset| center + offset).collect();
@@ -101,10 +101,10 @@ pub(super) fn pending(painter: &Painter, sheet: &Sheet<'_>) {
 
 /// Draws the reason why there are no rows.
 pub(super) fn nothing(painter: &Painter, sheet: &Sheet<'_>) {
-    let Sheet { areas, state, theme, .. } = *sheet;
-    let text = if !state.keys.filter().is_empty() {
+    let Sheet { areas, context, theme, .. } = *sheet;
+    let text = if !context.keys.filter().is_empty() {
         "No bone with keys matches the filter"
-    } else if state.lists_only_selected() {
+    } else if context.lists_only_selected() {
         "The selected bones have no keys in this take"
     } else {
         "This take has no keys"

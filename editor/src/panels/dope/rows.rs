@@ -62,22 +62,22 @@ impl std::fmt::Debug for RowsKey {
 
 impl DopeRows {
     /// Rebuilds the rows if they are not those of `take`.
-    pub(super) fn update(&mut self, state: &PanelContext<'_>, take: &Arc<Take>) {
+    pub(super) fn update(&mut self, context: &PanelContext<'_>, take: &Arc<Take>) {
         let signature = match &self.looked_at {
             Some((looked_at, signature)) if Arc::ptr_eq(looked_at, take) => *signature,
             _ => signature(take),
         };
         self.looked_at = Some((Arc::clone(take), signature));
-        let model = state.view.map_or(0, |view| Arc::as_ptr(&view.loaded) as usize);
+        let model = context.view.map_or(0, |view| Arc::as_ptr(&view.loaded) as usize);
         if self.made_of.as_ref().is_some_and(|made_of| made_of.model != model) {
             self.toggled.clear();
         }
         let same = self.made_of.as_ref().is_some_and(|made_of| {
             made_of.model == model
                 && made_of.signature == signature
-                && made_of.selected == state.selection.bones()
-                && made_of.only_selected == state.keys.only_selected()
-                && made_of.filter == state.keys.filter()
+                && made_of.selected == context.selection.bones()
+                && made_of.only_selected == context.keys.only_selected()
+                && made_of.filter == context.keys.filter()
                 && made_of.toggled == self.toggled.len()
         });
         if same {
@@ -86,16 +86,16 @@ impl DopeRows {
         self.made_of = Some(RowsKey {
             model,
             signature,
-            selected: state.selection.bones().to_vec(),
-            only_selected: state.keys.only_selected(),
-            filter: state.keys.filter().to_owned(),
+            selected: context.selection.bones().to_vec(),
+            only_selected: context.keys.only_selected(),
+            filter: context.keys.filter().to_owned(),
             toggled: self.toggled.len(),
         });
-        self.make(state, take);
+        self.make(context, take);
     }
 
-    fn make(&mut self, state: &PanelContext<'_>, take: &Take) {
-        let bones = state.listed_bones();
+    fn make(&mut self, context: &PanelContext<'_>, take: &Take) {
+        let bones = context.listed_bones();
         let channels: Vec<ChannelId> = bones.iter().flat_map(|&bone| channel::channels(take, bone)).collect();
         let mut list = Vec::new();
         let row = |kind, name: &str, open| DopeRow { kind, name: name.to_owned(), open };
@@ -110,7 +110,7 @@ impl DopeRows {
         let usually = bones.len() <= 2;
         for &bone in &bones {
             let open = usually != self.toggled.contains(&bone);
-            list.push(row(RowKind::Bone(bone), &state.bone_name(bone), open));
+            list.push(row(RowKind::Bone(bone), &context.bone_name(bone), open));
             if open {
                 for (bone, property) in channel::channels(take, bone) {
                     let name = match property {
@@ -122,7 +122,7 @@ impl DopeRows {
                 }
             }
         }
-        if !take.morphs.is_empty() && state.keys.filter().is_empty() {
+        if !take.morphs.is_empty() && context.keys.filter().is_empty() {
             list.push(row(RowKind::Morphs, "Shapes", false));
         }
         (self.list, self.channels) = (list.into(), channels.into());

@@ -18,6 +18,6 @@ pub(super) struct Sheet<'a> {
     pub(super) scroll: f32,
     pub(super) scale: &'a TimeScale,
     pub(super) drawn: &'a Drawn,
-    pub(super) state: &'a PanelContext<'a>,
+    pub(super) context: &'a PanelContext<'a>,
     pub(super) theme: &'a Theme,
 }

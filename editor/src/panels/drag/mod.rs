@@ -1,28 +1,21 @@
-//! One state machine for all drags in panels: a press, a drag once the pointer has moved far enough, cancelling by Escape
-//! or the right button, and nothing more until the button is up.
+//! The drags of panels: [`PanelDrag`] driven once a frame by what the pointer does.
 //!
-//! A panel calls [`DragMachine::step`] once a frame with what the pointer does and acts on the [`DragEvent`] that comes
-//! back. What can be pressed on (`T`) and what can be dragged (`D`) are types of the panel.
-//!
-//! ```text
-//! Idle ──press──▶ Pressed ──4 points──▶ Started, then Dragging if the panel calls `begin`
-//!   ▲                │                        │
-//!   │             Clicked                  Dropped
-//!   └────────────────┴────────────────────────┘      Cancelled ──▶ Spent ──button up──▶ Idle
-//! ```
+//! A panel calls [`PanelDrag::step`] once a frame with what the pointer does and acts on the [`DragEvent`] that comes
+//! back. What can be pressed on (`T`) and what can be dragged (`D`) are types of the panel. Escape and the right button
+//! cancel.
 
 mod field_gesture;
 mod pointer;
 mod selection_box;
 
+pub(in crate::panels) use crate::control::drag::DragEvent;
 pub(in crate::panels) use field_gesture::FieldGesture;
-pub(in crate::panels) use pointer::{PointerInput, readout};
+pub(in crate::panels) use pointer::{PointerInput, position, readout};
 pub(in crate::panels) use selection_box::{SelectionBox, choice_of};
 
+use crate::control::drag::DragMachine;
 use egui::{Modifiers, Pos2};
-
-/// Points that the pointer moves before a press becomes a drag.
-const THRESHOLD: f32 = 4.0;
+use glam::Vec2;
 
 /// A press of the primary button.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,92 +28,10 @@ pub(in crate::panels) struct Press<T> {
     pub(in crate::panels) modifiers: Modifiers,
 }
 
-/// The change of a drag in one frame.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::panels) enum DragEvent<T, D> {
-    /// Nothing to act on.
-    Nothing,
-    /// The button went down; [`DragMachine::press`] returns where.
-    Pressed,
-    /// The pointer moved past the threshold. The panel calls [`DragMachine::begin`] to drag something; otherwise the
-    /// rest of the press is ignored.
-    Started(Press<T>),
-    /// The drag continues, with the pointer at this position.
-    Moved(Pos2),
-    /// The button went up before the threshold.
-    Clicked(Press<T>),
-    /// The button went up and the drag counts.
-    Dropped(D),
-    /// Escape or the right button ended the drag, as if it had never begun.
-    Cancelled(D),
-}
+/// The machine of a panel whose presses are on a `T`.
+pub(in crate::panels) type PanelDrag<T, D> = DragMachine<Press<T>, D>;
 
-#[derive(Clone, Debug, PartialEq)]
-enum Phase<T, D> {
-    Idle,
-    Pressed(Press<T>),
-    Dragging(D),
-    /// Cancelled or refused: nothing more until the button is up.
-    Spent,
-}
-
-/// See the module.
-#[derive(Clone, Debug, PartialEq)]
-pub(in crate::panels) struct DragMachine<T, D> {
-    phase: Phase<T, D>,
-}
-
-impl<T, D> Default for DragMachine<T, D> {
-    fn default() -> Self {
-        Self { phase: Phase::Idle }
-    }
-}
-
-impl<T, D> DragMachine<T, D> {
-    /// Returns a machine in the middle of a drag: for widgets whose press and threshold egui has seen.
-    pub(in crate::panels) fn dragging(drag: D) -> Self {
-        Self { phase: Phase::Dragging(drag) }
-    }
-
-    /// Whether the button is down and its press belongs to this machine.
-    pub(in crate::panels) fn is_busy(&self) -> bool {
-        !matches!(self.phase, Phase::Idle)
-    }
-
-    /// The press that has not become a drag.
-    pub(in crate::panels) fn press(&self) -> Option<&Press<T>> {
-        match &self.phase {
-            Phase::Pressed(press) => Some(press),
-            Phase::Idle | Phase::Dragging(_) | Phase::Spent => None,
-        }
-    }
-
-    /// What is being dragged.
-    pub(in crate::panels) fn drag(&self) -> Option<&D> {
-        match &self.phase {
-            Phase::Dragging(drag) => Some(drag),
-            Phase::Idle | Phase::Pressed(_) | Phase::Spent => None,
-        }
-    }
-
-    /// [`Self::drag`], to be altered.
-    pub(in crate::panels) fn drag_mut(&mut self) -> Option<&mut D> {
-        match &mut self.phase {
-            Phase::Dragging(drag) => Some(drag),
-            Phase::Idle | Phase::Pressed(_) | Phase::Spent => None,
-        }
-    }
-
-    /// Drags `drag` from now on; called on [`DragEvent::Started`].
-    pub(in crate::panels) fn begin(&mut self, drag: D) {
-        self.phase = Phase::Dragging(drag);
-    }
-
-    /// Ends a press or drag without an event; the rest of the press is ignored.
-    pub(in crate::panels) fn spend(&mut self) {
-        self.phase = Phase::Spent;
-    }
-
+impl<T, D> PanelDrag<T, D> {
     /// Advances by one frame. `held` is whether egui gives the pressed pointer to this panel; `target` returns what is under
     /// a point.
     pub(in crate::panels) fn step(
@@ -128,48 +39,36 @@ impl<T, D> DragMachine<T, D> {
         input: &PointerInput,
         held: bool,
         target: impl FnOnce(Pos2) -> T,
-    ) -> DragEvent<T, D> {
+    ) -> DragEvent<Press<T>, D> {
         let cancels_drag = input.cancels && self.drag().is_some();
         if !input.primary_down && !cancels_drag {
-            return match std::mem::replace(&mut self.phase, Phase::Idle) {
-                Phase::Idle | Phase::Spent => DragEvent::Nothing,
-                Phase::Pressed(press) => DragEvent::Clicked(press),
-                Phase::Dragging(drag) => DragEvent::Dropped(drag),
-            };
+            return self.released();
         }
         // Before `held`: egui itself releases what it drags when Escape is pressed.
         if input.cancels && (held || self.is_busy()) {
-            return match std::mem::replace(&mut self.phase, Phase::Spent) {
-                Phase::Dragging(drag) => DragEvent::Cancelled(drag),
-                Phase::Idle | Phase::Pressed(_) | Phase::Spent => DragEvent::Nothing,
-            };
+            return self.cancelled();
         }
         let (true, Some(pointer)) = (held, input.pointer) else { return DragEvent::Nothing };
-        match &self.phase {
-            Phase::Idle if input.pans => self.phase = Phase::Spent,
-            Phase::Idle => {
-                let at = input.pressed_at.unwrap_or(pointer);
-                self.phase = Phase::Pressed(Press { at, on: target(at), modifiers: input.modifiers });
-                return DragEvent::Pressed;
-            }
-            Phase::Pressed(press) if press.at.distance(pointer) > THRESHOLD => {
-                if let Phase::Pressed(press) = std::mem::replace(&mut self.phase, Phase::Spent) {
-                    return DragEvent::Started(press);
-                }
-            }
-            Phase::Dragging(_) => return DragEvent::Moved(pointer),
-            Phase::Pressed(_) | Phase::Spent => {}
+        if self.is_busy() {
+            return self.moved(Vec2::new(pointer.x, pointer.y));
         }
-        DragEvent::Nothing
+        if input.pans {
+            self.spend();
+            return DragEvent::Nothing;
+        }
+        let at = input.pressed_at.unwrap_or(pointer);
+        self.press(Vec2::new(at.x, at.y), Press { at, on: target(at), modifiers: input.modifiers });
+        DragEvent::Pressed
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::control::drag::THRESHOLD;
     use egui::pos2;
 
-    type Machine = DragMachine<&'static str, u32>;
+    type Machine = PanelDrag<&'static str, u32>;
 
     fn down(x: f32) -> PointerInput {
         let at = Some(pos2(x, 0.0));
@@ -185,7 +84,7 @@ mod tests {
         PointerInput::default()
     }
 
-    fn step(machine: &mut Machine, input: PointerInput) -> DragEvent<&'static str, u32> {
+    fn step(machine: &mut Machine, input: PointerInput) -> DragEvent<Press<&'static str>, u32> {
         machine.step(&input, input.primary_down, |_| "key")
     }
 
@@ -209,7 +108,7 @@ mod tests {
     #[test]
     fn a_press_beyond_the_threshold_is_a_drag_until_the_button_is_up() {
         let mut machine = dragging();
-        assert_eq!(step(&mut machine, down(1.0)), DragEvent::Moved(pos2(1.0, 0.0)));
+        assert_eq!(step(&mut machine, down(1.0)), DragEvent::Moved(Vec2::new(1.0, 0.0)));
         assert_eq!(step(&mut machine, up()), DragEvent::Dropped(7));
         assert_eq!(step(&mut machine, up()), DragEvent::Nothing);
     }

@@ -51,6 +51,11 @@ impl PointerInput {
     }
 }
 
+/// Returns a position of the drag machine as egui has it.
+pub(in crate::panels) fn position(at: glam::Vec2) -> Pos2 {
+    pos2(at.x, at.y)
+}
+
 /// Draws the present amount of a drag next to the pointer.
 pub(in crate::panels) fn readout(ui: &Ui, pointer: Pos2, text: &str) {
     let theme = Theme::of(ui);

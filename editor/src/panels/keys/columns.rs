@@ -1,7 +1,6 @@
 //! Keys as columns of pixels: the cost of a row depends on its width, not on the number of keys.
 
 use super::intervals::Intervals;
-use super::shift::Shift;
 use super::window::TimeScale;
 use dragonfly_document::edit::SAME_TIME;
 
@@ -68,32 +67,25 @@ impl Columns {
         self.x.iter().copied().filter(|x| !x.is_nan())
     }
 
-    /// Marks the keys of a channel that are selected, or those that are not, displaced by `shift`.
-    pub fn mark(&mut self, times: &[f32], intervals: &Intervals, selected: bool, shift: Shift) {
+    /// Marks the keys of a channel that are selected, or those that are not.
+    pub fn mark(&mut self, times: &[f32], intervals: &Intervals, selected: bool) {
         let Some(grid) = self.scale else { return };
         if times.is_empty() || self.x.is_empty() || (selected && intervals.is_empty()) {
             return;
         }
-        let (factor, offset) = shift.affine();
         let per_second = grid.scale.per_second();
-        let slope = factor * per_second * grid.per_point;
-        let first = (f64::from(grid.scale.left) + (offset - grid.scale.window.start) * per_second
-            - grid.left)
-            * grid.per_point;
-        if !(slope.is_finite() && first.is_finite()) || slope == 0.0 {
+        let slope = per_second * grid.per_point;
+        let first =
+            (f64::from(grid.scale.left) - grid.scale.window.start * per_second - grid.left) * grid.per_point;
+        if !(slope.is_finite() && first.is_finite()) || slope <= 0.0 {
             return;
         }
-        let line = ColumnLine { first, slope };
-        if slope > 0.0 {
-            self.forwards(times, intervals, selected, line, grid);
-        } else {
-            self.backwards(times, intervals, selected, line, grid);
-        }
+        self.mark_line(times, intervals, selected, ColumnLine { first, slope }, grid);
     }
 
-    /// Marks keys where time and columns ascend together. Where the intervals alone decide, the keys are not read: of many
+    /// Marks keys along a line. Where the intervals alone decide, the keys are not read: of many
     /// channels with the same selection, only the first is searched.
-    fn forwards(
+    fn mark_line(
         &mut self,
         times: &[f32],
         intervals: &Intervals,
@@ -140,30 +132,6 @@ impl Columns {
             let Some(found) = found else { break };
             let Some(hit) = self.hit(line.place(times[found]), next, grid) else { break };
             (column, index) = (hit + 1, found);
-        }
-    }
-
-    /// Marks keys where columns descend as time ascends: keys that are reversed.
-    fn backwards(
-        &mut self,
-        times: &[f32],
-        intervals: &Intervals,
-        selected: bool,
-        line: ColumnLine,
-        grid: Grid,
-    ) {
-        let mut column = 0;
-        while let Some(next) = self.next_free(column) {
-            let before = times.partition_point(|&time| time <= line.time(next));
-            let Some(last) = before.checked_sub(1) else { break };
-            let found = if selected {
-                intervals.previous(times, last)
-            } else {
-                (0..=last).rev().find(|&at| !intervals.holds(times[at]))
-            };
-            let Some(found) = found else { break };
-            let Some(hit) = self.hit(line.place(times[found]), next, grid) else { break };
-            column = hit + 1;
         }
     }
 
@@ -221,14 +189,11 @@ mod tests {
         channels: &[Vec<f32>],
         intervals: &Intervals,
         selected: bool,
-        shift: Shift,
         scale: TimeScale,
     ) -> BTreeSet<usize> {
         let mut found = BTreeSet::new();
         for &time in channels.iter().flatten().filter(|&&time| intervals.holds(time) == selected) {
-            let (factor, offset) = shift.affine();
-            let moved = factor * f64::from(time) + offset;
-            let x = f64::from(scale.left) + (moved - scale.window.start) * scale.per_second();
+            let x = f64::from(scale.left) + (f64::from(time) - scale.window.start) * scale.per_second();
             if (0.0..500.0).contains(&x) {
                 found.insert(x as usize);
             }
@@ -257,22 +222,17 @@ mod tests {
                 length: f64::from(random.between(0.1, 12.0)),
             };
             let scale = TimeScale { left: 20.0, width: 440.0, window };
-            let shift = match random.below(3) {
-                0 => Shift::NONE,
-                1 => Shift::Move(random.between(-3.0, 3.0)),
-                _ => Shift::Scale { about: random.between(0.0, 10.0), factor: random.between(-2.0, 2.0) },
-            };
             for selected in [true, false] {
                 let mut columns = Columns::default();
                 columns.reset(scale, 0.0, 500.0, 1.0);
                 for times in &channels {
-                    columns.mark(times, &intervals, selected, shift);
+                    columns.mark(times, &intervals, selected);
                 }
                 let quick: BTreeSet<usize> = (0..500).filter(|&at| !columns.x[at].is_nan()).collect();
-                let slow = slow(&channels, &intervals, selected, shift, scale);
+                let slow = slow(&channels, &intervals, selected, scale);
                 // A key on the border of two columns may be in either.
                 let differ = quick.symmetric_difference(&slow).count();
-                assert!(differ <= 2, "seed {seed} round {round}: {differ} columns differ, {shift:?}");
+                assert!(differ <= 2, "seed {seed} round {round}: {differ} columns differ");
             }
         }
     }

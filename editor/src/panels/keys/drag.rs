@@ -1,99 +1,43 @@
-//! A drag of keys: one gesture, one undo step, drawn without waiting for the document.
+//! A drag of keys: one gesture, one undo step.
 //!
-//! During the drag the timeline draws the take as it was when the drag began, with the dragged keys displaced. An edit
-//! is sent only when the previous one was answered, so a slow edit makes the result coarse in time, and the pointer is
-//! never late.
+//! The next edit is sent as soon as the previous one is shown: at once where the [`Echo`] carries it out, else when the document
+//! has answered it. So a slow edit makes the drag coarse in time, and the pointer is never late. What is drawn is always the take
+//! that an edit resulted in, and the selection follows the keys.
 
-use super::KeyEditing;
+use super::op::KeyDragOp;
 use super::selection::KeySelection;
-use super::shift::Shift;
+use super::{Drawn, EndedDrag, KeyEditing};
 use crate::panels::echo::Echo;
 use dragonfly_anim::data::Take;
 use dragonfly_document::Change;
-use dragonfly_document::edit::{
-    DuplicateKeys, Edit, KeySet, MoveKeys, RippleKeys, SAME_TIME, ScaleKeys, SnapKeys, TakeRef,
-};
+use dragonfly_document::edit::{KeySet, TakeRef};
 use dragonfly_document::history::Gesture;
 use std::sync::Arc;
-
-/// The operation of a drag on keys, always relative to the start of the drag.
-#[derive(Clone, Debug, PartialEq)]
-pub enum KeyDragOp {
-    /// Moves the selected keys by this many seconds.
-    Move(f32),
-    /// Scales the times of the selected keys about a time.
-    Scale {
-        /// Seconds.
-        about: f32,
-        /// Factor, not zero.
-        factor: f32,
-    },
-    /// Duplicates the selected keys this many seconds later.
-    Duplicate(f32),
-    /// Moves every key from a time on.
-    Ripple {
-        /// Seconds.
-        from: f32,
-        /// Seconds.
-        by: f32,
-    },
-    /// Moves the selected keys to whole frames at this rate per second.
-    Snap(f32),
-    /// Applies an edit as it is: values, tangents.
-    Edit(Edit),
-}
-
-impl KeyDragOp {
-    /// Returns where the keys are moved.
-    pub fn shift(&self) -> Shift {
-        match *self {
-            Self::Move(by) | Self::Duplicate(by) | Self::Ripple { by, .. } => Shift::Move(by),
-            Self::Scale { about, factor } => Shift::Scale { about, factor },
-            Self::Snap(rate) => Shift::Snap(rate),
-            Self::Edit(_) => Shift::NONE,
-        }
-    }
-
-    /// Whether it changes nothing.
-    fn idle(&self) -> bool {
-        match *self {
-            Self::Move(by) | Self::Duplicate(by) | Self::Ripple { by, .. } => {
-                !by.is_finite() || by.abs() <= SAME_TIME
-            }
-            Self::Scale { factor, .. } => factor == 1.0 || factor == 0.0 || !factor.is_finite(),
-            Self::Snap(_) | Self::Edit(_) => false,
-        }
-    }
-
-    fn edit(&self, take: TakeRef, keys: &[KeySet]) -> Edit {
-        let keys = || keys.to_vec();
-        match *self {
-            Self::Move(by) => Edit::MoveKeys(MoveKeys { take, keys: keys(), by }),
-            Self::Scale { about, factor } => Edit::ScaleKeys(ScaleKeys { take, keys: keys(), about, factor }),
-            Self::Duplicate(by) => Edit::DuplicateKeys(DuplicateKeys { take, keys: keys(), by }),
-            Self::Ripple { from, by } => Edit::RippleKeys(RippleKeys { take, from, by }),
-            Self::Snap(rate) => Edit::SnapKeys(SnapKeys { take, keys: keys(), rate }),
-            Self::Edit(ref edit) => edit.clone(),
-        }
-    }
-}
 
 /// A drag of keys, until it is released and answered.
 #[derive(Clone, Debug)]
 pub struct KeyDrag {
     /// Identifies the drag in the history.
-    pub gesture: Gesture,
+    gesture: Gesture,
     /// The take as it was when the drag began.
-    pub base: Arc<Take>,
-    /// The keys that move.
-    pub moving: KeySelection,
+    base: Arc<Take>,
+    /// The selection as it was when the drag began.
+    selected: KeySelection,
+    /// The keys that move, as they were when the drag began.
+    moving: KeySelection,
+    /// The keys that move, as they are in the take that is shown.
+    moved: KeySelection,
     /// The newest operation.
-    pub op: KeyDragOp,
+    op: KeyDragOp,
     take: TakeRef,
     keys: Vec<KeySet>,
-    /// The operation that was requested last.
-    requested: Option<KeyDragOp>,
+    /// The operation that was sent last; `None` where nothing was, or the last one was cancelled.
+    sent: Option<KeyDragOp>,
+    /// The operation that the take contains that is shown.
+    shown: Option<KeyDragOp>,
     answer: Outstanding,
+    /// Whether the document refused the operation that was sent last.
+    refused: bool,
     released: bool,
 }
 
@@ -109,17 +53,29 @@ enum Outstanding {
 }
 
 impl KeyDrag {
-    /// Begins with `op`.
-    pub fn begin(
+    /// Begins with `op` on the keys `moving` of `base`.
+    pub(in crate::panels) fn begin(
         gesture: Gesture,
         take: TakeRef,
         base: Arc<Take>,
         moving: KeySelection,
         op: KeyDragOp,
     ) -> Self {
-        let keys = moving.key_sets(&base);
-        let answer = Outstanding::None;
-        Self { gesture, base, moving, op, take, keys, requested: None, answer, released: false }
+        Self {
+            gesture,
+            selected: KeySelection::default(),
+            keys: moving.key_sets(&base),
+            base,
+            moved: moving.clone(),
+            moving,
+            op,
+            take,
+            sent: None,
+            shown: None,
+            answer: Outstanding::None,
+            refused: false,
+            released: false,
+        }
     }
 
     /// Returns whether the drag is in progress, not released yet.
@@ -127,71 +83,111 @@ impl KeyDrag {
         !self.released
     }
 
-    /// Returns the change to send now. While an answer is outstanding there is none, so a slow edit makes the drag coarse
-    /// and never late; `last`, when no later call follows, sends in any case.
-    pub fn send(&mut self, echo: &Echo, last: bool) -> Option<Change> {
-        if (!self.is_answered(echo) && !last) || self.requested.as_ref() == Some(&self.op) {
+    /// Returns the change to send now; none while the previous one is not shown. `last`, when no later call follows, sends in
+    /// any case.
+    fn send(&mut self, echo: &Echo, last: bool) -> Option<Change> {
+        if (!self.is_shown(echo) && !last) || self.sent.as_ref() == Some(&self.op) {
             return None;
         }
-        let change = match (self.op.idle(), &self.requested) {
+        let change = match (self.op.idle(), &self.sent) {
             (true, None) => return None,
             (true, Some(_)) => Change::Cancel(self.gesture),
             (false, _) => Change::Edit(self.op.edit(self.take.clone(), &self.keys), Some(self.gesture)),
         };
-        self.requested = (!self.op.idle()).then(|| self.op.clone());
-        self.answer = Outstanding::ToUnsent;
+        self.sent = (!self.op.idle()).then(|| self.op.clone());
+        (self.answer, self.refused) = (Outstanding::ToUnsent, false);
         Some(change)
     }
 
-    fn is_answered(&self, echo: &Echo) -> bool {
+    /// Returns whether the change that was sent last is shown or refused.
+    fn is_shown(&self, echo: &Echo) -> bool {
         match self.answer {
             Outstanding::None => true,
             Outstanding::ToUnsent => false,
-            Outstanding::To(number) => echo.has_answered(number),
+            Outstanding::To(number) => echo.shows(number),
         }
     }
 
-    /// The button is up, and the drag counts.
-    pub fn release(&mut self) {
-        self.released = true;
+    /// Returns whether the drag is released, and everything that it sent is answered.
+    fn is_settled(&self, echo: &Echo) -> bool {
+        let answered = match self.answer {
+            Outstanding::None => true,
+            Outstanding::ToUnsent => false,
+            Outstanding::To(number) => echo.has_answered(number),
+        };
+        self.released && answered
     }
 
-    /// Whether anything was sent that a cancel has to undo.
-    pub fn has_sent(&self) -> bool {
+    /// Returns whether anything was sent that a cancel has to undo.
+    fn has_sent(&self) -> bool {
         self.answer != Outstanding::None
     }
 
-    /// The document refused the last edit.
-    pub fn refused(&mut self) {
-        self.requested = None;
+    /// Notes that `take` is shown. Returns the selection in it, where it contains another operation than before.
+    fn follow(&mut self, take: &Take, echo: &Echo) -> Option<KeySelection> {
+        if !self.is_shown(echo) || self.refused || self.shown == self.sent {
+            return None;
+        }
+        self.shown.clone_from(&self.sent);
+        self.moved = match &self.shown {
+            Some(op) => self.moving.shifted(&self.base, take, op.shift()),
+            None => self.moving.clone(),
+        };
+        Some(match &self.shown {
+            None | Some(KeyDragOp::Edit(_)) => self.selected.clone(),
+            Some(KeyDragOp::Ripple { from, by }) => self.selected.rippled(take, *from, *by),
+            Some(
+                KeyDragOp::Move(_) | KeyDragOp::Scale { .. } | KeyDragOp::Duplicate(_) | KeyDragOp::Snap(_),
+            ) => self.moved.clone(),
+        })
     }
 
-    /// Whether the drag is released, and everything that it sent is answered.
-    pub fn is_settled(&self, echo: &Echo) -> bool {
-        self.released && self.is_answered(echo)
-    }
-
-    /// Returns how many keys the drag was to add to the take; `None` if it moved none.
-    pub fn brings(&self) -> Option<usize> {
-        self.requested.as_ref()?;
-        match self.op {
+    /// Returns the number of keys that the drag was to add to the take; `None` where it moved none.
+    fn added(&self) -> Option<usize> {
+        match self.shown.as_ref()? {
             KeyDragOp::Duplicate(_) => Some(self.moving.count(&self.base)),
             KeyDragOp::Move(_) | KeyDragOp::Scale { .. } | KeyDragOp::Snap(_) => Some(0),
             KeyDragOp::Ripple { .. } | KeyDragOp::Edit(_) => None,
         }
     }
-
-    /// Returns the keys that moved, in the take as it is now.
-    pub fn moved(&self, take: &Take) -> KeySelection {
-        match self.op {
-            KeyDragOp::Ripple { .. } | KeyDragOp::Edit(_) => self.moving.clone(),
-            _ if self.requested.is_none() => self.moving.clone(),
-            _ => self.moving.shifted(&self.base, take, self.op.shift()),
-        }
-    }
 }
 
 impl KeyEditing {
+    /// Returns the drag in progress.
+    pub fn drag(&self) -> Option<&KeyDrag> {
+        self.drag.as_ref()
+    }
+
+    /// Returns whether keys are being dragged, and the drag is not released yet.
+    pub fn is_dragging(&self) -> bool {
+        self.drag.as_ref().is_some_and(KeyDrag::held)
+    }
+
+    /// Returns the take whose times the timeline shows: during a drag the one from its start, so that time stays where it is
+    /// under the pointer.
+    pub(super) fn timed<'a>(&'a self, take: &'a Take) -> &'a Take {
+        self.drag.as_ref().map_or(take, |drag| &drag.base)
+    }
+
+    /// Starts or continues a drag in the timeline. Returns whether that is allowed: a drag that was released and waits for its
+    /// answer ends first.
+    pub(in crate::panels) fn may_drag(&mut self) -> bool {
+        self.gain_focus();
+        self.drag.as_ref().is_none_or(KeyDrag::held)
+    }
+
+    /// Begins a drag.
+    pub(in crate::panels) fn begin_drag(&mut self, drag: KeyDrag) {
+        self.drag = Some(KeyDrag { selected: self.selection.clone(), ..drag });
+    }
+
+    /// Continues the drag with its newest operation. Returns the change to send.
+    pub(in crate::panels) fn continue_drag(&mut self, op: KeyDragOp, echo: &Echo) -> Option<Change> {
+        let drag = self.drag.as_mut()?;
+        drag.op = op;
+        drag.send(echo, false)
+    }
+
     /// Notes the number under which a change of the drag was sent.
     pub(in crate::panels) fn sent(&mut self, gesture: Gesture, number: u64) {
         if let Some(drag) = self.drag.as_mut().filter(|drag| drag.gesture == gesture) {
@@ -199,13 +195,70 @@ impl KeyEditing {
         }
     }
 
-    /// Drops the drag of this gesture, whose changes are not sent any more.
-    pub(in crate::panels) fn forget_drag(&mut self, gesture: Gesture) {
-        self.drag.take_if(|drag| drag.gesture == gesture);
+    /// Lets the selection follow the dragged keys: `take` is shown now.
+    pub(in crate::panels) fn follow_drag(&mut self, take: Option<&Take>, echo: &Echo) {
+        if let Some((drag, take)) = self.drag.as_mut().zip(take)
+            && let Some(selection) = drag.follow(take, echo)
+        {
+            self.selection = selection;
+        }
     }
 
-    /// Whether keys are being dragged, and the drag is not released yet.
-    pub fn is_dragging(&self) -> bool {
-        self.drag.as_ref().is_some_and(KeyDrag::held)
+    /// Notes that the document refused what the drag sent last.
+    pub(super) fn drag_refused(&mut self) {
+        if let Some(drag) = &mut self.drag {
+            drag.refused = true;
+        }
+    }
+
+    /// Releases the drag. Returns the changes to send; `None` where no drag is held.
+    pub(in crate::panels) fn release_drag(&mut self, echo: &Echo) -> Option<Vec<Change>> {
+        let drag = self.drag.as_mut().filter(|drag| drag.held())?;
+        let change = drag.send(echo, true);
+        drag.released = true;
+        let over = drag.has_sent().then_some(Change::Release(drag.gesture));
+        Some(change.into_iter().chain(over).collect())
+    }
+
+    /// Cancels the drag that is held. Returns the change to send, if anything was sent.
+    pub(in crate::panels) fn cancel_drag(&mut self) -> Option<Change> {
+        let drag = self.drop_if(KeyDrag::held)?;
+        drag.has_sent().then_some(Change::Cancel(drag.gesture))
+    }
+
+    /// Drops the drag that is held, as if it had never begun: the document undoes it elsewhere.
+    pub(in crate::panels) fn drop_held(&mut self) {
+        self.drop_if(KeyDrag::held);
+    }
+
+    /// Drops any drag: its edits are refused.
+    pub(in crate::panels) fn drop_drag(&mut self) {
+        self.drop_if(|_| true);
+    }
+
+    /// Drops the drag of this gesture, whose changes are not sent any more.
+    pub(in crate::panels) fn forget_drag(&mut self, gesture: Gesture) {
+        self.drop_if(|drag| drag.gesture == gesture);
+    }
+
+    /// Drops the drag if it is one of these, and selects what was selected before it.
+    fn drop_if(&mut self, is_one: impl Fn(&KeyDrag) -> bool) -> Option<KeyDrag> {
+        let drag = self.drag.take_if(|drag| is_one(drag))?;
+        self.selection = drag.selected.clone();
+        Some(drag)
+    }
+
+    /// Ends a drag that was released and is done; `take` is shown now.
+    pub(in crate::panels) fn settle(&mut self, take: Option<&Take>, echo: &Echo) -> Option<EndedDrag> {
+        self.follow_drag(take, echo);
+        let drag = self.drag.take_if(|drag| drag.is_settled(echo))?;
+        drag.added().map(|added| EndedDrag { before: drag.base.keys(), added })
+    }
+
+    /// Returns the keys as they are to be drawn: the dragged ones as selected.
+    pub(in crate::panels) fn drawn(&self, take: Option<&Arc<Take>>) -> Option<Drawn> {
+        let dragged = self.drag.as_ref().filter(|drag| !matches!(drag.op, KeyDragOp::Edit(_)));
+        let selection = dragged.map_or(&self.selection, |drag| &drag.moved);
+        Some(Drawn { take: Arc::clone(take?), selection: selection.clone() })
     }
 }

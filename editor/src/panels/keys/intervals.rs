@@ -164,18 +164,6 @@ impl Intervals {
             .map(|keys| keys.start.max(index))
     }
 
-    /// Returns the index of the last selected key up to `index`.
-    pub fn previous(&self, times: &[f32], index: usize) -> Option<usize> {
-        let time = *times.get(index)?;
-        let end = self.0.partition_point(|[from, _]| from - SAME_TIME <= time);
-        self.0[..end]
-            .iter()
-            .rev()
-            .map(|&stretch| keys_between(times, stretch))
-            .find(|keys| !keys.is_empty() && keys.start <= index)
-            .map(|keys| (keys.end - 1).min(index))
-    }
-
     /// Returns the times of the first and the last selected key, seconds.
     pub fn extent(&self, times: &[f32]) -> Option<[f32; 2]> {
         let first = self.keys(times).next()?;
@@ -223,8 +211,6 @@ mod tests {
                         "seed {seed} {intervals:?} {index} {selected}"
                     );
                 }
-                let slow = (0..=index).rev().find(|&at| intervals.holds(TIMES[at]));
-                assert_eq!(intervals.previous(&TIMES, index), slow, "seed {seed} {intervals:?} {index}");
             }
         }
     }

@@ -8,26 +8,25 @@ pub mod drag;
 pub mod flags;
 pub mod intervals;
 pub mod markers;
+pub mod op;
 pub mod request;
 pub mod selection;
 pub mod shift;
 pub mod window;
 
 pub use channel::ChannelId;
-pub use drag::KeyDragOp;
 pub use flags::{BoneFlag, BoneFlags};
 pub use markers::{Marker, MarkerAction, Markers};
+pub use op::KeyDragOp;
 pub use request::KeysRequest;
 pub use selection::KeySelection;
 pub use shift::Shift;
 pub use window::{TimeScale, TimeWindow};
 
-use super::echo::Echo;
 use super::settings::TimelineSettings;
 use clipboard::Pasted;
 use drag::KeyDrag;
 use dragonfly_anim::data::{BoneIndex, Take};
-use dragonfly_document::Change;
 use dragonfly_document::adapter::TakeVersions;
 use dragonfly_document::bones::{BoneSelection, Choice};
 use dragonfly_document::edit::SAME_TIME;
@@ -87,14 +86,10 @@ impl Default for KeyEditing {
 /// The keys as they are to be drawn now.
 #[derive(Clone, Debug)]
 pub struct Drawn {
-    /// The take as it is, or as it was when a drag began.
+    /// The take as it is shown.
     pub take: Arc<Take>,
     /// The selected keys of that take.
     pub selection: KeySelection,
-    /// The displacement with which they are drawn.
-    pub shift: Shift,
-    /// Whether they are drawn at their old times too.
-    pub copies: bool,
 }
 
 /// A drag of keys that ended, and the keys that the take had before.
@@ -175,11 +170,6 @@ impl KeyEditing {
         &mut self.markers
     }
 
-    /// Returns the drag in progress.
-    pub fn drag(&self) -> Option<&KeyDrag> {
-        self.drag.as_ref()
-    }
-
     /// Returns the part that plays, seconds; `None` for the whole take.
     pub fn range(&self) -> Option<[f32; 2]> {
         self.range
@@ -196,6 +186,7 @@ impl KeyEditing {
 
     /// Returns the part of time that is shown of a take.
     pub fn window(&self, take: &Take) -> TimeWindow {
+        let take = self.timed(take);
         self.window.unwrap_or_else(|| TimeWindow::whole(take.start, take.length))
     }
 
@@ -334,74 +325,10 @@ impl KeyEditing {
         }
     }
 
-    /// Starts or continues a drag in the timeline. Returns whether that is allowed: a drag that was released and waits for its
-    /// answer ends first.
-    pub(super) fn may_drag(&mut self) -> bool {
-        self.has_focus = true;
-        self.drag.as_ref().is_none_or(KeyDrag::held)
-    }
-
-    /// Begins a drag.
-    pub(super) fn begin_drag(&mut self, drag: KeyDrag) {
-        self.drag = Some(drag);
-    }
-
-    /// Continues the drag with its newest operation. Returns the change to send.
-    pub(super) fn continue_drag(&mut self, op: KeyDragOp, echo: &Echo) -> Option<Change> {
-        let drag = self.drag.as_mut()?;
-        drag.op = op;
-        drag.send(echo, false)
-    }
-
-    /// Releases the drag. Returns the changes to send; `None` where no drag is held.
-    pub(super) fn release_drag(&mut self, echo: &Echo) -> Option<Vec<Change>> {
-        let drag = self.drag.as_mut().filter(|drag| drag.held())?;
-        let change = drag.send(echo, true);
-        drag.release();
-        let over = drag.has_sent().then_some(Change::Release(drag.gesture));
-        Some(change.into_iter().chain(over).collect())
-    }
-
-    /// Cancels the drag that is held. Returns the change to send, if anything was sent.
-    pub(super) fn cancel_drag(&mut self) -> Option<Change> {
-        let drag = self.drag.take_if(|drag| drag.held())?;
-        drag.has_sent().then_some(Change::Cancel(drag.gesture))
-    }
-
-    /// Drops the drag that is held, as if it had never begun: the document undoes it elsewhere.
-    pub(super) fn drop_held(&mut self) {
-        self.drag.take_if(|drag| drag.held());
-    }
-
-    /// Drops any drag: its edits are refused.
-    pub(super) fn drop_drag(&mut self) {
-        self.drag = None;
-    }
-
-    /// Ends a drag that was released and is done, and selects the keys that it moved in `take`.
-    pub(super) fn settle(&mut self, take: Option<&Take>, echo: &Echo) -> Option<EndedDrag> {
-        let drag = self.drag.take_if(|drag| drag.is_settled(echo))?;
-        match (take, &drag.op) {
-            (
-                Some(take),
-                KeyDragOp::Move(_) | KeyDragOp::Scale { .. } | KeyDragOp::Duplicate(_) | KeyDragOp::Snap(_),
-            ) => {
-                self.selection = drag.moved(take);
-            }
-            (Some(take), KeyDragOp::Ripple { from, by }) => {
-                self.selection = self.selection.rippled(take, *from, *by);
-            }
-            (None, _) | (Some(_), KeyDragOp::Edit(_)) => {}
-        }
-        drag.brings().map(|added| EndedDrag { before: drag.base.keys(), added })
-    }
-
     /// Notes that an edit was refused: nothing is on its way any more.
     pub(super) fn refused(&mut self) {
         self.pasted = None;
-        if let Some(drag) = &mut self.drag {
-            drag.refused();
-        }
+        self.drag_refused();
     }
 
     /// Selects pasted keys once the document has them.
@@ -433,23 +360,5 @@ impl KeyEditing {
     pub(super) fn open(&mut self, path: String) {
         let (snap, only_selected, flags) = (self.snap, self.only_selected, self.flags.emptied());
         *self = Self { snap, only_selected, flags, markers: Markers::open(path), ..Self::default() };
-    }
-
-    /// Returns the keys as they are to be drawn: displaced while they are dragged.
-    pub(super) fn drawn(&self, take: Option<&Arc<Take>>) -> Option<Drawn> {
-        match &self.drag {
-            Some(drag) if !matches!(drag.op, KeyDragOp::Edit(_)) => Some(Drawn {
-                take: Arc::clone(&drag.base),
-                selection: drag.moving.clone(),
-                shift: drag.op.shift(),
-                copies: matches!(drag.op, KeyDragOp::Duplicate(_)),
-            }),
-            _ => Some(Drawn {
-                take: Arc::clone(take?),
-                selection: self.selection.clone(),
-                shift: Shift::NONE,
-                copies: false,
-            }),
-        }
     }
 }

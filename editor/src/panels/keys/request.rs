@@ -1,9 +1,9 @@
 //! Requests of panels about keys.
 
 use super::ChannelId;
-use super::drag::KeyDragOp;
 use super::flags::BoneFlag;
 use super::markers::MarkerAction;
+use super::op::KeyDragOp;
 use super::window::TimeWindow;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;

@@ -29,17 +29,6 @@ impl Shift {
         }
     }
 
-    /// Returns the change as `time * factor + offset`; snapping is too small to be drawn.
-    pub fn affine(self) -> (f64, f64) {
-        match self {
-            Self::Move(by) => (1.0, f64::from(by)),
-            Self::Scale { about, factor } => {
-                (f64::from(factor), f64::from(about) * (1.0 - f64::from(factor)))
-            }
-            Self::Snap(_) => (1.0, 0.0),
-        }
-    }
-
     /// Returns the new ends of an interval, in order; all of time stays all of time.
     pub fn stretch(self, [from, to]: [f32; 2]) -> [f32; 2] {
         let at = |time: f32| if time.is_finite() { self.apply(time) } else { time };

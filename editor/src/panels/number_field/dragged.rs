@@ -1,10 +1,10 @@
 //! A number field without focus: dragged, or clicked to get the focus.
 
 use super::{DraggedNumber, FieldEvent, NumberField, RefusedNumber, Typing};
-use crate::panels::drag::{DragEvent, DragMachine, PointerInput};
+use crate::panels::drag::{DragEvent, PanelDrag, PointerInput};
 use egui::{CursorIcon, Key, PointerButton, Rect, Response, Sense, Ui};
 
-type NumberDrag = DragMachine<(), DraggedNumber>;
+type NumberDrag = PanelDrag<(), DraggedNumber>;
 
 impl NumberField<'_> {
     /// Draws the field without focus.

@@ -24,7 +24,7 @@ const SLIDER: f32 = 14.0;
 
 /// The table of a bone.
 pub(super) struct ChannelTable<'a> {
-    pub(super) state: &'a PanelContext<'a>,
+    pub(super) context: &'a PanelContext<'a>,
     pub(super) bone: BoneIndex,
     pub(super) pair: Pair,
     /// Reason why nothing can be changed.
@@ -155,7 +155,7 @@ impl ChannelTable<'_> {
         let columns = columns(rect.left(), rect.width());
         let Some(&(_, x)) = columns.iter().find(|(other, _)| *other == column) else { return false };
         let spot = Spot { property, column, form };
-        let shared = drag.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
+        let shared = drag.shared(self.context, self.bone, &self.pair, spot, self.grain(property, form));
         let mut in_use = false;
         for (index, value) in shared.into_iter().enumerate().take(form.count()) {
             let place = Rect::from_x_y_ranges(x, rows.top(index)..=rows.top(index) + FIELD);
@@ -180,7 +180,7 @@ impl ChannelTable<'_> {
     ) -> bool {
         let ChannelRows { rect, property, form, .. } = *rows;
         let spot = Spot { property, column: Column::Change, form };
-        let shared = drag.shared(self.state, self.bone, &self.pair, spot, self.grain(property, form));
+        let shared = drag.shared(self.context, self.bone, &self.pair, spot, self.grain(property, form));
         let mut in_use = false;
         for (index, value) in shared.into_iter().enumerate().take(form.count()) {
             let top = rows.top(index) + FIELD;
@@ -219,7 +219,7 @@ impl ChannelTable<'_> {
         if response.clicked() {
             let result = Spot { column: Column::Result, ..spot };
             // A result that is equal already needs no edit.
-            let _ = drag.apply(self.state, result, index, FieldEvent::Typed(value), requests);
+            let _ = drag.apply(self.context, result, index, FieldEvent::Typed(value), requests);
         }
         response.on_hover_text(format!("{name}: {full}\nClick to copy this number to the result"));
     }
@@ -258,7 +258,7 @@ impl ChannelTable<'_> {
             quiet: spot.column == Column::Change && value == Some(unchanged(spot, index)),
         };
         let (event, response) = field.show(ui, rect);
-        if let Err(reason) = drag.apply(self.state, spot, index, event, requests) {
+        if let Err(reason) = drag.apply(self.context, spot, index, event, requests) {
             number_field::refuse(ui, id, value, reason);
         }
         response.has_focus() || response.dragged()
@@ -286,7 +286,7 @@ impl ChannelTable<'_> {
         let event = slider.show(ui, rect);
         let in_use = event != FieldEvent::Nothing;
         // A number that is impossible is skipped during a drag.
-        let _ = drag.apply(self.state, spot, index, event, requests);
+        let _ = drag.apply(self.context, spot, index, event, requests);
         in_use
     }
 

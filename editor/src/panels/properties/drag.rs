@@ -100,8 +100,8 @@ enum NewNumber {
 
 impl FieldDrag {
     /// Begins a frame. `in_use` is whether a field of the panel has the focus or is dragged.
-    pub(super) fn begin(&mut self, state: &PanelContext<'_>, in_use: bool) {
-        let active = state.selected();
+    pub(super) fn begin(&mut self, context: &PanelContext<'_>, in_use: bool) {
+        let active = context.selected();
         self.typed
             .retain(|typed| Some(typed.bone) == active && (in_use || typed.form != NumberForm::Quaternion));
     }
@@ -123,7 +123,7 @@ impl FieldDrag {
     /// bone.
     pub(super) fn shared(
         &self,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         active: BoneIndex,
         pair: &Pair,
         spot: Spot,
@@ -131,12 +131,12 @@ impl FieldDrag {
     ) -> [Option<f64>; 4] {
         let first = self.numbers(active, pair, spot);
         let mut shared = first.map_or([None; 4], |numbers| numbers.map(Some));
-        for &bone in state.selection.bones().iter().filter(|&&bone| bone != active) {
+        for &bone in context.selection.bones().iter().filter(|&&bone| bone != active) {
             if shared == [None; 4] {
                 break;
             }
             let other =
-                pair_of(state, bone).and_then(|pair| numbers(&pair, spot.property, spot.column, spot.form));
+                pair_of(context, bone).and_then(|pair| numbers(&pair, spot.property, spot.column, spot.form));
             for (index, number) in shared.iter_mut().enumerate() {
                 let same = number.zip(other).is_some_and(|(a, other)| (a - other[index]).abs() <= grain);
                 *number = number.filter(|_| same);
@@ -148,7 +148,7 @@ impl FieldDrag {
     /// Applies what the user did to one number. An error is the reason why the number is impossible.
     pub(super) fn apply(
         &mut self,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         spot: Spot,
         component: usize,
         event: FieldEvent,
@@ -156,20 +156,20 @@ impl FieldDrag {
     ) -> Result<(), &'static str> {
         match event {
             FieldEvent::Nothing => {}
-            FieldEvent::Touched => stop(state, requests),
+            FieldEvent::Touched => stop(context, requests),
             FieldEvent::Dragged(by) => {
-                if self.held.is_none() && !state.playback.playing && by != 0.0 {
+                if self.held.is_none() && !context.playback.playing && by != 0.0 {
                     self.held = Some(HeldNumber {
-                        gesture: state.new_gesture(),
+                        gesture: context.new_gesture(),
                         spot,
                         component,
-                        moment: Moment::of(state),
-                        begun: self.begun(state, spot),
+                        moment: Moment::of(context),
+                        begun: self.begun(context, spot),
                         by: 0.0,
                         over: false,
                     });
                 }
-                self.drag(state, spot, component, by, requests);
+                self.drag(context, spot, component, by, requests);
             }
             FieldEvent::Released => {
                 if let Some(held) = self.held.take() {
@@ -184,10 +184,10 @@ impl FieldDrag {
                 }
             }
             FieldEvent::Typed(value) => {
-                stop(state, requests);
-                let mut begun = self.begun(state, spot);
+                stop(context, requests);
+                let mut begun = self.begun(context, spot);
                 let change = NumberChange { spot, component, to: NewNumber::Set(value) };
-                self.send(state, change, &mut begun, None, requests)?;
+                self.send(context, change, &mut begun, None, requests)?;
             }
         }
         Ok(())
@@ -195,38 +195,38 @@ impl FieldDrag {
 
     fn drag(
         &mut self,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         spot: Spot,
         component: usize,
         by: f64,
         requests: &mut Vec<Request>,
     ) {
         let Some(mut held) = self.held.take() else { return };
-        held.over |= (held.spot, held.component) != (spot, component) || held.moment != Moment::of(state);
+        held.over |= (held.spot, held.component) != (spot, component) || held.moment != Moment::of(context);
         if !held.over {
             held.by = by;
             let (begun, gesture) = (&mut held.begun, Some(held.gesture));
             // A number that is impossible is skipped during a drag.
             let change = NumberChange { spot, component, to: NewNumber::Add(by) };
-            let _ = self.send(state, change, begun, gesture, requests);
+            let _ = self.send(context, change, begun, gesture, requests);
         }
         self.held = Some(held);
     }
 
-    fn begun(&self, state: &PanelContext<'_>, spot: Spot) -> Begun {
-        let starts = state
+    fn begun(&self, context: &PanelContext<'_>, spot: Spot) -> Begun {
+        let starts = context
             .bones_to_pose()
             .filter_map(|bone| {
-                let pair = pair_of(state, bone)?;
+                let pair = pair_of(context, bone)?;
                 Some(Start { bone, pair, numbers: self.numbers(bone, &pair, spot)? })
             })
             .collect();
-        Begun { starts, hold: state.hold_of_pins() }
+        Begun { starts, hold: context.hold_of_pins() }
     }
 
     fn send(
         &mut self,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         change: NumberChange,
         begun: &mut Begun,
         gesture: Option<Gesture>,
@@ -244,7 +244,7 @@ impl FieldDrag {
             else {
                 return Err(reason(spot));
             };
-            if Some(start.bone) == state.selected()
+            if Some(start.bone) == context.selected()
                 && let Some(rotation) =
                     turn_of(spot.form, numbers).filter(|_| spot.property == Property::Rotation)
             {
@@ -255,7 +255,7 @@ impl FieldDrag {
             poses.push(part.pose(start.bone, spot.property));
         }
         let poses = PanelContext::with_pins(&mut begun.hold, poses);
-        let edit = state.pose_edit(poses);
+        let edit = context.pose_edit(poses);
         requests.extend(edit.map(|edit| Request::Change(Change::Edit(edit, gesture))));
         Ok(())
     }
@@ -263,41 +263,41 @@ impl FieldDrag {
 
 /// Returns the change that gives all selected bones other parts of their pose, as a step of its own.
 pub(super) fn set(
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     property: Property,
     of: impl Fn(&Pair, BoneIndex) -> Option<PosePart>,
 ) -> Option<Request> {
-    let bones = state.bones_to_pose();
+    let bones = context.bones_to_pose();
     let poses =
-        bones.filter_map(|bone| Some(of(&pair_of(state, bone)?, bone)?.pose(bone, property))).collect();
-    let poses = PanelContext::with_pins(&mut state.hold_of_pins(), poses);
-    state.pose_edit(poses).map(|edit| Request::Change(Change::Edit(edit, None)))
+        bones.filter_map(|bone| Some(of(&pair_of(context, bone)?, bone)?.pose(bone, property))).collect();
+    let poses = PanelContext::with_pins(&mut context.hold_of_pins(), poses);
+    context.pose_edit(poses).map(|edit| Request::Change(Change::Edit(edit, None)))
 }
 
 impl Moment {
-    fn of(state: &PanelContext<'_>) -> Self {
-        let bones = state.selection.bones().to_vec();
-        Self { take: state.playback.take, time: state.time().to_bits(), bones }
+    fn of(context: &PanelContext<'_>) -> Self {
+        let bones = context.selection.bones().to_vec();
+        Self { take: context.playback.take, time: context.time().to_bits(), bones }
     }
 }
 
 /// Returns original and result of a bone at the time shown.
-pub(super) fn pair_of(state: &PanelContext<'_>, bone: BoneIndex) -> Option<Pair> {
-    let view = state.view?;
+pub(super) fn pair_of(context: &PanelContext<'_>, bone: BoneIndex) -> Option<Pair> {
+    let view = context.view?;
     let rules = view.loaded.model.animation.skeleton.bones.get(bone as usize)?;
-    let result = *state.posed.animation()?.poses().get(bone as usize)?;
-    let slot = state.playback.take.and_then(|take| view.slots.get(take));
+    let result = *context.posed.animation()?.poses().get(bone as usize)?;
+    let slot = context.playback.take.and_then(|take| view.slots.get(take));
     let original = match slot.and_then(|slot| slot.original.tracks.get(bone as usize)) {
-        Some(track) => sample_track(track, rules, state.time()),
+        Some(track) => sample_track(track, rules, context.time()),
         None => rest_pose(rules),
     };
     Some(Pair { original, result })
 }
 
 /// Pauses playback while numbers are edited.
-fn stop(state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    if state.playback.playing {
-        let backwards = state.playback.speed < 0.0;
+fn stop(context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    if context.playback.playing {
+        let backwards = context.playback.speed < 0.0;
         requests.push(Request::Command(if backwards { Id::PlayBackwards } else { Id::PlayPause }));
     }
 }

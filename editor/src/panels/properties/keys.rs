@@ -29,14 +29,14 @@ pub(super) enum Keyed {
 }
 
 /// Returns the state of all selected bones: a key only if all of them have one.
-pub(super) fn at_time(state: &PanelContext<'_>, property: Property) -> Keyed {
-    let bones = state.selection.bones();
-    if bones.iter().any(|&bone| is_pending(state, bone, property)) {
+pub(super) fn at_time(context: &PanelContext<'_>, property: Property) -> Keyed {
+    let bones = context.selection.bones();
+    if bones.iter().any(|&bone| is_pending(context, bone, property)) {
         return Keyed::Pending;
     }
     let (mut here, mut any) = (true, false);
     for &bone in bones {
-        match of(state, bone, property) {
+        match of(context, bone, property) {
             Keyed::Here => any = true,
             Keyed::Elsewhere => (here, any) = (false, true),
             Keyed::Never | Keyed::Pending => here = false,
@@ -48,12 +48,12 @@ pub(super) fn at_time(state: &PanelContext<'_>, property: Property) -> Keyed {
     if any { Keyed::Here } else { Keyed::Never }
 }
 
-fn is_pending(state: &PanelContext<'_>, bone: BoneIndex, property: Property) -> bool {
-    state.pending_here().and_then(|at| at.of(bone)).is_some_and(|pose| pose.get(property).is_some())
+fn is_pending(context: &PanelContext<'_>, bone: BoneIndex, property: Property) -> bool {
+    context.pending_here().and_then(|at| at.of(bone)).is_some_and(|pose| pose.get(property).is_some())
 }
 
-fn of(state: &PanelContext<'_>, bone: BoneIndex, property: Property) -> Keyed {
-    let slot = state.view.zip(state.playback.take).and_then(|(view, take)| view.slots.get(take));
+fn of(context: &PanelContext<'_>, bone: BoneIndex, property: Property) -> Keyed {
+    let slot = context.view.zip(context.playback.take).and_then(|(view, take)| view.slots.get(take));
     let Some(slot) = slot else { return Keyed::Never };
     let Some(track) = slot.original.tracks.get(bone as usize) else { return Keyed::Never };
     let keys = match property {
@@ -61,7 +61,7 @@ fn of(state: &PanelContext<'_>, bone: BoneIndex, property: Property) -> Keyed {
         Property::Rotation => track.rotation.times.len(),
         Property::Scale => track.scale.times.len(),
     };
-    match slot.key_at(bone, property, state.time()) {
+    match slot.key_at(bone, property, context.time()) {
         Some(_) => Keyed::Here,
         None if keys > 0 => Keyed::Elsewhere,
         None => Keyed::Never,
@@ -71,12 +71,12 @@ fn of(state: &PanelContext<'_>, bone: BoneIndex, property: Property) -> Keyed {
 /// Draws the button that shows whether there is a key, and adds or deletes it.
 pub(super) fn button(
     ui: &mut Ui,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     property: Property,
     locked: Option<&str>,
     requests: &mut Vec<Request>,
 ) {
-    let keyed = at_time(state, property);
+    let keyed = at_time(context, property);
     let (icon, now, action) = match keyed {
         Keyed::Here => (Icon::KeyHere, "a key at this time", "Delete it"),
         Keyed::Elsewhere => (Icon::KeyElsewhere, "no key at this time", "Add one"),
@@ -97,14 +97,14 @@ pub(super) fn button(
             ui.colored_label(Theme::of(ui).weak, action);
         });
     if response.clicked()
-        && let Some(edit) = toggled(state, property, keyed)
+        && let Some(edit) = toggled(context, property, keyed)
     {
         requests.push(Request::Change(Change::Edit(edit, None)));
     }
 }
 
-fn toggled(state: &PanelContext<'_>, property: Property, keyed: Keyed) -> Option<Edit> {
-    let (take, time, bones) = (state.take_ref()?, state.time(), state.selected_refs());
+fn toggled(context: &PanelContext<'_>, property: Property, keyed: Keyed) -> Option<Edit> {
+    let (take, time, bones) = (context.take_ref()?, context.time(), context.selected_refs());
     let properties = vec![property];
     Some(match keyed {
         Keyed::Here => {
@@ -121,25 +121,25 @@ fn toggled(state: &PanelContext<'_>, property: Property, keyed: Keyed) -> Option
 
 /// Resets a channel of all selected bones to the original or to the rest pose.
 pub(super) fn reset(
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     property: Property,
     to: ResetTo,
     has_key: bool,
     requests: &mut Vec<Request>,
 ) {
-    let Some(take) = state.take_ref() else { return };
+    let Some(take) = context.take_ref() else { return };
     if has_key {
-        let (time, bones, properties) = (state.time(), state.selected_refs(), vec![property]);
+        let (time, bones, properties) = (context.time(), context.selected_refs(), vec![property]);
         let edit = Edit::ResetPose(ResetPose { take, time, bones, properties, to });
         requests.push(Request::Change(Change::Edit(edit, None)));
         return;
     }
     // Without a key there is no change to remove; the pose is set instead.
-    let Some(loaded) = state.loaded() else { return };
+    let Some(loaded) = context.loaded() else { return };
     let bones = &loaded.model.animation.skeleton.bones;
     let part = |pair: &super::parts::Pair, bone: BoneIndex| match to {
         ResetTo::Original => Some(PosePart::of(&pair.original, property)),
         ResetTo::Rest => Some(PosePart::of(&rest_pose(bones.get(bone as usize)?), property)),
     };
-    requests.extend(drag::set(state, property, part));
+    requests.extend(drag::set(context, property, part));
 }

@@ -48,18 +48,18 @@ impl Panel for Properties {
         PanelPlace::Right
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        if state.view.is_none() {
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        if context.view.is_none() {
             return widgets::empty(ui, "", "Properties appear here");
         }
-        self.drag.begin(state, self.in_use);
+        self.drag.begin(context, self.in_use);
         self.in_use = false;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::NONE.inner_margin(egui::Margin::symmetric(12, 8)).show(ui, |ui| {
                 ui.set_width(ui.available_width());
-                match state.selected() {
-                    Some(bone) => self.bone(ui, state, bone, requests),
-                    None => model::show(ui, state),
+                match context.selected() {
+                    Some(bone) => self.bone(ui, context, bone, requests),
+                    None => model::show(ui, context),
                 }
             });
         });
@@ -67,12 +67,18 @@ impl Panel for Properties {
 }
 
 impl Properties {
-    fn bone(&mut self, ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, requests: &mut Vec<Request>) {
-        let (Some(loaded), Some(pair)) = (state.loaded(), drag::pair_of(state, bone)) else { return };
-        head(ui, state, bone, requests);
-        let locked = match state.take_ref() {
+    fn bone(
+        &mut self,
+        ui: &mut Ui,
+        context: &PanelContext<'_>,
+        bone: BoneIndex,
+        requests: &mut Vec<Request>,
+    ) {
+        let (Some(loaded), Some(pair)) = (context.loaded(), drag::pair_of(context, bone)) else { return };
+        head(ui, context, bone, requests);
+        let locked = match context.take_ref() {
             None => Some("The rest pose cannot be edited: show a take"),
-            Some(_) if state.keys.flags().locked(bone) => {
+            Some(_) if context.keys.flags().locked(bone) => {
                 Some("Locked in the timeline: its keys cannot be edited")
             }
             Some(_) => None,
@@ -83,11 +89,11 @@ impl Properties {
         }
         let size = f64::from(loaded.bounds.sphere.radius);
         let size = if size.is_finite() && size > 1e-9 { size } else { 1.0 };
-        let meters = meters(state, bone);
-        let table = ChannelTable { state, bone, pair, locked, size: size / meters, meters };
+        let meters = meters(context, bone);
+        let table = ChannelTable { context, bone, pair, locked, size: size / meters, meters };
         ui.add_space(GRID);
         channel::heads(ui);
-        let look = state.settings.properties;
+        let look = context.settings.properties;
         ui.spacing_mut().item_spacing.y = 2.0;
         let mut channels = Vec::with_capacity(4);
         for (at, property) in Property::ALL.into_iter().enumerate() {
@@ -108,7 +114,7 @@ impl Properties {
         }
         self.in_use |= table.fields(ui, &mut self.drag, &channels, requests);
         ui.spacing_mut().item_spacing.y = GRID;
-        place(ui, state, bone, size);
+        place(ui, context, bone, size);
     }
 
     /// Draws title and unit of a channel, and its buttons on the right.
@@ -124,7 +130,7 @@ impl Properties {
             Property::Rotation => ("Rotation", "°", 1),
             Property::Scale => ("Scale", "×", 2),
         };
-        let state = table.state;
+        let context = table.context;
         let theme = Theme::of(ui);
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 0.0;
@@ -136,14 +142,14 @@ impl Properties {
             }
             if property == Property::Rotation {
                 ui.add_space(GRID);
-                order(ui, state.settings.properties, requests);
+                order(ui, context.settings.properties, requests);
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                keys::button(ui, state, property, table.locked, requests);
+                keys::button(ui, context, property, table.locked, requests);
                 if room < 130.0 {
                     return;
                 }
-                let keyed = keys::at_time(state, property);
+                let keyed = keys::at_time(context, property);
                 for (icon, to, name) in [
                     (Icon::Revert, ResetTo::Original, "original"),
                     (Icon::RestPose, ResetTo::Rest, "rest pose"),
@@ -153,10 +159,10 @@ impl Properties {
                         widgets::icon_button(ui, icon, &label, false)
                     });
                     if response.inner.on_hover_text(&label).clicked() {
-                        keys::reset(state, property, to, keyed == Keyed::Here, requests);
+                        keys::reset(context, property, to, keyed == Keyed::Here, requests);
                     }
                 }
-                let mut look = state.settings.properties;
+                let mut look = context.settings.properties;
                 let label = format!("Sliders for {}", title.to_lowercase());
                 if widgets::icon_button(ui, Icon::Sliders, &label, look.sliders[at])
                     .on_hover_text(&label)
@@ -171,16 +177,16 @@ impl Properties {
 }
 
 /// Draws the name of the bone, the size of the selection, and the parent.
-fn head(ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, requests: &mut Vec<Request>) {
-    let name = state.bone_name(bone);
+fn head(ui: &mut Ui, context: &PanelContext<'_>, bone: BoneIndex, requests: &mut Vec<Request>) {
+    let name = context.bone_name(bone);
     ui.add(Label::new(RichText::new(&name).heading()).truncate()).on_hover_text(widgets::shortened(&name));
     let theme = Theme::of(ui);
-    let parent = state.loaded().and_then(|loaded| {
+    let parent = context.loaded().and_then(|loaded| {
         loaded.model.animation.skeleton.bones.get(bone as usize).and_then(|bone| bone.parent)
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = GRID;
-        let more = state.selection.bones().len().saturating_sub(1);
+        let more = context.selection.bones().len().saturating_sub(1);
         if more > 0 {
             let text = format!("and {}, changed together", widgets::count(more, "other", "others"));
             ui.add(Label::new(RichText::new(text).color(theme.accent)).truncate());
@@ -191,7 +197,7 @@ fn head(ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, requests: &mut V
             return;
         };
         ui.label(RichText::new("Child of").color(theme.weak));
-        let link = egui::Label::new(RichText::new(state.bone_name(parent)).color(theme.accent)).truncate();
+        let link = egui::Label::new(RichText::new(context.bone_name(parent)).color(theme.accent)).truncate();
         let link = ui
             .add(link.sense(egui::Sense::click()))
             .on_hover_cursor(egui::CursorIcon::PointingHand)
@@ -207,10 +213,10 @@ fn head(ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, requests: &mut V
 
 /// Returns the number of meters of the scene per unit of parent space of a bone; 1 if it cannot be computed. Files
 /// whose skeleton is in centimeters have a node above it with a scale of 0.01.
-fn meters(state: &PanelContext<'_>, bone: BoneIndex) -> f64 {
+fn meters(context: &PanelContext<'_>, bone: BoneIndex) -> f64 {
     let parent =
-        state.loaded().and_then(|loaded| loaded.model.animation.skeleton.bones.get(bone as usize)?.parent);
-    let to_root = state
+        context.loaded().and_then(|loaded| loaded.model.animation.skeleton.bones.get(bone as usize)?.parent);
+    let to_root = context
         .posed
         .animation()
         .zip(parent)
@@ -249,8 +255,8 @@ fn quaternion_head(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request
 }
 
 /// Draws the position of the bone in the scene and its place in the skeleton.
-fn place(ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, size: f64) {
-    let to_root = state.posed.animation().and_then(|animation| animation.to_root().get(bone as usize));
+fn place(ui: &mut Ui, context: &PanelContext<'_>, bone: BoneIndex, size: f64) {
+    let to_root = context.posed.animation().and_then(|animation| animation.to_root().get(bone as usize));
     if let Some(to_root) = to_root {
         widgets::caption(ui, "In the scene");
         for (axis, value) in ["X", "Y", "Z"].into_iter().zip(to_root.w_axis.truncate().to_array()) {
@@ -260,12 +266,13 @@ fn place(ui: &mut Ui, state: &PanelContext<'_>, bone: BoneIndex, size: f64) {
         }
     }
     widgets::caption(ui, "Keys in this take");
-    let keys = state.digest.lanes.channels.each_ref().map(|times| times.len());
+    let keys = context.digest.lanes.channels.each_ref().map(|times| times.len());
     for (title, keys) in ["Translation", "Rotation", "Scale"].into_iter().zip(keys) {
         fact(ui, title, &if keys == 0 { "–".to_owned() } else { widgets::grouped(keys) });
     }
     widgets::caption(ui, "Skeleton");
     fact(ui, "Index", &bone.to_string());
-    let children = state.loaded().map(|loaded| loaded.model.animation.skeleton.children(Some(bone)).count());
+    let children =
+        context.loaded().map(|loaded| loaded.model.animation.skeleton.children(Some(bone)).count());
     fact(ui, "Children", &widgets::grouped(children.unwrap_or(0)));
 }

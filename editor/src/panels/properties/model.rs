@@ -6,8 +6,8 @@ use super::super::theme::Theme;
 use super::super::widgets;
 use egui::{RichText, Sense, TextStyle, Ui, vec2};
 
-pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>) {
-    let Some(view) = state.view else { return };
+pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>) {
+    let Some(view) = context.view else { return };
     let (loaded, file) = (&view.loaded, &view.file);
     let theme = Theme::of(ui);
     let model = &loaded.model;
@@ -23,15 +23,15 @@ pub(super) fn show(ui: &mut Ui, state: &PanelContext<'_>) {
     }
     widgets::caption(ui, "Animation");
     fact(ui, "Bones", &widgets::grouped(model.animation.skeleton.len()));
-    fact(ui, "Takes", &widgets::grouped(state.digest.takes.len()));
-    fact(ui, "Keys", &widgets::grouped(state.digest.takes.iter().map(|take| take.keys).sum()));
+    fact(ui, "Takes", &widgets::grouped(context.digest.takes.len()));
+    fact(ui, "Keys", &widgets::grouped(context.digest.takes.iter().map(|take| take.keys).sum()));
     // A skeleton without a mesh needs no six lines of zeros.
     if !(model.meshes.is_empty() && model.materials.is_empty() && model.images.is_empty()) {
         widgets::caption(ui, "Surface");
         fact(ui, "Meshes", &widgets::grouped(model.meshes.len()));
-        fact(ui, "Vertices", &widgets::grouped(state.digest.totals.vertices));
-        fact(ui, "Triangles", &widgets::grouped(state.digest.totals.triangles));
-        fact(ui, "Morph targets", &widgets::grouped(state.digest.totals.morph_targets));
+        fact(ui, "Vertices", &widgets::grouped(context.digest.totals.vertices));
+        fact(ui, "Triangles", &widgets::grouped(context.digest.totals.triangles));
+        fact(ui, "Morph targets", &widgets::grouped(context.digest.totals.morph_targets));
         fact(ui, "Materials", &widgets::grouped(model.materials.len()));
         fact(ui, "Images", &widgets::grouped(model.images.len()));
     }

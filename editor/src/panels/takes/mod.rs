@@ -5,6 +5,7 @@ mod time;
 
 use super::commands::Id;
 use super::context::PanelContext;
+use super::drag::{DragEvent, PanelDrag, PointerInput};
 use super::icons::Icon;
 use super::request::Request;
 use super::style::{GRID, RADIUS, ROW};
@@ -14,8 +15,8 @@ use dragonfly_document::Change;
 use dragonfly_document::edit::{Edit, MoveTake, TakeRef};
 use egui::accesskit::Role;
 use egui::{
-    Color32, CornerRadius, CursorIcon, Key, PointerButton, Rect, Response, ScrollArea, Sense, Stroke,
-    TextStyle, Ui, WidgetInfo, pos2, vec2,
+    Color32, CornerRadius, CursorIcon, PointerButton, Rect, Response, ScrollArea, Sense, Stroke, TextStyle,
+    Ui, WidgetInfo, pos2, vec2,
 };
 use rename::Rename;
 use time::TimeSheet;
@@ -37,7 +38,7 @@ pub struct Takes {
     /// Number of points by which the list is scrolled.
     scrolled: f32,
     /// The take that is dragged to another position.
-    moving: Option<usize>,
+    moving: PanelDrag<(), usize>,
 }
 
 /// Number of takes from which on there is a search field.
@@ -64,24 +65,24 @@ impl Panel for Takes {
         PanelPlace::LeftBelow
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        if state.view.is_none() {
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        if context.view.is_none() {
             return widgets::empty(ui, "", "Takes appear here");
         }
-        self.buttons(ui, state, requests);
-        let found = self.search(ui, state, requests);
+        self.buttons(ui, context, requests);
+        let found = self.search(ui, context, requests);
         ui.spacing_mut().item_spacing.y = 0.0;
         if found.as_ref().is_some_and(Vec::is_empty) {
             return widgets::empty(ui, "No take matches the search", "");
         }
-        let count = state.digest.takes.len();
-        self.prefix = shared_prefix(state.digest.takes.iter().map(|take| take.name.as_str()));
+        let count = context.digest.takes.len();
+        self.prefix = shared_prefix(context.digest.takes.iter().map(|take| take.name.as_str()));
         // The rest pose is first in the list: it always exists.
         let rows = found.as_ref().map_or(count + 1, Vec::len);
         let take_at = |row: usize| found.as_ref().map_or(row.checked_sub(1), |found| Some(found[row]));
         let mut area = ScrollArea::vertical().auto_shrink(false);
         // A search begins at the top of its results.
-        let follow = state.playback.take.filter(|_| found.is_none());
+        let follow = context.playback.take.filter(|_| found.is_none());
         if std::mem::replace(&mut self.followed, follow) != follow
             && let Some(take) = follow
         {
@@ -93,13 +94,13 @@ impl Panel for Takes {
             let top = ui.cursor().top() - range.start as f32 * ROW;
             for row in range {
                 match take_at(row) {
-                    None => rest_pose(ui, state, requests),
-                    Some(take) => self.take(ui, state, take, requests),
+                    None => rest_pose(ui, context, requests),
+                    Some(take) => self.take(ui, context, take, requests),
                 }
             }
             if found.is_some() {
                 // During a search the neighbors of the new position are hidden.
-                self.moving = None;
+                self.moving.spend();
             }
             self.drop_line(ui, top, count, requests);
         });
@@ -108,8 +109,8 @@ impl Panel for Takes {
 }
 
 /// Draws the row of the rest pose.
-fn rest_pose(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let selected = state.playback.take.is_none();
+fn rest_pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let selected = context.playback.take.is_none();
     if row(ui, "Rest pose", "Rest pose", ["", ""], selected, Sense::click()).clicked() {
         requests.push(Request::ShowTake(None));
     }
@@ -120,10 +121,10 @@ impl Takes {
     fn search(
         &mut self,
         ui: &mut Ui,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         requests: &mut Vec<Request>,
     ) -> Option<Vec<usize>> {
-        let takes = &state.digest.takes;
+        let takes = &context.digest.takes;
         if takes.len() < SEARCHED {
             self.query.clear();
             return None;
@@ -131,7 +132,7 @@ impl Takes {
         let entered = search_field::show(ui, &mut self.query, "Find a take", false);
         let query = self.query.trim().to_lowercase();
         // A take that is being renamed may not match the search.
-        if query.is_empty() || state.takes.renaming().is_some() {
+        if query.is_empty() || context.takes.renaming().is_some() {
             return None;
         }
         let is_found = |&at: &usize| takes[at].name.to_lowercase().contains(&query);
@@ -142,7 +143,7 @@ impl Takes {
         Some(found)
     }
 
-    fn buttons(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    fn buttons(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.add_space(GRID);
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
@@ -154,33 +155,33 @@ impl Takes {
                 (Icon::Split, Id::SplitTake),
                 (Icon::Flip, Id::ReverseTake),
             ] {
-                command(ui, state, icon, id, requests);
+                command(ui, context, icon, id, requests);
             }
             let response = ui
-                .add_enabled_ui(state.take().is_some(), |ui| {
+                .add_enabled_ui(context.take().is_some(), |ui| {
                     widgets::icon_button(ui, Icon::Clock, "Start and length", false)
                 })
                 .inner
                 .on_hover_text("Change start and length of the take, or trim it");
-            let asked = state.takes.times_asked();
+            let asked = context.takes.times_asked();
             if std::mem::replace(&mut self.times_shown, asked) != asked {
                 egui::Popup::open_id(ui.ctx(), egui::Popup::default_response_id(&response));
             }
             egui::Popup::menu(&response)
                 .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
-                .show(|ui| self.times.show(ui, state, requests));
-            command(ui, state, Icon::Trash, Id::DeleteTake, requests);
+                .show(|ui| self.times.show(ui, context, requests));
+            command(ui, context, Icon::Trash, Id::DeleteTake, requests);
         });
     }
 
-    fn take(&mut self, ui: &mut Ui, state: &PanelContext<'_>, index: usize, requests: &mut Vec<Request>) {
-        let Some(take) = state.digest.takes.get(index) else { return };
-        let id = state.view.and_then(|view| view.slots.get(index)).map(|slot| slot.id);
-        if state.takes.renaming().is_some() && state.takes.renaming() == id {
-            return self.rename(ui, state, index, requests);
+    fn take(&mut self, ui: &mut Ui, context: &PanelContext<'_>, index: usize, requests: &mut Vec<Request>) {
+        let Some(take) = context.digest.takes.get(index) else { return };
+        let id = context.view.and_then(|view| view.slots.get(index)).map(|slot| slot.id);
+        if context.takes.renaming().is_some() && context.takes.renaming() == id {
+            return self.rename(ui, context, index, requests);
         }
         let (keys, length) = (widgets::grouped(take.keys), format!("{:.2} s", take.length));
-        let selected = state.playback.take == Some(index);
+        let selected = context.playback.take == Some(index);
         let shown = take.name.get(self.prefix..).unwrap_or(&take.name);
         let response = row(ui, &take.name, shown, [&keys, &length], selected, Sense::click_and_drag());
         if response.clicked() || response.secondary_clicked() {
@@ -190,7 +191,7 @@ impl Takes {
             requests.push(Request::RenameTake(Some(index)));
         }
         if response.drag_started_by(PointerButton::Primary) {
-            self.moving = Some(index);
+            self.moving = PanelDrag::dragging(index);
         }
         response.context_menu(|ui| {
             for (at, group) in MENU.iter().enumerate() {
@@ -198,11 +199,11 @@ impl Takes {
                     ui.separator();
                 }
                 for &id in *group {
-                    menu::item(ui, state, id, false, requests);
+                    menu::item(ui, context, id, false, requests);
                 }
             }
         });
-        if self.moving.is_none() {
+        if self.moving.drag().is_none() {
             response.on_hover_text(format!(
                 "{}\n{}",
                 widgets::shortened(&take.name),
@@ -215,15 +216,15 @@ impl Takes {
         }
     }
 
-    fn rename(&mut self, ui: &mut Ui, state: &PanelContext<'_>, index: usize, requests: &mut Vec<Request>) {
-        let Some(id) = state.takes.renaming() else { return };
+    fn rename(&mut self, ui: &mut Ui, context: &PanelContext<'_>, index: usize, requests: &mut Vec<Request>) {
+        let Some(id) = context.takes.renaming() else { return };
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
         if self.rename.as_ref().is_none_or(|(of, _)| *of != id) {
             self.rename = Some((id, Rename::default()));
             ui.scroll_to_rect(rect, None);
         }
         let Some((_, rename)) = &mut self.rename else { return };
-        if !rename.show(ui, rect.shrink2(vec2(GRID, 1.0)), state, index, requests) {
+        if !rename.show(ui, rect.shrink2(vec2(GRID, 1.0)), context, index, requests) {
             self.rename = None;
             requests.push(Request::RenameTake(None));
         }
@@ -231,24 +232,28 @@ impl Takes {
 
     /// Draws the line where the dragged take would be inserted, and moves the take when it is released.
     fn drop_line(&mut self, ui: &Ui, top: f32, count: usize, requests: &mut Vec<Request>) {
-        let Some(from) = self.moving else { return };
-        let (pointer, released, escape) = ui.input(|input| {
-            (input.pointer.interact_pos(), !input.pointer.primary_down(), input.key_pressed(Key::Escape))
-        });
-        let Some(pointer) = pointer.filter(|_| !escape && from < count) else {
-            self.moving = None;
+        if !self.moving.is_busy() {
             return;
-        };
+        }
+        let input = PointerInput::read(ui);
+        let Some(pointer) = input.pointer else { return self.moving.spend() };
         // Rows below that of the rest pose.
         let gap = (((pointer.y - top) / ROW).round() as isize - 1).clamp(0, count as isize) as usize;
-        let to = if gap > from { gap - 1 } else { gap };
-        if released {
-            self.moving = None;
-            if to != from {
-                let edit = Edit::MoveTake(MoveTake { take: TakeRef::Index(from), to });
-                requests.push(Request::Change(Change::Edit(edit, None)));
+        match self.moving.step(&input, true, |_| ()) {
+            DragEvent::Moved(_) => {}
+            DragEvent::Dropped(from) => {
+                let to = if gap > from { gap - 1 } else { gap };
+                if to != from && from < count {
+                    let edit = Edit::MoveTake(MoveTake { take: TakeRef::Index(from), to });
+                    requests.push(Request::Change(Change::Edit(edit, None)));
+                }
+                return;
             }
-            return;
+            DragEvent::Nothing
+            | DragEvent::Pressed
+            | DragEvent::Started(_)
+            | DragEvent::Clicked(_)
+            | DragEvent::Cancelled(_) => return,
         }
         ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
         let y = ui.painter().round_to_pixel_center(top + (gap + 1) as f32 * ROW);
@@ -269,9 +274,9 @@ fn shared_prefix<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> usize 
 }
 
 /// Draws a button for a command, disabled if the command is not available.
-fn command(ui: &mut Ui, state: &PanelContext<'_>, icon: Icon, id: Id, requests: &mut Vec<Request>) {
+fn command(ui: &mut Ui, context: &PanelContext<'_>, icon: Icon, id: Id, requests: &mut Vec<Request>) {
     let when = super::commands::get(id).when;
-    ui.add_enabled_ui(when.holds(state), |ui| {
+    ui.add_enabled_ui(when.holds(context), |ui| {
         let _ = widgets::command_button(ui, icon, id, false, requests).on_disabled_hover_text(when.reason());
     });
 }

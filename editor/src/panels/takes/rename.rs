@@ -39,11 +39,11 @@ impl Rename {
         &mut self,
         ui: &mut Ui,
         rect: Rect,
-        state: &PanelContext<'_>,
+        context: &PanelContext<'_>,
         index: usize,
         requests: &mut Vec<Request>,
     ) -> bool {
-        let Some(view) = state.view else { return false };
+        let Some(view) = context.view else { return false };
         let Some(take) = view.takes.get(index) else { return false };
         let own = view.slots.get(index).map(|slot| slot.id);
         let id = Id::unique("name of a take");

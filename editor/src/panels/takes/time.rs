@@ -36,11 +36,11 @@ pub(super) struct TimeSheet {
 
 impl TimeSheet {
     /// Draws the fields for the take that is shown.
-    pub(super) fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    pub(super) fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.set_width(240.0);
-        let rate = f64::from(state.settings.frame_rate.max(1));
+        let rate = f64::from(context.settings.frame_rate.max(1));
         ui.spacing_mut().item_spacing.y = GRID;
-        let Some((take, shown)) = state.take_ref().zip(state.take()) else {
+        let Some((take, shown)) = context.take_ref().zip(context.take()) else {
             ui.label(RichText::new("The rest pose has no start and no length").color(Theme::of(ui).weak));
             return;
         };
@@ -52,7 +52,7 @@ impl TimeSheet {
         let change = self.gesture.change(
             event,
             start,
-            || state.new_gesture(),
+            || context.new_gesture(),
             |start| {
                 Edit::RetimeTake(RetimeTake { take: retime.clone(), start: Some(start as f32), length: None })
             },
@@ -62,7 +62,7 @@ impl TimeSheet {
         let change = self.gesture.change(
             event,
             length,
-            || state.new_gesture(),
+            || context.new_gesture(),
             |length| {
                 Edit::RetimeTake(RetimeTake { take: take.clone(), start: None, length: Some(length as f32) })
             },
@@ -70,16 +70,16 @@ impl TimeSheet {
         requests.extend(change.map(Request::Change));
         ui.separator();
         ui.label(RichText::new("Delete all keys outside this range").small().color(Theme::of(ui).weak));
-        let id = state
+        let id = context
             .view
             .as_ref()
-            .zip(state.playback.take)
+            .zip(context.playback.take)
             .and_then(|(view, take)| view.slots.get(take))
             .map(|slot| slot.id);
         let Some(id) = id else { return };
         let mut range = match self.trim {
             Some((of, range)) if of == id => range,
-            _ => state.trim_range().map(f64::from),
+            _ => context.trim_range().map(f64::from),
         };
         let end = start + length;
         range = range.map(|time| time.min(end).max(start));

@@ -14,7 +14,7 @@ use glam::{Vec2, Vec3};
 pub(super) fn axes(
     ui: &mut Ui,
     rect: Rect,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) -> Option<Rect> {
     let radius = 30.0;
@@ -29,7 +29,7 @@ pub(super) fn axes(
     if response.hovered() || response.dragged() {
         ui.painter().circle_filled(center, radius + 8.0, theme.glass.gamma_multiply(0.6));
     }
-    let camera = &state.camera;
+    let camera = &context.camera;
     let place = |axis: Vec3| {
         let (right, up) = (axis.dot(camera.right()), axis.dot(camera.up()));
         center + vec2(right, -up) * radius * 0.86
@@ -61,7 +61,7 @@ pub(super) fn axes(
         }
     }
     if response.dragged() {
-        let mut camera = state.camera;
+        let mut camera = context.camera;
         control::orbit(Vec2::new(response.drag_delta().x, response.drag_delta().y), &mut camera);
         requests.push(Request::Camera(camera));
     }

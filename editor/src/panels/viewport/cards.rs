@@ -10,8 +10,8 @@ use dragonfly_document::Source;
 use egui::{Align2, CornerRadius, Frame, Margin, Rect, RichText, Stroke, Ui, vec2};
 
 /// Draws the card for the present state, if there is one.
-pub(super) fn show(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    if let Some(loading) = state.loading {
+pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    if let Some(loading) = context.loading {
         card(ui, rect, |ui| {
             ui.label(RichText::new(format!("Opening {}", loading.title)).heading());
             ui.label(RichText::new(loading.progress.stage.title()).color(Theme::of(ui).weak));
@@ -23,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>, requests: 
                 requests.push(Request::Command(Id::CancelLoading));
             }
         });
-    } else if let DeviceStatus::Paused { reason } = state.window.device() {
+    } else if let DeviceStatus::Paused { reason } = context.window.device() {
         card(ui, rect, |ui| {
             ui.label(RichText::new("The viewport is paused").heading());
             let text = "The graphics device failed several times. Everything else works.";
@@ -34,13 +34,13 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>, requests: 
                 requests.push(Request::Command(Id::RetryDevice));
             }
         });
-    } else if state.view.is_none() {
-        welcome(ui, rect, state, requests);
+    } else if context.view.is_none() {
+        welcome(ui, rect, context, requests);
     }
 }
 
 /// Draws the card when no model is open.
-fn welcome(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn welcome(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     card(ui, rect, |ui| {
         ui.label(RichText::new("Nothing is open").heading());
         ui.label(RichText::new("Drop a glTF file here, or").color(Theme::of(ui).weak));
@@ -52,7 +52,7 @@ fn welcome(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>, requests: &mut Vec
         if ui.add_sized(vec2(260.0, 28.0), egui::Button::new("Built-in dragonfly")).clicked() {
             requests.push(Request::Command(Id::OpenBuiltIn));
         }
-        for path in state.settings.recent.iter().take(4) {
+        for path in context.settings.recent.iter().take(4) {
             let name = path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
             if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
                 requests.push(Request::Open(Source::File(path.clone())));

@@ -12,34 +12,34 @@ use egui::accesskit::Role;
 use egui::{Align2, Color32, CornerRadius, FontId, Response, Sense, Ui, WidgetInfo};
 
 /// Draws three buttons, one above the other.
-pub(super) fn tools(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    column_button(ui, Icon::Ik, Id::ToggleIk, state.ik.on, requests);
-    length(ui, state, requests);
-    let pinned = state.selected().is_some_and(|bone| state.is_pinned(bone));
+pub(super) fn tools(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    column_button(ui, Icon::Ik, Id::ToggleIk, context.ik.on, requests);
+    length(ui, context, requests);
+    let pinned = context.selected().is_some_and(|bone| context.is_pinned(bone));
     column_button(ui, Icon::Pin, Id::Pin, pinned, requests);
 }
 
 /// Draws the button for the chain length, which opens a menu for IK and pins.
-fn length(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let bones = count(state.ik.length as usize, "bone", "bones");
+fn length(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let bones = count(context.ik.length as usize, "bone", "bones");
     let name = format!("IK chain: {bones}");
-    let response = number_button(ui, state.ik.length, &name, state.ik.on);
+    let response = number_button(ui, context.ik.length, &name, context.ik.on);
     egui::Popup::menu(&response).align(egui::RectAlign::RIGHT_START).show(|ui| {
         ui.set_width(230.0);
         for id in [Id::ToggleIk, Id::LongerIk, Id::ShorterIk] {
-            menu::item(ui, state, id, id == Id::ToggleIk && state.ik.on, requests);
+            menu::item(ui, context, id, id == Id::ToggleIk && context.ik.on, requests);
         }
-        let pole = state.ik.pole.is_some() && state.ik.pole == state.selected();
-        menu::item(ui, state, Id::IkPole, pole, requests);
+        let pole = context.ik.pole.is_some() && context.ik.pole == context.selected();
+        menu::item(ui, context, Id::IkPole, pole, requests);
         ui.separator();
-        menu::item(ui, state, Id::Pin, false, requests);
-        menu::item(ui, state, Id::FreePins, false, requests);
-        menu::item(ui, state, Id::BakePins, false, requests);
+        menu::item(ui, context, Id::Pin, false, requests);
+        menu::item(ui, context, Id::FreePins, false, requests);
+        menu::item(ui, context, Id::BakePins, false, requests);
     });
     let [longer, shorter] = [Id::LongerIk, Id::ShorterIk].map(|id| commands::shortcut_text(ui.ctx(), id));
     let pole =
-        state.ik.pole.map_or(String::new(), |pole| format!("\nPole target: {}", state.bone_name(pole)));
-    let pins = match state.pins.len() {
+        context.ik.pole.map_or(String::new(), |pole| format!("\nPole target: {}", context.bone_name(pole)));
+    let pins = match context.pins.len() {
         0 => String::new(),
         pins => format!("\n{} pinned", count(pins, "bone is", "bones are")),
     };

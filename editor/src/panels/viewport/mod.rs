@@ -36,36 +36,36 @@ impl Panel for Viewport {
         PanelPlace::Middle
     }
 
-    fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         let rect = ui.max_rect();
         requests.push(Request::Viewport(rect));
         let response = ui.interact(rect, ui.scope_id().with("picture"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Viewport"));
-        overlay::pointer(ui, &response, state, requests);
-        if state.view.is_some() {
-            super::bone_menu::show(&response, state, state.pointed, requests);
+        overlay::pointer(ui, &response, context, requests);
+        if context.view.is_some() {
+            super::bone_menu::show(&response, context, context.pointed, requests);
         }
         let mut shields = Vec::new();
-        if state.view.is_some() {
-            overlay::drawn(ui, rect, state);
-            let tools = toolbar::toolbar(ui, rect, state, requests);
+        if context.view.is_some() {
+            overlay::drawn(ui, rect, context);
+            let tools = toolbar::toolbar(ui, rect, context, requests);
             shields.push(tools);
-            shields.extend(tools::toolbar(ui, rect, state, requests));
-            shields.extend(axes::axes(ui, rect, state, requests));
-            caption(ui, rect, tools.left(), state);
-            readout::show(ui, rect, state);
+            shields.extend(tools::toolbar(ui, rect, context, requests));
+            shields.extend(axes::axes(ui, rect, context, requests));
+            caption(ui, rect, tools.left(), context);
+            readout::show(ui, rect, context);
         }
         requests.push(Request::Shields(shields));
-        cards::show(ui, rect, state, requests);
+        cards::show(ui, rect, context, requests);
     }
 }
 
 /// Draws the names of model and take at the top left, as far as `right`; long names are truncated.
-fn caption(ui: &Ui, rect: Rect, right: f32, state: &PanelContext<'_>) {
-    let Some(view) = state.view else { return };
+fn caption(ui: &Ui, rect: Rect, right: f32, context: &PanelContext<'_>) {
+    let Some(view) = context.view else { return };
     let theme = Theme::of(ui);
-    let take = match state.playback.take {
-        Some(take) => state.digest.takes.get(take).map_or("", |take| take.name.as_str()),
+    let take = match context.playback.take {
+        Some(take) => context.digest.takes.get(take).map_or("", |take| take.name.as_str()),
         None => "Rest pose",
     };
     let at = pos2(rect.left() + 14.0, rect.top() + 12.0);

@@ -9,13 +9,13 @@ use egui::{CursorIcon, Pos2, Rect, Response, Shape, Stroke, StrokeKind, Ui, pos2
 use glam::Vec2;
 
 /// Requests picking and zooming at the pointer, and sets the cursor.
-pub(super) fn pointer(ui: &Ui, response: &Response, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+pub(super) fn pointer(ui: &Ui, response: &Response, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let (at, held, focused, wheel, pinch) = ui.input(|input| {
         let pointer = &input.pointer;
         let wheel = input.smooth_scroll_delta().y;
         (pointer.latest_pos(), pointer.any_down(), input.focused, wheel, input.zoom_delta())
     });
-    let tools = state.tools.controls();
+    let tools = context.tools.controls();
     let rests = response.hovered() && !held && focused && !tools.is_busy() && !tools.over_handle();
     requests.push(Request::Point(at.filter(|_| rests)));
     if response.hovered() {
@@ -40,8 +40,8 @@ pub(super) fn pointer(ui: &Ui, response: &Response, state: &PanelContext<'_>, re
 }
 
 /// Draws the box or lasso selection in progress.
-pub(super) fn drawn(ui: &Ui, rect: Rect, state: &PanelContext<'_>) {
-    let Some(region) = state.tools.controls().picture().catching() else { return };
+pub(super) fn drawn(ui: &Ui, rect: Rect, context: &PanelContext<'_>) {
+    let Some(region) = context.tools.controls().picture().catching() else { return };
     let theme = Theme::of(ui);
     let painter = ui.painter().with_clip_rect(rect);
     let (line, fill) = (Stroke::new(1.0, theme.accent), theme.accent.gamma_multiply(0.12));

@@ -12,12 +12,12 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
 /// Draws the text during a drag, while a command waits for its drag, and over the keys of a motion path.
-pub(super) fn show(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>) {
+pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
     let theme = Theme::of(ui);
     let words = |color| TextFormat::simple(FontId::proportional(NUMBER), color);
     let digits = |color| TextFormat::simple(FontId::monospace(NUMBER), color);
     let mut job = LayoutJob::default();
-    if let Some(readout) = state.tools.controls().gizmo().gizmo.readout() {
+    if let Some(readout) = context.tools.controls().gizmo().gizmo.readout() {
         job.append(what(&readout), 0.0, words(theme.text));
         job.append(&how(&readout), 6.0, words(theme.weak));
         job.append(&amount(&readout), 10.0, digits(theme.text));
@@ -25,29 +25,29 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, state: &PanelContext<'_>) {
             let color = if readout.is_number { theme.accent } else { theme.warning };
             job.append(&typed, 10.0, digits(color));
         }
-    } else if let Some(catch) = state.tools.controls().picture().armed() {
+    } else if let Some(catch) = context.tools.controls().picture().armed() {
         let what = match catch {
             Catch::Box => "Drag a box over bones",
             Catch::Lasso => "Draw a lasso around bones",
         };
         job.append(what, 0.0, words(theme.text));
         job.append("Shift adds, Ctrl toggles, Esc cancels", 10.0, words(theme.weak));
-    } else if let Some(time) = state.tools.controls().path().hovered() {
-        let frame = (f64::from(time) * f64::from(state.settings.frame_rate)).round();
+    } else if let Some(time) = context.tools.controls().path().hovered() {
+        let frame = (f64::from(time) * f64::from(context.settings.frame_rate)).round();
         job.append("Key", 0.0, words(theme.text));
         job.append(&format!("frame {frame}"), 6.0, words(theme.weak));
         job.append(&format!("{time:.3} s"), 10.0, digits(theme.text));
     } else {
         return;
     }
-    beside_the_pointer(ui, rect, state, job);
+    beside_the_pointer(ui, rect, context, job);
 }
 
-fn beside_the_pointer(ui: &Ui, rect: Rect, state: &PanelContext<'_>, job: LayoutJob) {
+fn beside_the_pointer(ui: &Ui, rect: Rect, context: &PanelContext<'_>, job: LayoutJob) {
     let text = job.text.clone();
     let galley = ui.painter().layout_job(job);
     let size = galley.size() + vec2(4.0 * GRID, 2.0 * GRID);
-    let pointer = state.tools.controls().pointer().map_or(rect.center(), |at| pos2(at.x, at.y));
+    let pointer = context.tools.controls().pointer().map_or(rect.center(), |at| pos2(at.x, at.y));
     let wanted = pointer + vec2(18.0, 18.0);
     let most = (rect.max - size - vec2(6.0, 6.0)).max(rect.min);
     let at = Rect::from_min_size(wanted.clamp(rect.min + vec2(6.0, 6.0), most), size);

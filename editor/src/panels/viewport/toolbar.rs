@@ -17,10 +17,10 @@ use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 pub(super) fn toolbar(
     ui: &mut Ui,
     rect: Rect,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) -> Rect {
-    let look = &state.settings.look;
+    let look = &context.settings.look;
     // A narrow viewport keeps the buttons that have no alternative nearby; the menus contain all of them.
     let wide = rect.width() > 430.0;
     let groups = if wide { 12.0 } else { 6.0 };
@@ -35,8 +35,8 @@ pub(super) fn toolbar(
     );
     let ui = &mut ui;
     ui.spacing_mut().item_spacing.x = 2.0;
-    views(ui, state, requests);
-    let (icon, flat) = match state.camera.projection {
+    views(ui, context, requests);
+    let (icon, flat) = match context.camera.projection {
         Projection::Perspective => (Icon::Perspective, false),
         Projection::Orthographic => (Icon::Orthographic, true),
     };
@@ -45,7 +45,7 @@ pub(super) fn toolbar(
     divider(ui);
     command_button(ui, Icon::Grid, Id::ToggleGrid, look.grid, requests);
     command_button(ui, Icon::XRay, Id::ToggleXRay, look.bones_in_front, requests);
-    command_button(ui, Icon::Bone, Id::ToggleSkeleton, state.shows_skeleton(), requests);
+    command_button(ui, Icon::Bone, Id::ToggleSkeleton, context.shows_skeleton(), requests);
     if wide {
         divider(ui);
         command_button(ui, Icon::Lines, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
@@ -61,14 +61,14 @@ pub(super) fn toolbar(
     at
 }
 
-fn views(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn views(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let response = icon_button(ui, Icon::View, "Views", false).on_hover_text("Views");
     egui::Popup::menu(&response).show(|ui| {
         ui.set_width(160.0);
         for id in [Id::ViewFront, Id::ViewBack, Id::ViewRight, Id::ViewLeft, Id::ViewTop, Id::ViewBottom] {
-            menu::item(ui, state, id, false, requests);
+            menu::item(ui, context, id, false, requests);
         }
         ui.separator();
-        menu::item(ui, state, Id::FrameSelected, false, requests);
+        menu::item(ui, context, Id::FrameSelected, false, requests);
     });
 }

@@ -17,10 +17,10 @@ use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 pub(super) fn toolbar(
     ui: &mut Ui,
     rect: Rect,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     requests: &mut Vec<Request>,
 ) -> Option<Rect> {
-    let hand = &state.settings.tools;
+    let hand = &context.settings.tools;
     let top = rect.top() + 52.0;
     // The axes of the scene are below.
     let room = rect.bottom() - top - 92.0;
@@ -52,8 +52,8 @@ pub(super) fn toolbar(
     }
     if fits <= 2 {
         divider_across(ui);
-        choice(ui, state, space_icon(hand.space), space_name(hand.space), &SPACES, requests);
-        choice(ui, state, pivot_icon(hand.pivot), pivot_name(hand.pivot), &PIVOTS, requests);
+        choice(ui, context, space_icon(hand.space), space_name(hand.space), &SPACES, requests);
+        choice(ui, context, pivot_icon(hand.pivot), pivot_name(hand.pivot), &PIVOTS, requests);
     }
     let ui = match &mut second {
         Some(second) => second,
@@ -65,7 +65,7 @@ pub(super) fn toolbar(
         }
     };
     if fits <= 1 || two {
-        ik::tools(ui, state, requests);
+        ik::tools(ui, context, requests);
     }
     if fits == 0 || two {
         divider_across(ui);
@@ -91,26 +91,26 @@ const PIVOTS: [(Id, Option<GizmoSpace>, Option<Pivot>); 3] = [
 /// Draws a button that shows the chosen entry and opens the list.
 fn choice(
     ui: &mut Ui,
-    state: &PanelContext<'_>,
+    context: &PanelContext<'_>,
     icon: Icon,
     name: &str,
     list: &[(Id, Option<GizmoSpace>, Option<Pivot>)],
     requests: &mut Vec<Request>,
 ) {
-    let hand = &state.settings.tools;
+    let hand = &context.settings.tools;
     let response = icon_button(ui, icon, name, false);
     egui::Popup::menu(&response).align(egui::RectAlign::RIGHT_START).show(|ui| {
         ui.set_width(190.0);
         for &(id, space, pivot) in list {
             let on = space == Some(hand.space) || pivot == Some(hand.pivot);
-            menu::item(ui, state, id, on, requests);
+            menu::item(ui, context, id, on, requests);
         }
         ui.separator();
         let is_space = list.iter().any(|entry| entry.1.is_some());
         if is_space {
-            menu::item(ui, state, Id::NextSpace, false, requests);
+            menu::item(ui, context, Id::NextSpace, false, requests);
         } else {
-            menu::item(ui, state, Id::ToggleCurl, hand.curl, requests);
+            menu::item(ui, context, Id::ToggleCurl, hand.curl, requests);
         }
     });
     hint_beside(&response, name);

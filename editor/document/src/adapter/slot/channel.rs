@@ -132,8 +132,7 @@ fn put_in<K: ChannelKind>(
 
 /// Other times for some keys, which stay in their order; the times from before.
 pub(super) fn retimed<K: ChannelKind>(slot: &mut TakeVersions, bone: u32, times: &Arc<[f32]>) {
-    let original = Arc::make_mut(&mut slot.original);
-    K::channel_mut(&mut original.tracks[bone as usize]).times = Arc::clone(times);
+    K::channel_mut(&mut slot.original_mut().tracks[bone as usize]).times = Arc::clone(times);
     if slot.changes.is_empty() {
         slot.result = Arc::clone(&slot.original);
     } else {
@@ -171,7 +170,7 @@ fn put_channel<K: ChannelKind>(
     } else {
         slot.changes.insert((bone, property), Arc::new(changes));
     }
-    *K::channel_mut(&mut Arc::make_mut(&mut slot.original).tracks[bone as usize]) = original.clone();
+    *K::channel_mut(&mut slot.original_mut().tracks[bone as usize]) = original.clone();
     if !slot.changes.is_empty() {
         *K::channel_mut(&mut Arc::make_mut(&mut slot.result).tracks[bone as usize]) = original;
     }

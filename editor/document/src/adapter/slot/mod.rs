@@ -223,9 +223,18 @@ impl TakeVersions {
         before
     }
 
+    /// Returns the original, to be altered. The caller makes the result again: where nothing is changed, it is the original
+    /// itself and is released here, because a take that both share would be copied for each channel of an edit.
+    fn original_mut(&mut self) -> &mut Take {
+        if self.changes.is_empty() {
+            self.result = Arc::default();
+        }
+        Arc::make_mut(&mut self.original)
+    }
+
     /// Does the same to original and result.
     fn both(&mut self, mut change: impl FnMut(&mut Take)) {
-        change(Arc::make_mut(&mut self.original));
+        change(self.original_mut());
         if self.changes.is_empty() {
             self.result = Arc::clone(&self.original);
         } else {

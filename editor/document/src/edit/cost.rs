@@ -1,0 +1,113 @@
+//! Estimates of the time that an edit takes, so that a sender knows whether it can carry it out on a copy between two frames.
+//!
+//! The unit is a key that is taken out and inserted elsewhere, which takes 100 to 200 ns, also where the previous edit of the
+//! same drag is undone first. Columns are copied as a whole where one of their keys changes: 2 to 10 ns per key. Keys that keep
+//! their order are cheaper than estimated. `benches/editor/edits.rs` measures all three.
+
+use super::{EditedBones, KeySet, Property, TakeRef};
+use crate::adapter::{ModelAdapter, TakeVersions};
+
+/// Number of keys that are copied with their columns in the time of one that is taken out and inserted elsewhere.
+const COPIED: usize = 16;
+
+/// Cost of giving a bone a pose at one time: a key of each of its channels is found and computed. Repeated edits of a drag change
+/// their columns in place.
+const POSE: usize = 6;
+
+/// Returns the cost of giving this many poses.
+pub(super) fn of_poses(poses: usize) -> usize {
+    poses * POSE
+}
+
+/// Returns the cost of copying the columns of `bones`; `None` where a take changes as a whole.
+pub(super) fn of_columns(adapter: &ModelAdapter, take: &TakeRef, bones: &EditedBones) -> Option<usize> {
+    let slot = adapter.take(take).ok();
+    let keys = |bone: u32| slot.map_or(0, |slot| keys_of_bone(slot, bone));
+    let keys: usize = match bones {
+        EditedBones::WholeTake => return None,
+        EditedBones::All => slot.map_or(0, |slot| slot.original.keys()),
+        EditedBones::Named(bones) => bones.iter().map(|&bone| keys(bone)).sum(),
+    };
+    Some(keys.div_ceil(COPIED))
+}
+
+fn keys_of_bone(slot: &TakeVersions, bone: u32) -> usize {
+    let Some(track) = slot.original.tracks.get(bone as usize) else { return 0 };
+    track.translation.len() + track.rotation.len() + track.scale.len()
+}
+
+/// Returns the number of keys of `sets`; a key of several sets counts several times.
+pub(super) fn of_keys(adapter: &ModelAdapter, take: &TakeRef, sets: &[KeySet]) -> usize {
+    let Ok(slot) = adapter.take(take) else { return 0 };
+    let of_set = |set: &KeySet| -> usize {
+        let of_bone = |bone: u32| -> usize {
+            let named = |property: &Property| set.properties.is_empty() || set.properties.contains(property);
+            let times = Property::ALL.into_iter().filter(named).map(|property| slot.times(bone, property));
+            times.map(|times| keys_of_set(times, set)).sum()
+        };
+        let tracks = slot.original.tracks.len() as u32;
+        if set.bones.is_empty() {
+            return (0..tracks).map(of_bone).sum();
+        }
+        let bones = set.bones.iter().filter_map(|bone| bone.find_in(adapter.skeleton()));
+        bones.filter(|&bone| bone < tracks).map(of_bone).sum()
+    };
+    sets.iter().map(of_set).sum()
+}
+
+/// Returns the largest number of keys among ascending `times` that a set can have.
+fn keys_of_set(times: &[f32], set: &KeySet) -> usize {
+    let begin = set.from.map_or(0, |from| times.partition_point(|&time| time < from));
+    let end = set.to.map_or(times.len(), |to| times.partition_point(|&time| time <= to));
+    let range = end.saturating_sub(begin);
+    set.at.as_ref().map_or(range, |at| at.len().min(range))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::edit::{BonePose, BoneRef, Edit, MoveKeys, PoseAt, ReverseTake, SetPoses};
+    use crate::{Cancel, Source, load_model};
+
+    fn built_in() -> ModelAdapter {
+        let loaded =
+            load_model(&Source::BuiltIn, &mut |_| {}, &Cancel::default()).expect("part of the program");
+        ModelAdapter::new(&loaded.model.animation)
+    }
+
+    fn moved(keys: KeySet) -> Edit {
+        Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys: vec![keys], by: 0.1 })
+    }
+
+    #[test]
+    fn moved_keys_cost_more_than_keys_that_are_copied_with_them() {
+        let model = built_in();
+        let keys = model.slots()[0].original.keys();
+        assert_eq!(moved(KeySet::default()).cost(&model), Some(keys + keys.div_ceil(COPIED)));
+        let none = KeySet { from: Some(1e6), ..KeySet::default() };
+        assert_eq!(moved(none).cost(&model), Some(keys.div_ceil(COPIED)));
+    }
+
+    #[test]
+    fn an_edit_of_one_bone_costs_its_keys_alone() {
+        let model = built_in();
+        let bones = vec![BoneRef::Index(1)];
+        let of_bone = keys_of_bone(&model.slots()[0], 1);
+        assert_eq!(
+            moved(KeySet { bones, ..KeySet::default() }).cost(&model),
+            Some(of_bone + of_bone.div_ceil(COPIED))
+        );
+    }
+
+    #[test]
+    fn poses_cost_their_number_and_takes_as_a_whole_are_left_to_the_document() {
+        let model = built_in();
+        let pose =
+            BonePose { bone: BoneRef::Index(1), translation: Some([0.0; 3]), rotation: None, scale: None };
+        let at = vec![PoseAt { time: 0.0, poses: vec![pose; 3] }; 5];
+        let take = || TakeRef::Index(0);
+        let poses = Edit::SetPoses(SetPoses { take: take(), at, unstep: false });
+        assert_eq!(poses.cost(&model), Some(15 * POSE));
+        assert_eq!(Edit::ReverseTake(ReverseTake { take: take() }).cost(&model), None);
+    }
+}

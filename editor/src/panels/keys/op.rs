@@ -1,0 +1,69 @@
+//! The operation of a drag on keys.
+
+use super::shift::Shift;
+use dragonfly_document::edit::{
+    DuplicateKeys, Edit, KeySet, MoveKeys, RippleKeys, SAME_TIME, ScaleKeys, SnapKeys, TakeRef,
+};
+
+/// The operation of a drag on keys, always relative to the start of the drag.
+#[derive(Clone, Debug, PartialEq)]
+pub enum KeyDragOp {
+    /// Moves the selected keys by this many seconds.
+    Move(f32),
+    /// Scales the times of the selected keys about a time.
+    Scale {
+        /// Seconds.
+        about: f32,
+        /// Factor, not zero.
+        factor: f32,
+    },
+    /// Duplicates the selected keys this many seconds later.
+    Duplicate(f32),
+    /// Moves every key from a time on.
+    Ripple {
+        /// Seconds.
+        from: f32,
+        /// Seconds.
+        by: f32,
+    },
+    /// Moves the selected keys to whole frames at this rate per second.
+    Snap(f32),
+    /// Applies an edit as it is: values, tangents.
+    Edit(Edit),
+}
+
+impl KeyDragOp {
+    /// Returns where the keys are moved to.
+    pub fn shift(&self) -> Shift {
+        match *self {
+            Self::Move(by) | Self::Duplicate(by) | Self::Ripple { by, .. } => Shift::Move(by),
+            Self::Scale { about, factor } => Shift::Scale { about, factor },
+            Self::Snap(rate) => Shift::Snap(rate),
+            Self::Edit(_) => Shift::NONE,
+        }
+    }
+
+    /// Returns whether it changes nothing.
+    pub(super) fn idle(&self) -> bool {
+        match *self {
+            Self::Move(by) | Self::Duplicate(by) | Self::Ripple { by, .. } => {
+                !by.is_finite() || by.abs() <= SAME_TIME
+            }
+            Self::Scale { factor, .. } => factor == 1.0 || factor == 0.0 || !factor.is_finite(),
+            Self::Snap(_) | Self::Edit(_) => false,
+        }
+    }
+
+    /// Returns the edit that applies it to `keys` of `take`.
+    pub(super) fn edit(&self, take: TakeRef, keys: &[KeySet]) -> Edit {
+        let keys = || keys.to_vec();
+        match *self {
+            Self::Move(by) => Edit::MoveKeys(MoveKeys { take, keys: keys(), by }),
+            Self::Scale { about, factor } => Edit::ScaleKeys(ScaleKeys { take, keys: keys(), about, factor }),
+            Self::Duplicate(by) => Edit::DuplicateKeys(DuplicateKeys { take, keys: keys(), by }),
+            Self::Ripple { from, by } => Edit::RippleKeys(RippleKeys { take, from, by }),
+            Self::Snap(rate) => Edit::SnapKeys(SnapKeys { take, keys: keys(), rate }),
+            Self::Edit(ref edit) => edit.clone(),
+        }
+    }
+}
