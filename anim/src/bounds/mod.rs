@@ -9,18 +9,17 @@
 
 mod axis_box;
 mod bones;
+mod pose;
 pub(crate) mod reach;
 pub(crate) mod reach_builder;
 mod sphere;
 
 pub use axis_box::AxisBox;
 pub use bones::BoneBoxes;
+pub use pose::bounds_of_pose;
 pub use sphere::Sphere;
 
-use crate::data::ModelData;
-use crate::evaluator::Evaluator;
 use glam::{Mat4, Vec3};
-use std::sync::Arc;
 
 /// An axis-aligned box and a sphere, each around the same points; never NaN.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,13 +59,4 @@ impl Bounds {
 pub fn bounds_of_bones(to_root: &[Mat4]) -> Bounds {
     let origins: Vec<Vec3> = to_root.iter().map(|to_root| to_root.w_axis.truncate()).collect();
     Bounds::of_points(&origins)
-}
-
-/// Returns the bounds of `model` at `time` seconds of take number `take`; `None` is the rest pose.
-///
-/// Poses the model for this call alone; for several calls, keep an [`Evaluator`] and call [`Evaluator::bounds`].
-pub fn bounds_of_pose(model: &Arc<ModelData>, take: Option<usize>, time: f32) -> Bounds {
-    let mut evaluator = Evaluator::new(Arc::clone(model));
-    evaluator.pose(take, time);
-    evaluator.bounds()
 }

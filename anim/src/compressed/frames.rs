@@ -1,5 +1,6 @@
 //! A take sampled at evenly spaced times: the input of the compressor.
 
+use super::clock::FrameClock;
 use super::stored::LARGEST;
 use super::{CompressError, CompressionSettings, MAX_BONES, MAX_FRAMES, MAX_VALUES};
 use crate::animation::to_root;
@@ -14,31 +15,6 @@ const ON_FRAME: f64 = 0.01;
 
 /// Largest number of parts into which the smallest gap between keys is divided to find a grid that contains all keys.
 const FINER: u32 = 8;
-
-/// Evenly spaced times.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct FrameClock {
-    /// Seconds.
-    pub(super) start: f32,
-    /// Seconds from the first frame to the last; zero for one frame.
-    pub(super) length: f32,
-    /// At least one.
-    pub(super) frames: u32,
-}
-
-impl FrameClock {
-    /// Returns the seconds between two frames; 1 where there is only one.
-    pub(super) fn interval(&self) -> f64 {
-        let steps = f64::from(self.frames.saturating_sub(1));
-        if steps > 0.0 && self.length > 0.0 { f64::from(self.length) / steps } else { 1.0 }
-    }
-
-    /// Returns the time of `frame` in seconds.
-    #[inline(always)]
-    pub(super) fn time(&self, frame: u32, interval: f64) -> f32 {
-        (f64::from(self.start) + interval * f64::from(frame)) as f32
-    }
-}
 
 /// The poses of a take at evenly spaced times.
 #[derive(Debug)]

@@ -240,7 +240,8 @@ impl Kernel for Decode<'_> {
             }
         }
         if !tables.whole.is_empty() {
-            super::whole::put(tables, bytes, key, mix, out);
+            let after = (key + 1).min(tables.clock.frames - 1);
+            super::whole::put(&tables.whole, bytes, [key, after], mix, out);
         }
     }
 }

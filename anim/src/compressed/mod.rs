@@ -114,6 +114,7 @@
 //! Not kept: morph weights ([`CompressionReport::morphs_left_out`]).
 
 mod bits;
+mod clock;
 mod compress;
 mod encode;
 mod error;

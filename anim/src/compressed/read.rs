@@ -1,9 +1,9 @@
 //! Reading of bytes into the tables that decoding needs; every number is checked before it is used.
 
 use super::bits::BitReader;
+use super::clock::FrameClock;
 use super::encode::TURN_UNIT;
 use super::extents::{AHEAD, PREFACE, SUMMED};
-use super::frames::FrameClock;
 use super::grid::{FLOATS, MOST_BITS, rotation_from};
 use super::stored::{
     CONSTANT, LARGEST, MAX_BITS, PACKED, Reference, RoundingGrid, SHIFTS, SegmentHead, ValueRange, WHOLE,

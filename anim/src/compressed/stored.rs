@@ -1,6 +1,6 @@
 //! The content of a compressed take before it is written as bytes.
 
-use super::frames::FrameClock;
+use super::clock::FrameClock;
 use crate::data::{Interpolation, Transform};
 use glam::{Quat, Vec3};
 

@@ -1,7 +1,7 @@
 //! The tables that decoding needs in addition to the bytes: one set per take, shared by all characters that play it.
 
 use super::bits::BitReader;
-use super::frames::FrameClock;
+use super::clock::FrameClock;
 use super::head::{HeadBlock, LaneLayout, WideBlock};
 use super::lane_groups::{LaneGroup, TrackSlot, groups, slots};
 use super::stored::{PARTS, Reference, SegmentHead, ValueRange, rotation_of};

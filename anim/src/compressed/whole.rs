@@ -1,7 +1,6 @@
 //! Tracks whose keys are stored whole: few, and interpolated one bone at a time.
 
 use super::grid::{WHOLE_BITS, rotation_from};
-use super::table::Tables;
 use crate::fast::PoseBlock;
 use crate::fast::simd::LANES;
 use crate::sample::mix::{lerp, slerp};
@@ -36,12 +35,11 @@ impl WholeTrack {
     }
 }
 
-/// Writes the values between `key` and the one after it into a pose.
-pub(super) fn put(tables: &Tables, bytes: &[u8], key: u32, mix: f32, out: &mut [PoseBlock]) {
-    let after = (key + 1).min(tables.clock.frames - 1);
-    for track in &tables.whole {
+/// Writes the values of tracks between a key and the one after it, the same for the last key, into a pose.
+pub(super) fn put(tracks: &[WholeTrack], bytes: &[u8], keys: [u32; 2], mix: f32, out: &mut [PoseBlock]) {
+    for track in tracks {
         let Some(block) = out.get_mut(track.bone / LANES) else { continue };
-        let value = between(track, bytes, [key, after], mix);
+        let value = between(track, bytes, keys, mix);
         let rows: &mut [[f32; LANES]] = match track.part {
             0 => &mut block.rotation,
             1 => &mut block.translation,

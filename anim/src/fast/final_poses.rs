@@ -5,10 +5,10 @@
 //! ```
 
 use super::matrix::{Matrix34, MatrixRows, doubled, mat4, matrix34};
-use super::rig::Rig;
+use super::rig::{NARROW, Rig};
 use super::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
 use super::tiny::{flushed, largest};
-use super::to_root::{NARROW, RootPoses};
+use super::to_root::RootPoses;
 use crate::animation::final_pose;
 use crate::data::Skin;
 use glam::Mat4;

@@ -2,10 +2,12 @@
 
 use super::pose::{Pose, blocks_of};
 use super::tiny::{flushed, largest};
-use super::to_root::NARROW;
 use crate::data::{Skeleton, Transform};
 use crate::sample::rest_pose;
 use glam::Mat4;
+
+/// Number of matrices that a byte can index.
+pub(super) const NARROW: usize = 256;
 
 /// The fast path's copy of a skeleton: the parents, the rest pose, and the exceptional bones.
 ///

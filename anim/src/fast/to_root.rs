@@ -18,7 +18,7 @@
 
 use super::matrix::{IDENTITY, Matrix34, MatrixRows, mat4, matrix34};
 use super::pose::PoseBlock;
-use super::rig::Rig;
+use super::rig::{NARROW, Rig};
 use super::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
 use glam::Mat4;
 use std::cell::Cell;
@@ -108,9 +108,6 @@ pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut Roo
         carefully(rig, pose, matrices);
     }
 }
-
-/// Number of matrices that a byte can index.
-pub(super) const NARROW: usize = 256;
 
 /// The index of a matrix.
 trait MatrixIndex: Copy {

@@ -1,7 +1,8 @@
 //! A joint that swings in all directions and twists.
 
+use super::AngleRange;
+use super::axis::{direction, mirrored_axis};
 use super::ellipse::nearest_in_ellipse;
-use super::{AngleRange, direction, mirrored_axis};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
 /// Largest swing in radians: 175°. Exactly backwards, twist and direction could not be separated.

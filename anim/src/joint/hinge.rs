@@ -1,6 +1,7 @@
 //! A joint with one axis.
 
-use super::{AngleRange, direction, mirrored_axis};
+use super::AngleRange;
+use super::axis::{direction, mirrored_axis};
 use glam::{DQuat, Vec3};
 
 /// A joint that turns about one axis, from one angle to another: an elbow, a knee.

@@ -24,6 +24,7 @@
 //! * Limits affect rotations alone. The scale of the bone, mirrored or not, has no influence, nor have the bones above.
 //!   For a limb on the other side of the body use [`JointLimit::mirrored`].
 
+mod axis;
 mod ball;
 mod ellipse;
 mod euler;
@@ -39,7 +40,7 @@ pub use limits::{JointLimits, LimitReport};
 pub use range::AngleRange;
 
 use crate::sample::Value;
-use glam::{DQuat, Quat, Vec3};
+use glam::{DQuat, Quat};
 
 /// Tolerance in radians (about 0.0006°, or 0.01 mm at the end of a bone of 1 m): a rotation nearer to an allowed one
 /// than this is allowed.
@@ -113,18 +114,4 @@ impl JointLimit {
 fn angle_between(a: DQuat, b: DQuat) -> f64 {
     let (near, far) = ((a - b).length(), (a + b).length());
     4.0 * near.min(far).atan2(near.max(far))
-}
-
-/// Mirrors an axis of rotation: components in the plane are reversed, the one along the normal is kept.
-fn mirrored_axis(axis: Vec3, normal: usize) -> Vec3 {
-    match normal {
-        0 => Vec3::new(axis.x, -axis.y, -axis.z),
-        1 => Vec3::new(-axis.x, axis.y, -axis.z),
-        _ => Vec3::new(-axis.x, -axis.y, axis.z),
-    }
-}
-
-/// Returns `axis` with length 1, in f64; `None` where it has no direction.
-fn direction(axis: Vec3) -> Option<glam::DVec3> {
-    axis.as_dvec3().try_normalize()
 }

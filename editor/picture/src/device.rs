@@ -182,7 +182,9 @@ impl Device {
         if let Some(surface) = &mut self.surface {
             surface.forget_configuration();
         }
-        if let Ok(gpu) = Gpu::new(&self.adapter, self.surface.as_ref(), &self.reports) {
+        if let Ok(gpu) =
+            Gpu::new(&self.adapter, self.surface.as_ref().map(WindowSurface::surface), &self.reports)
+        {
             self.gpu = gpu;
             return Ok(());
         }
@@ -240,7 +242,7 @@ fn make(
         tracing::debug!(backends = ?parameters.backends, %error, "no adapter");
         GraphicsError::NoAdapter(first_line(&error.to_string()))
     })?;
-    let gpu = Gpu::new(&adapter, surface, reports)?;
+    let gpu = Gpu::new(&adapter, surface.map(WindowSurface::surface), reports)?;
     Ok((adapter, gpu))
 }
 

@@ -2,7 +2,6 @@
 
 use super::error::GraphicsError;
 use super::losses::DeviceReports;
-use super::surface::WindowSurface;
 use super::uniform::FrameUniform;
 
 /// Format of the scene: drawn in linear light and stored sRGB-encoded, so that 8 bits suffice where the eye
@@ -38,7 +37,7 @@ impl Gpu {
     /// Creates a device of `adapter` that can draw into `surface`.
     pub fn new(
         adapter: &wgpu::Adapter,
-        surface: Option<&WindowSurface>,
+        surface: Option<&wgpu::Surface<'static>>,
         reports: &DeviceReports,
     ) -> Result<Self, GraphicsError> {
         check(adapter)?;
@@ -50,7 +49,7 @@ impl Gpu {
         .map_err(|error| GraphicsError::NoDevice(error.to_string()))?;
         reports.watch(&device);
         let window_format = match surface {
-            Some(surface) => surface.format(adapter)?,
+            Some(surface) => format(surface, adapter)?,
             None => OFFSCREEN_FORMAT,
         };
         let max_side = device.limits().max_texture_dimension_2d;
@@ -118,6 +117,16 @@ pub fn scene_depth(write: bool) -> wgpu::DepthStencilState {
 /// The multisampling of the scene.
 pub fn scene_samples(alpha_to_coverage_enabled: bool) -> wgpu::MultisampleState {
     wgpu::MultisampleState { count: SAMPLES, mask: !0, alpha_to_coverage_enabled }
+}
+
+/// Returns the format to draw in: one that does not encode, because egui encodes colors itself.
+fn format(
+    surface: &wgpu::Surface<'static>,
+    adapter: &wgpu::Adapter,
+) -> Result<wgpu::TextureFormat, GraphicsError> {
+    let formats = surface.get_capabilities(adapter).formats;
+    egui_wgpu::preferred_framebuffer_format(&formats)
+        .map_err(|error| GraphicsError::NoSurface(error.to_string()))
 }
 
 /// Rejects an adapter that lacks a feature, instead of failing in the middle of a frame.

@@ -56,13 +56,6 @@ impl WindowSurface {
         &self.surface
     }
 
-    /// Returns the format to draw in: one that does not encode, because egui encodes colors itself.
-    pub fn format(&self, adapter: &wgpu::Adapter) -> Result<wgpu::TextureFormat, GraphicsError> {
-        let formats = self.surface.get_capabilities(adapter).formats;
-        egui_wgpu::preferred_framebuffer_format(&formats)
-            .map_err(|error| GraphicsError::NoSurface(error.to_string()))
-    }
-
     /// Forgets the configuration, because its device is lost.
     pub fn forget_configuration(&mut self) {
         self.configured = None;

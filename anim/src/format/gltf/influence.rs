@@ -1,8 +1,8 @@
 //! Joint influences of vertices: reads any number of sets and keeps the strongest four or eight.
 
 use super::accessor::GltfDocument;
+use super::attribute::{attribute, unequal};
 use super::check as code;
-use super::mesh::{attribute, unequal};
 use crate::data::{Influence, MAX_INFLUENCES};
 use crate::format::{ImportError, Place};
 use gltf::json::accessor::{ComponentType, Type};

@@ -1,6 +1,7 @@
 //! Meshes: attributes become columns, each of the length of the positions.
 
-use super::accessor::{ElementFormat, GltfDocument, invalid};
+use super::accessor::{ElementFormat, GltfDocument};
+use super::attribute::{ANY_VEC3, QUANTIZED, UNIT_VEC3, attribute, formats, unequal};
 use super::check as code;
 use super::influence::influences;
 use super::morph::{morph_targets, morph_weights};
@@ -11,7 +12,8 @@ use crate::format::{ImportError, Place};
 use crate::limits::{HUGE, VERTICES};
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json;
-use gltf::json::accessor::{Accessor, ComponentType, Type};
+use gltf::json::accessor::ComponentType::{F32, I8, I16, U8, U16};
+use gltf::json::accessor::Type;
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
 
@@ -22,33 +24,6 @@ pub(super) struct ReadMesh {
     pub(super) largest_joint: Option<u16>,
 }
 
-/// Returns all combinations of a shape with component types.
-const fn formats<const N: usize>(shape: Type, kinds: [(ComponentType, bool); N]) -> [ElementFormat; N] {
-    let mut formats = [(ComponentType::F32, shape, false); N];
-    let mut i = 0;
-    while i < N {
-        formats[i] = (kinds[i].0, shape, kinds[i].1);
-        i += 1;
-    }
-    formats
-}
-
-use ComponentType::{F32, I8, I16, U8, U16};
-
-/// Every format of KHR_mesh_quantization, allowed even if a file does not request the extension.
-const QUANTIZED: [(ComponentType, bool); 9] = [
-    (F32, false),
-    (I8, false),
-    (I8, true),
-    (U8, false),
-    (U8, true),
-    (I16, false),
-    (I16, true),
-    (U16, false),
-    (U16, true),
-];
-pub(super) const ANY_VEC3: &[ElementFormat] = &formats(Type::Vec3, QUANTIZED);
-pub(super) const UNIT_VEC3: &[ElementFormat] = &formats(Type::Vec3, [(F32, false), (I8, true), (I16, true)]);
 const TANGENT: &[ElementFormat] = &formats(Type::Vec4, [(F32, false), (I8, true), (I16, true)]);
 const COORDINATES: &[ElementFormat] = &formats(Type::Vec2, QUANTIZED);
 const COLOR_3: &[ElementFormat] = &formats(Type::Vec3, [(F32, false), (U8, true), (U16, true)]);
@@ -134,23 +109,6 @@ fn read_primitive(
     (vertices.influences, vertices.influences_per_vertex) = (influences.list, influences.per_vertex);
     let morph_targets = morph_targets(document, primitive, count, path)?;
     Ok(Primitive { vertices, indices, material, morph_targets })
-}
-
-/// Returns the accessor of an attribute.
-pub(super) fn attribute(
-    primitive: &json::mesh::Primitive,
-    semantic: Semantic,
-) -> Option<json::Index<Accessor>> {
-    primitive.attributes.get(&Checked::Valid(semantic)).copied()
-}
-
-/// Refuses an attribute whose `count` is not the number of vertices.
-pub(super) fn unequal(count: usize, vertices: usize, from: &str) -> Result<(), ImportError> {
-    if count == vertices {
-        return Ok(());
-    }
-    let reason = format!("{count} values for {vertices} vertices");
-    Err(invalid(Place::Pointer(from.to_owned()), code::MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT, reason))
 }
 
 /// Returns an attribute as finite floats, if the primitive has it.

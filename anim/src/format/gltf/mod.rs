@@ -9,6 +9,7 @@
 
 mod accessor;
 mod animation;
+mod attribute;
 mod buffer;
 pub mod check;
 mod document;

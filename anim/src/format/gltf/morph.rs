@@ -1,8 +1,8 @@
 //! Morph targets and their weights.
 
 use super::accessor::{GltfDocument, invalid};
+use super::attribute::{ANY_VEC3, UNIT_VEC3};
 use super::check as code;
-use super::mesh::{ANY_VEC3, UNIT_VEC3};
 use crate::data::{MorphTarget, Primitive};
 use crate::format::{ImportError, Place};
 use glam::Vec3;

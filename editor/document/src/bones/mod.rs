@@ -1,6 +1,7 @@
 //! Sets and pairs of bones: selected bones, hidden bones, mirror pairs.
 
 mod hidden;
+mod hide;
 mod mirror;
 mod mirror_names;
 mod mirror_pair;

@@ -3,7 +3,7 @@
 use super::document::SourceDocument;
 use super::json::patch::TextPatch;
 use super::json::token::{unquoted, written_at};
-use super::reuse::is_ours;
+use super::mark::is_ours;
 use super::source::is_data;
 use crate::format::uri::{DataUri, relative_path};
 use base64::prelude::{BASE64_STANDARD, Engine};

@@ -9,9 +9,10 @@ use super::json::list::{ListEdit, edit};
 use super::json::patch::TextPatch;
 use super::json::style::Fresh;
 use super::json::tree::ValueId;
+use super::mark::MARK;
 use super::plan::fresh_view;
 use super::planned::Plan;
-use super::reuse::{Granted, MARK, SavedSlot, others_past, slots};
+use super::reuse::{Granted, SavedSlot, others_past, slots};
 use super::source::SourceFile;
 use std::collections::{HashMap, HashSet};
 

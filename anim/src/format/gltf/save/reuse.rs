@@ -1,21 +1,14 @@
 //! Finds what earlier saves appended, so that its room can be reused.
 //!
-//! Each appended accessor has a buffer view of its own, and both are named [`MARK`]. The name alone is not sufficient:
+//! Each appended accessor has a buffer view of its own, and both are named [`MARK`](super::MARK). The name alone is not sufficient:
 //! a pair counts as appended by us only if it has exactly the form that we write, and if nothing but animation samplers
 //! refers to it, so that overwriting it changes nothing else. The length of the view is the available room; the
 //! accessor may need less.
 
 use super::document::SourceDocument;
-use super::json::tree::{Json, JsonKind, ValueId};
+use super::json::tree::{JsonKind, ValueId};
+use super::mark::is_ours;
 use std::collections::{BTreeMap, HashMap, HashSet};
-
-/// Name of the buffers, buffer views and accessors that a save appends.
-pub const MARK: &str = "dragonfly.keys";
-
-/// Returns whether an object has the name [`MARK`].
-pub(super) fn is_ours(json: Json<'_>, id: ValueId) -> bool {
-    json.string_member(id, "name").as_deref() == Some(MARK)
-}
 
 /// An accessor and its view that an earlier save appended.
 #[derive(Clone, Copy, Debug, PartialEq)]

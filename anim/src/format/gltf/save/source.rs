@@ -3,7 +3,7 @@
 use super::super::buffer;
 use super::container::Container;
 use super::json::tree::{Json, Tree};
-use super::reuse::is_ours;
+use super::mark::is_ours;
 use crate::format::definition::check_file_size;
 use crate::format::{AssetFs, ImportContext, ImportError, Place, ReadOptions};
 use std::collections::HashMap;
