@@ -1,16 +1,15 @@
 //! Drags on the curves: keys sideways in time or up and down in value, tangents by their handles, and selection boxes.
 
-use super::axis::ValueScale;
+use super::canvas::{CurveCanvas, CurveKey, CurveTarget, component_name};
 use super::curve::Curve;
-use super::tangents::{TangentHandle, Tangents};
+use super::tangents::TangentHandle;
 use super::values::{ValueKey, value_edit};
-use crate::panels::context::PanelContext;
 use crate::panels::dope::to_frame;
 use crate::panels::drag::{
     DragEvent, PanelDrag, PointerInput, Press, SelectionBox, choice_of, position, readout,
 };
 use crate::panels::keys::intervals::keys_between;
-use crate::panels::keys::{ChannelId, Drawn, KeyDragOp, KeysRequest, TimeScale};
+use crate::panels::keys::{ChannelId, KeyDragOp, KeysRequest};
 use crate::panels::request::Request;
 use dragonfly_document::bones::Choice;
 use egui::{CursorIcon, Modifiers, Pos2, Response, Ui, pos2};
@@ -50,45 +49,8 @@ enum CurveDragged {
     Box(SelectionBox),
 }
 
-/// Target under the pointer.
-#[derive(Clone, Debug)]
-enum CurveTarget {
-    Nothing,
-    Key(CurveKey),
-    Handle(TangentHandle),
-}
-
-/// A key under the pointer, on the curve of one component.
-#[derive(Clone, Debug)]
-struct CurveKey {
-    curve: Arc<Curve>,
-    key: usize,
-    component: usize,
-    selected: bool,
-}
-
-/// Distance within which something is under the pointer, points.
-const REACH: f32 = 8.0;
 /// Largest number of keys whose values are dragged at once.
 const MOST: usize = 2000;
-
-/// Everything that a drag on the curves reads in one frame.
-pub(super) struct CurveCanvas<'a> {
-    pub(super) curves: &'a [Arc<Curve>],
-    pub(super) drawn: &'a Drawn,
-    pub(super) time: &'a TimeScale,
-    pub(super) value: &'a ValueScale,
-    /// A bit for each component that is shown.
-    pub(super) components: u8,
-    pub(super) tangents: &'a Tangents,
-    pub(super) context: &'a PanelContext<'a>,
-}
-
-impl CurveKey {
-    fn time(&self) -> f32 {
-        self.curve.times().get(self.key).copied().unwrap_or_default()
-    }
-}
 
 impl CurveDrag {
     /// Component of the key that was pressed on last, 0 for X.
@@ -244,11 +206,6 @@ fn click(press: &Press<CurveTarget>, requests: &mut Vec<Request>) {
 }
 
 impl CurveCanvas<'_> {
-    fn components(&self, curve: &Curve) -> impl Iterator<Item = usize> {
-        let components = self.components;
-        (0..curve.width()).filter(move |at| components & (1 << at) != 0)
-    }
-
     /// Shows what is under the pointer; the right button selects it for the menu.
     fn hover(&self, ui: &Ui, pointer: Pos2, input: &PointerInput, requests: &mut Vec<Request>) {
         match self.target_at(pointer) {
@@ -314,46 +271,6 @@ impl CurveCanvas<'_> {
         }
     }
 
-    fn target_at(&self, pointer: Pos2) -> CurveTarget {
-        if let Some(handle) = self.tangents.under(pointer, REACH) {
-            return CurveTarget::Handle(handle);
-        }
-        let mut best: Option<(f32, CurveKey)> = None;
-        let stretch = [self.time.time_at(pointer.x - REACH), self.time.time_at(pointer.x + REACH)];
-        for curve in self.curves {
-            let keys = keys_between(curve.times(), stretch);
-            // Keys this dense have no dots, and cannot be pressed on.
-            if keys.len() > 8 {
-                continue;
-            }
-            for key in keys {
-                let (x, numbers) = (self.time.x_of(curve.times()[key]), curve.key(key));
-                for component in self.components(curve) {
-                    let distance = pos2(x, self.value.y_of(numbers[component])).distance(pointer);
-                    if distance <= REACH && best.as_ref().is_none_or(|(least, _)| distance < *least) {
-                        let selected = curve.is_chosen(key, self.drawn.selection.of(curve.id));
-                        best =
-                            Some((distance, CurveKey { curve: Arc::clone(curve), key, component, selected }));
-                    }
-                }
-            }
-        }
-        best.map_or(CurveTarget::Nothing, |(_, on)| CurveTarget::Key(on))
-    }
-
-    /// Returns bone, channel, value and time of a key as text.
-    fn description(&self, on: &CurveKey) -> String {
-        let (bone, property) = on.curve.id;
-        let number = on.curve.key(on.key)[on.component];
-        format!(
-            "{} {} {}  {number:.3}  at {:.3} s",
-            self.context.bone_name(bone),
-            property.name(),
-            component_name(on.component),
-            on.time()
-        )
-    }
-
     /// Returns the keys whose values a drag of `on` changes: those selected keys of the same property whose curves are
     /// shown.
     fn value_keys(&self, on: &CurveKey) -> Vec<ValueKey> {
@@ -395,9 +312,4 @@ impl CurveCanvas<'_> {
 fn select(on: &CurveKey, choice: Choice) -> Request {
     let stretch = [on.time(); 2];
     Request::Timeline(KeysRequest::Select { channels: Arc::new([on.curve.id]), stretch, choice })
-}
-
-/// Returns the letter of a component: X, Y, Z, W.
-pub(super) fn component_name(component: usize) -> &'static str {
-    ["X", "Y", "Z", "W"].get(component).copied().unwrap_or("?")
 }

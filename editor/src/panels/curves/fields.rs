@@ -1,8 +1,8 @@
 //! Number fields for the values and the time of the selected key.
 
 use super::axis::ValueWindow;
+use super::canvas::component_name;
 use super::curve::Curve;
-use super::drag::component_name;
 use super::form::RotationForm;
 use super::paint::color;
 use super::toolbar::Chosen;

@@ -1,6 +1,7 @@
 //! The curves of the selected bones: values over time, with keys and tangents that can be dragged.
 
 mod axis;
+mod canvas;
 mod curve;
 mod drag;
 mod fields;
@@ -18,7 +19,8 @@ use super::request::Request;
 use super::theme::Theme;
 use super::{Panel, PanelPlace, widgets};
 use axis::{ValueScale, ValueWindow};
-use drag::{CurveCanvas, CurveDrag};
+use canvas::CurveCanvas;
+use drag::CurveDrag;
 use egui::{
     Align2, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2,
 };

@@ -1,7 +1,7 @@
 //! The bar above the curves: which are shown, how rotations are shown, and the interpolation.
 
+use super::canvas::component_name;
 use super::curve::Curve;
-use super::drag::component_name;
 use super::form::RotationForm;
 use super::paint::color;
 use super::shown::bit;

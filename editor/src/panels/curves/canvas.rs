@@ -1,0 +1,102 @@
+//! The canvas of the curves, and what is under the pointer on it: a key, or the handle of a tangent.
+
+use super::axis::ValueScale;
+use super::curve::Curve;
+use super::tangents::{TangentHandle, Tangents};
+use crate::panels::context::PanelContext;
+use crate::panels::keys::intervals::keys_between;
+use crate::panels::keys::{Drawn, TimeScale};
+use egui::{Pos2, pos2};
+use std::sync::Arc;
+
+/// Target under the pointer.
+#[derive(Clone, Debug)]
+pub(super) enum CurveTarget {
+    Nothing,
+    Key(CurveKey),
+    Handle(TangentHandle),
+}
+
+/// A key under the pointer, on the curve of one component.
+#[derive(Clone, Debug)]
+pub(super) struct CurveKey {
+    pub(super) curve: Arc<Curve>,
+    pub(super) key: usize,
+    pub(super) component: usize,
+    pub(super) selected: bool,
+}
+
+/// Distance within which something is under the pointer, points.
+const REACH: f32 = 8.0;
+impl CurveKey {
+    /// Returns its time, seconds.
+    pub(super) fn time(&self) -> f32 {
+        self.curve.times().get(self.key).copied().unwrap_or_default()
+    }
+}
+
+/// Everything that a drag on the curves reads in one frame.
+pub(super) struct CurveCanvas<'a> {
+    pub(super) curves: &'a [Arc<Curve>],
+    pub(super) drawn: &'a Drawn,
+    pub(super) time: &'a TimeScale,
+    pub(super) value: &'a ValueScale,
+    /// A bit for each component that is shown.
+    pub(super) components: u8,
+    pub(super) tangents: &'a Tangents,
+    pub(super) context: &'a PanelContext<'a>,
+}
+
+impl CurveCanvas<'_> {
+    /// Returns the components of a curve that are shown.
+    pub(super) fn components(&self, curve: &Curve) -> impl Iterator<Item = usize> {
+        let components = self.components;
+        (0..curve.width()).filter(move |at| components & (1 << at) != 0)
+    }
+
+    /// Returns what is under the pointer.
+    pub(super) fn target_at(&self, pointer: Pos2) -> CurveTarget {
+        if let Some(handle) = self.tangents.under(pointer, REACH) {
+            return CurveTarget::Handle(handle);
+        }
+        let mut best: Option<(f32, CurveKey)> = None;
+        let stretch = [self.time.time_at(pointer.x - REACH), self.time.time_at(pointer.x + REACH)];
+        for curve in self.curves {
+            let keys = keys_between(curve.times(), stretch);
+            // Keys this dense have no dots, and cannot be pressed on.
+            if keys.len() > 8 {
+                continue;
+            }
+            for key in keys {
+                let (x, numbers) = (self.time.x_of(curve.times()[key]), curve.key(key));
+                for component in self.components(curve) {
+                    let distance = pos2(x, self.value.y_of(numbers[component])).distance(pointer);
+                    if distance <= REACH && best.as_ref().is_none_or(|(least, _)| distance < *least) {
+                        let selected = curve.is_chosen(key, self.drawn.selection.of(curve.id));
+                        best =
+                            Some((distance, CurveKey { curve: Arc::clone(curve), key, component, selected }));
+                    }
+                }
+            }
+        }
+        best.map_or(CurveTarget::Nothing, |(_, on)| CurveTarget::Key(on))
+    }
+
+    /// Returns bone, channel, value and time of a key as text.
+    pub(super) fn description(&self, on: &CurveKey) -> String {
+        let (bone, property) = on.curve.id;
+        let number = on.curve.key(on.key)[on.component];
+        format!(
+            "{} {} {}  {number:.3}  at {:.3} s",
+            self.context.bone_name(bone),
+            property.name(),
+            component_name(on.component),
+            on.time()
+        )
+    }
+}
+
+/// Returns the letter of a component: X, Y, Z, W.
+pub(super) fn component_name(component: usize) -> &'static str {
+    ["X", "Y", "Z", "W"].get(component).copied().unwrap_or("?")
+}
