@@ -35,11 +35,11 @@ pub(super) struct JointBox {
     pub(super) deltas: (u32, u32),
 }
 
-/// The largest movement by one morph target.
+/// How far one morph target moves the vertices of a joint's box at weight 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Delta {
     pub(super) target: u32,
-    /// Contains the origin; along the axes of the joint's box.
+    /// Box around the target's differences and the origin, along the axes of the joint's box.
     pub(super) by: AxisBox,
 }
 
@@ -49,7 +49,8 @@ pub(super) struct PartReach {
     pub(super) boxes: (u32, u32),
     /// Box of the vertices that do not move.
     pub(super) still: AxisBox,
-    /// Smallest and largest sum of a vertex's positive weights, and of its negative ones.
+    /// Smallest and largest sum of a vertex's positive weights; `negative` is the same for the sizes of its negative
+    /// ones.
     pub(super) positive: [f32; 2],
     pub(super) negative: [f32; 2],
 }
