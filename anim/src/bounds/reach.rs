@@ -35,7 +35,7 @@ pub(super) struct JointBox {
     pub(super) deltas: (u32, u32),
 }
 
-/// How far one morph target moves the vertices of a joint's box at weight 1.
+/// The range in which one morph target with weight 1 moves the vertices of a joint's box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Delta {
     pub(super) target: u32,

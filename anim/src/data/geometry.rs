@@ -95,7 +95,7 @@ pub struct Primitive {
 }
 
 impl Primitive {
-    /// Returns vertex `index` in one piece; `None` past the end.
+    /// Returns vertex `index`, assembled from the columns; `None` past the end.
     pub fn vertex(&self, index: usize) -> Option<Vertex> {
         let vertices = &self.vertices;
         Some(Vertex {

@@ -27,7 +27,7 @@ pub struct Track {
 }
 
 impl Track {
-    /// Returns whether it animates nothing.
+    /// Returns whether the track animates nothing.
     pub fn is_empty(&self) -> bool {
         self.translation.is_empty() && self.rotation.is_empty() && self.scale.is_empty()
     }

@@ -50,7 +50,7 @@ pub struct KeysStep<T> {
     pub interpolation: Interpolation,
     /// The last key at or before the time; the first, when the time is before all.
     pub before: KeyStep<T>,
-    /// The next key; the same one outside the keys.
+    /// The next key; the same key as `before` where the time is outside all keys.
     pub after: KeyStep<T>,
     /// Fraction of the time from `before` to `after`, 0..=1.
     pub mix: f32,

@@ -36,13 +36,13 @@ impl<'a, T> Playing<'a, T> {
         Self { take, time, weight: 1.0, mask: None }
     }
 
-    /// Returns whether it alone determines the whole pose.
+    /// Returns whether this layer alone determines the whole pose.
     fn is_all(&self) -> bool {
         self.weight >= 1.0 && self.mask.is_none()
     }
 }
 
-// Deriving them would require the same traits of `T`.
+// Deriving `Clone` and `Copy` would require them of `T`.
 impl<T> Clone for Playing<'_, T> {
     fn clone(&self) -> Self {
         *self

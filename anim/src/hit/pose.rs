@@ -270,7 +270,8 @@ impl HitPose {
     }
 }
 
-/// Returns the reciprocal of each number; of zero a number so large that only a point exactly on the plane gives none.
+/// Returns the reciprocal of each number; for zero a huge finite number, whose product with any distance but zero is
+/// huge too.
 fn inverse(direction: DVec3) -> DVec3 {
     // Not infinite: its product with zero must stay zero.
     const LARGEST: f64 = 1e300;

@@ -199,7 +199,7 @@ impl HitTree {
         tree
     }
 
-    /// Adds the parts of the inner nodes; those of the leaves exist.
+    /// Adds the parts of the inner nodes; the parts of the leaves exist already.
     fn add_inner(&mut self, builder: &mut ReachBuilder) {
         self.parts_of = vec![(MIXED, 0, 0); self.parts.nodes.len()];
         // Children come after their parents.

@@ -248,7 +248,8 @@ impl<'a> KeySearch<'a> {
         interpolation == Interpolation::Closest
     }
 
-    /// Returns whether the column may have a key here, with the others as they are now.
+    /// Returns whether every tolerance is kept on the frame of `key` if the column has that key and the other channels
+    /// stay as they are.
     pub(super) fn can_have_key(&mut self, column: usize, key: usize) -> bool {
         let (frame, on_key) = self.on_key(column, key);
         let Some(pose) = self.changed_pose(column, on_key, frame) else { return true };

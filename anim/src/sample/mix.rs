@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn slerp_has_no_step_where_it_changes_to_a_straight_line() {
+    fn slerp_is_continuous_where_it_changes_to_linear_interpolation() {
         let a = Quat::from_rotation_x(0.3);
         for angle in [0.000_1_f32, 0.001, 0.001_9, 0.002, 0.002_1, 0.003, 0.01] {
             let b = Quat::from_rotation_x(0.3 + angle);

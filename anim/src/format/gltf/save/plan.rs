@@ -241,7 +241,7 @@ fn write_numbers(
     Ok(accessors.into_iter().flatten().collect())
 }
 
-/// Returns the accessors that animations will still refer to without having written them.
+/// Returns the accessors that animations will still refer to although this save does not write them.
 fn pinned(document: &SourceDocument<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
     let mut pinned = HashSet::new();
     for take in takes {
