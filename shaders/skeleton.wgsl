@@ -17,7 +17,7 @@ struct Bone {
     @location(6) state: u32,
     // Unit vector across the bone.
     @location(7) side: vec3f,
-    // Opacity: 1 for a bone that is a joint of a skin, less for any other node of the skeleton.
+    // Opacity: 1 for a bone that moves a mesh, less for any other.
     @location(8) strength: f32,
 }
 

@@ -38,8 +38,8 @@ impl Cycle {
 
     /// Returns the cycle with marks at `times` (seconds, in the time of the take's keys).
     ///
-    /// The marks are sorted. Marks outside the cycle are left out, and so is a second one at the same time; one at the
-    /// end is the same as one at the start. Where none is left, the start is the only one.
+    /// The marks are sorted. Marks outside the cycle are left out, and so is a second mark at the same time; a mark at
+    /// the end is the same as a mark at the start. If no mark is left, the start is the only mark.
     pub fn with_marks(mut self, times: impl IntoIterator<Item = f32>) -> Self {
         let length = self.length;
         let inside = times.into_iter().map(|time| time - self.start);
@@ -65,7 +65,7 @@ impl Cycle {
         self.length
     }
 
-    /// Returns the number of marks; without any it is 1, the start.
+    /// Returns the number of marks; 1 for a cycle without marks, whose only mark is its start.
     pub fn marks(&self) -> usize {
         self.marks.len()
     }

@@ -148,9 +148,9 @@ fn blend_shares(shares: impl Iterator<Item = Share> + Clone) -> Option<Transform
     })
 }
 
-/// Returns whether the hemisphere of `a` is preferred to that of `b`: the larger share; of equal ones the rotation
-/// whose numbers, in the form with `w ≥ 0`, are larger. Any criterion would do that does not depend on the order of the
-/// layers.
+/// Returns whether the hemisphere of `a` is preferred to that of `b`: the one with the larger share; if the shares are
+/// equal, the one whose rotation, in the form with `w ≥ 0`, has the larger numbers. Any criterion would do that does
+/// not depend on the order of the layers.
 fn leads(a: &Share, b: &Share) -> bool {
     let upper = |rotation: Quat| if rotation.w < 0.0 { -rotation } else { rotation };
     let numbers = |share: &Share| {

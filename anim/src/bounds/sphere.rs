@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 pub struct Sphere {
     /// The center.
     pub center: Vec3,
-    /// Not negative; at most the largest f32.
+    /// The radius: not negative, at most the largest `f32`.
     pub radius: f32,
 }
 

@@ -22,7 +22,7 @@ use glam::{Mat4, Quat};
 /// differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Peak {
-    /// Never negative, never NaN.
+    /// The largest value; never negative, never NaN.
     pub value: f32,
     /// Seconds.
     pub time: f32,
@@ -54,7 +54,7 @@ pub struct BoneDifference {
 /// The difference of two takes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TakeDifference {
-    /// One for each pair of bones, in the order of the first skeleton.
+    /// The difference of each pair of bones, in the order of the first skeleton.
     pub bones: Vec<BoneDifference>,
     /// The largest difference of a morph weight.
     pub weight: Peak,

@@ -9,7 +9,7 @@ pub const LONGEST_GAP: f32 = 1.0 / 120.0;
 /// not enough, key times are left out evenly.
 pub const MOST_SAMPLES: usize = 50_000_000;
 
-/// Returns the times at which takes with `bones` bones are compared, ascending, without repetition; one at least.
+/// Returns the times at which takes with `bones` bones are compared, ascending, without repetition; at least one.
 pub fn sample_times(first: &Take, second: &Take, bones: usize) -> Vec<f32> {
     let mut keys = Vec::new();
     for take in [first, second] {

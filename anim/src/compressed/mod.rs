@@ -99,7 +99,7 @@
 //!                               step = extent ext / 255 / (2^bits - 1), rounded up to the 16 highest bits of a float
 //! ```
 //!
-//! In the only segment of a take place is 0 and ext 255; with no bits, 127 and 255.
+//! If a take has only one segment, place is 0 and ext is 255; for a component without bits, they are 127 and 255.
 //!
 //! # Figures
 //!

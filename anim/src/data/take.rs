@@ -75,7 +75,7 @@ pub struct Take {
     pub start: f32,
     /// Seconds from the first to the last key of any channel; zero for a single pose.
     pub length: f32,
-    /// One per bone, in bone order; a bone that does not move has an empty track.
+    /// One track per bone, in bone order; a bone that does not move has an empty track.
     pub tracks: Vec<Track>,
     /// Morph weights, only for meshes with animated weights.
     pub morphs: Vec<MorphTrack>,

@@ -108,7 +108,7 @@ pub(super) fn chain(pose: &SampledPose<'_>, ends: &[BoneIndex]) -> Vec<BoneStep>
     wanted.map(|(bone, _)| step(pose, bone)).collect()
 }
 
-/// Returns the parent as the formulas use it: one that does not come before its child is ignored.
+/// Returns the parent as the formulas use it: a parent that does not come before its child is ignored.
 fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
     skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
 }

@@ -43,7 +43,7 @@ pub struct VertexResult {
     pub final_normal: Option<Vec3>,
 }
 
-/// The keys of the track that animates morph weights; one time column serves all targets.
+/// The keys of the track that animates morph weights; all targets share its key times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MorphKeys {
     /// Number of keys of the track.

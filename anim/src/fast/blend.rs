@@ -11,8 +11,8 @@
 //! rotation    = Σ share_i * ±rotation_i, divided by its length
 //! ```
 //!
-//! `q` and `-q` are the same rotation: each is moved to the hemisphere of the one with the largest share, of equal ones
-//! the first, the base before all. So the sum cannot vanish.
+//! `q` and `-q` are the same rotation: each rotation is moved to the hemisphere of the one with the largest share. Of
+//! equal shares the first counts, and the base comes before all layers. So the sum cannot vanish.
 
 use super::mask::{LaneMask, usable};
 use super::pose::PoseBlock;

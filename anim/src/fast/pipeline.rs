@@ -94,8 +94,8 @@ pub fn pose_character<T: Playable>(
 
 /// Computes the final poses of many characters of one rig: those of character `c` from `c * binding.joints()` on.
 ///
-/// Each of `characters` is the layers that one of them plays. Characters past the end of `out` are left out. Otherwise
-/// as [`pose_character`]. Allocates nothing.
+/// Each item of `characters` is the list of layers that one character plays. Characters past the end of `out` are left
+/// out. Otherwise as [`pose_character`]. Allocates nothing.
 pub fn pose_crowd<'a, T: Playable + 'a>(
     level: SimdLevel,
     rig: &Rig,

@@ -45,9 +45,9 @@ pub struct HitLeaf {
 /// neither be too small nor belong to an older version of the model.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HitTreeParts {
-    /// A tree; the first is the root. Empty without triangles.
+    /// The nodes of the tree; the first is the root. Empty without triangles.
     pub nodes: Vec<HitNode>,
-    /// Each belongs to one node.
+    /// The leaves; each belongs to one node.
     pub leaves: Vec<HitLeaf>,
     /// Triangles of the primitives, grouped by leaf; every triangle of every instance once.
     pub triangles: Vec<u32>,

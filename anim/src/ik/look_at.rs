@@ -112,8 +112,8 @@ pub fn look_at(
     Ok(Reach { distance, iterations: 1 })
 }
 
-/// Returns to-root of the parent of `bone`, from that of the parent of a bone above it; of the first bone: from
-/// `to_root`.
+/// Returns the to-root matrix of the parent of `bone`. `above` is an ancestor of `bone` and the to-root matrix of that
+/// ancestor's parent; if it is `None`, the result is read from `to_root`.
 fn space_of(
     skeleton: &Skeleton,
     to_root: &[Mat4],

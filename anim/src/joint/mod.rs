@@ -62,7 +62,7 @@ pub enum JointLimit {
 /// An allowed rotation, and its distance from the given one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clamped {
-    /// In the parent's space, unit length.
+    /// The allowed rotation, in the parent's space, of unit length.
     pub rotation: Quat,
     /// The angle between the given rotation and `rotation`: radians, 0..=π; exactly 0 where it was allowed.
     pub by: f32,

@@ -19,11 +19,11 @@
 //! times, values and interpolation (of interpolated rotations the sign may differ, which means the same rotation), so
 //! that it can be edited and reduced again.
 //!
-//! * A channel whose value is constant keeps one key; none, where that is the rest value.
-//! * Step, linear and closest channels keep their interpolation; with closest, only a key between two of the
-//!   same value is removed, because the time of a change is between frames. Cubic splines stay cubic splines: a
-//!   remaining key keeps its tangents, so a spline loses keys only where its neighbors' tangents already describe the
-//!   same curve; none is resampled.
+//! * A channel whose value is constant keeps one key, or no key if that value is the rest value.
+//! * Step, linear and closest channels keep their interpolation. A closest channel loses a key only if both neighbors
+//!   have the same value as the key, because its changes happen between frames. Cubic splines stay cubic splines and
+//!   are not resampled: a remaining key keeps its tangents, so a spline loses a key only if the tangents of the key's
+//!   neighbors already describe the same curve.
 //! * One channel keeps a key at the start and one at the end, so that the take is as long as before.
 //! * Weights of morph targets are not changed.
 //!

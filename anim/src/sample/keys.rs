@@ -13,7 +13,7 @@
 pub struct Keys {
     /// The last key at or before the time; the first key when the time is before all.
     pub before: usize,
-    /// The next one; the same as `before` outside the keys.
+    /// The next key; the same key as `before` where the time is outside all keys.
     pub after: usize,
     /// Fraction of the time from `before` to `after`, 0 ≤ mix ≤ 1; 0 on a key and outside the keys.
     pub mix: f32,

@@ -26,7 +26,7 @@ const NEARLY_PARALLEL: f32 = 0.999_999_5;
 ///   the axis is that of `b * a⁻¹`.
 /// * Nearly parallel rotations: linear interpolation, see [`nlerp`].
 ///
-/// Both of unit length; the result is normalized.
+/// Both rotations must have unit length; the result is normalized.
 pub fn slerp(a: Quat, b: Quat, mix: f32) -> Quat {
     let cosine = a.dot(b);
     let b = if cosine < 0.0 { -b } else { b };
