@@ -93,7 +93,7 @@ impl Cycle {
         if !inside.is_finite() {
             return 0.0;
         }
-        // Before the first mark the last mark of the previous cycle counts.
+        // A time before the first mark comes after the last mark of the previous cycle.
         let passed = self.marks.partition_point(|&mark| f64::from(mark) <= inside);
         let (mark, since) = match passed.checked_sub(1) {
             Some(mark) => (mark, inside - f64::from(self.marks[mark])),

@@ -133,7 +133,7 @@ impl Reaches {
             }
         }
         if added > 0 {
-            // Each sum may be rounded once more; both the box and the terms added are within these sizes.
+            // Each addition may round once more. The absolute coordinates of the grown box bound all numbers involved.
             let slack = widening(extent.min.abs().max(extent.max.abs())) * (added as f32 + 1.0);
             (extent.min, extent.max) = (extent.min - slack, extent.max + slack);
         }
@@ -180,7 +180,7 @@ fn corner(extent: &AxisBox, matrix: &Mat4, center: Vec3) -> f64 {
     let from = matrix.transform_point3(middle).as_dvec3() - center.as_dvec3();
     let mut furthest = 0.0_f64;
     for corner in [x + y + z, x + y - z, x - y + z, y + z - x] {
-        // Opposite corners together.
+        // `from + corner` and `from - corner` are opposite corners.
         furthest = furthest.max((from + corner).length_squared()).max((from - corner).length_squared());
     }
     let sizes = (middle.abs() + extent.half()).as_dvec3();

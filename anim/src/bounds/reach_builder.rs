@@ -45,7 +45,8 @@ impl ReachBuilder {
             positive: [f32::INFINITY, 0.0],
             negative: [f32::INFINITY, 0.0],
         };
-        // Boxes along both kinds of axes; the smaller is kept.
+        // For each joint, a box along the axes of its bone; `extent` is the one along the axes of bind space. The
+        // smaller of the two is kept.
         let mut turned: Vec<AxisBox> = Vec::new();
         for vertex in vertices.clone() {
             let Some(&stored) = primitive.vertices.positions.get(vertex) else { continue };

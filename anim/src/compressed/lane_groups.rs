@@ -67,7 +67,7 @@ fn arranged(bones: impl Iterator<Item = usize>, (group, lane): (usize, usize)) -
     let count = |block: &LaneGroup| block.bones.iter().filter(|&&bone| bone != NONE).count();
     let mut order: Vec<usize> = (0..blocks.len()).collect();
     order.sort_by_key(|&at| count(&blocks[at]));
-    // Searches the number of blocks, beginning with the emptiest, whose tracks share groups.
+    // Finds out how many of the blocks, from the emptiest on, should share groups so that the cost is least.
     let (mut lanes, mut best, mut least) = (0, 0, blocks.len() * group);
     for (index, &at) in order.iter().enumerate() {
         lanes += count(&blocks[at]);

@@ -86,7 +86,7 @@ impl Kernel for Solve<'_> {
         let Some(middle) = matrices.get(limb.middle as usize) else { return false };
         let Some(end) = matrices.get(limb.end as usize) else { return false };
         let mut turns = solve(limb, target.into(), [root, middle, end]);
-        // Written so that NaN counts as not full.
+        // NaN fails the comparison, and so does not count as full weight.
         let is_whole = limb.weight >= 1.0;
         if !is_whole {
             turns = turns.map(|turn| shortened(turn, limb.weight));

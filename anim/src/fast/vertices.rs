@@ -176,7 +176,8 @@ impl<const MORPHED: bool> Kernel for SkinKernel<'_, MORPHED> {
     #[inline(always)]
     fn run<S: Simd>(self) {
         if self.vertices.is_narrow && self.positions.len() >= TABLE_THRESHOLD {
-            // Opaque to the compiler, so that rows are written whole and not byte by byte through a call.
+            // `black_box` hides the value from the compiler, which then copies whole rows instead of calling a function
+            // that fills bytes.
             let mut table = [black_box(PADDED_IDENTITY); NARROW];
             for (row, matrix) in table.iter_mut().zip(self.finals) {
                 row.0[..12].copy_from_slice(matrix);

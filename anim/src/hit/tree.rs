@@ -202,7 +202,7 @@ impl HitTree {
     /// Adds the parts of the inner nodes; the parts of the leaves exist already.
     fn add_inner(&mut self, builder: &mut ReachBuilder) {
         self.parts_of = vec![(MIXED, 0, 0); self.parts.nodes.len()];
-        // Children come after their parents.
+        // In reverse, because children come after their parents.
         for (index, node) in self.parts.nodes.iter().enumerate().rev() {
             self.parts_of[index] = match *node {
                 HitNode::Leaf(leaf) => {

@@ -159,7 +159,7 @@ impl Draft {
                 reason: "the animation has no such list".to_owned(),
             }),
         };
-        // Only the new members of the animation itself.
+        // Collects the new members of the animation object itself, such as its name.
         let mut members = ListEdit::default();
         let spot = style.spot(json, Some(animation.id), 3);
         if let Some(name) = &self.name {

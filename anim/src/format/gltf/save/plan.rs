@@ -334,7 +334,7 @@ fn are_bones(opened: &ModelData, moved: &HashSet<u32>) -> Vec<bool> {
             *is = true;
         }
     }
-    // Parents come before their children.
+    // In reverse, because parents come before their children.
     for bone in (0..bones.len()).rev() {
         if let Some(parent) = bones[bone].parent.filter(|_| are[bone])
             && let Some(is) = are.get_mut(parent as usize)
