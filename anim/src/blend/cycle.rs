@@ -107,7 +107,8 @@ impl Cycle {
         wrapped((mark as f64 + fraction) / self.marks.len() as f64)
     }
 
-    /// Returns the seconds from mark `mark` to the next one, which after the last is the first of the next cycle.
+    /// Returns the seconds from mark number `mark` to the next mark; the last mark is followed by the first mark of the
+    /// next cycle.
     pub(super) fn seconds_after(&self, mark: usize) -> f64 {
         let at = |mark: usize| self.marks.get(mark).copied().map(f64::from);
         let here = at(mark).unwrap_or(0.0);

@@ -84,7 +84,8 @@ impl LaneLayout {
 const WORD: [usize; 3] = [0, 0, 1];
 
 impl HeadBlock {
-    /// Creates a block of lanes in the order of their bits; lanes without numbers may be anywhere.
+    /// Creates a block of `lanes`, which are in the order of their bits, except that lanes without numbers may be
+    /// anywhere.
     pub(super) fn new(lanes: &[LaneLayout; LANES], wide: &mut Vec<WideBlock>) -> Self {
         let mut block = Self {
             start: [0, 1, 2].map(|axis| lanes.map(|lane| lane.start[axis])),

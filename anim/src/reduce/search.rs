@@ -320,8 +320,8 @@ fn columns(take: &Take, bones: usize, times: &[f32]) -> Vec<ChannelKeys> {
     columns
 }
 
-/// Returns the number of keys of the columns on the first and on the last frame; the maximum, where morph weights have
-/// a key there.
+/// Returns the number of keys of the columns on the first and on the last frame; `usize::MAX` for an end on which morph
+/// weights have a key.
 fn ends(take: &Take, columns: &[ChannelKeys], frames: usize) -> [usize; 2] {
     [0, frames - 1].map(|end| {
         let on_end = |column: &&ChannelKeys| column.frames.iter().any(|&frame| frame as usize == end);
