@@ -17,7 +17,7 @@ struct Bone {
     @location(6) state: u32,
     // Unit vector across the bone.
     @location(7) side: vec3f,
-    // Opacity: 1 for a bone, less for a mere link.
+    // Opacity: 1 for a bone that moves a mesh, less for any other.
     @location(8) strength: f32,
 }
 

@@ -25,7 +25,7 @@ pub(crate) fn show(file: &str, name: &str, time: f32) -> Result<(), Box<dyn Erro
     let explanation = explain(&model, take, time, ExplainTarget::Bone(bone))?;
     println!("{explanation}");
 
-    // The same as data: the text need not be parsed.
+    // The same steps are also data, so that the text need not be parsed.
     for step in &explanation.bones {
         let keys = step.rotation.keys.as_ref();
         let mix = keys.map_or_else(|| "no keys".to_owned(), |keys| format!("mix {}", keys.mix));

@@ -41,7 +41,7 @@ pub(crate) fn main() {
             None => println!("{time:.1} s: missed"),
         }
 
-        // The point nearest to the ground below the head.
+        // The point of the surface that is nearest to a point on the ground below the head.
         let paw = pose.sphere(&evaluator, Vec3::new(0.0, 0.0, 40.0), 30.0);
         println!("       nearest to the ground: {:?}", paw.map(|hit| hit.distance));
     }

@@ -8,7 +8,8 @@ use glam::{Quat, Vec3};
 
 /// Interpolation for `sample_channel_with`, for any [`Value`]: translations, rotations and scales.
 ///
-/// The tangent at a key is the slope from the key before it to the key after it; at the ends, to the key itself.
+/// The tangent at a key is the slope from the key before it to the key after it; at the first and the last key, the key
+/// itself replaces the missing neighbor.
 fn smooth<T: Value>(channel: &Channel<T>, between: Between<T>, slope: impl Fn(T, T, f32) -> T) -> T {
     let Between { before, after, seconds, keys } = between;
     let last = channel.len() - 1;

@@ -14,7 +14,7 @@ pub(crate) const FOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let file = arguments.next().unwrap_or_else(|| FOX.to_owned());
-    // The unit of the fox is the centimeter; glTF requires meters, which are 1000.
+    // The fox is modeled in centimeters, which are 10 mm. glTF requires meters, which are 1000 mm.
     show(&file, arguments.next().unwrap_or_else(|| "10".to_owned()).parse()?)
 }
 

@@ -12,8 +12,9 @@ pub(crate) struct Axes {
 }
 
 impl Axes {
-    /// Returns the axes of the space that `matrix` maps from: x keeps its direction, y its plane with x (Gram–Schmidt),
-    /// z its side. `None` where an axis has no length or is not finite, or all are in one plane.
+    /// Returns the axes of the space that `matrix` maps from: x keeps its direction, y stays in its plane with x
+    /// (Gram–Schmidt), and z stays on its side of that plane. `None` where an axis has no length or is not finite, or
+    /// where all three are in one plane.
     pub(crate) fn of(matrix: Mat4) -> Option<Self> {
         // Lengths first: squares of very small or large numbers leave the range of f32.
         let unit = |axis: Vec3| (axis / axis.abs().max_element()).try_normalize();
@@ -48,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_are_taken_off_and_a_mirror_is_noticed() {
+    fn axes_have_no_scale_and_a_mirrored_matrix_is_detected() {
         let turn = Quat::from_xyzw(0.3, -0.5, 0.1, 0.8).normalize();
         for scale in [Vec3::ONE, Vec3::new(2.0, 1e-20, 1e19), Vec3::splat(1e-30)] {
             let matrix = Mat4::from_scale_rotation_translation(scale, turn, Vec3::ONE);
@@ -61,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_without_length_or_in_one_plane_are_none() {
+    fn matrices_with_an_axis_without_length_or_axes_in_one_plane_have_no_axes() {
         let matrix = |x, y, z| Mat4::from_mat3(Mat3::from_cols(x, y, z));
         assert!(Axes::of(Mat4::ZERO).is_none());
         assert!(Axes::of(Mat4::NAN).is_none());

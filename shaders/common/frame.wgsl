@@ -4,12 +4,13 @@
 struct Frame {
     clip_from_world: mat4x4f,
     view_from_world: mat4x4f,
-    // xyz: position of the camera, w = 1 for perspective; for orthographic views xyz points towards the viewer and w
-    // = 0.
+    // Perspective: xyz is the position of the camera, w is 1. Orthographic: xyz is the unit vector towards the viewer,
+    // w is 0.
     eye: vec4f,
     // Width and height of the viewport in pixels, and their reciprocals.
     size: vec4f,
-    // Cosine and sine of the camera's yaw: the studio's lights follow the viewer. z: 0 material, 1 clay, 2 unlit.
+    // x and y: cosine and sine of the camera's yaw, because the studio's lights follow the viewer. z: 0 material,
+    // 1 clay, 2 unlit.
     studio: vec4f,
     // Linear RGB; alpha 0 makes the background transparent.
     background_top: vec4f,

@@ -37,7 +37,7 @@ fn a_uniform_pose() -> impl Strategy<Value = Transform> {
 
 proptest! {
     #[test]
-    fn weight_zero_and_adding_nothing_leave_the_pose(
+    fn weight_zero_and_adding_the_identity_leave_the_pose_unchanged(
         pose in prop::collection::vec(a_pose(), 3), by in a_pose(), space in 0_usize..3,
     ) {
         let (skeleton, space) = (chain(3), [Space::Bone, Space::Parent, Space::Root][space]);
@@ -50,7 +50,7 @@ proptest! {
     }
 
     #[test]
-    fn a_turn_in_the_scene_turns_the_bones_matrix_from_outside(
+    fn a_rotation_in_root_space_turns_the_bone_about_its_origin_and_the_axes_of_the_scene(
         pose in prop::collection::vec(a_uniform_pose(), 4), turn in a_rotation(), by in prop::array::uniform3(-1.0_f32..1.0),
     ) {
         let skeleton = chain(4);
@@ -67,7 +67,7 @@ proptest! {
     }
 
     #[test]
-    fn replacing_in_the_scene_puts_the_bone_there(
+    fn a_replacement_in_root_space_gives_the_bone_that_pose_in_the_scene(
         pose in prop::collection::vec(a_uniform_pose(), 3), there in a_uniform_pose(),
     ) {
         let skeleton = chain(3);
@@ -114,7 +114,7 @@ fn aiming_while_running_turns_the_spine_and_its_descendants() {
 }
 
 #[test]
-fn the_three_spaces_turn_about_three_axes() {
+fn the_same_rotation_turns_about_a_different_axis_in_each_space() {
     let skeleton = chain(2);
     let tilted = Quat::from_rotation_x(0.7);
     let running =

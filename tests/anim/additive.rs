@@ -13,7 +13,9 @@ const REST: Transform = Transform::IDENTITY;
 
 proptest! {
     #[test]
-    fn additive_zero_is_identity(base in a_pose(), other in a_pose(), weight in 0.0_f32..5.0) {
+    fn weight_zero_and_an_identity_difference_keep_the_base(
+        base in a_pose(), other in a_pose(), weight in 0.0_f32..5.0,
+    ) {
         for none in [0.0, -0.0, -weight - 1e-9, f32::NAN] {
             prop_assert_eq!(bits(add_to(base, other, none)), bits(base));
         }
@@ -26,7 +28,7 @@ proptest! {
     #[test]
     fn a_difference_added_to_its_reference_is_the_pose(pose in a_pose(), reference in a_pose_with_size()) {
         let got = add_to(reference, difference_of(pose, reference), 1.0);
-        // Relative to the larger of the two, where rounding happens.
+        // Relative to the longer of the two translations, which determines the rounding error.
         let size = pose.translation.length().max(reference.translation.length()).max(1.0);
         prop_assert!(got.translation.distance(pose.translation) < 1e-6 * size, "{got:?}");
         prop_assert!(angle_between(got.rotation, pose.rotation) < 1e-6, "{got:?}");
@@ -34,7 +36,7 @@ proptest! {
     }
 
     #[test]
-    fn half_a_difference_twice_is_the_whole(pose in a_pose(), reference in a_pose()) {
+    fn adding_half_a_difference_twice_is_adding_it_once(pose in a_pose(), reference in a_pose()) {
         let more = difference_of(pose, reference);
         let twice = add_to(add_to(reference, more, 0.5), more, 0.5);
         let once = add_to(reference, more, 1.0);
@@ -78,7 +80,7 @@ fn translations_are_added_and_scales_multiplied() {
 }
 
 #[test]
-fn a_scale_of_zero_adds_no_factor() {
+fn the_factor_from_a_reference_scale_of_zero_is_one() {
     let flat = Transform { scale: Vec3::new(0.0, 1.0, -0.0), ..REST };
     assert_eq!(difference_of(REST, flat).scale, Vec3::ONE);
     assert_eq!(difference_of(flat, REST).scale, Vec3::new(0.0, 1.0, 0.0));

@@ -20,7 +20,7 @@ const RELATIVE: f64 = 1e-4;
 #[derive(Default)]
 struct Comparison {
     numbers: usize,
-    /// Largest difference in units of the allowed one; at most 1 is agreement.
+    /// Largest difference as a multiple of the allowed difference; the results agree if it is at most 1.
     worst: f64,
     place: String,
 }

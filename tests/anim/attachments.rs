@@ -42,7 +42,7 @@ proptest! {
     }
 
     #[test]
-    fn the_handle_lies_in_the_socket(socket in a_pose(), handle in a_pose_with_size()) {
+    fn the_handle_of_an_attached_object_is_at_its_socket(socket in a_pose(), handle in a_pose_with_size()) {
         let root = attached_root(socket.to_matrix(), handle.to_matrix());
         prop_assert!((root * handle.to_matrix()).abs_diff_eq(socket.to_matrix(), 0.02));
     }

@@ -73,7 +73,7 @@ fn faults_of_error(error: &ImportError, expected: &str) -> Vec<String> {
 }
 
 #[test]
-fn every_bad_file_is_answered_as_its_index_says() {
+fn every_bad_file_has_the_result_that_the_index_expects() {
     let folder = data().join("bad");
     let index = std::fs::read_to_string(folder.join("INDEX.tsv")).unwrap();
     let (mut files, mut failures) = (0, Vec::new());
@@ -82,7 +82,7 @@ fn every_bad_file_is_answered_as_its_index_says() {
         let (file, _, expected) = (columns.next().unwrap(), columns.next().unwrap(), columns.next().unwrap());
         files += 1;
         let (path, expected) = (folder.join(file), expected.to_owned());
-        // A small stack, so that no recursion can be as deep as a file specifies.
+        // A small stack, which a recursion as deep as a file specifies would overflow.
         let thread =
             std::thread::Builder::new().stack_size(256 << 10).spawn(move || faults_of(path, &expected));
         match thread.unwrap().join() {

@@ -86,7 +86,9 @@ proptest! {
     }
 
     #[test]
-    fn weights_scale_out(poses in some_layers(), factor in 1.0_f32..1e4, doublings in 0_i32..60) {
+    fn a_common_factor_of_all_weights_changes_nothing(
+        poses in some_layers(), factor in 1.0_f32..1e4, doublings in 0_i32..60,
+    ) {
         // Scaled to a sum of at least 1, so that the base has no share.
         let sum: f32 = poses.iter().map(|(_, weight)| weight).sum();
         let up = if sum < 1.0 { 1.01 / sum } else { 1.0 };

@@ -152,7 +152,7 @@ fn each_broken_model_is_reported_by_its_rule_alone() {
 fn every_rule_of_the_list_is_tested_here_and_has_a_description() {
     for (index, rule) in RULES.iter().enumerate() {
         assert!(BREAKS.iter().any(|(id, _)| *id == rule.id), "{} is not tested", rule.id);
-        assert!(RULES[..index].iter().all(|other| other.id != rule.id), "{} stands twice", rule.id);
+        assert!(RULES[..index].iter().all(|other| other.id != rule.id), "{} is listed twice", rule.id);
         assert!(rule.meaning.ends_with('.') && rule.meaning.len() > 20, "{}", rule.id);
     }
     assert!(BREAKS.iter().all(|(id, _)| RULES.iter().any(|rule| rule.id == *id)));

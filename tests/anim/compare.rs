@@ -25,7 +25,7 @@ fn turn(bones: usize, angle: f32) -> Take {
 }
 
 #[test]
-fn equal_takes_do_not_differ_to_the_bit() {
+fn equal_takes_have_differences_of_exactly_zero() {
     let skeleton = skeleton(&["root", "arm", "hand"]);
     let take = turn(3, 1.0);
     let difference = compare_takes((&skeleton, &take), (&skeleton, &take));
@@ -51,7 +51,7 @@ fn a_turned_parent_moves_its_children_along_the_chord_and_turns_them_by_the_angl
 }
 
 #[test]
-fn a_small_angle_keeps_its_digits() {
+fn a_small_angle_does_not_vanish_by_rounding() {
     let skeleton = skeleton(&["root"]);
     let difference = compare_takes((&skeleton, &turn(1, 0.0)), (&skeleton, &turn(1, 1e-5)));
     let angle = difference.bones[0].angle.value;

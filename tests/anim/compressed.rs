@@ -30,7 +30,7 @@ fn fox() -> ModelData {
     load(data().join("gltf/Fox.glb"))
 }
 
-/// Fox is about 80 units high: roughly millimeters times ten.
+/// The fox is about 80 units high, so a unit is roughly a centimeter: 0.2 mm at 5 cm.
 const FOX: Exactness = Exactness { tolerance: 0.02, shell: 5.0 };
 
 fn with(everywhere: Exactness) -> CompressionSettings {

@@ -73,7 +73,7 @@ proptest! {
     }
 
     #[test]
-    fn a_phase_and_its_time_lead_to_each_other(
+    fn the_time_of_a_phase_converted_back_to_a_phase_gives_the_same_time(
         start in -5.0_f32..5.0, length in 0.1_f32..9.0, times in prop::collection::vec(0.0_f32..9.0, 0..6),
         phase in 0.0_f64..1.0,
     ) {
@@ -128,8 +128,8 @@ fn at_half_weight_a_round_takes_the_mean_of_both_lengths() {
 }
 
 #[test]
-fn marks_meet_marks() {
-    // Steps of 0.3 and 0.7 s against 0.5 and 0.5 s.
+fn both_takes_reach_corresponding_marks_at_the_same_phase() {
+    // From mark to mark, one take needs 0.3 s and 0.7 s, the other 0.5 s and 0.5 s.
     let walk = Cycle::new(0.0, 1.0).with_marks([0.1, 0.4]);
     let run = Cycle::new(0.0, 1.0).with_marks([0.5, 0.0]);
     let fade = CrossFade::new(walk, run, 1.0, FadeCurve::Linear).starting_at(0.1);
@@ -151,7 +151,7 @@ fn different_numbers_of_marks_are_ignored() {
 }
 
 #[test]
-fn the_size_of_the_steps_hardly_matters() {
+fn the_phase_hardly_depends_on_the_size_of_the_time_steps() {
     let fade = || {
         let walk = Cycle::new(0.0, 1.1).with_marks([0.1, 0.6]);
         CrossFade::new(walk, Cycle::new(0.0, 0.6).with_marks([0.0, 0.35]), 0.5, FadeCurve::SmoothStep)
@@ -167,7 +167,8 @@ fn the_size_of_the_steps_hardly_matters() {
     for steps in [30, 60, 144] {
         assert!((run(steps) - exact).abs() < 1e-3, "{steps}: {} {exact}", run(steps));
     }
-    // One step over the end of the fade: the rest at the speed of the second take, as with many steps.
+    // A step that ends after the fade: the part after the fade is played at the speed of the second take, as with many
+    // steps.
     assert!((run(2) - exact).abs() < 0.05, "{} {exact}", run(2));
 }
 

@@ -24,7 +24,7 @@
 //! | the same joint twice in a vertex | weights add up | here; importer merges |
 //! | offset that is not finite or missing | identity | here; importer warns |
 //! | huge translation | finite, or the position of the parent | here; importer warns |
-//! | frame rate zero, NaN, huge | importers of formats that have one | theirs |
+//! | frame rate zero, NaN, huge | defined by each importer of a format that has a frame rate | in its tests |
 //! | parent after its child, joint without bone | counts as none | here; importer refuses |
 
 use crate::support::{about_z, along_x, angle_between, animation_data, bone, take};

@@ -227,7 +227,7 @@ fn influence(joint: u16, weight: f32) -> Influence {
 }
 
 #[test]
-fn weights_are_cleaned() {
+fn invalid_weights_are_removed_duplicate_joints_merged_and_sums_normalized_with_warnings() {
     let none = influence(0, 0.0);
     let (found, warnings) = weighted([0.25, 0.75, 0.0, 0.0]);
     assert_eq!(found, [influence(1, 0.75), influence(0, 0.25), none, none]);

@@ -59,7 +59,7 @@ fn a_model_is_checked() {
 }
 
 #[test]
-fn limbs_reach() {
+fn limbs_and_chains_reach_their_targets() {
     reach_with_ik::main();
 }
 

@@ -87,7 +87,7 @@ fn a_fade_out_ends_with_the_take() {
 }
 
 #[test]
-fn fades_longer_than_the_take_share_it() {
+fn fades_that_are_together_longer_than_the_take_are_shortened_in_proportion() {
     let stand = Playback::new(0.0, 0.0, true);
     // 3 s and 1 s over a take of 1 s: three quarters in, one quarter out.
     let mut shot = OneShot::new(stand, Playback::new(0.0, 1.0, false), 3.0, 1.0, FadeCurve::Linear);
@@ -120,7 +120,7 @@ fn a_fade_continues_from_another_fade() {
 }
 
 #[test]
-fn the_size_of_the_steps_does_not_matter() {
+fn the_result_does_not_depend_on_the_size_of_the_time_steps() {
     let run = |steps: usize| {
         let shot = Playback::new(0.0, 2.0, false);
         let mut fade = FreeFade::new(Playback::new(0.0, 0.3, true), shot, 1.5, FadeCurve::SmoothStep);

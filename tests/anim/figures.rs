@@ -19,7 +19,7 @@ fn every_table_of_the_readme_is_made_from_the_recorded_results() {
 }
 
 #[test]
-fn a_figure_that_was_not_measured_is_noticed() {
+fn a_figure_that_was_not_measured_disappears_when_the_tables_are_made_again() {
     let page = page();
     let marker = "<!-- table: sampling -->\n";
     let invented = page.replace(marker, &format!("{marker}| invented | 0.01 · 0.02 |\n"));
@@ -50,7 +50,7 @@ fn no_measured_figure_is_typed_outside_the_tables() {
 }
 
 #[test]
-fn results_that_are_written_read_back() {
+fn results_that_were_written_are_read_back_unchanged() {
     let figure = Figure::new("sample/pab/walk/forward", "avx2/compressed", "median", "ns/bone", 1.25);
     let results = Results {
         run: vec![("machine".to_owned(), "a processor, 4 cores: quiet".to_owned())],

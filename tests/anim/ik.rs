@@ -290,8 +290,8 @@ fn the_end_gets_the_requested_rotation() {
         assert!(solved(EndOrientation::TurnToRoot(wanted)).abs_diff_eq(turned, 1e-4));
         assert!(solved(EndOrientation::SetToRoot(wanted)).abs_diff_eq(Mat3::from_quat(wanted), 1e-4));
     }
-    // Under a mirroring parent the end is kept if it was kept, and a target rotation is the one that the matrix
-    // decomposes to.
+    // Under a mirroring parent, `KeepToRoot` still keeps the axes of the end; with `SetToRoot`, the rotation is the one
+    // that decomposing the end's matrix gives.
     for _ in 0..200 {
         let (skeleton, poses) = row(&mut random, 2, ParentScale::Mirrored);
         let old = matrices(&skeleton, &poses);

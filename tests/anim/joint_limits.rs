@@ -66,7 +66,7 @@ proptest! {
     }
 
     #[test]
-    fn it_says_by_how_much_it_turned_back(limit in a_limit(), turn in a_turn(), rest in a_turn()) {
+    fn the_reported_angle_is_that_between_given_and_clamped(limit in a_limit(), turn in a_turn(), rest in a_turn()) {
         let clamped = limit.clamp(turn, rest);
         prop_assert!((clamped.by - angle_between(turn, clamped.rotation)).abs() < 4e-6, "{clamped:?}");
         prop_assert!((0.0..=PI + 1e-6).contains(&clamped.by));
@@ -102,7 +102,7 @@ proptest! {
     }
 
     #[test]
-    fn what_a_ball_allows_points_into_its_cone(
+    fn a_rotation_clamped_by_a_ball_joint_is_within_its_cone_and_its_twist_range(
         turn in a_rotation(), halves in (0.05_f32..2.5, 0.05_f32..2.5), twist in (-1.0_f32..0.0, 0.0_f32..1.0),
     ) {
         let (axis, side) = (Vec3::Y, Vec3::X);
@@ -148,7 +148,7 @@ proptest! {
     }
 
     #[test]
-    fn the_mirrored_limit_does_the_mirrored_thing(
+    fn a_mirrored_limit_clamps_a_mirrored_rotation_to_the_mirrored_result(
         limit in a_limit(), turn in a_rotation(), rest in a_rotation(), normal in 0_usize..3,
     ) {
         let mirror = |rotation: Quat| match normal {

@@ -55,7 +55,7 @@ fn normal(primitive: &Primitive, corners: &[u32]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-/// Checks what holds for any number of steps.
+/// Checks the invariants of `progression` after different numbers of steps.
 fn is_sound(primitive: &Primitive, progression: &Progression, name: &str) {
     let steps = progression.steps();
     assert_eq!(after(progression, primitive, 0), primitive.indices, "{name}");
@@ -301,7 +301,7 @@ fn levels_of_the_fox_have_their_stated_error() {
 }
 
 #[test]
-fn every_file_gets_levels_and_no_level_is_worse_than_it_looks() {
+fn every_file_gets_levels_with_finite_errors_and_no_level_loses_a_primitive() {
     for path in model_files() {
         let name = path.file_name().unwrap().to_str().unwrap();
         let model = load(&path);

@@ -216,7 +216,7 @@ fn on_a_skeleton_with_another_rest_pose_bones_point_in_the_same_direction() {
 }
 
 #[test]
-fn bones_that_only_one_side_has_are_bridged() {
+fn a_bone_that_only_one_skeleton_has_does_not_disturb_the_poses_of_the_others() {
     let mut random = started(54);
     for round in 0..100 {
         let source = person(&mut random);

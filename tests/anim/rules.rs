@@ -9,9 +9,9 @@ use serde_json::json;
 
 /// How a file that breaks a rule is made.
 enum Bad {
-    /// By a change of the valid one.
+    /// By a change of the valid fixture.
     Edit(fn(&mut Fixture)),
-    /// From nothing.
+    /// As bytes that do not come from the fixture.
     Raw(fn() -> Vec<u8>),
 }
 

@@ -36,7 +36,7 @@ fn the_worked_example_mixes_keys_four_and_five_half_and_half() {
 }
 
 #[test]
-fn the_worked_example_by_the_other_two_methods() {
+fn the_worked_example_gives_the_preceding_or_the_closest_key_by_the_other_two_methods() {
     let mut track = worked_example();
     let bone = bone("only", None, Vec3::ZERO);
     track.translation.interpolation = Interpolation::Step;

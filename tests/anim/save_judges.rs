@@ -35,7 +35,7 @@ pub(crate) fn crate_has_the_same_result(before: &[u8], after: &[u8], name: &str)
     }
 }
 
-/// Edited files, each beside what it was made from.
+/// Returns edited files: name, bytes before the edit, bytes after it.
 fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
     let fixture = Fixture::new();
     let folder = data().join("gltf");

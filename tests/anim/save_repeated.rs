@@ -130,7 +130,7 @@ fn compacting_removes_only_unused_data() {
 }
 
 #[test]
-fn the_mark_alone_does_not_make_an_accessor_ours() {
+fn an_accessor_that_has_our_mark_but_not_our_form_is_not_overwritten() {
     // Everything in the file has the mark, and still nothing of it is overwritten.
     let mut fixture = Fixture::new();
     for list in ["accessors", "bufferViews"] {

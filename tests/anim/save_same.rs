@@ -51,7 +51,7 @@ fn text(pretty: bool) -> String {
 }
 
 #[test]
-fn odd_spellings_stay() {
+fn unusual_spellings_of_json_keep_their_bytes() {
     let plain = text(false);
     let pretty = text(true);
     let odd = [
@@ -103,7 +103,7 @@ fn odd_spellings_stay() {
 }
 
 #[test]
-fn odd_containers_stay() {
+fn unusual_containers_keep_their_bytes() {
     let fixture = Fixture::new();
     let json = serde_json::to_vec(&fixture.json).unwrap();
     let pad = |json: &[u8], with: &[u8]| {
@@ -136,7 +136,7 @@ fn odd_containers_stay() {
 }
 
 #[test]
-fn several_buffers_stay() {
+fn files_with_several_buffers_keep_their_bytes() {
     let fixture = Fixture::new();
     let beside = fixture.gltf_with_file();
     let name = fixture_bin_name(&beside);

@@ -210,7 +210,7 @@ impl Kernel for Near {
 
 proptest! {
     #[test]
-    fn eight_words_are_read_near_each_other_and_never_outside(
+    fn words_made_from_bytes_agree_with_scalar_results_and_no_byte_outside_is_read(
         bytes in prop::collection::vec(any::<u8>(), 0..90),
         at in prop_oneof![0_usize..100, Just(usize::MAX)],
         second in any::<u8>(),

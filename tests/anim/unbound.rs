@@ -71,7 +71,8 @@ fn the_motion_of_unbound_ancestors_is_added_to_the_bones_below_them() {
             let [old, new] = [old, new].map(|matrix| matrix.to_scale_rotation_translation().1);
             assert!(angle_between(old, new) < 1e-3, "{round} at {time}");
         }
-        // Between the resampled keys: curves in short straight pieces. A jump is as long as one time step.
+        // Between the resampled keys, curves are approximated by short straight pieces. A step becomes a ramp of one
+        // sample interval, so the times around steps are not compared.
         let jumps = |time: f32| {
             take.tracks.iter().any(|track| {
                 track.rotation.interpolation == Interpolation::Step

@@ -22,7 +22,7 @@ pub enum Space {
     /// The bone's own axes (local space).
     #[default]
     Bone,
-    /// The axes of the parent bone; of the scene for a root.
+    /// The axes of the parent bone; for a root, those of the scene.
     Parent,
     /// The axes of the scene (model space), independent of the bones above.
     Root,

@@ -31,7 +31,7 @@ pub struct Animation {
     poses: Vec<Transform>,
     /// Bone space → scene space, one matrix per bone.
     to_root: Vec<Mat4>,
-    /// Result of the most recent method.
+    /// Result of the most recent method that fills the output.
     output: Vec<Mat4>,
 }
 
@@ -118,7 +118,7 @@ impl Animation {
         &self.output
     }
 
-    /// Returns the result of the most recent method.
+    /// Returns the output: the result of the most recent method that filled it.
     pub fn output(&self) -> &[Mat4] {
         &self.output
     }

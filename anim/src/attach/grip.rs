@@ -33,10 +33,10 @@ impl Grip {
     /// hand position      = object * on_object.translation - hand rotation * in_hand.translation
     /// ```
     ///
-    /// `|…|` are the axes without their lengths (of mirrored axes x and y are kept, and z is reversed); where they have
-    /// no length, the rotation is the identity. `in_hand.translation` is in the carrier's unit, so a hand whose bone is
-    /// scaled has to include its scale in `in_hand`. Numbers that are not finite are replaced by those of the identity;
-    /// a position that is not finite by the object's position, or the origin. Allocates nothing.
+    /// `|…|` are the axes without their lengths (if they are mirrored, x and y are kept and z is reversed); where they
+    /// have no length, the rotation is the identity. `in_hand.translation` is in the carrier's unit, so a hand whose
+    /// bone is scaled has to include its scale in `in_hand`. Input numbers that are not finite are replaced by those of
+    /// the identity; if the resulting position is not finite, it is the object's origin. Allocates nothing.
     pub fn target(&self, object: Mat4) -> GripTarget {
         let object = if object.is_finite() { object } else { Mat4::IDENTITY };
         let on_object = healthy(self.on_object, Transform::IDENTITY);

@@ -30,11 +30,12 @@ pub fn attached_root(socket_to_root: Mat4, handle: Mat4) -> Mat4 {
     if root.is_finite() { root } else { socket_to_root }
 }
 
-/// Moves an attached model to its carrier: each of `to_root` (of its bones, alone: bone space → its scene space)
-/// becomes `root * to_root`, bone space → the carrier's scene space.
+/// Moves an attached model to its carrier: multiplies the to-root matrix of each of the model's bones by `root` from
+/// the left.
 ///
-/// [`crate::animation::final_poses`] then takes them as they are; meshes without a skin are moved by `root * to_root`
-/// too. Where a product is not finite, it is `root`. Allocates nothing.
+/// Before the call, `to_root` maps bone space → the model's own scene space; after it, bone space → the carrier's scene
+/// space. The result can be passed to [`crate::animation::final_poses`] as it is; meshes without a skin are moved by
+/// the same matrices. A product that is not finite is replaced by `root`. Allocates nothing.
 pub fn carry(root: Mat4, to_root: &mut [Mat4]) {
     for to_root in to_root {
         let carried = root * *to_root;

@@ -59,9 +59,9 @@ impl Socket {
     ///                       axes     = rotation of to_root without its scale * offset.rotation, * offset.scale
     /// ```
     ///
-    /// Total: a bone that does not exist, or whose to-root is not finite, counts as the scene's origin; numbers of the
-    /// offset that are not finite as those of the identity; where the product is not finite, the result is the bone's
-    /// to-root alone. A bone whose axes have no length has no rotation of its own. Allocates nothing.
+    /// Total: a bone that does not exist, or whose to-root is not finite, counts as the scene's origin. Numbers of the
+    /// offset that are not finite are replaced by those of the identity. Where the product is not finite, the result is
+    /// the bone's to-root alone. A bone whose axes have no length has no rotation of its own. Allocates nothing.
     pub fn to_root(&self, to_root: &[Mat4]) -> Mat4 {
         let bone = to_root.get(self.bone as usize).copied().filter(|matrix| matrix.is_finite());
         let bone = bone.unwrap_or(Mat4::IDENTITY);
@@ -74,7 +74,7 @@ impl Socket {
     }
 }
 
-/// Returns the axes of `bone` without their lengths, at the point `position` of its space.
+/// Returns the axes of `bone` without their lengths, with the origin at the point `place` of the bone's space.
 fn unscaled(bone: Mat4, place: Vec3) -> Mat4 {
     let place = bone.transform_point3(place);
     match Axes::of(bone) {
@@ -83,7 +83,7 @@ fn unscaled(bone: Mat4, place: Vec3) -> Mat4 {
     }
 }
 
-/// Returns the offset without its translation.
+/// Returns the matrix of the offset without its translation.
 fn turned(offset: Transform) -> Mat4 {
     Transform { translation: Vec3::ZERO, ..offset }.to_matrix()
 }

@@ -63,10 +63,10 @@ pub fn difference_of(pose: Transform, reference: Transform) -> Transform {
 ///
 /// `d^w` turns about `d`'s axis by `w` times its angle, the short way.
 ///
-/// Weight 0 (also a negative one and NaN) leaves the base unchanged bit for bit, and so does a difference of nothing. 1
-/// adds the full difference; more than 1 exaggerates it. Where `differences` is shorter, the base is kept; where `base`
-/// is shorter, the identity is used. For several additive layers, call this once per layer with `out` of one call as
-/// `base` of the next, or use [`add_to`]. Allocates nothing.
+/// Weight 0 (also a negative one and NaN) leaves the base unchanged bit for bit, and so does an identity difference.
+/// Weight 1 adds the full difference; more than 1 exaggerates it. Where `differences` is shorter, the base is kept;
+/// where `base` is shorter, the identity is used. For several additive layers, call this once per layer with `out` of
+/// one call as `base` of the next, or use [`add_to`]. Allocates nothing.
 #[doc(alias = "additive")]
 pub fn add(
     base: &[Transform],

@@ -91,14 +91,15 @@ impl CrossFade {
     fn turn(&mut self, dt: f64, weight: f64) {
         let mixed = |from: f64, to: f64| (1.0 - weight) * from + weight * to;
         let round = mixed(f64::from(self.from.length()), f64::from(self.to.length()));
-        // Complete cycles change nothing, and neither does a cycle without length.
+        // A cycle without length has no phase to advance.
         if dt <= 0.0 || round <= 0.0 {
             return;
         }
         let mut left = dt % round;
         let marks = self.from.marks();
         let (mut mark, mut fraction) = self.from.split(self.phase);
-        // Once per mark, and once more for the remainder of the first.
+        // Complete rounds were removed from `left`, so it spans each step between marks at most once, and the first
+        // step twice: its rest at the start, and its beginning at the end.
         for _ in 0..=marks {
             let seconds = mixed(self.from.seconds_after(mark), self.to.seconds_after(mark));
             let to_next = (1.0 - fraction) * seconds;

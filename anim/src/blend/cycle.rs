@@ -38,8 +38,8 @@ impl Cycle {
 
     /// Returns the cycle with marks at `times` (seconds, in the time of the take's keys).
     ///
-    /// The marks are sorted. Marks outside the cycle are left out, and so is a second one at the same time; one at the
-    /// end is the same as one at the start. Where none is left, the start is the only one.
+    /// The marks are sorted. Marks outside the cycle are left out, and so is a second mark at the same time; a mark at
+    /// the end is the same as a mark at the start. If no mark is left, the start is the only mark.
     pub fn with_marks(mut self, times: impl IntoIterator<Item = f32>) -> Self {
         let length = self.length;
         let inside = times.into_iter().map(|time| time - self.start);
@@ -65,7 +65,7 @@ impl Cycle {
         self.length
     }
 
-    /// Returns the number of marks; without any it is 1, the start.
+    /// Returns the number of marks; 1 for a cycle without marks, whose only mark is its start.
     pub fn marks(&self) -> usize {
         self.marks.len()
     }
@@ -93,7 +93,7 @@ impl Cycle {
         if !inside.is_finite() {
             return 0.0;
         }
-        // Before the first mark the last mark of the previous cycle counts.
+        // A time before the first mark comes after the last mark of the previous cycle.
         let passed = self.marks.partition_point(|&mark| f64::from(mark) <= inside);
         let (mark, since) = match passed.checked_sub(1) {
             Some(mark) => (mark, inside - f64::from(self.marks[mark])),
@@ -107,7 +107,8 @@ impl Cycle {
         wrapped((mark as f64 + fraction) / self.marks.len() as f64)
     }
 
-    /// Returns the seconds from mark `mark` to the next one, which after the last is the first of the next cycle.
+    /// Returns the seconds from mark number `mark` to the next mark; the last mark is followed by the first mark of the
+    /// next cycle.
     pub(super) fn seconds_after(&self, mark: usize) -> f64 {
         let at = |mark: usize| self.marks.get(mark).copied().map(f64::from);
         let here = at(mark).unwrap_or(0.0);

@@ -5,9 +5,9 @@ use super::playback::Playback;
 
 /// A fade between two unrelated takes: from standing to jumping, from a wave that ends to a walk that repeats.
 ///
-/// Each take plays at its own speed, before, during and after the fade; only the weight changes. One that plays once
-/// stops at its end. For two cycles of the same movement this makes feet slide, because they are on the ground at
-/// different times: [`super::CrossFade`] keeps them in step.
+/// Each take plays at its own speed, before, during and after the fade; only the weight changes. A take that plays once
+/// stops at its end. For two cycles of the same movement this makes feet slide, because the feet are on the ground at
+/// different times in the two takes: [`super::CrossFade`] keeps the cycles in step.
 ///
 /// The same steps give the same bits, and the result does not depend on how time is cut into steps, up to rounding.
 ///

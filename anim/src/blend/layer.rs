@@ -56,8 +56,8 @@ impl<'a> Layer<'a> {
 /// rotation    = Σ share_i * ±rotation_i, divided by its length
 /// ```
 ///
-/// `base` is usually the rest pose. Sums above 1 are divided by themselves, so from there on all weights may be
-/// multiplied by one factor without changing anything; a bone with no weight at all is the base, bit for bit.
+/// `base` is usually the rest pose. Where W is above 1, the weights are divided by W, so multiplying all of them by one
+/// factor changes nothing as long as W stays above 1; a bone with no weight at all is the base, bit for bit.
 ///
 /// * A bone whose layers (and the base, where it has a share) all have the same value gets that value bit for bit: a
 ///   blend of a pose with itself is that pose. Translation, rotation and scale are compared one by one.
@@ -70,9 +70,9 @@ impl<'a> Layer<'a> {
 ///
 /// `q` and `-q` are the same rotation, so before the sum each rotation is moved to the hemisphere (of the
 /// four-dimensional unit ball) of one of them, the one with the largest share. Between equal shares the values of the
-/// rotations decide, so the order of the layers never matters. The sum then cannot vanish: it points at least as far as
-/// that largest share. Two rotations exactly 180° apart are on the border of the hemispheres and are used as they are
-/// stored.
+/// rotations decide, so the order of the layers never matters. The sum then cannot vanish: along the rotation with the
+/// largest share it is at least as long as that share. Two rotations exactly 180° apart are on the border of the
+/// hemispheres and are used as they are stored.
 ///
 /// The normalized sum (nlerp of many) is the mean that minimizes the weighted squares of the distances `|q - q_i|`. It
 /// has no order, needs one division, and follows the same path as slerp, only not at quite the same speed: for two
@@ -119,12 +119,12 @@ fn blend_each(base: &[Transform], layers: &[Layer], out: &mut [Transform], base_
 /// A pose and its share of the blend.
 #[derive(Clone, Copy)]
 struct Share {
-    /// Share, 0..=1; all together 1.
+    /// Fraction of the blend, 0..=1; all shares sum to 1.
     of: f32,
     pose: Transform,
 }
 
-/// Computes the sums of the formulas above; `None` without any share.
+/// Computes the sums in the formulas of [`blend`]; `None` without any share.
 fn blend_shares(shares: impl Iterator<Item = Share> + Clone) -> Option<Transform> {
     let leading = shares.clone().reduce(|a, b| if leads(&b, &a) { b } else { a })?.pose;
     let (mut translation, mut rotation, mut scale) =
@@ -148,9 +148,9 @@ fn blend_shares(shares: impl Iterator<Item = Share> + Clone) -> Option<Transform
     })
 }
 
-/// Returns whether the hemisphere of `a` is preferred to that of `b`: the larger share; of equal ones the rotation
-/// whose numbers, in the form with `w ≥ 0`, are larger. Any criterion would do that does not depend on the order of the
-/// layers.
+/// Returns whether the hemisphere of `a` is preferred to that of `b`: the one with the larger share; if the shares are
+/// equal, the one whose rotation, in the form with `w ≥ 0`, has the larger numbers. Any criterion would do that does
+/// not depend on the order of the layers.
 fn leads(a: &Share, b: &Share) -> bool {
     let upper = |rotation: Quat| if rotation.w < 0.0 { -rotation } else { rotation };
     let numbers = |share: &Share| {

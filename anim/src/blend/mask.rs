@@ -104,7 +104,7 @@ impl Mask {
         self
     }
 
-    /// Returns the product of both masks, the bones that are in both; as long as this one.
+    /// Returns the product of both masks, which selects the bones that are in both. The result is as long as `self`.
     pub fn times(mut self, other: &Self) -> Self {
         for (bone, weight) in self.weights.iter_mut().enumerate() {
             *weight *= other.weight(bone);
@@ -112,7 +112,8 @@ impl Mask {
         self
     }
 
-    /// Returns the larger weight of each bone, the bones that are in either; as long as this one.
+    /// Returns the larger weight of each bone, which selects the bones that are in either mask. The result is as long
+    /// as `self`.
     pub fn or(mut self, other: &Self) -> Self {
         for (bone, weight) in self.weights.iter_mut().enumerate() {
             *weight = weight.max(other.weight(bone));

@@ -22,12 +22,10 @@
 //!   [`blend`] weights are relative and may be any size; where a weight interpolates between two ends it is clamped
 //!   to 0..=1.
 //! * **Lengths.** The length of `out` is the number of poses written. A layer that is shorter does not affect the bones
-//!   it
-//!   lacks; where the base is shorter, the identity is used; a mask has the weight 0 past its end.
-//! * **Total.** No input panics, and no result is NaN or infinite. A number of a layer that is not finite is replaced
-//!   by
-//!   the base's, one of the base by that of [`Transform::IDENTITY`]; a rotation that is not of unit length is normalized.
-//!   Valid poses are never changed by this.
+//!   that it lacks; where the base is shorter, the identity is used; a mask has the weight 0 past its end.
+//! * **Total.** No input panics, and no result is NaN or infinite. If a number of a layer is not finite, the base's
+//!   number is used instead; if a number of the base is not finite, that of [`Transform::IDENTITY`]. A rotation that is
+//!   not of unit length is normalized. Valid poses are never changed by this.
 //! * **Memory.** Masks and cycles are created once; functions that run every frame allocate nothing.
 
 mod additive;

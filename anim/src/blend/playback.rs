@@ -91,7 +91,8 @@ impl Playback {
             return passed.clamp(0.0, length);
         }
         let inside = passed.rem_euclid(length);
-        // NaN without a length; and by rounding the length itself, for times just before the start.
+        // `inside` is NaN if the length is 0. For times just before the start, rounding can make it equal to the
+        // length.
         if inside < length { inside } else { 0.0 }
     }
 }

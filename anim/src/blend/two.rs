@@ -13,8 +13,9 @@ use glam::{Quat, Vec3};
 /// rotation    = slerp(from, to, m), the short way
 /// ```
 ///
-/// Where `m` is 0 the result is `from`, where it is 1 `to`, where both are equal that pose: bit for bit. Where `from`
-/// is shorter, the identity is used; where `to` is shorter, `from` is kept. Rules: see [`super`]. Allocates nothing.
+/// The result is bit for bit `from` where `m` is 0, `to` where `m` is 1, and the common pose where both are equal.
+/// Where `from` is shorter, the identity is used; where `to` is shorter, `from` is kept. Rules: see [`super`].
+/// Allocates nothing.
 pub fn blend_two(from: &[Transform], to: &[Transform], mix: f32, mask: Option<&Mask>, out: &mut [Transform]) {
     for (bone, out) in out.iter_mut().enumerate() {
         let from = from.get(bone).copied().unwrap_or_default();
@@ -41,13 +42,13 @@ pub fn mix_poses(from: Transform, to: Transform, mix: f32) -> Transform {
     }
 }
 
-/// Interpolates linearly; two equal vectors without rounding.
+/// Interpolates linearly; if both vectors are equal, returns that vector without rounding.
 fn vector(from: Vec3, to: Vec3, mix: f32) -> Vec3 {
     let mixed = mix::lerp(from, to, mix);
     if from == to || !mixed.is_finite() { from } else { mixed }
 }
 
-/// Interpolates the short way; two equal rotations without rounding.
+/// Interpolates the short way; if both rotations are equal, returns that rotation without rounding.
 fn rotation(from: Quat, to: Quat, mix: f32) -> Quat {
     if from == to || from == -to { from } else { mix::slerp(from, to, mix) }
 }

@@ -2,8 +2,8 @@
 
 use glam::{Mat4, Vec3};
 
-/// Sixteen units in the last place: an upper bound, with a margin, of what the sums of a matrix product and of eight
-/// influences lose. Relative to the sizes of the terms, not of the sum.
+/// Sixteen units in the last place: an upper bound, with a margin, of the rounding error of a matrix product and a sum
+/// of eight influences. Relative to the sizes of the terms, not to the size of the sum.
 pub(crate) const ROUNDING: f32 = 16.0 * f32::EPSILON;
 
 /// An axis-aligned box; empty where `min` is not at most `max`. Never NaN when made of finite points.
@@ -37,7 +37,7 @@ impl AxisBox {
         self.min.cmple(point).all() && point.cmple(self.max).all()
     }
 
-    /// Grows just enough to contain `point`; one that is not finite is left out.
+    /// Grows just enough to contain `point`; a point that is not finite is ignored.
     pub fn add(&mut self, point: Vec3) {
         if point.is_finite() {
             *self = self.union(Self::at(point));
@@ -65,8 +65,8 @@ impl AxisBox {
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 
-    /// Returns the box of this one moved by the affine `matrix` (Arvo 1990), widened so that no point within is lost to
-    /// the rounding of `f32`.
+    /// Returns the box around this box moved by the affine `matrix` (Arvo 1990), widened so that it contains every
+    /// moved point in spite of the rounding of `f32`.
     ///
     /// ```text
     /// center' = matrix * center          half' = |linear| * half + rounding
@@ -108,7 +108,7 @@ mod tests {
     use glam::Quat;
 
     #[test]
-    fn a_moved_box_holds_its_moved_corners_and_little_more() {
+    fn a_moved_box_is_the_smallest_box_around_its_moved_corners_within_rounding() {
         let bounds = AxisBox { min: Vec3::new(-1.0, 2.0, 3.0), max: Vec3::new(4.0, 5.0, 9.0) };
         let turned = Quat::from_xyzw(0.3, -0.2, 0.5, 0.7).normalize();
         let matrix = Mat4::from_scale_rotation_translation(Vec3::new(1.0, -2.0, 0.5), turned, Vec3::X);
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_stays_nothing_and_too_much_is_everything() {
+    fn an_empty_box_stays_empty_and_a_box_that_overflows_becomes_the_whole_space() {
         assert!(AxisBox::EMPTY.moved(&Mat4::IDENTITY).is_empty());
         let bounds = AxisBox::at(Vec3::splat(1e30));
         assert_eq!(bounds.moved(&Mat4::from_scale(Vec3::splat(1e30))), AxisBox::WHOLE);

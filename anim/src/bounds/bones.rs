@@ -103,7 +103,8 @@ impl BoneBoxes {
         state
     }
 
-    /// Returns the part of a primitive, depending on how it is moved.
+    /// Returns the number of the primitive's part in [`Self::reaches`]: one part is for instances that a skin moves,
+    /// the other for instances that one matrix moves.
     fn part(&self, evaluator: &Evaluator, instance: usize, primitive: usize) -> Option<usize> {
         let influences = evaluator.primitives(instance).get(primitive)?.vertices.influences_per_vertex;
         let instance = &evaluator.model().instances[instance];

@@ -35,11 +35,11 @@ pub(super) struct JointBox {
     pub(super) deltas: (u32, u32),
 }
 
-/// The largest movement by one morph target.
+/// The range in which one morph target with weight 1 moves the vertices of a joint's box.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Delta {
     pub(super) target: u32,
-    /// Contains the origin; along the axes of the joint's box.
+    /// Box around the target's differences and the origin, along the axes of the joint's box.
     pub(super) by: AxisBox,
 }
 
@@ -49,7 +49,8 @@ pub(super) struct PartReach {
     pub(super) boxes: (u32, u32),
     /// Box of the vertices that do not move.
     pub(super) still: AxisBox,
-    /// Smallest and largest sum of a vertex's positive weights, and of its negative ones.
+    /// Smallest and largest sum of a vertex's positive weights; `negative` is the same for the sizes of its negative
+    /// ones.
     pub(super) positive: [f32; 2],
     pub(super) negative: [f32; 2],
 }
@@ -132,7 +133,7 @@ impl Reaches {
             }
         }
         if added > 0 {
-            // Each sum may be rounded once more; both the box and the terms added are within these sizes.
+            // Each addition may round once more. The absolute coordinates of the grown box bound all numbers involved.
             let slack = widening(extent.min.abs().max(extent.max.abs())) * (added as f32 + 1.0);
             (extent.min, extent.max) = (extent.min - slack, extent.max + slack);
         }
@@ -179,7 +180,7 @@ fn corner(extent: &AxisBox, matrix: &Mat4, center: Vec3) -> f64 {
     let from = matrix.transform_point3(middle).as_dvec3() - center.as_dvec3();
     let mut furthest = 0.0_f64;
     for corner in [x + y + z, x + y - z, x - y + z, y + z - x] {
-        // Opposite corners together.
+        // `from + corner` and `from - corner` are opposite corners.
         furthest = furthest.max((from + corner).length_squared()).max((from - corner).length_squared());
     }
     let sizes = (middle.abs() + extent.half()).as_dvec3();

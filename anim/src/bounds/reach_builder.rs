@@ -45,7 +45,8 @@ impl ReachBuilder {
             positive: [f32::INFINITY, 0.0],
             negative: [f32::INFINITY, 0.0],
         };
-        // Boxes along both kinds of axes; the smaller is kept.
+        // For each joint, a box along the axes of its bone; `extent` is the one along the axes of bind space. The
+        // smaller of the two is kept.
         let mut turned: Vec<AxisBox> = Vec::new();
         for vertex in vertices.clone() {
             let Some(&stored) = primitive.vertices.positions.get(vertex) else { continue };
@@ -155,7 +156,8 @@ impl ReachBuilder {
         }
     }
 
-    /// Adds the sums of the vertex's weights to those of the part, or the vertex to those that do not move.
+    /// Widens the part's ranges of weight sums to include those of the vertex. A vertex that skinning leaves in place
+    /// or puts at the origin is added to the box of vertices that do not move.
     fn weigh(
         &mut self,
         primitive: &Primitive,
@@ -180,7 +182,7 @@ impl ReachBuilder {
         }
         if positive.is_finite() && negative.is_finite() {
             if positive == 0.0 && negative == 0.0 {
-                // A sum without terms.
+                // Without any weight, the skinned position is an empty sum: the origin.
                 reach.still.add(Vec3::ZERO);
                 return;
             }
@@ -217,8 +219,8 @@ impl ReachBuilder {
                     continue;
                 };
                 if !difference.is_finite() {
-                    // Skinning puts the vertex at its position without the sum that cannot be computed, or at the
-                    // origin.
+                    // Skinning ignores a morph sum that is not finite: the vertex stays at its stored position, or at
+                    // the origin if it has none.
                     reach.still.add(primitive.vertices.positions.get(vertex).copied().unwrap_or(Vec3::ZERO));
                     continue;
                 }
@@ -256,8 +258,8 @@ fn joints(primitive: &Primitive, skinned: bool, vertex: usize) -> impl Iterator<
     moving.chain((!skinned).then_some(0))
 }
 
-/// Grows `extent`, whose axes are given by `turn`, by a finite `vector`; to everything where rotating it leaves the range
-/// of f32.
+/// Grows `extent`, whose axes are given by `turn`, by a finite `vector`; to everything where rotating it leaves the
+/// range of f32.
 fn add_turned(extent: &mut AxisBox, turn: Mat3, vector: Vec3) {
     let turned = turn.transpose() * vector;
     if vector.is_finite() && !turned.is_finite() {
@@ -274,7 +276,7 @@ fn axes(offset: Mat4) -> Mat3 {
     if turn.is_finite() && unit { turn } else { Mat3::IDENTITY }
 }
 
-/// Returns a range widened by the rounding of its sums; zero for one that was never set.
+/// Returns a range widened by the rounding of its sums; zero for a range that was never set.
 fn outward([low, high]: [f32; 2]) -> [f32; 2] {
     if low > high {
         return [0.0, 0.0];

@@ -7,16 +7,17 @@ use glam::{DVec3, Vec3};
 pub struct Sphere {
     /// The center.
     pub center: Vec3,
-    /// Not negative; at most the largest f32.
+    /// The radius: not negative, at most the largest `f32`.
     pub radius: f32,
 }
 
 impl Sphere {
-    /// Returns a sphere around the finite ones of `points`, whose smallest and largest coordinates are `min` and `max`.
+    /// Returns a sphere around those of `points` that are finite; `min` and `max` are their smallest and largest
+    /// coordinates.
     ///
-    /// The smaller of two: one about the center of the box, and Ritter's (start with the two points furthest apart
-    /// along an axis, then grow just enough for each point outside). Usually within a fifth of the smallest possible
-    /// sphere. All in f64, so that neither squares nor rounding lose a point.
+    /// It is the smaller of two spheres: one about the center of the box, and Ritter's (start with the two points
+    /// furthest apart along an axis, then grow just enough for each point outside). Its radius is usually at most a
+    /// fifth larger than the smallest possible one. Computed in f64, so that neither squares nor rounding lose a point.
     pub(super) fn of_points(points: &[Vec3], min: Vec3, max: Vec3) -> Self {
         let middle = min * 0.5 + max * 0.5;
         let around_box = Self::about(middle, points);
@@ -29,7 +30,7 @@ impl Sphere {
         point.as_dvec3().distance(self.center.as_dvec3()) <= f64::from(self.radius)
     }
 
-    /// Returns the smallest sphere about `center` that contains the finite ones of `points`.
+    /// Returns the smallest sphere about `center` that contains those of `points` that are finite.
     fn about(center: Vec3, points: &[Vec3]) -> Self {
         let middle = center.as_dvec3();
         let largest = finite(points).map(|point| point.distance_squared(middle)).fold(0.0, f64::max).sqrt();

@@ -1,11 +1,11 @@
-//! How far two takes are apart: per bone, in space, with the time of the largest difference.
+//! The differences of two takes: per bone, in space, with the time of the largest difference.
 //!
 //! Bones are paired by name, so the two takes may belong to different files. Both are sampled with the open evaluator
 //! ([`crate::sample`]) at the key times of both and between them, so that no two samples are further apart than
 //! [`LONGEST_GAP`]. Outside its range a take holds its first or last pose.
 //!
-//! The distance of a bone is the largest displacement, in root space, of its joint; its angle is the largest angle between
-//! the two rotations to the root. Both are zero, exactly, for takes with equal keys.
+//! The distance of a bone is the largest displacement, in root space, of its joint; its angle is the largest angle
+//! between the two rotations to the root. Both are zero, exactly, for takes with equal keys.
 
 mod pairs;
 mod times;
@@ -18,10 +18,11 @@ use crate::data::{BoneIndex, Skeleton, Take, Transform};
 use crate::sample::{sample_morph_weights, sample_take};
 use glam::{Mat4, Quat};
 
-/// The largest value of a difference and the time at which it occurs, seconds. Zero at the first sample where nothing differs.
+/// The largest value of a difference and the time at which it occurs, seconds. Zero at the first sample where nothing
+/// differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Peak {
-    /// Never negative, never NaN.
+    /// The largest value; never negative, never NaN.
     pub value: f32,
     /// Seconds.
     pub time: f32,
@@ -29,7 +30,7 @@ pub struct Peak {
 
 impl Peak {
     fn raise(&mut self, value: f32, time: f32) {
-        // A pose that is not finite differs as much as a number can say.
+        // A pose that is not finite counts as the largest possible difference.
         let value = if value.is_nan() { f32::MAX } else { value.min(f32::MAX) };
         if value > self.value {
             *self = Self { value, time };
@@ -53,7 +54,7 @@ pub struct BoneDifference {
 /// The difference of two takes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TakeDifference {
-    /// One for each pair of bones, in the order of the first skeleton.
+    /// The difference of each pair of bones, in the order of the first skeleton.
     pub bones: Vec<BoneDifference>,
     /// The largest difference of a morph weight.
     pub weight: Peak,
@@ -130,7 +131,7 @@ pub fn compare_takes(first: (&Skeleton, &Take), second: (&Skeleton, &Take)) -> T
 fn angle_between(one: &Mat4, other: &Mat4) -> f32 {
     let rotation = |matrix: &Mat4| -> Quat { matrix.to_scale_rotation_translation().1 };
     let between = rotation(one).conjugate() * rotation(other);
-    // By the sine of half the angle: the cosine has no digits left for small angles.
+    // Computed with the sine of half the angle: the cosine of a small angle is 1 within rounding.
     2.0 * between.xyz().length().atan2(between.w.abs())
 }
 

@@ -1,4 +1,4 @@
-//! Which bone of one skeleton is which of another.
+//! Pairs of corresponding bones in two skeletons.
 
 use crate::data::{BoneIndex, Skeleton};
 use std::collections::HashMap;
@@ -14,8 +14,8 @@ pub struct BonePairs {
     pub only_second: Vec<BoneIndex>,
 }
 
-/// Pairs the bones of two skeletons by name. The n-th bone of a name is paired with the n-th bone of that name, so skeletons
-/// with unnamed or repeated bones pair as far as they agree.
+/// Pairs the bones of two skeletons by name. The n-th bone of a name is paired with the n-th bone of that name, so
+/// skeletons with unnamed or repeated bones pair as far as they agree.
 pub fn pair_bones(first: &Skeleton, second: &Skeleton) -> BonePairs {
     let mut named: HashMap<&str, Vec<BoneIndex>> = HashMap::new();
     for (index, bone) in second.bones.iter().enumerate().rev() {

@@ -5,10 +5,11 @@ use crate::data::Take;
 /// Longest time between two samples, seconds: a 120th, so that a curve cannot bulge unseen between two keys.
 pub const LONGEST_GAP: f32 = 1.0 / 120.0;
 
-/// Most bones × samples of one comparison. Above it, samples between keys are left out first, then keys evenly.
+/// Largest number of bones × samples of one comparison. Above it, samples between keys are left out first; if that is
+/// not enough, key times are left out evenly.
 pub const MOST_SAMPLES: usize = 50_000_000;
 
-/// Returns the times at which takes with `bones` bones are compared, ascending, without repetition; one at least.
+/// Returns the times at which takes with `bones` bones are compared, ascending, without repetition; at least one.
 pub fn sample_times(first: &Take, second: &Take, bones: usize) -> Vec<f32> {
     let mut keys = Vec::new();
     for take in [first, second] {

@@ -11,7 +11,7 @@ pub(super) struct BitWriter {
 }
 
 impl BitWriter {
-    /// Appends the lowest `width` bits of `value`, 0..=32.
+    /// Appends the lowest `width` bits of `value`; `width` is 0..=32.
     pub(super) fn put(&mut self, value: u32, width: u32) {
         let mut value = u64::from(value) & ((1 << width.min(32)) - 1);
         let (mut width, mut used) = (width.min(32) as usize, self.bits % 8);
@@ -97,12 +97,12 @@ impl<'a> BitReader<'a> {
         }
     }
 
-    /// Returns the byte that contains the next bit.
+    /// Returns the index of the byte that contains the next bit.
     pub(super) fn offset(&self) -> usize {
         self.at / 8
     }
 
-    /// Returns the first byte that has not been read from.
+    /// Returns the index of the first byte of which no bit has been read.
     pub(super) fn next_byte(&self) -> usize {
         self.at.div_ceil(8)
     }

@@ -20,7 +20,7 @@ pub struct CompressionReport {
     pub raw_bytes: usize,
     /// The largest error at any key time, measured on the decoded result, and its position.
     pub largest_error: LargestError,
-    /// That error in units of its bone's tolerance; at most 1.
+    /// [`Self::largest_error`] in units of its bone's tolerance; at most 1.
     pub share_of_tolerance: f32,
     /// Number of keys in a segment.
     pub keys_per_segment: usize,
@@ -33,16 +33,16 @@ pub struct CompressionReport {
 /// Shares of the tolerance tried for the first and the last joint of a chain.
 const SHARES: [[f32; 2]; 8] =
     [[0.7, 0.8], [0.5, 0.8], [0.6, 0.7], [0.45, 0.7], [0.5, 0.6], [0.45, 0.6], [0.4, 0.55], [0.3, 0.4]];
-/// Segment sizes tried, as powers of two, beginning with the middle one.
+/// Segment sizes tried, as powers of two: first [`MIDDLE`], then the smaller and the larger ones while each helps.
 const SMALLER: [u32; 2] = [5, 4];
 const LARGER: [u32; 2] = [7, 8];
 const MIDDLE: u32 = 6;
 
 /// Compresses `take`, whose bones are those of `skeleton`.
 ///
-/// The take is sampled at evenly spaced times (its own, where they are; see [`CompressionSettings::rate`]). At each of them, each
-/// of the three shell points of each bone is within the tolerance of its position in the raw take, in scene space: that
-/// is measured on the decoded bytes before they are returned.
+/// The take is sampled at evenly spaced times (its own, where they are; see [`CompressionSettings::rate`]). At each of
+/// them, each of the three shell points of each bone is within the tolerance of its position in the raw take, in scene
+/// space: that is measured on the decoded bytes before they are returned.
 ///
 /// # Errors
 ///

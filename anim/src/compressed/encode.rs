@@ -29,7 +29,7 @@ const MOVED: f32 = 0.5;
 const SCALED: f32 = 0.3;
 /// The first step tried, in units of the step that would just suffice for one point.
 const COARSE: f32 = 4.0;
-/// A rotation whose w relative to the middle one falls below this is stored whole.
+/// A track is stored whole if, at any key, the w of its rotation relative to the middle rotation is below this.
 const SMALLEST_W: f32 = 0.3;
 
 /// Everything needed to encode a bone.
@@ -38,7 +38,7 @@ pub(super) struct Encoder<'a> {
     pub(super) skeleton: &'a Skeleton,
     pub(super) plan: &'a TrackPlan,
     pub(super) choice: EncodeChoice,
-    /// As decoded, frame after frame: bone space → scene space.
+    /// `to_root` of every bone as it will be decoded, frame after frame: bone space → scene space.
     to_root: Vec<Affine3A>,
 }
 
@@ -107,7 +107,7 @@ impl<'a> Encoder<'a> {
         let reach = points.iter().map(|point| point.local.length()).fold(f32::MIN_POSITIVE, f32::max);
         let largest = |frame: usize| self.frames.to_root(frame, bone).matrix3;
         let error = |frame: usize, scale: Vec3| {
-            // Relative to the raw bone: the movement of its points alone, without that of the parents.
+            // Measured from the raw pose, so that only the error of this scale counts, not the errors of the parents.
             let unscaled = wanted[frame];
             let ratio = Vec3::select(
                 unscaled.abs().cmpgt(Vec3::splat(1e-3)),

@@ -62,13 +62,14 @@ impl LaneLayout {
         Self { bit, widths: head.bits.map(u32::from), start, step }
     }
 
-    /// Returns the first bits of its numbers, from the start of the key, and the end of the last.
+    /// Returns the bit at which each of the lane's numbers begins, counted from the start of the key, and the end of
+    /// the last number.
     fn edges(&self) -> [u32; 4] {
         let [x, y, z] = self.widths;
         [self.bit, self.bit + x, self.bit + x + y, self.bit + x + y + z]
     }
 
-    /// Returns the first bits of its two words.
+    /// Returns the bit at which each of the lane's two words begins, counted from the start of the key.
     fn words(&self) -> [u32; 2] {
         let [x, _, z, _] = self.edges();
         [x / 8 * 8, z / 8 * 8]
@@ -83,7 +84,8 @@ impl LaneLayout {
 const WORD: [usize; 3] = [0, 0, 1];
 
 impl HeadBlock {
-    /// Creates a block of lanes in the order of their bits; lanes without numbers may be anywhere.
+    /// Creates a block of `lanes`, which are in the order of their bits, except that lanes without numbers may be
+    /// anywhere.
     pub(super) fn new(lanes: &[LaneLayout; LANES], wide: &mut Vec<WideBlock>) -> Self {
         let mut block = Self {
             start: [0, 1, 2].map(|axis| lanes.map(|lane| lane.start[axis])),
@@ -120,7 +122,7 @@ impl HeadBlock {
         block
     }
 
-    /// Stores a lane whose words are counted from bit `from` on; `None`: it is wide.
+    /// Stores a lane whose words are counted from bit `from` on; `None` for a lane of a wide block.
     fn put(&mut self, index: usize, lane: &LaneLayout, from: Option<u32>) {
         let (edges, words) = (lane.edges(), lane.words());
         if let Some(from) = from {
@@ -161,14 +163,15 @@ impl HeadBlock {
         }
     }
 
-    /// Returns the first bit of a lane's numbers in its first word, where its first number has no bits.
+    /// Returns the bit of its first word at which a lane's numbers begin, for a lane whose x has no bits.
     fn first_bit(&self, index: usize) -> u32 {
         let [_, y, z] = [0, 1, 2].map(|axis| self.masks[axis][index]);
         if y != 0 { y.trailing_zeros() } else { z.trailing_zeros() % 32 }
     }
 }
 
-/// Returns the highest 16 bits of `step` for numbers that are `1 << edge` times too large.
+/// Returns the highest 16 bits of `step / 2^edge`, for numbers that are masked in place and so are `2^edge` times too
+/// large.
 fn scaled(step: f32, edge: u32) -> u16 {
     ((step / (1_u32 << edge) as f32).to_bits() >> 16) as u16
 }
@@ -179,7 +182,7 @@ mod tests {
     use dragonfly_kit::random::{Random, seed};
 
     #[test]
-    fn lanes_come_back_as_they_were_narrow_or_wide() {
+    fn a_head_block_returns_the_lanes_that_it_was_built_from_narrow_or_wide() {
         let mut random = Random::new(seed(17));
         let mut wide = Vec::new();
         for round in 0..2000 {

@@ -90,7 +90,7 @@ fn around(tables: &Tables, time: f32) -> (u32, f32) {
 impl<'a> KeyPair<'a> {
     #[inline(always)]
     fn new(tables: &'a Tables, bytes: &'a [u8], key: u32, mix: f32) -> Option<Self> {
-        // Checked here so that no load has to check.
+        // Checked once here, so that the loads need no check of their own.
         if bytes.len() < super::extents::AHEAD {
             return None;
         }

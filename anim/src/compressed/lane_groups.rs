@@ -67,7 +67,7 @@ fn arranged(bones: impl Iterator<Item = usize>, (group, lane): (usize, usize)) -
     let count = |block: &LaneGroup| block.bones.iter().filter(|&&bone| bone != NONE).count();
     let mut order: Vec<usize> = (0..blocks.len()).collect();
     order.sort_by_key(|&at| count(&blocks[at]));
-    // Searches the number of blocks, beginning with the emptiest, whose tracks share groups.
+    // Finds out how many of the blocks, from the emptiest on, should share groups so that the cost is least.
     let (mut lanes, mut best, mut least) = (0, 0, blocks.len() * group);
     for (index, &at) in order.iter().enumerate() {
         lanes += count(&blocks[at]);
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_block_of_which_most_moves_stays_one_and_lone_bones_share_a_group() {
+    fn a_block_with_mostly_moving_bones_keeps_its_group_and_scattered_moving_bones_share_one() {
         let groups = groups(&kinds(40, &[0, 1, 2, 3, 4, 5, 6, 9, 17, 39]));
         assert!(groups[0].is_empty() && groups[2].is_empty());
         assert_eq!(groups[1].len(), 2);
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn every_bone_that_moves_has_one_place() {
+    fn every_moving_bone_has_exactly_one_slot() {
         let mut random = Random::new(seed(3));
         for _ in 0..200 {
             let share = random.unit();

@@ -37,15 +37,14 @@
 //!
 //! # How the size is reduced
 //!
-//! * A channel that is constant within a tenth of the tolerance is stored once; one that is constant at the default,
-//!   not at
-//!   all.
+//! * A channel that is constant within a tenth of the tolerance is stored once; a channel that is constant at the
+//!   default is not stored at all.
 //! * A rotation is stored relative to the middle one of its bone, without w, which then is never near zero. So none of
 //!   the other three is special, and the one about the bone's own axis can have fewer bits.
 //! * The range of each component is reduced for the take and again for each segment of 16 to 256 keys.
 //! * Each component has its own number of bits in each segment: the smallest with which all points of the bone are
-//!   within
-//!   the tolerance. Where the nearest number is not, its neighbors are tried.
+//!   within the tolerance. Where rounding to the nearest number exceeds the tolerance, the neighboring numbers are
+//!   tried.
 //! * Several segment sizes and shares of the tolerance for joints are tried. The result with the fewest bytes is
 //!   kept, where a byte of tables counts a quarter.
 //!
@@ -100,18 +99,18 @@
 //!                               step = extent ext / 255 / (2^bits - 1), rounded up to the 16 highest bits of a float
 //! ```
 //!
-//! In the only segment of a take place is 0 and ext 255; with no bits, 127 and 255.
+//! If a take has only one segment, place is 0 and ext is 255; for a component without bits, they are 127 and 255.
 //!
 //! # Figures
 //!
 //! `README.md` of this crate has bytes and errors next to those of ACL and ozz-animation, and the time and instructions
 //! per bone; its tables are made from what `cargo bench -p dragonfly-anim -- --record` measured.
-//! [`CompressedTake::bytes_in_memory`] includes the tables that decoding needs. Any time costs the same.
+//! [`CompressedTake::bytes_in_memory`] includes the tables that decoding needs. Sampling costs the same at every time.
 //!
 //! A version that stored every second key as its difference to the middle of its neighbors needed slightly fewer bytes,
 //! but three keys per pose, and about twice the instructions per bone.
 //!
-//! Not kept: morph weights ([`CompressionReport::morphs_left_out`]).
+//! Morph weights are not compressed and not kept ([`CompressionReport::morphs_left_out`] counts their tracks).
 
 mod bits;
 mod clock;

@@ -140,7 +140,8 @@ fn grid(turn: f32, step: f32, farthest: f32) -> RoundingGrid {
     };
     let translation_bits = if farthest > 0.0 { bits(2.0 * farthest / step + 4.0) } else { 4 };
     RoundingGrid {
-        // Half a step in each of three components, and a rotation turns twice as far as its quaternion.
+        // Each of three components is off by up to half a step, and a rotation turns by twice the distance between the
+        // quaternions.
         rotation_bits: bits(2.5 / turn + 2.0),
         step: if step.is_normal() && step < 1e18 { step } else { 1.0 },
         translation_bits: if step.is_normal() { translation_bits } else { FLOATS },

@@ -20,13 +20,15 @@ pub struct Exactness {
 ///
 /// let coarse = Exactness { tolerance: 0.001, shell: 0.10 };
 /// let hand = Exactness { tolerance: 0.000_1, shell: 0.03 };
-/// let settings = CompressionSettings { everywhere: coarse, bones: vec![(12, hand)], ..CompressionSettings::default() };
+/// let settings = CompressionSettings { everywhere: coarse, bones: vec![(12, hand)], ..CompressionSettings::default()
+/// };
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompressionSettings {
     /// Accuracy of every bone that is not in `bones`. By default 0.1 mm at 3 cm, where a unit is a meter.
     pub everywhere: Exactness,
-    /// Bones with another accuracy. The last entry of a bone counts; a bone past the skeleton's end is ignored.
+    /// Bones with another accuracy. Of several entries for one bone the last one wins; a bone past the skeleton's end
+    /// is ignored.
     pub bones: Vec<(BoneIndex, Exactness)>,
     /// Keys per second. `None`, the default: those of the take where they are evenly spaced and all channels are
     /// linear, else 30.

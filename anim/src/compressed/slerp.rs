@@ -18,17 +18,17 @@
 //!
 //! What is left out is `t b₁ b₂ b₃ d³ (1 + b₄ d (1 + …))`. On 0 ≤ t ≤ 1 `|t b₁ b₂ b₃|` is at most 0.0197, and
 //! `|bᵢ d|` for i ≥ 4 at most 0.03 / 2, so it is below `0.0197 * 0.03³ * 1.02 < 6e-7`. The factors depend on the mix
-//! alone and are computed once a pose; then eight rotations cost two multiplications with addition a weight. Where any of
-//! eight rotations are farther apart, all eight take the series with as many terms as they need.
+//! alone and are computed once per pose; then each weight costs two multiply-adds for eight rotations at once. If any
+//! of eight pairs of rotations are farther apart, all eight use the longer series of [`SOME`] or [`MANY`] terms.
 
 use crate::fast::simd::{Float8, Simd};
 
-/// Below this `d` two terms are not enough.
+/// Smallest `d` for which two terms are enough.
 const FAR: f32 = -0.03;
-/// Number of terms for `d` down to [`FARTHER`]: rotations up to 91° apart, below 2e-7.
+/// Number of terms for `d` down to [`FARTHER`]: rotations up to 91° apart, with an error below 2e-7.
 const SOME: usize = 8;
 const FARTHER: f32 = -0.3;
-/// Number of terms for any two rotations: up to 180° apart, 1e-6.
+/// Number of terms for any two rotations: up to 180° apart, with an error of 1e-6.
 const MANY: usize = 20;
 
 /// The factors for one mix.
@@ -39,7 +39,7 @@ pub(super) struct Slerp {
     to: [f32; 3],
 }
 
-/// Returns `bᵢ` for `t`, without the sign of the series.
+/// Returns `bᵢ` for `t`, where i is `index + 1`.
 #[inline(always)]
 fn factor(t: f32, index: usize) -> f32 {
     let i = (index + 1) as f32;
@@ -58,7 +58,7 @@ impl Slerp {
     pub(super) fn mix<S: Simd>(&self, a: [S::F8; 4], b: [S::F8; 4]) -> [S::F8; 4] {
         let minus = S::F8::splat(-1.0);
         let d = a[3].mul_add(b[3], a[2].mul_add(b[2], a[1].mul_add(b[1], a[0].mul_add(b[0], minus))));
-        // True also for rotations more than half a turn apart.
+        // Also true where the dot product is negative, so that one rotation has to be negated.
         let [from, to] = if d.less(S::F8::splat(FAR)).any() {
             self.far::<S>(d)
         } else {
@@ -77,7 +77,7 @@ impl Slerp {
     fn far<S: Simd>(&self, cosine_less_one: S::F8) -> [S::F8; 2] {
         let one = S::F8::splat(1.0);
         let cosine = cosine_less_one + one;
-        // Rounding, and invalid bytes, can make it more than 1.
+        // Rounding, and invalid bytes, can make the cosine more than 1.
         let d = cosine.abs().min(one) - one;
         let terms = if d.less(S::F8::splat(FARTHER)).any() { MANY } else { SOME };
         let (mut from, mut to) = (one, one);
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn two_terms_are_within_their_bound_up_to_where_they_end() {
+    fn two_terms_of_the_series_are_within_their_error_bound_up_to_their_largest_angle() {
         let mut largest = 0.0_f64;
         for step in 0..=1000 {
             let t = step as f32 / 1000.0;

@@ -50,7 +50,7 @@ pub(super) enum StoredChannel {
 }
 
 impl StoredChannel {
-    /// Returns the packed numbers, if it is packed.
+    /// Returns the packed channel; `None` for the other kinds of storage.
     pub(super) fn packed(&self) -> Option<&PackedChannel> {
         if let Self::PackedChannel(packed) = self { Some(packed) } else { None }
     }

@@ -185,7 +185,7 @@ const CORNERS: [BVec3; 8] = [
     BVec3::new(false, true, true),
     BVec3::new(true, true, true),
 ];
-/// Returns the number of steps to the nearest whole number; none where a step has no length.
+/// Returns each distance as a whole number of steps, rounded to nearest; 0 where a step has no length.
 fn nearest(distance: Vec3, step: Vec3) -> Vec3 {
     let numbers = distance / step;
     Vec3::select(step.cmpgt(Vec3::ZERO), numbers.round(), Vec3::ZERO)
@@ -195,7 +195,8 @@ fn nearest(distance: Vec3, step: Vec3) -> Vec3 {
 fn first_bits(span: (f32, f32), step: f32) -> u8 {
     let numbers = (span.1 - span.0) / step;
     let least = if span.1 - span.0 > step { 1.0 } else { 0.0 };
-    // Not `ceil`: rounding has half a step of error in either direction anyway.
+    // The number of steps itself is not rounded up: rounding to a step is off by half a step in either direction
+    // anyway.
     (numbers + 1.0).log2().ceil().max(least).min(MAX_BITS as f32) as u8
 }
 

@@ -43,7 +43,7 @@ impl Skeleton {
         self.bones.iter().position(|bone| bone.name == name).map(|index| index as BoneIndex)
     }
 
-    /// Returns the children of `bone` in index order; of `None`: the roots.
+    /// Returns the children of `bone` in index order; for `None`, the roots.
     pub fn children(&self, bone: Option<BoneIndex>) -> impl Iterator<Item = BoneIndex> + '_ {
         (0..self.bones.len() as BoneIndex).filter(move |&index| self.bones[index as usize].parent == bone)
     }

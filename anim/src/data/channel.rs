@@ -25,7 +25,7 @@ pub enum Interpolation {
 pub struct Channel<T> {
     /// Seconds, strictly ascending.
     pub times: Arc<[f32]>,
-    /// One per key, or three per key for a cubic spline.
+    /// One value per key, or three per key for a cubic spline.
     pub values: Arc<[T]>,
     /// How values between keys are computed.
     pub interpolation: Interpolation,

@@ -3,7 +3,7 @@
 use super::BoneIndex;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
-/// Largest number of influences of a vertex; of files with more, the strongest are kept.
+/// Largest number of influences of a vertex; where a file has more, the strongest are kept.
 pub const MAX_INFLUENCES: usize = 8;
 
 /// Influence of one bone on a vertex.
@@ -95,7 +95,7 @@ pub struct Primitive {
 }
 
 impl Primitive {
-    /// Returns vertex `index` in one piece; `None` past the end.
+    /// Returns vertex `index`, assembled from the columns; `None` past the end.
     pub fn vertex(&self, index: usize) -> Option<Vertex> {
         let vertices = &self.vertices;
         Some(Vertex {
@@ -114,7 +114,7 @@ impl Primitive {
 pub struct Mesh {
     /// As in the file; may be empty.
     pub name: String,
-    /// One per material.
+    /// The primitives of the mesh, each of one material.
     pub primitives: Vec<Primitive>,
     /// Default weights of the morph targets; one per target.
     pub morph_weights: Vec<f32>,

@@ -8,7 +8,7 @@ use std::sync::Arc;
 pub struct AnimationData {
     /// Shared by edited copies, whose takes refer to it.
     pub skeleton: Arc<Skeleton>,
-    /// In file order; each has one track per bone.
+    /// The takes in file order; each has one track per bone.
     pub takes: Vec<Arc<Take>>,
 }
 

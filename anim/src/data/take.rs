@@ -27,7 +27,7 @@ pub struct Track {
 }
 
 impl Track {
-    /// Returns whether it animates nothing.
+    /// Returns whether the track animates nothing.
     pub fn is_empty(&self) -> bool {
         self.translation.is_empty() && self.rotation.is_empty() && self.scale.is_empty()
     }
@@ -75,7 +75,7 @@ pub struct Take {
     pub start: f32,
     /// Seconds from the first to the last key of any channel; zero for a single pose.
     pub length: f32,
-    /// One per bone, in bone order; a bone that does not move has an empty track.
+    /// One track per bone, in bone order; a bone that does not move has an empty track.
     pub tracks: Vec<Track>,
     /// Morph weights, only for meshes with animated weights.
     pub morphs: Vec<MorphTrack>,

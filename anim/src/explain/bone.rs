@@ -50,7 +50,7 @@ pub struct KeysStep<T> {
     pub interpolation: Interpolation,
     /// The last key at or before the time; the first, when the time is before all.
     pub before: KeyStep<T>,
-    /// The next key; the same one outside the keys.
+    /// The next key; the same key as `before` where the time is outside all keys.
     pub after: KeyStep<T>,
     /// Fraction of the time from `before` to `after`, 0..=1.
     pub mix: f32,
@@ -108,7 +108,7 @@ pub(super) fn chain(pose: &SampledPose<'_>, ends: &[BoneIndex]) -> Vec<BoneStep>
     wanted.map(|(bone, _)| step(pose, bone)).collect()
 }
 
-/// Returns the parent as the formulas use it: one that does not come before its child is ignored.
+/// Returns the parent as the formulas use it: a parent that does not come before its child is ignored.
 fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
     skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
 }

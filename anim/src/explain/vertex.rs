@@ -32,7 +32,8 @@ pub struct VertexResult {
     pub morphed_normal: Option<Vec3>,
     /// The bones or the matrix that move the vertex.
     pub movement: MovementStep,
-    /// The one matrix that moves the normal's surroundings: `Σ final_i * weight_i`, or that of a mesh without skin.
+    /// The matrix that moves the surface around the vertex: `Σ final_i * weight_i`, or the single matrix of a mesh
+    /// without skin.
     pub matrix: Mat4,
     /// Matrix that multiplies the normal before it is normalized: the transposed inverse of `matrix`, up to a factor.
     pub normal_matrix: Mat3,
@@ -42,7 +43,7 @@ pub struct VertexResult {
     pub final_normal: Option<Vec3>,
 }
 
-/// The keys of the track that animates morph weights; one time column serves all targets.
+/// The keys of the track that animates morph weights; all targets share its key times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MorphKeys {
     /// Number of keys of the track.

@@ -11,8 +11,8 @@
 //! rotation    = Σ share_i * ±rotation_i, divided by its length
 //! ```
 //!
-//! `q` and `-q` are the same rotation: each is moved to the hemisphere of the one with the largest share, of equal ones
-//! the first, the base before all. So the sum cannot vanish.
+//! `q` and `-q` are the same rotation: each rotation is moved to the hemisphere of the one with the largest share. Of
+//! equal shares the first counts, and the base comes before all layers. So the sum cannot vanish.
 
 use super::mask::{LaneMask, usable};
 use super::pose::PoseBlock;
@@ -48,8 +48,8 @@ impl<'a> PoseLayer<'a> {
 /// Blends `layers`; where the weights of a bone sum to less than 1, `base` gets the remainder.
 ///
 /// `base` is usually the rest pose ([`super::Rig::rest`]). Writes the blocks that `base` and `out` both have; a layer
-/// that is shorter does not affect the bones it lacks. Unit rotations and finite numbers in give the same out.
-/// Allocates nothing.
+/// that is shorter does not affect the bones it lacks. If all inputs are finite and their rotations have unit length,
+/// so are and have the results. Allocates nothing.
 pub fn blend(level: SimdLevel, base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock]) {
     level.run(Blend { base, layers, out, normalized: false });
 }

@@ -47,8 +47,8 @@ impl KeyTable {
         &self.times
     }
 
-    /// Returns the keys around `time`, clamped to them; NaN counts as before the first. As
-    /// [`find_keys`](crate::sample::find_keys), but never with the last key first.
+    /// Returns the keys around `time`, clamped to the keys; NaN counts as before the first key. The same position as
+    /// [`find_keys`](crate::sample::find_keys) returns, but at the end it is the last interval with `mix` 1.
     #[inline(always)]
     pub(super) fn find(&self, time: f32) -> KeyPosition {
         let times = self.times.as_slice();
@@ -93,7 +93,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_same_keys_are_found_as_by_halving(
+        fn the_table_finds_the_same_keys_as_a_binary_search(
             mut times in prop::collection::vec(prop_oneof![-5_f32..5.0, 1.0_f32..1.01], 2..60),
             wanted in prop::collection::vec(-6_f32..6.0, 40),
         ) {
@@ -103,7 +103,7 @@ mod tests {
             let key_table = KeyTable::new(times.clone()).unwrap();
             for time in wanted.iter().copied().chain(times.iter().copied()).chain([f32::NAN, f32::INFINITY, -9e9]) {
                 let (place, keys) = (key_table.find(time), find_keys(&times, time).unwrap());
-                // On the last key the open path returns it as the first, with mix 0.
+                // At the last key, `find_keys` returns that key with mix 0, and the table the key before it with mix 1.
                 let way = |key: usize, mix: f32| key as f32 + mix;
                 prop_assert!((way(place.key, place.mix) - way(keys.before, keys.mix)).abs() < 1e-5, "{time}");
                 prop_assert!(place.key + 1 < times.len() && (0.0..=1.0).contains(&place.mix));
@@ -112,12 +112,15 @@ mod tests {
     }
 
     #[test]
-    fn only_ascending_finite_times_make_a_grid() {
+    fn only_ascending_finite_times_make_a_key_table() {
         for times in
             [vec![], vec![1.0], vec![1.0, 1.0], vec![2.0, 1.0], vec![0.0, f32::NAN], vec![f32::MIN, f32::MAX]]
         {
             assert!(KeyTable::new(times.clone()).is_none(), "{times:?}");
         }
-        assert!(KeyTable::new(vec![0.0, 1e-45]).is_none(), "too near for a piece a second");
+        assert!(
+            KeyTable::new(vec![0.0, 1e-45]).is_none(),
+            "the number of pieces per second would be infinite"
+        );
     }
 }

@@ -36,13 +36,13 @@ impl<'a, T> Playing<'a, T> {
         Self { take, time, weight: 1.0, mask: None }
     }
 
-    /// Returns whether it alone determines the whole pose.
+    /// Returns whether this layer alone determines the whole pose.
     fn is_all(&self) -> bool {
         self.weight >= 1.0 && self.mask.is_none()
     }
 }
 
-// Deriving them would require the same traits of `T`.
+// Deriving `Clone` and `Copy` would require them of `T`.
 impl<T> Clone for Playing<'_, T> {
     fn clone(&self) -> Self {
         *self
@@ -94,8 +94,8 @@ pub fn pose_character<T: Playable>(
 
 /// Computes the final poses of many characters of one rig: those of character `c` from `c * binding.joints()` on.
 ///
-/// Each of `characters` is the layers that one of them plays. Characters past the end of `out` are left out. Otherwise
-/// as [`pose_character`]. Allocates nothing.
+/// Each item of `characters` is the list of layers that one character plays. Characters past the end of `out` are left
+/// out. Otherwise as [`pose_character`]. Allocates nothing.
 pub fn pose_crowd<'a, T: Playable + 'a>(
     level: SimdLevel,
     rig: &Rig,

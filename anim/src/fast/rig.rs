@@ -15,12 +15,12 @@ pub(super) const NARROW: usize = 256;
 #[derive(Clone, Debug)]
 pub struct Rig {
     pub(super) bones: usize,
-    /// One per lane, the padding included: 0 for a root, else 1 + the parent, so that it is never above the lane
-    /// itself.
+    /// One number per lane, the padding included: 0 for a root, else 1 + the parent, so that it is never above the
+    /// number of the lane itself.
     pub(super) parents: Vec<[u32; 8]>,
     /// 1 + each bone without children: a number that is not finite reaches at least one of them.
     pub(super) leaves: Vec<u32>,
-    /// The same as bytes, where those can index all bones; else empty.
+    /// `parents` as bytes, and `leaves` below, if a byte can index all bones; otherwise empty.
     pub(super) near_parents: Vec<[u8; 8]>,
     pub(super) near_leaves: Vec<u8>,
     /// Bones whose rest pose is a sheared matrix, in order.

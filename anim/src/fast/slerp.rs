@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_is_slerp_as_far_as_it_is_used() {
+    fn the_series_agrees_with_slerp_for_all_rotations_within_one_step() {
         let a = Quat::from_xyzw(0.3, -0.2, 0.5, 0.7).normalize();
         for degrees in [0.0, 0.001, 0.1, 1.0, 5.0, 12.0, 20.0, 30.0, 35.5_f32] {
             let b =
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn wide_turns_are_cut_into_steps_that_are_not() {
+    fn a_wide_rotation_is_split_into_steps_that_are_not_wide() {
         let a = Quat::from_rotation_y(0.4);
         for degrees in 1..=180 {
             let b = Quat::from_rotation_y(0.4 + (degrees as f32).to_radians());

@@ -22,7 +22,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_what_cannot_matter_is_made_zero() {
+    fn only_insignificant_numbers_are_flushed_to_zero() {
         assert_eq!(flushed(1e-13, 1.0), 0.0);
         assert_eq!(flushed(-1e-11, 1.0), -1e-11);
         assert_eq!(flushed(1e-30, 1e-29), 1e-30, "a tiny model is not lost");

@@ -66,7 +66,7 @@ pub fn two_bone(limb: &FastTwoBone, target: Vec3, to_root: &RootPoses, pose: &mu
     to_root.level.run(Solve { limb, target, to_root, pose })
 }
 
-/// A kernel only for the shorter code that its compiler makes of the same operations: results are the same bit for bit
+/// A kernel only because the compiler makes shorter code of the same operations there: results are the same bit for bit
 /// at all levels.
 struct Solve<'a> {
     limb: &'a FastTwoBone,
@@ -86,7 +86,7 @@ impl Kernel for Solve<'_> {
         let Some(middle) = matrices.get(limb.middle as usize) else { return false };
         let Some(end) = matrices.get(limb.end as usize) else { return false };
         let mut turns = solve(limb, target.into(), [root, middle, end]);
-        // Written so that NaN counts as not full.
+        // NaN fails the comparison, and so does not count as full weight.
         let is_whole = limb.weight >= 1.0;
         if !is_whole {
             turns = turns.map(|turn| shortened(turn, limb.weight));
@@ -212,13 +212,14 @@ fn softened(distance: f32, length: f32, softness: f32) -> f32 {
     distance
 }
 
-/// Returns a unit vector about which a limb can bend whose parts are on one line, `along`: towards the pole, or any.
+/// Returns a unit axis about which a limb can bend whose two parts are on one line with direction `along`. The bend is
+/// towards the pole, else towards `wanted`, else to any side.
 #[cold]
 fn any_axis(along: Vec3A, wanted: Vec3A, pole: Vec3) -> Vec3A {
     let along = along.normalize_or_zero();
     let across = |vector: Vec3A| {
         let axis = vector.cross(along);
-        // Of a vector on the line only rounding is left, and its direction is random.
+        // For a vector on the line, the cross product is nothing but rounding errors, and its direction is random.
         let is_sure = axis.length_squared() > 1e-8 * vector.length_squared();
         axis.try_normalize().filter(|_| is_sure)
     };
@@ -252,7 +253,7 @@ fn twisted(turn: Quat, axis: Vec3A, facing: Vec3A, line: Vec3A, square: f32) -> 
     }
 }
 
-/// Returns `weight` of a rotation of any length, the short way.
+/// Returns the rotation by `weight` times the angle of `turn`, a quaternion of any length, the short way.
 #[cold]
 fn shortened(turn: Quat, weight: f32) -> Quat {
     let weight = if weight > 0.0 { weight } else { 0.0 };

@@ -26,7 +26,7 @@ pub struct SkinnedVertices {
     blocks: Vec<VertexBlock>,
     influences: Vec<InfluenceBlock>,
     differences: Differences,
-    /// Whether it has no joint past the first 256.
+    /// Whether all joint numbers are below 256, so that a byte can index them.
     is_narrow: bool,
 }
 
@@ -176,7 +176,8 @@ impl<const MORPHED: bool> Kernel for SkinKernel<'_, MORPHED> {
     #[inline(always)]
     fn run<S: Simd>(self) {
         if self.vertices.is_narrow && self.positions.len() >= TABLE_THRESHOLD {
-            // Opaque to the compiler, so that rows are written whole and not byte by byte through a call.
+            // `black_box` hides the value from the compiler, which then copies whole rows instead of calling a function
+            // that fills bytes.
             let mut table = [black_box(PADDED_IDENTITY); NARROW];
             for (row, matrix) in table.iter_mut().zip(self.finals) {
                 row.0[..12].copy_from_slice(matrix);
@@ -300,7 +301,8 @@ fn weigh_one<S: Simd, const N: usize>(
 ) {
     let joint = influences[0].joints[lane];
     let weight = S::F8::splat(influences[0].weights[lane]);
-    // Row 2 is also in a wide register, of which all is kept: for narrow ones the weight would be broadcast once more.
+    // Row 2 has only four numbers, but is computed in a register of eight too, because a register of four would need
+    // the weight broadcast once more.
     let (mut two, mut one) = (finals.upper::<S>(joint) * weight, finals.lower::<S>(joint) * weight);
     for influence in &influences[1..] {
         let (joint, weight) = (influence.joints[lane], S::F8::splat(influence.weights[lane]));

@@ -153,7 +153,8 @@ pub(super) fn complete(evaluator: &Evaluator, found: &Candidate) -> Hit {
     }
 }
 
-/// Returns the bone with the greatest weight at a point of a triangle; of two equal ones the first found.
+/// Returns the bone with the greatest weight at a point of a triangle; of bones with equal weights, the one found
+/// first.
 fn bone_at(
     model: &ModelData,
     instance: u32,

@@ -5,11 +5,10 @@
 //! * The *open* one tests every triangle: [`ray_open`], [`sphere_open`]. The formulas are those of [`crossing`] and
 //!   [`nearest_on_triangle`]; there is no state.
 //! * The *tree* (a bounding volume hierarchy): triangles are grouped by the bone that moves them most, each group is
-//!   halved
-//!   until a few are left, and each group and leaf stores one box per joint of the vertices that the joint moves.
-//!   [`HitTree`] is built once per model and can be stored with it; [`HitPose`] fits its boxes to a pose, from the final
-//!   poses alone, without reading a vertex; a ray descends only where it meets a box, and skins only the leaves that it
-//!   reaches.
+//!   halved until a few are left, and each group and leaf stores one box per joint of the vertices that the joint
+//!   moves. [`HitTree`] is built once per model and can be stored with it; [`HitPose`] fits its boxes to a pose, from
+//!   the final poses alone, without reading a vertex; a ray descends only where it meets a box, and skins only the
+//!   leaves that it reaches.
 //!
 //! A triangle whose corners are moved by several bones is in the box of its leaf in every pose: each vertex is a mean
 //! of its images under its bones, and the box contains all of those ([`crate::bounds::BoneBoxes`] explains it in
@@ -52,12 +51,12 @@ pub struct Ray {
 pub struct HitSettings {
     /// Largest distance from the origin in scene units. Infinity for no limit, NaN for no hit at all.
     pub max_distance: f32,
-    /// Whether triangles are hit from behind. Where a matrix mirrors, front and back are exchanged with the winding.
+    /// Whether back faces are hit too. A matrix that mirrors reverses the winding, and so exchanges front and back.
     pub back_faces: bool,
 }
 
 impl Default for HitSettings {
-    /// Returns unlimited distance, from both sides.
+    /// Returns settings without a limit of the distance, for hits from both sides.
     fn default() -> Self {
         Self { max_distance: f32::INFINITY, back_faces: true }
     }

@@ -8,7 +8,8 @@ use crate::evaluator::Evaluator;
 use crate::skin::Movement;
 use glam::Vec3;
 
-/// Returns the nearest hit of `ray` on the model of `evaluator`; of two equally near the first in the file.
+/// Returns the nearest hit of `ray` on the model of `evaluator`; of two equally near hits, the one whose triangle comes
+/// first in the file.
 ///
 /// `positions` are those of [`Evaluator::all_positions`] in the same pose, so that many rays share them; triangles
 /// whose corners are missing in it are left out. O(triangles). `None` when nothing is hit.
@@ -21,7 +22,7 @@ pub fn ray_open(evaluator: &Evaluator, positions: &[Vec3], ray: &Ray, settings: 
 }
 
 /// Returns the point of the model of `evaluator` nearest to `center`, at most `radius` scene units away; of two equally
-/// near the first in the file.
+/// near points, the one whose triangle comes first in the file.
 ///
 /// `positions` as for [`ray_open`]. O(triangles). `None` when nothing is within the radius.
 pub fn sphere_open(evaluator: &Evaluator, positions: &[Vec3], center: Vec3, radius: f32) -> Option<Hit> {

@@ -102,8 +102,8 @@ impl HitPose {
         self.boxes.first().map_or(AxisBox::EMPTY, |(bounds, _)| *bounds)
     }
 
-    /// Returns the nearest hit of `ray` on the mesh; of two equally near the first in the file. The same result as
-    /// [`super::ray_open`]. `None` when nothing is hit. Allocates nothing.
+    /// Returns the nearest hit of `ray` on the mesh; of two equally near hits, the one whose triangle comes first in
+    /// the file. The same result as [`super::ray_open`]. `None` when nothing is hit. Allocates nothing.
     #[doc(alias = "raycast")]
     pub fn ray(&mut self, evaluator: &Evaluator, ray: &Ray, settings: &HitSettings) -> Option<Hit> {
         let best = self.search_ray(evaluator, ray, settings, false)?;
@@ -116,8 +116,9 @@ impl HitPose {
         self.search_ray(evaluator, ray, settings, true).is_some()
     }
 
-    /// Returns the point of the mesh nearest to `center`, at most `radius` scene units away; of two equally near the
-    /// first in the file. The same result as [`super::sphere_open`]. `None` when nothing is within. Allocates nothing.
+    /// Returns the point of the mesh nearest to `center`, at most `radius` scene units away; of two equally near
+    /// points, the one whose triangle comes first in the file. The same result as [`super::sphere_open`]. `None` when
+    /// nothing is within the radius. Allocates nothing.
     pub fn sphere(&mut self, evaluator: &Evaluator, center: Vec3, radius: f32) -> Option<Hit> {
         let best = self.search_sphere(evaluator, SphereSearch::of(center, radius)?, None)?;
         Some(complete(evaluator, &best))
@@ -270,7 +271,8 @@ impl HitPose {
     }
 }
 
-/// Returns the reciprocal of each number; of zero a number so large that only a point exactly on the plane gives none.
+/// Returns the reciprocal of each number; for zero a huge finite number, whose product with any distance but zero is
+/// huge too.
 fn inverse(direction: DVec3) -> DVec3 {
     // Not infinite: its product with zero must stay zero.
     const LARGEST: f64 = 1e300;

@@ -45,9 +45,9 @@ pub struct HitLeaf {
 /// neither be too small nor belong to an older version of the model.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HitTreeParts {
-    /// A tree; the first is the root. Empty without triangles.
+    /// The nodes of the tree; the first is the root. Empty without triangles.
     pub nodes: Vec<HitNode>,
-    /// Each belongs to one node.
+    /// The leaves; each belongs to one node.
     pub leaves: Vec<HitLeaf>,
     /// Triangles of the primitives, grouped by leaf; every triangle of every instance once.
     pub triangles: Vec<u32>,
@@ -199,10 +199,10 @@ impl HitTree {
         tree
     }
 
-    /// Adds the parts of the inner nodes; those of the leaves exist.
+    /// Adds the parts of the inner nodes; the parts of the leaves exist already.
     fn add_inner(&mut self, builder: &mut ReachBuilder) {
         self.parts_of = vec![(MIXED, 0, 0); self.parts.nodes.len()];
-        // Children come after their parents.
+        // In reverse, because children come after their parents.
         for (index, node) in self.parts.nodes.iter().enumerate().rev() {
             self.parts_of[index] = match *node {
                 HitNode::Leaf(leaf) => {

@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ray_meets_a_triangle_where_it_should() {
+    fn a_ray_hits_a_triangle_inside_and_on_its_border_and_nowhere_else() {
         let hit = crossing(&down(0.25, 0.5), CORNERS).unwrap();
         assert_eq!((hit.distance, hit.barycentric), (2.0, DVec3::new(0.25, 0.25, 0.5)));
         assert!(hit.counter_clockwise);
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_area_or_no_number_is_no_hit() {
+    fn triangles_without_area_and_numbers_that_are_not_finite_give_no_hit() {
         let ray = down(0.0, 0.0);
         for corners in [[Vec3::ZERO; 3], [Vec3::ZERO, Vec3::X, Vec3::X * 2.0], [Vec3::NAN, Vec3::X, Vec3::Y]]
         {
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn each_region_has_its_nearest_place() {
+    fn each_of_the_seven_regions_around_a_triangle_has_its_own_nearest_point() {
         let nearest = |x: f64, y: f64| nearest_on_triangle(DVec3::new(x, y, 0.0), CORNERS).unwrap();
         assert_eq!(nearest(-1.0, -1.0).0, DVec3::X);
         assert_eq!(nearest(3.0, 0.0), (DVec3::Y, 2.0));

@@ -29,12 +29,12 @@ use std::f32::consts::PI;
 pub struct Gaze {
     /// The bone to turn.
     pub bone: BoneIndex,
-    /// Axis that shall point at the target: bone space, any length.
+    /// Axis to point at the target: bone space, any length.
     pub forward: Vec3,
-    /// Axis that shall stay up: bone space, any length. Only used with [`LookAt::up`].
+    /// Axis to keep upright: bone space, any length. Only used with [`LookAt::up`].
     pub up: Vec3,
-    /// Position of the eye in bone space; the line from here along `forward` meets the target. Farther from the bone's
-    /// origin than the target is, it counts as the origin.
+    /// Position of the eye in bone space; the line from here along `forward` meets the target. An eye that is farther
+    /// from the bone's origin than the target is counts as the origin.
     pub eye: Vec3,
     /// Share of the remaining angle by which this bone turns, 0..=1.
     pub share: f32,
@@ -43,7 +43,8 @@ pub struct Gaze {
 }
 
 impl Gaze {
-    /// Creates an entry for bone `bone`, which looks along `forward`, with share 1, without limit; up is any.
+    /// Creates an entry for bone `bone`, which looks along `forward`, with the eye at its origin, share 1, and neither
+    /// limit nor up axis.
     pub fn new(bone: BoneIndex, forward: Vec3) -> Self {
         Self { bone, forward, up: Vec3::ZERO, eye: Vec3::ZERO, share: 1.0, limit: PI }
     }
@@ -54,7 +55,7 @@ impl Gaze {
 pub struct LookAt<'a> {
     /// The bones, each a descendant of the one before; other bones may be between.
     pub bones: &'a [Gaze],
-    /// Direction to which the bones' up axes shall point: to-root space, any length; `None`: no bone twists.
+    /// Direction in which the bones' up axes are to point: to-root space, any length; `None`: no bone twists.
     pub up: Option<Vec3>,
     /// Radians from the last bone's posed forward axis to the target: up to the first all bones turn fully, from the
     /// second on nothing moves; smooth between. `[PI, PI]` or more: no target is out of view.
@@ -111,8 +112,8 @@ pub fn look_at(
     Ok(Reach { distance, iterations: 1 })
 }
 
-/// Returns to-root of the parent of `bone`, from that of the parent of a bone above it; of the first bone: from
-/// `to_root`.
+/// Returns the to-root matrix of the parent of `bone`. `above` is an ancestor of `bone` and the to-root matrix of that
+/// ancestor's parent; if it is `None`, the result is read from `to_root`.
 fn space_of(
     skeleton: &Skeleton,
     to_root: &[Mat4],
@@ -160,9 +161,8 @@ fn aim(parent: &Mat4, pose: Transform, one: &Gaze, gaze: &LookAt<'_>, target: Ve
 /// Returns the direction that has to point at a target `distance` away, so that the line from `eye` along `forward`
 /// meets it.
 ///
-/// The point of that line that is as far from the origin as the target: `eye + t f`, `t = -eye·f + √((eye·f)² +
-/// distance² -
-/// |eye|²)` for unit f.
+/// It is the point of that line that is as far from the origin as the target: `eye + t f` with
+/// `t = -eye·f + √((eye·f)² + distance² - |eye|²)` for unit f.
 fn sight(forward: Vec3, eye: Vec3, distance: f32) -> Vec3 {
     let Some(unit) = forward.try_normalize() else { return Vec3::ZERO };
     let along = eye.dot(unit);

@@ -19,8 +19,8 @@
 //!   return an [`IkError`] and leave the poses as they were.
 //! * A weight of zero (or below, or NaN) changes nothing, bit for bit; a weight above one counts as one.
 //! * Parents may be scaled differently per axis, or mirrored: the problem is transformed into the space of the parent
-//!   of
-//!   the first bone, where its lengths do not change when it turns, and the solution is valid in to-root space again.
+//!   of the first bone, where its lengths do not change when it turns, and the solution is valid in to-root space
+//!   again.
 //! * They allocate nothing, except that a [`ChainScratch`] grows to the longest chain it has been used for.
 //! * The same input gives the same output.
 

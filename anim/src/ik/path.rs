@@ -5,7 +5,7 @@ use crate::animation::to_parent;
 use crate::data::{BoneIndex, Skeleton, Transform};
 use glam::{Mat3, Mat4, Vec3};
 
-/// Returns the parent of `bone`; one that does not come before its child is ignored, as in [`crate::animation`].
+/// Returns the parent of `bone`; a parent that does not come before its child is ignored, as in [`crate::animation`].
 pub(super) fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
     skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
 }

@@ -31,9 +31,11 @@ pub enum Pole {
     /// As in the pose; a straight limb bends in a direction that is always the same for the same pose.
     #[default]
     AsPosed,
-    /// Towards this direction, to-root space; any length. Along the line to the target it is ignored: as posed.
+    /// Towards this direction, to-root space; any length. A direction along the line to the target is ignored, as if it
+    /// were [`Self::AsPosed`].
     Direction(Vec3),
-    /// Towards this point, to-root space. On the line to the target it is ignored: as posed.
+    /// Towards this point, to-root space. A point on the line to the target is ignored, as if it were
+    /// [`Self::AsPosed`].
     Point(Vec3),
 }
 

@@ -20,9 +20,8 @@ const MOST: f64 = 175.0 / 180.0 * std::f64::consts::PI;
 /// ```
 ///
 /// * The swing is allowed where `(s·side / swing_side)² + (s·up / swing_up)² ≤ 1`, with `up = axis × side`: a cone
-///   whose
-///   section is an ellipse, measured in angles. Otherwise the nearest point of that ellipse is used. So the limit is
-///   continuous also for flat cones, where shrinking `s` towards 0 would jump.
+///   whose section is an ellipse, measured in angles. Otherwise the nearest point of that ellipse is used. So the limit
+///   is continuous also for flat cones, where shrinking `s` towards 0 would jump.
 /// * The twist is clamped to its range, which does not depend on the swing.
 ///
 /// A half-angle of 0 allows no swing about that side: with `swing_up` = 0 the bone swings in one plane only. Negative

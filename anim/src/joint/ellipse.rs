@@ -63,7 +63,7 @@ mod tests {
     }
 
     #[test]
-    fn a_flat_ellipse_is_a_line_and_none_a_point() {
+    fn an_ellipse_with_one_half_axis_of_zero_is_a_line_and_with_two_a_point() {
         let point = DVec2::new(-2.0, 0.5);
         assert_eq!(nearest_in_ellipse(point, DVec2::new(1.0, 0.0)), DVec2::new(-1.0, 0.0));
         assert_eq!(nearest_in_ellipse(point, DVec2::new(0.0, 3.0)), DVec2::new(0.0, 0.5));

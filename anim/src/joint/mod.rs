@@ -45,8 +45,9 @@ use glam::{DQuat, Quat};
 /// Tolerance in radians (about 0.0006°, or 0.01 mm at the end of a bone of 1 m): a rotation nearer to an allowed one
 /// than this is allowed.
 ///
-/// A `f32` quaternion is accurate to about 2e-7 rad. Where two angles of a limit have nearly the same axis, they are
-/// less accurate by 1 / cos of the angle between; the limits end where that factor is 30.
+/// A `f32` quaternion is accurate to about 2e-7 rad. Where two of a limit's turns have nearly the same axis, their
+/// angles are less accurate, by a factor of up to 30 at the largest angles that limits allow: 88° for the second Euler
+/// angle, 175° for the swing of a ball joint.
 pub const SLACK: f32 = 1e-5;
 
 /// The range of motion of one joint.
@@ -63,7 +64,7 @@ pub enum JointLimit {
 /// An allowed rotation, and its distance from the given one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clamped {
-    /// In the parent's space, unit length.
+    /// The allowed rotation, in the parent's space, of unit length.
     pub rotation: Quat,
     /// The angle between the given rotation and `rotation`: radians, 0..=π; exactly 0 where it was allowed.
     pub by: f32,

@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn an_angle_goes_to_the_nearer_end_on_the_circle() {
+    fn an_angle_outside_the_range_is_clamped_to_the_end_that_is_nearer_on_the_circle() {
         let range = AngleRange::degrees(-10.0, 150.0);
         let clamp = |degrees: f64| range.clamp(degrees.to_radians()).to_degrees();
         for (angle, expected) in [(0.0, 0.0), (149.0, 149.0), (160.0, 150.0), (-20.0, -10.0), (-179.0, 150.0)]
@@ -100,14 +100,14 @@ mod tests {
     }
 
     #[test]
-    fn a_range_past_half_a_turn_is_counted_on() {
+    fn a_range_beyond_half_a_turn_contains_the_same_angles_counted_from_the_other_side() {
         let range = AngleRange::degrees(90.0, 270.0);
         assert_eq!(range.clamp(-3.0), -3.0, "-172° is 188°");
         assert!(near(range.clamp(0.1), 0.5 * PI) && near(range.clamp(-0.1), -0.5 * PI));
     }
 
     #[test]
-    fn what_is_no_range_has_a_defined_answer() {
+    fn unlimited_and_reversed_ranges_have_defined_results() {
         for free in [AngleRange::FREE, AngleRange::new(f32::NAN, 1.0), AngleRange::new(-3.0, 4.0)] {
             assert_eq!(free.clamp(2.5), 2.5);
             assert_eq!(free.clamp_within(1.0, 2.5), 1.0);

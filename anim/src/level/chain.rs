@@ -40,9 +40,9 @@ impl Default for LevelSettings {
 
 /// Returns the original and its levels, each with its error.
 ///
-/// Each primitive is reduced to the share by itself; vertices that have to stay (see the [module](super)) may keep it
-/// above. A level that would have no fewer triangles than the one before is left out. A share that is not between 0 and
-/// 1 counts as 1. O(n log n) for the collapses, and for the errors vertices × poses × log n.
+/// Each primitive by itself is reduced to the share; because of vertices that have to stay (see the [module](super)) it
+/// may keep more triangles. A level that would have no fewer triangles than the one before is left out. A share that is
+/// not between 0 and 1 counts as 1. O(n log n) for the collapses, and O(vertices × poses × log n) for the errors.
 pub fn levels(model: &ModelData, settings: &LevelSettings) -> Vec<Lod> {
     let original =
         model.meshes.iter().map(|mesh| mesh.primitives.iter().map(|of| of.indices.clone()).collect());

@@ -74,8 +74,8 @@ struct CollapseCandidate {
 }
 
 impl Ord for CollapseCandidate {
-    /// The cheapest is the greatest; of two equal ones the one of the earlier vertex, so that the order is always the
-    /// same.
+    /// Orders the cheapest candidate as the greatest. Of two equally cheap candidates, the one whose vertices come
+    /// first is the greater, so that the order is always the same.
     fn cmp(&self, other: &Self) -> Ordering {
         let ends = |candidate: &Self| (candidate.from, candidate.onto);
         other.cost.total_cmp(&self.cost).then(ends(other).cmp(&ends(self)))
@@ -278,7 +278,8 @@ impl<'a> Collapser<'a> {
         true
     }
 
-    /// Returns the vertex on `side` whose normal is most similar to that of `vertex`; of two equal ones the first.
+    /// Returns the vertex on `side` whose normal is most similar to that of `vertex`; of equally similar ones the
+    /// first.
     fn most_similar(&self, vertex: u32, side: u32) -> Option<u32> {
         let normals = &self.surface.primitive.vertices.normals;
         let normal = |vertex: u32| normals.get(vertex as usize).copied().unwrap_or_default();

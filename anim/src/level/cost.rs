@@ -111,7 +111,7 @@ fn quadrics_of(surface: &Surface<'_>, positions: &[DVec3]) -> Vec<Quadric> {
 /// they have no bone in common.
 fn skin_difference(surface: &Surface<'_>, a: u32, b: u32) -> f64 {
     let vertices = &surface.primitive.vertices;
-    // No vertex has more; a longer list would only take longer.
+    // Valid vertices have no more influences; the limit bounds the time that invalid ones take.
     let [of_a, of_b] = [a, b].map(|vertex| {
         let list = vertices.influences_of(vertex as usize);
         &list[..list.len().min(MAX_INFLUENCES)]

@@ -14,9 +14,8 @@
 //! # What is preserved
 //!
 //! * Vertices at one position that always move together (same position, influences and morph differences) are one
-//!   *place*;
-//!   a difference in texture coordinates or color there is a seam. A collapse moves every side of a seam or does
-//!   not happen, so a seam is only ever shortened along itself and texture coordinates are never torn.
+//!   *place*; a difference in texture coordinates or color there is a seam. A collapse moves every side of a seam or
+//!   does not happen, so a seam is only ever shortened along itself and texture coordinates are never torn.
 //! * A border only collapses along itself. Where several primitives of a mesh meet, and wherever the surface is not a
 //!   manifold (an edge of three triangles), vertices stay.
 //! * No triangle turns over: its normal stays within 90° of the original's, and within about 78° per step.

@@ -30,15 +30,17 @@ impl Progression {
         self.left.len().saturating_sub(1)
     }
 
-    /// Returns the fewest steps after which at most `triangles` are left; all steps where there are more even then.
+    /// Returns the fewest steps after which at most `triangles` are left; the number of all steps if more are left even
+    /// then.
     pub fn steps_to(&self, triangles: usize) -> usize {
         self.left.partition_point(|&left| left as usize > triangles).min(self.steps())
     }
 
-    /// Writes the indices of `primitive` after `steps` collapses to `out`, in the order of the original; after none
-    /// they are the original's.
+    /// Writes the indices of `primitive` after `steps` collapses to `out`, in the order of the original; after 0 steps
+    /// they are those of the original.
     ///
-    /// `scratch` is working memory; with both kept between calls nothing is allocated. O(vertices + triangles).
+    /// `scratch` is working memory. If `out` and `scratch` are kept between calls, nothing is allocated. O(vertices +
+    /// triangles).
     /// Vertices and triangles that `primitive` does not have are left out.
     pub fn indices_after(
         &self,

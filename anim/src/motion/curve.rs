@@ -29,8 +29,8 @@ impl RootMotion {
     /// Returns `M(t)`: from the scene in which the take is in place to that in which it moves, at `time` seconds; scale
     /// 1.
     ///
-    /// Clamped to the keys. The identity at the start of the take, unless its keys have been edited; also where the
-    /// result would exceed the range of f32.
+    /// The time is clamped to the keys. The result is the identity at the start of the take, unless the keys have been
+    /// edited, and also where it would exceed the range of f32.
     pub fn at(&self, time: f32) -> Transform {
         self.rigid(time).to_transform()
     }
@@ -100,7 +100,7 @@ impl Rigid {
         Self { rotation, translation: -(rotation * self.translation) }
     }
 
-    /// Returns the product of `times` copies of itself, by squaring; of the inverse where `times` is negative.
+    /// Returns `self` to the power of `times`, by squaring; a negative power is a power of the inverse.
     fn repeated(self, times: i64) -> Self {
         let mut square = if times < 0 { self.inverse() } else { self };
         let (mut left, mut product) = (times.unsigned_abs(), Self::IDENTITY);

@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn slopes_are_those_of_the_curve() {
+    fn slopes_are_the_tangents_on_a_key_and_the_derivative_between_keys() {
         let channel = spline();
         assert_eq!(slopes(&channel, Vec3::ZERO, 3.0), [channel.values[3], channel.values[5]]);
         let got = slopes(&channel, Vec3::ZERO, 2.2)[0];

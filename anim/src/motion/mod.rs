@@ -82,7 +82,8 @@ pub enum MotionError {
         /// The index that was given.
         bone: BoneIndex,
     },
-    /// Above the bone, at some key, a scale is zero: to-root space cannot be transformed to that of the parent.
+    /// At some key an ancestor of the bone has a scale of zero, so to-root space cannot be transformed to the space of
+    /// the bone's parent.
     #[error(
         "the motion of bone {bone} cannot be computed at {milliseconds} ms: a scale of one of its ancestors is zero"
     )]

@@ -74,8 +74,8 @@ pub(super) fn ancestors(skeleton: &Skeleton, bone: BoneIndex) -> impl Iterator<I
     std::iter::successors(parent(bone), move |&bone| parent(bone)).map(|bone| bone as usize)
 }
 
-/// Returns the rotation of a matrix; of a mirrored one that of its negative: `P⁻¹ Y P` and `R⁻¹ Y R` are equal in both
-/// cases.
+/// Returns the rotation R of a matrix P. For a mirrored matrix it is the rotation of `-P`: `P⁻¹ Y P` and `R⁻¹ Y R` are
+/// equal in both cases.
 fn rotation_of(matrix: DMat3) -> DQuat {
     let matrix = if matrix.determinant() < 0.0 { -matrix } else { matrix };
     let z = matrix.z_axis.normalize_or(DVec3::Z);

@@ -18,7 +18,8 @@ pub(super) fn find_contacts(
     let mut contacts = Vec::new();
     let mut look_at = |bone: usize| {
         let origin = |frame: usize| matrices[frame * bones + bone].w_axis.truncate().as_dvec3();
-        // For each frame, a later one far enough away to measure a speed between the two.
+        // The current contact: its first frame, and the last frame up to which the speed is known to be low. Each frame
+        // is paired with a later one far enough away to measure a speed between the two.
         let mut start: Option<(usize, usize)> = None;
         let mut later = 0;
         for frame in 0..times.len() {

@@ -75,7 +75,7 @@ fn frame_times(take: &Take, bones: usize, per_second: f32) -> Result<Vec<f32>, R
         before_steps(&track.translation, &mut times);
         before_steps(&track.rotation, &mut times);
         before_steps(&track.scale, &mut times);
-        // The union of many tracks is hardly longer than one of them.
+        // Removes duplicates early: the tracks of a take mostly share their key times.
         if times.len() > 2 * limit {
             sort(&mut times);
             if times.len() > limit {

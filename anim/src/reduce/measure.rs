@@ -55,8 +55,8 @@ impl Measurement {
 
 /// Compares `reduced` with `original` on every frame of the original, using only the two takes.
 ///
-/// Tolerances and contacts are those that [`super::reduce()`] would use for `original`. An error where there are too
-/// many frames, as there.
+/// Tolerances and contacts are those that [`super::reduce()`] would use for `original`. As there, too many frames are
+/// an error.
 pub fn measure(
     original: &Take,
     reduced: &Take,
@@ -101,8 +101,8 @@ pub(super) fn deviation(a: Mat4, b: Mat4, shell: f64) -> f64 {
     deviation_above(a, b, shell, -1.0)
 }
 
-/// As [`deviation`], where only an error above `known` matters: one that is certainly below may come out too large, but
-/// still below.
+/// As [`deviation`], for callers to which only an error above `known` matters: an error that is certainly below may be
+/// overestimated, but never to more than `known`.
 pub(super) fn deviation_above(a: Mat4, b: Mat4, shell: f64, known: f64) -> f64 {
     if a == b {
         return 0.0;
@@ -114,7 +114,7 @@ pub(super) fn deviation_above(a: Mat4, b: Mat4, shell: f64, known: f64) -> f64 {
     let along = (turned.transpose() * moved).length();
     let without_stretch = moved.length_squared() + 2.0 * shell * along;
     let squares = turned.transpose() * turned;
-    // The sum of the eigenvalues, already computed, is no less than the largest.
+    // The sum of the eigenvalues needs no further computation and is no less than the largest of them.
     let sum = squares.x_axis.x + squares.y_axis.y + squares.z_axis.z;
     let bound = (without_stretch + shell * shell * sum).sqrt();
     if bound <= known {

@@ -11,8 +11,8 @@ use super::search::KeySearch;
 /// worse.
 const PATIENCE: usize = 4;
 
-/// Limit of work in bones moved on a frame, all channels together, after which the rest stays as it is: a few seconds.
-/// What is left out is the last few percent of the keys.
+/// Largest amount of work, in bones moved on a frame, for all channels together: a few seconds. After that the
+/// remaining channels stay as they are; minimizing them would remove only the last few percent of the keys.
 const WORK: u64 = 20_000_000;
 
 /// Optimizes every channel once, those with most keys first.

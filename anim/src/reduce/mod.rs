@@ -19,11 +19,11 @@
 //! times, values and interpolation (of interpolated rotations the sign may differ, which means the same rotation), so
 //! that it can be edited and reduced again.
 //!
-//! * A channel whose value is constant keeps one key; none, where that is the rest value.
-//! * Step, linear and closest channels keep their interpolation; with closest, only a key between two of the
-//!   same value is removed, because the time of a change is between frames. Cubic splines stay cubic splines: a remaining
-//!   key keeps its tangents, so a spline loses keys only where its neighbors' tangents already describe the same curve;
-//!   none is resampled.
+//! * A channel whose value is constant keeps one key, or no key if that value is the rest value.
+//! * Step, linear and closest channels keep their interpolation. A closest channel loses a key only if both neighbors
+//!   have the same value as the key, because its changes happen between frames. Cubic splines stay cubic splines and
+//!   are not resampled: a remaining key keeps its tangents, so a spline loses a key only if the tangents of the key's
+//!   neighbors already describe the same curve.
 //! * One channel keeps a key at the start and one at the end, so that the take is as long as before.
 //! * Weights of morph targets are not changed.
 //!
@@ -82,7 +82,7 @@ pub struct Reduced {
     pub keys_before: usize,
     /// Number of keys summed over all channels of the reduced take.
     pub keys_after: usize,
-    /// Its error compared with the original, measured afterwards from the two takes.
+    /// Error of the reduced take compared with the original, measured afterwards from the two takes.
     pub measurement: Measurement,
     /// Every contact that was considered: the given ones, then those found.
     pub contacts: Vec<Contact>,
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_result_that_does_not_hold_gets_back_the_tracks_it_needs_and_no_more() {
+    fn only_the_tracks_that_exceed_a_tolerance_and_those_of_their_ancestors_are_restored() {
         let bone = |parent| Bone {
             name: String::new(),
             parent,

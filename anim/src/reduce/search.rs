@@ -248,7 +248,8 @@ impl<'a> KeySearch<'a> {
         interpolation == Interpolation::Closest
     }
 
-    /// Returns whether the column may have a key here, with the others as they are now.
+    /// Returns whether every tolerance is kept on the frame of `key` if the column has that key and the other channels
+    /// stay as they are.
     pub(super) fn can_have_key(&mut self, column: usize, key: usize) -> bool {
         let (frame, on_key) = self.on_key(column, key);
         let Some(pose) = self.changed_pose(column, on_key, frame) else { return true };
@@ -319,8 +320,8 @@ fn columns(take: &Take, bones: usize, times: &[f32]) -> Vec<ChannelKeys> {
     columns
 }
 
-/// Returns the number of keys of the columns on the first and on the last frame; the maximum, where morph weights have
-/// a key there.
+/// Returns the number of keys of the columns on the first and on the last frame; `usize::MAX` for an end on which morph
+/// weights have a key.
 fn ends(take: &Take, columns: &[ChannelKeys], frames: usize) -> [usize; 2] {
     [0, frames - 1].map(|end| {
         let on_end = |column: &&ChannelKeys| column.frames.iter().any(|&frame| frame as usize == end);

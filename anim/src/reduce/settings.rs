@@ -21,7 +21,8 @@ pub struct ReduceSettings {
 }
 
 impl Default for ReduceSettings {
-    /// Returns one millimeter, 30 millimeters away from the bones of a model in meters, 60 frames per second.
+    /// Returns a tolerance of one millimeter at 30 millimeters from the bones, for a model in meters, measured on 60
+    /// frames per second.
     fn default() -> Self {
         Self {
             tolerance: 1.0,
@@ -37,7 +38,7 @@ impl Default for ReduceSettings {
 /// there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contacts {
-    /// Tolerance in a contact in millimeters, where it is the smaller one.
+    /// Tolerance in a contact in millimeters; applies where it is smaller than [`ReduceSettings::tolerance`].
     pub tolerance: f32,
     /// Contacts given by the caller.
     pub given: Vec<Contact>,
@@ -46,7 +47,7 @@ pub struct Contacts {
 }
 
 impl Default for Contacts {
-    /// Returns a tenth of a millimeter, in contacts that are searched for.
+    /// Returns a tolerance of a tenth of a millimeter, with no given contacts and a search for contacts.
     fn default() -> Self {
         Self { tolerance: 0.1, given: Vec::new(), search: Some(ContactSearch::default()) }
     }

@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_bone_has_one_name_however_it_is_written() {
+    fn all_spellings_of_a_bone_name_have_the_same_normalized_name() {
         let same: [&[&str]; 6] = [
             &["mixamorig:LeftArm", "Arm.L", "arm_l", "L_Arm", "Left Arm", "DEF-arm.L", "mixamorig1:LeftArm"],
             &["mixamorig:Hips", "hips", "HIPS", "Armature|Hips", "b_Hips", "mixamorig_Hips"],
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn names_that_are_only_a_prefix_a_side_or_nothing_stay_something() {
+    fn a_name_that_is_only_a_prefix_or_a_side_is_kept_and_different_bones_keep_different_names() {
         assert_eq!(normalized_name("L"), "l");
         assert_eq!(normalized_name("b"), "b");
         assert_eq!(normalized_name(""), "");

@@ -2,10 +2,10 @@
 
 use crate::data::{Channel, Interpolation};
 
-/// Number of samples per second between two keys whose product is not linear ...
+/// Number of samples per second between two keys whose product is not linear; at most [`MOST_BETWEEN`] are made.
 const PER_SECOND: f32 = 60.0;
 
-/// ... and largest number of samples between two keys, so that the work stays in proportion to the keys.
+/// Largest number of samples between two keys, so that the work stays in proportion to the number of keys.
 const MOST_BETWEEN: f32 = 16.0;
 
 /// The key times of the channels that are combined.

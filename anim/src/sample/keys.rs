@@ -13,7 +13,7 @@
 pub struct Keys {
     /// The last key at or before the time; the first key when the time is before all.
     pub before: usize,
-    /// The next one; the same as `before` outside the keys.
+    /// The next key; the same key as `before` where the time is outside all keys.
     pub after: usize,
     /// Fraction of the time from `before` to `after`, 0 ≤ mix ≤ 1; 0 on a key and outside the keys.
     pub mix: f32,
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_between_two_keys_finds_both_and_the_way_between() {
+    fn a_time_between_two_keys_finds_both_keys_and_the_fraction_between_them() {
         let times = [0.0, 1.0, 3.0, 4.0];
         assert_eq!(find_keys(&times, 0.25), keys(0, 1, 0.25));
         assert_eq!(find_keys(&times, 1.5), keys(1, 2, 0.25));
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_on_a_key_is_that_key() {
+    fn a_time_on_a_key_finds_that_key_with_mix_zero() {
         let times = [0.5, 1.0, 3.0, 4.0];
         assert_eq!(find_keys(&times, 0.5), keys(0, 0, 0.0));
         assert_eq!(find_keys(&times, 1.0), keys(1, 2, 0.0));
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn outside_the_keys_the_nearest_key_stays() {
+    fn a_time_outside_the_keys_finds_the_nearest_key() {
         let times = [0.5, 1.0];
         for time in [0.0, -7.0, f32::NEG_INFINITY, f32::NAN] {
             assert_eq!(find_keys(&times, time), keys(0, 0, 0.0), "{time}");
@@ -101,12 +101,12 @@ mod tests {
     }
 
     #[test]
-    fn keys_further_apart_than_f32_can_say_are_still_mixed() {
+    fn keys_whose_distance_overflows_f32_are_still_mixed() {
         assert_eq!(find_keys(&[f32::MIN, f32::MAX], 0.0), keys(0, 1, 0.5));
     }
 
     #[test]
-    fn the_way_between_keys_is_zero_where_it_is_undefined() {
+    fn the_fraction_between_two_keys_is_zero_where_it_is_undefined() {
         let hostile = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
         for (before, after, time) in [
             (1.0, 1.0, 1.0),
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_at_one_time_and_unordered_keys_give_a_number() {
+    fn keys_at_one_time_and_unordered_keys_give_existing_keys_and_a_valid_fraction() {
         for times in [vec![1.0, 1.0, 1.0], vec![0.0, 1.0, 1.0, 2.0], vec![3.0, f32::NAN, 1.0, 5.0]] {
             for step in 0..=60 {
                 let found = find_keys(&times, step as f32 * 0.1).unwrap();

@@ -26,7 +26,7 @@ const NEARLY_PARALLEL: f32 = 0.999_999_5;
 ///   the axis is that of `b * a⁻¹`.
 /// * Nearly parallel rotations: linear interpolation, see [`nlerp`].
 ///
-/// Both of unit length; the result is normalized.
+/// Both rotations must have unit length; the result is normalized.
 pub fn slerp(a: Quat, b: Quat, mix: f32) -> Quat {
     let cosine = a.dot(b);
     let b = if cosine < 0.0 { -b } else { b };
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn slerp_has_no_step_where_it_changes_to_a_straight_line() {
+    fn slerp_is_continuous_where_it_changes_to_linear_interpolation() {
         let a = Quat::from_rotation_x(0.3);
         for angle in [0.000_1_f32, 0.001, 0.001_9, 0.002, 0.002_1, 0.003, 0.01] {
             let b = Quat::from_rotation_x(0.3 + angle);

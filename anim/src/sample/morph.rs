@@ -21,7 +21,8 @@ fn sample_weight(track: &MorphTrack, target: usize, rest: f32, time: f32) -> f32
     let targets = track.targets as usize;
     let Some(keys) = find_keys(&track.times, time).filter(|_| target < targets) else { return rest };
     let parts = if track.interpolation == Interpolation::CubicSpline { 3 } else { 1 };
-    // Part of a key: 0 in-tangents, 1 values, 2 out-tangents; only values without tangents.
+    // The parts of a key of a cubic spline: 0 in-tangents, 1 values, 2 out-tangents. Other keys have one part, the
+    // values.
     let stored = |key: usize, part: usize, fallback: f32| {
         let row = key.saturating_mul(parts).saturating_add(part);
         let position = row.saturating_mul(targets).saturating_add(target);

@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_unit_quaternion_is_left_alone_and_any_other_is_made_one() {
+    fn a_unit_quaternion_is_unchanged_and_a_longer_or_shorter_one_is_normalized() {
         let rotation = Quat::from_xyzw(0.1, 0.7, -0.1, 0.7).normalize();
         assert_eq!(rotation.healed(Quat::IDENTITY).to_array(), rotation.to_array());
         for factor in [1e-30, 1e-10, 0.5, 2.0, 1e10, 1e30, 1e38] {
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn no_length_is_the_identity_and_no_number_the_fallback() {
+    fn a_quaternion_of_length_zero_becomes_the_identity_and_one_that_is_not_finite_the_fallback() {
         let fallback = Quat::from_xyzw(0.0, 1.0, 0.0, 0.0);
         assert_eq!(Quat::ZERO.healed(fallback), Quat::IDENTITY);
         assert_eq!(Quat::from_xyzw(0.0, f32::NAN, 0.0, 1.0).healed(fallback), fallback);

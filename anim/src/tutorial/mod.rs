@@ -13,8 +13,8 @@
 //! number can be saved and sent to a shader as it is, a pointer cannot. Vertices and animations refer to bones by the
 //! same numbers (§2.1.3). Parents come before their children, so that one pass through the list visits them first.
 //!
-//! `rest` is the pose of the bone when nothing moves it, *relative to its parent*. Our arm points along x. The upper bone
-//! starts at the origin, the lower one a meter further on, at the elbow.
+//! `rest` is the pose of the bone when nothing moves it, *relative to its parent*. Our arm points along x. The upper
+//! bone starts at the origin, the lower one a meter further on, at the elbow.
 //!
 //! ```
 //! use dragonfly_anim::data::{Bone, Skeleton, Transform};
@@ -39,16 +39,16 @@
 //!
 //! # Step 2: from the parent to the root
 //!
-//! A pose relative to the parent becomes a matrix, `to_parent`: scale first, then rotation, then translation. Multiplied
-//! by the matrices of all ancestors it becomes `to_root`, the pose of the bone in the scene (§2.1.5.1):
+//! A pose relative to the parent becomes a matrix, `to_parent`: scale first, then rotation, then translation.
+//! Multiplied by the matrices of all ancestors it becomes `to_root`, the pose of the bone in the scene (§2.1.5.1):
 //!
 //! ```text
 //! to_parent = translation * rotation * scale
 //! to_root   = to_root of the parent * to_parent          thesis: ToRoot_i = ToParent_i · ToRoot_p
 //! ```
 //!
-//! The thesis writes vectors as rows, this library as columns, so the factors of its products are in the opposite order.
-//! The numbers are the same.
+//! The thesis writes vectors as rows, this library as columns, so the factors of its products are in the opposite
+//! order. The numbers are the same.
 //!
 //! ```
 //! # use dragonfly_anim::{data::Transform, tutorial::arm};
@@ -66,9 +66,9 @@
 //!
 //! # Step 3: offsets
 //!
-//! Geometry is modeled once, around the skeleton in its *bind pose*. The offset of a bone (inverse bind matrix) transforms
-//! a point from there to the bone's own space; it never changes (§2.1.2.2). When the bind pose is the rest pose, it is the
-//! inverse of `to_root`:
+//! Geometry is modeled once, around the skeleton in its *bind pose*. The offset of a bone (inverse bind matrix)
+//! transforms a point from there to the bone's own space; it never changes (§2.1.2.2). When the bind pose is the rest
+//! pose, it is the inverse of `to_root`:
 //!
 //! ```text
 //! offset = (to_root in the bind pose)⁻¹
@@ -94,8 +94,8 @@
 //! first, the weights summing to 1. Three vertices are enough for an arm: shoulder, elbow, hand. The elbow belongs to
 //! both bones.
 //!
-//! A vertex refers to *joints*, which are positions in the list of a [`Skin`](crate::data::Skin); the skin contains the bone
-//! of each, and the offsets. So several meshes can share a skeleton.
+//! A vertex refers to *joints*, which are positions in the list of a [`Skin`](crate::data::Skin); the skin contains the
+//! bone of each, and the offsets. So several meshes can share a skeleton.
 //!
 //! ```
 //! # use dragonfly_anim::tutorial::arm;
@@ -131,8 +131,8 @@
 //!
 //! A key is a value at a time. The keys of one property of one bone are a
 //! [`Channel`](crate::data::Channel); the channels of a bone are its [`Track`](crate::data::Track); a track for every
-//! bone is a [`Take`](crate::data::Take), in other programs a clip (§2.1.2.3, §3.1.2). Each bone has its own keys, and one
-//! that does not move needs none: our upper bone has an empty track, and keeps its rest pose.
+//! bone is a [`Take`](crate::data::Take), in other programs a clip (§2.1.2.3, §3.1.2). Each bone has its own keys, and
+//! one that does not move needs none: our upper bone has an empty track, and keeps its rest pose.
 //!
 //! In one second the lower bone turns by a right angle.
 //!
@@ -163,8 +163,8 @@
 //!
 //! # Step 6: between two keys
 //!
-//! At half a second there is no key. The one before, the one after, and the fraction of the time between them are found;
-//! then both are combined (§2.1.5.2: `0.5 * K1 + 0.5 * K2`). Rotations turn from one to the other at constant
+//! At half a second there is no key. The one before, the one after, and the fraction of the time between them are
+//! found; then both are combined (§2.1.5.2: `0.5 * K1 + 0.5 * K2`). Rotations turn from one to the other at constant
 //! speed.
 //!
 //! ```text
@@ -217,8 +217,8 @@
 //! # Step 8: final poses
 //!
 //! Vertices are stored in the bind pose. To move one, it is first transformed to the bone's space, then by the bone's
-//! current `to_root` (§2.1.5.1). Both together are the final pose (skinning matrix), one matrix per joint, and all that a
-//! graphics card needs.
+//! current `to_root` (§2.1.5.1). Both together are the final pose (skinning matrix), one matrix per joint, and all that
+//! a graphics card needs.
 //!
 //! ```text
 //! final = to_root * offset                                thesis: Final_i = Offset_i · ToRoot_i
@@ -280,8 +280,8 @@
 //! ```
 //!
 //! Where the weights of a bone sum to less than 1, the pose that is given first, usually the rest pose, gets the
-//! remainder; where to more, they are divided by their sum. Here a second take lifts the upper bone, and both have the weight
-//! 0.5. From the combined poses on, everything is as before.
+//! remainder; where they sum to more than 1, they are divided by their sum. Here a second take lifts the upper bone,
+//! and both have the weight 0.5. From the combined poses on, everything is as before.
 //!
 //! ```
 //! # use dragonfly_anim::{animation::{final_poses, to_root}, data::Transform, sample::sample_take};
@@ -312,9 +312,10 @@
 //!
 //! # Where to go from here
 //!
-//! * [`explain`](crate::explain::explain()) shows all of these steps with their numbers, for any bone or vertex of any model.
-//! * [`Animation`](crate::animation::Animation) and [`Evaluator`](crate::evaluator::Evaluator) do steps 6 to 9 in one call
-//!   and keep their memory, so that playing allocates nothing.
+//! * [`explain`](crate::explain::explain()) shows all of these steps with their numbers, for any bone or vertex of any
+//!   model.
+//! * [`Animation`](crate::animation::Animation) and [`Evaluator`](crate::evaluator::Evaluator) do steps 6 to 9 in one
+//!   call and keep their memory, so that playing allocates nothing.
 //! * [`format::read`](crate::format::read) reads a model from a file instead of steps 1 to 5.
 //! * [`blend`](mod@crate::blend) also has masks, additive animation, and fades from take to take; [`ik`](crate::ik)
 //!   makes an arm like this one reach for a target; [`motion`](crate::motion) extracts root motion, and

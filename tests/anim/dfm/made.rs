@@ -88,7 +88,8 @@ impl RandomModels {
         ])
     }
 
-    /// Returns often the same times for several channels; sometimes times that do not increase, or are not finite.
+    /// Returns key times of few possible values, so that several channels often share some; sometimes the times do not
+    /// increase, or are not finite.
     fn times(&mut self, keys: usize) -> Vec<f32> {
         let mut times = self.list(keys, |maker| maker.random.below(6) as f32 / 4.0 - 0.0);
         if !self.chance(self.odd) {

@@ -38,7 +38,7 @@ pub(crate) fn check(model: &ModelData, findings: &mut Findings) {
         }
     }
     for (number, bone) in bones.iter().enumerate().filter(|(number, _)| !used[*number]) {
-        let text = || "neither it nor a descendant moves a vertex or a mesh".to_owned();
+        let text = || "neither the bone nor a descendant moves a vertex or a mesh".to_owned();
         findings.add(|| (ModelPath::of(PathKind::Bone, number, &bone.name), text()));
     }
 }

@@ -5,7 +5,7 @@ use crate::check::{Findings, PathKind, TakeContext};
 
 pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
     for channel in channels(of) {
-        // Reported once per channel: the other keys before 0 follow.
+        // Only the first key of a channel is reported; further keys before 0 may follow it.
         if let Some((key, time)) =
             channel.times.iter().enumerate().find(|(_, time)| **time < 0.0 && time.is_finite())
         {

@@ -44,7 +44,7 @@ use glam::Vec3;
 /// Tolerance of the length of a unit vector or quaternion; half floats lose less.
 const UNIT_TOLERANCE: f32 = 2e-3;
 
-/// Returns whether one axis has no extent relative to the longest, or all are a million times too small.
+/// Returns whether `scale` flattens: one factor is negligible relative to the largest, or all are below a millionth.
 fn is_flat(scale: Vec3) -> bool {
     let scale = scale.abs();
     scale.is_finite() && (scale.min_element() <= 1e-5 * scale.max_element() || scale.max_element() < 1e-6)

@@ -185,7 +185,7 @@ fn key_table_of<const N: usize, T: LaneValue<N>>(lanes: Vec<&LaneChannel<'_, T>>
         all.extend((0..count).map(|step| pair[0] + (pair[1] - pair[0]) * (step as f32 / count as f32)));
     }
     all.extend(times.last());
-    // Between adjacent floats there is no other time.
+    // Steps between two times that are adjacent floats round to one of them.
     all.dedup();
     KeyTable::new(all)
 }

@@ -102,7 +102,7 @@ impl SimdLevel {
         levels
     }
 
-    /// Returns the name in the table of [`self`].
+    /// Returns the name of the level, as in the table of the [module](self).
     pub fn name(self) -> &'static str {
         match self.0 {
             Instructions::Portable => "portable",

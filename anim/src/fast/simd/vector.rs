@@ -164,8 +164,9 @@ pub trait Word8: Copy + Debug + Add<Output = Self> + BitAnd<Output = Self> + Bit
     /// Loads four bytes into each lane, the lowest first: in lanes 0..4 from byte `at + lanes[lane]` on, in lanes 4..8
     /// from byte `at + second % 16 + lanes[lane]` on.
     ///
-    /// Each half can reach sixteen bytes: bytes past them are read from their beginning, and are zero from byte 128 on.
-    /// An `at` past the last 32 bytes is clamped to their first; all zero when `bytes` has fewer than 32 bytes.
+    /// Each half can reach sixteen bytes: offsets of 16 to 127 wrap around within them, and a byte at an offset of 128
+    /// or more is zero. An `at` past the last 32 bytes is clamped to their first; all lanes are zero when `bytes` has
+    /// fewer than 32 bytes.
     fn near(bytes: &[u8], at: usize, second: u8, lanes: &[u8; 8]) -> Self;
     /// Converts whole numbers below 2³¹ to floats, rounded to nearest.
     fn to_float(self) -> Self::Float;

@@ -89,9 +89,9 @@ checks! {
     Refuse ACCESSOR_INDEX_OOB "An index is not below the number of vertices.";
     Warn MESH_PRIMITIVE_INCOMPATIBLE_MODE "The indices do not make whole triangles.";
     Warn MESH_PRIMITIVE_MODE_NOT_SHOWN "Points and lines are not shown.";
-    Refuse MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT "A morph target has another length than its primitive.";
+    Refuse MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT "A morph target does not have one value per vertex.";
     Warn MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT "The primitives of a mesh differ in their number of morph targets.";
-    Warn MESH_INVALID_WEIGHTS_COUNT "A mesh has another number of weights than of morph targets.";
+    Warn MESH_INVALID_WEIGHTS_COUNT "A mesh does not have one weight per morph target.";
     Warn ACCESSOR_VECTOR3_NON_UNIT "Normals or tangents are not of unit length.";
     Warn ACCESSOR_INVALID_SIGN "The w of a tangent is neither 1 nor -1.";
     Warn ACCESSOR_NON_CLAMPED "A color is outside 0..1.";
@@ -113,7 +113,7 @@ checks! {
     Warn ROTATION_NON_UNIT "A rotation is not of unit length.";
     Refuse TRANSFORM_OVERFLOW "The transforms of a node and its ancestors multiply to infinity.";
     Warn NODE_SKIN_WITH_NON_SKINNED_MESH "A node has a skin, but its mesh has no joints.";
-    Warn NODE_WEIGHTS_INVALID "A node has another number of weights than its mesh of morph targets.";
+    Warn NODE_WEIGHTS_INVALID "A node does not have one weight per morph target of its mesh.";
     Warn SCENE_NON_ROOT_NODE "A root node of a scene has a parent.";
     Warn NODE_NOT_IN_SCENE "A mesh is not in the scene that is shown.";
     Warn CAMERA_NOT_SHOWN "The file has a camera, which is not used.";

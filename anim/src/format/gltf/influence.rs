@@ -126,7 +126,7 @@ fn sets(
             _ => {
                 let name = if is_joints { "JOINTS" } else { "WEIGHTS" };
                 let place = Place::Pointer(format!("{path}/attributes/{name}_{number}"));
-                let text = "the other one of JOINTS and WEIGHTS is missing; the attribute is left out";
+                let text = "joints and weights only have a meaning together; the attribute is left out";
                 document.context.warn(place, code::MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH, text);
             }
         }

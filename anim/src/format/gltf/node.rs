@@ -101,7 +101,7 @@ fn decomposed(
         let reason = "the matrix is too large to be decomposed".to_owned();
         return Err(invalid(place.clone(), code::TRANSFORM_OVERFLOW, reason));
     }
-    // Only the axes, so that a large translation does not hide a small shear.
+    // The tolerance depends on the axes only, so that a large translation does not hide a small shear.
     let largest = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.abs().max_element());
     let tolerance = 1e-4 * largest.into_iter().fold(f32::MIN_POSITIVE, f32::max);
     if parts.to_matrix().abs_diff_eq(matrix, tolerance) {

@@ -48,8 +48,8 @@ impl<'a> Walk<'a> {
         self.at
     }
 
-    /// Returns the enclosing arrays and objects, innermost last; after [`Step::Open`] and [`Step::Close`] with that one
-    /// included.
+    /// Returns the enclosing arrays and objects, innermost last. After [`WalkStep::Open`] and [`WalkStep::Close`] the
+    /// array or object that was just opened or closed is included.
     pub(super) fn frames(&mut self) -> &mut [WalkFrame] {
         &mut self.frames
     }

@@ -21,7 +21,7 @@ pub(super) enum SamplerNumbers {
 }
 
 impl SamplerNumbers {
-    /// Returns their accessor; `accessors` contains the accessor of each need.
+    /// Returns the accessor that contains the numbers. `accessors` contains the accessor assigned to each [`NeedId`].
     fn accessor(self, accessors: &[usize]) -> usize {
         match self {
             Self::Kept(accessor) => accessor,
@@ -141,7 +141,7 @@ impl Draft {
         draft
     }
 
-    /// Returns the patches to the text of `animation`. `accessors` contains the accessor of each need.
+    /// Returns the patches to the text of `animation`. `accessors` contains the accessor assigned to each [`NeedId`].
     pub(super) fn patches(
         &self,
         document: &SourceDocument<'_>,
@@ -159,7 +159,7 @@ impl Draft {
                 reason: "the animation has no such list".to_owned(),
             }),
         };
-        // Only the new members of the animation itself.
+        // Collects the new members of the animation object itself, such as its name.
         let mut members = ListEdit::default();
         let spot = style.spot(json, Some(animation.id), 3);
         if let Some(name) = &self.name {
@@ -244,7 +244,7 @@ fn fresh_channel((node, path): ChannelTarget, sampler: usize) -> Fresh {
 }
 
 impl SamplerDraft {
-    /// Returns the numbers of its accessors.
+    /// Returns the input and the output accessor. `accessors` contains the accessor assigned to each [`NeedId`].
     fn accessors(&self, accessors: &[usize]) -> (usize, usize) {
         (self.input.accessor(accessors), self.output.accessor(accessors))
     }

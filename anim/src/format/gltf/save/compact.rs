@@ -20,7 +20,8 @@ use std::collections::{HashMap, HashSet};
 /// views. All takes stay as they are, and so does every byte that was not written by a save of this crate.
 ///
 /// Nothing changes if another program appended to the buffer afterwards. Accessors and views are removed from their
-/// lists only if they are the last ones, since the numbers of others must stay; otherwise only their room shrinks.
+/// lists only if they are the last ones, since the numbers of others must stay; otherwise all of them stay, and each
+/// keeps only the bytes that it needs.
 pub fn compact(source: &SourceFile) -> Result<Plan<'_>, SaveError> {
     let document = SourceDocument::of(source);
     let target = TargetBuffer::choose(&document);

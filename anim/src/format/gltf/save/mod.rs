@@ -11,12 +11,13 @@
 //! * A channel counts as edited only if its bits differ from the opened ones. What the importer corrected (rotations
 //!   normalized, keys sorted) and left out (unknown targets, second channels of a target, extensions) stays as it is in
 //!   the file, even in edited takes.
-//! * New numbers are appended to the buffer as floats: to the binary chunk of a `.glb`; in a `.gltf` to its data URI, or
-//!   to a new file (existing ones are not changed). In the JSON only the necessary tokens change, and new ones are
+//! * New numbers are appended to the buffer as floats: to the binary chunk of a `.glb`; in a `.gltf` to its data URI,
+//!   or to a new file (existing ones are not changed). In the JSON only the necessary tokens change, and new ones are
 //!   formatted like their neighbors. Quantized, normalized, sparse and compressed accessors are kept.
 //! * A sampler that other channels use stays unchanged: the edited channel gets its own. No accessor of the file is
 //!   overwritten, except those that an earlier save appended ([`MARK`]) and that nothing else uses.
-//! * Ten saves are no larger than one: room that is no longer used is reused. [`compact`] removes the remaining rest.
+//! * A file is no larger after ten saves than after one: room that is no longer used is reused. [`compact`] removes
+//!   what is left unused.
 //!
 //! What glTF cannot represent:
 //!
@@ -33,8 +34,8 @@
 //! | neighboring rotations in different hemispheres, or of unit length except for rounding | their bits; the importer negates and normalizes them |
 //!
 //! Removing a channel removes all channels of its target, including those that the importer left out as duplicates;
-//! otherwise one of them would take effect. Extensions refer to animations by number; those numbers are not updated when
-//! takes are deleted or reordered.
+//! otherwise one of them would take effect. Extensions refer to animations by number; those numbers are not updated
+//! when takes are deleted or reordered.
 //!
 //! ```
 //! use dragonfly_anim::format::gltf::save::{SourceFile, plan};

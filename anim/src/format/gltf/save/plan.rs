@@ -200,7 +200,7 @@ fn write_numbers(
     Ok(accessors.into_iter().flatten().collect())
 }
 
-/// Returns the accessors that animations will still refer to without having written them.
+/// Returns the accessors that animations will still refer to although this save does not write them.
 fn pinned(document: &SourceDocument<'_>, takes: &[TakeDraft]) -> HashSet<usize> {
     let mut pinned = HashSet::new();
     for take in takes {
@@ -293,7 +293,7 @@ fn are_bones(opened: &ModelData, moved: &HashSet<u32>) -> Vec<bool> {
             *is = true;
         }
     }
-    // Parents come before their children.
+    // In reverse, because parents come before their children.
     for bone in (0..bones.len()).rev() {
         if let Some(parent) = bones[bone].parent.filter(|_| are[bone])
             && let Some(is) = are.get_mut(parent as usize)
