@@ -17,4 +17,4 @@ pub use input::{InputEvent, PlaceError};
 pub use key::{Key, Modifiers};
 pub(crate) use viewport::orbit;
 pub use viewport::{Button, Catch, ViewportControl, ViewportOutcome};
-pub use viewport_tools::{ViewportTool, ViewportTools};
+pub use viewport_tools::{ToolOutcome, ToolScene, ViewportTool, ViewportTools};

@@ -4,7 +4,7 @@ use super::base::{BaseControl, InputFlow, Mouse};
 use super::framework::ControlFramework;
 use super::key::{Key, Modifiers};
 use super::viewport::Button;
-use super::viewport_tools::ViewportTool;
+use super::viewport_tools::{ToolOutcome, ViewportTool};
 use dragonfly_picture::gizmo::{AXIS_FROM, GizmoView};
 use glam::{DVec3, Vec2, Vec3};
 
@@ -115,6 +115,14 @@ impl ViewportTool for PathControl {
 
     fn look(&mut self, view: GizmoView) {
         self.view = Some(view);
+    }
+
+    fn take_outcome(&mut self) -> Option<ToolOutcome> {
+        Some(match self.take_answer()? {
+            PathAnswer::Moved(key) => ToolOutcome::MoveKey(key),
+            PathAnswer::Done => ToolOutcome::Done,
+            PathAnswer::Cancelled => ToolOutcome::Cancelled,
+        })
     }
 
     fn is_dragging(&self) -> bool {
