@@ -19,10 +19,6 @@ use super::message::Look;
 use super::posed::PosedModel;
 use crate::camera::Camera;
 use crate::gizmo::GizmoShape;
-use ghosts::GhostsGraphic;
-use gizmo::GizmoGraphic;
-use ik::IkGraphic;
-use path::PathGraphic;
 
 /// The frame that a component draws itself in.
 pub struct ControlFrame<'a> {
@@ -52,10 +48,10 @@ impl Default for SceneControls {
     fn default() -> Self {
         // Later ones are drawn over earlier ones.
         let list: Vec<Box<dyn GraphicComponent>> = vec![
-            Box::<GhostsGraphic>::default(),
-            Box::<PathGraphic>::default(),
-            Box::<IkGraphic>::default(),
-            Box::<GizmoGraphic>::default(),
+            Box::<ghosts::GhostsGraphic>::default(),
+            Box::<path::PathGraphic>::default(),
+            Box::<ik::IkGraphic>::default(),
+            Box::<gizmo::GizmoGraphic>::default(),
         ];
         Self { list, shape: GizmoShape::default() }
     }
