@@ -5,11 +5,7 @@
 //! arrives that [answers](View::answered) the number: then the edit is in that view, or it was refused, and the copy is
 //! dropped. Nothing is guessed, and nothing expires.
 
-use dragonfly_document::edit::{
-    AddKeys, CreateTake, DeleteKeys, DeleteTake, DropPending, DuplicateKeys, Edit, KeyPending, MoveKeys,
-    MoveTake, OffsetPose, PasteKeys, PastePose, RenameTake, ResetPose, RetimeTake, ReverseTake, RippleKeys,
-    ScaleKeys, SetInterpolation, SetPending, SetPose, SetPoses, SetTangents, SnapKeys, SplitTake, TrimTake,
-};
+use dragonfly_document::edit::Edit;
 use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_document::{Change, View};
 use std::sync::Arc;
@@ -34,9 +30,6 @@ struct LocalEdits {
     edited: Edited,
 }
 
-/// Largest number of poses in an edit that is carried out here as well.
-const MOST_POSES: usize = 4000;
-
 impl Echo {
     /// Whether a view has answered the change with this number.
     pub fn has_answered(&self, number: u64) -> bool {
@@ -47,7 +40,7 @@ impl Echo {
     pub fn send(&mut self, change: &Change, shown: &mut Option<View>) -> u64 {
         self.sent += 1;
         match change {
-            Change::Edit(edit, gesture) if is_quick(edit) => self.carry_out(edit, *gesture, shown),
+            Change::Edit(edit, gesture) if edit.is_quick() => self.carry_out(edit, *gesture, shown),
             Change::Cancel(gesture) => {
                 if let Some(local) = &mut self.local
                     && local.edited.cancel(*gesture)
@@ -108,40 +101,5 @@ impl Echo {
 impl LocalEdits {
     fn view(&self) -> View {
         self.document.echo(self.number, &self.edited)
-    }
-}
-
-/// Whether an edit is quick enough to be carried out between two frames: one that touches a few keys. Keys that are moved in
-/// time are drawn displaced instead, however many there are.
-fn is_quick(edit: &Edit) -> bool {
-    match edit {
-        Edit::SetPose(SetPose { .. })
-        | Edit::OffsetPose(OffsetPose { .. })
-        | Edit::ResetPose(ResetPose { .. })
-        | Edit::SetPending(SetPending { .. })
-        | Edit::PastePose(PastePose { .. })
-        | Edit::KeyPending(KeyPending { .. })
-        | Edit::DropPending(DropPending { .. })
-        | Edit::SetTangents(SetTangents { .. }) => true,
-        Edit::SetPoses(SetPoses { at, .. }) => {
-            at.iter().map(|at| at.poses.len()).sum::<usize>() <= MOST_POSES
-        }
-        Edit::AddKeys(AddKeys { .. })
-        | Edit::DeleteKeys(DeleteKeys { .. })
-        | Edit::MoveKeys(MoveKeys { .. })
-        | Edit::ScaleKeys(ScaleKeys { .. })
-        | Edit::DuplicateKeys(DuplicateKeys { .. })
-        | Edit::PasteKeys(PasteKeys { .. })
-        | Edit::RippleKeys(RippleKeys { .. })
-        | Edit::SnapKeys(SnapKeys { .. })
-        | Edit::SetInterpolation(SetInterpolation { .. })
-        | Edit::CreateTake(CreateTake { .. })
-        | Edit::DeleteTake(DeleteTake { .. })
-        | Edit::RenameTake(RenameTake { .. })
-        | Edit::MoveTake(MoveTake { .. })
-        | Edit::SplitTake(SplitTake { .. })
-        | Edit::TrimTake(TrimTake { .. })
-        | Edit::ReverseTake(ReverseTake { .. })
-        | Edit::RetimeTake(RetimeTake { .. }) => false,
     }
 }

@@ -48,6 +48,10 @@ impl EditKind for DropPending {
         Ok(())
     }
 
+    fn is_quick(&self) -> bool {
+        true
+    }
+
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         Self { take: from.take(), time: from.optional(Arbitrary::time), bones: from.bones() }
     }

@@ -62,6 +62,10 @@ impl EditKind for KeyPending {
         Ok(())
     }
 
+    fn is_quick(&self) -> bool {
+        true
+    }
+
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let time = from.optional(Arbitrary::time);
         Self { take: from.take(), time, bones: from.bones(), unstep: from.flag() }

@@ -54,6 +54,11 @@ pub(crate) trait EditKind: Sized {
     fn values(&self) -> Option<(f32, &[BonePose], PoseMode)> {
         None
     }
+
+    /// Returns whether it touches few keys, so that it can be carried out between two frames.
+    fn is_quick(&self) -> bool {
+        false
+    }
 }
 
 /// Name, example and generator of one kind of edit.
@@ -123,6 +128,11 @@ macro_rules! edits {
             /// Returns the time and the poses of an edit that does nothing but give values.
             pub(crate) fn values(&self) -> Option<(f32, &[BonePose], PoseMode)> {
                 match self { $(Self::$Kind(edit) => edit.values(),)* }
+            }
+
+            /// Returns whether it touches few keys, so that it can be carried out between two frames.
+            pub fn is_quick(&self) -> bool {
+                match self { $(Self::$Kind(edit) => edit.is_quick(),)* }
             }
         }
 

@@ -48,6 +48,10 @@ impl EditKind for OffsetPose {
         pose::pose_bones(work, &self.take, self.time, &self.poses, PoseMode::Offset, self.unstep)
     }
 
+    fn is_quick(&self) -> bool {
+        true
+    }
+
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         Self { take: from.take(), time: from.time(), poses: from.poses(), unstep: from.flag() }
     }

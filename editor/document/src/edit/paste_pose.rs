@@ -107,6 +107,10 @@ impl EditKind for PastePose {
         }
     }
 
+    fn is_quick(&self) -> bool {
+        true
+    }
+
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let [mirrored, pending, unstep] = [(); 3].map(|()| from.flag());
         Self { take: from.take(), time: from.time(), poses: from.poses(), mirrored, pending, unstep }

@@ -68,6 +68,10 @@ impl EditKind for ResetPose {
         if found { Ok(()) } else { Err(EditError::Nothing("there is no key at that time")) }
     }
 
+    fn is_quick(&self) -> bool {
+        true
+    }
+
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let to = from.choice([ResetTo::Original, ResetTo::Rest]);
         Self { take: from.take(), time: from.time(), bones: from.bones(), properties: from.properties(), to }

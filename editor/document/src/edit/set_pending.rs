@@ -83,6 +83,10 @@ impl EditKind for SetPending {
         Ok(())
     }
 
+    fn is_quick(&self) -> bool {
+        true
+    }
+
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         Self { take: from.take(), time: from.time(), poses: from.poses() }
     }

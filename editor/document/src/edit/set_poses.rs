@@ -23,6 +23,9 @@ pub struct SetPoses {
     pub unstep: bool,
 }
 
+/// Largest number of poses in a quick edit.
+const MOST_POSES: usize = 4000;
+
 impl EditKind for SetPoses {
     const EXAMPLE: Example = Example {
         json: r#"{"edit":"set_many","take":"Walk","at":[{"time":0.25,"poses":[{"bone":"Head","translation":[0,1,0]}]},{"time":0.5,"poses":[{"bone":"Head","translation":[0,1.1,0]}]}]}"#,
@@ -50,6 +53,10 @@ impl EditKind for SetPoses {
         each.try_for_each(|at| {
             pose::pose_bones(work, &self.take, at.time, &at.poses, PoseMode::Set, self.unstep)
         })
+    }
+
+    fn is_quick(&self) -> bool {
+        self.at.iter().map(|at| at.poses.len()).sum::<usize>() <= MOST_POSES
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {

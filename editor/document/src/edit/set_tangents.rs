@@ -67,6 +67,10 @@ impl EditKind for SetTangents {
         with_kind!(property, set_tangents::<K>(work, address, key, arrive, leave))
     }
 
+    fn is_quick(&self) -> bool {
+        true
+    }
+
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let property = from.property();
         let count = if property == Property::Rotation { 4 } else { 3 };
