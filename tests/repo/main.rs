@@ -7,6 +7,7 @@ mod crates;
 mod direction;
 mod layout;
 mod licenses;
+mod planted;
 mod skips;
 mod tree;
 mod words;

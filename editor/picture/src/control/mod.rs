@@ -1,8 +1,8 @@
 //! The controls of the scene as they are drawn (thesis §3.2.9.2, §3.2.9.4): each is a component that draws itself in
 //! every frame, in the pose of that frame; one pass draws them all.
 //!
-//! A new control is a file here with its [`Appearance`](crate::Appearance) and its component, and a line in
-//! [`SceneControls::default`].
+//! A new control is a file here with its component, and a line in the list of `all` below. Its data, if it has any, is an
+//! [`Appearance`](crate::Appearance) declared in its file, which the main thread sets.
 
 mod ghosts;
 mod gizmo;
@@ -44,16 +44,19 @@ pub struct SceneControls {
     shape: GizmoShape,
 }
 
+/// Creates all components. Later ones are drawn over earlier ones.
+fn all() -> Vec<Box<dyn GraphicComponent>> {
+    vec![
+        Box::<ghosts::GhostsGraphic>::default(),
+        Box::<path::PathGraphic>::default(),
+        Box::<ik::IkGraphic>::default(),
+        Box::<gizmo::GizmoGraphic>::default(),
+    ]
+}
+
 impl Default for SceneControls {
     fn default() -> Self {
-        // Later ones are drawn over earlier ones.
-        let list: Vec<Box<dyn GraphicComponent>> = vec![
-            Box::<ghosts::GhostsGraphic>::default(),
-            Box::<path::PathGraphic>::default(),
-            Box::<ik::IkGraphic>::default(),
-            Box::<gizmo::GizmoGraphic>::default(),
-        ];
-        Self { list, shape: GizmoShape::default() }
+        Self { list: all(), shape: GizmoShape::default() }
     }
 }
 
