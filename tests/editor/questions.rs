@@ -122,6 +122,14 @@ fn bench(question: Question) -> Bench {
 }
 
 #[test]
+fn every_kind_of_question_has_an_example_here() {
+    let names: Vec<String> = questions().iter().map(|(_, question)| format!("{question:?}")).collect();
+    for kind in Question::KINDS {
+        assert!(names.iter().any(|name| name.starts_with(&format!("{kind}("))), "{kind} has no example");
+    }
+}
+
+#[test]
 fn every_question_is_drawn() {
     let Some(shots) = PictureFolder::new() else { return };
     for (name, question) in questions() {

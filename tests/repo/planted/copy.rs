@@ -44,12 +44,12 @@ fn plant(files: &mut Files, plant: &Plant) {
 }
 
 /// A copy of the project inside the folder of its target.
-pub(crate) struct Copy {
+pub(crate) struct ProjectCopy {
     folder: PathBuf,
     target: PathBuf,
 }
 
-impl Copy {
+impl ProjectCopy {
     /// Makes the copy with all plants, or updates the one of an earlier run: files that did not change keep their time.
     pub(crate) fn planted() -> Self {
         let program = std::env::current_exe().expect("a running test has an executable");

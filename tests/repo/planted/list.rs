@@ -14,8 +14,8 @@ pub(crate) struct Plant {
     pub(crate) entry: &'static str,
     /// The text before the name of a type, or the function, that each file of this kind contains; empty where there is none.
     pub(crate) mark: &'static str,
-    /// What else the table names: a path, the text after which a text goes (at the end if empty), and that text. A new file if
-    /// there is no such file.
+    /// Everything else that the table names: a path, an anchor, and the text to insert after it. Without an anchor the text is
+    /// added at the end of the file, or is a new file.
     pub(crate) also: &'static [(&'static str, &'static str, &'static str)],
 }
 
@@ -88,7 +88,11 @@ pub(crate) const PLANTS: &[Plant] = &[
         place: ["questions! {", "    Unsaved => unsaved::UnsavedQuestion,"],
         entry: "    Planted => planted::PlantedQuestion,",
         mark: "impl QuestionKind for ",
-        ..NOTHING
+        also: &[(
+            "tests/editor/questions.rs",
+            "        (\"where\", place(false)),",
+            "\n        (\"planted\", dragonfly::panels::dialogs::PlantedQuestion { title: \"Plant?\" }.into()),",
+        )],
     },
     Plant {
         thing: "viewport tool",

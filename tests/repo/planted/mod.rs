@@ -7,7 +7,7 @@ mod copy;
 mod list;
 mod map;
 
-use copy::Copy;
+use copy::ProjectCopy;
 
 /// The tests that run in the copy: the planted ones, and those that walk a list.
 const WALKING: &[&str] = &[
@@ -24,6 +24,8 @@ const WALKING: &[&str] = &[
     "keymap::essential_commands",
     "keymap::every_shortcut_reads_back",
     "panels::every_panel",
+    "questions::every_kind_of_question",
+    "questions::every_question_fits",
     "settings::the_panel_layout_is_restored",
     "command_line::the_table_of_commands",
     "command_line::help_lists_every_command",
@@ -32,7 +34,7 @@ const WALKING: &[&str] = &[
 /// Takes about a minute where the project is built.
 #[test]
 fn one_file_and_one_entry_make_a_thing_of_each_kind_work() {
-    let copy = Copy::planted();
+    let copy = ProjectCopy::planted();
     let mut arguments = vec!["--no-fail-fast"];
     arguments.extend(["--test", "anim", "--test", "document", "--test", "picture", "--test", "editor", "--"]);
     arguments.extend(WALKING);

@@ -1,7 +1,7 @@
 //! The questions to the user, one per file. A question covers everything else until it is answered.
 //!
 //! A new question is a file here, with a type that has its data and implements [`QuestionKind`], and a line in the list
-//! `questions!` below. Its buttons push requests; whoever asks it calls [`crate::panels::State::ask`].
+//! `questions!` below. `tests/editor/questions.rs` has examples of each. Its buttons push requests; whoever asks it calls [`crate::panels::State::ask`].
 
 mod changed;
 mod exists;
@@ -46,6 +46,9 @@ macro_rules! questions {
         }
 
         impl Question {
+            /// The names of all kinds of questions.
+            pub const KINDS: &[&str] = &[$(stringify!($Name)),*];
+
             fn kind(&self) -> &dyn QuestionKind {
                 match self { $(Self::$Name(question) => question,)* }
             }
