@@ -33,7 +33,7 @@ fn declare(files: &mut Files, list: &str, module: &str) {
 fn plant(files: &mut Files, plant: &Plant) {
     if let Some((path, content)) = plant.file {
         files.insert(path.to_owned(), content.as_bytes().to_vec());
-        // What other crates set or name is public, as where it is declared.
+        // Another crate sets the data of a pass or an overlay, so its module is public.
         let public = content.contains("impl Appearance for ");
         declare(files, plant.list, if public { "pub mod planted;" } else { "mod planted;" });
     }

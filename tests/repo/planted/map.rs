@@ -1,4 +1,4 @@
-//! The table of ARCHITECTURE.md: what it says about each thing, compared with the lists and with the files that they name.
+//! The table of ARCHITECTURE.md, compared with what is planted, and the lists, compared with the files that they should name.
 
 use super::list::{PLANTS, Plant};
 use crate::tree::{File, files, none, one, root};
@@ -33,7 +33,7 @@ fn file_name(path: &str) -> &str {
     path.rsplit('/').next().unwrap_or(path)
 }
 
-/// Compares the table with the plants: each needs exactly what its row says.
+/// Compares each row of the table with what its plant needs.
 fn wrong_rows(map: &str) -> Vec<String> {
     let rows = rows(map);
     let mut complaints = Vec::new();

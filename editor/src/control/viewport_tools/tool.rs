@@ -28,7 +28,7 @@ pub struct ToolScene<'a> {
 /// A request of a tool after an input. All that a tool asks for during one drag becomes one step of the history.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ToolOutcome {
-    /// Select the bone behind a handle that was clicked.
+    /// Select the bone under the pointer, after a click on a handle that covers it.
     Click(Mouse),
     /// Report that nothing can be changed, after a press on a handle.
     Refused,

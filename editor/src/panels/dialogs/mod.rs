@@ -1,7 +1,8 @@
 //! The questions to the user, one per file. A question covers everything else until it is answered.
 //!
 //! A new question is a file here, with a type that has its data and implements [`QuestionKind`], and a line in the list
-//! `questions!` below. `tests/editor/questions.rs` has examples of each. Its buttons push requests; whoever asks it calls [`crate::panels::State::ask`].
+//! `questions!` below. Its buttons push requests. A caller asks it with [`crate::panels::State::ask`], and
+//! `tests/editor/questions.rs` has an example of each.
 
 mod changed;
 mod exists;
@@ -72,7 +73,7 @@ questions! {
     Place => place::PlaceQuestion,
 }
 
-/// What the user typed and chose in a question.
+/// The path that the user typed in a question, and the line that the user chose.
 #[derive(Debug, Default)]
 struct QuestionFields {
     path: String,
