@@ -255,7 +255,7 @@ fn the_table_of_commands_has_a_line_for_each_with_its_keys() {
     let lines: Vec<&str> = table.text().lines().collect();
     assert_eq!(lines.len(), dragonfly::panels::commands::all().count() + 1);
     for (command, line) in dragonfly::panels::commands::all().zip(&lines[1..]) {
-        assert!(line.contains(&command.id.name()) && line.contains(command.title), "{line}");
+        assert!(line.contains(command.id.name()) && line.contains(command.title), "{line}");
         let keys = command.shortcuts.first().map(dragonfly::panels::commands::text);
         assert!(keys.is_none_or(|keys| line.contains(&keys)), "{line}");
     }

@@ -22,6 +22,8 @@ fn every_command_is_listed_once_with_a_title_and_help() {
     for command in commands::all() {
         assert!(seen.insert(command.id, ()).is_none(), "{:?} stands twice", command.id);
         assert_eq!(commands::get(command.id).id, command.id);
+        assert_eq!(commands::named(command.id.name()), Some(command.id));
+        assert_eq!(format!("{:?}", command.id), command.id.name(), "settings and logs have the bare name");
         assert!(!command.title.is_empty() && !command.help.is_empty(), "{:?}", command.id);
     }
 }

@@ -258,15 +258,15 @@ fn a_low_viewport_shows_all_tool_buttons() {
 
 #[test]
 fn playback_is_paused_while_a_question_is_open() {
-    use dragonfly::panels::prompts::Question;
+    use dragonfly::panels::dialogs::PlaceQuestion;
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.execute(Request::Command(Id::PlayPause));
     assert!(bench.state.read().playback.playing);
-    bench.state.ask(Question::Where { copy: false, then: None });
+    bench.state.ask(PlaceQuestion { copy: false, then: None }.into());
     assert!(!bench.state.read().playback.playing);
     // A model opened while the question is shown does not play either.
     let mut other = State::new(Settings::default(), Instant::now());
-    other.ask(Question::Where { copy: false, then: None });
+    other.ask(PlaceQuestion { copy: false, then: None }.into());
     other.show(fixture::full());
     assert!(!other.read().playback.playing);
 }

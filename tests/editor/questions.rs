@@ -3,7 +3,10 @@
 use crate::panels::{Bench, harness_of};
 use crate::shots::{self, PictureFolder};
 use dragonfly::panels::FileAction;
-use dragonfly::panels::prompts::Question;
+use dragonfly::panels::dialogs::{
+    ChangedQuestion, ExistsQuestion, FindQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion,
+    UnsavedQuestion,
+};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::{Decision, DocumentMessage, Offer, SaveOrder, SaveTo, Source, Then};
 use dragonfly_kit::document::fixture;
@@ -53,7 +56,11 @@ fn questions() -> Vec<(&'static str, Question)> {
         let more = (0..count).map(|at| format!("/animations/0/samplers/{at}/output: 21 → 93"));
         std::iter::once(first).chain(more).collect()
     };
-    let recover = |offers, lost| Question::Recover { offers, lost };
+    let recover = |offers, lost| -> Question { RecoverQuestion { offers, lost }.into() };
+    let changed = |file, order| -> Question { ChangedQuestion { file, order }.into() };
+    let plan = |lines, order| -> Question { PlanQuestion { lines, order }.into() };
+    let place = |copy| -> Question { PlaceQuestion { copy, then: None }.into() };
+    let unsaved = |then| -> Question { UnsavedQuestion { then }.into() };
     let bear = offer(
         "A bear with a rather long name that goes on.gltf",
         1,
@@ -66,24 +73,29 @@ fn questions() -> Vec<(&'static str, Question)> {
     vec![
         (
             "find",
-            Question::Find {
+            FindQuestion {
                 offer: Box::new(fox(DocumentFileState::Missing, Readability::Whole, OwnerStatus::Exited)),
                 other: None,
-            },
+            }
+            .into(),
         ),
         (
             "find_another",
-            Question::Find { offer: Box::new(whole()), other: Some("/home/mara/models/Fox 2.glb".into()) },
+            FindQuestion { offer: Box::new(whole()), other: Some("/home/mara/models/Fox 2.glb".into()) }
+                .into(),
         ),
-        ("unsaved", Question::Unsaved(Then::Quit)),
-        ("unsaved_open", Question::Unsaved(Then::Open(Source::File("/models/Bear.glb".into())))),
-        ("changed_save", Question::Changed(FileState::Changed, own())),
-        ("changed_focus", Question::Changed(FileState::Changed, None)),
-        ("gone", Question::Changed(FileState::Missing, None)),
-        ("exists", Question::Exists("/home/mara/models/Fox 2.glb".into(), SaveOrder::own(None))),
-        ("plan", Question::Plan(lines(6), own())),
-        ("plan_long", Question::Plan(lines(100_000), None)),
-        ("plan_nothing", Question::Plan(Arc::from(["nothing changes".to_owned()]), own())),
+        ("unsaved", unsaved(Then::Quit)),
+        ("unsaved_open", unsaved(Then::Open(Source::File("/models/Bear.glb".into())))),
+        ("changed_save", changed(FileState::Changed, own())),
+        ("changed_focus", changed(FileState::Changed, None)),
+        ("gone", changed(FileState::Missing, None)),
+        (
+            "exists",
+            ExistsQuestion { path: "/home/mara/models/Fox 2.glb".into(), order: SaveOrder::own(None) }.into(),
+        ),
+        ("plan", plan(lines(6), own())),
+        ("plan_long", plan(lines(100_000), None)),
+        ("plan_nothing", plan(Arc::from(["nothing changes".to_owned()]), own())),
         ("recover", recover(vec![whole()], false)),
         ("recover_lost", recover(vec![whole()], true)),
         ("recover_several", recover(vec![whole(), bear], false)),
@@ -98,8 +110,8 @@ fn questions() -> Vec<(&'static str, Question)> {
             "recover_missing",
             recover(vec![fox(DocumentFileState::Missing, Readability::Whole, OwnerStatus::Exited)], false),
         ),
-        ("where", Question::Where { copy: false, then: None }),
-        ("where_copy", Question::Where { copy: true, then: None }),
+        ("where", place(false)),
+        ("where_copy", place(true)),
     ]
 }
 
@@ -107,6 +119,14 @@ fn bench(question: Question) -> Bench {
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.ask(question);
     bench
+}
+
+#[test]
+fn every_kind_of_question_has_an_example_here() {
+    let names: Vec<String> = questions().iter().map(|(_, question)| format!("{question:?}")).collect();
+    for kind in Question::KINDS {
+        assert!(names.iter().any(|name| name.starts_with(&format!("{kind}("))), "{kind} has no example");
+    }
 }
 
 #[test]
@@ -137,12 +157,12 @@ fn the_file_question_stays_until_a_path_is_given() {
         Readability::Whole,
         OwnerStatus::Exited,
     ));
-    let mut bench = bench(Question::Recover { offers: vec![(*fox).clone()], lost: false });
+    let mut bench = bench(RecoverQuestion { offers: vec![(*fox).clone()], lost: false }.into());
     bench.state.ask_where_it_is(fox.clone(), Some("Fox 2.glb".into()));
     bench.state.execute(Request::Answer(FileAction::Find(fox.clone())));
     // The file dialog may be closed without an answer.
     assert!(
-        matches!(bench.state.read().question(), Some(Question::Find { .. })),
+        matches!(bench.state.read().question(), Some(Question::Find(_))),
         "{:?}",
         bench.state.read().question()
     );
@@ -224,7 +244,7 @@ fn each_button_for_unsaved_work_applies_to_the_document_that_is_shown() {
         assert!(offer.title.starts_with("A bear") && *decided == decision, "{button}");
         // The document that was set aside does not answer for the others; an opened file is asked about first.
         let left = match harness.state().state.read().question() {
-            Some(Question::Recover { offers, .. }) => offers.len(),
+            Some(Question::Recover(recover)) => recover.offers.len(),
             _ => 0,
         };
         let aside = matches!(decision, Decision::Later | Decision::Discard);
@@ -234,10 +254,10 @@ fn each_button_for_unsaved_work_applies_to_the_document_that_is_shown() {
 
 #[test]
 fn an_open_question_receives_all_keys_and_the_next_question_follows() {
-    let mut state = bench(Question::Unsaved(Then::Quit)).state;
-    state.ask(Question::Changed(FileState::Changed, None));
+    let mut state = bench(UnsavedQuestion { then: Then::Quit }.into()).state;
+    state.ask(ChangedQuestion { file: FileState::Changed, order: None }.into());
     // The same question is not asked twice.
-    state.ask(Question::Unsaved(Then::Quit));
+    state.ask(UnsavedQuestion { then: Then::Quit }.into());
     assert_eq!(state.read().prompts.questions().len(), 2);
     assert_eq!(state.execute(Request::Dismiss), None);
     assert_eq!(state.execute(Request::Dismiss), None);

@@ -97,7 +97,7 @@ fn random_events_and_commands_leave_the_document_valid() {
     let context = egui::Context::default();
     let all: Vec<commands::Id> = commands::all()
         .map(|command| command.id)
-        .filter(|id| !matches!(id, commands::Id::Quit | commands::Id::Open | commands::Id::OpenBuiltIn))
+        .filter(|id| !matches!(*id, commands::Id::Quit | commands::Id::Open | commands::Id::OpenBuiltIn))
         .collect();
     let mut effects = Vec::new();
     for _ in 0..if takes_long() { 10_000_000 } else { 100_000 } {

@@ -9,6 +9,7 @@ mod direction;
 mod imports;
 mod layout;
 mod licenses;
+mod planted;
 mod skips;
 mod tokens;
 mod tree;

@@ -1,4 +1,5 @@
-//! The list of shaders: each is one file in `shaders/`, appended to the common parts it names.
+//! The list of shaders: each is one file in `shaders/`, appended to the common parts it names. A new one is such a file and a
+//! line in the list `shaders!`.
 
 /// A shader module.
 pub struct Shader {
@@ -12,7 +13,7 @@ pub struct Shader {
 type ShaderFile = (&'static str, &'static str);
 
 macro_rules! part {
-    ($path:literal) => {
+    ($path:expr) => {
         ($path, include_str!(concat!("../../../shaders/", $path)))
     };
 }
@@ -23,27 +24,35 @@ const STUDIO: ShaderFile = part!("common/studio.wgsl");
 const POSE: ShaderFile = part!("common/pose.wgsl");
 const VERTEX: ShaderFile = part!("common/vertex.wgsl");
 
-/// The background gradient.
-pub const BACKGROUND: Shader =
-    Shader { name: "background", parts: &[FRAME, COLOR, part!("background.wgsl")] };
-/// Skinned and lit surfaces.
-pub const MODEL: Shader =
-    Shader { name: "model", parts: &[FRAME, COLOR, STUDIO, POSE, VERTEX, part!("model.wgsl")] };
-/// Surfaces of ghosts.
-pub const GHOST: Shader = Shader { name: "ghost", parts: &[FRAME, POSE, VERTEX, part!("ghost.wgsl")] };
-/// The ground grid.
-pub const GRID: Shader = Shader { name: "grid", parts: &[FRAME, part!("grid.wgsl")] };
-/// The bones.
-pub const SKELETON: Shader = Shader { name: "skeleton", parts: &[FRAME, STUDIO, part!("skeleton.wgsl")] };
-/// The controls of the scene.
-pub const CONTROLS: Shader = Shader { name: "controls", parts: &[FRAME, part!("controls.wgsl")] };
-/// Copying the scene into the window.
-pub const COMPOSITE: Shader = Shader { name: "composite", parts: &[COLOR, part!("composite.wgsl")] };
-/// Computing mip levels.
-pub const MIP: Shader = Shader { name: "mip", parts: &[part!("mip.wgsl")] };
+/// Declares the constants of shaders and [`ALL`] from a list of `NAME = "file name": common parts;` lines.
+macro_rules! shaders {
+    ($($(#[$doc:meta])* $NAME:ident = $name:literal: $($part:ident)*;)*) => {
+        $($(#[$doc])* pub const $NAME: Shader =
+            Shader { name: $name, parts: &[$($part,)* part!(concat!($name, ".wgsl"))] };)*
 
-/// Every shader of the program.
-pub const ALL: &[Shader] = &[BACKGROUND, MODEL, GHOST, GRID, SKELETON, CONTROLS, COMPOSITE, MIP];
+        /// Every shader of the program.
+        pub const ALL: &[Shader] = &[$($NAME),*];
+    };
+}
+
+shaders! {
+    /// The background gradient.
+    BACKGROUND = "background": FRAME COLOR;
+    /// Skinned and lit surfaces.
+    MODEL = "model": FRAME COLOR STUDIO POSE VERTEX;
+    /// Surfaces of ghosts.
+    GHOST = "ghost": FRAME POSE VERTEX;
+    /// The ground grid.
+    GRID = "grid": FRAME;
+    /// The bones.
+    SKELETON = "skeleton": FRAME STUDIO;
+    /// The controls of the scene.
+    CONTROLS = "controls": FRAME;
+    /// Copying the scene into the window.
+    COMPOSITE = "composite": COLOR;
+    /// Computing mip levels.
+    MIP = "mip":;
+}
 
 impl Shader {
     /// Returns the complete source.

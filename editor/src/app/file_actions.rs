@@ -3,7 +3,8 @@
 use super::editor_runtime::Running;
 use super::file_dialog::{self, Purpose};
 use super::interface::Interface;
-use crate::panels::prompts::{Overlay, Question};
+use crate::panels::dialogs::PlaceQuestion;
+use crate::panels::prompts::Overlay;
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction};
 use dragonfly_anim::format::gltf::GLB;
@@ -150,7 +151,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
         (Purpose::Save { copy, then, .. }, None) if quick => {
             let text = "This desktop has no dialog for saving files; type the path instead";
             interface.state.say(MessageSeverity::Warning, text);
-            interface.state.ask(Question::Where { copy, then });
+            interface.state.ask(PlaceQuestion { copy, then }.into());
         }
         // A dialog that failed slowly looks the same as one that the user closed.
         (Purpose::Open | Purpose::Find(_), None) => {

@@ -5,8 +5,8 @@
 use super::file_actions;
 use super::file_dialog::Answer;
 use super::interface::Interface;
+use crate::panels::dialogs::{ChangedQuestion, PlanQuestion, UnsavedQuestion};
 use crate::panels::open_model::Loading;
-use crate::panels::prompts::Question;
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction, State};
 use dragonfly_document::{Change, DocumentReply, LoadedModel, SavedFile, Source, View};
@@ -64,17 +64,17 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         }
         DocumentReply::Plan(Ok(text), order) => {
             let lines: Vec<String> = text.lines().map(str::to_owned).collect();
-            state.ask(Question::Plan(Arc::from(lines), order));
+            state.ask(PlanQuestion { lines: Arc::from(lines), order }.into());
         }
         DocumentReply::Plan(Err(reason), _) => {
             state.say(MessageSeverity::Error, format!("The document cannot be saved: {reason}"));
         }
         DocumentReply::Unsaved(then) => {
-            state.ask(Question::Unsaved(then));
+            state.ask(UnsavedQuestion { then }.into());
             interface.effects.push(Effect::File(FileAction::Stay));
         }
         DocumentReply::MayQuit => interface.effects.push(Effect::File(FileAction::QuitNow)),
-        DocumentReply::FileChanged(file) => state.ask(Question::Changed(file, None)),
+        DocumentReply::FileChanged(file) => state.ask(ChangedQuestion { file, order: None }.into()),
         DocumentReply::Offers(offers) => state.ask_to_recover(offers),
         DocumentReply::OtherFile(offer, path) => state.ask_where_it_is(offer, Some(path)),
         DocumentReply::NothingToOffer => {

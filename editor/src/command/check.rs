@@ -1,24 +1,23 @@
 //! `dragonfly check FILE…`: lists all problems of models, with their paths in the file.
 
 use super::Failure;
-use super::choice::{load, plain, source};
+use super::choice::{load, models_help, plain, source};
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
 use super::table::count;
-use dragonfly_anim::check::{Severity, check};
+use dragonfly_anim::check::{RULES, Severity, check};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// Check models against 33 rules and list errors, warnings and notes
+/// Lists errors, warnings and notes of models.
 #[derive(Clone, Debug, clap::Args)]
-#[command(after_help = "\
+#[command(about = about(), long_about = None, after_help = "\
 Findings are errors (shown wrong, or replaced by a placeholder), warnings (allowed, but probably unintended) and notes.\n\
 Import warnings are listed as well. Exit code 1: at least one finding has the severity of --deny or higher.\n\n\
 Examples:\n  dragonfly check Fox.glb\n  dragonfly check models/*.glb --deny warning --json")]
 pub(super) struct CheckArguments {
-    /// Models (.glb, .gltf, .dfm), or `demo:` for the built-in dragonfly
-    #[arg(value_name = "FILE", required = true)]
+    #[arg(value_name = "FILE", required = true, help = models_help())]
     files: Vec<PathBuf>,
     /// Exit with code 1 on findings of this severity or higher
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
@@ -26,6 +25,11 @@ pub(super) struct CheckArguments {
     /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
+}
+
+/// Returns the first line of the help text, with the number of rules.
+fn about() -> String {
+    format!("Check models against {} rules and list errors, warnings and notes", RULES.len())
 }
 
 /// The lowest severity that fails a check.

@@ -14,6 +14,11 @@ pub(super) fn model_help() -> String {
     format!("A model ({}), or `demo:` for the built-in dragonfly", formats().extension_list())
 }
 
+/// Returns the help text of an argument of several models, with the extensions of all formats.
+pub(super) fn models_help() -> String {
+    format!("Models ({}), or `demo:` for the built-in dragonfly", formats().extension_list())
+}
+
 /// The model argument.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct File {

@@ -11,7 +11,7 @@ pub(super) fn print() -> Result<(), Failure> {
     for command in commands::all() {
         let keys: Vec<String> = command.shortcuts.iter().map(commands::text).collect();
         table.row([
-            command.id.name(),
+            command.id.name().to_owned(),
             command.title.to_owned(),
             command.help.to_owned(),
             keys.join(", "),

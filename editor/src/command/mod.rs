@@ -1,4 +1,5 @@
-//! The command line: one file per command, one line per command in [`Commands`].
+//! The command line: a new command is a file here, with a type of arguments that implements [`RunCommand`], and a line in the
+//! list `subcommands!`.
 //!
 //! Results go to stdout, messages and progress to stderr. Exit codes: 0 done, 1 the check or comparison found
 //! something, 2 wrong input, 3 system error.
@@ -32,17 +33,32 @@ use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
 
-/// All subcommands; without one, the editor opens.
-#[derive(Debug, clap::Subcommand)]
-enum Commands {
-    Info(info::InfoArguments),
-    Check(check::CheckArguments),
-    Diff(diff::DiffArguments),
-    Pose(pose::PoseArguments),
-    Explain(explain::ExplainArguments),
-    Render(render::RenderArguments),
-    Edit(edit::EditArguments),
-    Demo(demo::DemoArguments),
+/// Declares [`Commands`] from a list of `Name => module::Type` lines; the name in lower case is the subcommand.
+macro_rules! subcommands {
+    ($($Name:ident => $Arguments:ty,)*) => {
+        /// All subcommands; without one, the editor opens.
+        #[derive(Debug, clap::Subcommand)]
+        enum Commands {
+            $($Name($Arguments),)*
+        }
+
+        impl RunCommand for Commands {
+            fn run(self) -> Result<(), Failure> {
+                match self { $(Self::$Name(arguments) => arguments.run(),)* }
+            }
+        }
+    };
+}
+
+subcommands! {
+    Info => info::InfoArguments,
+    Check => check::CheckArguments,
+    Diff => diff::DiffArguments,
+    Pose => pose::PoseArguments,
+    Explain => explain::ExplainArguments,
+    Render => render::RenderArguments,
+    Edit => edit::EditArguments,
+    Demo => demo::DemoArguments,
 }
 
 const HELP: &str = "\
@@ -112,13 +128,6 @@ pub fn main_with(arguments: impl IntoIterator<Item = OsString>, options: Options
 fn run(command_line: CommandLine, options: Options) -> Result<(), Failure> {
     match command_line.command {
         None => command_line.open.open(options),
-        Some(Commands::Info(arguments)) => arguments.run(),
-        Some(Commands::Check(arguments)) => arguments.run(),
-        Some(Commands::Diff(arguments)) => arguments.run(),
-        Some(Commands::Pose(arguments)) => arguments.run(),
-        Some(Commands::Explain(arguments)) => arguments.run(),
-        Some(Commands::Render(arguments)) => arguments.run(),
-        Some(Commands::Edit(arguments)) => arguments.run(),
-        Some(Commands::Demo(arguments)) => arguments.run(),
+        Some(command) => command.run(),
     }
 }

@@ -20,4 +20,4 @@ pub use input::{Button, InputEvent, PlaceError};
 pub use key::{Key, Modifiers};
 pub(crate) use viewport::orbit;
 pub use viewport::{Catch, ViewportControl, ViewportOutcome};
-pub use viewport_tools::{ViewportTool, ViewportTools};
+pub use viewport_tools::{ToolOutcome, ToolScene, ViewportTool, ViewportTools};

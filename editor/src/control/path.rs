@@ -5,7 +5,7 @@ use super::drag::{DragEvent, DragMachine};
 use super::framework::ControlFramework;
 use super::input::Button;
 use super::key::{Key, Modifiers};
-use super::viewport_tools::tool::ViewportTool;
+use super::viewport_tools::tool::{ToolOutcome, ViewportTool};
 use dragonfly_picture::gizmo::{AXIS_FROM, GizmoView};
 use glam::{DVec3, Vec2, Vec3};
 
@@ -128,6 +128,14 @@ impl ViewportTool for PathControl {
 
     fn look(&mut self, view: GizmoView) {
         self.view = Some(view);
+    }
+
+    fn take_outcome(&mut self) -> Option<ToolOutcome> {
+        Some(match self.take_answer()? {
+            PathAnswer::Moved(key) => ToolOutcome::MoveKey(key),
+            PathAnswer::Done => ToolOutcome::Done,
+            PathAnswer::Cancelled => ToolOutcome::Cancelled,
+        })
     }
 
     fn is_dragging(&self) -> bool {

@@ -16,7 +16,7 @@ pub mod commands;
 pub mod context;
 mod count_text;
 pub mod curves;
-mod dialogs;
+pub mod dialogs;
 pub mod digest;
 mod dope;
 mod drag;

@@ -1,10 +1,11 @@
 //! Modal dialogs and overlays shown over the panels.
 
-use dragonfly_document::{Decision, Offer, SaveOrder, Then};
-use dragonfly_store::FileState;
+pub use super::dialogs::Question;
+
+use super::dialogs::{FindQuestion, RecoverQuestion};
+use dragonfly_document::{Decision, Offer};
 use std::collections::VecDeque;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// An overlay over the panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,56 +20,6 @@ pub enum Overlay {
     OpenPath,
     /// The pairs of left and right bones.
     MirrorPairs,
-}
-
-/// A modal question that the user must answer before working on.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Question {
-    /// Asks whether to save or discard unsaved changes.
-    Unsaved(Then),
-    /// Another program changed or removed the file; with the save that this blocks.
-    Changed(FileState, Option<SaveOrder>),
-    /// The file that the order saves to exists already.
-    Exists(PathBuf, SaveOrder),
-    /// Lists the changes that a save will make, one line for each; confirming saves if there is an order.
-    Plan(Arc<[String]>, Option<SaveOrder>),
-    /// Unsaved work of an earlier run.
-    Recover {
-        /// The recoverable documents, last written first.
-        offers: Vec<Offer>,
-        /// Whether the work was lost in this run, by an internal error.
-        lost: bool,
-    },
-    /// Asks for the current path of the file that unsaved work belongs to.
-    Find {
-        /// The work.
-        offer: Box<Offer>,
-        /// A file that was chosen and is another one; `None` asks for a path.
-        other: Option<PathBuf>,
-    },
-    /// The path to save at, typed.
-    Where {
-        /// Whether the document keeps its own file.
-        copy: bool,
-        /// The action to run after saving.
-        then: Option<Then>,
-    },
-}
-
-impl Question {
-    /// Returns the name of the question for the log.
-    pub(super) fn name(&self) -> &'static str {
-        match self {
-            Self::Unsaved(_) => "asked what becomes of unsaved work",
-            Self::Changed(..) => "asked what becomes of a changed file",
-            Self::Exists(..) => "asked whether a file is to be replaced",
-            Self::Plan(..) => "showed what will be saved",
-            Self::Recover { .. } => "offered unsaved work",
-            Self::Find { other: None, .. } => "asked where a file is now",
-            Self::Find { .. } => "said that it is another file",
-            Self::Where { .. } => "asked where to save",
-        }
-    }
 }
 
 /// Questions in their order, the overlay, and the search field's request for the cursor.
@@ -111,15 +62,15 @@ impl Prompts {
 
     /// Asks before all other questions where the file of unsaved work is, or reports that `other` is another file.
     pub(super) fn ask_where_it_is(&mut self, offer: Box<Offer>, other: Option<PathBuf>) {
-        self.questions.retain(|(_, question)| !matches!(question, Question::Find { .. }));
+        self.questions.retain(|(_, question)| !matches!(question, Question::Find(_)));
         self.asked += 1;
-        self.questions.push_front((self.asked, Question::Find { offer, other }));
+        self.questions.push_front((self.asked, Question::Find(FindQuestion { offer, other })));
     }
 
     /// Asks about unsaved work, together with the offers that were made before and not answered.
     pub(super) fn ask_to_recover(&mut self, mut offers: Vec<Offer>) {
         for (_, question) in &self.questions {
-            if let Question::Recover { offers: before, .. } = question {
+            if let Question::Recover(RecoverQuestion { offers: before, .. }) = question {
                 let new =
                     |other: &&Offer| !offers.iter().any(|offer| offer.found.journal == other.found.journal);
                 let before: Vec<Offer> = before.iter().filter(new).cloned().collect();
@@ -127,7 +78,7 @@ impl Prompts {
             }
         }
         let lost = std::mem::take(&mut self.lost);
-        self.ask(Question::Recover { offers, lost });
+        self.ask(RecoverQuestion { offers, lost }.into());
     }
 
     /// Notes that the document was lost by an internal error; the next offer of unsaved work mentions it.
@@ -138,15 +89,14 @@ impl Prompts {
     /// Removes the questions about this unsaved work: its file was found.
     pub fn offer_is_answered(&mut self, offer: &Offer) {
         let same = |other: &Offer| other.found.journal == offer.found.journal;
-        self.questions
-            .retain(|(_, question)| !matches!(question, Question::Find { offer, .. } if same(offer)));
+        self.questions.retain(|(_, question)| !matches!(question, Question::Find(find) if same(&find.offer)));
         for (_, question) in &mut self.questions {
-            if let Question::Recover { offers, .. } = question {
+            if let Question::Recover(RecoverQuestion { offers, .. }) = question {
                 offers.retain(|other| !same(other));
             }
         }
         self.questions.retain(
-            |(_, question)| !matches!(question, Question::Recover { offers, .. } if offers.is_empty()),
+            |(_, question)| !matches!(question, Question::Recover(recover) if recover.offers.is_empty()),
         );
     }
 
@@ -157,7 +107,7 @@ impl Prompts {
 
     /// Removes one offer from the question that is shown; the other offers wait for a decision.
     pub(super) fn decided(&mut self, offer: &Offer) {
-        let Some((_, Question::Recover { offers, .. })) = self.questions.front_mut() else {
+        let Some((_, Question::Recover(RecoverQuestion { offers, .. }))) = self.questions.front_mut() else {
             return self.pop();
         };
         offers.retain(|other| other.found.journal != offer.found.journal);
@@ -170,10 +120,10 @@ impl Prompts {
     /// where it is.
     pub(super) fn dismiss(&mut self) -> Option<(Offer, Decision)> {
         match self.questions.pop_front()? {
-            (number, Question::Recover { mut offers, lost }) => {
+            (number, Question::Recover(RecoverQuestion { mut offers, lost })) => {
                 let offer = offers.pop()?;
                 if !offers.is_empty() {
-                    self.questions.push_front((number, Question::Recover { offers, lost }));
+                    self.questions.push_front((number, RecoverQuestion { offers, lost }.into()));
                 }
                 Some((offer, Decision::Later))
             }

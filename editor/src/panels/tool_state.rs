@@ -3,13 +3,13 @@
 use super::motion_path::MotionPath;
 use super::posed::PoseCache;
 use super::tool_drag::ToolDrag;
-use crate::control::{Area, InputEvent, ViewportTools};
+use crate::control::{Area, InputEvent, ToolScene, ViewportTools};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;
 use dragonfly_document::edit::BonePose;
 use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
 use dragonfly_picture::camera::Camera;
-use dragonfly_picture::gizmo::{GizmoSettings, Tool};
+use dragonfly_picture::gizmo::{GizmoSettings, PosedSkeleton, Tool};
 use std::time::Instant;
 
 /// Everything that the placement of the gizmo is computed from.
@@ -96,8 +96,7 @@ impl ToolState {
     /// Cancels the drag without an answer: the model is another, or the drag was undone elsewhere.
     pub(super) fn drop_drag(&mut self) {
         self.controls.cancel();
-        self.controls.gizmo_mut().take_answer();
-        self.controls.path_mut().take_answer();
+        while self.controls.take_outcome().is_some() {}
         self.drag = ToolDrag::default();
         self.placement = None;
     }
@@ -123,19 +122,17 @@ impl ToolState {
             self.spare = now.bones;
             return;
         }
-        let control = self.controls.gizmo_mut();
-        control.editable = editable;
-        control.gizmo.settings = now.settings;
-        control.gizmo.tool = now.tool.unwrap_or_default();
         // The tool that only selects has no handles.
         let bones = if now.tool.is_some() { &now.bones[..] } else { &[] };
         let skeleton = &view.loaded.model.animation.skeleton;
-        if bones.is_empty() {
-            control.gizmo.select(skeleton, &[], &[], &[], None);
+        let pose = if bones.is_empty() {
+            PosedSkeleton { skeleton, poses: &[], to_root: &[] }
         } else {
             let animation = posed.update(view, now.take, now.time);
-            control.gizmo.select(skeleton, animation.poses(), animation.to_root(), bones, None);
-        }
+            PosedSkeleton { skeleton, poses: animation.poses(), to_root: animation.to_root() }
+        };
+        let (take, time, tool, settings) = (now.take, now.time, now.tool, now.settings);
+        self.controls.show(&ToolScene { pose, bones, take, time, editable, tool, settings });
         let pivot = self.controls.gizmo().gizmo.pivot();
         let path = self.controls.path_mut();
         (path.editable, path.gizmo) = (path_editable, pivot);

@@ -81,9 +81,11 @@ pub struct EditInfo {
     pub arbitrary: fn(&mut Arbitrary<'_>) -> super::Edit,
 }
 
-/// Declares [`super::Edit`] and [`super::EDITS`] from a list of `"name in JSON" => Type` lines.
+/// Declares [`super::Edit`] and [`super::EDITS`] from a list of `"name in JSON" => module::Type` lines.
 macro_rules! edits {
-    ($($name:literal => $Kind:ident,)*) => {
+    ($($name:literal => $module:ident::$Kind:ident,)*) => {
+        $(pub use $module::$Kind;)*
+
         /// One change of a document's takes.
         #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(tag = "edit")]

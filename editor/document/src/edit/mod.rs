@@ -11,7 +11,7 @@
 //! a bone that does not exist, or a time without a key is an error that names it, and nothing changes.
 //!
 //! Each kind of edit is one file with its data, plan, label, example, the bones and the take that it changes, and a
-//! generator for property tests. A new kind is such a file and a line in the list below.
+//! generator for property tests. A new kind is such a file and a line in the list `edits!` below.
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
@@ -52,42 +52,16 @@ mod split_take;
 pub(crate) mod target;
 mod trim_take;
 
-pub use add_keys::AddKeys;
 #[doc(hidden)]
 pub use arbitrary::Arbitrary;
 pub use bones::EditedBones;
 pub use copied::{CopiedChannel, CopiedKey};
-pub use create_take::CreateTake;
-pub use delete_keys::DeleteKeys;
-pub use delete_take::DeleteTake;
-pub use drop_pending::DropPending;
-pub use duplicate_keys::DuplicateKeys;
 pub use examples::Example;
-pub use key_pending::KeyPending;
 pub use kind::EditInfo;
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use mode::{KeyInterpolation, NewKey, ResetTo};
-pub use move_keys::MoveKeys;
-pub use move_take::MoveTake;
-pub use offset_pose::OffsetPose;
-pub use paste_keys::PasteKeys;
-pub use paste_pose::PastePose;
 pub use pose::{BonePose, PoseAt};
-pub use rename_take::RenameTake;
-pub use reset_pose::ResetPose;
-pub use retime_take::RetimeTake;
-pub use reverse_take::ReverseTake;
-pub use ripple_keys::RippleKeys;
-pub use scale_keys::ScaleKeys;
-pub use set_interpolation::SetInterpolation;
-pub use set_pending::SetPending;
-pub use set_pose::SetPose;
-pub use set_poses::SetPoses;
-pub use set_tangents::SetTangents;
-pub use snap_keys::SnapKeys;
-pub use split_take::SplitTake;
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
-pub use trim_take::TrimTake;
 
 use crate::adapter::plan::{PoseMode, Transaction};
 use crate::adapter::{EditError, ModelAdapter};
@@ -100,32 +74,32 @@ use serde::{Deserialize, Serialize};
 pub const VERSION: u32 = 1;
 
 edits! {
-    "set" => SetPose,
-    "set_many" => SetPoses,
-    "offset" => OffsetPose,
-    "reset" => ResetPose,
-    "pend" => SetPending,
-    "paste" => PastePose,
-    "key_pending" => KeyPending,
-    "drop_pending" => DropPending,
-    "add_keys" => AddKeys,
-    "delete_keys" => DeleteKeys,
-    "move_keys" => MoveKeys,
-    "scale_keys" => ScaleKeys,
-    "duplicate_keys" => DuplicateKeys,
-    "paste_keys" => PasteKeys,
-    "ripple" => RippleKeys,
-    "snap_keys" => SnapKeys,
-    "set_interpolation" => SetInterpolation,
-    "set_tangents" => SetTangents,
-    "create_take" => CreateTake,
-    "delete_take" => DeleteTake,
-    "rename_take" => RenameTake,
-    "move_take" => MoveTake,
-    "split_take" => SplitTake,
-    "trim_take" => TrimTake,
-    "reverse_take" => ReverseTake,
-    "retime_take" => RetimeTake,
+    "set" => set_pose::SetPose,
+    "set_many" => set_poses::SetPoses,
+    "offset" => offset_pose::OffsetPose,
+    "reset" => reset_pose::ResetPose,
+    "pend" => set_pending::SetPending,
+    "paste" => paste_pose::PastePose,
+    "key_pending" => key_pending::KeyPending,
+    "drop_pending" => drop_pending::DropPending,
+    "add_keys" => add_keys::AddKeys,
+    "delete_keys" => delete_keys::DeleteKeys,
+    "move_keys" => move_keys::MoveKeys,
+    "scale_keys" => scale_keys::ScaleKeys,
+    "duplicate_keys" => duplicate_keys::DuplicateKeys,
+    "paste_keys" => paste_keys::PasteKeys,
+    "ripple" => ripple_keys::RippleKeys,
+    "snap_keys" => snap_keys::SnapKeys,
+    "set_interpolation" => set_interpolation::SetInterpolation,
+    "set_tangents" => set_tangents::SetTangents,
+    "create_take" => create_take::CreateTake,
+    "delete_take" => delete_take::DeleteTake,
+    "rename_take" => rename_take::RenameTake,
+    "move_take" => move_take::MoveTake,
+    "split_take" => split_take::SplitTake,
+    "trim_take" => trim_take::TrimTake,
+    "reverse_take" => reverse_take::ReverseTake,
+    "retime_take" => retime_take::RetimeTake,
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! The controls of the scene as they are drawn (thesis §3.2.9.2, §3.2.9.4): each is a component that draws itself in
 //! every frame, in the pose of that frame; one pass draws them all.
 //!
-//! A new control is a file here with its [`Appearance`](crate::Appearance) and its component, and a line in
-//! [`SceneControls::default`].
+//! A new control is a file here with its component, and a line in the list of `all` below. Its data, if it has any, is an
+//! [`Appearance`](crate::Appearance) declared in its file, which the main thread sets.
 
 mod component;
 mod ghosts;
@@ -17,10 +17,6 @@ pub use ik::{IkAppearance, IkLook};
 pub use path::{PathAppearance, PathLook};
 
 use crate::gizmo::GizmoShape;
-use ghosts::GhostsGraphic;
-use gizmo::GizmoGraphic;
-use ik::IkGraphic;
-use path::PathGraphic;
 
 /// All components, and the shape that they draw together.
 pub struct SceneControls {
@@ -28,16 +24,19 @@ pub struct SceneControls {
     shape: GizmoShape,
 }
 
+/// Creates all components. Later ones are drawn over earlier ones.
+fn all() -> Vec<Box<dyn GraphicComponent>> {
+    vec![
+        Box::<ghosts::GhostsGraphic>::default(),
+        Box::<path::PathGraphic>::default(),
+        Box::<ik::IkGraphic>::default(),
+        Box::<gizmo::GizmoGraphic>::default(),
+    ]
+}
+
 impl Default for SceneControls {
     fn default() -> Self {
-        // Later ones are drawn over earlier ones.
-        let list: Vec<Box<dyn GraphicComponent>> = vec![
-            Box::<GhostsGraphic>::default(),
-            Box::<PathGraphic>::default(),
-            Box::<IkGraphic>::default(),
-            Box::<GizmoGraphic>::default(),
-        ];
-        Self { list, shape: GizmoShape::default() }
+        Self { list: all(), shape: GizmoShape::default() }
     }
 }
 

@@ -1,5 +1,5 @@
-//! The render passes and their order. A new pass is a file here, a shader, and a line in [`all`]; data that another thread
-//! sets for it is an [`Appearance`](crate::Appearance) declared in its file.
+//! The render passes and their order. A new pass is a file here, a line in [`all`], and its shader: a file in `shaders/` and a
+//! line in `shaders!`. Data that another thread sets for it is an [`Appearance`](crate::Appearance) declared in its file.
 
 mod background;
 mod composite;

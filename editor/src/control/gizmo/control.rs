@@ -7,8 +7,8 @@ use crate::control::drag::{DragEvent, DragMachine, THRESHOLD};
 use crate::control::framework::ControlFramework;
 use crate::control::input::Button;
 use crate::control::key::{Key, Modifiers};
-use crate::control::viewport_tools::tool::ViewportTool;
-use dragonfly_picture::gizmo::{GizmoView, Handle, Tool};
+use crate::control::viewport_tools::tool::{ToolOutcome, ToolScene, ViewportTool};
+use dragonfly_picture::gizmo::{GizmoView, Handle, PosedSkeleton, Tool};
 use glam::Vec2;
 
 /// The control of the gizmo, registered over the whole viewport inside its control, so that a press that misses the handles
@@ -121,6 +121,30 @@ impl ViewportTool for GizmoControl {
 
     fn look(&mut self, view: GizmoView) {
         self.gizmo.look(view);
+    }
+
+    fn show(&mut self, scene: &ToolScene<'_>) {
+        self.editable = scene.editable;
+        self.gizmo.settings = scene.settings;
+        self.gizmo.tool = scene.tool.unwrap_or_default();
+        let PosedSkeleton { skeleton, poses, to_root } = scene.pose;
+        self.gizmo.select(skeleton, poses, to_root, scene.bones, None);
+    }
+
+    fn take_outcome(&mut self) -> Option<ToolOutcome> {
+        if let Some(mouse) = self.take_click() {
+            return Some(ToolOutcome::Click(mouse));
+        }
+        if self.take_refused() {
+            return Some(ToolOutcome::Refused);
+        }
+        match self.take_answer()? {
+            GizmoAnswer::Ignored => None,
+            GizmoAnswer::Changed => Some(ToolOutcome::Poses),
+            // A drag that ends where it began changes nothing.
+            GizmoAnswer::Confirmed if !self.gizmo.is_identity() => Some(ToolOutcome::Done),
+            GizmoAnswer::Confirmed | GizmoAnswer::Cancelled => Some(ToolOutcome::Cancelled),
+        }
     }
 
     fn is_dragging(&self) -> bool {

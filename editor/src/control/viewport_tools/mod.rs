@@ -10,21 +10,17 @@
 //!
 //! Inputs arrive as they happen, not once a frame. The owner takes the outcome after each.
 //!
-//! A new tool that is used with the mouse in the viewport needs:
-//!
-//! 1. a file beside `path.rs`, with a type that implements [`BaseControl`] and [`ViewportTool`] and offers its outcome by a
-//!    `take_…` method, as [`PathControl`] does;
-//! 2. a field of `ToolSet`, its registration in `Default`, and its line in each of `ToolSet::tools` and
-//!    `ToolSet::tools_mut`: area, view, focus, cancelling and cursor follow from these lists;
-//! 3. a call of its `take_…` method in `panels/hands`, which makes an edit of the outcome;
-//! 4. if it is drawn, a component in `editor/picture/src/control`, and its line in the list there;
-//! 5. if a command starts it, a row in `panels/commands/table/tools.rs`.
+//! A new tool that is used with the mouse in the viewport is a file in this folder, with a type that implements
+//! [`BaseControl`], [`ViewportTool`], `Clone`, `Debug` and `Default`, and a line in the list `tools!` below. Area, view, focus,
+//! cursor, cancelling and edits follow from the list: the tool is shown a [`ToolScene`], and asks for edits with
+//! [`ToolOutcome`]. If it is drawn, it also needs an overlay (`editor/picture/src/control`), and if a command starts it, a row
+//! in `panels/commands/table/tools.rs`.
 
 mod shield;
 pub(super) mod tool;
 
 pub use shield::Shield;
-pub use tool::ViewportTool;
+pub use tool::{ToolOutcome, ToolScene, ViewportTool};
 
 use super::area::{Area, ControlId};
 use super::base::{BaseControl, ControlLookup};
@@ -52,25 +48,47 @@ pub struct ViewportTools {
     revision: u64,
 }
 
-/// The controls; the framework knows only their areas.
-#[derive(Clone, Debug)]
-struct ToolSet {
-    picture: (ControlId, ViewportControl),
-    path: (ControlId, PathControl),
-    gizmo: (ControlId, GizmoControl),
-    shields: Vec<(ControlId, Shield)>,
+/// Declares the controls, [`ToolSet`], from a list of `name: Type` lines.
+macro_rules! tools {
+    ($($name:ident: $Control:ty,)*) => {
+        /// The controls; the framework knows only their areas.
+        #[derive(Clone, Debug)]
+        struct ToolSet {
+            picture: (ControlId, ViewportControl),
+            shields: Vec<(ControlId, Shield)>,
+            $($name: (ControlId, $Control),)*
+        }
+
+        impl ToolSet {
+            const COUNT: usize = [$(stringify!($name)),*].len();
+
+            /// Registers the controls. Of equal areas the one registered later is inside.
+            fn new(framework: &mut ControlFramework) -> Self {
+                let mut register = || framework.register_control(Area::default());
+                Self {
+                    picture: (register(), ViewportControl::default()),
+                    shields: Vec::new(),
+                    $($name: (register(), <$Control>::default()),)*
+                }
+            }
+
+            /// Returns all tools in the order of the list.
+            fn tools(&self) -> [(ControlId, &dyn ViewportTool); Self::COUNT] {
+                [$((self.$name.0, &self.$name.1),)*]
+            }
+
+            /// Returns all tools in the order of the list, to be changed.
+            fn tools_mut(&mut self) -> [(ControlId, &mut dyn ViewportTool); Self::COUNT] {
+                [$((self.$name.0, &mut self.$name.1),)*]
+            }
+        }
+    };
 }
 
-impl ToolSet {
-    /// All tools. A tool is inside those before it: where both are under the pointer, the later one gets the press.
-    fn tools(&self) -> [(ControlId, &dyn ViewportTool); 2] {
-        [(self.gizmo.0, &self.gizmo.1), (self.path.0, &self.path.1)]
-    }
-
-    /// [`Self::tools`], to be changed.
-    fn tools_mut(&mut self) -> [(ControlId, &mut dyn ViewportTool); 2] {
-        [(self.gizmo.0, &mut self.gizmo.1), (self.path.0, &mut self.path.1)]
-    }
+// A tool is inside those before it: where both are under the pointer, the later one gets the press.
+tools! {
+    gizmo: GizmoControl,
+    path: PathControl,
 }
 
 impl ControlLookup for ToolSet {
@@ -91,18 +109,8 @@ impl ControlLookup for ToolSet {
 impl Default for ViewportTools {
     fn default() -> Self {
         let mut framework = ControlFramework::new(Vec2::ONE);
-        let nowhere = Area::default();
-        // Of equal areas the one registered later is inside.
-        let picture = (framework.register_control(nowhere), ViewportControl::default());
-        let gizmo = (framework.register_control(nowhere), GizmoControl::default());
-        let path = (framework.register_control(nowhere), PathControl::default());
-        Self {
-            framework,
-            owner: ToolSet { picture, path, gizmo, shields: Vec::new() },
-            pointer: None,
-            modifiers: Modifiers::default(),
-            revision: 0,
-        }
+        let owner = ToolSet::new(&mut framework);
+        Self { framework, owner, pointer: None, modifiers: Modifiers::default(), revision: 0 }
     }
 }
 
@@ -180,6 +188,18 @@ impl ViewportTools {
         for (_, tool) in self.owner.tools_mut() {
             tool.look(view);
         }
+    }
+
+    /// Shows all tools what they work on.
+    pub fn show(&mut self, scene: &ToolScene<'_>) {
+        for (_, tool) in self.owner.tools_mut() {
+            tool.show(scene);
+        }
+    }
+
+    /// Returns the next request of a tool since the last call.
+    pub fn take_outcome(&mut self) -> Option<ToolOutcome> {
+        self.owner.tools_mut().into_iter().find_map(|(_, tool)| tool.take_outcome())
     }
 
     /// Returns a number that grows with every input, after which a drag may look different.

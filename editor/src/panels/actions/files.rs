@@ -1,6 +1,7 @@
 //! Questions about files and their answers.
 
 use super::playback;
+use crate::panels::dialogs::{ChangedQuestion, ExistsQuestion, UnsavedQuestion};
 use crate::panels::prompts::Question;
 use crate::panels::request::{Effect, FileAction};
 use crate::panels::status::MessageSeverity;
@@ -33,8 +34,7 @@ pub(in crate::panels) fn ask_to_recover(workspace: &mut Workspace, offers: Vec<O
 
 /// Removes the question that was answered, and returns the effect of the answer.
 pub(super) fn answered(workspace: &mut Workspace, action: FileAction) -> Option<Effect> {
-    let finds =
-        matches!(workspace.prompts.question(), Some(Question::Recover { .. } | Question::Find { .. }));
+    let finds = matches!(workspace.prompts.question(), Some(Question::Recover(_) | Question::Find(_)));
     match &action {
         FileAction::Send(DocumentMessage::Decide(offer, Decision::Discard | Decision::Later)) => {
             workspace.prompts.decided(offer);
@@ -91,13 +91,15 @@ pub(in crate::panels) fn not_saved(
         NotSaved::NoFile => {
             return Some(Effect::File(FileAction::Where { copy: false, then: order.then }));
         }
-        NotSaved::Changed => ask(workspace, Question::Changed(FileState::Changed, Some(order))),
-        NotSaved::Exists(path) => ask(workspace, Question::Exists(path, order)),
+        NotSaved::Changed => {
+            ask(workspace, ChangedQuestion { file: FileState::Changed, order: Some(order) }.into())
+        }
+        NotSaved::Exists(path) => ask(workspace, ExistsQuestion { path, order }.into()),
         NotSaved::Failed(reason) => {
             workspace.say(MessageSeverity::Error, format!("Not saved: {reason}"));
             // A user who wanted to leave is asked again what to do with the changes.
             if let Some(then) = order.then {
-                ask(workspace, Question::Unsaved(then));
+                ask(workspace, UnsavedQuestion { then }.into());
             }
         }
     }

@@ -1,9 +1,8 @@
 //! Input of the viewport: events reach the tools as they happen, and what follows goes out at once.
 
 use super::{locks, playback, tools};
-use crate::control::gizmo::GizmoAnswer;
-use crate::control::path::{PathAnswer, PathKey};
-use crate::control::{Button, InputEvent, ViewportOutcome};
+use crate::control::path::PathKey;
+use crate::control::{Button, InputEvent, ToolOutcome, ViewportOutcome};
 use crate::panels::request::Effect;
 use crate::panels::tool_drag::Alone;
 use crate::panels::workspace::Workspace;
@@ -44,10 +43,7 @@ pub(in crate::panels) fn input(
 fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
     workspace.camera.set_camera(workspace.tools.camera());
     let corner = workspace.camera.viewport().min;
-    let controls = workspace.tools.controls_mut();
-    let (outcome, click) = (controls.picture_mut().take_outcome(), controls.gizmo_mut().take_click());
-    let refused = controls.gizmo_mut().take_refused();
-    let (gizmo, path) = (controls.gizmo_mut().take_answer(), controls.path_mut().take_answer());
+    let outcome = workspace.tools.controls_mut().picture_mut().take_outcome();
     match outcome {
         Some(ViewportOutcome::Pick(at, choice)) => {
             workspace.tools.set_clicked_handle(false);
@@ -56,49 +52,41 @@ fn take_answers(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
         Some(ViewportOutcome::Catch(region, choice)) => effects.push(Effect::Catch(region, choice)),
         None => {}
     }
-    if let Some(mouse) = click {
-        workspace.tools.set_clicked_handle(true);
-        effects.push(Effect::Pick(pos2(mouse.at.x, mouse.at.y), Choice::from(mouse.modifiers)));
-    }
-    if refused {
-        tools::say_refused(workspace);
-    }
-    if let Some(answer) = gizmo {
-        gizmo_answered(workspace, answer, effects);
-    }
-    if let Some(answer) = path {
-        path_answered(workspace, answer, effects);
+    while let Some(outcome) = workspace.tools.controls_mut().take_outcome() {
+        take_tool_outcome(workspace, outcome, effects);
     }
 }
 
-fn gizmo_answered(workspace: &mut Workspace, answer: GizmoAnswer, effects: &mut Vec<Effect>) {
-    let idle = workspace.tools.controls().gizmo().gizmo.is_identity();
-    match answer {
-        GizmoAnswer::Ignored => {}
-        GizmoAnswer::Changed => {
-            tools::begin_following(workspace);
-            // A press that changes nothing yet is no edit.
-            if !idle || workspace.tools.drag().gesture().is_some() {
-                let poses = workspace.tools.dragged_poses();
-                if let Some(edit) = workspace.read().pose_edit(poses) {
-                    send(workspace, edit, effects);
-                }
-            }
+/// Carries out what a tool asks for.
+fn take_tool_outcome(workspace: &mut Workspace, outcome: ToolOutcome, effects: &mut Vec<Effect>) {
+    match outcome {
+        ToolOutcome::Click(mouse) => {
+            workspace.tools.set_clicked_handle(true);
+            effects.push(Effect::Pick(pos2(mouse.at.x, mouse.at.y), Choice::from(mouse.modifiers)));
         }
-        GizmoAnswer::Confirmed => end_drag(workspace, idle, effects),
-        GizmoAnswer::Cancelled => end_drag(workspace, true, effects),
-    }
-}
-
-fn path_answered(workspace: &mut Workspace, answer: PathAnswer, effects: &mut Vec<Effect>) {
-    match answer {
-        PathAnswer::Moved(key) => {
+        ToolOutcome::Refused => tools::say_refused(workspace),
+        ToolOutcome::Poses => send_poses(workspace, effects),
+        ToolOutcome::MoveKey(key) => {
             if let Some(edit) = path_edit(workspace, key) {
                 send(workspace, edit, effects);
             }
         }
-        PathAnswer::Done => end_drag(workspace, false, effects),
-        PathAnswer::Cancelled => end_drag(workspace, true, effects),
+        ToolOutcome::Edit(edit) => send(workspace, edit, effects),
+        ToolOutcome::Done => end_drag(workspace, false, effects),
+        ToolOutcome::Cancelled => end_drag(workspace, true, effects),
+    }
+}
+
+/// Sends the poses of the gizmo.
+fn send_poses(workspace: &mut Workspace, effects: &mut Vec<Effect>) {
+    tools::begin_following(workspace);
+    // A press that changes nothing yet is no edit.
+    let idle = workspace.tools.controls().gizmo().gizmo.is_identity();
+    if !idle || workspace.tools.drag().gesture().is_some() {
+        let poses = workspace.tools.dragged_poses();
+        if let Some(edit) = workspace.read().pose_edit(poses) {
+            send(workspace, edit, effects);
+        }
     }
 }
 

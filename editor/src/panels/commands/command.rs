@@ -19,18 +19,8 @@ pub struct Command {
     pub help: &'static str,
     /// Condition under which it can be run.
     pub when: When,
+    /// Whether a held key runs it again and again, as for commands that step through time.
+    pub repeats: bool,
     /// Runs the command. Returns what reaches further than the panels.
     pub(in crate::panels) run: fn(&mut Workspace) -> Option<Effect>,
-}
-
-/// Returns a row.
-pub(super) const fn command(
-    id: Id,
-    when: When,
-    title: &'static str,
-    shortcuts: &'static [KeyboardShortcut],
-    help: &'static str,
-    run: fn(&mut Workspace) -> Option<Effect>,
-) -> Command {
-    Command { id, title, shortcuts, help, when, run }
 }

@@ -21,16 +21,16 @@ pub struct KeySettings {
 impl KeySettings {
     /// Sets the keys of a command.
     pub fn set(&mut self, id: Id, shortcuts: &[KeyboardShortcut]) {
-        self.own.insert(id.name(), shortcuts.iter().map(text).collect());
+        self.own.insert(id.name().to_owned(), shortcuts.iter().map(text).collect());
     }
 
     /// Resets the keys of a command to those of the preset.
     pub fn reset(&mut self, id: Id) {
-        self.own.remove(&id.name());
+        self.own.remove(id.name());
     }
 
     /// Returns whether the user gave this command other keys.
     pub fn is_own(&self, id: Id) -> bool {
-        self.own.contains_key(&id.name())
+        self.own.contains_key(id.name())
     }
 }

@@ -1,5 +1,6 @@
 //! The keys of commands: those of the table, of a preset, and those that the user chose.
 
+use super::Command;
 use super::id::Id;
 use super::key_settings::KeySettings;
 use super::shortcut::parse;
@@ -35,8 +36,8 @@ impl Keymap {
     fn give(&mut self, id: Id, shortcuts: Vec<KeyboardShortcut>) {
         for shortcut in &shortcuts {
             let losers: Vec<Id> = super::all()
+                .filter(|command| command.id != id && self.of_command(command).contains(shortcut))
                 .map(|command| command.id)
-                .filter(|other| *other != id && self.shortcuts(*other).contains(shortcut))
                 .collect();
             for loser in losers {
                 let kept = self.shortcuts(loser).iter().filter(|other| *other != shortcut).copied().collect();
@@ -61,7 +62,12 @@ impl Keymap {
 
     /// Returns the keys of a command; tooltips name the first.
     pub fn shortcuts(&self, id: Id) -> &[KeyboardShortcut] {
-        self.other.get(&id).map_or(super::get(id).shortcuts, Vec::as_slice)
+        self.of_command(super::get(id))
+    }
+
+    /// Returns the keys of the command of a row.
+    fn of_command(&self, command: &Command) -> &[KeyboardShortcut] {
+        self.other.get(&command.id).map_or(command.shortcuts, Vec::as_slice)
     }
 
     /// Returns the command of these keys.
@@ -69,7 +75,7 @@ impl Keymap {
         let gives = |shortcut: &KeyboardShortcut| {
             shortcut.logical_key == key && modifiers.matches_exact(shortcut.modifiers)
         };
-        super::all().map(|command| command.id).find(|id| self.shortcuts(*id).iter().any(gives))
+        super::all().find(|command| self.of_command(command).iter().any(gives)).map(|command| command.id)
     }
 
     /// Returns whether a key is being chosen for a command, so that it must not run another one.

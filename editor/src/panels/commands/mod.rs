@@ -64,7 +64,7 @@ pub const MOUSE: &[(&str, &str)] = &[
 
 /// Returns the row of `id`.
 pub fn get(id: Id) -> &'static Command {
-    // A test proves that every id has a row.
+    // A row declares its id, so every id has one.
     all().find(|command| command.id == id).unwrap_or(&TABLE[0].1[0])
 }
 
@@ -101,7 +101,7 @@ pub fn tooltip(context: &egui::Context, id: Id) -> String {
 
 /// Returns the commands whose keys were pressed in this frame, in order; keys that a text field needs stay for it.
 ///
-/// Held keys repeat only for commands that step through time.
+/// Held keys run only commands that repeat.
 pub fn pressed(context: &egui::Context) -> Vec<Id> {
     // A key that is being chosen for a command runs none.
     if Keymap::is_asking(context) {
@@ -133,7 +133,7 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
             }
             match keymap.command_of(key, modifiers) {
                 Some(id) if modal && !matches!(id, Id::Palette | Id::Shortcuts) => true,
-                Some(id) if !repeat || repeats(id) => {
+                Some(id) if !repeat || get(id).repeats => {
                     found.push(id);
                     false
                 }
@@ -183,22 +183,4 @@ fn key_of(event: &egui::Event) -> Option<(Key, bool, Modifiers)> {
         egui::Event::Paste(_) => Some((Key::V, false, Modifiers::COMMAND)),
         _ => None,
     }
-}
-
-fn repeats(id: Id) -> bool {
-    matches!(
-        id,
-        Id::PreviousFrame
-            | Id::NextFrame
-            | Id::PreviousKey
-            | Id::KeysEarlier
-            | Id::KeysLater
-            | Id::NextKey
-            | Id::BackOneSecond
-            | Id::ForwardOneSecond
-            | Id::SelectParent
-            | Id::SelectChild
-            | Id::ScaleUp
-            | Id::ScaleDown
-    )
 }

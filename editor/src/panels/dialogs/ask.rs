@@ -14,6 +14,14 @@ pub(super) struct Ask<'a> {
     /// Whether this is its first frame, in which the default button gets the focus.
     pub(super) fresh: bool,
     pub(super) requests: &'a mut Vec<Request>,
+    pub(super) fields: &'a mut QuestionFields,
+}
+
+/// The path that the user typed in a question, and the line that the user chose.
+#[derive(Debug, Default)]
+pub(super) struct QuestionFields {
+    pub(super) path: String,
+    pub(super) chosen: usize,
 }
 
 /// Style of a button.

@@ -1,6 +1,7 @@
 //! The question when another program changed or removed the file that is open.
 
 use super::ask::{Ask, Tone};
+use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use dragonfly_document::{DocumentMessage, SaveOrder};
@@ -14,63 +15,79 @@ enum ChangedChoice {
     Cancel,
 }
 
-pub(super) fn show(ask: &mut Ask<'_>, file: FileState, order: Option<&SaveOrder>) {
-    ask.ui.set_width(480.0);
-    let Some(view) = &ask.context.view else { return };
-    let (title, saved) = (view.file.title.clone(), view.history.saved);
-    let gone = file == FileState::Missing;
-    let then = order.and_then(|order| order.then.clone());
-    ask.title(&if gone { format!("{title} is gone") } else { format!("{title} was changed on disk") });
-    ask.says(if gone {
-        "Another program moved or deleted the file. The open document is still complete."
-    } else if order.is_some() {
-        "Another program changed the file after it was opened, so it was not overwritten."
-    } else {
-        "Another program changed the file after it was opened."
-    });
-    if !saved && !gone {
-        ask.adds("Your changes are not saved. Reloading discards them; a copy stays in the bin of the autosave folder for a while.");
+/// Another program changed or removed the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChangedQuestion {
+    /// State of the file.
+    pub file: FileState,
+    /// The save that this blocks.
+    pub order: Option<SaveOrder>,
+}
+
+impl QuestionKind for ChangedQuestion {
+    fn name(&self) -> &'static str {
+        "asked what becomes of a changed file"
     }
-    let reload =
-        ("Reload", "Open the file as it is on disk now", if saved { Tone::First } else { Tone::Loses });
-    let overwrite = (
-        "Overwrite",
-        "Replace the file with the open document; the other version is kept in the autosave folder",
-    );
-    let save_as = ("Save as…", "Keep both versions", Tone::Plain, ChangedChoice::SaveAs);
-    let cancel = ("Cancel", "Change nothing for now", Tone::Plain, ChangedChoice::Cancel);
-    let pressed = if gone {
-        let write = ("Save again", "Write the file where it was", Tone::First, ChangedChoice::Overwrite);
-        ask.buttons(&[write, save_as, cancel])
-    } else if saved && order.is_none() {
-        let reload = (reload.0, reload.1, reload.2, ChangedChoice::Reload);
-        ask.buttons(&[
-            reload,
-            cancel,
-            save_as,
-            (overwrite.0, overwrite.1, Tone::Loses, ChangedChoice::Overwrite),
-        ])
-    } else {
-        let reload = (reload.0, reload.1, Tone::Loses, ChangedChoice::Reload);
-        let save_as = (save_as.0, save_as.1, Tone::First, ChangedChoice::SaveAs);
-        ask.buttons(&[
-            save_as,
-            cancel,
-            (overwrite.0, overwrite.1, Tone::Loses, ChangedChoice::Overwrite),
-            reload,
-        ])
-    };
-    let request = match pressed {
-        Some(ChangedChoice::Overwrite) => {
-            Request::Answer(FileAction::Send(DocumentMessage::Save(SaveOrder {
-                anyway: true,
-                ..SaveOrder::own(then)
-            })))
+
+    fn show(&self, ask: &mut Ask<'_>) {
+        ask.ui.set_width(480.0);
+        let Some(view) = &ask.context.view else { return };
+        let (title, saved) = (view.file.title.clone(), view.history.saved);
+        let order = self.order.as_ref();
+        let gone = self.file == FileState::Missing;
+        let then = order.and_then(|order| order.then.clone());
+        ask.title(&if gone { format!("{title} is gone") } else { format!("{title} was changed on disk") });
+        ask.says(if gone {
+            "Another program moved or deleted the file. The open document is still complete."
+        } else if order.is_some() {
+            "Another program changed the file after it was opened, so it was not overwritten."
+        } else {
+            "Another program changed the file after it was opened."
+        });
+        if !saved && !gone {
+            ask.adds("Your changes are not saved. Reloading discards them; a copy stays in the bin of the autosave folder for a while.");
         }
-        Some(ChangedChoice::SaveAs) => Request::Answer(FileAction::Where { copy: false, then }),
-        Some(ChangedChoice::Reload) => Request::Answer(FileAction::Reload),
-        Some(ChangedChoice::Cancel) => Request::Dismiss,
-        None => return,
-    };
-    ask.requests.push(request);
+        let reload =
+            ("Reload", "Open the file as it is on disk now", if saved { Tone::First } else { Tone::Loses });
+        let overwrite = (
+            "Overwrite",
+            "Replace the file with the open document; the other version is kept in the autosave folder",
+        );
+        let save_as = ("Save as…", "Keep both versions", Tone::Plain, ChangedChoice::SaveAs);
+        let cancel = ("Cancel", "Change nothing for now", Tone::Plain, ChangedChoice::Cancel);
+        let pressed = if gone {
+            let write = ("Save again", "Write the file where it was", Tone::First, ChangedChoice::Overwrite);
+            ask.buttons(&[write, save_as, cancel])
+        } else if saved && order.is_none() {
+            let reload = (reload.0, reload.1, reload.2, ChangedChoice::Reload);
+            ask.buttons(&[
+                reload,
+                cancel,
+                save_as,
+                (overwrite.0, overwrite.1, Tone::Loses, ChangedChoice::Overwrite),
+            ])
+        } else {
+            let reload = (reload.0, reload.1, Tone::Loses, ChangedChoice::Reload);
+            let save_as = (save_as.0, save_as.1, Tone::First, ChangedChoice::SaveAs);
+            ask.buttons(&[
+                save_as,
+                cancel,
+                (overwrite.0, overwrite.1, Tone::Loses, ChangedChoice::Overwrite),
+                reload,
+            ])
+        };
+        let request = match pressed {
+            Some(ChangedChoice::Overwrite) => {
+                Request::Answer(FileAction::Send(DocumentMessage::Save(SaveOrder {
+                    anyway: true,
+                    ..SaveOrder::own(then)
+                })))
+            }
+            Some(ChangedChoice::SaveAs) => Request::Answer(FileAction::Where { copy: false, then }),
+            Some(ChangedChoice::Reload) => Request::Answer(FileAction::Reload),
+            Some(ChangedChoice::Cancel) => Request::Dismiss,
+            None => return,
+        };
+        ask.requests.push(request);
+    }
 }

@@ -2,22 +2,40 @@
 //! and the question what to do with the work if the chosen file is a different one.
 
 use super::ask::{Ask, Tone};
+use super::kind::QuestionKind;
+use crate::panels::context::PanelContext;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use dragonfly_document::{Decision, DocumentMessage, Offer, Source};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
-/// Returns the path that the field contains at first: where the file was.
-pub(super) fn proposal(offer: &Offer) -> String {
-    offer.found.document.as_ref().map_or_else(String::new, |path| path.display().to_string())
+/// Asks for the current path of the file that unsaved work belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FindQuestion {
+    /// The work.
+    pub offer: Box<Offer>,
+    /// A file that was chosen and is another one; `None` asks for a path.
+    pub other: Option<PathBuf>,
 }
 
-pub(super) fn show(ask: &mut Ask<'_>, offer: &Offer, other: Option<&Path>, path: &mut String) {
-    ask.ui.set_width(520.0);
-    match other {
-        Some(other) => is_another(ask, offer, other),
-        None => typed(ask, offer, path),
+impl QuestionKind for FindQuestion {
+    fn name(&self) -> &'static str {
+        if self.other.is_none() { "asked where a file is now" } else { "said that it is another file" }
+    }
+
+    /// Returns the path where the file was.
+    fn proposal(&self, _: &PanelContext<'_>) -> String {
+        let path = self.offer.found.document.as_ref();
+        path.map_or_else(String::new, |path| path.display().to_string())
+    }
+
+    fn show(&self, ask: &mut Ask<'_>) {
+        ask.ui.set_width(520.0);
+        match &self.other {
+            Some(other) => is_another(ask, &self.offer, other),
+            None => typed(ask, &self.offer),
+        }
     }
 }
 
@@ -55,9 +73,10 @@ fn is_another(ask: &mut Ask<'_>, offer: &Offer, other: &Path) {
     ask.requests.push(request);
 }
 
-fn typed(ask: &mut Ask<'_>, offer: &Offer, path: &mut String) {
+fn typed(ask: &mut Ask<'_>, offer: &Offer) {
     ask.title(&format!("Where is {} now?", offer.title));
-    let field = TextEdit::singleline(path).desired_width(f32::INFINITY).font(TextStyle::Monospace);
+    let field =
+        TextEdit::singleline(&mut ask.fields.path).desired_width(f32::INFINITY).font(TextStyle::Monospace);
     let response = ask.ui.add(field.margin(egui::Margin::symmetric(10, 7)));
     let response = response.accessible_name("Path of the file");
     if ask.fresh {
@@ -69,7 +88,7 @@ fn typed(ask: &mut Ask<'_>, offer: &Offer, path: &mut String) {
     let cancel = ("Cancel", "Keep the work for later", Tone::Plain, false);
     let pressed = ask.buttons(&[open, cancel]);
     ask.fresh = fresh;
-    let wanted = path.trim().trim_matches('"');
+    let wanted = ask.fields.path.trim().trim_matches('"');
     if (entered || pressed == Some(true)) && !wanted.is_empty() {
         let action =
             FileAction::Send(DocumentMessage::FoundAt(Box::new(offer.clone()), PathBuf::from(wanted)));

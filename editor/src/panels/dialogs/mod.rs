@@ -1,27 +1,71 @@
 //! The questions to the user, one per file. A question covers everything else until it is answered.
+//!
+//! A new question is a file here, with a type that has its data and implements `QuestionKind`, and a line in the list
+//! `questions!` below. Its buttons push requests. A caller asks it with [`crate::panels::State::ask`], and
+//! `tests/editor/questions.rs` has an example of each.
 
 mod ask;
 mod changed;
 mod exists;
 mod find;
+mod kind;
 mod place;
 mod plan;
 mod recover;
 mod unsaved;
 
 use super::context::PanelContext;
-use super::prompts::Question;
 use super::request::Request;
 use super::style::GRID;
 use super::theme::Theme;
-use ask::Ask;
+use ask::{Ask, QuestionFields};
 use egui::{Id, Modal, Ui};
+use kind::QuestionKind;
+
+/// Declares [`Question`] from a list of `Name => module::Type` lines.
+macro_rules! questions {
+    ($($Name:ident => $module:ident::$Kind:ident,)*) => {
+        $(pub use $module::$Kind;)*
+
+        /// A modal question that the user must answer before working on.
+        #[derive(Clone, Debug, PartialEq)]
+        // Each variant is documented at its type.
+        #[allow(missing_docs)]
+        pub enum Question {
+            $($Name($Kind),)*
+        }
+
+        impl Question {
+            /// The names of all kinds of questions.
+            pub const KINDS: &[&str] = &[$(stringify!($Name)),*];
+
+            fn kind(&self) -> &dyn QuestionKind {
+                match self { $(Self::$Name(question) => question,)* }
+            }
+        }
+
+        $(impl From<$Kind> for Question {
+            fn from(question: $Kind) -> Self {
+                Self::$Name(question)
+            }
+        })*
+    };
+}
+
+questions! {
+    Unsaved => unsaved::UnsavedQuestion,
+    Changed => changed::ChangedQuestion,
+    Exists => exists::ExistsQuestion,
+    Plan => plan::PlanQuestion,
+    Recover => recover::RecoverQuestion,
+    Find => find::FindQuestion,
+    Place => place::PlaceQuestion,
+}
 
 /// State of the controls in questions.
 #[derive(Debug, Default)]
 pub(super) struct Dialogs {
-    path: String,
-    chosen: usize,
+    fields: QuestionFields,
     shown: Option<u64>,
     /// Whether the question was written to the log.
     told: bool,
@@ -38,34 +82,17 @@ impl Dialogs {
             self.told = false;
             // The keyboard focus arrives with the next frame.
             ui.ctx().request_repaint();
-            self.chosen = 0;
-            self.path = match question {
-                Question::Find { offer, .. } => find::proposal(offer),
-                question => place::proposal(context, matches!(question, Question::Where { copy: true, .. })),
-            };
+            self.fields = QuestionFields { path: question.kind().proposal(context), chosen: 0 };
         }
         if !fresh && !std::mem::replace(&mut self.told, true) {
-            tracing::info!(target: "dragonfly::question", "{}", question.name());
+            tracing::info!(target: "dragonfly::question", "{}", question.kind().name());
         }
         let modal = Modal::new(Id::unique(("question", format!("{:?}", std::mem::discriminant(question)))))
             .backdrop_color(Theme::of(ui).backdrop)
             .frame(egui::Frame::popup(ui.style()).inner_margin(20));
         let response = modal.show(ui.ctx(), |ui| {
             ui.spacing_mut().item_spacing.y = 2.0 * GRID;
-            let mut ask = Ask { ui, context, fresh, requests };
-            match question {
-                Question::Unsaved(then) => unsaved::show(&mut ask, then),
-                Question::Changed(file, order) => changed::show(&mut ask, *file, order.as_ref()),
-                Question::Exists(path, order) => exists::show(&mut ask, path, order),
-                Question::Plan(lines, order) => plan::show(&mut ask, lines, order.as_ref()),
-                Question::Recover { offers, lost } => {
-                    recover::show(&mut ask, offers, *lost, &mut self.chosen)
-                }
-                Question::Find { offer, other } => {
-                    find::show(&mut ask, offer, other.as_deref(), &mut self.path)
-                }
-                Question::Where { copy, then } => place::show(&mut ask, *copy, then.as_ref(), &mut self.path),
-            }
+            question.kind().show(&mut Ask { ui, context, fresh, requests, fields: &mut self.fields });
         });
         if response.should_close() {
             requests.push(Request::Dismiss);

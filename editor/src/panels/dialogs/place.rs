@@ -1,6 +1,7 @@
 //! A field for the path to save at, for desktops without a file dialog.
 
 use super::ask::{Ask, Tone};
+use super::kind::QuestionKind;
 use crate::panels::context::PanelContext;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
@@ -8,51 +9,67 @@ use dragonfly_document::{DocumentMessage, SaveOrder, SaveTo, Then};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
-/// Returns the name that the field contains at first.
-pub(super) fn proposal(context: &PanelContext<'_>, copy: bool) -> String {
-    let Some(view) = context.view else { return String::new() };
-    let read = view.loaded.path.as_deref();
-    let own = view.file.path.as_deref();
-    let beside = |path: &Path, what: &str| {
-        let part = |part: Option<&std::ffi::OsStr>| {
-            part.map_or_else(String::new, |part| part.to_string_lossy().into_owned())
-        };
-        let name = format!("{} {what}.{}", part(path.file_stem()), part(path.extension()));
-        path.with_file_name(name).display().to_string()
-    };
-    match (own, read) {
-        (Some(path), _) if copy => beside(path, "copy"),
-        (Some(path), _) => path.display().to_string(),
-        (None, Some(path)) => beside(path, "recovered"),
-        (None, None) => {
-            let folder = std::env::home_dir().unwrap_or_default();
-            folder.join("Dragonfly.glb").display().to_string()
-        }
-    }
+/// Asks for the path to save at, which is typed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlaceQuestion {
+    /// Whether the document keeps its own file.
+    pub copy: bool,
+    /// The action to run after saving.
+    pub then: Option<Then>,
 }
 
-pub(super) fn show(ask: &mut Ask<'_>, copy: bool, then: Option<&Then>, path: &mut String) {
-    ask.ui.set_width(520.0);
-    ask.title(if copy { "Save a copy" } else { "Save as" });
-    let field = TextEdit::singleline(path).desired_width(f32::INFINITY).font(TextStyle::Monospace);
-    let response = ask.ui.add(field.margin(egui::Margin::symmetric(10, 7)));
-    let response = response.accessible_name("Path to save at");
-    if ask.fresh {
-        response.request_focus();
+impl QuestionKind for PlaceQuestion {
+    fn name(&self) -> &'static str {
+        "asked where to save"
     }
-    let entered = response.lost_focus() && ask.ui.input(|input| input.key_pressed(Key::Enter));
-    let fresh = std::mem::replace(&mut ask.fresh, false);
-    let save = ("Save", "Write the file", Tone::First, true);
-    let cancel = ("Cancel", "Close without saving", Tone::Plain, false);
-    let pressed = ask.buttons(&[save, cancel]);
-    ask.fresh = fresh;
-    let typed = path.trim().trim_matches('"');
-    if (entered || pressed == Some(true)) && !typed.is_empty() {
-        let path = PathBuf::from(typed);
-        let to = if copy { SaveTo::Copy(path) } else { SaveTo::As(path) };
-        let order = SaveOrder { to, anyway: false, then: then.cloned() };
-        ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order))));
-    } else if pressed == Some(false) {
-        ask.requests.push(Request::Dismiss);
+
+    fn proposal(&self, context: &PanelContext<'_>) -> String {
+        let Some(view) = context.view else { return String::new() };
+        let read = view.loaded.path.as_deref();
+        let own = view.file.path.as_deref();
+        let beside = |path: &Path, what: &str| {
+            let part = |part: Option<&std::ffi::OsStr>| {
+                part.map_or_else(String::new, |part| part.to_string_lossy().into_owned())
+            };
+            let name = format!("{} {what}.{}", part(path.file_stem()), part(path.extension()));
+            path.with_file_name(name).display().to_string()
+        };
+        match (own, read) {
+            (Some(path), _) if self.copy => beside(path, "copy"),
+            (Some(path), _) => path.display().to_string(),
+            (None, Some(path)) => beside(path, "recovered"),
+            (None, None) => {
+                let folder = std::env::home_dir().unwrap_or_default();
+                folder.join("Dragonfly.glb").display().to_string()
+            }
+        }
+    }
+
+    fn show(&self, ask: &mut Ask<'_>) {
+        ask.ui.set_width(520.0);
+        ask.title(if self.copy { "Save a copy" } else { "Save as" });
+        let field = TextEdit::singleline(&mut ask.fields.path)
+            .desired_width(f32::INFINITY)
+            .font(TextStyle::Monospace);
+        let response = ask.ui.add(field.margin(egui::Margin::symmetric(10, 7)));
+        let response = response.accessible_name("Path to save at");
+        if ask.fresh {
+            response.request_focus();
+        }
+        let entered = response.lost_focus() && ask.ui.input(|input| input.key_pressed(Key::Enter));
+        let fresh = std::mem::replace(&mut ask.fresh, false);
+        let save = ("Save", "Write the file", Tone::First, true);
+        let cancel = ("Cancel", "Close without saving", Tone::Plain, false);
+        let pressed = ask.buttons(&[save, cancel]);
+        ask.fresh = fresh;
+        let typed = ask.fields.path.trim().trim_matches('"');
+        if (entered || pressed == Some(true)) && !typed.is_empty() {
+            let path = PathBuf::from(typed);
+            let to = if self.copy { SaveTo::Copy(path) } else { SaveTo::As(path) };
+            let order = SaveOrder { to, anyway: false, then: self.then.clone() };
+            ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order))));
+        } else if pressed == Some(false) {
+            ask.requests.push(Request::Dismiss);
+        }
     }
 }

@@ -1,64 +1,86 @@
 //! The list of changes that a save would make, before it is written.
 
 use super::ask::{Ask, Tone};
+use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use crate::panels::style::{self, GRID};
 use crate::panels::theme::Theme;
 use dragonfly_document::{DocumentMessage, SaveOrder};
 use egui::{Align, Frame, Label, Layout, RichText, ScrollArea, vec2};
+use std::sync::Arc;
 
 /// Height of a line of the list, in points.
 const LINE: f32 = 18.0;
 
-pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder>) {
-    ask.ui.set_width(620.0);
-    ask.title("What will be saved");
-    let nothing = lines.is_empty() || lines.iter().any(|line| line == "nothing changes");
-    if nothing {
-        ask.says("Nothing: the file stays the same, byte for byte.");
-    } else {
-        // The heading above the list contains the amount.
-        let lines = match lines {
-            [summary, list @ ..] if !list.is_empty() => {
-                ask.says(format!("{summary}."));
-                list
-            }
-            lines => lines,
-        };
-        ask.adds("Everything not listed here is kept byte for byte.".to_owned());
-        let theme = Theme::of(ask.ui);
-        Frame::NONE.fill(theme.sunken).corner_radius(style::RADIUS).inner_margin(2.0 * GRID).show(
-            ask.ui,
-            |ui| {
-                ui.spacing_mut().item_spacing.y = 0.0;
-                let height = (lines.len() as f32 * LINE).min(320.0);
-                ScrollArea::both()
-                    .max_height(height)
-                    .min_scrolled_height(height)
-                    .auto_shrink([false, true])
-                    .show_rows(ui, LINE, lines.len(), |ui, range| {
-                        for line in &lines[range] {
-                            let text = RichText::new(line).monospace().size(style::SMALL);
-                            let room = vec2(ui.available_width(), LINE);
-                            ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
-                                ui.set_min_height(LINE);
-                                ui.add(Label::new(text).extend());
-                            });
-                        }
-                    });
-            },
-        );
+/// Lists the changes that a save will make; confirming saves if there is an order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanQuestion {
+    /// The changes, one line for each.
+    pub lines: Arc<[String]>,
+    /// The order to save.
+    pub order: Option<SaveOrder>,
+}
+
+impl QuestionKind for PlanQuestion {
+    fn name(&self) -> &'static str {
+        "showed what will be saved"
     }
-    let close = ("Close", "Close without saving", Tone::First, false);
-    let cancel = ("Cancel", "Close without saving", Tone::Plain, false);
-    let save = ("Save", "Write exactly these changes", Tone::First, true);
-    let pressed = if order.is_some() { ask.buttons(&[save, cancel]) } else { ask.buttons(&[close]) };
-    match (pressed, order) {
-        (Some(true), Some(order)) => {
-            ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order.clone()))))
+
+    fn show(&self, ask: &mut Ask<'_>) {
+        ask.ui.set_width(620.0);
+        ask.title("What will be saved");
+        let (lines, order) = (&self.lines[..], self.order.as_ref());
+        let nothing = lines.is_empty() || lines.iter().any(|line| line == "nothing changes");
+        if nothing {
+            ask.says("Nothing: the file stays the same, byte for byte.");
+        } else {
+            // The heading above the list contains the amount.
+            let lines = match lines {
+                [summary, list @ ..] if !list.is_empty() => {
+                    ask.says(format!("{summary}."));
+                    list
+                }
+                lines => lines,
+            };
+            ask.adds("Everything not listed here is kept byte for byte.".to_owned());
+            let theme = Theme::of(ask.ui);
+            Frame::NONE.fill(theme.sunken).corner_radius(style::RADIUS).inner_margin(2.0 * GRID).show(
+                ask.ui,
+                |ui| {
+                    ui.spacing_mut().item_spacing.y = 0.0;
+                    let height = (lines.len() as f32 * LINE).min(320.0);
+                    ScrollArea::both()
+                        .max_height(height)
+                        .min_scrolled_height(height)
+                        .auto_shrink([false, true])
+                        .show_rows(ui, LINE, lines.len(), |ui, range| {
+                            for line in &lines[range] {
+                                let text = RichText::new(line).monospace().size(style::SMALL);
+                                let room = vec2(ui.available_width(), LINE);
+                                ui.allocate_ui_with_layout(
+                                    room,
+                                    Layout::left_to_right(Align::Center),
+                                    |ui| {
+                                        ui.set_min_height(LINE);
+                                        ui.add(Label::new(text).extend());
+                                    },
+                                );
+                            }
+                        });
+                },
+            );
         }
-        (Some(_), _) => ask.requests.push(Request::Dismiss),
-        (None, _) => {}
+        let close = ("Close", "Close without saving", Tone::First, false);
+        let cancel = ("Cancel", "Close without saving", Tone::Plain, false);
+        let save = ("Save", "Write exactly these changes", Tone::First, true);
+        let pressed = if order.is_some() { ask.buttons(&[save, cancel]) } else { ask.buttons(&[close]) };
+        match (pressed, order) {
+            (Some(true), Some(order)) => {
+                ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order.clone()))))
+            }
+            (Some(_), _) => ask.requests.push(Request::Dismiss),
+            (None, _) => {}
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! The question what to do with unsaved work of an earlier session.
 
 use super::ask::{Ask, Tone};
+use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use crate::panels::style::{GRID, ROW};
@@ -10,58 +11,76 @@ use dragonfly_document::{Decision, DocumentMessage, Offer};
 use egui::{Rect, RichText, ScrollArea, TextStyle, pos2};
 use std::time::Duration;
 
-pub(super) fn show(ask: &mut Ask<'_>, offers: &[Offer], lost: bool, chosen: &mut usize) {
-    ask.ui.set_width(520.0);
-    *chosen = (*chosen).min(offers.len().saturating_sub(1));
-    ask.title(if lost { "The document was closed by an error" } else { "Unsaved work" });
-    if lost {
-        ask.says("An internal error closed the document. Everything that you did is in its journal.");
-    } else {
-        ask.says("The program ended before this was saved. You can continue where you left off.");
+/// Unsaved work of an earlier run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecoverQuestion {
+    /// The recoverable documents, last written first.
+    pub offers: Vec<Offer>,
+    /// Whether the work was lost in this run, by an internal error.
+    pub lost: bool,
+}
+
+impl QuestionKind for RecoverQuestion {
+    fn name(&self) -> &'static str {
+        "offered unsaved work"
     }
-    if offers.len() > 1 {
-        list(ask, offers, chosen);
-    }
-    let Some(offer) = offers.get(*chosen) else { return };
-    about(ask, offer);
-    let keep = ("Restore", "Open it as it was, with its undo history", Tone::First, Decision::Keep);
-    let beside = (
-        "Open as a copy",
-        "Open it as a separate document; the file is not changed",
-        Tone::Plain,
-        Decision::Beside,
-    );
-    let later = ("Later", "Keep it and ask again later", Tone::Plain, Decision::Later);
-    let discard = ("Discard", "Move it to the bin of the autosave folder", Tone::Loses, Decision::Discard);
-    let pressed = if offer.can_be_kept() {
-        ask.buttons(&[keep, beside, later, discard])
-    } else if offer.is_missing() {
-        let some =
-            |(title, help, tone, decision): (_, _, Tone, Decision)| (title, help, tone, Some(decision));
-        let find = (
-            "Locate the file…",
-            "Choose the moved file; it is accepted if its content is unchanged",
-            Tone::First,
-            None,
-        );
-        let pressed = ask.buttons(&[find, some(later), some(discard)]);
-        if pressed == Some(None) {
-            ask.requests.push(Request::Answer(FileAction::Find(Box::new(offer.clone()))));
+
+    fn show(&self, ask: &mut Ask<'_>) {
+        ask.ui.set_width(520.0);
+        let Self { offers, lost } = self;
+        ask.fields.chosen = ask.fields.chosen.min(offers.len().saturating_sub(1));
+        ask.title(if *lost { "The document was closed by an error" } else { "Unsaved work" });
+        if *lost {
+            ask.says("An internal error closed the document. Everything that you did is in its journal.");
+        } else {
+            ask.says("The program ended before this was saved. You can continue where you left off.");
         }
-        pressed.flatten()
-    } else {
-        let later = (later.0, later.1, Tone::First, later.3);
-        ask.buttons(&[later, discard])
-    };
-    if let Some(decision) = pressed {
-        ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Decide(
-            Box::new(offer.clone()),
-            decision,
-        ))));
+        if offers.len() > 1 {
+            list(ask, offers);
+        }
+        let Some(offer) = offers.get(ask.fields.chosen) else { return };
+        about(ask, offer);
+        let keep = ("Restore", "Open it as it was, with its undo history", Tone::First, Decision::Keep);
+        let beside = (
+            "Open as a copy",
+            "Open it as a separate document; the file is not changed",
+            Tone::Plain,
+            Decision::Beside,
+        );
+        let later = ("Later", "Keep it and ask again later", Tone::Plain, Decision::Later);
+        let discard =
+            ("Discard", "Move it to the bin of the autosave folder", Tone::Loses, Decision::Discard);
+        let pressed = if offer.can_be_kept() {
+            ask.buttons(&[keep, beside, later, discard])
+        } else if offer.is_missing() {
+            let some =
+                |(title, help, tone, decision): (_, _, Tone, Decision)| (title, help, tone, Some(decision));
+            let find = (
+                "Locate the file…",
+                "Choose the moved file; it is accepted if its content is unchanged",
+                Tone::First,
+                None,
+            );
+            let pressed = ask.buttons(&[find, some(later), some(discard)]);
+            if pressed == Some(None) {
+                ask.requests.push(Request::Answer(FileAction::Find(Box::new(offer.clone()))));
+            }
+            pressed.flatten()
+        } else {
+            let later = (later.0, later.1, Tone::First, later.3);
+            ask.buttons(&[later, discard])
+        };
+        if let Some(decision) = pressed {
+            ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Decide(
+                Box::new(offer.clone()),
+                decision,
+            ))));
+        }
     }
 }
 
-fn list(ask: &mut Ask<'_>, offers: &[Offer], chosen: &mut usize) {
+fn list(ask: &mut Ask<'_>, offers: &[Offer]) {
+    let chosen = &mut ask.fields.chosen;
     let height = (offers.len() as f32 * ROW).min(6.0 * ROW);
     ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ask.ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;

@@ -1,6 +1,7 @@
 //! The question when the user is about to leave unsaved changes.
 
 use super::ask::{Ask, Tone};
+use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use dragonfly_document::{DocumentMessage, SaveOrder, Then};
@@ -12,34 +13,48 @@ enum UnsavedChoice {
     Cancel,
 }
 
-pub(super) fn show(ask: &mut Ask<'_>, then: &Then) {
-    ask.ui.set_width(440.0);
-    let title = ask.context.view.map_or(String::new(), |view| view.file.title.clone());
-    ask.title(&format!("Save {title}?"));
-    ask.says(match then {
-        Then::Quit => "It has unsaved changes, and the program is about to close.".to_owned(),
-        Then::Open(source) => {
-            format!("It has unsaved changes, and {} is about to be opened.", source.title())
-        }
-    });
-    if let Some(last) = ask.context.view.and_then(|view| view.history.last_unsaved()) {
-        ask.adds(last);
+/// Asks whether to save or discard unsaved changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnsavedQuestion {
+    /// The action that would discard them.
+    pub then: Then,
+}
+
+impl QuestionKind for UnsavedQuestion {
+    fn name(&self) -> &'static str {
+        "asked what becomes of unsaved work"
     }
-    let save = ("Save", "Save, then continue", Tone::First, UnsavedChoice::Save);
-    let cancel = ("Cancel", "Return to the document", Tone::Plain, UnsavedChoice::Cancel);
-    let lose = (
-        "Don't save",
-        "Continue without saving; the changes stay in the bin of the autosave folder for a while",
-        Tone::Loses,
-        UnsavedChoice::DoNotSave,
-    );
-    let request = match ask.buttons(&[save, cancel, lose]) {
-        Some(UnsavedChoice::Save) => {
-            Request::Answer(FileAction::Send(DocumentMessage::Save(SaveOrder::own(Some(then.clone())))))
+
+    fn show(&self, ask: &mut Ask<'_>) {
+        let then = &self.then;
+        ask.ui.set_width(440.0);
+        let title = ask.context.view.map_or(String::new(), |view| view.file.title.clone());
+        ask.title(&format!("Save {title}?"));
+        ask.says(match then {
+            Then::Quit => "It has unsaved changes, and the program is about to close.".to_owned(),
+            Then::Open(source) => {
+                format!("It has unsaved changes, and {} is about to be opened.", source.title())
+            }
+        });
+        if let Some(last) = ask.context.view.and_then(|view| view.history.last_unsaved()) {
+            ask.adds(last);
         }
-        Some(UnsavedChoice::DoNotSave) => Request::Answer(FileAction::DoNotSave(then.clone())),
-        Some(UnsavedChoice::Cancel) => Request::Dismiss,
-        None => return,
-    };
-    ask.requests.push(request);
+        let save = ("Save", "Save, then continue", Tone::First, UnsavedChoice::Save);
+        let cancel = ("Cancel", "Return to the document", Tone::Plain, UnsavedChoice::Cancel);
+        let lose = (
+            "Don't save",
+            "Continue without saving; the changes stay in the bin of the autosave folder for a while",
+            Tone::Loses,
+            UnsavedChoice::DoNotSave,
+        );
+        let request = match ask.buttons(&[save, cancel, lose]) {
+            Some(UnsavedChoice::Save) => {
+                Request::Answer(FileAction::Send(DocumentMessage::Save(SaveOrder::own(Some(then.clone())))))
+            }
+            Some(UnsavedChoice::DoNotSave) => Request::Answer(FileAction::DoNotSave(then.clone())),
+            Some(UnsavedChoice::Cancel) => Request::Dismiss,
+            None => return,
+        };
+        ask.requests.push(request);
+    }
 }

@@ -4,15 +4,14 @@ use super::*;
 use crate::panels::actions::framing;
 use dragonfly_picture::camera::ViewSide;
 
-#[rustfmt::skip] // A table is read in columns.
-pub(super) const COMMANDS: &[Command] = &[
-    command(Id::FrameSelected, When::Model, "Frame selected", &[key(NONE, Key::F)], "Frames the selection in the viewport", |w| { framing::frame_selected(w); None }),
-    command(Id::FrameAll, When::Model, "Frame all", &[key(SHIFT, Key::F)], "Frames the whole model in the viewport", |w| { framing::frame_shown(w); None }),
-    command(Id::ViewFront, When::Model, "Front", &[key(NONE, Key::Num1)], "Sets the camera to the front view", |w| { w.camera.camera_mut().look_from(ViewSide::Front); None }),
-    command(Id::ViewBack, When::Always, "Back", &[key(CTRL, Key::Num1)], "Sets the camera to the back view", |w| { w.camera.camera_mut().look_from(ViewSide::Back); None }),
-    command(Id::ViewRight, When::Always, "Right", &[key(NONE, Key::Num3)], "Sets the camera to the right view", |w| { w.camera.camera_mut().look_from(ViewSide::Right); None }),
-    command(Id::ViewLeft, When::Always, "Left", &[key(CTRL, Key::Num3)], "Sets the camera to the left view", |w| { w.camera.camera_mut().look_from(ViewSide::Left); None }),
-    command(Id::ViewTop, When::Always, "Top", &[key(NONE, Key::Num7)], "Sets the camera to the top view", |w| { w.camera.camera_mut().look_from(ViewSide::Top); None }),
-    command(Id::ViewBottom, When::Always, "Bottom", &[key(CTRL, Key::Num7)], "Sets the camera to the bottom view", |w| { w.camera.camera_mut().look_from(ViewSide::Bottom); None }),
-    command(Id::ToggleProjection, When::Always, "Perspective / orthographic", &[key(NONE, Key::Num5)], "Switches between perspective and orthographic projection", |w| { w.camera.camera_mut().toggle_projection(); None }),
-];
+commands! {
+    FrameSelected => When::Model, "Frame selected", [key(NONE, Key::F)], "Frames the selection in the viewport", |w| { framing::frame_selected(w); None };
+    FrameAll => When::Model, "Frame all", [key(SHIFT, Key::F)], "Frames the whole model in the viewport", |w| { framing::frame_shown(w); None };
+    ViewFront => When::Model, "Front", [key(NONE, Key::Num1)], "Sets the camera to the front view", |w| { w.camera.camera_mut().look_from(ViewSide::Front); None };
+    ViewBack => When::Always, "Back", [key(CTRL, Key::Num1)], "Sets the camera to the back view", |w| { w.camera.camera_mut().look_from(ViewSide::Back); None };
+    ViewRight => When::Always, "Right", [key(NONE, Key::Num3)], "Sets the camera to the right view", |w| { w.camera.camera_mut().look_from(ViewSide::Right); None };
+    ViewLeft => When::Always, "Left", [key(CTRL, Key::Num3)], "Sets the camera to the left view", |w| { w.camera.camera_mut().look_from(ViewSide::Left); None };
+    ViewTop => When::Always, "Top", [key(NONE, Key::Num7)], "Sets the camera to the top view", |w| { w.camera.camera_mut().look_from(ViewSide::Top); None };
+    ViewBottom => When::Always, "Bottom", [key(CTRL, Key::Num7)], "Sets the camera to the bottom view", |w| { w.camera.camera_mut().look_from(ViewSide::Bottom); None };
+    ToggleProjection => When::Always, "Perspective / orthographic", [key(NONE, Key::Num5)], "Switches between perspective and orthographic projection", |w| { w.camera.camera_mut().toggle_projection(); None };
+}

@@ -4,11 +4,10 @@ use super::*;
 use crate::panels::actions::clipboard;
 use dragonfly_document::Change;
 
-#[rustfmt::skip] // A table is read in columns.
-pub(super) const COMMANDS: &[Command] = &[
-    command(Id::Undo, When::Undo, "Undo", &[key(CTRL, Key::Z)], "Undoes the last step", |_| Some(Effect::Change(Change::Undo))),
-    command(Id::Redo, When::Redo, "Redo", &[key(CTRL.plus(SHIFT), Key::Z), key(CTRL, Key::Y)], "Redoes the step that was undone", |_| Some(Effect::Change(Change::Redo))),
-    command(Id::Copy, When::Model, "Copy", &[key(CTRL, Key::C)], "Copies the selected keys where the timeline was used last, otherwise the pose of the selected bones, or of all", clipboard::copy),
-    command(Id::CutKeys, When::Keys, "Cut keys", &[key(CTRL, Key::X)], "Copies the selected keys and deletes them", clipboard::cut_keys),
-    command(Id::PastePose, When::Take, "Paste", &[key(CTRL, Key::V)], "Pastes the copied keys at the playhead, or the copied pose; keys go to their own bones, or to the same number of other selected bones", |_| Some(Effect::PastePose { mirrored: false })),
-];
+commands! {
+    Undo => When::Undo, "Undo", [key(CTRL, Key::Z)], "Undoes the last step", |_| Some(Effect::Change(Change::Undo));
+    Redo => When::Redo, "Redo", [key(CTRL.plus(SHIFT), Key::Z), key(CTRL, Key::Y)], "Redoes the step that was undone", |_| Some(Effect::Change(Change::Redo));
+    Copy => When::Model, "Copy", [key(CTRL, Key::C)], "Copies the selected keys where the timeline was used last, otherwise the pose of the selected bones, or of all", clipboard::copy;
+    CutKeys => When::Keys, "Cut keys", [key(CTRL, Key::X)], "Copies the selected keys and deletes them", clipboard::cut_keys;
+    PastePose => When::Take, "Paste", [key(CTRL, Key::V)], "Pastes the copied keys at the playhead, or the copied pose; keys go to their own bones, or to the same number of other selected bones", |_| Some(Effect::PastePose { mirrored: false });
+}

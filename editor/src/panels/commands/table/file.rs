@@ -7,18 +7,17 @@ use crate::panels::request::FileAction;
 use dragonfly_document::Then;
 use dragonfly_document::{DocumentMessage, Source};
 
-#[rustfmt::skip] // A table is read in columns.
-pub(super) const COMMANDS: &[Command] = &[
-    command(Id::Open, When::Always, "Open…", &[key(CTRL, Key::O)], "Opens a model", |_| Some(Effect::OpenDialog)),
-    command(Id::OpenPath, When::Always, "Open by path…", &[key(CTRL.plus(SHIFT), Key::O)], "Opens a model by typing or pasting its path", |w| { w.prompts.show(Some(Overlay::OpenPath)); None }),
-    command(Id::OpenBuiltIn, When::Always, "Built-in dragonfly", &[], "Opens the built-in example model", |_| Some(Effect::File(FileAction::Leave(Then::Open(Source::BuiltIn))))),
-    command(Id::CancelLoading, When::Loading, "Stop loading", &[], "Cancels loading and keeps the open model", |_| Some(Effect::File(FileAction::Send(DocumentMessage::CancelLoading)))),
-    command(Id::Save, When::Model, "Save", &[key(CTRL, Key::S)], "Saves the model; every byte of the file that was not edited stays as it is", files::save),
-    command(Id::SaveAs, When::Model, "Save as…", &[key(CTRL.plus(SHIFT), Key::S)], "Saves to another file, and continues with that file", |_| Some(Effect::File(FileAction::Where { copy: false, then: None }))),
-    command(Id::SaveCopy, When::Model, "Save a copy…", &[], "Saves to another file, and continues with the current file", |_| Some(Effect::File(FileAction::Where { copy: true, then: None }))),
-    command(Id::Revert, When::Unsaved, "Revert to saved", &[], "Discards the changes since the last save; Redo restores them", |_| Some(Effect::File(FileAction::Send(DocumentMessage::Revert)))),
-    command(Id::WhatWillBeSaved, When::Model, "What will be saved…", &[], "Lists the changes that a save would make, without writing", |_| Some(Effect::File(FileAction::Send(DocumentMessage::Plan(None))))),
-    command(Id::ToggleShowChanges, When::Always, "Show changes before saving", &[], "Lists the changes before each save", |w| { w.settings.show_changes ^= true; None }),
-    command(Id::UnsavedWork, When::Always, "Unsaved work…", &[], "Lists unsaved work of earlier runs, to recover it", |_| Some(Effect::File(FileAction::Send(DocumentMessage::Search)))),
-    command(Id::Quit, When::Always, "Quit", &[key(CTRL, Key::Q)], "Ends the program", |_| Some(Effect::File(FileAction::Leave(Then::Quit)))),
-];
+commands! {
+    Open => When::Always, "Open…", [key(CTRL, Key::O)], "Opens a model", |_| Some(Effect::OpenDialog);
+    OpenPath => When::Always, "Open by path…", [key(CTRL.plus(SHIFT), Key::O)], "Opens a model by typing or pasting its path", |w| { w.prompts.show(Some(Overlay::OpenPath)); None };
+    OpenBuiltIn => When::Always, "Built-in dragonfly", [], "Opens the built-in example model", |_| Some(Effect::File(FileAction::Leave(Then::Open(Source::BuiltIn))));
+    CancelLoading => When::Loading, "Stop loading", [], "Cancels loading and keeps the open model", |_| Some(Effect::File(FileAction::Send(DocumentMessage::CancelLoading)));
+    Save => When::Model, "Save", [key(CTRL, Key::S)], "Saves the model; every byte of the file that was not edited stays as it is", files::save;
+    SaveAs => When::Model, "Save as…", [key(CTRL.plus(SHIFT), Key::S)], "Saves to another file, and continues with that file", |_| Some(Effect::File(FileAction::Where { copy: false, then: None }));
+    SaveCopy => When::Model, "Save a copy…", [], "Saves to another file, and continues with the current file", |_| Some(Effect::File(FileAction::Where { copy: true, then: None }));
+    Revert => When::Unsaved, "Revert to saved", [], "Discards the changes since the last save; Redo restores them", |_| Some(Effect::File(FileAction::Send(DocumentMessage::Revert)));
+    WhatWillBeSaved => When::Model, "What will be saved…", [], "Lists the changes that a save would make, without writing", |_| Some(Effect::File(FileAction::Send(DocumentMessage::Plan(None))));
+    ToggleShowChanges => When::Always, "Show changes before saving", [], "Lists the changes before each save", |w| { w.settings.show_changes ^= true; None };
+    UnsavedWork => When::Always, "Unsaved work…", [], "Lists unsaved work of earlier runs, to recover it", |_| Some(Effect::File(FileAction::Send(DocumentMessage::Search)));
+    Quit => When::Always, "Quit", [key(CTRL, Key::Q)], "Ends the program", |_| Some(Effect::File(FileAction::Leave(Then::Quit)));
+}

@@ -4,16 +4,15 @@ use super::*;
 use dragonfly_picture::BoneLook;
 use dragonfly_picture::Shading;
 
-#[rustfmt::skip] // A table is read in columns.
-pub(super) const COMMANDS: &[Command] = &[
-    command(Id::ToggleGrid, When::Always, "Ground grid", &[key(NONE, Key::G)], "Shows or hides the ground grid", |w| { w.settings.look.grid ^= true; None }),
-    command(Id::ToggleSkeleton, When::Always, "Skeleton", &[key(NONE, Key::B)], "Shows or hides the bones", |w| { w.settings.look.skeleton ^= true; None }),
-    command(Id::ToggleXRay, When::Always, "Bones in front", &[key(NONE, Key::X)], "Draws bones in front of the surface", |w| { w.settings.look.bones_in_front ^= true; None }),
-    command(Id::ToggleSurface, When::Always, "Surface", &[key(NONE, Key::M)], "Shows or hides the model's surface", |w| { w.settings.look.surface ^= true; None }),
-    command(Id::ShadeMaterial, When::Always, "Materials", &[key(SHIFT, Key::Num1)], "Shades surfaces with their materials", |w| { w.settings.look.shading = Shading::Material; None }),
-    command(Id::ShadeClay, When::Always, "Clay", &[key(SHIFT, Key::Num2)], "Shades surfaces as gray clay, to judge the shape", |w| { w.settings.look.shading = Shading::Clay; None }),
-    command(Id::ShadeUnlit, When::Always, "Unlit", &[key(SHIFT, Key::Num3)], "Shades surfaces with base colors, without lighting", |w| { w.settings.look.shading = Shading::Unlit; None }),
-    command(Id::BonesOctahedra, When::Always, "Bones as octahedra", &[], "Draws bones as slim octahedra from joint to joint", |w| { w.settings.look.bone_look = BoneLook::Octahedra; None }),
-    command(Id::BonesSticks, When::Always, "Bones as sticks", &[], "Draws bones as thin sticks with a ball at the joint", |w| { w.settings.look.bone_look = BoneLook::Sticks; None }),
-    command(Id::BonesLines, When::Always, "Bones as lines", &[], "Draws bones as lines of one pixel", |w| { w.settings.look.bone_look = BoneLook::Lines; None }),
-];
+commands! {
+    ToggleGrid => When::Always, "Ground grid", [key(NONE, Key::G)], "Shows or hides the ground grid", |w| { w.settings.look.grid ^= true; None };
+    ToggleSkeleton => When::Always, "Skeleton", [key(NONE, Key::B)], "Shows or hides the bones", |w| { w.settings.look.skeleton ^= true; None };
+    ToggleXRay => When::Always, "Bones in front", [key(NONE, Key::X)], "Draws bones in front of the surface", |w| { w.settings.look.bones_in_front ^= true; None };
+    ToggleSurface => When::Always, "Surface", [key(NONE, Key::M)], "Shows or hides the model's surface", |w| { w.settings.look.surface ^= true; None };
+    ShadeMaterial => When::Always, "Materials", [key(SHIFT, Key::Num1)], "Shades surfaces with their materials", |w| { w.settings.look.shading = Shading::Material; None };
+    ShadeClay => When::Always, "Clay", [key(SHIFT, Key::Num2)], "Shades surfaces as gray clay, to judge the shape", |w| { w.settings.look.shading = Shading::Clay; None };
+    ShadeUnlit => When::Always, "Unlit", [key(SHIFT, Key::Num3)], "Shades surfaces with base colors, without lighting", |w| { w.settings.look.shading = Shading::Unlit; None };
+    BonesOctahedra => When::Always, "Bones as octahedra", [], "Draws bones as slim octahedra from joint to joint", |w| { w.settings.look.bone_look = BoneLook::Octahedra; None };
+    BonesSticks => When::Always, "Bones as sticks", [], "Draws bones as thin sticks with a ball at the joint", |w| { w.settings.look.bone_look = BoneLook::Sticks; None };
+    BonesLines => When::Always, "Bones as lines", [], "Draws bones as lines of one pixel", |w| { w.settings.look.bone_look = BoneLook::Lines; None };
+}

@@ -1,5 +1,28 @@
-//! The table of all commands, a file a category. A new command is a row in a file and its name in [`Id`]: the row names the
-//! function that runs it.
+//! The table of all commands, a file a category. A new command is one row in one of these files: name, condition, title, keys,
+//! help, the function that runs it, and `repeats` where a held key runs it again and again.
+
+/// Declares the commands of a category, `COMMANDS`, and the id of each from a list of rows. The name is the one in settings and
+/// never changes; two commands with the same name are refused by the compiler.
+macro_rules! commands {
+    ($($name:ident => $when:expr, $title:expr, $shortcuts:expr, $help:expr, $run:expr $(, $repeats:ident)?;)*) => {
+        #[allow(non_upper_case_globals, reason = "an id has the name of its command")]
+        impl Id {
+            $(#[doc = $help] pub const $name: Self = Self::new(stringify!($name));)*
+        }
+
+        pub(super) const COMMANDS: &[Command] = &[$(Command {
+            id: Id::$name,
+            title: $title,
+            shortcuts: &$shortcuts,
+            help: $help,
+            when: $when,
+            repeats: commands!(@ $($repeats)?),
+            run: $run,
+        },)*];
+    };
+    (@) => { false };
+    (@ repeats) => { true };
+}
 
 mod camera;
 mod edit;
@@ -14,7 +37,7 @@ mod takes;
 mod tools;
 mod window;
 
-use super::command::{Command, command};
+use super::command::Command;
 use super::shortcut::{ALT, CTRL, NONE, SHIFT, key};
 use super::{Category, Id, When};
 use crate::panels::request::Effect;

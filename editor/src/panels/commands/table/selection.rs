@@ -6,25 +6,24 @@ use crate::panels::actions::keys;
 use crate::panels::keys::BoneFlag;
 use crate::panels::selected_bones::SelectionCommand;
 
-#[rustfmt::skip] // A table is read in columns.
-pub(super) const COMMANDS: &[Command] = &[
-    command(Id::ClearSelection, When::Always, "Deselect all", &[key(NONE, Key::Escape)], "Clears the selection", keys::cancel_or_deselect),
-    command(Id::SelectParent, When::Model, "Parent bone", &[key(NONE, Key::OpenBracket)], "Selects the parent of the selected bone", |w| { bones::select_parent(w); None }),
-    command(Id::SelectChild, When::Model, "Child bone", &[key(NONE, Key::CloseBracket)], "Selects the first child of the selected bone", |w| { bones::select_child(w); None }),
-    command(Id::SelectAll, When::Model, "Select all bones", &[key(CTRL, Key::A)], "Selects all visible bones", |w| { bones::command(w, SelectionCommand::All); None }),
-    command(Id::InvertSelection, When::Model, "Invert selection", &[key(CTRL, Key::I)], "Inverts the selection of visible bones", |w| { bones::command(w, SelectionCommand::Invert); None }),
-    command(Id::ExtendParent, When::Bone, "Parents too", &[key(SHIFT, Key::OpenBracket), key(SHIFT, Key::OpenCurlyBracket)], "Adds the parent of each selected bone to the selection", |w| { bones::command(w, SelectionCommand::ExtendParent); None }),
-    command(Id::ExtendChild, When::Bone, "Children too", &[key(SHIFT, Key::CloseBracket), key(SHIFT, Key::CloseCurlyBracket)], "Adds the children of the selected bones to the selection", |w| { bones::command(w, SelectionCommand::ExtendChild); None }),
-    command(Id::SelectBranch, When::Bone, "Whole branch", &[key(CTRL, Key::CloseBracket)], "Adds all bones below the selected ones to the selection", |w| { bones::command(w, SelectionCommand::Branch); None }),
-    command(Id::GrowSelection, When::Bone, "Grow selection", &[], "Adds the neighbors of the selected bones to the selection", |w| { bones::command(w, SelectionCommand::Grow); None }),
-    command(Id::ShrinkSelection, When::Bone, "Shrink selection", &[], "Deselects the bones whose neighbors are not selected", |w| { bones::command(w, SelectionCommand::Shrink); None }),
-    command(Id::SelectMirror, When::Bone, "Other side", &[key(SHIFT, Key::M)], "Selects the mirrored bones, found by their names", |w| { bones::select_mirror(w, false); None }),
-    command(Id::ExtendMirror, When::Bone, "Other side too", &[], "Adds the bones of the other side to the selection", |w| { bones::select_mirror(w, true); None }),
-    command(Id::HideSelected, When::Bone, "Hide bones", &[key(NONE, Key::H)], "Hides the selected bones", |w| { bones::command(w, SelectionCommand::Hide); None }),
-    command(Id::HideOthers, When::Bone, "Hide other bones", &[key(SHIFT, Key::H)], "Hides all bones except the selected ones", |w| { bones::command(w, SelectionCommand::HideOthers); None }),
-    command(Id::ShowAll, When::Model, "Show all bones", &[key(ALT, Key::H)], "Shows and selects all hidden bones", |w| { bones::command(w, SelectionCommand::ShowAll); None }),
-    command(Id::MuteBones, When::Bone, "Mute bones", &[], "Mutes or unmutes the animation of the selected bones in the viewport; their keys are unchanged", |w| { bones::toggle_flag(w, BoneFlag::Mute); None }),
-    command(Id::SoloBones, When::Bone, "Solo bones", &[], "Mutes or unmutes the animation of all other bones in the viewport", |w| { bones::toggle_flag(w, BoneFlag::Solo); None }),
-    command(Id::LockBones, When::Bone, "Lock bones", &[], "Locks or unlocks the selected bones against editing", |w| { bones::toggle_flag(w, BoneFlag::Lock); None }),
-    command(Id::Find, When::Model, "Find a bone", &[key(CTRL, Key::F)], "Focuses the search field of the hierarchy", |w| { w.prompts.set_find(true); None }),
-];
+commands! {
+    ClearSelection => When::Always, "Deselect all", [key(NONE, Key::Escape)], "Clears the selection", keys::cancel_or_deselect;
+    SelectParent => When::Model, "Parent bone", [key(NONE, Key::OpenBracket)], "Selects the parent of the selected bone", |w| { bones::select_parent(w); None }, repeats;
+    SelectChild => When::Model, "Child bone", [key(NONE, Key::CloseBracket)], "Selects the first child of the selected bone", |w| { bones::select_child(w); None }, repeats;
+    SelectAll => When::Model, "Select all bones", [key(CTRL, Key::A)], "Selects all visible bones", |w| { bones::command(w, SelectionCommand::All); None };
+    InvertSelection => When::Model, "Invert selection", [key(CTRL, Key::I)], "Inverts the selection of visible bones", |w| { bones::command(w, SelectionCommand::Invert); None };
+    ExtendParent => When::Bone, "Parents too", [key(SHIFT, Key::OpenBracket), key(SHIFT, Key::OpenCurlyBracket)], "Adds the parent of each selected bone to the selection", |w| { bones::command(w, SelectionCommand::ExtendParent); None };
+    ExtendChild => When::Bone, "Children too", [key(SHIFT, Key::CloseBracket), key(SHIFT, Key::CloseCurlyBracket)], "Adds the children of the selected bones to the selection", |w| { bones::command(w, SelectionCommand::ExtendChild); None };
+    SelectBranch => When::Bone, "Whole branch", [key(CTRL, Key::CloseBracket)], "Adds all bones below the selected ones to the selection", |w| { bones::command(w, SelectionCommand::Branch); None };
+    GrowSelection => When::Bone, "Grow selection", [], "Adds the neighbors of the selected bones to the selection", |w| { bones::command(w, SelectionCommand::Grow); None };
+    ShrinkSelection => When::Bone, "Shrink selection", [], "Deselects the bones whose neighbors are not selected", |w| { bones::command(w, SelectionCommand::Shrink); None };
+    SelectMirror => When::Bone, "Other side", [key(SHIFT, Key::M)], "Selects the mirrored bones, found by their names", |w| { bones::select_mirror(w, false); None };
+    ExtendMirror => When::Bone, "Other side too", [], "Adds the bones of the other side to the selection", |w| { bones::select_mirror(w, true); None };
+    HideSelected => When::Bone, "Hide bones", [key(NONE, Key::H)], "Hides the selected bones", |w| { bones::command(w, SelectionCommand::Hide); None };
+    HideOthers => When::Bone, "Hide other bones", [key(SHIFT, Key::H)], "Hides all bones except the selected ones", |w| { bones::command(w, SelectionCommand::HideOthers); None };
+    ShowAll => When::Model, "Show all bones", [key(ALT, Key::H)], "Shows and selects all hidden bones", |w| { bones::command(w, SelectionCommand::ShowAll); None };
+    MuteBones => When::Bone, "Mute bones", [], "Mutes or unmutes the animation of the selected bones in the viewport; their keys are unchanged", |w| { bones::toggle_flag(w, BoneFlag::Mute); None };
+    SoloBones => When::Bone, "Solo bones", [], "Mutes or unmutes the animation of all other bones in the viewport", |w| { bones::toggle_flag(w, BoneFlag::Solo); None };
+    LockBones => When::Bone, "Lock bones", [], "Locks or unlocks the selected bones against editing", |w| { bones::toggle_flag(w, BoneFlag::Lock); None };
+    Find => When::Model, "Find a bone", [key(CTRL, Key::F)], "Focuses the search field of the hierarchy", |w| { w.prompts.set_find(true); None };
+}

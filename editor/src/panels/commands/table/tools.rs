@@ -7,26 +7,25 @@ use dragonfly_picture::gizmo::GizmoSpace;
 use dragonfly_picture::gizmo::Pivot;
 use dragonfly_picture::gizmo::Tool;
 
-#[rustfmt::skip] // A table is read in columns.
-pub(super) const COMMANDS: &[Command] = &[
-    command(Id::ToolSelect, When::Always, "Select", &[key(NONE, Key::Q)], "Selects bones, without a gizmo", |w| { w.settings.tools.tool = None; None }),
-    command(Id::ToolMove, When::Always, "Move", &[key(NONE, Key::W)], "Shows the gizmo that moves the selected bones", |w| { w.settings.tools.tool = Some(Tool::Move); None }),
-    command(Id::ToolRotate, When::Always, "Rotate", &[key(NONE, Key::E)], "Shows the gizmo that rotates the selected bones", |w| { w.settings.tools.tool = Some(Tool::Rotate); None }),
-    command(Id::ToolScale, When::Always, "Scale", &[key(NONE, Key::R)], "Shows the gizmo that scales the selected bones", |w| { w.settings.tools.tool = Some(Tool::Scale); None }),
-    command(Id::MoveNow, When::BoneInTake, "Move now", &[], "Moves the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Move); None }),
-    command(Id::RotateNow, When::BoneInTake, "Rotate now", &[], "Rotates the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Rotate); None }),
-    command(Id::ScaleNow, When::BoneInTake, "Scale now", &[], "Scales the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Scale); None }),
-    command(Id::NextSpace, When::Always, "Next axes", &[key(NONE, Key::T)], "Switches the gizmo between local, parent, world and view axes", |w| { tools::next_space(w); None }),
-    command(Id::SpaceLocal, When::Always, "Local axes", &[], "Aligns the gizmo with the bone", |w| { w.settings.tools.space = GizmoSpace::Local; None }),
-    command(Id::SpaceParent, When::Always, "Parent axes", &[], "Aligns the gizmo with the bone's parent", |w| { w.settings.tools.space = GizmoSpace::Parent; None }),
-    command(Id::SpaceWorld, When::Always, "World axes", &[], "Aligns the gizmo with the scene", |w| { w.settings.tools.space = GizmoSpace::World; None }),
-    command(Id::SpaceView, When::Always, "View axes", &[], "Aligns the gizmo with the view", |w| { w.settings.tools.space = GizmoSpace::View; None }),
-    command(Id::PivotIndividual, When::Always, "Each about its own joint", &[], "Rotates and scales each bone about its own joint", |w| { w.settings.tools.pivot = Pivot::Individual; None }),
-    command(Id::PivotMedian, When::Always, "All about their middle", &[], "Rotates and scales the selection about the mean of its joints", |w| { w.settings.tools.pivot = Pivot::Median; None }),
-    command(Id::PivotActive, When::Always, "All about the active bone", &[], "Rotates and scales the selection about the joint of the active bone", |w| { w.settings.tools.pivot = Pivot::Active; None }),
-    command(Id::ToggleCurl, When::Always, "Curl chains", &[], "Rotates every bone of a selected chain by the full angle, as when a finger curls", |w| { w.settings.tools.curl ^= true; None }),
-    command(Id::BoxSelect, When::Model, "Select in a box", &[key(SHIFT, Key::B)], "Selects by dragging a box", |w| { tools::arm(w, Catch::Box); None }),
-    command(Id::LassoSelect, When::Model, "Select in a lasso", &[key(SHIFT, Key::L)], "Selects by drawing a lasso", |w| { tools::arm(w, Catch::Lasso); None }),
-    command(Id::ToggleGhosts, When::Always, "Ghosts", &[key(SHIFT, Key::G)], "Shows ghosts (onion skin) of the frames before and after", |w| { w.settings.tools.ghosts.shown ^= true; None }),
-    command(Id::TogglePath, When::Always, "Motion path", &[key(SHIFT, Key::P)], "Shows the path of the selected bone, with keys that can be dragged", |w| { w.settings.tools.path ^= true; None }),
-];
+commands! {
+    ToolSelect => When::Always, "Select", [key(NONE, Key::Q)], "Selects bones, without a gizmo", |w| { w.settings.tools.tool = None; None };
+    ToolMove => When::Always, "Move", [key(NONE, Key::W)], "Shows the gizmo that moves the selected bones", |w| { w.settings.tools.tool = Some(Tool::Move); None };
+    ToolRotate => When::Always, "Rotate", [key(NONE, Key::E)], "Shows the gizmo that rotates the selected bones", |w| { w.settings.tools.tool = Some(Tool::Rotate); None };
+    ToolScale => When::Always, "Scale", [key(NONE, Key::R)], "Shows the gizmo that scales the selected bones", |w| { w.settings.tools.tool = Some(Tool::Scale); None };
+    MoveNow => When::BoneInTake, "Move now", [], "Moves the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Move); None };
+    RotateNow => When::BoneInTake, "Rotate now", [], "Rotates the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Rotate); None };
+    ScaleNow => When::BoneInTake, "Scale now", [], "Scales the selection with the mouse: X, Y, Z constrain, digits enter the amount, Enter confirms", |w| { tools::drag_now(w, Tool::Scale); None };
+    NextSpace => When::Always, "Next axes", [key(NONE, Key::T)], "Switches the gizmo between local, parent, world and view axes", |w| { tools::next_space(w); None };
+    SpaceLocal => When::Always, "Local axes", [], "Aligns the gizmo with the bone", |w| { w.settings.tools.space = GizmoSpace::Local; None };
+    SpaceParent => When::Always, "Parent axes", [], "Aligns the gizmo with the bone's parent", |w| { w.settings.tools.space = GizmoSpace::Parent; None };
+    SpaceWorld => When::Always, "World axes", [], "Aligns the gizmo with the scene", |w| { w.settings.tools.space = GizmoSpace::World; None };
+    SpaceView => When::Always, "View axes", [], "Aligns the gizmo with the view", |w| { w.settings.tools.space = GizmoSpace::View; None };
+    PivotIndividual => When::Always, "Each about its own joint", [], "Rotates and scales each bone about its own joint", |w| { w.settings.tools.pivot = Pivot::Individual; None };
+    PivotMedian => When::Always, "All about their middle", [], "Rotates and scales the selection about the mean of its joints", |w| { w.settings.tools.pivot = Pivot::Median; None };
+    PivotActive => When::Always, "All about the active bone", [], "Rotates and scales the selection about the joint of the active bone", |w| { w.settings.tools.pivot = Pivot::Active; None };
+    ToggleCurl => When::Always, "Curl chains", [], "Rotates every bone of a selected chain by the full angle, as when a finger curls", |w| { w.settings.tools.curl ^= true; None };
+    BoxSelect => When::Model, "Select in a box", [key(SHIFT, Key::B)], "Selects by dragging a box", |w| { tools::arm(w, Catch::Box); None };
+    LassoSelect => When::Model, "Select in a lasso", [key(SHIFT, Key::L)], "Selects by drawing a lasso", |w| { tools::arm(w, Catch::Lasso); None };
+    ToggleGhosts => When::Always, "Ghosts", [key(SHIFT, Key::G)], "Shows ghosts (onion skin) of the frames before and after", |w| { w.settings.tools.ghosts.shown ^= true; None };
+    TogglePath => When::Always, "Motion path", [key(SHIFT, Key::P)], "Shows the path of the selected bone, with keys that can be dragged", |w| { w.settings.tools.path ^= true; None };
+}

@@ -1,0 +1,19 @@
+//! What every question has: a name for the log, a text for its field, and how it is drawn.
+
+use super::ask::Ask;
+use crate::panels::context::PanelContext;
+
+/// A kind of question: its data, and how it is drawn.
+pub(super) trait QuestionKind {
+    /// Returns the name of the question for the log.
+    fn name(&self) -> &'static str;
+
+    /// Returns the text that its field contains at first.
+    fn proposal(&self, context: &PanelContext<'_>) -> String {
+        let _ = context;
+        String::new()
+    }
+
+    /// Draws it.
+    fn show(&self, ask: &mut Ask<'_>);
+}
