@@ -104,6 +104,23 @@ fn a_mouse_move_in_a_drag_allocates_a_constant_amount() {
 }
 
 #[test]
+fn an_edit_of_all_bones_allocates_in_proportion_to_their_number() {
+    let bytes = |bones: u32| {
+        let mut edited = Edited::new(ModelAdapter::new(&model(bones, 10)));
+        let edit =
+            Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys: vec![KeySet::default()], by: 0.5 });
+        let (count, done) = counting::count(|| edited.apply(edit, Some(Gesture(1))));
+        done.unwrap();
+        count.bytes
+    };
+    let (few, many) = (bytes(100), bytes(400));
+    assert!(
+        many < few * 5,
+        "{few} bytes with 100 bones, {many} with 400: the take is copied for each channel"
+    );
+}
+
+#[test]
 fn moving_a_hundred_thousand_keys_causes_no_visible_delay() {
     let data = model(200, 1500);
     let mut edited = Edited::new(ModelAdapter::new(&data));

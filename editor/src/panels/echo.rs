@@ -31,7 +31,7 @@ pub struct Echo {
 struct LocalEdits {
     /// Number of the newest of them.
     number: u64,
-    /// The drag of the last edit: as long as it goes on, the copy is kept after the answer.
+    /// The drag of the last edit. Until it ends, the copy is kept after the answer.
     gesture: Option<Gesture>,
     /// The last view of the document.
     document: View,

@@ -1,4 +1,4 @@
-//! What is stored in files of the settings folder, apart from the settings: the markers of each model, and the marks of bones.
+//! Files in the settings folder apart from the settings: the markers of each model, and the marks of bones.
 
 use super::actions::show;
 use super::marks::Marks;
