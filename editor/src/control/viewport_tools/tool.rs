@@ -1,4 +1,4 @@
-//! What every tool in the viewport can do.
+//! The trait of all tools in the viewport.
 
 use crate::control::base::BaseControl;
 use dragonfly_picture::gizmo::GizmoView;
