@@ -1,4 +1,4 @@
-//! Which file of a crate uses names of which other file: `use` declarations and paths, followed to the file that
+//! Uses of names between the files of a crate: `use` declarations and paths, followed to the file that
 //! defines the name.
 
 use crate::tokens::{after_group, tokens};

@@ -1,4 +1,4 @@
-//! What a rule about takes examines.
+//! The context of a rule that examines takes.
 
 use super::path::{ModelPath, PathKind};
 use crate::data::{ModelData, Skeleton, Take};

@@ -81,7 +81,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Number of findings of one rule that a [`check`] lists one by one; the rest is only counted.
+/// Number of findings of one rule that a [`check`](super::check()) lists one by one; the rest is only counted.
 pub const MAX_PER_RULE: usize = 100;
 
 /// Collects the findings of one rule.

@@ -21,6 +21,7 @@
 mod channels;
 mod context;
 mod finding;
+mod measure;
 mod path;
 mod rule;
 

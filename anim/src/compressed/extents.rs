@@ -1,4 +1,4 @@
-//! Where the bytes of a compressed take are, and how many there are of each content.
+//! The places of the bytes of a compressed take, and their numbers by content.
 
 /// Bytes before the keys: magic number, version, length, checksum, and the end of the keys.
 pub(super) const PREFACE: usize = 20;

@@ -1,4 +1,4 @@
-//! What every subcommand can do.
+//! The trait of all subcommands.
 
 use super::Failure;
 

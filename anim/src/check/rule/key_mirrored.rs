@@ -1,7 +1,7 @@
 //! Keys that mirror a bone compared with its rest pose, so that it turns inside out on the way.
 
-use super::is_mirrored;
 use crate::check::channels::{channel_path, keys};
+use crate::check::measure::is_mirrored;
 use crate::check::{Findings, PathKind, TakeContext};
 
 pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {

@@ -1,7 +1,7 @@
 //! Rotation keys that are not of unit length, and would scale.
 
-use super::UNIT_TOLERANCE;
 use crate::check::channels::{channel_path, keys};
+use crate::check::measure::UNIT_TOLERANCE;
 use crate::check::{Findings, PathKind, TakeContext};
 
 pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {

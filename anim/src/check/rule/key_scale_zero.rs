@@ -1,7 +1,7 @@
 //! Keys that flatten a bone and all its descendants, often used to hide something.
 
-use super::is_flat;
 use crate::check::channels::{channel_path, keys};
+use crate::check::measure::is_flat;
 use crate::check::{Findings, PathKind, TakeContext};
 
 pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {

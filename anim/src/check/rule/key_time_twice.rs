@@ -1,6 +1,6 @@
 //! Two keys at the same time: which of them counts is undefined.
 
-use super::neighbors;
+use crate::check::measure::neighbors;
 use crate::check::{Findings, TakeContext};
 
 pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {

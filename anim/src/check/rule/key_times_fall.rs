@@ -1,6 +1,6 @@
 //! Descending key times: the key search assumes ascending ones and does not find them.
 
-use super::neighbors;
+use crate::check::measure::neighbors;
 use crate::check::{Findings, TakeContext};
 
 pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {

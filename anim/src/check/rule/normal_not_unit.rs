@@ -1,7 +1,7 @@
 //! Normals that are not of unit length and make a surface too bright or too dark.
 
-use super::UNIT_TOLERANCE;
 use crate::check::channels::primitives;
+use crate::check::measure::UNIT_TOLERANCE;
 use crate::check::{Findings, PathKind};
 use crate::data::ModelData;
 

@@ -1,6 +1,6 @@
 //! Bones whose rest pose is mirrored: an odd number of scale factors is negative.
 
-use super::is_mirrored;
+use crate::check::measure::is_mirrored;
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 

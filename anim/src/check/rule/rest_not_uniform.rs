@@ -1,6 +1,6 @@
 //! Non-uniform rest scales, which shear children that turn.
 
-use super::is_flat;
+use crate::check::measure::is_flat;
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 

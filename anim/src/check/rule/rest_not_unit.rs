@@ -1,6 +1,6 @@
 //! Rest rotations that are not of unit length, and would scale.
 
-use super::UNIT_TOLERANCE;
+use crate::check::measure::UNIT_TOLERANCE;
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 

@@ -1,6 +1,6 @@
 //! Bones whose rest pose is flat.
 
-use super::is_flat;
+use crate::check::measure::is_flat;
 use crate::check::{Findings, ModelPath, PathKind};
 use crate::data::ModelData;
 

@@ -1,4 +1,4 @@
-//! The quantity that a number stands for.
+//! The quantity of a number, which decides its units.
 
 /// Quantity of a number, which decides its units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
