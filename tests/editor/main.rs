@@ -40,6 +40,7 @@ mod panels_random;
 mod paste;
 mod paste_keys;
 mod pending;
+mod pictures;
 mod portal;
 mod posing;
 mod program;

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-fn offer(
+pub(crate) fn offer(
     name: &str,
     steps: usize,
     ago: u64,

@@ -13,7 +13,7 @@ use super::prompts::Question;
 use super::request::Request;
 use super::style::{GRID, RADIUS};
 use super::theme::Theme;
-use egui::{Button, CornerRadius, Id, Modal, Response, RichText, Ui, vec2};
+use egui::{Button, CornerRadius, Frame, Id, Modal, Response, RichText, Stroke, Ui, vec2};
 
 /// State of the controls in questions.
 #[derive(Debug, Default)]
@@ -47,7 +47,7 @@ impl Dialogs {
         }
         let modal = Modal::new(Id::unique(("question", format!("{:?}", std::mem::discriminant(question)))))
             .backdrop_color(Theme::of(ui).backdrop)
-            .frame(egui::Frame::popup(ui.style()).inner_margin(20));
+            .frame(Frame::popup(ui.style()).inner_margin(20));
         let response = modal.show(ui.ctx(), |ui| {
             ui.spacing_mut().item_spacing.y = 2.0 * GRID;
             let mut ask = Ask { ui, state, fresh, requests };
@@ -139,6 +139,11 @@ impl Ask<'_> {
         });
         pressed
     }
+}
+
+/// Returns a frame for details in a question, with a line around it: in the light theme card and frame are both white.
+fn inset(theme: &Theme) -> Frame {
+    Frame::NONE.fill(theme.sunken).stroke(Stroke::new(1.0, theme.line)).corner_radius(RADIUS)
 }
 
 /// Draws a button of a question.

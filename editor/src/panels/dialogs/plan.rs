@@ -6,7 +6,7 @@ use crate::panels::request::Request;
 use crate::panels::style::{self, GRID};
 use crate::panels::theme::Theme;
 use dragonfly_document::SaveOrder;
-use egui::{Align, Frame, Label, Layout, RichText, ScrollArea, vec2};
+use egui::{Align, Label, Layout, RichText, ScrollArea, vec2};
 
 /// Height of a line of the list, in points.
 const LINE: f32 = 18.0;
@@ -28,7 +28,7 @@ pub(super) fn show(ask: &mut Ask<'_>, lines: &[String], order: Option<&SaveOrder
         };
         ask.adds("Everything not listed here is kept byte for byte.".to_owned());
         let theme = Theme::of(ask.ui);
-        Frame::NONE.fill(theme.sunken).corner_radius(style::RADIUS).inner_margin(2.0 * GRID).show(
+        super::inset(theme).inner_margin(2.0 * GRID).show(
             ask.ui,
             |ui| {
                 ui.spacing_mut().item_spacing.y = 0.0;

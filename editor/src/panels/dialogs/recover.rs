@@ -79,7 +79,7 @@ fn list(ask: &mut Ask<'_>, offers: &[Offer], chosen: &mut usize) {
 
 fn about(ask: &mut Ask<'_>, offer: &Offer) {
     let theme = Theme::of(ask.ui);
-    egui::Frame::NONE.fill(theme.sunken).corner_radius(4.0).inner_margin(3.0 * GRID).show(ask.ui, |ui| {
+    super::inset(theme).inner_margin(3.0 * GRID).show(ask.ui, |ui| {
         ui.set_width(ui.available_width());
         ui.spacing_mut().item_spacing.y = GRID;
         ui.label(RichText::new(&offer.title).strong());

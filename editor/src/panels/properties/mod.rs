@@ -50,7 +50,7 @@ impl Panel for Properties {
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         if state.view.is_none() {
-            return widgets::empty(ui, "", "Properties appear here");
+            return widgets::empty(ui, "Properties appear here", "");
         }
         self.drag.begin(state, self.in_use);
         self.in_use = false;

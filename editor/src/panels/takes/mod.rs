@@ -66,7 +66,7 @@ impl Panel for Takes {
 
     fn show(&mut self, ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
         if state.view.is_none() {
-            return widgets::empty(ui, "", "Takes appear here");
+            return widgets::empty(ui, "Takes appear here", "");
         }
         self.buttons(ui, state, requests);
         let found = self.search(ui, state, requests);

@@ -1,0 +1,87 @@
+//! Drawing with one device for all pictures: that of the processor where there is one, which is the same everywhere.
+
+use crate::workbench::{Window, Workbench};
+use dragonfly::panels::{style, theme as style_theme};
+use dragonfly_kit::skip::{TestNeed, skip};
+use dragonfly_picture::{Device, DeviceParameters, GraphicsError};
+use egui::emath::GuiRounding;
+use egui::{Pos2, Rect, Theme, Ui, UiBuilder, vec2};
+use egui_kittest::Harness;
+use egui_kittest::wgpu::default_wgpu_setup;
+use egui_wgpu::{RenderState, RendererOptions, WgpuConfiguration, WgpuSetup, WgpuSetupExisting};
+use image::RgbaImage;
+use std::sync::OnceLock;
+
+/// Returns the device; skips the test where there is none.
+pub(super) fn device() -> Option<WgpuSetup> {
+    static DEVICE: OnceLock<Result<WgpuSetupExisting, String>> = OnceLock::new();
+    match DEVICE.get_or_init(create) {
+        Ok(setup) => Some(WgpuSetup::Existing(setup.clone())),
+        Err(reason) => {
+            skip(TestNeed::Adapter, reason);
+            None
+        }
+    }
+}
+
+fn create() -> Result<WgpuSetupExisting, String> {
+    // The device of the program gives the reason if there is none.
+    match Device::new(DeviceParameters::default()) {
+        Ok(_) => {}
+        Err(GraphicsError::NoAdapter(reason)) => return Err(reason),
+        Err(error) => panic!("{error}"),
+    }
+    let mut setup = default_wgpu_setup();
+    if let WgpuSetup::CreateNew(new) = &mut setup {
+        // The APIs of the program. OpenGL is none of them, and its adapters cannot be dropped in two threads at a time.
+        new.instance_descriptor.backends = DeviceParameters::default().backends;
+    }
+    let instance = pollster::block_on(setup.new_instance());
+    let configuration = WgpuConfiguration { wgpu_setup: setup, ..Default::default() };
+    let state = RenderState::create(&configuration, &instance, None, RendererOptions::PREDICTABLE);
+    let state = pollster::block_on(state).map_err(|error| error.to_string())?;
+    Ok(WgpuSetupExisting { instance, adapter: state.adapter, device: state.device, queue: state.queue })
+}
+
+/// Returns the window of a workbench, drawn with the device.
+pub(super) fn window(
+    bench: Workbench,
+    size: egui::Vec2,
+    scale: f32,
+    theme: Theme,
+    device: WgpuSetup,
+) -> Window {
+    let mut window = Harness::builder()
+        .with_size(size)
+        .with_pixels_per_point(scale)
+        .with_theme(theme)
+        .with_max_steps(20)
+        .with_render_cursor(false)
+        .with_context_setup(style::install)
+        .wgpu_setup(device)
+        .build_ui_state(over_sky, bench);
+    window.run_steps(4);
+    window
+}
+
+/// Draws the panels in the whole window, as the program does, over the upper color of the background in place of the scene.
+/// The harness would leave a margin.
+fn over_sky(ui: &mut Ui, bench: &mut Workbench) {
+    let whole = ui.ctx().content_rect();
+    ui.scope_builder(UiBuilder::new().max_rect(whole), |ui| {
+        ui.set_clip_rect(whole);
+        ui.painter().rect_filled(whole, 0.0, style_theme::Theme::of(ui).sky[0]);
+        bench.frame(ui);
+    });
+}
+
+/// Draws a part of the window, given in points.
+pub(super) fn picture(window: &mut Window, part: Rect) -> RgbaImage {
+    let scale = window.ctx.pixels_per_point();
+    let mut picture = window.render().unwrap();
+    let whole = Rect::from_min_size(Pos2::ZERO, vec2(picture.width() as f32, picture.height() as f32));
+    let part = (part * scale).round_to_pixels(1.0).intersect(whole);
+    let [x, y, width, height] = [part.left(), part.top(), part.width(), part.height()].map(|side| side as u32);
+    assert!(width > 0 && height > 0, "an empty part of the window: {part:?}");
+    image::imageops::crop(&mut picture, x, y, width, height).to_image()
+}
