@@ -8,7 +8,7 @@ use super::style::{self, GRID};
 use super::theme::Theme;
 use dragonfly_document::Source;
 use dragonfly_picture::{BoneLook, Shading};
-use egui::{Align, Button, Layout, MenuBar, RichText, Slider, Ui};
+use egui::{Align, Button, Layout, MenuBar, RichText, Slider, Stroke, Ui};
 
 /// Draws the bar; `panels` are id, title and whether they are shown.
 pub fn show(
@@ -168,6 +168,9 @@ fn view(
         item(ui, state, Id::ScaleDown, false, requests);
         item(ui, state, Id::ScaleReset, false, requests);
         let mut scale = state.settings.scale;
+        outline_fields(ui);
+        // The rail of the slider.
+        ui.visuals_mut().widgets.inactive.bg_fill = Theme::of(ui).line;
         let slider = Slider::new(&mut scale, SCALES).step_by(0.05).update_while_editing(false);
         let response = ui.add(slider).accessible_name("Scale");
         // Not while dragging: the slider would slide away under the pointer.
@@ -181,10 +184,18 @@ fn view(
     }
 }
 
+/// Gives fields and boxes the outlines that they have in panels; in menus egui draws none.
+fn outline_fields(ui: &mut Ui) {
+    let theme = Theme::of(ui);
+    let widget = &mut ui.visuals_mut().widgets.inactive;
+    (widget.bg_stroke, widget.weak_bg_fill) = (Stroke::new(1.0, theme.line), theme.sunken);
+}
+
 /// How the skeleton is shown before and after.
 fn ghosts(ui: &mut Ui, state: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let mut ghosts = state.settings.tools.ghosts;
     item(ui, state, Id::ToggleGhosts, ghosts.shown, requests);
+    outline_fields(ui);
     let number = |ui: &mut Ui, title: &str, value: &mut u32, range: std::ops::RangeInclusive<u32>| {
         ui.horizontal(|ui| {
             let field = ui.add(egui::DragValue::new(value).range(range).speed(0.1));

@@ -94,7 +94,8 @@ fn message(ui: &mut Ui, state: &PanelContext<'_>) {
     egui::Popup::menu(&response).show(|ui| {
         ui.set_width(520.0);
         ScrollArea::vertical().max_height(260.0).stick_to_bottom(true).show(ui, |ui| {
-            ui.set_width(ui.available_width());
+            // The scroll bar floats over what is drawn.
+            ui.set_width(ui.available_width() - 3.0 * GRID);
             let mut any = false;
             for line in state.status.lines() {
                 any = true;

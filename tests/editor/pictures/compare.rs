@@ -55,3 +55,80 @@ impl PictureDifference {
 pub(super) fn distance<const CHANNELS: usize>(a: [u8; CHANNELS], b: [u8; CHANNELS]) -> u8 {
     a.into_iter().zip(b).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
 }
+
+/// A small card with a button, drawn with and without a change that must be noticed.
+mod noticed {
+    use super::PictureDifference;
+    use crate::pictures::drawing;
+    use dragonfly::panels::style;
+    use egui::{Color32, Theme};
+    use egui_kittest::Harness;
+    use image::RgbaImage;
+
+    /// What is drawn.
+    #[derive(Clone, Copy)]
+    struct Card {
+        word: &'static str,
+        /// Distance of the button from its place, points.
+        moved: f32,
+        fill: Color32,
+    }
+
+    const CARD: Card = Card { word: "Save", moved: 0.0, fill: Color32::from_rgb(46, 201, 164) };
+
+    /// Draws a card in a picture of the size of a panel, at 1x.
+    fn drawn(card: Card) -> Option<RgbaImage> {
+        let mut window = Harness::builder()
+            .with_size([300.0, 500.0])
+            .with_theme(Theme::Dark)
+            .with_context_setup(style::install)
+            .wgpu_setup(drawing::device()?)
+            .build_ui(move |ui| {
+                ui.label("A sentence above the button");
+                ui.add_space(8.0 + card.moved);
+                let _ = ui.add(egui::Button::new(card.word).fill(card.fill));
+            });
+        window.run_steps(2);
+        Some(window.render().unwrap())
+    }
+
+    #[track_caller]
+    fn is_noticed(changed: Card) {
+        let (Some(before), Some(after)) = (drawn(CARD), drawn(changed)) else { return };
+        let difference = PictureDifference::between(&after, &before).expect("the same size");
+        assert!(!difference.is_small(), "{} pixels, {} allowed", difference.pixels, difference.allowed);
+    }
+
+    #[test]
+    fn a_widget_two_points_off_is_a_difference() {
+        is_noticed(Card { moved: 2.0, ..CARD });
+    }
+
+    #[test]
+    fn another_word_is_a_difference() {
+        is_noticed(Card { word: "Safe", ..CARD });
+    }
+
+    #[test]
+    fn a_color_eight_levels_off_is_a_difference() {
+        is_noticed(Card { fill: Color32::from_rgb(46, 193, 164), ..CARD });
+    }
+
+    #[test]
+    fn a_picture_drawn_twice_is_the_same() {
+        let (Some(first), Some(second)) = (drawn(CARD), drawn(CARD)) else { return };
+        let difference = PictureDifference::between(&second, &first).expect("the same size");
+        assert_eq!((difference.pixels, difference.most), (0, 0));
+    }
+
+    #[test]
+    fn one_level_more_in_every_color_is_no_difference() {
+        let Some(before) = drawn(CARD) else { return };
+        let mut after = before.clone();
+        after
+            .pixels_mut()
+            .for_each(|pixel| pixel.0[..3].iter_mut().for_each(|value| *value = value.saturating_add(1)));
+        let difference = PictureDifference::between(&after, &before).expect("the same size");
+        assert_eq!((difference.pixels, difference.most), (0, 1));
+    }
+}

@@ -12,11 +12,18 @@ use egui_wgpu::{RenderState, RendererOptions, WgpuConfiguration, WgpuSetup, Wgpu
 use image::RgbaImage;
 use std::sync::OnceLock;
 
-/// Returns the device; skips the test where there is none.
-pub(super) fn device() -> Option<WgpuSetup> {
-    static DEVICE: OnceLock<Result<WgpuSetupExisting, String>> = OnceLock::new();
+/// The device that the pictures of panels are drawn with.
+struct PictureDevice {
+    setup: WgpuSetupExisting,
+    /// Whether the program itself would draw with the processor on this machine.
+    program_draws_on_processor: bool,
+}
+
+/// Returns the device, the same for all tests; skips the test where there is none.
+fn shared() -> Option<&'static PictureDevice> {
+    static DEVICE: OnceLock<Result<PictureDevice, String>> = OnceLock::new();
     match DEVICE.get_or_init(create) {
-        Ok(setup) => Some(WgpuSetup::Existing(setup.clone())),
+        Ok(device) => Some(device),
         Err(reason) => {
             skip(TestNeed::Adapter, reason);
             None
@@ -24,13 +31,23 @@ pub(super) fn device() -> Option<WgpuSetup> {
     }
 }
 
-fn create() -> Result<WgpuSetupExisting, String> {
+/// Returns the device; skips the test where there is none.
+pub(super) fn device() -> Option<WgpuSetup> {
+    shared().map(|device| WgpuSetup::Existing(device.setup.clone()))
+}
+
+/// Returns whether the program draws with the processor on this machine; skips the test where it cannot draw.
+pub(super) fn program_draws_on_processor() -> Option<bool> {
+    shared().map(|device| device.program_draws_on_processor)
+}
+
+fn create() -> Result<PictureDevice, String> {
     // The device of the program gives the reason if there is none.
-    match Device::new(DeviceParameters::default()) {
-        Ok(_) => {}
+    let program_draws_on_processor = match Device::new(DeviceParameters::default()) {
+        Ok(device) => device.is_software(),
         Err(GraphicsError::NoAdapter(reason)) => return Err(reason),
         Err(error) => panic!("{error}"),
-    }
+    };
     let mut setup = default_wgpu_setup();
     if let WgpuSetup::CreateNew(new) = &mut setup {
         // The APIs of the program. OpenGL is none of them, and its adapters cannot be dropped in two threads at a time.
@@ -39,8 +56,10 @@ fn create() -> Result<WgpuSetupExisting, String> {
     let instance = pollster::block_on(setup.new_instance());
     let configuration = WgpuConfiguration { wgpu_setup: setup, ..Default::default() };
     let state = RenderState::create(&configuration, &instance, None, RendererOptions::PREDICTABLE);
-    let state = pollster::block_on(state).map_err(|error| error.to_string())?;
-    Ok(WgpuSetupExisting { instance, adapter: state.adapter, device: state.device, queue: state.queue })
+    let RenderState { adapter, device, queue, .. } =
+        pollster::block_on(state).map_err(|error| error.to_string())?;
+    let setup = WgpuSetupExisting { instance, adapter, device, queue };
+    Ok(PictureDevice { setup, program_draws_on_processor })
 }
 
 /// Returns the window of a workbench, drawn with the device.
@@ -81,7 +100,8 @@ pub(super) fn picture(window: &mut Window, part: Rect) -> RgbaImage {
     let mut picture = window.render().unwrap();
     let whole = Rect::from_min_size(Pos2::ZERO, vec2(picture.width() as f32, picture.height() as f32));
     let part = (part * scale).round_to_pixels(1.0).intersect(whole);
-    let [x, y, width, height] = [part.left(), part.top(), part.width(), part.height()].map(|side| side as u32);
+    let [x, y, width, height] =
+        [part.left(), part.top(), part.width(), part.height()].map(|side| side as u32);
     assert!(width > 0 && height > 0, "an empty part of the window: {part:?}");
     image::imageops::crop(&mut picture, x, y, width, height).to_image()
 }

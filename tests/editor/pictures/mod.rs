@@ -30,7 +30,8 @@ use std::collections::BTreeSet;
 
 #[test]
 fn every_file_in_the_folder_of_pictures_is_compared() {
-    let cases = [panels::cases(), questions::cases(), overlays::cases(), menus::cases()].into_iter().flatten();
+    let cases =
+        [panels::cases(), questions::cases(), overlays::cases(), menus::cases()].into_iter().flatten();
     let mut names: BTreeSet<String> = cases.flat_map(|case| case.names()).collect();
     names.extend(windows::names());
     let strays: Vec<String> = reference::stored().into_iter().filter(|name| !names.contains(name)).collect();
@@ -38,7 +39,11 @@ fn every_file_in_the_folder_of_pictures_is_compared() {
         strays.iter().for_each(|name| std::fs::remove_file(reference::path(name)).unwrap());
         return;
     }
-    assert!(strays.is_empty(), "no test draws these pictures any more: {strays:?}\n{}", reference::HOW_TO_UPDATE);
+    assert!(
+        strays.is_empty(),
+        "no test draws these pictures any more: {strays:?}\n{}",
+        reference::HOW_TO_UPDATE
+    );
 }
 
 #[test]

@@ -66,7 +66,12 @@ pub(super) fn cases() -> Vec<PictureCase> {
     }
     // A text that no command contains.
     let types = |window: &mut Window| window.event(egui::Event::Text("no such command".to_owned()));
-    let nothing = case("overlays/palette-nothing-found".to_owned(), vec2(560.0, 480.0), Typical, Some(Overlay::Palette));
+    let nothing = case(
+        "overlays/palette-nothing-found".to_owned(),
+        vec2(560.0, 480.0),
+        Typical,
+        Some(Overlay::Palette),
+    );
     cases.push(PictureCase { act: Box::new(types), ..nothing });
     // A file that is held over the window; the hint fills it.
     let holds = |window: &mut Window| window.input_mut().hovered_files.push(egui::HoveredFile::default());

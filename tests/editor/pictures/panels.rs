@@ -62,7 +62,12 @@ fn more() -> Vec<PictureCase> {
         let (id, size) = SIZES.iter().find(|(other, _)| *other == id).expect("a panel");
         let mut cases = panel(id, *size);
         let place = Fullness::ALL.iter().position(|other| *other == fullness).expect("a state");
-        PictureCase { name: format!("panels/{name}"), act: Box::new(act), twice: false, ..cases.swap_remove(place) }
+        PictureCase {
+            name: format!("panels/{name}"),
+            act: Box::new(act),
+            twice: false,
+            ..cases.swap_remove(place)
+        }
     };
     vec![
         case("hierarchy-hidden", "hierarchy", Typical, |window| {

@@ -8,9 +8,9 @@ use dragonfly::panels::prompts::Question;
 use dragonfly_document::edit::{Edit, ReverseTake, TakeRef};
 use dragonfly_document::{Change, Offer, SaveOrder, Source, Then};
 use dragonfly_store::DocumentFileState::{Changed, Missing, Same, Unsaved};
+use dragonfly_store::FileState;
 use dragonfly_store::OwnerStatus::{Exited, OnOtherHost};
 use dragonfly_store::Readability::{Cut, Whole};
-use dragonfly_store::FileState;
 use egui::vec2;
 use std::sync::Arc;
 
@@ -77,7 +77,9 @@ questions! {
 }
 
 fn long(name: &str) -> String {
-    format!("/home/mara/models/animals/{name} with a name that is so long that it hardly fits into a line of text.glb")
+    format!(
+        "/home/mara/models/animals/{name} with a name that is so long that it hardly fits into a line of text.glb"
+    )
 }
 
 fn fox() -> Offer {
@@ -90,7 +92,8 @@ fn missing(name: &str) -> Offer {
 
 fn many() -> Vec<Offer> {
     let bear = |number: u64| {
-        let name = format!("{number} A bear with a rather long name that continues until it has to be cut.gltf");
+        let name =
+            format!("{number} A bear with a rather long name that continues until it has to be cut.gltf");
         offer(&name, 1_000, 5_000 * number + 100, if number % 2 == 0 { Same } else { Unsaved }, Whole, Exited)
     };
     (0..12).map(bear).collect()
@@ -142,7 +145,10 @@ fn every_question_is_drawn_in_its_usual_state_and_in_a_crowded_one() {
     for (row, state, question) in &table {
         assert_eq!(name(question), *row, "the picture of {state} is of another question");
         for state in STATES {
-            assert!(table.iter().any(|(name, other, _)| name == row && *other == state), "{row} has no {state}");
+            assert!(
+                table.iter().any(|(name, other, _)| name == row && *other == state),
+                "{row} has no {state}"
+            );
         }
     }
 }

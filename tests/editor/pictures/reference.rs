@@ -84,7 +84,8 @@ pub(super) fn compare(name: &str, new: &RgbaImage) -> Option<String> {
     Some(format!("{name}: {complaint}; new picture: {}", new_file.display()))
 }
 
-/// Writes a picture in as few bytes as possible: with a palette if 256 colors come close enough to all that it has.
+/// Writes a picture in as few bytes as possible: with a palette if 256 colors come close enough to all that it has,
+/// else with values that are multiples of three.
 fn write(path: &Path, picture: &RgbaImage) {
     fs::create_dir_all(path.parent().unwrap()).unwrap();
     let file = BufWriter::new(fs::File::create(path).unwrap());
@@ -92,16 +93,17 @@ fn write(path: &Path, picture: &RgbaImage) {
     encoder.set_compression(Compression::High);
     encoder.set_depth(BitDepth::Eight);
     let colors = picture.pixels().map(|&Rgba([red, green, blue, _])| [red, green, blue]);
-    let data: Vec<u8> = if let Some(palette) = (0..=ROUNDING).find_map(|error| Palette::of(colors.clone(), error)) {
-        encoder.set_color(ColorType::Indexed);
-        encoder.set_palette(palette.colors.concat());
-        encoder.set_filter(Filter::NoFilter);
-        colors.map(|color| palette.places[&color]).collect()
-    } else {
-        encoder.set_color(ColorType::Rgb);
-        encoder.set_filter(Filter::Adaptive);
-        colors.collect::<Vec<_>>().concat()
-    };
+    let data: Vec<u8> =
+        if let Some(palette) = (0..=ROUNDING).find_map(|error| Palette::of(colors.clone(), error)) {
+            encoder.set_color(ColorType::Indexed);
+            encoder.set_palette(palette.colors.concat());
+            encoder.set_filter(Filter::NoFilter);
+            colors.map(|color| palette.places[&color]).collect()
+        } else {
+            encoder.set_color(ColorType::Rgb);
+            encoder.set_filter(Filter::Adaptive);
+            colors.flatten().map(|value| value.saturating_add(1) / 3 * 3).collect()
+        };
     encoder.write_header().unwrap().write_image_data(&data).unwrap();
 }
 

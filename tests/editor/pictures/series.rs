@@ -92,7 +92,9 @@ impl PictureCase {
             let above = layers.into_iter().filter(|layer| layer.order >= Order::Foreground);
             let areas = above.filter_map(|layer| memory.area_rect(layer.id));
             // The backdrop of a question is as large as the window.
-            areas.filter(|area| area.width() < self.size.x - 1.0 || area.height() < self.size.y - 1.0).collect()
+            areas
+                .filter(|area| area.width() < self.size.x - 1.0 || area.height() < self.size.y - 1.0)
+                .collect()
         })
     }
 }

@@ -4,7 +4,9 @@ use crate::workbench::Workbench;
 use dragonfly::panels::Request;
 use dragonfly::panels::status::MessageSeverity;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, ReverseTake, SetPending, SetPose, TakeRef};
+use dragonfly_document::edit::{
+    BonePose, BoneRef, Edit, RenameTake, ReverseTake, SetPending, SetPose, TakeRef,
+};
 use dragonfly_document::{Cancel, Change, Source, View, load_model};
 use dragonfly_kit::document::fixture;
 use std::sync::{Arc, OnceLock};
@@ -45,14 +47,16 @@ impl Fullness {
     }
 }
 
-/// Returns a view of a model, loaded once for all pictures.
+/// Returns a view of a model.
+pub(super) fn view_of(source: &Source) -> View {
+    let loaded = load_model(source, &mut |_| {}, &Cancel::default()).unwrap();
+    View::opened(1, Arc::new(loaded))
+}
+
+/// Returns a view of the built-in model, loaded once for all pictures.
 fn built_in() -> View {
     static MODEL: OnceLock<View> = OnceLock::new();
-    let load = || {
-        let loaded = load_model(&Source::BuiltIn, &mut |_| {}, &Cancel::default()).unwrap();
-        View::opened(1, Arc::new(loaded))
-    };
-    MODEL.get_or_init(load).clone()
+    MODEL.get_or_init(|| view_of(&Source::BuiltIn)).clone()
 }
 
 fn take() -> TakeRef {
@@ -115,7 +119,8 @@ fn crowded() -> Workbench {
         Edit::RenameTake(RenameTake { take: TakeRef::Index(2), name: "renamed ".repeat(12) }),
         None,
     ));
-    let far = BonePose { bone: BoneRef::Index(2), translation: Some([0.0, 1.0, 0.0]), rotation: None, scale: None };
+    let far =
+        BonePose { bone: BoneRef::Index(2), translation: Some([0.0, 1.0, 0.0]), rotation: None, scale: None };
     for time in [10.0, 4_000.5, 9_000.0] {
         let poses = vec![far.clone()];
         bench.change(Change::Edit(Edit::SetPending(SetPending { take: take(), time, poses }), None));
@@ -130,7 +135,8 @@ fn crowded() -> Workbench {
         let text = format!("message {number} of an importer that found one more thing. ");
         bench.state.say(level, text.repeat(1 + number % 2 * 2));
     }
-    let recent = |number| format!("/home/mara/models/animals/{}/{number}.glb", "a folder with a long name").into();
+    let recent =
+        |number| format!("/home/mara/models/animals/{}/{number}.glb", "a folder with a long name").into();
     bench.state.settings_mut().recent = (0..10).map(recent).collect();
     bench
 }
