@@ -51,7 +51,6 @@ mod remembered;
 mod ruler;
 mod screen;
 mod settings;
-mod shots;
 mod stdio;
 mod store_full;
 mod takes_panel;

@@ -1,7 +1,6 @@
 //! Dialogs: each question fits completely into every window, can be answered by keyboard, and is closed by Escape.
 
 use crate::panels::{Bench, harness_of};
-use crate::shots::{self, PictureFolder};
 use dragonfly::panels::FileAction;
 use dragonfly::panels::prompts::Question;
 use dragonfly::panels::{Effect, Request};
@@ -107,24 +106,6 @@ fn bench(question: Question) -> Bench {
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.ask(question);
     bench
-}
-
-#[test]
-fn every_question_is_drawn() {
-    let Some(shots) = PictureFolder::new() else { return };
-    for (name, question) in questions() {
-        for theme in [egui::Theme::Dark, egui::Theme::Light] {
-            let light = theme == egui::Theme::Light;
-            if light && !matches!(name, "unsaved" | "recover_several" | "plan") {
-                continue;
-            }
-            let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
-            let mut harness = shots::drawn(bench(question.clone()), [800.0, 520.0], 1.0, theme, frame);
-            harness.run_steps(6);
-            let name = if light { format!("{name}_light") } else { name.to_owned() };
-            shots.save(&mut harness, &format!("question_{name}"));
-        }
-    }
 }
 
 #[test]

@@ -8,9 +8,18 @@ use image::{Rgba, RgbaImage};
 /// Largest difference of a channel between pixels that count as the same.
 pub(super) const LEVELS: u8 = 6;
 
-/// Number of pixels that may differ in any picture, and in addition one of so many.
+/// Number of pixels that may differ in any picture, in addition to a share of them.
 const SOME: usize = 6;
-const ONE_OF: usize = 20_000;
+
+/// The part of a picture that may differ: one pixel of this many.
+#[derive(Clone, Copy)]
+pub(super) struct OneOf(usize);
+
+/// For panels, whose lines and letters are placed by the program.
+pub(super) const PANELS: OneOf = OneOf(20_000);
+
+/// For scenes, where a driver decides which samples the edge of a triangle covers.
+pub(super) const SCENES: OneOf = OneOf(4_000);
 
 /// The difference between two pictures of the same size.
 pub(super) struct PictureDifference {
@@ -26,7 +35,7 @@ pub(super) struct PictureDifference {
 
 impl PictureDifference {
     /// Compares a new picture with the stored one; `None` if their sizes differ.
-    pub(super) fn between(new: &RgbaImage, stored: &RgbaImage) -> Option<Self> {
+    pub(super) fn between(new: &RgbaImage, stored: &RgbaImage, OneOf(many): OneOf) -> Option<Self> {
         if new.dimensions() != stored.dimensions() {
             return None;
         }
@@ -42,7 +51,7 @@ impl PictureDifference {
                 pixel.0[..3].iter_mut().for_each(|channel| *channel /= 3);
             }
         }
-        Some(Self { pixels, allowed: SOME + stored.pixels().len() / ONE_OF, most, shown })
+        Some(Self { pixels, allowed: SOME + stored.pixels().len() / many, most, shown })
     }
 
     /// Returns whether the pictures count as equal.
@@ -58,7 +67,7 @@ pub(super) fn distance<const CHANNELS: usize>(a: [u8; CHANNELS], b: [u8; CHANNEL
 
 /// A small card with a button, drawn with and without a change that must be noticed.
 mod noticed {
-    use super::PictureDifference;
+    use super::{PANELS, PictureDifference};
     use crate::pictures::drawing;
     use dragonfly::panels::style;
     use egui::{Color32, Theme};
@@ -95,7 +104,7 @@ mod noticed {
     #[track_caller]
     fn is_noticed(changed: Card) {
         let (Some(before), Some(after)) = (drawn(CARD), drawn(changed)) else { return };
-        let difference = PictureDifference::between(&after, &before).expect("the same size");
+        let difference = PictureDifference::between(&after, &before, PANELS).expect("the same size");
         assert!(!difference.is_small(), "{} pixels, {} allowed", difference.pixels, difference.allowed);
     }
 
@@ -117,7 +126,7 @@ mod noticed {
     #[test]
     fn a_picture_drawn_twice_is_the_same() {
         let (Some(first), Some(second)) = (drawn(CARD), drawn(CARD)) else { return };
-        let difference = PictureDifference::between(&second, &first).expect("the same size");
+        let difference = PictureDifference::between(&second, &first, PANELS).expect("the same size");
         assert_eq!((difference.pixels, difference.most), (0, 0));
     }
 
@@ -128,7 +137,7 @@ mod noticed {
         after
             .pixels_mut()
             .for_each(|pixel| pixel.0[..3].iter_mut().for_each(|value| *value = value.saturating_add(1)));
-        let difference = PictureDifference::between(&after, &before).expect("the same size");
+        let difference = PictureDifference::between(&after, &before, PANELS).expect("the same size");
         assert_eq!((difference.pixels, difference.most), (0, 1));
     }
 }

@@ -94,7 +94,14 @@ fn many() -> Vec<Offer> {
     let bear = |number: u64| {
         let name =
             format!("{number} A bear with a rather long name that continues until it has to be cut.gltf");
-        offer(&name, 1_000, 5_000 * number + 100, if number % 2 == 0 { Same } else { Unsaved }, Whole, Exited)
+        offer(
+            &name,
+            1_000,
+            5_000 * number + 100,
+            if number.is_multiple_of(2) { Same } else { Unsaved },
+            Whole,
+            Exited,
+        )
     };
     (0..12).map(bear).collect()
 }

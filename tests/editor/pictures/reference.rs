@@ -1,6 +1,6 @@
 //! The stored pictures: read, compared with new ones, and written as small as PNG allows.
 
-use super::compare::{LEVELS, PictureDifference, distance};
+use super::compare::{LEVELS, OneOf, PictureDifference, distance};
 use image::{Rgba, RgbaImage};
 use png::{BitDepth, ColorType, Compression, Filter};
 use std::cmp::Reverse;
@@ -50,12 +50,12 @@ pub(super) fn stored() -> Vec<String> {
 }
 
 /// Compares a picture with the stored one. Returns the complaint if they differ; an update replaces the stored one instead.
-pub(super) fn compare(name: &str, new: &RgbaImage) -> Option<String> {
+pub(super) fn compare(name: &str, new: &RgbaImage, tolerance: OneOf) -> Option<String> {
     let complaint = match image::open(path(name)) {
         Err(error) => Some((format!("there is no stored picture ({error})"), None)),
         Ok(stored) => {
             let stored = stored.into_rgba8();
-            match PictureDifference::between(new, &stored) {
+            match PictureDifference::between(new, &stored, tolerance) {
                 None => {
                     let [old, now] = [&stored, new].map(|picture| format!("{:?}", picture.dimensions()));
                     Some((format!("the size is {now}, was {old}"), None))

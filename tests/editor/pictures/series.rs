@@ -1,5 +1,6 @@
 //! A case in all its pictures: both themes, 1x and 2x.
 
+use super::compare::PANELS;
 use super::drawing;
 use super::reference::{self, HOW_TO_UPDATE};
 use crate::workbench::{Window, Workbench};
@@ -109,7 +110,7 @@ pub(super) fn compare(cases: impl IntoIterator<Item = PictureCase>) {
     for case in cases {
         for ((theme, _, scale, _), name) in case.variants().zip(case.names()) {
             let Some(picture) = case.draw(theme, scale) else { return };
-            complaints.extend(reference::compare(&name, &picture));
+            complaints.extend(reference::compare(&name, &picture, PANELS));
         }
     }
     assert!(complaints.is_empty(), "\n  {}\n{HOW_TO_UPDATE}", complaints.join("\n  "));

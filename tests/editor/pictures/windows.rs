@@ -1,6 +1,7 @@
 //! The whole window with the scene: the panels, the messages to the graphics thread and all passes, as in the program, but
 //! into a texture.
 
+use super::compare::SCENES;
 use super::drawing;
 use super::reference::{self, HOW_TO_UPDATE};
 use super::states::{self, Fullness};
@@ -24,8 +25,10 @@ use std::time::{Duration, Instant};
 /// Size of the window, points and pixels.
 const SIZE: [u32; 2] = [1120, 700];
 
-/// The windows: a name, and the state of the panels.
-const WINDOWS: &[(&str, fn() -> Workbench)] = &[("built-in", built_in), ("fox", fox)];
+/// A window: its name, and the state of the panels.
+type WindowRow = (&'static str, fn() -> Workbench);
+
+const WINDOWS: &[WindowRow] = &[("built-in", built_in), ("fox", fox)];
 
 const THEMES: [(Theme, &str); 2] = [(Theme::Dark, "dark"), (Theme::Light, "light")];
 
@@ -166,7 +169,7 @@ fn the_whole_window_looks_as_stored() {
     for (name, bench) in WINDOWS {
         for (theme, word) in THEMES {
             let picture = window.draw(bench(), theme);
-            complaints.extend(reference::compare(&file_name(name, word), &picture));
+            complaints.extend(reference::compare(&file_name(name, word), &picture, SCENES));
         }
     }
     assert!(complaints.is_empty(), "\n  {}\n{HOW_TO_UPDATE}", complaints.join("\n  "));
