@@ -8,7 +8,7 @@ use super::style::{self, GRID};
 use super::theme::Theme;
 use dragonfly_document::Source;
 use dragonfly_picture::{BoneLook, Shading};
-use egui::{Align, Button, Layout, MenuBar, RichText, Slider, Stroke, Ui};
+use egui::{Align, Button, Layout, MenuBar, RichText, ScrollArea, Slider, Stroke, TextWrapMode, Ui};
 
 /// Draws the bar; `panels` are id, title and whether they are shown.
 pub fn show(
@@ -20,11 +20,13 @@ pub fn show(
     MenuBar::new().ui(ui, |ui| {
         ui.add_space(GRID);
         ui.menu_button("File", |ui| file(ui, state, requests));
-        ui.menu_button("Edit", |ui| list(ui, state, &[Category::Edit, Category::Selection], requests));
-        ui.menu_button("Pose", |ui| pose(ui, state, requests));
-        ui.menu_button("Tools", |ui| list(ui, state, &[Category::Tools], requests));
+        ui.menu_button("Edit", |ui| {
+            scrolled(ui, |ui| list(ui, state, &[Category::Edit, Category::Selection], requests))
+        });
+        ui.menu_button("Pose", |ui| scrolled(ui, |ui| pose(ui, state, requests)));
+        ui.menu_button("Tools", |ui| scrolled(ui, |ui| list(ui, state, &[Category::Tools], requests)));
         ui.menu_button("Play", |ui| list(ui, state, &[Category::Playback], requests));
-        ui.menu_button("Keys", |ui| list(ui, state, &[Category::Keys], requests));
+        ui.menu_button("Keys", |ui| scrolled(ui, |ui| list(ui, state, &[Category::Keys], requests)));
         ui.menu_button("Take", |ui| list(ui, state, &[Category::Takes], requests));
         ui.menu_button("View", |ui| view(ui, state, panels, requests));
         ui.menu_button("Help", |ui| list(ui, state, &[Category::Help], requests));
@@ -38,6 +40,15 @@ pub fn show(
             }
         });
     });
+}
+
+/// Draws a long menu, which scrolls in a window that is lower than it.
+fn scrolled(ui: &mut Ui, entries: impl FnOnce(&mut Ui)) {
+    let height = ui.ctx().content_rect().height() - style::BAR - 6.0 * GRID;
+    // Next to the keys, not over them.
+    ui.spacing_mut().scroll.floating_allocated_width = 10.0;
+    ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+    ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, entries);
 }
 
 /// One line: title, shortcut, a mark when `on`.

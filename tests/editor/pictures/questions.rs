@@ -25,12 +25,13 @@ macro_rules! questions {
             }
         }
 
-        /// Returns each question with its name and the name of its state.
-        fn table() -> Vec<(&'static str, &'static str, Question)> {
-            vec![$($(($name, $state, $question),)*)*]
-        }
+        /// Each question with its name and the name of its state; made when it is drawn, because it contains times.
+        const TABLE: &[QuestionRow] = &[$($(($name, $state, || $question),)*)*];
     };
 }
+
+/// The name of a question, its state, and a function that returns it.
+type QuestionRow = (&'static str, &'static str, fn() -> Question);
 
 /// Every question is about a model or a file, so none has a state `empty`.
 const STATES: [&str; 2] = ["typical", "crowded"];
@@ -94,14 +95,8 @@ fn many() -> Vec<Offer> {
     let bear = |number: u64| {
         let name =
             format!("{number} A bear with a rather long name that continues until it has to be cut.gltf");
-        offer(
-            &name,
-            1_000,
-            5_000 * number + 100,
-            if number.is_multiple_of(2) { Same } else { Unsaved },
-            Whole,
-            Exited,
-        )
+        let file = if number.is_multiple_of(2) { Same } else { Unsaved };
+        offer(&name, 1_000, 5_000 * number + 90, file, Whole, Exited)
     };
     (0..12).map(bear).collect()
 }
@@ -126,19 +121,19 @@ fn bench(state: &str) -> Workbench {
 }
 
 pub(super) fn cases() -> Vec<PictureCase> {
-    let case = |(name, state, question): (&'static str, &'static str, Question)| PictureCase {
+    let case = |&(name, state, question): &QuestionRow| PictureCase {
         name: format!("questions/{name}-{state}"),
         size: vec2(720.0, 520.0),
         crop: Crop::Above,
         bench: Box::new(move || {
             let mut bench = bench(state);
-            bench.state.ask(question.clone());
+            bench.state.ask(question());
             bench
         }),
         act: Box::new(|_| {}),
         twice: STATES.contains(&state),
     };
-    table().into_iter().map(case).collect()
+    TABLE.iter().map(case).collect()
 }
 
 #[test]
@@ -148,12 +143,11 @@ fn the_questions_look_as_stored() {
 
 #[test]
 fn every_question_is_drawn_in_its_usual_state_and_in_a_crowded_one() {
-    let table = table();
-    for (row, state, question) in &table {
-        assert_eq!(name(question), *row, "the picture of {state} is of another question");
+    for (row, state, question) in TABLE {
+        assert_eq!(name(&question()), *row, "the picture of {state} is of another question");
         for state in STATES {
             assert!(
-                table.iter().any(|(name, other, _)| name == row && *other == state),
+                TABLE.iter().any(|(name, other, _)| name == row && *other == state),
                 "{row} has no {state}"
             );
         }
