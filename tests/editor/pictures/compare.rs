@@ -1,4 +1,4 @@
-//! How much two pictures may differ.
+//! The tolerance of the comparison of two pictures.
 //!
 //! Drivers round colors differently and place the soft edges of lines and letters up to a few levels apart. A pixel that
 //! differs by no more than [`LEVELS`] in each channel is the same; of the others a picture may have a few.

@@ -2,8 +2,9 @@
 
 use crate::workbench::{Window, Workbench};
 use dragonfly::panels::{style, theme as style_theme};
+use dragonfly_kit::picture::studio::studio;
 use dragonfly_kit::skip::{TestNeed, skip};
-use dragonfly_picture::{Device, DeviceParameters, GraphicsError};
+use dragonfly_picture::DeviceParameters;
 use egui::emath::GuiRounding;
 use egui::{Pos2, Rect, Theme, Ui, UiBuilder, vec2};
 use egui_kittest::Harness;
@@ -21,14 +22,12 @@ struct PictureDevice {
 
 /// Returns the device, the same for all tests; skips the test where there is none.
 fn shared() -> Option<&'static PictureDevice> {
-    static DEVICE: OnceLock<Result<PictureDevice, String>> = OnceLock::new();
-    match DEVICE.get_or_init(create) {
-        Ok(device) => Some(device),
-        Err(reason) => {
-            skip(TestNeed::Adapter, reason);
-            None
-        }
+    static DEVICE: OnceLock<Option<PictureDevice>> = OnceLock::new();
+    let device = DEVICE.get_or_init(create).as_ref();
+    if device.is_none() {
+        skip(TestNeed::Adapter, "there is no device for pictures");
     }
+    device
 }
 
 /// Returns the device; skips the test where there is none.
@@ -41,13 +40,9 @@ pub(super) fn program_draws_on_processor() -> Option<bool> {
     shared().map(|device| device.program_draws_on_processor)
 }
 
-fn create() -> Result<PictureDevice, String> {
+fn create() -> Option<PictureDevice> {
     // The device of the program gives the reason if there is none.
-    let program_draws_on_processor = match Device::new(DeviceParameters::default()) {
-        Ok(device) => device.is_software(),
-        Err(GraphicsError::NoAdapter(reason)) => return Err(reason),
-        Err(error) => panic!("{error}"),
-    };
+    let program_draws_on_processor = studio()?.stage().device().is_software();
     let mut setup = default_wgpu_setup();
     if let WgpuSetup::CreateNew(new) = &mut setup {
         // The APIs of the program. OpenGL is none of them, and its adapters cannot be dropped in two threads at a time.
@@ -57,9 +52,9 @@ fn create() -> Result<PictureDevice, String> {
     let configuration = WgpuConfiguration { wgpu_setup: setup, ..Default::default() };
     let state = RenderState::create(&configuration, &instance, None, RendererOptions::PREDICTABLE);
     let RenderState { adapter, device, queue, .. } =
-        pollster::block_on(state).map_err(|error| error.to_string())?;
+        pollster::block_on(state).expect("the program has a device");
     let setup = WgpuSetupExisting { instance, adapter, device, queue };
-    Ok(PictureDevice { setup, program_draws_on_processor })
+    Some(PictureDevice { setup, program_draws_on_processor })
 }
 
 /// Returns the window of a workbench, drawn with the device.

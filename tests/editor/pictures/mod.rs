@@ -6,7 +6,7 @@
 //! panels, questions, overlays, menus     the cases: a state, a size, what is clicked
 //! series     draws each case in both themes at 1x and 2x, and compares it
 //! reference  the files: written small, read, updated
-//! compare    how much two pictures may differ
+//! compare    the tolerance
 //! windows    the whole window with the scene, through the passes of the program
 //! ```
 //!

@@ -11,7 +11,7 @@ use dragonfly_document::{Cancel, Change, Source, View, load_model};
 use dragonfly_kit::document::fixture;
 use std::sync::{Arc, OnceLock};
 
-/// How much there is to show.
+/// A measure of what there is to show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Fullness {
     /// No model is open.
