@@ -1,11 +1,10 @@
 //! Every panel draws every document, and input in a panel sends the right request.
 
-use crate::shots::{self, PictureFolder};
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::window_status::DeviceStatus;
 use dragonfly::panels::{self, Desk, Effect, Request, Settings, State, style};
-use dragonfly::panels::{open_model::Loading, prompts::Overlay, window_status::DeviceStatus};
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, TakeRef};
-use dragonfly_document::{Change, FileView, LoadStage, Progress, View};
+use dragonfly_document::{Change, FileView, View};
 use dragonfly_kit::document::fixture;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -67,57 +66,6 @@ pub(crate) fn harness_of(
         .with_max_steps(20)
         .with_context_setup(style::install)
         .build_ui_state(|ui, bench: &mut Bench| bench.frame(ui), bench)
-}
-
-#[test]
-fn the_panels_are_drawn_empty_full_and_loading() {
-    let Some(shots) = PictureFolder::new() else { return };
-    let shoot = |name: &str, bench: Bench, theme: egui::Theme, zoom: f32| {
-        let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
-        let mut harness = shots::drawn(bench, [1280.0, 720.0], zoom, theme, frame);
-        harness.run_steps(6);
-        shots.save(&mut harness, name);
-    };
-    let full = || Bench::new(Some(fixture::full()));
-    shoot("empty", Bench::new(None), egui::Theme::Dark, 1.0);
-    shoot("full_dark", full(), egui::Theme::Dark, 1.0);
-    shoot("full_light", full(), egui::Theme::Light, 1.0);
-    let mut bench = full();
-    bench.state.execute(Request::Select(Some(3)));
-    bench.state.execute(Request::Seek(1.3));
-    shoot("bone_dark", bench, egui::Theme::Dark, 1.0);
-    let mut bench = full();
-    bench.state.execute(Request::Select(Some(0)));
-    bench.state.execute(Request::Seek(1.3));
-    shoot("bone_light_2x", bench, egui::Theme::Light, 2.0);
-    for overlay in [Overlay::Palette, Overlay::Shortcuts, Overlay::About, Overlay::OpenPath] {
-        let mut bench = full();
-        bench.state.show_overlay(Some(overlay));
-        shoot(&format!("overlay_{overlay:?}"), bench, egui::Theme::Dark, 1.0);
-    }
-    // The viewer's own model, with selected keys, a marker and a play range.
-    if let Some(path) = std::env::var_os("DRAGONFLY_SHOTS_MODEL") {
-        let source = dragonfly_document::Source::File(path.into());
-        let cancel = dragonfly_document::Cancel::default();
-        let loaded = dragonfly_document::load_model(&source, &mut |_| {}, &cancel).unwrap();
-        let view = View::opened(1, std::sync::Arc::new(loaded));
-        for (name, bones) in [("model", vec![]), ("model_bone", vec![5]), ("model_bones", vec![4, 5, 6, 7])] {
-            let mut bench = Bench::new(Some(view.clone()));
-            bench.state.execute(Request::SelectBones(bones, dragonfly_document::bones::Choice::Replace));
-            let (start, length) = bench.state.read().take_bounds();
-            bench.state.execute(Request::Seek(start + length * 0.4));
-            bench.state.execute(Request::Command(dragonfly::panels::commands::Id::AddMarker));
-            bench.state.execute(Request::Command(dragonfly::panels::commands::Id::SelectAllKeys));
-            bench.state.execute(Request::Command(dragonfly::panels::commands::Id::RangeFromHere));
-            shoot(name, bench, egui::Theme::Dark, 1.0);
-        }
-    }
-    let mut bench = Bench::new(None);
-    bench.state.set_loading(Some(Loading {
-        title: "Fox.glb".to_owned(),
-        progress: Progress { stage: LoadStage::Decoding, done: 0.6 },
-    }));
-    shoot("loading", bench, egui::Theme::Dark, 1.0);
 }
 
 #[test]

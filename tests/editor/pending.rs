@@ -1,9 +1,7 @@
 //! With auto-key off a changed pose is seen, undone, kept, and in no key.
 
 use crate::panels::{Bench, harness_of};
-use crate::shots::{self, PictureFolder};
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::prompts::Overlay;
 use dragonfly::panels::{Effect, Request, State};
 use dragonfly_anim::data::Transform;
 use dragonfly_anim::sample::sample_take;
@@ -280,23 +278,4 @@ fn the_number_of_pending_poses_is_shown_and_a_click_seeks_to_one() {
     auto.click();
     harness.run_steps(2);
     assert!(!harness.state().state.read().settings.auto_key);
-}
-
-#[test]
-fn a_pending_pose_is_drawn() {
-    let Some(shots) = PictureFolder::new() else { return };
-    for (name, theme) in [("dark", egui::Theme::Dark), ("light", egui::Theme::Light)] {
-        for overlay in [None, Some(Overlay::MirrorPairs)] {
-            let (view, _) = pending_view([0.0, 1.0, 0.0]);
-            let mut bench = Bench::new(Some(view));
-            bench.state.settings_mut().auto_key = overlay.is_some();
-            bench.state.show_overlay(overlay);
-            bench.state.execute(Request::Seek(0.4));
-            let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
-            let mut harness = shots::drawn(bench, [1280.0, 720.0], 1.0, theme, frame);
-            harness.run_steps(6);
-            let what = if overlay.is_some() { "mirror_pairs" } else { "pending" };
-            shots.save(&mut harness, &format!("{what}_{name}"));
-        }
-    }
 }

@@ -1,7 +1,6 @@
 //! Dialogs: each question fits completely into every window, can be answered by keyboard, and is closed by Escape.
 
 use crate::panels::{Bench, harness_of};
-use crate::shots::{self, PictureFolder};
 use dragonfly::panels::FileAction;
 use dragonfly::panels::dialogs::{
     ChangedQuestion, ExistsQuestion, FindQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion,
@@ -16,7 +15,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-fn offer(
+pub(crate) fn offer(
     name: &str,
     steps: usize,
     ago: u64,
@@ -126,24 +125,6 @@ fn every_kind_of_question_has_an_example_here() {
     let names: Vec<String> = questions().iter().map(|(_, question)| format!("{question:?}")).collect();
     for kind in Question::KINDS {
         assert!(names.iter().any(|name| name.starts_with(&format!("{kind}("))), "{kind} has no example");
-    }
-}
-
-#[test]
-fn every_question_is_drawn() {
-    let Some(shots) = PictureFolder::new() else { return };
-    for (name, question) in questions() {
-        for theme in [egui::Theme::Dark, egui::Theme::Light] {
-            let light = theme == egui::Theme::Light;
-            if light && !matches!(name, "unsaved" | "recover_several" | "plan") {
-                continue;
-            }
-            let frame = |ui: &mut egui::Ui, bench: &mut Bench| bench.frame(ui);
-            let mut harness = shots::drawn(bench(question.clone()), [800.0, 520.0], 1.0, theme, frame);
-            harness.run_steps(6);
-            let name = if light { format!("{name}_light") } else { name.to_owned() };
-            shots.save(&mut harness, &format!("question_{name}"));
-        }
     }
 }
 

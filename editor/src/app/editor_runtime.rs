@@ -91,7 +91,9 @@ impl EditorRuntime {
             self.effect(effect);
         }
         if let Some(running) = &mut self.running {
-            running.graphics_sync.update(&running.parts.graphics, &running.parts.interface.borrow());
+            let interface = running.parts.interface.borrow();
+            let (state, scale) = (interface.state.read(), interface.pixels_per_point());
+            running.graphics_sync.update(&running.parts.graphics, &state, scale, interface.is_dark());
         }
     }
 

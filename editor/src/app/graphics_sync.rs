@@ -1,6 +1,5 @@
 //! Keeping the graphics thread up to date: sends the state that it needs when that has changed.
 
-use super::interface::Interface;
 use crate::panels::PanelContext;
 use crate::panels::theme::{Theme, linear};
 use dragonfly_anim::data::BoneIndex;
@@ -16,7 +15,7 @@ use std::sync::Arc;
 
 /// The values that were sent last.
 #[derive(Default)]
-pub(super) struct GraphicsSync {
+pub struct GraphicsSync {
     playback: Option<PlaybackClock>,
     camera: Option<Camera>,
     look: Option<Look>,
@@ -31,8 +30,13 @@ pub(super) struct GraphicsSync {
 impl GraphicsSync {
     /// Sends the values that differ from those sent last. The document itself has already sent the view that these
     /// times and bones refer to.
-    pub(super) fn update(&mut self, graphics: &GraphicsHandle, interface: &Interface) {
-        let state = &interface.state.read();
+    pub fn update(
+        &mut self,
+        graphics: &GraphicsHandle,
+        state: &PanelContext<'_>,
+        pixels_per_point: f32,
+        dark: bool,
+    ) {
         if self.playback != Some(state.playback) {
             self.playback = Some(state.playback);
             graphics.play(state.playback);
@@ -54,7 +58,7 @@ impl GraphicsSync {
             self.hidden = Arc::new(state.hidden.clone());
         }
         let hidden = Arc::clone(&self.hidden);
-        let look = look(state, selected, hidden, interface.pixels_per_point(), interface.is_dark());
+        let look = look(state, selected, hidden, pixels_per_point, dark);
         if self.look.as_ref() == Some(&look) {
             self.spare = look.selected;
         } else {

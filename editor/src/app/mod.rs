@@ -13,7 +13,7 @@ mod editor_runtime;
 mod event;
 mod file_actions;
 mod file_dialog;
-mod graphics_sync;
+pub mod graphics_sync;
 pub mod hover;
 mod init_manager;
 mod interface;

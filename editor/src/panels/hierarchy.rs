@@ -45,7 +45,7 @@ impl Panel for Hierarchy {
             *self = Self { of: of.cloned(), query: std::mem::take(&mut self.query), ..Self::default() };
         }
         if context.view.is_none() {
-            return widgets::empty(ui, "", "Bones appear here");
+            return widgets::empty(ui, "Bones appear here", "");
         }
         if context.digest.rows.is_empty() {
             return widgets::empty(ui, "No bones", "This model has no skeleton");

@@ -32,7 +32,7 @@ impl Panel for History {
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         let Some(view) = context.view else {
-            return widgets::empty(ui, "", "The history of edits appears here");
+            return widgets::empty(ui, "The history of edits appears here", "");
         };
         let history = &view.history;
         buttons(ui, context, history, requests);

@@ -8,7 +8,7 @@ use super::style::{self, GRID};
 use super::theme::Theme;
 use dragonfly_document::Source;
 use dragonfly_picture::{BoneLook, Shading};
-use egui::{Align, Button, Layout, MenuBar, RichText, Slider, Ui};
+use egui::{Align, Button, Layout, MenuBar, RichText, ScrollArea, Slider, Stroke, TextWrapMode, Ui};
 
 /// Draws the bar; `panels` are id, title and whether they are shown.
 pub fn show(
@@ -20,11 +20,13 @@ pub fn show(
     MenuBar::new().ui(ui, |ui| {
         ui.add_space(GRID);
         ui.menu_button("File", |ui| file(ui, context, requests));
-        ui.menu_button("Edit", |ui| list(ui, context, &[Category::Edit, Category::Selection], requests));
-        ui.menu_button("Pose", |ui| pose(ui, context, requests));
-        ui.menu_button("Tools", |ui| list(ui, context, &[Category::Tools], requests));
+        ui.menu_button("Edit", |ui| {
+            scrolled(ui, |ui| list(ui, context, &[Category::Edit, Category::Selection], requests))
+        });
+        ui.menu_button("Pose", |ui| scrolled(ui, |ui| pose(ui, context, requests)));
+        ui.menu_button("Tools", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Tools], requests)));
         ui.menu_button("Play", |ui| list(ui, context, &[Category::Playback], requests));
-        ui.menu_button("Keys", |ui| list(ui, context, &[Category::Keys], requests));
+        ui.menu_button("Keys", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Keys], requests)));
         ui.menu_button("Take", |ui| list(ui, context, &[Category::Takes], requests));
         ui.menu_button("View", |ui| view(ui, context, panels, requests));
         ui.menu_button("Help", |ui| list(ui, context, &[Category::Help], requests));
@@ -38,6 +40,15 @@ pub fn show(
             }
         });
     });
+}
+
+/// Draws a long menu, which scrolls in a window that is lower than it.
+fn scrolled(ui: &mut Ui, entries: impl FnOnce(&mut Ui)) {
+    let height = ui.ctx().content_rect().height() - style::BAR - 6.0 * GRID;
+    // Next to the keys, not over them.
+    ui.spacing_mut().scroll.floating_allocated_width = 10.0;
+    ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+    ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, entries);
 }
 
 /// One line: title, shortcut, a mark when `on`.
@@ -168,6 +179,9 @@ fn view(
         item(ui, context, Id::ScaleDown, false, requests);
         item(ui, context, Id::ScaleReset, false, requests);
         let mut scale = context.settings.scale;
+        outline_fields(ui);
+        // The rail of the slider.
+        ui.visuals_mut().widgets.inactive.bg_fill = Theme::of(ui).line;
         let slider = Slider::new(&mut scale, SCALES).step_by(0.05).update_while_editing(false);
         let response = ui.add(slider).accessible_name("Scale");
         // Not while dragging: the slider would slide away under the pointer.
@@ -181,10 +195,18 @@ fn view(
     }
 }
 
+/// Gives fields and boxes the outlines that they have in panels; in menus egui draws none.
+fn outline_fields(ui: &mut Ui) {
+    let theme = Theme::of(ui);
+    let widget = &mut ui.visuals_mut().widgets.inactive;
+    (widget.bg_stroke, widget.weak_bg_fill) = (Stroke::new(1.0, theme.line), theme.sunken);
+}
+
 /// How the skeleton is shown before and after.
 fn ghosts(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let mut ghosts = context.settings.tools.ghosts;
     item(ui, context, Id::ToggleGhosts, ghosts.shown, requests);
+    outline_fields(ui);
     let number = |ui: &mut Ui, title: &str, value: &mut u32, range: std::ops::RangeInclusive<u32>| {
         ui.horizontal(|ui| {
             let field = ui.add(egui::DragValue::new(value).range(range).speed(0.1));

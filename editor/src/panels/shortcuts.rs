@@ -55,7 +55,7 @@ impl ShortcutSheet {
 
     /// The search field, and whose keys these are.
     fn head(&mut self, ui: &mut Ui, keys: &KeySettings, requests: &mut Vec<Request>) {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let field = TextEdit::singleline(&mut self.query).hint_text("Find a command or a key");
             ui.add(field.desired_width(200.0)).accessible_name("Find a command or a key");
             ui.add_space(2.0 * GRID);

@@ -93,6 +93,8 @@ fn message(ui: &mut Ui, context: &PanelContext<'_>) {
     let response = response.on_hover_text("Shows all messages");
     egui::Popup::menu(&response).show(|ui| {
         ui.set_width(520.0);
+        // Next to the text, not over it.
+        ui.spacing_mut().scroll.floating_allocated_width = 10.0;
         ScrollArea::vertical().max_height(260.0).stick_to_bottom(true).show(ui, |ui| {
             ui.set_width(ui.available_width());
             let mut any = false;

@@ -8,10 +8,10 @@ use super::ruler;
 use super::settings::{FRAME_RATES, SPEEDS};
 use super::style::{CONTROL, GRID};
 use super::theme::Theme;
-use super::widgets::{command_button, icon_button};
+use super::widgets::{command_button, icon_button, text_width};
 use crate::control::expression::{Quantity, evaluate};
 use dragonfly_picture::playback::{LATEST, Repeat};
-use egui::{Align, Button, DragValue, Layout, RichText, Ui, vec2};
+use egui::{Align, Button, DragValue, Layout, RichText, TextStyle, Ui, vec2};
 
 /// Draws the bar.
 pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
@@ -106,20 +106,35 @@ fn frame_rate(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Reques
     });
 }
 
+/// Smallest width of the field for the frame.
+const FRAME: f32 = 48.0;
+/// Smallest width of the field for the time.
+const TIME: f32 = 72.0;
+
+/// Returns the width of a number field with this text.
+fn field_width(ui: &Ui, text: &str) -> f32 {
+    text_width(ui, text, &TextStyle::Monospace) + 2.0 * ui.spacing().button_padding.x
+}
+
 /// Right to left: frames, seconds.
 fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
     let rate = context.settings.frame_rate;
     let (start, length) = context.take_bounds();
-    let last = ruler::frame_of(start + length, rate);
-    ui.label(RichText::new(format!("/ {last}")).monospace().color(theme.weak));
     let mut frame = ruler::frame_of(context.time(), rate);
+    let last = format!("/ {}", ruler::frame_of(start + length, rate));
+    // Long numbers need the room of the last frame's number themselves.
+    let fields = [format!("{frame}"), format!("{:.3} s", context.time())].map(|text| field_width(ui, &text));
+    let needed = fields[0].max(FRAME) + fields[1].max(TIME) + text_width(ui, &last, &TextStyle::Monospace);
+    if ui.available_width() > needed + 3.0 * ui.spacing().item_spacing.x {
+        ui.label(RichText::new(last).monospace().color(theme.weak));
+    }
     let field = DragValue::new(&mut frame)
         .range(ruler::frame_of(start.min(0.0), rate)..=ruler::frame_of(LATEST, rate))
         .speed(0.2)
         .update_while_editing(false)
         .custom_parser(number);
-    let response = ui.add_sized(vec2(48.0, CONTROL), field).accessible_name("Frame");
+    let response = ui.add_sized(vec2(FRAME, CONTROL), field).accessible_name("Frame");
     if response
         .on_hover_text(
             "Frame\nDrag, or click to type an expression such as 3*30+12; frames after the end are allowed",
@@ -136,7 +151,7 @@ fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         .suffix(" s")
         .update_while_editing(false)
         .custom_parser(number);
-    let response = ui.add_sized(vec2(72.0, CONTROL), field).accessible_name("Time");
+    let response = ui.add_sized(vec2(TIME, CONTROL), field).accessible_name("Time");
     if response.on_hover_text("Time in seconds\nDrag, or click to type an expression such as 45/30").changed()
     {
         requests.push(Request::Seek(seconds));

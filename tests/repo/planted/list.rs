@@ -79,7 +79,11 @@ pub(crate) const PLANTS: &[Plant] = &[
         place: ["pub fn all() -> Vec<Box<dyn Panel>> {", "        Box::<takes::Takes>::default(),"],
         entry: "        Box::<planted::PlantedPanel>::default(),",
         mark: "impl Panel for ",
-        ..NOTHING
+        also: &[(
+            "tests/editor/pictures/panels.rs",
+            "    \"takes\", [250.0, 250.0], the_takes_panel_looks_as_stored;",
+            "\n    \"planted\", [250.0, 250.0], the_planted_panel_looks_as_stored;",
+        )],
     },
     Plant {
         thing: "question to the user",
@@ -88,11 +92,18 @@ pub(crate) const PLANTS: &[Plant] = &[
         place: ["questions! {", "    Unsaved => unsaved::UnsavedQuestion,"],
         entry: "    Planted => planted::PlantedQuestion,",
         mark: "impl QuestionKind for ",
-        also: &[(
-            "tests/editor/questions.rs",
-            "        (\"where\", place(false)),",
-            "\n        (\"planted\", dragonfly::panels::dialogs::PlantedQuestion { title: \"Plant?\" }.into()),",
-        )],
+        also: &[
+            (
+                "tests/editor/questions.rs",
+                "        (\"where\", place(false)),",
+                "\n        (\"planted\", dragonfly::panels::dialogs::PlantedQuestion { title: \"Plant?\" }.into()),",
+            ),
+            (
+                "tests/editor/pictures/questions.rs",
+                "const TABLE: &[QuestionRow] = &[",
+                "\n    (\"planted\", \"typical\", || dragonfly::panels::dialogs::PlantedQuestion { title: \"Plant?\" }.into()),\n    (\"planted\", \"crowded\", || dragonfly::panels::dialogs::PlantedQuestion { title: \"Plant?\" }.into()),",
+            ),
+        ],
     },
     Plant {
         thing: "viewport tool",

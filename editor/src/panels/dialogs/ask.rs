@@ -5,7 +5,7 @@ use crate::panels::request::Request;
 use crate::panels::style::{GRID, RADIUS};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
-use egui::{Button, CornerRadius, Response, RichText, Ui, vec2};
+use egui::{Button, CornerRadius, Frame, Response, RichText, Stroke, Ui, vec2};
 
 /// A question that is being drawn.
 pub(super) struct Ask<'a> {
@@ -83,6 +83,11 @@ impl Ask<'_> {
         });
         pressed
     }
+}
+
+/// Returns a frame for details in a question, with a line around it: in the light theme card and frame are both white.
+pub(super) fn inset(theme: &Theme) -> Frame {
+    Frame::NONE.fill(theme.sunken).stroke(Stroke::new(1.0, theme.line)).corner_radius(RADIUS)
 }
 
 /// Draws a button of a question.

@@ -19,7 +19,7 @@ use super::request::Request;
 use super::style::GRID;
 use super::theme::Theme;
 use ask::{Ask, QuestionFields};
-use egui::{Id, Modal, Ui};
+use egui::{Frame, Id, Modal, Ui};
 use kind::QuestionKind;
 
 /// Declares [`Question`] from a list of `Name => module::Type` lines.
@@ -89,7 +89,7 @@ impl Dialogs {
         }
         let modal = Modal::new(Id::unique(("question", format!("{:?}", std::mem::discriminant(question)))))
             .backdrop_color(Theme::of(ui).backdrop)
-            .frame(egui::Frame::popup(ui.style()).inner_margin(20));
+            .frame(Frame::popup(ui.style()).inner_margin(20));
         let response = modal.show(ui.ctx(), |ui| {
             ui.spacing_mut().item_spacing.y = 2.0 * GRID;
             question.kind().show(&mut Ask { ui, context, fresh, requests, fields: &mut self.fields });

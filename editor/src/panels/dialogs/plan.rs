@@ -1,13 +1,13 @@
 //! The list of changes that a save would make, before it is written.
 
-use super::ask::{Ask, Tone};
+use super::ask::{Ask, Tone, inset};
 use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use crate::panels::style::{self, GRID};
 use crate::panels::theme::Theme;
 use dragonfly_document::{DocumentMessage, SaveOrder};
-use egui::{Align, Frame, Label, Layout, RichText, ScrollArea, vec2};
+use egui::{Align, Label, Layout, RichText, ScrollArea, vec2};
 use std::sync::Arc;
 
 /// Height of a line of the list, in points.
@@ -45,31 +45,24 @@ impl QuestionKind for PlanQuestion {
             };
             ask.adds("Everything not listed here is kept byte for byte.".to_owned());
             let theme = Theme::of(ask.ui);
-            Frame::NONE.fill(theme.sunken).corner_radius(style::RADIUS).inner_margin(2.0 * GRID).show(
-                ask.ui,
-                |ui| {
-                    ui.spacing_mut().item_spacing.y = 0.0;
-                    let height = (lines.len() as f32 * LINE).min(320.0);
-                    ScrollArea::both()
-                        .max_height(height)
-                        .min_scrolled_height(height)
-                        .auto_shrink([false, true])
-                        .show_rows(ui, LINE, lines.len(), |ui, range| {
-                            for line in &lines[range] {
-                                let text = RichText::new(line).monospace().size(style::SMALL);
-                                let room = vec2(ui.available_width(), LINE);
-                                ui.allocate_ui_with_layout(
-                                    room,
-                                    Layout::left_to_right(Align::Center),
-                                    |ui| {
-                                        ui.set_min_height(LINE);
-                                        ui.add(Label::new(text).extend());
-                                    },
-                                );
-                            }
-                        });
-                },
-            );
+            inset(theme).inner_margin(2.0 * GRID).show(ask.ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                let height = (lines.len() as f32 * LINE).min(320.0);
+                ScrollArea::both()
+                    .max_height(height)
+                    .min_scrolled_height(height)
+                    .auto_shrink([false, true])
+                    .show_rows(ui, LINE, lines.len(), |ui, range| {
+                        for line in &lines[range] {
+                            let text = RichText::new(line).monospace().size(style::SMALL);
+                            let room = vec2(ui.available_width(), LINE);
+                            ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
+                                ui.set_min_height(LINE);
+                                ui.add(Label::new(text).extend());
+                            });
+                        }
+                    });
+            });
         }
         let close = ("Close", "Close without saving", Tone::First, false);
         let cancel = ("Cancel", "Close without saving", Tone::Plain, false);

@@ -1,6 +1,6 @@
 //! The question what to do with unsaved work of an earlier session.
 
-use super::ask::{Ask, Tone};
+use super::ask::{Ask, Tone, inset};
 use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
@@ -101,7 +101,7 @@ fn list(ask: &mut Ask<'_>, offers: &[Offer]) {
 
 fn about(ask: &mut Ask<'_>, offer: &Offer) {
     let theme = Theme::of(ask.ui);
-    egui::Frame::NONE.fill(theme.sunken).corner_radius(4.0).inner_margin(3.0 * GRID).show(ask.ui, |ui| {
+    inset(theme).inner_margin(3.0 * GRID).show(ask.ui, |ui| {
         ui.set_width(ui.available_width());
         ui.spacing_mut().item_spacing.y = GRID;
         ui.label(RichText::new(&offer.title).strong());

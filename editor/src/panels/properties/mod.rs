@@ -50,7 +50,7 @@ impl Panel for Properties {
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         if context.view.is_none() {
-            return widgets::empty(ui, "", "Properties appear here");
+            return widgets::empty(ui, "Properties appear here", "");
         }
         self.drag.begin(context, self.in_use);
         self.in_use = false;

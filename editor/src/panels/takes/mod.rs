@@ -67,7 +67,7 @@ impl Panel for Takes {
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         if context.view.is_none() {
-            return widgets::empty(ui, "", "Takes appear here");
+            return widgets::empty(ui, "Takes appear here", "");
         }
         self.buttons(ui, context, requests);
         let found = self.search(ui, context, requests);

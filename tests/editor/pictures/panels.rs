@@ -1,0 +1,156 @@
+//! Every panel alone at its usual size, the menu bar and the status line.
+
+use super::series::{self, Crop, PictureCase};
+use super::states::Fullness::{self, Empty, Typical};
+use crate::workbench::{Window, Workbench, type_into};
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::open_model::Loading;
+use dragonfly::panels::window_status::DeviceStatus;
+use dragonfly::panels::{self, Request, style};
+use dragonfly_document::{LoadStage, Progress};
+use egui::{Key, vec2};
+use egui_kittest::kittest::Queryable;
+
+/// The panels with their usual size in points, each with the test that draws it.
+macro_rules! panels {
+    ($($id:literal, [$width:literal, $height:literal], $test:ident;)*) => {
+        /// Id and size of each panel.
+        const SIZES: &[(&str, [f32; 2])] = &[$(($id, [$width, $height])),*];
+
+        $(#[test]
+        fn $test() {
+            series::compare(panel($id, [$width, $height]));
+        })*
+    };
+}
+
+panels! {
+    "hierarchy", [250.0, 330.0], the_skeleton_panel_looks_as_stored;
+    "takes", [250.0, 250.0], the_takes_panel_looks_as_stored;
+    "viewport", [720.0, 400.0], the_viewport_panel_looks_as_stored;
+    "properties", [300.0, 520.0], the_properties_panel_looks_as_stored;
+    "history", [300.0, 250.0], the_history_panel_looks_as_stored;
+    "timeline", [720.0, 220.0], the_timeline_panel_looks_as_stored;
+    "curves", [520.0, 220.0], the_curves_panel_looks_as_stored;
+}
+
+/// Returns a window in which all panels but one are hidden.
+pub(super) fn only(id: &str, fullness: Fullness) -> Workbench {
+    let mut bench = fullness.bench();
+    for other in panels::all().iter().filter(|other| other.id() != id) {
+        bench.desk.toggle_panel(other.id());
+    }
+    bench
+}
+
+/// Returns a panel without the others, in every state.
+fn panel(id: &'static str, [width, height]: [f32; 2]) -> Vec<PictureCase> {
+    let case = |fullness: Fullness| PictureCase {
+        name: format!("panels/{id}-{}", fullness.word()),
+        size: vec2(width, height + style::BAR + series::STATUS),
+        crop: Crop::Middle,
+        bench: Box::new(move || only(id, fullness)),
+        act: Box::new(|_| {}),
+        twice: true,
+    };
+    Fullness::ALL.map(case).into()
+}
+
+/// Returns panels in states that need more than a model: something is typed, renamed, hidden, loaded or broken.
+fn more() -> Vec<PictureCase> {
+    let case = |name: &str, id: &str, fullness, act: fn(&mut Window)| {
+        let (id, size) = SIZES.iter().find(|(other, _)| *other == id).expect("a panel");
+        let mut cases = panel(id, *size);
+        let place = Fullness::ALL.iter().position(|other| *other == fullness).expect("a state");
+        PictureCase {
+            name: format!("panels/{name}"),
+            act: Box::new(act),
+            twice: false,
+            ..cases.swap_remove(place)
+        }
+    };
+    vec![
+        case("hierarchy-hidden", "hierarchy", Typical, |window| {
+            window.state_mut().state.execute(Request::Hide { bones: vec![2, 3], hide: true });
+        }),
+        case("hierarchy-nothing-found", "hierarchy", Typical, |window| {
+            type_into(window, "Find a bone", "no such bone", Key::F12);
+        }),
+        case("takes-rename", "takes", Typical, |window| type_into(window, "hover", "", Key::F2)),
+        case("takes-refused-name", "takes", Typical, |window| {
+            type_into(window, "hover", "", Key::F2);
+            type_into(window, "Name of the take", " ", Key::Enter);
+        }),
+        case("viewport-loading", "viewport", Empty, |window| {
+            let progress = Progress { stage: LoadStage::Decoding, done: 0.6 };
+            window.state_mut().state.set_loading(Some(Loading { title: "Fox.glb".to_owned(), progress }));
+        }),
+        case("viewport-paused", "viewport", Typical, |window| {
+            let reason = "the device was lost three times within a minute".to_owned();
+            window.state_mut().state.window_mut().set_device(DeviceStatus::Paused { reason });
+        }),
+        case("properties-model", "properties", Typical, |window| {
+            window.state_mut().state.execute(Request::Select(None));
+        }),
+        case("properties-refused", "properties", Typical, |window| {
+            type_into(window, "Rotation result Y", "12..5", Key::Enter);
+        }),
+        case("properties-expression", "properties", Typical, |window| {
+            type_into(window, "Rotation result Y", "45/2 + pi/8 rad", Key::F12);
+        }),
+        case("properties-quaternion", "properties", Typical, |window| {
+            window.get_by_label("Show the quaternion").click();
+        }),
+        case("timeline-rest-pose", "timeline", Typical, |window| {
+            window.state_mut().state.execute(Request::ShowTake(None));
+        }),
+        case("timeline-marks", "timeline", Typical, |window| {
+            for id in [Id::AddMarker, Id::SelectAllKeys, Id::RangeFromHere] {
+                window.state_mut().state.execute(Request::Command(id));
+            }
+        }),
+        case("curves-rest-pose", "curves", Typical, |window| {
+            window.state_mut().state.execute(Request::ShowTake(None));
+        }),
+        case("curves-no-bone", "curves", Typical, |window| {
+            window.state_mut().state.execute(Request::Select(None));
+        }),
+    ]
+}
+
+#[test]
+fn the_panels_in_special_states_look_as_stored() {
+    series::compare(more());
+}
+
+/// Returns the menu bar and the status line in every state, in a window of usual width.
+fn bars() -> Vec<PictureCase> {
+    let bars = [("menu-bar", Crop::Bar), ("status-line", Crop::Line)];
+    let case = |(name, crop), fullness: Fullness| PictureCase {
+        name: format!("panels/{name}-{}", fullness.word()),
+        size: vec2(960.0, 200.0),
+        crop,
+        bench: Box::new(move || fullness.bench()),
+        act: Box::new(|_| {}),
+        twice: true,
+    };
+    bars.into_iter().flat_map(|bar| Fullness::ALL.map(|fullness| case(bar, fullness))).collect()
+}
+
+#[test]
+fn the_menu_bar_and_the_status_line_look_as_stored() {
+    series::compare(bars());
+}
+
+#[test]
+fn every_panel_has_pictures() {
+    for panel in panels::all() {
+        let known = SIZES.iter().any(|(id, _)| *id == panel.id());
+        assert!(known, "the panel {:?} has no pictures: add its size to the list in this file", panel.id());
+    }
+}
+
+/// Returns all cases of this file.
+pub(super) fn cases() -> Vec<PictureCase> {
+    SIZES.iter().flat_map(|(id, size)| panel(id, *size)).chain(bars()).chain(more()).collect()
+}

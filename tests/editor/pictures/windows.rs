@@ -1,0 +1,176 @@
+//! The whole window with the scene: the panels, the messages to the graphics thread and all passes, as in the program, but
+//! into a texture.
+
+use super::compare::SCENES;
+use super::drawing;
+use super::reference::{self, HOW_TO_UPDATE};
+use super::states::{self, Fullness};
+use crate::workbench::Workbench;
+use dragonfly::app::graphics_sync::GraphicsSync;
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::{Request, style};
+use dragonfly_document::Source;
+use dragonfly_kit::folder::{Folder, data};
+use dragonfly_kit::picture::complaints::NoComplaints;
+use dragonfly_kit::skip::{TestNeed, skip};
+use dragonfly_picture::{DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, PanelsFrame};
+use dragonfly_runtime::{Captured, Context, Next, Receiver, Thread};
+use egui::{Pos2, RawInput, Rect, Theme, ViewportId, vec2};
+use image::RgbaImage;
+use std::cell::RefCell;
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+/// Size of the window, points and pixels.
+const SIZE: [u32; 2] = [1120, 700];
+
+/// A window: its name, and the state of the panels.
+type WindowRow = (&'static str, fn() -> Workbench);
+
+const WINDOWS: &[WindowRow] = &[("built-in", built_in), ("fox", fox)];
+
+const THEMES: [(Theme, &str); 2] = [(Theme::Dark, "dark"), (Theme::Light, "light")];
+
+/// Returns the built-in model with a selected bone, its path, and ghosts of the frames around.
+fn built_in() -> Workbench {
+    let mut bench = Fullness::Typical.bench();
+    let state = bench.state.read();
+    let wing = (0..50).find(|&bone| state.bone_name(bone) == "wing_fore_left_1");
+    bench.state.execute(Request::Select(Some(wing.expect("a bone of the built-in model"))));
+    for id in [Id::ToggleGhosts, Id::TogglePath] {
+        bench.state.execute(Request::Command(id));
+    }
+    bench
+}
+
+/// Returns the fox at a time of its second take.
+fn fox() -> Workbench {
+    let mut bench = Workbench::new(Some(states::view_of(&Source::File(data("gltf/Fox.glb")))));
+    bench.state.window_mut().set_frame_time(4.2);
+    bench.state.execute(Request::ShowTake(Some(1)));
+    bench.state.execute(Request::Seek(0.3));
+    bench.state.pause();
+    bench.state.execute(Request::Select(Some(7)));
+    bench
+}
+
+/// Returns the names of all pictures of this file.
+pub(super) fn names() -> Vec<String> {
+    WINDOWS.iter().flat_map(|(name, _)| THEMES.map(|(_, theme)| file_name(name, theme))).collect()
+}
+
+fn file_name(window: &str, theme: &str) -> String {
+    format!("windows/{window}-{theme}-1x")
+}
+
+/// Records the messages to the main thread.
+#[derive(Default)]
+struct WindowReplies(Vec<GraphicsReply>);
+
+impl Receiver for WindowReplies {
+    type Message = GraphicsReply;
+
+    fn receive(&mut self, message: GraphicsReply, _: &mut Context) {
+        self.0.push(message);
+    }
+}
+
+/// The main thread and the graphics thread, run by the test.
+struct DrawnWindow {
+    main: Captured,
+    thread: Captured,
+    graphics: GraphicsHandle,
+    sync: GraphicsSync,
+    replies: Rc<RefCell<WindowReplies>>,
+    folder: Folder,
+    // Dropped last, when the device is gone.
+    _watch: NoComplaints,
+}
+
+impl DrawnWindow {
+    fn open() -> Self {
+        let watch = NoComplaints::expect();
+        let mut main = Thread::capture("main", || {});
+        let thread = Thread::capture("graphics", || {});
+        let replies = Rc::new(RefCell::new(WindowReplies::default()));
+        let address = main.context().register_receiver(Rc::clone(&replies));
+        let graphics = Graphics::start_in(thread.handle(), DeviceParameters::default(), SIZE, address);
+        let (sync, folder) = (GraphicsSync::default(), Folder::new("windows"));
+        Self { main, thread, graphics, sync, replies, folder, _watch: watch }
+    }
+
+    /// Draws the panels and the scene of a workbench.
+    fn draw(&mut self, mut bench: Workbench, theme: Theme) -> RgbaImage {
+        let context = egui::Context::default();
+        style::install(&context);
+        context.set_theme(theme);
+        context.all_styles_mut(|style| {
+            style.animation_time = 0.0;
+            style.visuals.text_cursor.blink = false;
+        });
+        self.graphics.show(bench.state.read().view.expect("a model").clone());
+        for step in 0..6 {
+            let mut input = RawInput {
+                screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(SIZE[0] as f32, SIZE[1] as f32))),
+                time: Some(f64::from(step) * 0.25),
+                focused: true,
+                ..RawInput::default()
+            };
+            input.viewports.entry(ViewportId::ROOT).or_default().native_pixels_per_point = Some(1.0);
+            let output = context.run_ui(input, |ui| bench.frame(ui));
+            let jobs = context.tessellate(output.shapes, output.pixels_per_point);
+            let frame =
+                PanelsFrame { size: SIZE, pixels_per_point: 1.0, jobs, textures: output.textures_delta };
+            self.graphics.show_panels(frame);
+            self.sync.update(&self.graphics, &bench.state.read(), 1.0, theme == Theme::Dark);
+        }
+        self.settle();
+        self.capture(self.folder.join("window.png"))
+    }
+
+    /// Runs iterations of the graphics thread until it is idle.
+    fn settle(&mut self) {
+        let end = Instant::now() + Duration::from_secs(60);
+        loop {
+            match self.thread.iterate() {
+                Next::OnMessage => return,
+                Next::At(when) => std::thread::park_timeout(when.saturating_duration_since(Instant::now())),
+                Next::Now | Next::Stopped => {}
+            }
+            assert!(Instant::now() < end, "the graphics thread finds no rest");
+        }
+    }
+
+    fn capture(&mut self, path: PathBuf) -> RgbaImage {
+        self.graphics.capture(path);
+        self.settle();
+        self.main.iterate();
+        let replies = std::mem::take(&mut self.replies.borrow_mut().0);
+        let captured = replies.into_iter().find_map(|reply| match reply {
+            GraphicsReply::Captured(written) => Some(written),
+            _ => None,
+        });
+        image::open(captured.expect("a reply").expect("a picture")).expect("a PNG file").into_rgba8()
+    }
+}
+
+#[test]
+fn the_whole_window_looks_as_stored() {
+    match drawing::program_draws_on_processor() {
+        Some(true) => {}
+        Some(false) => {
+            return skip(TestNeed::Adapter, "the stored scenes are those of a driver on the processor");
+        }
+        None => return,
+    }
+    let mut window = DrawnWindow::open();
+    let mut complaints = Vec::new();
+    for (name, bench) in WINDOWS {
+        for (theme, word) in THEMES {
+            let picture = window.draw(bench(), theme);
+            complaints.extend(reference::compare(&file_name(name, word), &picture, SCENES));
+        }
+    }
+    assert!(complaints.is_empty(), "\n  {}\n{HOW_TO_UPDATE}", complaints.join("\n  "));
+}
