@@ -233,7 +233,7 @@ fn eye(
         let bones = rows.iter().skip(start).take(count + 1).map(|row| row.bone).collect();
         requests.push(Request::Hide { bones, hide: !hidden });
     }
-    let below = if row.parent { "\nShift: with all below it" } else { "" };
+    let below = if row.parent { "\nShift: also all bones below it" } else { "" };
     response.on_hover_text(format!("{verb} {}{below}", widgets::shortened(name)));
 }
 

@@ -121,7 +121,7 @@ fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
         () if ahead => "Click to redo everything up to here",
         () => "Click to undo everything after this",
     };
-    let saved = if saved && done > 0 { "\nSaved like this" } else { "" };
+    let saved = if saved && done > 0 { "\nThis state is saved" } else { "" };
     let about = if about.is_empty() { String::new() } else { format!("\n{about}") };
     response.on_hover_text(format!("{label}{about}\n{action}{saved}"))
 }

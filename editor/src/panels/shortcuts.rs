@@ -49,7 +49,7 @@ impl ShortcutSheet {
                 }
             });
         });
-        let hint = if self.note.is_empty() { "Click a key to choose another one" } else { &self.note };
+        let hint = if self.note.is_empty() { "Click a shortcut to change it" } else { &self.note };
         ui.label(RichText::new(hint).size(style::SMALL).color(Theme::of(ui).weak));
     }
 
@@ -59,7 +59,7 @@ impl ShortcutSheet {
             let field = TextEdit::singleline(&mut self.query).hint_text("Find a command or a key");
             ui.add(field.desired_width(200.0)).accessible_name("Find a command or a key");
             ui.add_space(2.0 * GRID);
-            ui.label(RichText::new("Keys as in").color(Theme::of(ui).weak));
+            ui.label(RichText::new("Preset").color(Theme::of(ui).weak));
             for preset in Preset::ALL {
                 if ui.selectable_label(keys.preset == *preset, preset.title()).clicked() {
                     requests.push(Request::Keys(KeySettings { preset: *preset, ..keys.clone() }));
@@ -97,7 +97,7 @@ impl ShortcutSheet {
                         commands::get(id).title,
                         commands::get(other).title
                     ),
-                    None => format!("{} gives “{}” now", commands::text(&chosen), commands::get(id).title),
+                    None => format!("{} now runs “{}”", commands::text(&chosen), commands::get(id).title),
                 };
                 shortcuts.retain(|other| *other != chosen);
                 let place = place.min(shortcuts.len());
@@ -125,7 +125,7 @@ impl ShortcutSheet {
         self.asks = asks;
         Keymap::set_asking(ui.ctx(), asks.is_some());
         if asks.is_some() {
-            self.note = "Press the key · Esc keeps the old one · Delete removes it".to_owned();
+            self.note = "Press a key · Esc keeps the old key · Delete removes it".to_owned();
         }
     }
 
@@ -144,7 +144,7 @@ impl ShortcutSheet {
             let mut asks = None;
             let row = line(ui, command.title, |ui| {
                 if keys.is_own(id) {
-                    let name = format!("Usual keys of {}", command.title);
+                    let name = format!("Reset keys of {}", command.title);
                     if widgets::icon_button(ui, Icon::Close, &name, false).on_hover_text(&name).clicked() {
                         let mut keys = keys.clone();
                         keys.reset(id);
@@ -168,7 +168,7 @@ impl ShortcutSheet {
                 if ui.button("Add a key").clicked() {
                     asks = Some((id, shortcuts.len()));
                 }
-                if ui.button("No key").clicked() {
+                if ui.button("Remove all keys").clicked() {
                     let mut keys = keys.clone();
                     keys.set(id, &[]);
                     requests.push(Request::Keys(keys));

@@ -67,11 +67,11 @@ fn repeat(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) 
     let shortcut = commands::shortcut_text(ui.ctx(), Id::CycleRepeat);
     for (icon, repeat, name) in [
         (Icon::Loop, Repeat::Loop, "Loop"),
-        (Icon::PingPong, Repeat::PingPong, "Back and forth"),
-        (Icon::Once, Repeat::Once, "Once"),
+        (Icon::PingPong, Repeat::PingPong, "Ping-pong"),
+        (Icon::Once, Repeat::Once, "Play once"),
     ] {
         let button = icon_button(ui, icon, name, context.playback.repeat == repeat);
-        if button.on_hover_text(format!("{name} ({shortcut} for the next)")).clicked() {
+        if button.on_hover_text(format!("{name} ({shortcut}: next repeat mode)")).clicked() {
             requests.push(Request::Repeat(repeat));
         }
     }

@@ -40,7 +40,7 @@ pub(in crate::panels) fn bake_pins(workspace: &mut Workspace) -> Option<Effect> 
     }
     let times = times_to_bake(&take, &chains, play, rate);
     if times.len() > MOST {
-        let text = format!("{} frames are too many at once: set a play range", times.len());
+        let text = format!("Cannot bake {} frames at once: set a shorter play range", times.len());
         workspace.say(MessageSeverity::Info, text);
         return None;
     }

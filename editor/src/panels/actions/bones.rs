@@ -34,7 +34,7 @@ pub(in crate::panels) fn select_child(workspace: &mut Workspace) {
 pub(in crate::panels) fn select_mirror(workspace: &mut Workspace, extend: bool) {
     let Some(loaded) = workspace.model.loaded() else { return };
     if !workspace.bones.mirror(&loaded.model.animation.skeleton, extend) {
-        workspace.say(MessageSeverity::Info, "No bone with the name of the other side was found");
+        workspace.say(MessageSeverity::Info, "No bone on the other side with a matching name was found");
     }
 }
 

@@ -23,10 +23,10 @@ pub(in crate::panels) fn hold(workspace: &mut Workspace) -> Option<PoseDragState
 pub(in crate::panels) fn toggle_pins(workspace: &mut Workspace) {
     let pinned = workspace.bones.toggle_pins();
     let bones = workspace.bones.bones();
-    let stay = if bones.len() == 1 { "it stays" } else { "they stay" };
+    let stay = if bones.len() == 1 { "it stays in place" } else { "they stay in place" };
     let what = bones::bones_text(workspace, bones);
     let text =
-        if pinned { format!("Pinned {what}: {stay} while others move") } else { format!("Freed {what}") };
+        if pinned { format!("Pinned {what}: {stay} while other bones move") } else { format!("Unpinned {what}") };
     workspace.say(MessageSeverity::Info, text);
 }
 
@@ -52,9 +52,9 @@ fn say_ik(workspace: &mut Workspace) {
     let ik = workspace.tools.ik();
     let bones = count(ik.length as usize, "bone", "bones");
     let text = if ik.on {
-        format!("IK is on: {bones} above follow a bone that is moved")
+        format!("IK is on: moving a bone also moves {bones} above it")
     } else {
-        format!("IK is off: a bone is moved alone ({bones} with it on)")
+        format!("IK is off: a moved bone moves alone (with IK also {bones} above it)")
     };
     workspace.say(MessageSeverity::Info, text);
 }
@@ -66,7 +66,7 @@ pub(in crate::panels) fn toggle_pole(workspace: &mut Workspace) {
     workspace.tools.set_pole(pole);
     let text = match pole {
         Some(bone) => format!("Elbows and knees bend towards {}", workspace.read().bone_name(bone)),
-        None => "The pole target of IK is cleared".to_owned(),
+        None => "The pole target of IK was cleared".to_owned(),
     };
     workspace.say(MessageSeverity::Info, text);
 }

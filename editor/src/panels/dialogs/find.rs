@@ -21,7 +21,7 @@ pub struct FindQuestion {
 
 impl QuestionKind for FindQuestion {
     fn name(&self) -> &'static str {
-        if self.other.is_none() { "asked where a file is now" } else { "said that it is another file" }
+        if self.other.is_none() { "asked where a file is now" } else { "reported that it is another file" }
     }
 
     /// Returns the path where the file was.
