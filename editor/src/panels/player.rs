@@ -51,7 +51,7 @@ impl Player {
         self.playback = self.playback.with(playing, speed, repeat, self.now);
     }
 
-    /// Goes to `time`; keeps playing or standing.
+    /// Moves to `time`; playback keeps running or stays paused.
     pub(super) fn seek(&mut self, time: f32) {
         self.playback = self.playback.seek(time, self.now);
     }
@@ -77,7 +77,7 @@ impl Player {
     pub(super) fn show(&mut self, take: Option<usize>, bounds: Option<(f32, f32)>) {
         self.playback.take = bounds.and(take);
         (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));
-        // A single pose does not play, and in it time can be moved to where the next pose is to be.
+        // A take with a single pose does not play, but the time can be moved to where the next pose will be.
         self.playback.playing &= bounds.is_none_or(|(_, length)| length > 0.0);
         self.seek(self.playback.start);
     }
@@ -87,7 +87,7 @@ impl Player {
         self.playback.take = Some(take);
     }
 
-    /// Goes on at the same time of the take where its bounds changed; shows the rest pose where the take is gone.
+    /// Adapts to new bounds of the take, at the same time; shows the rest pose if the take is gone.
     pub(super) fn keep(&mut self, bounds: Option<(f32, f32)>) {
         if bounds == Some(self.bounds()) {
             return;

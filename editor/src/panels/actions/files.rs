@@ -10,7 +10,7 @@ use dragonfly_document::{Decision, DocumentMessage, NotSaved, Offer, SaveOrder, 
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 
-/// Asks a question after those that wait. Time stops while a question is shown.
+/// Asks a question after those that are already waiting. Playback pauses while a question is shown.
 pub(in crate::panels) fn ask(workspace: &mut Workspace, question: Question) {
     workspace.prompts.ask(question);
     playback::pause(workspace);
@@ -39,7 +39,7 @@ pub(super) fn answered(workspace: &mut Workspace, action: FileAction) -> Option<
         FileAction::Send(DocumentMessage::Decide(offer, Decision::Discard | Decision::Later)) => {
             workspace.prompts.decided(offer);
         }
-        // The dialog for files that follows may be closed without an answer.
+        // The question stays, because the file dialog that follows may be closed without a choice.
         FileAction::Find(_) if finds => {}
         FileAction::Send(_)
         | FileAction::Where { .. }

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct KeySettings {
-    /// The preset, whose keys apply to all commands in which the user changed none.
+    /// The preset, whose keys apply to every command whose keys the user did not change.
     pub preset: Preset,
     /// Names of commands with the keys that the user gave them, as [`text`] writes them; an empty list: no key at all.
     /// Names and keys that do not exist (any more) are ignored.

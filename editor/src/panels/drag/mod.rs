@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn a_start_that_begins_nothing_is_spent() {
+    fn a_press_is_ignored_after_a_start_that_begins_no_drag() {
         let mut machine = Machine::default();
         step(&mut machine, down(0.0));
         assert!(matches!(step(&mut machine, down(9.0)), DragEvent::Started(_)));
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_press_elsewhere_does_not_begin() {
+    fn a_press_that_egui_gives_to_another_widget_is_ignored() {
         let mut machine = Machine::default();
         assert_eq!(machine.step(&down(0.0), false, |_| "key"), DragEvent::Nothing);
         assert!(!machine.is_busy());
