@@ -71,7 +71,7 @@ struct StoredMarks {
 }
 
 impl Marks {
-    /// Reads the text of the file; a damaged text has no marks.
+    /// Reads the text of the file; a damaged text counts as one without marks.
     pub(super) fn read(text: &str) -> Self {
         let mut files = serde_json::from_str::<StoredMarks>(text).unwrap_or_default().files;
         files.truncate(FILES);
@@ -82,7 +82,7 @@ impl Marks {
     fn write(&mut self) -> String {
         loop {
             let stored = StoredMarks { files: self.files.clone() };
-            // Plain data always has a text.
+            // Plain data can always be serialized.
             let text = serde_json::to_string_pretty(&stored).unwrap_or_default();
             if text.len() <= LONGEST || self.files.is_empty() {
                 return text;

@@ -224,7 +224,7 @@ impl Settings {
 
     /// Returns the text of the settings file.
     pub fn to_text(&self) -> String {
-        // Plain data of strings and finite numbers always has a text.
+        // Plain data of strings and finite numbers can always be serialized.
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
 

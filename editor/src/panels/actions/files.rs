@@ -10,7 +10,7 @@ use dragonfly_document::{Decision, DocumentMessage, NotSaved, Offer, SaveOrder, 
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 
-/// Asks a question after those that are already waiting. Playback pauses while a question is shown.
+/// Asks a question after those that are already waiting. Playback is paused.
 pub(in crate::panels) fn ask(workspace: &mut Workspace, question: Question) {
     workspace.prompts.ask(question);
     playback::pause(workspace);

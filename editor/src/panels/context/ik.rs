@@ -8,7 +8,7 @@ use dragonfly_picture::gizmo::Tool;
 use std::sync::Arc;
 
 impl PanelContext<'_> {
-    /// Returns the poses that were computed last with the pins, for numbers that are typed; `None` where no bone is pinned.
+    /// Returns the last computed poses with the pins, for edits by typed numbers; `None` if no bone is pinned.
     pub(in crate::panels) fn hold_of_pins(&self) -> Option<PoseDragState> {
         let animation = self.posed.animation().filter(|_| !self.pins.is_empty())?;
         let skeleton = Arc::clone(&self.loaded()?.model.animation.skeleton);
@@ -16,8 +16,8 @@ impl PanelContext<'_> {
         Some(hold.with_fixed(&self.fixed_bones()))
     }
 
-    /// Returns the bones that no chain rotates: locked ones, which are not edited, and muted ones, which are shown at rest
-    /// so that the rotation would not be seen.
+    /// Returns the bones that no chain rotates: locked ones, which are not edited, and muted ones, which are shown at
+    /// rest, so that the rotation would not be visible.
     pub(in crate::panels) fn fixed_bones(&self) -> Vec<BoneIndex> {
         self.keys.flags().fixed(self.bone_count())
     }

@@ -56,7 +56,7 @@ pub struct PanelContext<'a> {
     pub playback: PlaybackClock,
     /// The moment of the frame that is drawn.
     pub now: Instant,
-    /// Selection and drag of keys, flags, markers, the range that plays.
+    /// Selection and drag of keys, flags, markers, the play range.
     pub keys: &'a KeyEditing,
     /// The list of takes.
     pub takes: &'a TakeListState,
@@ -120,8 +120,8 @@ impl<'a> PanelContext<'a> {
         if name.is_empty() { format!("Bone {bone}") } else { name.to_owned() }
     }
 
-    /// Returns whether bones are drawn: also when one is selected, when some are hidden, which is for seeing the others, and
-    /// where the model has no surface.
+    /// Returns whether bones are drawn: if the setting is on, but also if a bone is selected, if bones are hidden (in
+    /// order to see the others), and if the model has no surface.
     pub fn shows_skeleton(&self) -> bool {
         let bare = self.loaded().is_some_and(|loaded| loaded.model.instances.is_empty());
         self.settings.look.skeleton || self.selected().is_some() || !self.hidden.is_empty() || bare

@@ -57,8 +57,8 @@ impl<'a> PanelContext<'a> {
         (self.slot().map_or(0, TakeVersions::pending_poses), all)
     }
 
-    /// Returns the selected bones that a change is for: those that are not locked. Where all of them are locked, all: then the
-    /// change is refused with a message.
+    /// Returns the selected bones that a change is for: those that are not locked. If all of them are locked, returns
+    /// all, so that the change is refused with a message.
     pub fn bones_to_pose(&self) -> impl Iterator<Item = BoneIndex> + use<'a> {
         let none_free = self.selection_is_locked();
         let (bones, flags) = (self.selection.bones(), self.keys.flags());
@@ -93,7 +93,7 @@ impl<'a> PanelContext<'a> {
 }
 
 impl PanelContext<'_> {
-    /// Returns the poses together with those that keep pinned bones in place, where `hold` is of some.
+    /// Returns the poses together with those that keep pinned bones in place, if `hold` is given.
     pub(in crate::panels) fn with_pins(
         hold: &mut Option<PoseDragState>,
         poses: Vec<BonePose>,

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 pub struct FindQuestion {
     /// The work.
     pub offer: Box<Offer>,
-    /// A file that was chosen and is another one; `None` asks for a path.
+    /// The file that the user chose, if its content is not that of the expected file; `None` asks for a path.
     pub other: Option<PathBuf>,
 }
 

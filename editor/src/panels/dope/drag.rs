@@ -20,7 +20,7 @@ pub(super) struct DopeDrag {
     machine: PanelDrag<Option<DopeKey>, DopeDragged>,
 }
 
-/// What is dragged.
+/// The object of the drag.
 #[derive(Debug)]
 enum DopeDragged {
     Keys(DraggedKeys),
@@ -35,7 +35,7 @@ struct DraggedKeys {
     /// Time under the pointer at the press, seconds.
     pressed: f32,
     mode: DragMode,
-    /// Whether the drag was requested, so that it must exist from now on.
+    /// Whether the drag was requested. If no drag exists after that, it was refused or cancelled.
     requested: bool,
 }
 
@@ -268,7 +268,7 @@ impl Sheet<'_> {
     fn is_crowded(&self, on: &DopeKey) -> bool {
         let Some(row) = self.rows.list().get(on.row) else { return false };
         let reach = self.scale.seconds(REACH);
-        // A key less than twice the reach away is nearer to the middle of that stretch than this one.
+        // Another key less than twice the reach away is nearer to one of these times than the key itself.
         let middles = [on.time - reach, on.time + reach];
         self.rows.of(row.kind).iter().any(|&id| {
             let other = |middle| channel::nearest(&self.drawn.take, id, middle);

@@ -20,7 +20,7 @@ use glam::Vec2;
 /// A press of the primary button.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::panels) struct Press<T> {
-    /// Where it was, points.
+    /// Position of the press, points.
     pub(in crate::panels) at: Pos2,
     /// Target under the pointer.
     pub(in crate::panels) on: T,
@@ -28,7 +28,7 @@ pub(in crate::panels) struct Press<T> {
     pub(in crate::panels) modifiers: Modifiers,
 }
 
-/// The machine of a panel whose presses are on a `T`.
+/// The drag machine of a panel: `T` is what can be pressed, `D` is what can be dragged.
 pub(in crate::panels) type PanelDrag<T, D> = DragMachine<Press<T>, D>;
 
 impl<T, D> PanelDrag<T, D> {

@@ -121,7 +121,8 @@ impl KeySelection {
         Self { channels: Arc::new(moved.collect()) }
     }
 
-    /// Returns the same keys after everything from a time on was moved: `new` is the take in which they are.
+    /// Returns the same keys after all keys from time `from` on were moved by `by` seconds: `new` is the take with the
+    /// moved keys.
     pub fn rippled(&self, new: &Take, from: f32, by: f32) -> Self {
         let from = from - SAME_TIME;
         let late = |time: f32| if time.is_finite() { time + by } else { time };
