@@ -201,7 +201,8 @@ impl Hierarchy {
 }
 
 /// Draws the eye icon at the right end of a row. A click hides the bone or shows it again; with Shift or Alt also all
-/// bones below it. The icon of a visible bone is drawn only while the row is under the pointer or has the focus.
+/// bones below it. The icon of a visible bone is drawn only while the row is under the pointer or the icon has the
+/// focus.
 fn eye(
     ui: &mut Ui,
     context: &PanelContext<'_>,

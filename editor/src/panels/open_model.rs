@@ -22,7 +22,7 @@ pub struct OpenModel {
     view: Option<View>,
     digest: Digest,
     loading: Option<Loading>,
-    /// Number of files that were given together with the model that is being loaded and stay closed.
+    /// Number of files that were opened together with the model that is being loaded, and that stay closed.
     passed_over: usize,
 }
 

@@ -25,9 +25,9 @@ pub enum ThemeChoice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LookSettings {
-    /// Ground grid.
+    /// Whether the ground grid is drawn.
     pub grid: bool,
-    /// Bones.
+    /// Whether bones are drawn.
     pub skeleton: bool,
     /// Shape of bones.
     pub bone_look: BoneLook,

@@ -106,7 +106,7 @@ fn frame_rate(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Reques
     });
 }
 
-/// Right to left: frames, seconds.
+/// Draws the time from right to left: frames, seconds.
 fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
     let rate = context.settings.frame_rate;

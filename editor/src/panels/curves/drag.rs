@@ -139,7 +139,8 @@ impl CurveDragged {
         }
     }
 
-    /// Shows how far the drag is, and returns the operation that it amounts to; `None` for a box and where there is none.
+    /// Shows the amount of the drag next to the pointer, and returns its operation; `None` for a selection box, and if
+    /// there is no valid operation.
     fn op(
         &mut self,
         ui: &Ui,

@@ -20,7 +20,7 @@ pub(super) struct DopeDrag {
     machine: PanelDrag<Option<DopeKey>, DopeDragged>,
 }
 
-/// The object of the drag.
+/// What is dragged.
 #[derive(Debug)]
 enum DopeDragged {
     Keys(DraggedKeys),
@@ -128,7 +128,8 @@ impl DopeDrag {
             }
             Some(DopeDragged::Keys(keys)) => {
                 let op = keys.op(ui, pointer, sheet, input);
-                // A selection is made in this frame, and the drag is of what is selected after it.
+                // If a selection is requested in this frame, the drag begins after it, so it does not count as
+                // requested yet.
                 keys.requested |= !requests
                     .iter()
                     .any(|request| matches!(request, Request::Timeline(KeysRequest::Select { .. })));
