@@ -44,7 +44,7 @@ pub struct Totals {
 /// Ascending key times of the channels of one bone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lanes {
-    /// Of the selected bone: translation, rotation, scale. Empty without selection.
+    /// Key times of translation, rotation and scale of the selected bone; empty if none is selected.
     pub channels: [Arc<[f32]>; 3],
 }
 

@@ -30,7 +30,7 @@ pub struct MotionPath {
 }
 
 impl MotionPath {
-    /// Returns the path to be drawn, where there is one.
+    /// Returns the path to be drawn, if there is one.
     pub fn look(&self) -> Option<&Arc<PathLook>> {
         self.look.as_ref()
     }
@@ -114,7 +114,7 @@ impl MotionPath {
 struct JointChain<'a> {
     view: &'a View,
     take: usize,
-    /// From the root down.
+    /// The bones with their tracks, from the root down.
     bones: Vec<(BoneIndex, Option<&'a Track>)>,
 }
 

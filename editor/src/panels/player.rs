@@ -56,7 +56,7 @@ impl Player {
         self.playback = self.playback.seek(time, self.now);
     }
 
-    /// Goes to `time` and stops there.
+    /// Moves to `time` and pauses there.
     pub(super) fn stop_at(&mut self, time: f32) {
         let (speed, repeat) = (self.playback.speed, self.playback.repeat);
         self.playback = self.playback.with(false, speed, repeat, self.now).seek(time, self.now);
@@ -73,7 +73,7 @@ impl Player {
         }
     }
 
-    /// Shows a take from its start. `bounds` are start and length of it, `None` where there is no such take.
+    /// Shows a take from its start. `bounds` are start and length of it, `None` if there is no such take.
     pub(super) fn show(&mut self, take: Option<usize>, bounds: Option<(f32, f32)>) {
         self.playback.take = bounds.and(take);
         (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));

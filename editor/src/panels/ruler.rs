@@ -37,7 +37,7 @@ impl Ruler {
         if self.length > 0.0 { self.left + (time - self.start) / self.length * self.width } else { self.left }
     }
 
-    /// Returns the lines of the ruler, far enough apart to be told apart, at whole frames or whole seconds.
+    /// Returns the lines of the ruler, at whole frames or whole seconds, at least `LINE` points apart.
     pub fn ticks(&self, frame_rate: u32) -> Vec<Tick> {
         if self.length <= 0.0 || self.width <= 0.0 || !self.length.is_finite() {
             return vec![Tick { time: self.start, major: true }];

@@ -21,7 +21,7 @@ pub(super) enum SelectionCommand {
     Branch,
     /// Adds parents and children.
     Grow,
-    /// Removes the bones at the ends.
+    /// Removes the bones with a parent or child that is not selected.
     Shrink,
     /// Hides the selected bones.
     Hide,

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Light, dark, or the theme of the desktop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ThemeChoice {
-    /// The theme of the desktop; dark where it has none.
+    /// The theme of the desktop; dark if it has none.
     #[default]
     System,
     /// For dim rooms.
@@ -96,7 +96,7 @@ impl Default for IkSettings {
 pub struct TimelineSettings {
     /// Whether moved keys go to whole frames.
     pub snap: bool,
-    /// Whether only the selected bones are listed, where any are selected.
+    /// Whether only the selected bones are listed, if any are selected.
     pub only_selected: bool,
 }
 

@@ -109,7 +109,7 @@ impl ToolState {
         list
     }
 
-    /// Places the gizmo at the bones of `now`. Does nothing where nothing changed; a drag keeps its place. With `editable`
+    /// Places the gizmo at the bones of `now`. Does nothing if nothing changed; a drag keeps its place. With `editable`
     /// the gizmo can be dragged, with `path_editable` the keys of the motion path.
     pub(super) fn sync_gizmo(
         &mut self,

@@ -11,7 +11,7 @@ use std::f64::consts::{E, PI, TAU};
 pub(super) enum FunctionKind {
     /// From numbers to a number, both in the unit around the function.
     Plain,
-    /// From radians, unless a unit is typed, to a number.
+    /// From an angle, in radians unless a unit is typed, to a number.
     OfAngle,
     /// From a number to an angle in the unit around the function.
     ToAngle,

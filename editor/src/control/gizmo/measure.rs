@@ -1,4 +1,4 @@
-//! From the position of the pointer to an amount of translation, rotation or scale.
+//! Converts the position of the pointer into an amount of translation, rotation or scale.
 //!
 //! A measurement begins with a drag, where its amount is 0. Each kind has an amount for every pointer position, and changes
 //! continuously:

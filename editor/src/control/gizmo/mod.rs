@@ -53,7 +53,7 @@ pub struct GizmoReadout<'a> {
     pub space: GizmoSpace,
     /// Present amount.
     pub delta: GizmoDelta,
-    /// Typed text of each number; empty where nothing is typed.
+    /// Typed text of each number; empty if nothing is typed.
     pub typed: [&'a str; 3],
     /// How many numbers can be typed.
     pub fields: usize,

@@ -16,7 +16,7 @@ pub(in crate::panels) fn command(workspace: &mut Workspace, command: SelectionCo
     }
 }
 
-/// Selects the parent of the active bone; the first bone where none is selected.
+/// Selects the parent of the active bone; the first bone if none is selected.
 pub(in crate::panels) fn select_parent(workspace: &mut Workspace) {
     if let Some(loaded) = workspace.model.loaded() {
         workspace.bones.select_parent(&loaded.model.animation.skeleton);

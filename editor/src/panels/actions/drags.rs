@@ -148,7 +148,7 @@ pub(in crate::panels) fn release_keys(workspace: &mut Workspace) -> Option<Effec
     (!changes.is_empty()).then_some(Effect::Changes(changes))
 }
 
-/// Cancels a drag of keys; does nothing where there is none.
+/// Cancels a drag of keys; does nothing if there is none.
 pub(in crate::panels) fn cancel_keys(workspace: &mut Workspace) -> Option<Effect> {
     workspace.keys.cancel_drag().map(Effect::Change)
 }

@@ -62,7 +62,7 @@ pub(super) fn dismiss(workspace: &mut Workspace) -> Option<Effect> {
     Some(Effect::File(FileAction::Send(DocumentMessage::Decide(Box::new(offer), decision))))
 }
 
-/// Saves to the document's own file; shows what will change first where the settings say so.
+/// Saves to the document's own file; shows what will change first if the settings say so.
 pub(in crate::panels) fn save(workspace: &mut Workspace) -> Option<Effect> {
     let order = SaveOrder::own(None);
     if workspace.settings.show_changes && workspace.model.has_file() {

@@ -26,8 +26,11 @@ pub(in crate::panels) fn toggle_pins(workspace: &mut Workspace) {
     let bones = workspace.bones.bones();
     let stay = if bones.len() == 1 { "it stays in place" } else { "they stay in place" };
     let what = bones::bones_text(workspace, bones);
-    let text =
-        if pinned { format!("Pinned {what}: {stay} while other bones move") } else { format!("Unpinned {what}") };
+    let text = if pinned {
+        format!("Pinned {what}: {stay} while other bones move")
+    } else {
+        format!("Unpinned {what}")
+    };
     workspace.say(MessageSeverity::Info, text);
 }
 

@@ -87,7 +87,7 @@ pub(in crate::panels) fn seek(workspace: &mut Workspace, time: f32) {
     bring_into_sight(workspace);
 }
 
-/// Goes to `time` and stops there.
+/// Moves the playhead to `time` and pauses there.
 pub(in crate::panels) fn stop_at(workspace: &mut Workspace, time: f32) {
     workspace.player.stop_at(time);
     bring_into_sight(workspace);
@@ -100,13 +100,13 @@ fn bring_into_sight(workspace: &mut Workspace) {
     }
 }
 
-/// Goes to the first time that plays.
+/// Moves the playhead to the start of the play range, or of the take.
 pub(in crate::panels) fn go_to_start(workspace: &mut Workspace) {
     let (start, _) = workspace.read().play_bounds();
     seek(workspace, start);
 }
 
-/// Goes to the last time that plays.
+/// Moves the playhead to the end of the play range, or of the take.
 pub(in crate::panels) fn go_to_end(workspace: &mut Workspace) {
     let (start, length) = workspace.read().play_bounds();
     seek(workspace, start + length);
@@ -118,20 +118,20 @@ pub(in crate::panels) fn skip(workspace: &mut Workspace, seconds: f32) {
     stop_at(workspace, time);
 }
 
-/// Goes to the next or previous frame and stops.
+/// Moves the playhead to the next or previous frame and pauses.
 pub(in crate::panels) fn step_frame(workspace: &mut Workspace, direction: i64) {
     let time = ruler::step_frame(workspace.player.time(), direction, workspace.settings.frame_rate);
     stop_at(workspace, time);
 }
 
-/// Goes to the next or previous key and stops.
+/// Moves the playhead to the next or previous key and pauses.
 pub(in crate::panels) fn step_key(workspace: &mut Workspace, forward: bool) {
     if let Some(time) = workspace.read().next_key(forward) {
         stop_at(workspace, time);
     }
 }
 
-/// Goes to the next or previous marker and stops.
+/// Moves the playhead to the next or previous marker and pauses.
 pub(in crate::panels) fn step_marker(workspace: &mut Workspace, forward: bool) {
     match workspace.read().next_marker(forward) {
         Some(time) => stop_at(workspace, time),

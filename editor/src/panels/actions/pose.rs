@@ -54,7 +54,7 @@ pub(in crate::panels) fn drop_pending(workspace: &mut Workspace) -> Option<Effec
 }
 
 /// Returns the bones whose pending poses are keyed or dropped, at one time or at all, as edits name them: an empty list, which
-/// means all, where no bone is locked, otherwise those that are not locked. `None` where all of them are locked, with a
+/// means all, if no bone is locked, otherwise those that are not locked. `None` if all of them are locked, with a
 /// message.
 fn free_pending(workspace: &mut Workspace, time: Option<f32>) -> Option<Vec<BoneRef>> {
     if !workspace.keys.flags().any_locked() {

@@ -78,7 +78,7 @@ fn marks(workspace: &Workspace) -> BoneMarks<'_> {
     BoneMarks { flags: workspace.keys.flags(), pins: workspace.bones.pins(), pole: workspace.tools.ik().pole }
 }
 
-/// Notes the marks of the model that is open, where they changed.
+/// Notes the marks of the model that is open, if they changed.
 pub(in crate::panels) fn note_marks(workspace: &mut Workspace) {
     let mut remembered = std::mem::take(&mut workspace.marks);
     if let Some(view) = workspace.model.view() {

@@ -1,4 +1,5 @@
-//! When a command can be run: menus gray out the others, keys and the palette report the reason.
+//! Conditions under which commands can be run. Menus gray out the other commands; shortcuts and the palette report
+//! the reason.
 
 use crate::panels::context::PanelContext;
 use crate::panels::window_status::DeviceStatus;

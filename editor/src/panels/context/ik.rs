@@ -32,7 +32,7 @@ impl PanelContext<'_> {
         self.pins.contains(&bone)
     }
 
-    /// Returns the pins and the chain of bones that follows the active one, as they are drawn; `None` where there are neither.
+    /// Returns the pins and the chain of bones that follows the active one, as they are drawn; `None` if there are neither.
     pub fn ik_look(&self) -> Option<IkLook> {
         let (pins, chain) = (self.pins.to_vec(), self.ik_chain());
         let pole = self.ik.pole.filter(|_| chain.is_some());
@@ -52,7 +52,7 @@ impl PanelContext<'_> {
         }
     }
 
-    /// Returns the active bone and the number of bones above it that follow, where it is moved with IK.
+    /// Returns the active bone and the number of bones above it that follow, if it is moved with IK.
     fn ik_chain(&self) -> Option<(BoneIndex, u32)> {
         let moves = self.ik.on && self.settings.tools.tool == Some(Tool::Move);
         let bone = self.selected().filter(|_| moves && self.playback.take.is_some())?;

@@ -9,7 +9,7 @@ use dragonfly_anim::data::BoneIndex;
 const NEAR: f32 = 1e-4;
 
 impl<'a> PanelContext<'a> {
-    /// Returns the keys as they are to be drawn now; `None` where no take is shown.
+    /// Returns the keys as they are to be drawn now; `None` if no take is shown.
     pub fn drawn_keys(&self) -> Option<Drawn> {
         self.keys.drawn(self.shared_take())
     }
@@ -41,13 +41,13 @@ impl<'a> PanelContext<'a> {
         }
     }
 
-    /// Returns what trimming keeps, seconds: the play range, or the whole take where none is set.
+    /// Returns what trimming keeps, seconds: the play range, or the whole take if none is set.
     pub(in crate::panels) fn trim_range(&self) -> [f32; 2] {
         let (start, length) = self.play_bounds();
         [start, start + length]
     }
 
-    /// Returns whether only the selected bones are listed; where none is selected all are.
+    /// Returns whether only the selected bones are listed; if none is selected, all bones are listed.
     pub(in crate::panels) fn lists_only_selected(&self) -> bool {
         self.keys.only_selected() && self.selected().is_some()
     }

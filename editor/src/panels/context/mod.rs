@@ -88,7 +88,7 @@ impl<'a> PanelContext<'a> {
         self.view.map(|view| &*view.loaded)
     }
 
-    /// Returns the number of bones of the model; 0 where none is open.
+    /// Returns the number of bones of the model; 0 if none is open.
     pub(super) fn bone_count(&self) -> usize {
         self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len())
     }
@@ -113,7 +113,7 @@ impl<'a> PanelContext<'a> {
         self.playback.time_at(self.now)
     }
 
-    /// Returns the name of a bone, or `Bone 7` where it has none.
+    /// Returns the name of a bone, or `Bone 7` if it has none.
     pub fn bone_name(&self, bone: BoneIndex) -> String {
         let bones = self.loaded().map(|loaded| &loaded.model.animation.skeleton.bones);
         let name = bones.and_then(|bones| bones.get(bone as usize)).map_or("", |bone| bone.name.as_str());

@@ -13,7 +13,7 @@ impl<'a> PanelContext<'a> {
     }
 
     /// Returns the edit that sets these poses (parent space) at the time shown: as keys with auto-key on, as pending poses
-    /// with it off. `None` where the rest pose is shown, which is not edited, or no bone is named.
+    /// with it off. `None` if the rest pose is shown, which is not edited, or no bone is named.
     pub fn pose_edit(&self, poses: Vec<BonePose>) -> Option<Edit> {
         let take = self.take_ref().filter(|_| !poses.is_empty())?;
         Some(self.edit_of(take, self.time(), poses))
@@ -71,7 +71,7 @@ impl<'a> PanelContext<'a> {
         flags.any_locked() && !bones.is_empty() && bones.iter().all(|&bone| flags.locked(bone))
     }
 
-    /// Returns the bones of [`Self::bones_to_pose`] as edits name them; an empty list, which means all bones, where none is
+    /// Returns the bones of [`Self::bones_to_pose`] as edits name them; an empty list, which means all bones, if none is
     /// selected.
     pub(in crate::panels) fn selected_refs(&self) -> Vec<BoneRef> {
         self.bones_to_pose().map(BoneRef::Index).collect()
@@ -83,7 +83,7 @@ impl<'a> PanelContext<'a> {
         bones.filter(|&bone| !self.keys.flags().locked(bone)).map(BoneRef::Index).collect()
     }
 
-    /// Returns the selected bones, or all bones where none is selected.
+    /// Returns the selected bones, or all bones if none is selected.
     pub(in crate::panels) fn selected_or_all(&self) -> Vec<BoneIndex> {
         if !self.selection.bones().is_empty() {
             return self.selection.bones().to_vec();

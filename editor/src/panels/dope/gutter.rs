@@ -87,7 +87,7 @@ impl BoneLabel<'_> {
         }
         let over = ui.rect_contains_pointer(visible);
         let wide = rect.width() > 150.0;
-        // Where no flags are drawn, the name gets their space.
+        // If no flags are drawn, the name gets their space.
         let marked = over || BoneFlag::ALL.into_iter().any(|flag| context.keys.flags().has(flag, bone));
         let flags = if wide && marked { 3.0 * FLAG + 8.0 } else { 6.0 };
         let label = Rect::from_min_max(

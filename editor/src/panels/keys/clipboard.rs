@@ -87,7 +87,7 @@ pub fn to_text(channels: Vec<CopiedChannel>) -> String {
     serde_json::to_string(&Text { dragonfly: "keys".to_owned(), version: 1, channels }).unwrap_or_default()
 }
 
-/// Returns the keys in a text; `None` where it is anything else.
+/// Returns the keys in a text; `None` if it is anything else.
 pub fn from_text(text: &str) -> Option<Vec<CopiedChannel>> {
     if text.len() > LONGEST {
         return None;

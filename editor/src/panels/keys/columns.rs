@@ -137,7 +137,7 @@ impl Columns {
 
     /// Marks the column of a position that was found from column `next` on; `None` after the last.
     fn hit(&mut self, at: f64, next: usize, grid: Grid) -> Option<usize> {
-        // Also `None` for a position that is not a number.
+        // This comparison is also false for a position that is not a number.
         let inside = at < self.x.len() as f64;
         if !inside {
             return None;

@@ -32,7 +32,7 @@ pub struct KeyDrag {
     op: KeyDragOp,
     take: TakeRef,
     keys: Vec<KeySet>,
-    /// The operation that was sent last; `None` where nothing was, or the last one was cancelled.
+    /// The operation that was sent last; `None` if nothing was, or the last one was cancelled.
     sent: Option<KeyDragOp>,
     /// The operation whose result is in the take that is shown.
     shown: Option<KeyDragOp>,
@@ -213,7 +213,7 @@ impl KeyEditing {
         }
     }
 
-    /// Releases the drag. Returns the changes to send; `None` where no drag is held.
+    /// Releases the drag. Returns the changes to send; `None` if no drag is held.
     pub(in crate::panels) fn release_drag(&mut self, echo: &Echo) -> Option<Vec<Change>> {
         let drag = self.drag.as_mut().filter(|drag| drag.held())?;
         let change = drag.send(echo, true);

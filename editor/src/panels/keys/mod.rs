@@ -41,7 +41,7 @@ pub struct KeyEditing {
     selection: KeySelection,
     /// Whether moved keys go to whole frames.
     snap: bool,
-    /// Whether only the selected bones are listed, where any are selected.
+    /// Whether only the selected bones are listed, if any are selected.
     only_selected: bool,
     /// Bones that were listed when one of their rows was clicked, and the selection that this made: the other bones stay
     /// listed as long as that is selected.
@@ -128,7 +128,7 @@ impl KeyEditing {
         self.snap = snap;
     }
 
-    /// Returns whether only the selected bones are listed, where any are selected.
+    /// Returns whether only the selected bones are listed, if any are selected.
     pub fn only_selected(&self) -> bool {
         self.only_selected
     }
@@ -219,7 +219,7 @@ impl KeyEditing {
         }
     }
 
-    /// Shows the part of time with the playhead at `time`, where it is out of sight.
+    /// Shows the part of time with the playhead at `time`, if it is out of sight.
     pub(super) fn bring_into_sight(&mut self, take: &Take, time: f32) {
         let (at, window) = (f64::from(time), self.window(take));
         let end = window.start + window.length;

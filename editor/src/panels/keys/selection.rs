@@ -52,7 +52,7 @@ impl KeySelection {
 
     /// Selects the keys of `channels` between two times, ends included; all of them with [`WHOLE`].
     ///
-    /// A toggle deselects them where all of them are selected, and selects them otherwise.
+    /// A toggle deselects them if all of them are selected, and selects them otherwise.
     pub fn choose(&mut self, take: &Take, channels: &[ChannelId], stretch: [f32; 2], choice: Choice) {
         let all = choice == Choice::Toggle
             && channels.iter().all(|&channel| {

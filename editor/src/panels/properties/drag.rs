@@ -119,7 +119,7 @@ impl FieldDrag {
         Some(typed.filter(fits).map_or(now, |typed| typed.numbers))
     }
 
-    /// Returns the numbers that all selected bones share at `spot`; `None` where they differ. `pair` is the active
+    /// Returns the numbers that all selected bones share at `spot`; `None` if they differ. `pair` is the active
     /// bone.
     pub(super) fn shared(
         &self,

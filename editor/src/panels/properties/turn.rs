@@ -104,7 +104,7 @@ mod tests {
                     turn[order.axes()[1]] = if round % 8 == 0 { 90.0 - near } else { -90.0 + near };
                 }
                 let wanted = rotation(order, turn);
-                // In single precision, as a model contains it.
+                // Rounded to single precision, as in a model.
                 let kept = wanted.as_quat().as_dquat().normalize();
                 let read = degrees(order, kept);
                 let back = rotation(order, read);
