@@ -47,7 +47,7 @@ fn the_palette_lists_title_matches_first_and_shows_every_row() {
         let mut rows = harness.query_all_by_label(label);
         rows.next().unwrap_or_else(|| panic!("{label} is not listed")).rect()
     };
-    let (called, about) = (place("Local axes"), place("Next axes"));
+    let (called, about) = (place("Local axes"), place("Next gizmo axes"));
     assert!(called.top() < about.top(), "{called:?} {about:?}");
     let card = place(PALETTE);
     let rows = ((about.bottom() - card.bottom()) / style::ROW).floor();

@@ -186,7 +186,7 @@ fn what_is_part_of_the_program_and_was_saved_is_a_file() {
     let bench = Bench::new(Some(view));
     let mut harness = harness(bench);
     harness.run_steps(4);
-    assert!(harness.query_by_label("Part of the program").is_none());
+    assert!(harness.query_by_label("Built-in model").is_none());
     assert!(harness.query_by_label("glTF 2.0, binary").is_some());
 }
 

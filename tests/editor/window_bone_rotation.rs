@@ -162,8 +162,8 @@ fn a_bone_is_picked_rotated_by_thirty_degrees_undone_and_redone() {
 
     // By a command and keys alone: once more about the same axis.
     screen.press(key::F3);
-    for letter in [27, 32, 28, 38, 28, 26, 65, 57, 32, 25] {
-        // "rotate now" on a US keyboard.
+    for letter in [27, 32, 28, 38, 28, 26, 65, 25, 31, 28, 43] {
+        // "rotate with" on a US keyboard.
         screen.press(letter);
     }
     screen.press(key::ENTER);

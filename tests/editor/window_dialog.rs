@@ -119,7 +119,7 @@ fn work_on_a_renamed_file_continues_in_the_chosen_file() {
         editor.wait_for_log("No file was chosen", 1, SOON);
         screen.press(key::ENTER);
         portal.answer(&portal.question(SOON), &Answer::File(address(&other)));
-        editor.wait_for_log("said that it is another file", 1, SOON);
+        editor.wait_for_log("reported that it is another file", 1, SOON);
         screen.press(key::ENTER);
         portal.answer(&portal.question(SOON), &Answer::File(address(&moved)));
         editor.wait_for_log("Restored the unsaved work of Füchsin & mehr.glb: 2 steps", 1, SOON);

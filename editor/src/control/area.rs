@@ -14,8 +14,8 @@ impl ControlId {
     pub const ROOT: Self = Self { slot: 0, generation: 0 };
 }
 
-/// A rectangle, in points from the top left of the window, y down. It contains its left and upper edge, but not the
-/// others.
+/// A rectangle, in points from the top left of the window, y down. A point on the left or upper edge is inside, a point
+/// on the right or lower edge is not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Area {
     /// Top left.

@@ -48,8 +48,8 @@ pub struct Mouse {
 
 /// A control of the scene. The default methods do nothing, and pass on what [`Self::flags`] contains.
 ///
-/// The owner of a control registers its area in a [`ControlFramework`], which calls the methods below. Each gets the
-/// framework, and may register, unregister, move and focus controls there, itself included.
+/// The owner of a control registers its area in a [`ControlFramework`], which calls the methods below. Each method
+/// gets the framework, and may register, unregister, move and focus controls there, itself included.
 pub trait BaseControl {
     /// Returns what the default methods pass on.
     fn flags(&self) -> PassFlags {
@@ -106,7 +106,7 @@ pub trait BaseControl {
         PassFlags::pass(self.flags().keys)
     }
 
-    /// The mouse has entered this control, and is in none of those inside it. Not passed on.
+    /// The mouse has entered this control, and is not over a control inside it. Not passed on to the parent.
     fn mouse_enter(&mut self, framework: &mut ControlFramework) {
         let _ = framework;
     }
@@ -142,7 +142,7 @@ pub trait BaseControl {
 
     /// The control must cancel what it does with the mouse, because the release will never arrive. Sent to the control
     /// that has captured the mouse and to those that it passed the press on to; when the whole window lost its input,
-    /// also to one that grabbed it.
+    /// also to a control that grabbed the mouse.
     fn input_lost(&mut self, framework: &mut ControlFramework) {
         let _ = framework;
     }

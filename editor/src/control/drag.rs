@@ -2,9 +2,9 @@
 //! the button is up.
 //!
 //! The machine is driven by events: [`DragMachine::press`], [`moved`](DragMachine::moved),
-//! [`released`](DragMachine::released), [`cancelled`](DragMachine::cancelled). The controls of the viewport call these as
-//! inputs arrive; panels read the pointer once a frame and call them from `panels/drag`. What is known of a press (`P`) and what
-//! can be dragged (`D`) are types of the owner.
+//! [`released`](DragMachine::released), [`cancelled`](DragMachine::cancelled). The controls of the viewport call these
+//! as inputs arrive; panels read the pointer once a frame and call them from `panels/drag`. The owner chooses the type
+//! of the data that it keeps for a press (`P`) and the type of what can be dragged (`D`).
 //!
 //! ```text
 //! Idle ──press──▶ Pressed ──4 points──▶ Started, then Dragging if the owner calls `begin`
@@ -13,8 +13,8 @@
 //!   └────────────────┴────────────────────────┘      Cancelled ──▶ Spent ──button up──▶ Idle
 //! ```
 //!
-//! What begins at once, without a threshold, is begun by [`DragMachine::begin`] or [`DragMachine::dragging`]: a drag by a key,
-//! a handle or an orbit.
+//! Drags without a threshold, such as a drag by a key or an orbit of the camera, begin with [`DragMachine::begin`] or
+//! [`DragMachine::dragging`].
 
 use glam::Vec2;
 
@@ -35,7 +35,7 @@ pub(crate) enum DragEvent<P, D> {
     Moved(Vec2),
     /// The button went up before the threshold.
     Clicked(P),
-    /// The button went up and the drag counts.
+    /// The button went up, and the drag takes effect.
     Dropped(D),
     /// The drag ended as if it had never begun.
     Cancelled(D),
@@ -44,18 +44,18 @@ pub(crate) enum DragEvent<P, D> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum DragPhase<P, D> {
     Idle,
-    /// The button went down at this position; within `slack` points of it, it is a click.
+    /// The button went down at this position; a release within `slack` points of it is a click.
     Pressed {
         at: Vec2,
         slack: f32,
         press: P,
     },
     Dragging(D),
-    /// Cancelled or refused: nothing more until the button is up.
+    /// Cancelled or refused: all events are ignored until the button is up.
     Spent,
 }
 
-/// See the module.
+/// The state machine of a drag; the documentation of the module shows its states.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DragMachine<P, D> {
     phase: DragPhase<P, D>,
@@ -99,7 +99,7 @@ impl<P, D> DragMachine<P, D> {
         }
     }
 
-    /// Returns [`Self::drag`], to be altered.
+    /// Returns what is being dragged, to be changed.
     pub(crate) fn drag_mut(&mut self) -> Option<&mut D> {
         match &mut self.phase {
             DragPhase::Dragging(drag) => Some(drag),
@@ -107,7 +107,7 @@ impl<P, D> DragMachine<P, D> {
         }
     }
 
-    /// Drags `drag` from now on: on [`DragEvent::Started`], or at once.
+    /// Begins to drag `drag`, in response to [`DragEvent::Started`] or at once.
     pub(crate) fn begin(&mut self, drag: D) {
         self.phase = DragPhase::Dragging(drag);
     }
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_start_that_begins_nothing_is_spent() {
+    fn a_press_is_ignored_after_a_start_that_begins_no_drag() {
         let mut machine = pressed();
         assert_eq!(machine.moved(vec2(9.0, 0.0)), DragEvent::Started("key"));
         assert_eq!(machine.moved(vec2(19.0, 0.0)), DragEvent::Nothing);

@@ -40,7 +40,7 @@ pub enum InputEvent {
 /// Why a control cannot be registered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PlaceError {
-    /// Its area must be inside a control, and is not.
+    /// Its area is not inside the control that is to be its parent.
     #[error("the area is not inside its parent")]
     NotInside,
     /// The parent does not exist.

@@ -1,4 +1,4 @@
-//! Keys by their label, not by their position.
+//! Keys of the keyboard, identified by their labels, not by their positions.
 
 use super::area::ControlId;
 use dragonfly_document::bones::Choice;

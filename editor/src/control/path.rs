@@ -39,7 +39,7 @@ struct DraggedPathKey {
     start: Vec2,
 }
 
-/// The control of the keys.
+/// The control of the keys on the path.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathControl {
     /// Top left of the viewport, points from that of the window.
@@ -47,7 +47,7 @@ pub struct PathControl {
     /// Whether keys can be changed.
     pub editable: bool,
     /// Pivot of the gizmo, scene space. Handles are long and keys are small, so a key wins over a handle everywhere
-    /// except at the center of the gizmo: the keys of a joint that rests are all there.
+    /// except at the center of the gizmo: if the joint does not move, all of its keys are there.
     pub gizmo: Option<DVec3>,
     keys: Vec<PathKey>,
     view: Option<GizmoView>,
@@ -58,7 +58,7 @@ pub struct PathControl {
 }
 
 impl PathControl {
-    /// Sets the keys. A drag in progress keeps its own one.
+    /// Sets the keys. A drag in progress keeps the key that it drags.
     pub fn show(&mut self, keys: &[PathKey]) {
         self.keys.clear();
         self.keys.extend_from_slice(keys);

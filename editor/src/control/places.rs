@@ -120,7 +120,7 @@ impl ControlTree {
 }
 
 impl ControlSlot {
-    /// Whether it is smaller, or equal and later.
+    /// Whether this control is smaller than `other`, or has the same size and was registered later.
     fn is_below(&self, other: &Self) -> bool {
         let sizes = self.area.size().total_cmp(&other.area.size());
         sizes.then(other.order.cmp(&self.order)).is_lt()

@@ -28,7 +28,7 @@ pub enum Catch {
     Lasso,
 }
 
-/// A press of the left button: may become a click, or a region from there.
+/// A press of the left button, which may become a click or a region that begins there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct RegionPress {
     at: Vec2,
@@ -106,7 +106,7 @@ impl ViewportControl {
         }
     }
 
-    /// Returns the request since the last call.
+    /// Returns the request that was made since the last call.
     pub fn take_outcome(&mut self) -> Option<ViewportOutcome> {
         self.outcome.take()
     }
@@ -119,7 +119,7 @@ impl ViewportControl {
         }
     }
 
-    /// Returns the points of the wheel that zoom as much as a pinch by `factor`.
+    /// Returns the distance of the wheel, points, that zooms as much as a pinch by `factor`.
     pub fn wheel_of_pinch(factor: f32) -> f32 {
         let sound = factor.is_finite() && factor > 0.0;
         if sound { factor.clamp(0.1, 10.0).ln() / ZOOM_WHEEL } else { 0.0 }
@@ -155,7 +155,7 @@ impl ViewportControl {
             Catch::Box => OwnedRegion::Box(press.at, to),
             Catch::Lasso => self.lasso.region().to_owned(),
         };
-        // Ctrl and Alt together mean the lasso itself.
+        // Ctrl together with Alt draws a lasso, so it does not toggle the selection.
         let ctrl = modifiers.ctrl && !modifiers.alt;
         self.outcome = Some(ViewportOutcome::Catch(region, Choice::from(Modifiers { ctrl, ..modifiers })));
     }

@@ -6,7 +6,7 @@ use super::menu;
 use super::request::Request;
 use egui::{Popup, Response, SetOpenCommand, Ui};
 
-/// In groups, with a line between them.
+/// The commands in groups, which are separated by lines.
 const GROUPS: &[&[Id]] = &[
     &[Id::Key, Id::CopyPose, Id::PastePose, Id::PasteMirrored],
     &[Id::ResetPose, Id::ResetToRest],
@@ -16,8 +16,9 @@ const GROUPS: &[&[Id]] = &[
     &[Id::FrameSelected],
 ];
 
-/// Opens where the right button was clicked at `response`, and first selects the bone there, `at`, unless it is selected:
-/// a menu is about what is under the pointer. While the other button is down the right one takes a drag back, and no more.
+/// Opens the menu where the right button was clicked on `response`. If the bone there, `at`, is not selected, it is
+/// selected first, so that the menu acts on the bone under the pointer. While the left button is down, the right one
+/// only cancels a drag.
 pub(super) fn show(
     response: &Response,
     context: &PanelContext<'_>,

@@ -30,7 +30,7 @@ pub(super) fn describe_change(old: &View, new: &View) -> Option<String> {
 }
 
 /// Describes how many keys were overwritten when keys were moved, duplicated or pasted; `None` if none were. The take
-/// had `before` keys, was to get `brought` more, and has `now`.
+/// had `before` keys, `brought` more were added, and it has `now` keys.
 pub(super) fn describe_replaced(view: &View, before: usize, brought: usize, now: usize) -> Option<String> {
     let replaced = (before + brought).checked_sub(now).filter(|&keys| keys > 0)?;
     let last = view.history.done.checked_sub(1)?;

@@ -7,13 +7,13 @@ use std::sync::Arc;
 /// A line of the skeleton's tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HierarchyRow {
-    /// Which bone.
+    /// The bone of the row.
     pub bone: BoneIndex,
     /// Number of ancestors.
     pub depth: u32,
-    /// Has it children?
+    /// Whether the bone has children.
     pub parent: bool,
-    /// How many rows below belong to it.
+    /// Number of rows below that show its descendants.
     pub below: u32,
 }
 
@@ -22,11 +22,11 @@ pub struct HierarchyRow {
 pub struct TakeRow {
     /// Name in the file, or a replacement for an empty name.
     pub name: String,
-    /// Seconds.
+    /// Length, seconds.
     pub length: f32,
-    /// Keys of all channels.
+    /// Number of keys of all channels.
     pub keys: usize,
-    /// Tracks that move something.
+    /// Number of tracks that move something.
     pub tracks: usize,
 }
 
@@ -41,21 +41,21 @@ pub struct Totals {
     pub morph_targets: usize,
 }
 
-/// Ascending key times of a lane of the timeline.
+/// Ascending key times of the channels of one bone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lanes {
-    /// Of the selected bone: translation, rotation, scale. Empty without selection.
+    /// Key times of translation, rotation and scale of the selected bone; empty if none is selected.
     pub channels: [Arc<[f32]>; 3],
 }
 
 /// Everything computed from a view.
 #[derive(Clone, Debug, Default)]
 pub struct Digest {
-    /// Depth first, as shown.
+    /// The bones of the skeleton, depth first, in the order in which they are shown.
     pub rows: Vec<HierarchyRow>,
-    /// In file order.
+    /// The takes, in the order of the model.
     pub takes: Vec<TakeRow>,
-    /// Totals.
+    /// Totals of the model.
     pub totals: Totals,
     /// Keys shown in the timeline.
     pub lanes: Lanes,
@@ -74,7 +74,7 @@ impl Digest {
         if self.generation != Some(view.generation) {
             let loaded = &view.loaded;
             if self.loaded.as_ref().is_none_or(|known| !Arc::ptr_eq(known, loaded)) {
-                // What no edit changes.
+                // No edit changes these, so they are only computed for a new model.
                 (self.rows, self.totals) = (rows(loaded), totals(loaded));
                 self.loaded = Some(Arc::clone(loaded));
             }
@@ -90,7 +90,8 @@ impl Digest {
     }
 }
 
-/// The tree in the order in which it is shown; without recursion, because files decide how deep it is.
+/// Returns the rows of the tree in the order in which they are shown. Not recursive, because the tree in a file may
+/// have any depth.
 fn rows(loaded: &LoadedModel) -> Vec<HierarchyRow> {
     let bones = &loaded.model.animation.skeleton.bones;
     let mut children: Vec<Vec<BoneIndex>> = vec![Vec::new(); bones.len()];

@@ -31,7 +31,7 @@ pub struct Dragging {
     open: Option<Gesture>,
     /// Gestures up to this number are over; later edits of them are dropped.
     over: u64,
-    /// Numbers of changes, and what is shown before the document answers them.
+    /// Assigns numbers to changes, and applies them to what is shown before the document answers.
     pub echo: Echo,
     /// Whether the panels must end their drags.
     drops: bool,
@@ -99,7 +99,7 @@ impl Dragging {
         Some(gesture)
     }
 
-    /// Ends the drag, which counts. Returns its gesture.
+    /// Ends the drag and keeps its edits. Returns its gesture.
     pub(super) fn release(&mut self) -> Option<Gesture> {
         self.open.take()
     }

@@ -14,14 +14,14 @@ use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_document::{Change, View};
 use std::sync::Arc;
 
-/// Numbers of changes, and the takes as they are shown before the document answers.
+/// Assigns numbers to changes, and keeps the takes as they are shown before the document answers.
 #[derive(Clone, Debug, Default)]
 pub struct Echo {
     /// Number of the last change that was sent.
     sent: u64,
     /// Number of the last change that a view answered.
     answered: u64,
-    /// The last change that was not carried out here, and its drag.
+    /// Number of the last change that was not carried out here, and the drag that it belongs to.
     skipped: Option<(u64, Option<Gesture>)>,
     local: Option<LocalEdits>,
 }
@@ -29,7 +29,7 @@ pub struct Echo {
 /// A copy of the takes, with the edits that are shown and not answered yet.
 #[derive(Clone, Debug)]
 struct LocalEdits {
-    /// Number of the newest of them.
+    /// Number of the newest of these edits.
     number: u64,
     /// The drag of the last edit. Until it ends, the copy is kept after the answer.
     gesture: Option<Gesture>,
@@ -54,7 +54,7 @@ impl Echo {
         self.has_answered(number) || self.local.as_ref().is_some_and(|local| number <= local.number)
     }
 
-    /// Numbers a change that is sent to the document, and carries it out in `shown` as well where that is quick.
+    /// Assigns a number to a change that is sent to the document, and also carries it out in `shown` if that is quick.
     pub fn send(&mut self, change: &Change, shown: &mut Option<View>) -> u64 {
         self.sent += 1;
         match change {
@@ -86,8 +86,8 @@ impl Echo {
         self.sent
     }
 
-    /// Carries an edit out where that is quick. Returns whether it was quick; one that is refused here is refused by the
-    /// document as well, and its answer gives the reason.
+    /// Carries an edit out if that is quick. Returns whether it is quick, even if the edit is refused: the document
+    /// refuses it as well, and its answer gives the reason.
     fn carry_out(&mut self, edit: &Edit, gesture: Option<Gesture>, shown: &mut Option<View>) -> bool {
         let answered = self.answered;
         self.local.take_if(|local| {
@@ -126,8 +126,8 @@ impl Echo {
         })
     }
 
-    /// Takes a view of the document. Returns what to show from now on: the view, with the edits that it does not contain yet;
-    /// in `shown` the view of the document that was there before takes the place of an echo.
+    /// Receives a view of the document. Returns what to show from now on: the view, with the edits that it does not
+    /// contain yet. If `shown` was a local preview, replaces it by the previous view of the document.
     pub fn receive(&mut self, view: View, shown: &mut Option<View>) -> View {
         self.answered = self.answered.max(view.answered);
         let Some(mut local) = self.local.take() else { return view };
@@ -145,7 +145,7 @@ impl Echo {
         shows
     }
 
-    /// The document was lost, and with it everything that was not answered.
+    /// Forgets all changes that were not answered, because the document was lost.
     pub fn forget(&mut self) {
         self.answered = self.sent;
         (self.local, self.skipped) = (None, None);

@@ -6,32 +6,33 @@ use std::sync::Arc;
 
 /// Maximum distance of a key to a frame, in frames. Times are stored in single precision, and often rounded.
 const ON: f64 = 0.02;
-/// Maximum number of keys that are read: of a channel and of a take; and of takes.
+/// Maximum number of keys that are read: of a channel, and of a take.
 const MOST: (usize, usize) = (500, 5_000);
+/// Maximum number of takes that are read.
 const MOST_TAKES: usize = 100;
-/// Minimum number of keys; fewer are at frames by chance.
+/// Minimum number of keys; fewer may be at whole frames by chance.
 const LEAST: usize = 3;
 
-/// Returns the rate at whose frames the keys of most takes are, and of at least half of them; that of the earlier takes where
-/// two rates have the same number. `None` where there are too few keys, or they are at no frames.
+/// Returns the frame rate that the keys of most takes fit, if these are at least half of the takes; of two rates with
+/// the same number of takes, the one that comes first. `None` if there are too few keys, or if they fit no rate.
 pub(super) fn rate_of(takes: &[Arc<Take>], now: u32) -> Option<u32> {
     let told: Vec<Option<u32>> =
         takes.iter().take(MOST_TAKES).filter_map(|take| rate_of_take(take, now)).collect();
     let votes = |rate: u32| told.iter().filter(|&&other| other == Some(rate)).count();
-    // Of several maxima `max_by_key` returns the last one.
+    // Reversed, because `max_by_key` returns the last of several maxima.
     let most = told.iter().rev().copied().flatten().max_by_key(|&rate| votes(rate))?;
     (votes(most) * 2 >= told.len()).then_some(most)
 }
 
-/// Returns the rate at whose frames nearly all keys of a take are: `now`, otherwise the first usual one, or none; `None` where
-/// there are too few keys.
+/// Returns the rate that nearly all keys of a take fit: `now`, otherwise the lowest usual rate, or `Some(None)` if none
+/// fits. `None` if there are too few keys.
 fn rate_of_take(take: &Take, now: u32) -> Option<Option<u32>> {
     let columns = take.tracks.iter().flat_map(|track| [&track.translation.times, &track.rotation.times]);
     let keys = columns.flat_map(|times| times.iter().take(MOST.0)).take(MOST.1);
     let times: Vec<f64> = keys.map(|&time| f64::from(time)).filter(|time| *time > 0.0).collect();
     let fits = |rate: &u32| {
         let on = |time: &&f64| (*time * f64::from(*rate) - (*time * f64::from(*rate)).round()).abs() < ON;
-        // The last key of a take is often where the take was cut.
+        // A few keys may be off the frames: the last key of a take is often where the take was cut.
         times.iter().filter(on).count() * 100 >= times.len() * 95
     };
     let mut apart = times.clone();
@@ -40,7 +41,7 @@ fn rate_of_take(take: &Take, now: u32) -> Option<Option<u32>> {
     if apart.len() < LEAST {
         return None;
     }
-    // Of two rates of which one includes the other's frames the lower one comes first.
+    // The rates ascend, so the lower one is found if the frames of another rate include its frames.
     Some([now].iter().chain(FRAME_RATES).copied().find(fits))
 }
 
@@ -59,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_say_at_which_rate_they_were_made() {
+    fn the_frame_rate_is_guessed_from_the_times_of_keys() {
         let every = |rate: f32| take((0..40).map(|key| key as f32 / rate));
         for (rate, now) in [(24, 30), (25, 30), (30, 24), (60, 24), (60, 30), (100, 30), (120, 30)] {
             assert_eq!(rate_of(&every(rate as f32), now), Some(rate), "{rate}");
@@ -73,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn the_rate_of_most_takes_is_taken_not_one_that_holds_all_of_them() {
+    fn the_rate_that_most_takes_fit_is_chosen_not_a_higher_one_that_all_fit() {
         let at = |rate: f32| take((0..40).map(|key| key as f32 / rate)).remove(0);
         assert_eq!(rate_of(&[at(24.0), at(24.0), at(120.0)], 30), Some(24));
         assert_eq!(rate_of(&[at(25.0), at(24.0)], 30), Some(25), "the first where none has more");
@@ -83,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_anywhere_and_few_of_them_say_nothing() {
+    fn no_rate_is_guessed_from_keys_between_frames_or_from_too_few_keys() {
         let anywhere = take((0..40).map(|key| key as f32 * 0.0854));
         assert_eq!(rate_of(&anywhere, 30), None);
         assert_eq!(rate_of(&take([0.0, 0.041_667, 0.083_333]), 30), None);

@@ -22,7 +22,7 @@ pub struct Hierarchy {
     collapsed: HashSet<BoneIndex>,
     /// The selection that was last scrolled to.
     followed: Option<BoneIndex>,
-    /// Of which model all this is.
+    /// The model that this state belongs to.
     of: Option<Arc<LoadedModel>>,
 }
 
@@ -72,14 +72,15 @@ impl Hierarchy {
         exact.or_else(|| found().next()).filter(|_| !query.is_empty())
     }
 
-    /// The rows to show: those that match and their ancestors, or those that no ancestor hides.
+    /// Returns the rows to show: during a search those that match and their ancestors, otherwise all without a
+    /// collapsed ancestor. The flag is whether a row matches.
     fn visible(&mut self, context: &PanelContext<'_>) -> Vec<(HierarchyRow, bool)> {
         let rows = &context.digest.rows;
         let query = self.query.trim().to_lowercase();
         if !query.is_empty() {
             return matching(rows, |bone| context.bone_name(bone).to_lowercase().contains(&query));
         }
-        // A selection made elsewhere is brought to light.
+        // If a bone was selected elsewhere, its ancestors are expanded.
         if context.selected() != self.followed
             && let (Some(selected), Some(loaded)) = (context.selected(), context.loaded())
         {
@@ -129,7 +130,7 @@ impl Hierarchy {
         });
     }
 
-    /// Draws a row; was it clicked?
+    /// Draws a row. Returns whether it was clicked.
     fn row(
         &mut self,
         ui: &mut Ui,
@@ -174,7 +175,7 @@ impl Hierarchy {
             requests.push(Request::Hover(row.bone));
         }
         super::bone_menu::show(&response, context, Some(row.bone), requests);
-        // The row that was clicked stays where it is, and so does one that a menu is about.
+        // The list does not scroll to a row that was clicked or whose menu was opened.
         if response.clicked() || (response.secondary_clicked() && !selected) {
             self.followed = Some(row.bone);
         }
@@ -199,8 +200,9 @@ impl Hierarchy {
     }
 }
 
-/// The mark at the right end of a row that hides a bone and shows it again; with Shift or Alt all below it, too. Of bones
-/// that are seen it is faint, and only there while the row is under the pointer.
+/// Draws the eye icon at the right end of a row. A click hides the bone or shows it again; with Shift or Alt also all
+/// bones below it. The icon of a visible bone is drawn only while the row is under the pointer or the icon has the
+/// focus.
 fn eye(
     ui: &mut Ui,
     context: &PanelContext<'_>,
@@ -233,7 +235,7 @@ fn eye(
         let bones = rows.iter().skip(start).take(count + 1).map(|row| row.bone).collect();
         requests.push(Request::Hide { bones, hide: !hidden });
     }
-    let below = if row.parent { "\nShift: with all below it" } else { "" };
+    let below = if row.parent { "\nShift: also all bones below it" } else { "" };
     response.on_hover_text(format!("{verb} {}{below}", widgets::shortened(name)));
 }
 
@@ -262,7 +264,7 @@ fn choose(
     });
 }
 
-/// A small triangle: to the right when folded, down when not.
+/// Draws a small triangle that points right when the row is folded, and down when it is not.
 fn fold_mark(ui: &Ui, center: egui::Pos2, folded: bool, color: egui::Color32) {
     let points = if folded {
         vec![center + vec2(-2.0, -4.0), center + vec2(3.0, 0.0), center + vec2(-2.0, 4.0)]
@@ -276,7 +278,8 @@ fn fold_mark(ui: &Ui, center: egui::Pos2, folded: bool, color: egui::Color32) {
 fn matching(rows: &[HierarchyRow], hit: impl Fn(BoneIndex) -> bool) -> Vec<(HierarchyRow, bool)> {
     let hits: Vec<bool> = rows.iter().map(|row| hit(row.bone)).collect();
     let mut kept = hits.clone();
-    // From the end: what keeps a row keeps the nearest shallower row before it.
+    // From the last row to the first: a row that is kept also keeps its ancestors, which are the rows before it with
+    // less depth.
     let mut wanted: Option<u32> = None;
     for index in (0..rows.len()).rev() {
         let depth = rows[index].depth;

@@ -1,4 +1,4 @@
-//! The list of everything that was done: a click goes there, back or forth.
+//! The list of all steps: a click on a step undoes or redoes everything up to it.
 
 use super::commands::Id;
 use super::context::PanelContext;
@@ -13,7 +13,7 @@ use egui::{Rect, ScrollArea, TextStyle, Ui, pos2, vec2};
 /// The list of steps.
 #[derive(Debug, Default)]
 pub struct History {
-    /// The place that was scrolled to last.
+    /// The position in the history that was scrolled to last: the steps done, and all steps.
     followed: Option<(usize, usize)>,
 }
 
@@ -41,7 +41,7 @@ impl Panel for History {
         let follow = self.followed.replace(here) != Some(here);
         let mut area = ScrollArea::vertical().auto_shrink(false);
         if follow {
-            // So that what comes before and after is seen as well.
+            // The current step is centered, so that the steps before and after it are visible.
             let middle = (ui.available_height() - ROW) / 2.0;
             area = area.vertical_scroll_offset((history.done as f32 * ROW - middle).max(0.0));
         }
@@ -80,7 +80,7 @@ fn buttons(ui: &mut Ui, context: &PanelContext<'_>, history: &HistoryView, reque
     ui.add_space(GRID);
 }
 
-/// The state after `done` steps.
+/// Draws the row of the state after `done` steps.
 fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
     let theme = Theme::of(ui);
     let (label, about) = match done.checked_sub(1) {
@@ -121,7 +121,7 @@ fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
         () if ahead => "Click to redo everything up to here",
         () => "Click to undo everything after this",
     };
-    let saved = if saved && done > 0 { "\nSaved like this" } else { "" };
+    let saved = if saved && done > 0 { "\nThis state is saved" } else { "" };
     let about = if about.is_empty() { String::new() } else { format!("\n{about}") };
     response.on_hover_text(format!("{label}{about}\n{action}{saved}"))
 }

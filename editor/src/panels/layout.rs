@@ -167,7 +167,7 @@ impl Behavior<Pane> for LayoutDrag<'_> {
     }
 
     fn is_tab_bar_visible(&self, _tile: TileId, tabs: &Tabs) -> bool {
-        // The viewport alone needs no title; next to another panel it does.
+        // A viewport alone in its tile needs no title; one that shares its tile with other panels does.
         !(tabs.children.len() == 1 && self.viewport == Some(tabs.children[0]))
     }
 

@@ -16,7 +16,7 @@ pub const FILES: usize = 50;
 /// Maximum length of the text, bytes; the older files are forgotten first.
 const LONGEST: usize = 900_000;
 
-/// The marks of one file. Bones are stored by name where the name is unique, so that they are found again in a file that was
+/// The marks of one file. Bones are stored by name if the name is unique, so that they are found again in a file that was
 /// exported again.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -71,18 +71,18 @@ struct StoredMarks {
 }
 
 impl Marks {
-    /// Reads the text of the file; a damaged text has no marks.
+    /// Reads the text of the file; a damaged text counts as one without marks.
     pub(super) fn read(text: &str) -> Self {
         let mut files = serde_json::from_str::<StoredMarks>(text).unwrap_or_default().files;
         files.truncate(FILES);
         Self { files, ..Self::default() }
     }
 
-    /// Returns the text of the file; where it would be too long the older files are forgotten.
+    /// Returns the text of the file; if it would be too long the older files are forgotten.
     fn write(&mut self) -> String {
         loop {
             let stored = StoredMarks { files: self.files.clone() };
-            // Plain data always has a text.
+            // Plain data can always be serialized.
             let text = serde_json::to_string_pretty(&stored).unwrap_or_default();
             if text.len() <= LONGEST || self.files.is_empty() {
                 return text;
@@ -120,7 +120,7 @@ impl Marks {
         std::mem::take(&mut self.unsaved).then(|| self.write())
     }
 
-    /// Notes the marks of the model that is open, where they changed.
+    /// Notes the marks of the model that is open, if they changed.
     pub(super) fn note(&mut self, view: &View, now: BoneMarks<'_>) {
         let same = |noted: &Noted| {
             (&noted.path, noted.version, &noted.pins[..], noted.pole)
@@ -144,7 +144,7 @@ impl Marks {
         self.unsaved = true;
     }
 
-    /// Returns the marks of the file of a model that was just opened; `None` where none are remembered.
+    /// Returns the marks of the file of a model that was just opened; `None` if none are remembered.
     pub(super) fn recall(&mut self, view: &View) -> Option<RecalledMarks> {
         self.noted = None;
         let skeleton = &view.loaded.model.animation.skeleton;

@@ -51,7 +51,7 @@ fn scrolled(ui: &mut Ui, entries: impl FnOnce(&mut Ui)) {
     ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, entries);
 }
 
-/// One line: title, shortcut, a mark when `on`.
+/// Draws an entry: title and shortcut, with the title in the accent color if `on`.
 pub(super) fn item(ui: &mut Ui, context: &PanelContext<'_>, id: Id, on: bool, requests: &mut Vec<Request>) {
     let command = commands::get(id);
     let shortcut =
@@ -184,7 +184,7 @@ fn view(
         ui.visuals_mut().widgets.inactive.bg_fill = Theme::of(ui).line;
         let slider = Slider::new(&mut scale, SCALES).step_by(0.05).update_while_editing(false);
         let response = ui.add(slider).accessible_name("Scale");
-        // Not while dragging: the slider would slide away under the pointer.
+        // Not while dragging: the new scale would move the slider away from the pointer.
         if response.drag_stopped() || (response.changed() && !response.dragged()) {
             requests.push(Request::Scale(scale));
         }
@@ -202,7 +202,7 @@ fn outline_fields(ui: &mut Ui) {
     (widget.bg_stroke, widget.weak_bg_fill) = (Stroke::new(1.0, theme.line), theme.sunken);
 }
 
-/// How the skeleton is shown before and after.
+/// Draws the settings of the ghosts: the skeleton before and after the time shown.
 fn ghosts(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let mut ghosts = context.settings.tools.ghosts;
     item(ui, context, Id::ToggleGhosts, ghosts.shown, requests);

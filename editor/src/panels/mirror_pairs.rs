@@ -66,7 +66,7 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
     );
 }
 
-/// Guessed when the list is opened, and kept while it is.
+/// Returns the mirror pairs, guessed when the list is opened and kept while it is open.
 fn found(ui: &Ui, loaded: &LoadedModel) -> Arc<MirrorPairs> {
     let skeleton = &loaded.model.animation.skeleton;
     let id = egui::Id::unique("mirror pairs");

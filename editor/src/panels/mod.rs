@@ -90,7 +90,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
     ]
 }
 
-/// All that is drawn in the window.
+/// Everything that is drawn in the window: panels, overlays, questions.
 pub struct Desk {
     panels: Vec<Box<dyn Panel>>,
     layout: Layout,
@@ -106,12 +106,12 @@ impl Desk {
         Self { panels, layout, overlays: overlays::Overlays::default(), dialogs: dialogs::Dialogs::default() }
     }
 
-    /// The places, as the text of a layout file, when they changed since the last call.
+    /// Returns the layout as the text of a layout file, if it changed since the last call.
     pub fn changed_layout(&mut self) -> Option<String> {
         self.layout.take_changed().then(|| self.layout.to_text())
     }
 
-    /// Puts every panel where it was at first.
+    /// Resets the arrangement of the panels to the default one.
     pub fn reset_layout(&mut self) {
         self.layout = Layout::usual(&self.panels);
     }
@@ -121,7 +121,7 @@ impl Desk {
         self.layout.toggle(id);
     }
 
-    /// Draws everything once.
+    /// Draws one frame.
     pub fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         commands::Keymap::install(&context.settings.keys, ui.ctx());
         close_menus_beside_a_drag(ui.ctx());

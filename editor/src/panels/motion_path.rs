@@ -30,7 +30,7 @@ pub struct MotionPath {
 }
 
 impl MotionPath {
-    /// Returns the path to be drawn, where there is one.
+    /// Returns the path to be drawn, if there is one.
     pub fn look(&self) -> Option<&Arc<PathLook>> {
         self.look.as_ref()
     }
@@ -76,7 +76,7 @@ impl MotionPath {
         let rate = frame_rate.max(1) as f32;
         let frames = (shown.length * rate).max(0.0);
         let step = (frames / MOST as f32).ceil().max(1.0) / rate;
-        // A length of whole frames but for rounding includes its last frame.
+        // If the length is a whole number of frames except for rounding, the last frame is included.
         let count = (shown.length / step + 1e-3).max(0.0) as usize + 1;
         let times = (0..count.min(MOST + 1)).map(|index| shown.start + index as f32 * step);
         let points =
@@ -93,7 +93,7 @@ impl MotionPath {
         true
     }
 
-    /// Returns the pose that moves the joint of `bone` to the place of a key, the bone alone.
+    /// Returns the pose that moves the joint of `bone` to the position of a key; no other bone moves.
     pub(super) fn pose_at(
         &mut self,
         view: &View,
@@ -114,7 +114,7 @@ impl MotionPath {
 struct JointChain<'a> {
     view: &'a View,
     take: usize,
-    /// From the root down.
+    /// The bones with their tracks, from the root down.
     bones: Vec<(BoneIndex, Option<&'a Track>)>,
 }
 

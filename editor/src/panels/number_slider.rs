@@ -67,7 +67,7 @@ struct KnobDrag {
     start: f64,
     /// Position of the knob, −1 to 1.
     place: f64,
-    /// Distance from the knob at which it was pressed, in the same unit.
+    /// Distance of the press from the knob, in the same unit.
     beside: f64,
 }
 
@@ -135,7 +135,8 @@ impl NumberSlider<'_> {
                 Some(grip) => {
                     let by = f64::from(response.drag_delta().x / (rect.width() / 2.0).max(1.0));
                     grip.place = match pointer {
-                        // Pressed far from the pointer, the knob jumps to it; pressed near, it keeps its distance.
+                        // A knob far from the press jumps to the pointer; a knob near it keeps its distance from
+                        // the pointer.
                         Some(pointer) if !input.modifiers.shift => {
                             at(pointer.x) - if grip.beside.abs() < 0.1 { grip.beside } else { 0.0 }
                         }

@@ -1,6 +1,6 @@
-//! Numbers as people read them, and as they are put into a field to be changed.
+//! Formats numbers: short for reading, and exact for editing in a field.
 
-/// Digits behind the point.
+/// Number of digits after the decimal point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Digits {
     /// Enough decimals for about seven characters: small numbers keep their decimals, large ones lose them.
@@ -10,12 +10,12 @@ pub enum Digits {
 }
 
 impl Digits {
-    /// The number as it is shown where less than `grain` is what arithmetic left over: as nothing.
+    /// Returns the number as it is shown; a number smaller than `grain`, the rounding error, is shown as 0.
     pub fn text_from(self, grain: f64, value: f64) -> String {
         self.text(if value.abs() < grain { 0.0 } else { value })
     }
 
-    /// The number as it is shown.
+    /// Returns the number as it is shown.
     pub fn text(self, value: f64) -> String {
         let size = value.abs();
         tidy(match self {
@@ -33,7 +33,7 @@ impl Digits {
     }
 }
 
-/// The shortest text of `value` that is no further from it than `grain`: what arithmetic left over is not shown.
+/// Returns the shortest decimal number that differs from `value` by at most `grain`, the rounding error.
 pub fn exact(value: f64, grain: f64) -> String {
     if !value.is_finite() {
         return String::new();
@@ -44,7 +44,7 @@ pub fn exact(value: f64, grain: f64) -> String {
     plus_zero(shortest.unwrap_or_else(|| format!("{value:e}")))
 }
 
-/// No minus before nothing, and a real minus sign before something.
+/// Removes the minus from a negative zero, and writes any other minus as a minus sign instead of a hyphen.
 pub(super) fn tidy(text: String) -> String {
     plus_zero(text).replacen('-', "\u{2212}", 1)
 }
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn leftovers_of_arithmetic_are_not_shown() {
+    fn rounding_errors_are_not_shown() {
         assert_eq!(exact(29.999_999_6, 1e-5), "30");
         assert_eq!(exact(-0.000_000_1, 1e-6), "0");
         assert_eq!(exact(0.1_f32.into(), 1e-7), "0.1");
@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shown_number_stays_short() {
+    fn a_shown_number_has_at_most_nine_characters() {
         for value in
             [0.0, -0.0, 1e-7, 0.5, -12.345_678, 123.456, 1234.5, 98_765.4, -1e9, 3.4e38, f64::INFINITY]
         {

@@ -22,7 +22,7 @@ pub struct OpenModel {
     view: Option<View>,
     digest: Digest,
     loading: Option<Loading>,
-    /// Number of files that were given together with the model that is being loaded and stay closed.
+    /// Number of files that were opened together with the model that is being loaded, and that stay closed.
     passed_over: usize,
 }
 
@@ -42,7 +42,7 @@ impl OpenModel {
         echo.receive(view, &mut self.view)
     }
 
-    /// Numbers a change that is sent to the document, and shows its result at once where that is quick.
+    /// Assigns a number to a change that is sent to the document, and shows its result at once if that is quick.
     pub(super) fn send(&mut self, change: &Change, echo: &mut Echo) -> u64 {
         echo.send(change, &mut self.view)
     }
@@ -67,7 +67,7 @@ impl OpenModel {
         self.view.as_ref().map(|view| &*view.loaded)
     }
 
-    /// Returns the number of bones of the model; 0 where none is open.
+    /// Returns the number of bones of the model; 0 if none is open.
     pub(super) fn bones(&self) -> usize {
         self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len())
     }

@@ -51,12 +51,12 @@ impl Player {
         self.playback = self.playback.with(playing, speed, repeat, self.now);
     }
 
-    /// Goes to `time`; keeps playing or standing.
+    /// Moves to `time`; playback keeps running or stays paused.
     pub(super) fn seek(&mut self, time: f32) {
         self.playback = self.playback.seek(time, self.now);
     }
 
-    /// Goes to `time` and stops there.
+    /// Moves to `time` and pauses there.
     pub(super) fn stop_at(&mut self, time: f32) {
         let (speed, repeat) = (self.playback.speed, self.playback.repeat);
         self.playback = self.playback.with(false, speed, repeat, self.now).seek(time, self.now);
@@ -73,11 +73,11 @@ impl Player {
         }
     }
 
-    /// Shows a take from its start. `bounds` are start and length of it, `None` where there is no such take.
+    /// Shows a take from its start. `bounds` are start and length of it, `None` if there is no such take.
     pub(super) fn show(&mut self, take: Option<usize>, bounds: Option<(f32, f32)>) {
         self.playback.take = bounds.and(take);
         (self.playback.start, self.playback.length) = bounds.unwrap_or((0.0, 0.0));
-        // A single pose does not play, and in it time can be moved to where the next pose is to be.
+        // A take with a single pose does not play, but the time can be moved to where the next pose will be.
         self.playback.playing &= bounds.is_none_or(|(_, length)| length > 0.0);
         self.seek(self.playback.start);
     }
@@ -87,7 +87,7 @@ impl Player {
         self.playback.take = Some(take);
     }
 
-    /// Goes on at the same time of the take where its bounds changed; shows the rest pose where the take is gone.
+    /// Adapts to new bounds of the take, at the same time; shows the rest pose if the take is gone.
     pub(super) fn keep(&mut self, bounds: Option<(f32, f32)>) {
         if bounds == Some(self.bounds()) {
             return;

@@ -52,7 +52,7 @@ impl Prompts {
         &self.questions
     }
 
-    /// Asks a question after those that wait. A question of the same kind replaces the older one.
+    /// Asks a question after those that are already waiting. A question of the same kind replaces the older one.
     pub(super) fn ask(&mut self, question: Question) {
         let same = std::mem::discriminant(&question);
         self.questions.retain(|(_, other)| std::mem::discriminant(other) != same);

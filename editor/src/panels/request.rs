@@ -19,7 +19,7 @@ pub enum Request {
     Command(Id),
     /// Selects a bone, or none.
     Select(Option<BoneIndex>),
-    /// Selects bones, in this way.
+    /// Changes the selection by these bones: replaces, adds or toggles them.
     SelectBones(Vec<BoneIndex>, Choice),
     /// Edits, undoes or redoes.
     Change(Change),
@@ -65,7 +65,7 @@ pub enum Request {
     Ghosts(GhostSettings),
     /// The wheel was turned over the viewport: points, positive is nearer.
     Wheel(f32),
-    /// The pointer rests here over the viewport, points; `None` where it is elsewhere or holds a button.
+    /// Position of the pointer over the viewport, points; `None` if it is elsewhere or a button is held.
     Point(Option<egui::Pos2>),
     /// Opens a model.
     Open(Source),
@@ -94,8 +94,8 @@ pub enum Effect {
     ReleaseDrag,
     /// Sends a change to the document.
     Change(Change),
-    /// Sends a change to the document under this number: what [`Self::Change`] and [`Self::Changes`] become when they are let
-    /// through.
+    /// Sends a change to the document under this number: [`Self::Change`] and [`Self::Changes`] are replaced by this
+    /// when they are passed on.
     Send(u64, Change),
     /// Sends several changes to the document, each a step.
     Changes(Vec<Change>),
@@ -108,17 +108,19 @@ pub enum Effect {
         /// Whether the pose goes to the bones of the other side.
         mirrored: bool,
     },
-    /// Asks the graphics thread which bone is there, in points from the window's top left, and selects it in this way.
+    /// Asks the graphics thread which bone is at this position, in points from the window's top left, and changes the
+    /// selection by it.
     Pick(egui::Pos2, Choice),
-    /// Asks the graphics thread which bones are in there, in points from the viewport's top left.
+    /// Asks the graphics thread which bones are in this region, in points from the viewport's top left, and changes the
+    /// selection by them.
     Catch(OwnedRegion, Choice),
     /// Switches between the whole screen and a window.
     FullScreen,
     /// Shows or hides a panel.
     TogglePanel(&'static str),
-    /// Moves every panel back to its first place.
+    /// Resets the arrangement of the panels to the default one.
     ResetLayout,
-    /// Tries the graphics device again.
+    /// Tries to start the graphics device again.
     RetryDevice,
     /// Opens, saves, ends or recovers.
     File(FileAction),
@@ -136,7 +138,7 @@ pub enum FileAction {
         /// The action to run after saving.
         then: Option<Then>,
     },
-    /// Goes on without saving.
+    /// Continues without saving.
     DoNotSave(Then),
     /// Reads the file again; unsaved changes are lost.
     Reload,

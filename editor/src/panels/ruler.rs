@@ -1,4 +1,4 @@
-//! Time and place on the timeline: pure arithmetic, so that it can be tested without a window.
+//! Times and positions on the timeline: pure arithmetic, so that it can be tested without a window.
 
 /// Mapping between time and horizontal position.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -7,23 +7,23 @@ pub struct Ruler {
     pub left: f32,
     /// Distance from `left` to the end, points.
     pub width: f32,
-    /// Seconds.
+    /// Time at the left end, seconds.
     pub start: f32,
-    /// Seconds; zero for a single pose.
+    /// Duration, seconds; zero for a single pose.
     pub length: f32,
 }
 
 /// A line of the ruler.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tick {
-    /// Seconds.
+    /// Time of the line, seconds.
     pub time: f32,
-    /// Does it carry a label?
+    /// Whether the line has a label.
     pub major: bool,
 }
 
 impl Ruler {
-    /// Seconds at `x` points, within the take.
+    /// Returns the time at `x` points, limited to the take, seconds.
     pub fn time_at(&self, x: f32) -> f32 {
         if self.width > 0.0 && self.length > 0.0 {
             self.start + ((x - self.left) / self.width).clamp(0.0, 1.0) * self.length
@@ -37,7 +37,7 @@ impl Ruler {
         if self.length > 0.0 { self.left + (time - self.start) / self.length * self.width } else { self.left }
     }
 
-    /// Lines at a distance that can be read, whole frames or whole seconds apart.
+    /// Returns the lines of the ruler, at whole frames or whole seconds, at least `LINE` points apart.
     pub fn ticks(&self, frame_rate: u32) -> Vec<Tick> {
         if self.length <= 0.0 || self.width <= 0.0 || !self.length.is_finite() {
             return vec![Tick { time: self.start, major: true }];
@@ -54,14 +54,14 @@ impl Ruler {
             .collect()
     }
 
-    /// How many decimals the labels of [`Self::ticks`] need.
+    /// Returns how many decimals the labels of [`Self::ticks`] need.
     pub fn decimals(&self, frame_rate: u32) -> usize {
         let whole = |step: f64| (step - step.round()).abs() < 1e-6;
         let major = if self.length > 0.0 { self.steps(frame_rate).1 } else { 0.01 };
         [1.0, 10.0, 100.0].into_iter().position(|factor| whole(major * factor)).unwrap_or(3)
     }
 
-    /// Seconds between lines, and between lines with labels: pleasant numbers, whole frames apart.
+    /// Returns the seconds between lines, and between lines with labels: round numbers that are whole frames.
     fn steps(&self, frame_rate: u32) -> (f64, f64) {
         let rate = f64::from(frame_rate.max(1));
         let points_a_frame = f64::from(self.width / self.length) / rate;
@@ -70,14 +70,14 @@ impl Ruler {
         let pleasant =
             [0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1800.0, 3600.0];
         let seconds = pleasant.into_iter().filter(whole).map(frames);
-        // The range is so long that labels of whole hours would overlap, or so short that every frame can have one.
+        // The distance for a range so long that labels at every hour would overlap: several hours.
         let hours = (LABEL / points_a_frame / (3600.0 * rate)).ceil().max(1.0) * 3600.0 * rate;
         let major = [1.0, 2.0]
             .into_iter()
             .chain(seconds)
             .find(|step| step * points_a_frame >= LABEL)
             .unwrap_or(hours);
-        // The finest division of it that can still be seen.
+        // The finest division of a labeled step whose lines are at least `LINE` points apart.
         let parts = [major, 30.0, 20.0, 15.0, 12.0, 10.0, 6.0, 5.0, 4.0, 3.0, 2.0];
         let fits = |parts: &f64| {
             let step = major / parts;
@@ -88,22 +88,22 @@ impl Ruler {
     }
 }
 
-/// Least distance of lines, points.
+/// Minimum distance between lines, points.
 const LINE: f64 = 7.0;
-/// Least distance of labels, points.
+/// Minimum distance between labels, points.
 const LABEL: f64 = 64.0;
 
-/// The frame at `time`, counted from zero seconds.
+/// Returns the frame nearest to `time`; frame 0 is at zero seconds.
 pub fn frame_of(time: f32, frame_rate: u32) -> i64 {
     (f64::from(time) * f64::from(frame_rate)).round() as i64
 }
 
-/// Seconds at which frame `frame` begins.
+/// Returns the time of a frame, seconds.
 pub fn time_of(frame: i64, frame_rate: u32) -> f32 {
     (frame as f64 / f64::from(frame_rate.max(1))) as f32
 }
 
-/// The time of the next (`+1`) or previous (`-1`) whole frame.
+/// Returns the time of the next (`+1`) or previous (`-1`) whole frame.
 pub fn step_frame(time: f32, direction: i64, frame_rate: u32) -> f32 {
     let exact = f64::from(time) * f64::from(frame_rate);
     // A time between two frames goes to the nearest frame in that direction, not past it.
@@ -112,7 +112,7 @@ pub fn step_frame(time: f32, direction: i64, frame_rate: u32) -> f32 {
     time_of(frame, frame_rate)
 }
 
-/// The first of ascending `times` after `time`, or the last before it.
+/// Returns the first of ascending `times` after `time`, or, if not `forward`, the last before it.
 pub fn step_key(times: &[f32], time: f32, forward: bool) -> Option<f32> {
     const NEAR: f32 = 1e-4;
     if forward {
@@ -124,9 +124,9 @@ pub fn step_key(times: &[f32], time: f32, forward: bool) -> Option<f32> {
     }
 }
 
-/// At most one of ascending `times` in every pixel between `left` and the right end.
+/// Returns at most one of ascending `times` for every pixel of the ruler.
 ///
-/// Draws a hundred thousand keys as fast as a thousand: it searches for the next pixel instead of visiting all.
+/// A hundred thousand keys take as long as a thousand: it searches for the next pixel instead of visiting all.
 pub fn thin(times: &[f32], ruler: &Ruler, pixel: f32) -> Vec<f32> {
     let mut out = Vec::new();
     let mut index = 0;

@@ -1,4 +1,4 @@
-//! A field that narrows a list down: a lens, what is typed, and a cross that takes it away.
+//! A search field: a magnifying glass, the text, and a button that clears the text.
 
 use super::icons::Icon;
 use super::style::GRID;
@@ -6,7 +6,8 @@ use super::theme::Theme;
 use egui::accesskit::Role;
 use egui::{Key, Margin, Rect, Sense, TextEdit, Ui, WidgetInfo, pos2, vec2};
 
-/// The field over the whole width, called `name`; was what it finds taken with Enter?
+/// Draws the field over the whole width, with `name` as hint and accessible name. Returns whether Enter was pressed
+/// in it.
 pub(super) fn show(ui: &mut Ui, query: &mut String, name: &str, focus: bool) -> bool {
     let theme = Theme::of(ui);
     ui.add_space(GRID);

@@ -21,7 +21,7 @@ pub(super) enum SelectionCommand {
     Branch,
     /// Adds parents and children.
     Grow,
-    /// Removes the bones at the ends.
+    /// Removes the bones with a parent or child that is not selected.
     Shrink,
     /// Hides the selected bones.
     Hide,
@@ -79,7 +79,7 @@ impl SelectedBones {
         self.selection.click(bone, Choice::Replace);
     }
 
-    /// Selects bones, in this way.
+    /// Changes the selection by these bones: replaces, adds or toggles them.
     pub(super) fn choose(&mut self, bones: &[BoneIndex], choice: Choice) {
         self.selection.choose(bones, choice);
     }
@@ -95,7 +95,7 @@ impl SelectedBones {
         self.hidden.set(bones, hide, &mut self.selection);
     }
 
-    /// Selects the parent of the active bone; the first bone where none is selected.
+    /// Selects the parent of the active bone; the first bone if none is selected.
     pub(super) fn select_parent(&mut self, skeleton: &Skeleton) {
         match self.active() {
             Some(bone) => {
@@ -131,7 +131,8 @@ impl SelectedBones {
         }
     }
 
-    /// Selects the bones of the other side; with `extend` in addition. Returns whether the selection changed.
+    /// Selects the bones on the other side of the body; with `extend`, adds them to the selection. Returns whether the
+    /// selection changed.
     pub(super) fn mirror(&mut self, skeleton: &Skeleton, extend: bool) -> bool {
         self.cycle.forget();
         let before = self.selection.clone();
@@ -150,7 +151,7 @@ impl SelectedBones {
         self.selection.click(bone, choice);
     }
 
-    /// Takes the bones inside a box or lasso.
+    /// Changes the selection by the bones inside a box or lasso.
     pub(super) fn caught(&mut self, bones: &[BoneIndex], choice: Choice) {
         self.cycle.forget();
         self.selection.choose(bones, choice);
@@ -166,7 +167,7 @@ impl SelectedBones {
         self.pins = pins;
     }
 
-    /// Pins the selected bones, or frees them where all of them are pinned. Returns whether they are pinned now.
+    /// Pins the selected bones, or unpins them if all of them are pinned. Returns whether they are pinned now.
     pub(super) fn toggle_pins(&mut self) -> bool {
         let bones = self.selection.bones();
         let all = bones.iter().all(|bone| self.pins.contains(bone));

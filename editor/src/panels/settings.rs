@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Light, dark, or the theme of the desktop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ThemeChoice {
-    /// The theme of the desktop; dark where it has none.
+    /// The theme of the desktop; dark if it has none.
     #[default]
     System,
     /// For dim rooms.
@@ -25,9 +25,9 @@ pub enum ThemeChoice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LookSettings {
-    /// Ground grid.
+    /// Whether the ground grid is drawn.
     pub grid: bool,
-    /// Bones.
+    /// Whether bones are drawn.
     pub skeleton: bool,
     /// Shape of bones.
     pub bone_look: BoneLook,
@@ -96,7 +96,7 @@ impl Default for IkSettings {
 pub struct TimelineSettings {
     /// Whether moved keys go to whole frames.
     pub snap: bool,
-    /// Whether only the selected bones are listed, where any are selected.
+    /// Whether only the selected bones are listed, if any are selected.
     pub only_selected: bool,
 }
 
@@ -224,7 +224,7 @@ impl Settings {
 
     /// Returns the text of the settings file.
     pub fn to_text(&self) -> String {
-        // Plain data of strings and finite numbers always has a text.
+        // Plain data of strings and finite numbers can always be serialized.
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
 

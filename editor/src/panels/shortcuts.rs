@@ -14,14 +14,14 @@ use egui::{Button, Event, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea
 #[derive(Debug, Default)]
 pub(super) struct ShortcutSheet {
     query: String,
-    /// The command whose key is being chosen, and which of its keys: one more than it has for a new one.
+    /// The command whose key is being chosen, and the index of that key; the number of its keys for a new one.
     asks: Option<(Id, usize)>,
     /// Result of the last change of a shortcut.
     note: String,
 }
 
 impl ShortcutSheet {
-    /// As when it is opened.
+    /// Resets the sheet when it is opened.
     pub(super) fn begin(&mut self, ui: &Ui) {
         *self = Self::default();
         Keymap::set_asking(ui.ctx(), false);
@@ -49,17 +49,17 @@ impl ShortcutSheet {
                 }
             });
         });
-        let hint = if self.note.is_empty() { "Click a key to choose another one" } else { &self.note };
+        let hint = if self.note.is_empty() { "Click a shortcut to change it" } else { &self.note };
         ui.label(RichText::new(hint).size(style::SMALL).color(Theme::of(ui).weak));
     }
 
-    /// The search field, and whose keys these are.
+    /// Draws the search field and the presets.
     fn head(&mut self, ui: &mut Ui, keys: &KeySettings, requests: &mut Vec<Request>) {
         ui.horizontal_wrapped(|ui| {
             let field = TextEdit::singleline(&mut self.query).hint_text("Find a command or a key");
             ui.add(field.desired_width(200.0)).accessible_name("Find a command or a key");
             ui.add_space(2.0 * GRID);
-            ui.label(RichText::new("Keys as in").color(Theme::of(ui).weak));
+            ui.label(RichText::new("Preset").color(Theme::of(ui).weak));
             for preset in Preset::ALL {
                 if ui.selectable_label(keys.preset == *preset, preset.title()).clicked() {
                     requests.push(Request::Keys(KeySettings { preset: *preset, ..keys.clone() }));
@@ -72,7 +72,7 @@ impl ShortcutSheet {
         });
     }
 
-    /// Takes the key that was pressed while one is asked for.
+    /// Assigns the key that was pressed while a key is being chosen.
     fn listen(&mut self, ui: &Ui, keys: &KeySettings, requests: &mut Vec<Request>) {
         let Some((id, place)) = self.asks else { return };
         let Some((key, modifiers)) = ui.input_mut(|input| take_key(&mut input.events)) else { return };
@@ -97,7 +97,7 @@ impl ShortcutSheet {
                         commands::get(id).title,
                         commands::get(other).title
                     ),
-                    None => format!("{} gives “{}” now", commands::text(&chosen), commands::get(id).title),
+                    None => format!("{} now runs “{}”", commands::text(&chosen), commands::get(id).title),
                 };
                 shortcuts.retain(|other| *other != chosen);
                 let place = place.min(shortcuts.len());
@@ -125,7 +125,7 @@ impl ShortcutSheet {
         self.asks = asks;
         Keymap::set_asking(ui.ctx(), asks.is_some());
         if asks.is_some() {
-            self.note = "Press the key · Esc keeps the old one · Delete removes it".to_owned();
+            self.note = "Press a key · Esc keeps the old key · Delete removes it".to_owned();
         }
     }
 
@@ -144,7 +144,7 @@ impl ShortcutSheet {
             let mut asks = None;
             let row = line(ui, command.title, |ui| {
                 if keys.is_own(id) {
-                    let name = format!("Usual keys of {}", command.title);
+                    let name = format!("Reset keys of {}", command.title);
                     if widgets::icon_button(ui, Icon::Close, &name, false).on_hover_text(&name).clicked() {
                         let mut keys = keys.clone();
                         keys.reset(id);
@@ -168,7 +168,7 @@ impl ShortcutSheet {
                 if ui.button("Add a key").clicked() {
                     asks = Some((id, shortcuts.len()));
                 }
-                if ui.button("No key").clicked() {
+                if ui.button("Remove all keys").clicked() {
                     let mut keys = keys.clone();
                     keys.set(id, &[]);
                     requests.push(Request::Keys(keys));
@@ -188,7 +188,7 @@ impl ShortcutSheet {
     }
 }
 
-/// The first key pressed, and what was held with it.
+/// Removes the first pressed key from the events. Returns it with its modifier keys.
 fn take_key(events: &mut Vec<Event>) -> Option<(Key, Modifiers)> {
     let place = events.iter().position(|event| {
         matches!(event, Event::Key { pressed: true, .. } | Event::Copy | Event::Cut | Event::Paste(_))
@@ -199,12 +199,12 @@ fn take_key(events: &mut Vec<Event>) -> Option<(Key, Modifiers)> {
         Event::Cut => (Key::X, Modifiers::COMMAND),
         _ => (Key::V, Modifiers::COMMAND),
     };
-    // Its letter must not go into the search field.
+    // The text of the key must not go into the search field.
     events.retain(|event| !matches!(event, Event::Text(_)));
     Some(found)
 }
 
-/// The modifiers as tables name them.
+/// Returns the modifiers in the form that the tables of commands use.
 fn plain(held: Modifiers) -> Modifiers {
     Modifiers { alt: held.alt, shift: held.shift, command: held.command || held.ctrl, ..Modifiers::NONE }
 }

@@ -10,7 +10,7 @@ pub struct SideFiles<'a> {
 }
 
 impl<'a> SideFiles<'a> {
-    /// Returns those of a workspace.
+    /// Returns the side files of a workspace.
     pub(super) fn of(workspace: &'a mut Workspace) -> Self {
         Self { workspace }
     }

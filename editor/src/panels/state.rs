@@ -35,7 +35,7 @@ impl State {
         self.workspace.read()
     }
 
-    /// Executes a request of a panel. Returns what reaches further than the panels.
+    /// Executes a request of a panel. Returns an effect for the program around the panels, if there is one.
     pub fn execute(&mut self, request: Request) -> Option<Effect> {
         execute::execute(&mut self.workspace, request)
     }
@@ -45,7 +45,8 @@ impl State {
         show::begin_frame(&mut self.workspace, now);
     }
 
-    /// Ends a frame: the pointer is over no row, and the search field has the cursor if it was to get it.
+    /// Ends a frame: forgets the row under the pointer and the request to focus the search field, because both apply to
+    /// one frame.
     pub fn end_frame(&mut self) {
         self.workspace.bones.hover(None);
         self.workspace.prompts.set_find(false);
@@ -56,13 +57,13 @@ impl State {
         self.workspace.player.set_now(now);
     }
 
-    /// Shows a newer view of the document. Of another model its first take that moves is shown, playing from the start.
+    /// Shows a newer view of the document. If it is of another model, plays the first take that moves from its start.
     pub fn show(&mut self, view: View) {
         show::show(&mut self.workspace, view);
     }
 
-    /// Gives the events of `input` from `from` on to the tools of the viewport, and removes those that are for the tools
-    /// alone. Returns whether the viewport may look different now.
+    /// Passes the events of `input` from index `from` on to the tools of the viewport, and removes those that are for
+    /// the tools alone. Returns whether the viewport may look different now.
     pub fn feed(
         &mut self,
         context: &Context,
@@ -83,7 +84,7 @@ impl State {
         self.workspace.dragging.prepend_events(context, input)
     }
 
-    /// Passes on what may go to the document and further, and before it what cancels a drag that it would cut in two.
+    /// Passes an effect on. If it would interrupt a drag, the change that cancels the drag is passed on first.
     pub fn let_through(&mut self, effect: Effect, pass: &mut impl FnMut(Effect)) {
         drags::let_through(&mut self.workspace, effect, pass);
     }
@@ -93,7 +94,7 @@ impl State {
         drags::refused(&mut self.workspace);
     }
 
-    /// Stops where time is, if it passes.
+    /// Pauses playback at the time shown, if it is running.
     pub fn pause(&mut self) {
         playback::pause(&mut self.workspace);
     }
@@ -113,7 +114,7 @@ impl State {
         self.workspace.bones.set_pointed(bone)
     }
 
-    /// Asks a question after those that wait.
+    /// Asks a question after those that are already waiting.
     pub fn ask(&mut self, question: Question) {
         files::ask(&mut self.workspace, question);
     }

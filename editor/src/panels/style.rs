@@ -26,7 +26,7 @@ pub const NUMBER: f32 = 12.0;
 /// Size of captions and ticks.
 pub const SMALL: f32 = 11.0;
 
-/// Installs fonts and both themes, and the way that Tab goes.
+/// Installs the fonts, both themes, and the plugin for navigation with Tab.
 pub fn install(context: &Context) {
     context.add_plugin(super::tab::TabGoesOn::default());
     context.set_fonts(fonts());
@@ -34,13 +34,14 @@ pub fn install(context: &Context) {
         context.style_mut_of(theme, |style| apply(style, Theme::get(theme == egui::Theme::Dark)));
     }
     context.options_mut(|options| {
-        // The scale is a setting of ours, with commands that say so.
+        // The scale is a setting of the program, which its own commands change.
         options.zoom_with_keyboard = false;
         options.quit_shortcuts.clear();
     });
 }
 
-/// Inter for words, Hack for numbers (digits of one width, so that columns do not jitter while playing).
+/// Returns the fonts: Inter for text, Hack for numbers (digits of one width, so that columns do not jitter while
+/// playing).
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
     let inter = FontData::from_static(include_bytes!("../../fonts/Inter-Medium.otf"));
@@ -77,7 +78,7 @@ fn apply(style: &mut egui::Style, theme: &Theme) {
         bar_width: 8.0,
         floating_width: 4.0,
         bar_inner_margin: 2.0,
-        // That there is more is seen without searching for it.
+        // Scroll bars stay visible, so that users see that there is more to scroll to.
         dormant_handle_opacity: 0.35,
         ..ScrollStyle::floating()
     };
@@ -112,7 +113,7 @@ fn apply(style: &mut egui::Style, theme: &Theme) {
     widgets.open = look(theme.hover, theme.line, theme.text);
 }
 
-/// A widget's state: nothing grows or shrinks, only its tone changes.
+/// Returns the style of a widget in one state. States differ in color, never in size.
 fn look(fill: egui::Color32, line: egui::Color32, text: egui::Color32) -> WidgetVisuals {
     WidgetVisuals {
         bg_fill: fill,
@@ -124,7 +125,7 @@ fn look(fill: egui::Color32, line: egui::Color32, text: egui::Color32) -> Widget
     }
 }
 
-/// The size of a square button that holds an icon.
+/// Returns the size of a square button with an icon.
 pub fn icon_size() -> Vec2 {
     Vec2::splat(CONTROL)
 }

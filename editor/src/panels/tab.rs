@@ -1,6 +1,7 @@
 //! Keyboard navigation with Tab after the focus was lost.
 //!
-//! egui starts at the first widget of the window then, which after Enter in a number is far from the next number.
+//! Without this, egui starts at the first widget of the window. After Enter in a number field, that is far from the
+//! next field.
 
 use egui::{Context, Event, Id, Key, Plugin, RawInput};
 
@@ -35,7 +36,8 @@ fn is_press(event: &Event) -> bool {
     matches!(event, Event::PointerButton { pressed: true, .. })
 }
 
-/// With other keys than Shift it moves no focus.
+/// Returns whether the event is a press of Tab, alone or with Shift. With other modifier keys, Tab does not move
+/// the focus.
 fn is_tab(event: &Event) -> bool {
     let Event::Key { key: Key::Tab, pressed: true, modifiers, .. } = event else { return false };
     !modifiers.any() || modifiers.shift_only()

@@ -1,4 +1,4 @@
-//! Every color of the program, light and dark. Nowhere else is a color written down.
+//! All colors of the program, for the light and the dark theme. No other file defines colors.
 
 use dragonfly_picture::gizmo::GizmoRole;
 use egui::Color32;
@@ -6,11 +6,11 @@ use egui::Color32;
 /// The colors of one theme. One accent: the green of a dragonfly's thorax.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Theme {
-    /// Is it the dark one?
+    /// Whether this is the dark theme.
     pub dark: bool,
-    /// Between panels.
+    /// Gaps between panels.
     pub gap: Color32,
-    /// Behind panels.
+    /// Background of panels.
     pub panel: Color32,
     /// Menu bar, panel headers, status line.
     pub bar: Color32,
@@ -24,31 +24,31 @@ pub struct Theme {
     pub hover: Color32,
     /// Buttons being pressed.
     pub pressed: Color32,
-    /// What is read.
+    /// Primary text.
     pub text: Color32,
-    /// What is read second.
+    /// Secondary text.
     pub weak: Color32,
     /// Least important text and lines: hints, ticks.
     pub faint: Color32,
     /// Selection, playhead, focus.
     pub accent: Color32,
-    /// Behind a selected row.
+    /// Background of a selected row.
     pub accent_soft: Color32,
-    /// On the accent.
+    /// Text and icons on the accent color.
     pub on_accent: Color32,
-    /// Something is not quite right.
+    /// Warnings.
     pub warning: Color32,
-    /// Something failed.
+    /// Errors.
     pub error: Color32,
     /// Axis letters, keys of a channel: X, Y, Z.
     pub axes: [Color32; 3],
     /// A key in the timeline.
     pub key: Color32,
-    /// Overlays on the picture.
+    /// Background of overlays on the viewport.
     pub glass: Color32,
-    /// Around an overlay on the picture.
+    /// Border of overlays on the viewport.
     pub glass_line: Color32,
-    /// Top and bottom of the picture's background.
+    /// Background of the viewport: top and bottom of a gradient.
     pub sky: [Color32; 2],
     /// The ground grid.
     pub grid: Color32,
@@ -60,7 +60,7 @@ pub struct Theme {
     pub backdrop: Color32,
 }
 
-/// For dim rooms.
+/// The dark theme, for dim rooms.
 pub const DARK: Theme = Theme {
     dark: true,
     gap: Color32::from_rgb(12, 15, 16),
@@ -94,7 +94,7 @@ pub const DARK: Theme = Theme {
     backdrop: Color32::from_black_alpha(120),
 };
 
-/// For bright rooms.
+/// The light theme, for bright rooms.
 pub const LIGHT: Theme = Theme {
     dark: false,
     gap: Color32::from_rgb(207, 214, 212),
@@ -125,17 +125,17 @@ pub const LIGHT: Theme = Theme {
 };
 
 impl Theme {
-    /// The theme that `ui` is drawn in.
+    /// Returns the theme that `ui` is drawn in.
     pub fn of(ui: &egui::Ui) -> &'static Self {
         Self::get(ui.visuals().dark_mode)
     }
 
-    /// Letters on the ends of the axes.
+    /// Returns the color of the letters at the ends of the axes.
     pub fn on_axis(&self) -> Color32 {
         if self.dark { Color32::from_rgb(20, 24, 25) } else { Color32::from_rgb(255, 255, 255) }
     }
 
-    /// Color of a part of a gizmo or path.
+    /// Returns the color of a part of a gizmo or path.
     pub fn role(&self, role: GizmoRole) -> Color32 {
         let by_theme = |dark: [u8; 3], light: [u8; 3]| {
             let [red, green, blue] = if self.dark { dark } else { light };
@@ -152,13 +152,13 @@ impl Theme {
         }
     }
 
-    /// The dark or the light one.
+    /// Returns the dark or the light theme.
     pub fn get(dark: bool) -> &'static Self {
         if dark { &DARK } else { &LIGHT }
     }
 }
 
-/// A color as the graphics thread takes it: linear RGB.
+/// Converts a color to linear RGB, as the graphics thread expects it.
 pub fn linear(color: Color32) -> [f32; 3] {
     let rgba = egui::Rgba::from(color.to_opaque());
     [rgba.r(), rgba.g(), rgba.b()]

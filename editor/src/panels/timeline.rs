@@ -45,5 +45,5 @@ impl Panel for TimelinePanel {
     }
 }
 
-/// The height at which a handful of rows is seen.
+/// The height at which seven rows are visible.
 pub(super) const HEIGHT: f32 = style::BAR + 32.0 + 24.0 + 8.0 + 7.0 * super::dope::ROW;

@@ -8,11 +8,11 @@ use dragonfly_document::posing::{self, Goal, poses_of_drag};
 use dragonfly_picture::gizmo::{GizmoTarget, Tool};
 use glam::Vec3;
 
-/// The bones that follow a drag. Decided once for a drag, so that it moves the same bones from its first move to its last,
-/// whatever is switched on the way.
+/// The bones that follow a drag. Decided once for a drag, so that it moves the same bones from its first move to its
+/// last, even if settings change during the drag.
 #[derive(Debug, Default)]
 enum Following {
-    /// No drag goes on.
+    /// No drag is in progress, or it has not moved yet.
     #[default]
     Undecided,
     /// Bones move alone: the edit has what the gizmo computed, to the bit.
@@ -51,13 +51,13 @@ impl ToolDrag {
         matches!(self.following, Following::Undecided)
     }
 
-    /// Decides which bones follow, for the whole drag; `None`: bones move alone.
+    /// Decides for the whole drag which bones follow; with `None`, bones move alone.
     pub(super) fn follow(&mut self, hold: Option<posing::PoseDragState>) {
         self.following = hold.map_or(Following::Nothing, |hold| Following::From(Box::new(hold)));
     }
 
-    /// Returns the poses for bones that the gizmo dragged: with IK on those of the bones above them, and of whatever keeps
-    /// pinned bones in place.
+    /// Returns the poses for bones that the gizmo dragged: with IK on also the poses of the bones above them, and the
+    /// poses that keep pinned bones in place.
     pub(super) fn poses<'a>(
         &mut self,
         tool: Tool,
@@ -108,7 +108,7 @@ pub(super) fn moved(bone: BoneIndex, to: Vec3) -> BonePose {
     BonePose { bone: BoneRef::Index(bone), translation, rotation: None, scale: None }
 }
 
-/// Returns the channel that the tool changes; with a translation where a pivot elsewhere moves the bone.
+/// Returns the channel that the tool changes; also the translation if a pivot outside of the bone moves it.
 fn pose_of(tool: Tool, drag: &BoneDrag, before: &GizmoTarget) -> BonePose {
     let (now, was) = (drag.to_parent, before.to_parent);
     let translation = tool == Tool::Move || now.translation != was.translation;

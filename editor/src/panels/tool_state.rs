@@ -36,11 +36,12 @@ pub struct ToolState {
     path: MotionPath,
     ik: IkMode,
     placement: Option<PlacedGizmo>,
-    /// The list of the next placement; keeps its memory.
+    /// An empty list that the next placement reuses, to avoid an allocation.
     spare: Vec<BoneIndex>,
-    /// When a drag that a key asked for was refused: what is typed for it gives no commands.
+    /// When a drag that a key tried to begin was refused: the keys typed for it run no commands.
     refused_drag: Option<Instant>,
-    /// Whether the last click hit a handle of the gizmo. Then it is not a click next to all bones.
+    /// Whether the last click hit a handle of the gizmo. Then it does not count as a click on no bone, which would
+    /// deselect all.
     on_handle: bool,
 }
 
@@ -108,7 +109,7 @@ impl ToolState {
         list
     }
 
-    /// Places the gizmo at the bones of `now`. Does nothing where nothing changed; a drag keeps its place. With `editable`
+    /// Places the gizmo at the bones of `now`. Does nothing if nothing changed; a drag keeps its place. With `editable`
     /// the gizmo can be dragged, with `path_editable` the keys of the motion path.
     pub(super) fn sync_gizmo(
         &mut self,
@@ -175,12 +176,12 @@ impl ToolState {
         self.ik.pole = pole;
     }
 
-    /// Notes that a drag that a key asked for was refused at this moment.
+    /// Notes that a drag that a key tried to begin was refused at this moment.
     pub(super) fn refuse_drag(&mut self, at: Instant) {
         self.refused_drag = Some(at);
     }
 
-    /// Returns when a drag that a key asked for was refused, and forgets it.
+    /// Returns when a drag that a key tried to begin was refused, and forgets it.
     pub(super) fn take_refused_drag(&mut self) -> Option<Instant> {
         self.refused_drag.take()
     }

@@ -67,11 +67,11 @@ fn repeat(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) 
     let shortcut = commands::shortcut_text(ui.ctx(), Id::CycleRepeat);
     for (icon, repeat, name) in [
         (Icon::Loop, Repeat::Loop, "Loop"),
-        (Icon::PingPong, Repeat::PingPong, "Back and forth"),
-        (Icon::Once, Repeat::Once, "Once"),
+        (Icon::PingPong, Repeat::PingPong, "Ping-pong"),
+        (Icon::Once, Repeat::Once, "Play once"),
     ] {
         let button = icon_button(ui, icon, name, context.playback.repeat == repeat);
-        if button.on_hover_text(format!("{name} ({shortcut} for the next)")).clicked() {
+        if button.on_hover_text(format!("{name} ({shortcut}: next repeat mode)")).clicked() {
             requests.push(Request::Repeat(repeat));
         }
     }
@@ -116,7 +116,7 @@ fn field_width(ui: &Ui, text: &str) -> f32 {
     text_width(ui, text, &TextStyle::Monospace) + 2.0 * ui.spacing().button_padding.x
 }
 
-/// Right to left: frames, seconds.
+/// Draws the time from right to left: frames, seconds.
 fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
     let rate = context.settings.frame_rate;

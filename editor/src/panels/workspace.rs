@@ -17,7 +17,7 @@ use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
 use std::time::Instant;
 
-/// The owners of the state. A command gets all of them and calls the methods of those that it is about.
+/// The owners of the state. A command gets all of them and calls the methods of those that it concerns.
 pub(super) struct Workspace {
     /// The document's newest view, and the load in progress.
     pub(super) model: OpenModel,
@@ -27,7 +27,7 @@ pub(super) struct Workspace {
     pub(super) player: Player,
     /// Selected, hidden and pinned bones.
     pub(super) bones: SelectedBones,
-    /// Selection and drag of keys, flags, markers, the range that plays.
+    /// Selection and drag of keys, flags, markers, the play range.
     pub(super) keys: KeyEditing,
     /// The list of takes.
     pub(super) takes: TakeListState,

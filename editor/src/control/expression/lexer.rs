@@ -13,7 +13,7 @@ pub(super) enum Token<'a> {
     End,
 }
 
-/// Returns one token after the other.
+/// Splits a text into tokens; each call of [`Self::next`] returns one.
 pub(super) struct Lexer<'a> {
     text: &'a str,
     /// Numbers of bytes and characters that were read.

@@ -11,7 +11,7 @@ use std::f64::consts::{E, PI, TAU};
 pub(super) enum FunctionKind {
     /// From numbers to a number, both in the unit around the function.
     Plain,
-    /// From radians, unless a unit is typed, to a number.
+    /// From an angle, in radians unless a unit is typed, to a number.
     OfAngle,
     /// From a number to an angle in the unit around the function.
     ToAngle,
@@ -74,7 +74,8 @@ const FUNCTIONS: &[Function] = &[
 const LENGTHS: &[(&str, f64)] =
     &[("mm", 0.001), ("cm", 0.01), ("dm", 0.1), ("m", 1.0), ("km", 1000.0), ("in", 0.0254), ("ft", 0.3048)];
 
-/// Units of angles: name, number per full turn. So degrees in degrees are multiplied by exactly 1.
+/// Units of angles: name, and how many of them are a full turn. As degrees per turn are exact, degrees in a field of
+/// degrees are multiplied by exactly 1.
 const ANGLES: &[(&str, f64)] = &[("deg", 360.0), ("°", 360.0), ("rad", TAU), ("turn", 1.0)];
 
 /// Unit of numbers in a part of an expression.
@@ -95,7 +96,7 @@ impl Unit {
         }
     }
 
-    /// Returns one `name` in this unit.
+    /// Returns the factor from the unit `name` to this unit; `None` if there is no such unit for the quantity.
     pub(super) fn one(self, name: &str) -> Option<f64> {
         let find = |list: &[(&str, f64)]| list.iter().find(|entry| entry.0 == name).map(|entry| entry.1);
         match self {
@@ -106,7 +107,7 @@ impl Unit {
         }
     }
 
-    /// Returns an angle in radians in this unit.
+    /// Converts an angle from radians to this unit.
     pub(super) fn of_radians(self, angle: f64) -> f64 {
         if self == Self::Degrees { angle.to_degrees() } else { angle }
     }

@@ -51,7 +51,7 @@ impl<'a> Parser<'a> {
         while let Token::Sign(sign @ ('*' | '/' | '%')) = self.token {
             let at = self.at;
             self.next()?;
-            // `150%` of a factor: only at the end, since in between `%` is the remainder.
+            // `%` is a unit of factors (`150%`) only at the end of the text; elsewhere it is the remainder.
             if sign == '%' && self.token == Token::End && self.unit == Unit::Number {
                 return Ok(value / 100.0);
             }
@@ -63,7 +63,7 @@ impl<'a> Parser<'a> {
                     Some(one) if !has_unit => value / (other / one) * one,
                     _ => value / other,
                 },
-                // With the sign of the divisor, as is useful for angles.
+                // The remainder has the sign of the divisor, which is useful for angles.
                 _ => value - other * (value / other).floor(),
             };
             value = finite(result, at)?;

@@ -1,10 +1,11 @@
 //! Routes inputs to controls (thesis §3.2.9.1).
 //!
-//! The registered areas form a tree: the parent of a control is the smallest one that contains it, of several equal ones the
-//! last registered. A mouse input goes to the smallest control under the pointer, of several equal ones the last registered;
-//! if controls do not overlap, as they should not, that is the deepest one. So both rules have an answer for any rectangles.
-//! (If some overlap in part, and one is unregistered while a button or key is held, those inside it may get a parent that did
-//! not get the press, and then one that did get it never gets the release.)
+//! The registered areas form a tree: the parent of a control is the smallest one that contains it, of several equal
+//! ones the last registered. A mouse input goes to the smallest control under the pointer, of several equal ones the
+//! last registered; if controls do not overlap, as they should not, that is the deepest one. So both rules have an
+//! answer for any rectangles. (If some controls overlap in part, and one of them is unregistered while a button or key
+//! is held, the controls inside it may get a new parent that did not get the press; a control that did get the press
+//! may then never get the release.)
 //!
 //! An input allocates nothing. Ids of unregistered controls are recognized, so a control may be unregistered while an input is
 //! processed, by itself or by another.
@@ -30,16 +31,17 @@ enum Capture {
     Gone,
 }
 
-/// Number of rounds of notifications, after which two controls that take focus or mouse from each other are stopped.
+/// Maximum number of rounds of notifications after an input, so that two controls that take focus or mouse from each
+/// other cannot loop forever.
 const ROUNDS: usize = 8;
 
 /// The tree of controls, and the state that routes an input through it.
 #[derive(Clone, Debug)]
 pub struct ControlFramework {
     places: ControlTree,
-    /// Last position.
+    /// Last position of the mouse.
     mouse: Option<Vec2>,
-    /// Whether the mouse has left the window since.
+    /// Whether the mouse has left the window since it was at that position.
     mouse_gone: bool,
     modifiers: Modifiers,
     held: [bool; 3],
@@ -77,7 +79,7 @@ impl ControlFramework {
         self.places.move_to(ControlId::ROOT, Area::new(Vec2::ZERO, window));
     }
 
-    /// Registers a control. What is outside the window is never reached.
+    /// Registers a control. The part of its area outside the window gets no input.
     pub fn register_control(&mut self, area: Area) -> ControlId {
         self.places.insert(area)
     }
@@ -94,7 +96,7 @@ impl ControlFramework {
         if let Capture::By { control, topmost } = self.capture {
             self.capture = match (control == id, topmost == id) {
                 (true, true) => Capture::Gone,
-                // The controls that the press was passed on to get its end.
+                // The press was passed on to the parent, so the parent gets the release.
                 (true, false) => match self.places.parent(id) {
                     Some(control) => Capture::By { control, topmost },
                     None => self.capture,

@@ -9,7 +9,7 @@ use glam::Vec2;
 
 impl ControlFramework {
     pub(super) fn mouse_move(&mut self, at: Vec2, controls: &mut dyn ControlLookup) -> Option<ControlId> {
-        // No screen is so large: such a position is an error of the driver.
+        // No screen is this large: such a position is an error of the driver.
         if !(at.is_finite() && at.abs().max_element() < 1e5) {
             return None;
         }
@@ -95,7 +95,7 @@ impl ControlFramework {
         let mut next = first;
         while let Some(id) = next {
             next = self.places.parent(id);
-            // A captured mouse may be anywhere; the controls that got the press get what follows.
+            // A captured mouse may be anywhere: the controls that got the press get all later inputs of it.
             if is_captured || Some(id) == first || self.is_on(id, mouse.at, controls) {
                 let Some(control) = self.there(id, controls) else { continue };
                 if tell(control, mouse, self) == InputFlow::Stop {

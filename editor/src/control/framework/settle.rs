@@ -74,7 +74,7 @@ impl ControlFramework {
                 }
             }
         }
-        // Two controls that take the focus from each other: it stays with the one notified last.
+        // If two controls keep taking the focus from each other, it stays with the one that was notified last.
         self.focus = self.focus_told;
     }
 
@@ -94,7 +94,7 @@ impl ControlFramework {
         })
     }
 
-    /// Returns a control that is still registered: a control called before may have unregistered it.
+    /// Returns the control if it is still registered: a control that was called before may have unregistered it.
     pub(super) fn there<'a>(
         &self,
         id: ControlId,

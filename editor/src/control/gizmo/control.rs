@@ -1,4 +1,4 @@
-//! The gizmo as a control of the scene: its area is that of its handles, and everything while it drags.
+//! The gizmo as a control of the scene: its area is that of its handles, and the whole viewport during a drag.
 
 use super::{Gizmo, GizmoAnswer};
 use crate::control::area::ControlId;
@@ -21,7 +21,7 @@ pub struct GizmoControl {
     pub corner: Vec2,
     /// Whether poses can be changed. If not, a press on a handle is only noted, see [`Self::take_refused`].
     pub editable: bool,
-    /// A press on a handle that is released where it was is a click on the object behind the handle.
+    /// A press on a handle that is released at the same position is a click on the object behind the handle.
     machine: DragMachine<HandlePress, DragOrigin>,
     answer: Option<GizmoAnswer>,
     clicked: Option<Mouse>,
@@ -33,7 +33,7 @@ pub struct GizmoControl {
 struct HandlePress {
     /// Position and modifier keys.
     mouse: Mouse,
-    /// Whether nothing moves as long as it may be a click.
+    /// Whether the drag waits until the press can no longer be a click.
     waits: bool,
 }
 
@@ -46,7 +46,8 @@ enum DragOrigin {
     Key,
 }
 
-/// Slack of rings and arrows, points: even the smallest drag of them may be intended.
+/// Distance within which a press on a ring or an arrow is still a click, points. It is short, because even a very small
+/// drag of them may be intended.
 const STEADY: f32 = 1.5;
 
 impl Default for GizmoControl {
@@ -192,7 +193,7 @@ impl BaseControl for GizmoControl {
                     self.refused = true;
                     return InputFlow::Stop;
                 }
-                // The ball is large, and covers bones that may be meant.
+                // The ball is large, and the press may be meant for a bone that it covers.
                 let ball = handle == Some(Handle::Center) && self.gizmo.tool == Tool::Rotate;
                 let slack = if ball { THRESHOLD } else { STEADY };
                 let begins = handle.is_some() && self.gizmo.begin(handle, at);

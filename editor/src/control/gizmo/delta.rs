@@ -1,4 +1,4 @@
-//! From one change of the whole selection to the new pose of each bone.
+//! Computes the new pose of each bone from one change of the whole selection.
 //!
 //! Every result is computed from the pose before the drag and one delta, never from the previous result, so errors do not
 //! accumulate.

@@ -41,25 +41,26 @@ pub(super) struct ActiveDrag {
     pub(super) tool: Tool,
     /// Handle that was pressed.
     grabbed: Handle,
-    /// Whether a handle was pressed, and not a key.
+    /// Whether the drag began with a press on a handle; otherwise a key began it.
     by_handle: bool,
     lock: Option<AxisLock>,
     settings: GizmoSettings,
     placement: GizmoAnchor,
-    /// View of now, and view at the start, which decides the axes.
+    /// The current view, and the view at the start of the drag, which determines the axes.
     view: GizmoView,
     first: GizmoView,
     start: DVec2,
     pointer: DVec2,
     modifiers: Modifiers,
     measure: Measure,
-    /// Amount up to the last change of speed or view, and the raw measurement then.
+    /// The amount at the last change of speed or view, and the raw measurement at that moment.
     settled: DVec3,
     anchor: DVec3,
 }
 
 impl ActiveDrag {
-    /// Begins a drag; `None` if there is nothing to drag, or it is behind the camera.
+    /// Begins a drag; `None` if the layout of the gizmo cannot be computed, for example because the camera looks
+    /// away from it.
     pub(super) fn begin(
         tool: Tool,
         handle: Option<Handle>,
@@ -231,7 +232,7 @@ impl ActiveDrag {
         match self.handle() {
             Handle::Axis(axis) => axis.unit() * typed.x,
             Handle::Plane(normal) => {
-                // In alphabetical order, as they are shown.
+                // The axes in alphabetical order, in which the fields are shown.
                 let mut axes = normal.others();
                 axes.sort_by_key(|axis| *axis as usize);
                 axes[0].unit() * typed.x + axes[1].unit() * typed.y
@@ -240,7 +241,7 @@ impl ActiveDrag {
         }
     }
 
-    /// Assigns a measured distance to the axes: along one axis it is in x.
+    /// Assigns a measured distance to the axes. A distance along a single axis is measured as x.
     fn along(&self, amount: DVec3) -> DVec3 {
         match self.handle() {
             Handle::Axis(axis) => axis.unit() * amount.x,
@@ -268,7 +269,7 @@ impl ActiveDrag {
 
     fn turn(&self, amount: DVec3) -> GizmoDelta {
         let frame = self.placement.axes(self.space(), &self.first);
-        // Seen from outside, a rotation in mirrored axes runs the other way.
+        // Seen from the world, a rotation in mirrored axes has the opposite direction.
         let inside = |axis: DVec3| frame.axes.transpose() * axis * frame.sign;
         match self.handle() {
             Handle::Axis(axis) | Handle::Plane(axis) => {

@@ -1,4 +1,4 @@
-//! From the position of the pointer to an amount of translation, rotation or scale.
+//! Converts the position of the pointer into an amount of translation, rotation or scale.
 //!
 //! A measurement begins with a drag, where its amount is 0. Each kind has an amount for every pointer position, and changes
 //! continuously:
@@ -31,7 +31,7 @@ const NO_ANGLE: f64 = 1.0;
 enum MeasureKind {
     /// `t = σ / (a + σ·b)` for a pointer σ points along the axis on the screen.
     Line { from: DVec2, along: DVec2, a: f64, b: f64, reach: f64 },
-    /// By the upward movement of the pointer.
+    /// By the upward movement of the pointer, for an axis that points at the viewer.
     Up { unit: f64 },
     /// In a plane with this normal, with the pointer shifted by an offset.
     Plane { normal: DVec3, shift: DVec2 },
@@ -39,9 +39,9 @@ enum MeasureKind {
     Edge { normal: DVec3, unit: f64 },
     /// By the angle between two directions in the plane of the ring.
     Ring { normal: DVec3, sign: f64, zero: DVec3, last: Option<f64>, total: f64 },
-    /// As a wheel seen from its rim.
+    /// Along the near side of a ring seen edge on, as if it were a wheel.
     Wheel { along: DVec2, sign: f64 },
-    /// As a trackball.
+    /// By the movement of the pointer, as with a trackball.
     Ball,
     /// By the ratio of the distances from the center, now and at the start.
     Ratio { middle: DVec2, start: f64 },
@@ -115,7 +115,7 @@ impl Measure {
                 if from.length() > NO_ANGLE * unit {
                     let angle = from.dot(normal.cross(*zero)).atan2(from.dot(*zero));
                     let turned = angle - last.unwrap_or(angle);
-                    // The shorter direction.
+                    // Of the two directions of rotation, the shorter one counts.
                     *total += turned - TAU * (turned / TAU).round();
                     *last = Some(angle);
                 }
@@ -167,8 +167,8 @@ fn translation(handle: Handle, layout: &GizmoLayout, start: DVec2, grabbed: bool
 
 fn rotation(handle: Handle, layout: &GizmoLayout) -> MeasureKind {
     let view = &layout.view;
-    // Angles about an axis of the gizmo are measured in its axes, which run the other way if they are mirrored; those
-    // about the line of sight in the world's.
+    // Angles about an axis of the gizmo are measured in its axes, which run the other way if they are mirrored; angles
+    // about the line of sight are measured in the axes of the world.
     let (normal, sign) = match handle {
         Handle::Axis(axis) | Handle::Plane(axis) => (layout.axes.axis(axis), layout.axes.sign),
         Handle::Ring => (view.back, 1.0),

@@ -32,7 +32,7 @@ use typed::TypedNumbers;
 /// The effect of a key or a button on the gizmo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GizmoAnswer {
-    /// It has no meaning for the gizmo.
+    /// The key or button has no meaning for the gizmo.
     Ignored,
     /// The drag continues, with another result.
     Changed,
@@ -45,21 +45,21 @@ pub enum GizmoAnswer {
 /// The state of a drag, for the text next to the pointer. Lengths and angles are along the axes of [`Self::space`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GizmoReadout<'a> {
-    /// Tool that drags.
+    /// Tool of the drag.
     pub tool: Tool,
     /// Handle that the drag is locked to.
     pub handle: Handle,
-    /// GizmoSpace whose axes it follows.
+    /// Space whose axes the drag follows.
     pub space: GizmoSpace,
     /// Present amount.
     pub delta: GizmoDelta,
-    /// Typed text of each number; empty where nothing is typed.
+    /// Typed text of each number; empty if nothing is typed.
     pub typed: [&'a str; 3],
     /// How many numbers can be typed.
     pub fields: usize,
     /// Index of the number that is typed into.
     pub field: usize,
-    /// Whether its text is a number. If not, the last one that was counts.
+    /// Whether the text in that field is a number. If not, the last valid number is used.
     pub is_number: bool,
 }
 
@@ -74,7 +74,7 @@ pub struct Gizmo {
     placement: GizmoPlacement,
     hovered: Option<Handle>,
     going: Option<ActiveDrag>,
-    /// The dragged bones as they were before.
+    /// The dragged bones as they were before the drag.
     before: Vec<GizmoTarget>,
     made: GizmoDrag,
     delta: Option<GizmoDelta>,
@@ -233,7 +233,7 @@ impl Gizmo {
         self.present_into(shape);
     }
 
-    /// Does the same as [`Self::present`], after what `shape` contains already.
+    /// Does the same as [`Self::present`], but appends to what `shape` already contains.
     pub fn present_into(&self, shape: &mut GizmoShape) {
         match &self.going {
             Some(drag) => {

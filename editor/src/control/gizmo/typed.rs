@@ -37,7 +37,7 @@ impl TypedNumbers {
         self.fields.iter().take(count).any(|field| !field.text.is_empty())
     }
 
-    /// Returns the numbers of the first `count` fields; `None` where nothing is typed.
+    /// Returns the numbers of the first `count` fields; `None` if nothing is typed.
     pub(super) fn values(&self, count: usize) -> [Option<f64>; 3] {
         std::array::from_fn(|index| {
             let field = &self.fields[index];

@@ -220,7 +220,7 @@ impl ViewportTools {
         self.framework.resolve_input(event, &mut self.owner).is_some()
     }
 
-    /// Notifies the controls after they changed without an input.
+    /// Notifies the controls of mouse and focus after they were moved without an input.
     pub fn update(&mut self) {
         self.framework.update(&mut self.owner);
     }

@@ -25,7 +25,7 @@ pub struct ToolScene<'a> {
     pub settings: GizmoSettings,
 }
 
-/// A request of a tool after an input. All that a tool asks for during one drag becomes one step of the history.
+/// A request of a tool after an input. All changes that a tool requests during one drag become one step of the history.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ToolOutcome {
     /// Select the bone under the pointer, after a click on a handle that covers it.

@@ -1,4 +1,4 @@
-//! Pins held over time: keys that keep pinned bones where they are now, at every frame that plays.
+//! Bakes pins: adds keys that keep pinned bones where they are now, at every frame of the play range.
 
 use super::{edit, ik};
 use crate::panels::request::Effect;
@@ -12,11 +12,12 @@ use dragonfly_document::posing::{PoseDragState, poses_of_pins};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Maximum number of times at which one step makes poses.
+/// Maximum number of times at which pins are baked in one step.
 const MOST: usize = 20_000;
 
-/// Rotates the chains above the pins at every frame of what plays, so that pinned bones keep their position and rotation.
-/// The bones of the chains get keys at all frames, and at the keys that they have between the frames.
+/// Rotates the chains above the pins at every frame of the play range, or of the take, so that pinned bones keep their
+/// position and rotation. The bones of the chains get keys at all frames, and at the keys that they have between the
+/// frames.
 pub(in crate::panels) fn bake_pins(workspace: &mut Workspace) -> Option<Effect> {
     let here = ik::hold(workspace)?;
     let panels = workspace.read();
@@ -40,7 +41,7 @@ pub(in crate::panels) fn bake_pins(workspace: &mut Workspace) -> Option<Effect> 
     }
     let times = times_to_bake(&take, &chains, play, rate);
     if times.len() > MOST {
-        let text = format!("{} frames are too many at once: set a play range", times.len());
+        let text = format!("Cannot bake {} frames at once: set a shorter play range", times.len());
         workspace.say(MessageSeverity::Info, text);
         return None;
     }
@@ -48,7 +49,8 @@ pub(in crate::panels) fn bake_pins(workspace: &mut Workspace) -> Option<Effect> 
     Some(edit(Edit::SetPoses(SetPoses { take: name, at, unstep: true })))
 }
 
-/// Returns the frames that play, with both ends, and the keys of `bones` between them; ascending.
+/// Returns the times of all frames of the play range, including both ends, and of the keys of `bones` between them;
+/// ascending.
 fn times_to_bake(
     take: &Take,
     bones: &BTreeSet<BoneIndex>,
@@ -57,7 +59,7 @@ fn times_to_bake(
 ) -> Vec<f32> {
     let to = from + length;
     let inside = |time: &f32| (from..=to).contains(time);
-    // Limited, but to more than the maximum, which the caller reports.
+    // The number of frames is limited, but to more than [`MOST`], so that the caller can report an error.
     let last = frame_of(to, rate).min(frame_of(from, rate).saturating_add(2 * MOST as i64));
     let frames = (frame_of(from, rate)..=last).map(|frame| time_of(frame, rate));
     let tracks = take.tracks.iter().filter(|track| bones.contains(&track.bone));

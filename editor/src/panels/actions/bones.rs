@@ -16,7 +16,7 @@ pub(in crate::panels) fn command(workspace: &mut Workspace, command: SelectionCo
     }
 }
 
-/// Selects the parent of the active bone; the first bone where none is selected.
+/// Selects the parent of the active bone; the first bone if none is selected.
 pub(in crate::panels) fn select_parent(workspace: &mut Workspace) {
     if let Some(loaded) = workspace.model.loaded() {
         workspace.bones.select_parent(&loaded.model.animation.skeleton);
@@ -30,15 +30,15 @@ pub(in crate::panels) fn select_child(workspace: &mut Workspace) {
     }
 }
 
-/// Selects the bones of the other side; with `extend` in addition.
+/// Selects the bones on the other side of the body; with `extend`, adds them to the selection.
 pub(in crate::panels) fn select_mirror(workspace: &mut Workspace, extend: bool) {
     let Some(loaded) = workspace.model.loaded() else { return };
     if !workspace.bones.mirror(&loaded.model.animation.skeleton, extend) {
-        workspace.say(MessageSeverity::Info, "No bone with the name of the other side was found");
+        workspace.say(MessageSeverity::Info, "No bone on the other side with a matching name was found");
     }
 }
 
-/// Sets a flag of the selected bones, or clears it where all of them have it.
+/// Sets a flag of the selected bones, or clears it if all of them have it.
 pub(in crate::panels) fn toggle_flag(workspace: &mut Workspace, flag: BoneFlag) {
     let bones = workspace.bones.bones().to_vec();
     let on = !bones.iter().all(|&bone| workspace.keys.flags().has(flag, bone));
@@ -65,7 +65,7 @@ pub(in crate::panels) fn picked(workspace: &mut Workspace, at: Pos2, bones: &[Bo
     }
 }
 
-/// Takes the position of the pointer over the viewport. Bones that are not drawn are not highlighted.
+/// Stores the position of the pointer over the viewport. Bones that are not drawn are not highlighted.
 pub(super) fn point(workspace: &mut Workspace, pointer: Option<Pos2>) {
     let shown = workspace.read().shows_skeleton();
     workspace.bones.set_pointer(pointer.filter(|_| shown));

@@ -65,7 +65,7 @@ pub(super) fn paste(workspace: &mut Workspace, text: &str, mirrored: bool) -> Op
     None
 }
 
-/// Inserts copied keys at the time shown: on the bones they are of, or, where the same number of other bones is selected, on
+/// Inserts copied keys at the time shown: on the bones they are of, or, if the same number of other bones is selected, on
 /// these in their order. Locked bones stay as they are.
 fn paste_keys(workspace: &mut Workspace, mut channels: Vec<CopiedChannel>) -> Option<Effect> {
     let Some(take) = workspace.read().take_ref() else {

@@ -1,4 +1,4 @@
-//! Drags: of keys, and of whatever is dragged when something else is asked for.
+//! Drags of keys, and the end of any drag that another request interrupts.
 
 use crate::panels::change_summary;
 use crate::panels::dragging::Admission;
@@ -12,7 +12,7 @@ use dragonfly_document::bones::Choice;
 use egui::{Context, Popup};
 use std::sync::Arc;
 
-/// Passes on what may go to the document and further, and before it what cancels a drag that it would cut in two.
+/// Passes an effect on. If it would interrupt a drag, the change that cancels the drag is passed on first.
 pub(in crate::panels) fn let_through(
     workspace: &mut Workspace,
     effect: Effect,
@@ -65,7 +65,7 @@ fn pass_change(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(
     send(workspace, change, pass);
 }
 
-/// Numbers a change, shows it before the document answers where that is possible, and passes it on.
+/// Assigns a number to a change, shows its result before the document answers if possible, and passes it on.
 fn send(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)) {
     let number = workspace.model.send(&change, &mut workspace.dragging.echo);
     if let Change::Edit(_, Some(gesture)) | Change::Cancel(gesture) = change {
@@ -100,7 +100,7 @@ fn release_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
 /// the Escape key and then events that release the buttons.
 pub(super) fn lose_input(workspace: &mut Workspace, context: &Context, effects: &mut Vec<Effect>) {
     effects.push(Effect::CancelDrag);
-    // Text that is being typed, a question and a menu are not closed by it.
+    // No Escape while text is being typed, or while a question or a menu is open: it would close them.
     let escape = !context.text_edit_focused()
         && workspace.prompts.question().is_none()
         && !Popup::is_any_open(context);
@@ -148,12 +148,12 @@ pub(in crate::panels) fn release_keys(workspace: &mut Workspace) -> Option<Effec
     (!changes.is_empty()).then_some(Effect::Changes(changes))
 }
 
-/// Cancels a drag of keys; does nothing where there is none.
+/// Cancels a drag of keys; does nothing if there is none.
 pub(in crate::panels) fn cancel_keys(workspace: &mut Workspace) -> Option<Effect> {
     workspace.keys.cancel_drag().map(Effect::Change)
 }
 
-/// Selects pasted keys that the document has now, and ends a drag that was released and is done.
+/// Selects pasted keys once the document has them, and ends a released drag once all its edits are answered.
 pub(super) fn settle_keys(workspace: &mut Workspace) {
     let Some(generation) = workspace.model.view().map(|view| view.generation) else { return };
     let take = workspace.read().shared_take().cloned();
@@ -170,7 +170,7 @@ pub(super) fn settle_keys(workspace: &mut Workspace) {
     }
 }
 
-/// Handles an edit that the document refused: keys that wait for it are not selected.
+/// Handles an edit that the document refused: keys that were to be selected after it are not.
 pub(in crate::panels) fn refused(workspace: &mut Workspace) {
     workspace.keys.refused();
     settle_keys(workspace);

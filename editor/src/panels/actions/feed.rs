@@ -11,8 +11,8 @@ use crate::panels::workspace::Workspace;
 use egui::{Context, Event, Order, PointerButton, Popup, Pos2, RawInput};
 use std::time::{Duration, Instant};
 
-/// Gives the events of `input` from `from` on to the tools of the viewport, and removes those that are for the tools alone.
-/// Returns whether the viewport may look different now.
+/// Passes the events of `input` from index `from` on to the tools of the viewport, and removes those that are for the
+/// tools alone. Returns whether the viewport may look different now.
 pub(in crate::panels) fn feed(
     context: &Context,
     workspace: &mut Workspace,
@@ -104,7 +104,7 @@ fn use_event(
             let Some(key) = key_of(*key, written) else {
                 return if drags { EventUse::Alone } else { EventUse::Nothing };
             };
-            // A letter held down would bind and free an axis in turn.
+            // Repeats of a held letter would lock and unlock an axis in turn.
             let counts = !*repeat || key == Key::Backspace;
             let taken = counts && press(workspace, key, effects);
             match (drags || taken, written) {
@@ -113,13 +113,13 @@ fn use_event(
                 (false, _) => EventUse::Nothing,
             }
         }
-        // Ctrl and X, which mean an axis and a snap here.
+        // The window system reports Ctrl+X as Cut; during a drag it means the X axis with snapping.
         Event::Cut if workspace.tools.controls().is_busy() => {
             press(workspace, Key::letter('x'), effects);
             EventUse::Alone
         }
         Event::Copy | Event::Paste(_) if workspace.tools.controls().is_busy() => EventUse::Alone,
-        // A letter that no key has a name for.
+        // A character that was typed without an event of its key.
         Event::Text(text) if workspace.tools.controls().is_busy() => {
             for letter in text.chars() {
                 press(workspace, Key::letter(letter), effects);
@@ -135,8 +135,9 @@ fn use_event(
     }
 }
 
-/// Handles a key after a drag was refused that a key asked for: its axis, its number and the key that ends it have no other
-/// effect. Otherwise `R`, `X`, `30`, Enter would delete keys and change the view.
+/// Handles a key that is typed after a key tried to begin a drag that was refused: keys for the axis, the number and
+/// the end of that drag have no other effect. Otherwise typing `R`, `X`, `30`, Enter would delete keys and change the
+/// view.
 fn typed_for_nothing(workspace: &mut Workspace, key: Option<Key>, written: Option<char>) -> Option<EventUse> {
     let at = workspace.tools.take_refused_drag()?;
     let goes_on = match key? {

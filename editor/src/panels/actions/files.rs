@@ -10,7 +10,7 @@ use dragonfly_document::{Decision, DocumentMessage, NotSaved, Offer, SaveOrder, 
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 
-/// Asks a question after those that wait. Time stops while a question is shown.
+/// Asks a question after those that are already waiting. Playback is paused.
 pub(in crate::panels) fn ask(workspace: &mut Workspace, question: Question) {
     workspace.prompts.ask(question);
     playback::pause(workspace);
@@ -39,7 +39,7 @@ pub(super) fn answered(workspace: &mut Workspace, action: FileAction) -> Option<
         FileAction::Send(DocumentMessage::Decide(offer, Decision::Discard | Decision::Later)) => {
             workspace.prompts.decided(offer);
         }
-        // The dialog for files that follows may be closed without an answer.
+        // The question stays, because the file dialog that follows may be closed without a choice.
         FileAction::Find(_) if finds => {}
         FileAction::Send(_)
         | FileAction::Where { .. }
@@ -62,7 +62,7 @@ pub(super) fn dismiss(workspace: &mut Workspace) -> Option<Effect> {
     Some(Effect::File(FileAction::Send(DocumentMessage::Decide(Box::new(offer), decision))))
 }
 
-/// Saves to the document's own file; shows what will change first where the settings say so.
+/// Saves to the document's own file; shows what will change first if the settings say so.
 pub(in crate::panels) fn save(workspace: &mut Workspace) -> Option<Effect> {
     let order = SaveOrder::own(None);
     if workspace.settings.show_changes && workspace.model.has_file() {

@@ -30,7 +30,7 @@ pub(in crate::panels) fn frame_shown(workspace: &mut Workspace) {
     workspace.camera.frame(bounds.min, bounds.max);
 }
 
-/// Frames the active bone and its children, or the model where no bone is selected.
+/// Frames the active bone and its children, or the model if no bone is selected.
 pub(in crate::panels) fn frame_selected(workspace: &mut Workspace) {
     let (Some(view), Some(active)) = (workspace.model.view(), workspace.bones.active()) else {
         return frame_shown(workspace);

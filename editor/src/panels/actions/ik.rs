@@ -9,7 +9,8 @@ use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::posing::{PoseDragState, look_at};
 use std::sync::Arc;
 
-/// Returns what a drag at the time shown starts from: the poses as they are shown, the pins, the IK settings.
+/// Returns the state from which a drag at the time shown starts: the poses as they are shown, the pins, the IK
+/// settings.
 pub(in crate::panels) fn hold(workspace: &mut Workspace) -> Option<PoseDragState> {
     let (fixed, mode) = (workspace.read().fixed_bones(), workspace.tools.ik());
     let view = workspace.model.view()?;
@@ -19,18 +20,21 @@ pub(in crate::panels) fn hold(workspace: &mut Workspace) -> Option<PoseDragState
     Some(PoseDragState::new(skeleton, poses, workspace.bones.pins(), mode, None).with_fixed(&fixed))
 }
 
-/// Pins the selected bones, or frees them where all of them are pinned.
+/// Pins the selected bones, or unpins them if all of them are pinned.
 pub(in crate::panels) fn toggle_pins(workspace: &mut Workspace) {
     let pinned = workspace.bones.toggle_pins();
     let bones = workspace.bones.bones();
-    let stay = if bones.len() == 1 { "it stays" } else { "they stay" };
+    let stay = if bones.len() == 1 { "it stays in place" } else { "they stay in place" };
     let what = bones::bones_text(workspace, bones);
-    let text =
-        if pinned { format!("Pinned {what}: {stay} while others move") } else { format!("Freed {what}") };
+    let text = if pinned {
+        format!("Pinned {what}: {stay} while other bones move")
+    } else {
+        format!("Unpinned {what}")
+    };
     workspace.say(MessageSeverity::Info, text);
 }
 
-/// Frees all bones.
+/// Unpins all bones.
 pub(in crate::panels) fn free_pins(workspace: &mut Workspace) {
     workspace.bones.set_pins(Vec::new());
     workspace.say(MessageSeverity::Info, "All bones are unpinned");
@@ -42,7 +46,7 @@ pub(in crate::panels) fn toggle_ik(workspace: &mut Workspace) {
     say_ik(workspace);
 }
 
-/// Changes the number of bones that follow.
+/// Changes the length of the IK chain: the number of bones above a moved bone that follow it.
 pub(in crate::panels) fn lengthen_ik(workspace: &mut Workspace, by: i64) {
     workspace.tools.lengthen_ik(by);
     say_ik(workspace);
@@ -52,21 +56,22 @@ fn say_ik(workspace: &mut Workspace) {
     let ik = workspace.tools.ik();
     let bones = count(ik.length as usize, "bone", "bones");
     let text = if ik.on {
-        format!("IK is on: {bones} above follow a bone that is moved")
+        format!("IK is on: moving a bone also moves {bones} above it")
     } else {
-        format!("IK is off: a bone is moved alone ({bones} with it on)")
+        format!("IK is off: a moved bone moves alone (with IK also {bones} above it)")
     };
     workspace.say(MessageSeverity::Info, text);
 }
 
-/// Makes the active bone the one towards which elbows and knees bend, or none where it was it.
+/// Makes the active bone the pole target, towards which elbows and knees bend; clears the pole target if it already
+/// is that bone.
 pub(in crate::panels) fn toggle_pole(workspace: &mut Workspace) {
     let Some(active) = workspace.bones.active() else { return };
     let pole = Some(active).filter(|_| workspace.tools.ik().pole != Some(active));
     workspace.tools.set_pole(pole);
     let text = match pole {
         Some(bone) => format!("Elbows and knees bend towards {}", workspace.read().bone_name(bone)),
-        None => "The pole target of IK is cleared".to_owned(),
+        None => "The pole target of IK was cleared".to_owned(),
     };
     workspace.say(MessageSeverity::Info, text);
 }

@@ -1,4 +1,4 @@
-//! Input of the viewport: events reach the tools as they happen, and what follows goes out at once.
+//! Input of the viewport: events reach the tools as they happen, and the resulting effects are passed on at once.
 
 use super::{locks, playback, tools};
 use crate::control::path::PathKey;
@@ -15,7 +15,8 @@ use glam::Vec2;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Gives an event to the tools of the viewport; what reaches further is added to `effects`. Returns whether a tool took it.
+/// Gives an event to the tools of the viewport; effects for the program around the panels are added to `effects`.
+/// Returns whether a tool took it.
 ///
 /// Allocates nothing that grows with the model.
 pub(in crate::panels) fn input(
@@ -32,7 +33,7 @@ pub(in crate::panels) fn input(
     }
     let taken = workspace.tools.input(event, workspace.camera.camera());
     if taken && matches!(event, InputEvent::MouseDown(_)) {
-        // The viewport was used last: the command that copies takes the pose.
+        // The viewport was used last, so the copy command copies the pose.
         workspace.keys.lose_focus();
     }
     take_answers(workspace, effects);

@@ -1,4 +1,4 @@
-//! Keys: selecting, deleting, moving by a command, markers, the range that plays.
+//! Keys: selecting, deleting, moving by a command, markers, the play range.
 
 use super::drags::{cancel_keys, drag_keys, release_keys};
 use super::{edit, locks};
@@ -38,7 +38,7 @@ pub(in crate::panels) fn cancel_or_deselect(workspace: &mut Workspace) -> Option
     }
     if !workspace.prompts.close_overlay() {
         workspace.bones.clear();
-        // Keys, too: a command that deletes keys only deletes those that are seen to be selected.
+        // Keys are deselected, too, so that Delete only deletes keys that are visibly selected.
         workspace.keys.deselect();
     }
     None
@@ -51,7 +51,7 @@ pub(in crate::panels) fn delete(workspace: &mut Workspace) -> Option<Effect> {
     Some(edit(Edit::DeleteKeys(DeleteKeys { take: panels.take_ref()?, keys })))
 }
 
-/// Does to the selected keys what a drag would do.
+/// Applies an operation to the selected keys, as a drag that ends at once.
 fn drag_at_once(workspace: &mut Workspace, op: KeyDragOp) -> Option<Effect> {
     if workspace.keys.drag().is_some() {
         return None;
@@ -70,7 +70,7 @@ fn drag_at_once(workspace: &mut Workspace, op: KeyDragOp) -> Option<Effect> {
     (!changes.is_empty()).then_some(Effect::Changes(changes))
 }
 
-/// Copies the selected keys to the time shown; after themselves where they start there.
+/// Copies the selected keys to the time shown; one frame after the last one if the first one is at that time.
 pub(in crate::panels) fn duplicate(workspace: &mut Workspace) -> Option<Effect> {
     let panels = workspace.read();
     let [first, last] = panels.keys.selection().extent(panels.take()?)?;
@@ -102,14 +102,14 @@ pub(in crate::panels) fn ripple(workspace: &mut Workspace, frames: f32) -> Optio
     let panels = workspace.read();
     let (take, from) = (panels.take_ref()?, panels.time());
     let step = frames * panels.frame_seconds();
-    // Removing frames deletes the keys in them, so the keys after them move.
+    // To remove frames, the keys after them move; keys inside the removed frames are deleted.
     let from = if frames < 0.0 { from - step } else { from };
     // If there is no key to move, the document refuses the edit and returns the reason.
     drag_at_once(workspace, KeyDragOp::Ripple { from, by: step })
         .or_else(|| Some(edit(Edit::RippleKeys(RippleKeys { take, from, by: step }))))
 }
 
-/// Sets the interpolation of the channels with selected keys. Channels of different kinds are several steps.
+/// Sets the interpolation of the channels with selected keys. Channels of different kinds become separate steps.
 pub(in crate::panels) fn interpolate(workspace: &mut Workspace, between: KeyInterpolation) -> Option<Effect> {
     let panels = workspace.read();
     let take = panels.take_ref()?;
@@ -133,7 +133,7 @@ pub(in crate::panels) fn interpolate(workspace: &mut Workspace, between: KeyInte
     Some(Effect::Changes(edits.map(|edit| Change::Edit(edit, None)).collect()))
 }
 
-/// Follows a newer view of the same model, which may be saved elsewhere now and have other takes.
+/// Adapts the markers to a newer view of the same model, which may have another path and other takes.
 pub(super) fn keep_markers(workspace: &mut Workspace, before: Option<&View>) {
     let Some(view) = workspace.model.view() else { return };
     if before.is_none_or(|before| before.file != view.file) {
@@ -163,7 +163,7 @@ pub(in crate::panels) fn add_marker(workspace: &mut Workspace) {
     }
 }
 
-/// Sets the part of the take that plays.
+/// Sets the play range.
 pub(super) fn set_range(workspace: &mut Workspace, range: Option<[f32; 2]>) {
     let bounds = workspace.read().take_bounds();
     workspace.keys.set_range(range, bounds);
@@ -174,7 +174,7 @@ pub(in crate::panels) fn clear_range(workspace: &mut Workspace) {
     set_range(workspace, None);
 }
 
-/// Plays between the selected keys, or the part of time that is shown where none are selected.
+/// Sets the play range to the selected keys, or to the visible time if none is selected.
 pub(in crate::panels) fn range_of_keys(workspace: &mut Workspace) {
     let panels = workspace.read();
     let Some(take) = panels.take() else { return };

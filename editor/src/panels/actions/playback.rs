@@ -7,7 +7,7 @@ use crate::panels::workspace::Workspace;
 use dragonfly_document::View;
 use dragonfly_picture::playback::Repeat;
 
-/// Shows a take from its start; keeps playing or standing.
+/// Shows a take from its start; playback keeps running or stays paused.
 pub(in crate::panels) fn show_take(workspace: &mut Workspace, index: Option<usize>) {
     workspace.keys.before_take_change();
     let take = index.and_then(|index| workspace.model.takes().get(index));
@@ -15,8 +15,8 @@ pub(in crate::panels) fn show_take(workspace: &mut Workspace, index: Option<usiz
     workspace.player.show(index, bounds);
 }
 
-/// Follows the take that is shown to its place in a newer view; where it is gone, shows its neighbor. A take that was just
-/// created on request is shown.
+/// Follows the take that is shown to its index in a newer view; if it is gone, shows its neighbor. Shows a take that
+/// was just created by a command.
 pub(in crate::panels) fn follow_take(workspace: &mut Workspace, before: Option<&View>) {
     let before = before.map_or(&[][..], |view| &view.slots);
     if let Some(new) = workspace.takes.update(before, workspace.model.slots()) {
@@ -40,7 +40,8 @@ pub(in crate::panels) fn follow_take(workspace: &mut Workspace, before: Option<&
     }
 }
 
-/// Goes on with the take that is shown, at the same time of it, where its bounds changed or it is gone.
+/// Adapts playback to the new bounds of the take that is shown, at the same time; shows the rest pose if the take is
+/// gone.
 pub(in crate::panels) fn keep_take(workspace: &mut Workspace) {
     let panels = workspace.read();
     let bounds = panels
@@ -56,12 +57,12 @@ pub(in crate::panels) fn bound_playback(workspace: &mut Workspace) {
     workspace.player.play_within(bounds);
 }
 
-/// Starts in `direction`, or stops when time already runs that way.
+/// Starts playback in `direction`, or pauses it if it already runs in that direction.
 pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
     let speed = workspace.settings.speed * direction;
     if workspace.player.is_playing() && workspace.player.playback().speed == speed {
         let (time, rate) = (workspace.player.time(), workspace.settings.frame_rate);
-        // Keys will be made at the time where it stops, and with snapping on they go to whole frames.
+        // New keys are added at the time where playback stops, and with snapping on keys are at whole frames.
         let frame = ruler::time_of(ruler::frame_of(time, rate), rate);
         return stop_at(workspace, if workspace.keys.snap() { frame } else { time });
     }
@@ -72,7 +73,7 @@ pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
     workspace.player.play(bounds, speed);
 }
 
-/// Stops where time is, if it passes.
+/// Pauses playback at the time shown, if it is running.
 pub(in crate::panels) fn pause(workspace: &mut Workspace) {
     if workspace.player.is_playing() {
         let time = workspace.player.time();
@@ -80,13 +81,13 @@ pub(in crate::panels) fn pause(workspace: &mut Workspace) {
     }
 }
 
-/// Goes to `time`; keeps playing or standing.
+/// Moves the playhead to `time`; playback keeps running or stays paused.
 pub(in crate::panels) fn seek(workspace: &mut Workspace, time: f32) {
     workspace.player.seek(time);
     bring_into_sight(workspace);
 }
 
-/// Goes to `time` and stops there.
+/// Moves the playhead to `time` and pauses there.
 pub(in crate::panels) fn stop_at(workspace: &mut Workspace, time: f32) {
     workspace.player.stop_at(time);
     bring_into_sight(workspace);
@@ -99,38 +100,38 @@ fn bring_into_sight(workspace: &mut Workspace) {
     }
 }
 
-/// Goes to the first time that plays.
+/// Moves the playhead to the start of the play range, or of the take.
 pub(in crate::panels) fn go_to_start(workspace: &mut Workspace) {
     let (start, _) = workspace.read().play_bounds();
     seek(workspace, start);
 }
 
-/// Goes to the last time that plays.
+/// Moves the playhead to the end of the play range, or of the take.
 pub(in crate::panels) fn go_to_end(workspace: &mut Workspace) {
     let (start, length) = workspace.read().play_bounds();
     seek(workspace, start + length);
 }
 
-/// Goes on by this many seconds and stops.
+/// Moves the playhead by this many seconds and pauses.
 pub(in crate::panels) fn skip(workspace: &mut Workspace, seconds: f32) {
     let time = workspace.player.time() + seconds;
     stop_at(workspace, time);
 }
 
-/// Goes to the next or previous frame and stops.
+/// Moves the playhead to the next or previous frame and pauses.
 pub(in crate::panels) fn step_frame(workspace: &mut Workspace, direction: i64) {
     let time = ruler::step_frame(workspace.player.time(), direction, workspace.settings.frame_rate);
     stop_at(workspace, time);
 }
 
-/// Goes to the next or previous key and stops.
+/// Moves the playhead to the next or previous key and pauses.
 pub(in crate::panels) fn step_key(workspace: &mut Workspace, forward: bool) {
     if let Some(time) = workspace.read().next_key(forward) {
         stop_at(workspace, time);
     }
 }
 
-/// Goes to the next or previous marker and stops.
+/// Moves the playhead to the next or previous marker and pauses.
 pub(in crate::panels) fn step_marker(workspace: &mut Workspace, forward: bool) {
     match workspace.read().next_marker(forward) {
         Some(time) => stop_at(workspace, time),
@@ -162,7 +163,7 @@ pub(in crate::panels) fn set_repeat(workspace: &mut Workspace, repeat: Repeat) {
     workspace.player.set_repeat(repeat);
 }
 
-/// Sets the next of loop, back and forth, once.
+/// Switches to the next repeat mode: loop, ping-pong, once.
 pub(in crate::panels) fn cycle_repeat(workspace: &mut Workspace) {
     let repeat = match workspace.player.playback().repeat {
         Repeat::Loop => Repeat::PingPong,

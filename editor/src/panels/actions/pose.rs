@@ -27,8 +27,8 @@ pub(in crate::panels) fn toggle_auto_key(workspace: &mut Workspace) {
     workspace.say(MessageSeverity::Info, text);
 }
 
-/// Keys what is pending at the time shown; where nothing is, adds keys there that keep the motion, of the selected bones or
-/// of all.
+/// Keys the poses that are pending at the time shown. If there are none, adds keys that keep the motion, for the
+/// selected bones or for all.
 pub(in crate::panels) fn key(workspace: &mut Workspace) -> Option<Effect> {
     let panels = workspace.read();
     let (take, time) = (panels.take_ref()?, panels.time());
@@ -39,14 +39,14 @@ pub(in crate::panels) fn key(workspace: &mut Workspace) -> Option<Effect> {
     Some(edit(Edit::KeyPending(KeyPending { take, time: Some(time), bones, unstep: true })))
 }
 
-/// Keys what is pending anywhere in the take.
+/// Keys all pending poses of the take.
 pub(in crate::panels) fn key_pending(workspace: &mut Workspace) -> Option<Effect> {
     let bones = free_pending(workspace, None)?;
     let take = workspace.read().take_ref()?;
     Some(edit(Edit::KeyPending(KeyPending { take, time: None, bones, unstep: true })))
 }
 
-/// Drops what is pending in the take.
+/// Discards all pending poses of the take.
 pub(in crate::panels) fn drop_pending(workspace: &mut Workspace) -> Option<Effect> {
     let bones = free_pending(workspace, None)?;
     let take = workspace.read().take_ref()?;
@@ -54,7 +54,7 @@ pub(in crate::panels) fn drop_pending(workspace: &mut Workspace) -> Option<Effec
 }
 
 /// Returns the bones whose pending poses are keyed or dropped, at one time or at all, as edits name them: an empty list, which
-/// means all, where no bone is locked, otherwise those that are not locked. `None` where all of them are locked, with a
+/// means all, if no bone is locked, otherwise those that are not locked. `None` if all of them are locked, with a
 /// message.
 fn free_pending(workspace: &mut Workspace, time: Option<f32>) -> Option<Vec<BoneRef>> {
     if !workspace.keys.flags().any_locked() {
@@ -130,7 +130,7 @@ pub(in crate::panels) fn reset(
     let bones: Vec<BoneIndex> = panels.bones_to_pose().collect();
     let keyed =
         |bone: BoneIndex| properties.iter().any(|&property| slot.key_at(bone, property, time).is_some());
-    // Keys are reset to the bit and with their tangents.
+    // If there are keys, this edit resets them exactly, including their tangents.
     if to == ResetTo::Original && panels.settings.auto_key && bones.iter().any(|&bone| keyed(bone)) {
         let (bones, properties) = (panels.selected_refs(), properties.to_vec());
         return Some(edit(Edit::ResetPose(ResetPose { take, time, bones, properties, to })));

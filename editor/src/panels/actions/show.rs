@@ -32,7 +32,7 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
     tools::update_path(workspace);
 }
 
-/// Shows a newer view of the document. Of another model its first take that moves is shown, playing from the start.
+/// Shows a newer view of the document. If it is of another model, plays the first take that moves from its start.
 pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     let view = workspace.model.receive(view, &mut workspace.dragging.echo);
     if workspace.model.is_replaced_by(&view) {
@@ -78,7 +78,7 @@ fn marks(workspace: &Workspace) -> BoneMarks<'_> {
     BoneMarks { flags: workspace.keys.flags(), pins: workspace.bones.pins(), pole: workspace.tools.ik().pole }
 }
 
-/// Notes the marks of the model that is open, where they changed.
+/// Notes the marks of the model that is open, if they changed.
 pub(in crate::panels) fn note_marks(workspace: &mut Workspace) {
     let mut remembered = std::mem::take(&mut workspace.marks);
     if let Some(view) = workspace.model.view() {
@@ -104,7 +104,7 @@ fn recall_marks(workspace: &mut Workspace) {
     workspace.marks = remembered;
 }
 
-/// Sets the frame rate at which the keys of the model were made, where they are not at frames of the rate that is set.
+/// Sets the frame rate at which the keys of the model were made, unless they are at frames of the current rate.
 fn guess_frame_rate(workspace: &mut Workspace) {
     let now = workspace.settings.frame_rate;
     if let Some(rate) = frame_rate::rate_of(workspace.model.takes(), now).filter(|&rate| rate != now) {

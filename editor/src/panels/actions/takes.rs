@@ -115,7 +115,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_copy_of_a_copy_is_called_like_the_first() {
+    fn the_suffix_of_copies_and_numbers_is_removed_from_a_name() {
         assert_eq!(without_copy("Walk"), "Walk");
         assert_eq!(without_copy("Walk copy"), "Walk");
         assert_eq!(without_copy("Walk copy 12"), "Walk");

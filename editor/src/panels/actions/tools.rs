@@ -48,7 +48,7 @@ pub(in crate::panels) fn drag_now(workspace: &mut Workspace, tool: Tool) {
     }
 }
 
-/// Places the gizmo at the selected bones, in the pose that is shown. Does nothing where nothing changed; a drag keeps its
+/// Places the gizmo at the selected bones, in the pose that is shown. Does nothing if nothing changed; a drag keeps its
 /// place.
 pub(super) fn sync_gizmo(workspace: &mut Workspace) {
     workspace.tools.controls_mut().look(workspace.camera.camera());

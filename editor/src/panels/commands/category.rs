@@ -35,7 +35,7 @@ impl Category {
         Self::Help,
     ];
 
-    /// For sheets.
+    /// Returns the title of the category, for menus, the palette and the shortcut sheet.
     pub fn title(self) -> &'static str {
         match self {
             Self::File => "File",

@@ -21,6 +21,6 @@ pub struct Command {
     pub when: When,
     /// Whether a held key runs it again and again, as for commands that step through time.
     pub repeats: bool,
-    /// Runs the command. Returns what reaches further than the panels.
+    /// Runs the command. Returns an effect for the program around the panels, if there is one.
     pub(in crate::panels) run: fn(&mut Workspace) -> Option<Effect>,
 }

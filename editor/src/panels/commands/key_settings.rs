@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct KeySettings {
-    /// The keys that apply where the user chose none.
+    /// The preset, whose keys apply to every command whose keys the user did not change.
     pub preset: Preset,
     /// Names of commands with the keys that the user gave them, as [`text`] writes them; an empty list: no key at all.
     /// Names and keys that do not exist (any more) are ignored.
@@ -29,7 +29,7 @@ impl KeySettings {
         self.own.remove(id.name());
     }
 
-    /// Returns whether the user gave this command other keys.
+    /// Returns whether the user changed the keys of this command.
     pub fn is_own(&self, id: Id) -> bool {
         self.own.contains_key(id.name())
     }

@@ -17,8 +17,8 @@ pub struct Keymap {
 }
 
 impl Keymap {
-    /// Applies `settings`. A key of one command is removed from all commands that only have it by the layer below: the preset
-    /// overrides the table, the user overrides the preset.
+    /// Applies `settings`. A shortcut that one layer gives to a command is removed from the commands that have it from
+    /// a lower layer: the preset overrides the table, the user overrides the preset.
     pub fn new(settings: KeySettings) -> Self {
         let mut keymap = Self { other: HashMap::new(), settings };
         for (id, shortcuts) in keymap.settings.preset.table() {
@@ -52,7 +52,7 @@ impl Keymap {
         context.data(|data| data.get_temp::<Arc<Self>>(Self::place())).unwrap_or_default()
     }
 
-    /// Uses these settings from now on; costs nothing where they are in use already.
+    /// Uses these settings from now on; does nothing if they are in use already.
     pub fn install(settings: &KeySettings, context: &egui::Context) {
         if Self::of(context).settings != *settings {
             let keymap = Arc::new(Self::new(settings.clone()));
@@ -70,7 +70,7 @@ impl Keymap {
         self.other.get(&command.id).map_or(command.shortcuts, Vec::as_slice)
     }
 
-    /// Returns the command of these keys.
+    /// Returns the command that this shortcut runs.
     pub fn command_of(&self, key: Key, modifiers: Modifiers) -> Option<Id> {
         let gives = |shortcut: &KeyboardShortcut| {
             shortcut.logical_key == key && modifiers.matches_exact(shortcut.modifiers)

@@ -52,14 +52,14 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Wheel, Alt + right drag", "Zoom"),
     ("Click", "Select the bone under the pointer; again: the bone behind it"),
     ("Shift + click, Ctrl + click", "Add to the selection, toggle"),
-    ("Drag", "Select in a box"),
-    ("Ctrl + Alt + left drag", "Select in a lasso"),
+    ("Drag", "Box select"),
+    ("Ctrl + Alt + left drag", "Lasso select"),
     ("Drag a handle", "Move, rotate, scale; Shift for precision, Ctrl to snap"),
-    ("X, Y, Z while dragging", "Constrain to an axis, with Shift to a plane; again: other axes"),
+    ("X, Y, Z while dragging", "Constrain to an axis, with Shift to a plane; again: local or world axes"),
     ("Digits while dragging", "Enter the amount"),
     ("Enter, Esc while dragging", "Confirm, cancel (also: right button)"),
     ("Drag the axes", "Orbit"),
-    ("Alt + wheel over the timeline", "Frame by frame"),
+    ("Alt + wheel over the timeline", "Step frame by frame"),
 ];
 
 /// Returns the row of `id`.
@@ -114,7 +114,7 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
     let open = modal || Popup::is_any_open(context) || context.input(|input| input.pointer.any_down());
     let typing = context.text_edit_focused();
     let focused = context.memory(|memory| memory.focused().is_some());
-    // A field has lost the focus by its Escape when this runs, and the Escape was meant for it.
+    // Escape has already taken the focus from a text field when this runs; the Escape was meant for that field.
     let place = egui::Id::unique("focused before");
     let open = open || context.data(|data| data.get_temp::<bool>(place)).unwrap_or_default();
     context.data_mut(|data| data.insert_temp(place, focused));
@@ -145,8 +145,8 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
     found
 }
 
-/// Returns whether a key is for the text field that has the focus: all are except function keys and those with Ctrl that
-/// mean nothing in a text.
+/// Returns whether a key is for the text field that has the focus: every key is, except function keys and combinations
+/// with Ctrl that have no meaning in a text field.
 fn belongs_to_text(key: Key, modifiers: Modifiers) -> bool {
     use Key::{
         A, ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Backspace, C, Delete, End, Home, U, V, W, X, Y, Z,
@@ -173,8 +173,8 @@ fn belongs_to_text(key: Key, modifiers: Modifiers) -> bool {
     !function && (!modifiers.command || edits)
 }
 
-/// Returns the key of an event. The window system reports copy, cut and paste as such, not as keys; the command that pastes
-/// reads the text.
+/// Returns the key of an event. The window system reports Ctrl+C, Ctrl+X and Ctrl+V as copy, cut and paste, not as
+/// keys; the command that pastes reads the text.
 fn key_of(event: &egui::Event) -> Option<(Key, bool, Modifiers)> {
     match event {
         egui::Event::Key { key, pressed: true, repeat, modifiers, .. } => Some((*key, *repeat, *modifiers)),

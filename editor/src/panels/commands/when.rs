@@ -1,4 +1,5 @@
-//! When a command can be run: menus gray out the others, keys and the palette report the reason.
+//! Conditions under which commands can be run. Menus gray out the other commands; shortcuts and the palette report
+//! the reason.
 
 use crate::panels::context::PanelContext;
 use crate::panels::window_status::DeviceStatus;
@@ -12,7 +13,7 @@ pub enum When {
     Model,
     /// A take is shown, not the rest pose.
     Take,
-    /// A take is shown, and there are others.
+    /// A take is shown, and the model has other takes.
     OtherTakes,
     /// A bone is selected.
     Bone,
@@ -63,13 +64,13 @@ impl When {
         }
     }
 
-    /// Returns what is missing where the condition is not met, as a sentence.
+    /// Returns the reason why the condition is not met, as a sentence.
     pub fn reason(self) -> &'static str {
         match self {
             Self::Always => "",
             Self::Model => "No model is open",
             Self::Take => "No take is shown",
-            Self::OtherTakes => "The last take of a model cannot be deleted or moved",
+            Self::OtherTakes => "The only take of a model cannot be deleted or moved",
             Self::Bone => "No bone is selected",
             Self::BoneInTake => "Requires a selected bone and a take",
             Self::Keys => "No key is selected",
@@ -77,7 +78,7 @@ impl When {
             Self::Pinned => "No bone is pinned",
             Self::PinnedInTake => "Requires a pinned bone and a take",
             Self::Undo => "There is nothing to undo",
-            Self::Redo => "Nothing was undone",
+            Self::Redo => "There is nothing to redo",
             Self::Unsaved => "Everything is saved",
             Self::Loading => "No model is being opened",
             Self::Paused => "The viewport is not paused",

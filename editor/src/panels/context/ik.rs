@@ -8,7 +8,7 @@ use dragonfly_picture::gizmo::Tool;
 use std::sync::Arc;
 
 impl PanelContext<'_> {
-    /// Returns the poses that were computed last with the pins, for numbers that are typed; `None` where no bone is pinned.
+    /// Returns the last computed poses with the pins, for edits by typed numbers; `None` if no bone is pinned.
     pub(in crate::panels) fn hold_of_pins(&self) -> Option<PoseDragState> {
         let animation = self.posed.animation().filter(|_| !self.pins.is_empty())?;
         let skeleton = Arc::clone(&self.loaded()?.model.animation.skeleton);
@@ -16,8 +16,8 @@ impl PanelContext<'_> {
         Some(hold.with_fixed(&self.fixed_bones()))
     }
 
-    /// Returns the bones that no chain rotates: locked ones, which are not edited, and muted ones, which are shown at rest
-    /// so that the rotation would not be seen.
+    /// Returns the bones that no chain rotates: locked ones, which are not edited, and muted ones, which are shown at
+    /// rest, so that the rotation would not be visible.
     pub(in crate::panels) fn fixed_bones(&self) -> Vec<BoneIndex> {
         self.keys.flags().fixed(self.bone_count())
     }
@@ -32,7 +32,7 @@ impl PanelContext<'_> {
         self.pins.contains(&bone)
     }
 
-    /// Returns the pins and the chain of bones that follows the active one, as they are drawn; `None` where there are neither.
+    /// Returns the pins and the chain of bones that follows the active one, as they are drawn; `None` if there are neither.
     pub fn ik_look(&self) -> Option<IkLook> {
         let (pins, chain) = (self.pins.to_vec(), self.ik_chain());
         let pole = self.ik.pole.filter(|_| chain.is_some());
@@ -52,7 +52,7 @@ impl PanelContext<'_> {
         }
     }
 
-    /// Returns the active bone and the number of bones above it that follow, where it is moved with IK.
+    /// Returns the active bone and the number of bones above it that follow, if it is moved with IK.
     fn ik_chain(&self) -> Option<(BoneIndex, u32)> {
         let moves = self.ik.on && self.settings.tools.tool == Some(Tool::Move);
         let bone = self.selected().filter(|_| moves && self.playback.take.is_some())?;

@@ -1,14 +1,15 @@
-//! Keys of the take shown: which bones are listed, the next key, the bounds of playback, ghosts.
+//! Queries about the keys of the take shown: which bones are listed, the next key, the bounds of playback, ghosts.
 
 use super::PanelContext;
 use crate::panels::keys::{Drawn, Marker, channel};
 use dragonfly_anim::data::BoneIndex;
 
-/// A key nearer to the time shown than this is the key that is left, seconds.
+/// A key closer to the time shown than this counts as the key at that time, and is not the next or previous one;
+/// seconds.
 const NEAR: f32 = 1e-4;
 
 impl<'a> PanelContext<'a> {
-    /// Returns the keys as they are to be drawn now; `None` where no take is shown.
+    /// Returns the keys as they are to be drawn now; `None` if no take is shown.
     pub fn drawn_keys(&self) -> Option<Drawn> {
         self.keys.drawn(self.shared_take())
     }
@@ -28,7 +29,7 @@ impl<'a> PanelContext<'a> {
         self.take().map_or((0.0, 0.0), |take| (take.start, take.length))
     }
 
-    /// Returns start and length of what plays, seconds: the range, or the whole take.
+    /// Returns start and length of the play range, or of the whole take if there is none, seconds.
     pub fn play_bounds(&self) -> (f32, f32) {
         let (start, length) = self.take_bounds();
         match self.keys.range() {
@@ -40,13 +41,13 @@ impl<'a> PanelContext<'a> {
         }
     }
 
-    /// Returns what trimming keeps, seconds: the play range, or the whole take where none is set.
+    /// Returns what trimming keeps, seconds: the play range, or the whole take if none is set.
     pub(in crate::panels) fn trim_range(&self) -> [f32; 2] {
         let (start, length) = self.play_bounds();
         [start, start + length]
     }
 
-    /// Returns whether only the selected bones are listed; where none is selected all are.
+    /// Returns whether only the selected bones are listed; if none is selected, all bones are listed.
     pub(in crate::panels) fn lists_only_selected(&self) -> bool {
         self.keys.only_selected() && self.selected().is_some()
     }
@@ -94,14 +95,14 @@ impl<'a> PanelContext<'a> {
         nearest(&mut bones.chain(morphs))
     }
 
-    /// Returns the time of the next marker, or of the one before.
+    /// Returns the time of the next or the previous marker.
     pub(in crate::panels) fn next_marker(&self, forward: bool) -> Option<f32> {
         let (now, mut times) = (self.time(), self.markers().iter().map(|marker| marker.time));
         if forward { times.find(|&time| time > now + NEAR) } else { times.rfind(|&time| time < now - NEAR) }
     }
 
     /// Computes at which times the skeleton is shown as a ghost: seconds, and the number of the ghost counted from now;
-    /// negative before now. None while time passes.
+    /// negative before now. There are none during playback.
     pub fn ghost_times(&self, out: &mut Vec<(f32, i32)>) {
         out.clear();
         let ghosts = &self.settings.tools.ghosts;

@@ -56,7 +56,7 @@ pub struct PanelContext<'a> {
     pub playback: PlaybackClock,
     /// The moment of the frame that is drawn.
     pub now: Instant,
-    /// Selection and drag of keys, flags, markers, the range that plays.
+    /// Selection and drag of keys, flags, markers, the play range.
     pub keys: &'a KeyEditing,
     /// The list of takes.
     pub takes: &'a TakeListState,
@@ -88,7 +88,7 @@ impl<'a> PanelContext<'a> {
         self.view.map(|view| &*view.loaded)
     }
 
-    /// Returns the number of bones of the model; 0 where none is open.
+    /// Returns the number of bones of the model; 0 if none is open.
     pub(super) fn bone_count(&self) -> usize {
         self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len())
     }
@@ -113,15 +113,15 @@ impl<'a> PanelContext<'a> {
         self.playback.time_at(self.now)
     }
 
-    /// Returns the name of a bone, or `Bone 7` where it has none.
+    /// Returns the name of a bone, or `Bone 7` if it has none.
     pub fn bone_name(&self, bone: BoneIndex) -> String {
         let bones = self.loaded().map(|loaded| &loaded.model.animation.skeleton.bones);
         let name = bones.and_then(|bones| bones.get(bone as usize)).map_or("", |bone| bone.name.as_str());
         if name.is_empty() { format!("Bone {bone}") } else { name.to_owned() }
     }
 
-    /// Returns whether bones are drawn: also when one is selected, when some are hidden, which is for seeing the others, and
-    /// where the model has no surface.
+    /// Returns whether bones are drawn: if the setting is on, but also if a bone is selected, if bones are hidden (in
+    /// order to see the others), and if the model has no surface.
     pub fn shows_skeleton(&self) -> bool {
         let bare = self.loaded().is_some_and(|loaded| loaded.model.instances.is_empty());
         self.settings.look.skeleton || self.selected().is_some() || !self.hidden.is_empty() || bare

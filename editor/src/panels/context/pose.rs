@@ -13,7 +13,7 @@ impl<'a> PanelContext<'a> {
     }
 
     /// Returns the edit that sets these poses (parent space) at the time shown: as keys with auto-key on, as pending poses
-    /// with it off. `None` where the rest pose is shown, which is not edited, or no bone is named.
+    /// with it off. `None` if the rest pose is shown, which is not edited, or no bone is named.
     pub fn pose_edit(&self, poses: Vec<BonePose>) -> Option<Edit> {
         let take = self.take_ref().filter(|_| !poses.is_empty())?;
         Some(self.edit_of(take, self.time(), poses))
@@ -57,8 +57,8 @@ impl<'a> PanelContext<'a> {
         (self.slot().map_or(0, TakeVersions::pending_poses), all)
     }
 
-    /// Returns the selected bones that a change is for: those that are not locked. Where all of them are locked, all: then the
-    /// change is refused with a message.
+    /// Returns the selected bones that a change is for: those that are not locked. If all of them are locked, returns
+    /// all, so that the change is refused with a message.
     pub fn bones_to_pose(&self) -> impl Iterator<Item = BoneIndex> + use<'a> {
         let none_free = self.selection_is_locked();
         let (bones, flags) = (self.selection.bones(), self.keys.flags());
@@ -71,7 +71,7 @@ impl<'a> PanelContext<'a> {
         flags.any_locked() && !bones.is_empty() && bones.iter().all(|&bone| flags.locked(bone))
     }
 
-    /// Returns the bones of [`Self::bones_to_pose`] as edits name them; an empty list, which means all bones, where none is
+    /// Returns the bones of [`Self::bones_to_pose`] as edits name them; an empty list, which means all bones, if none is
     /// selected.
     pub(in crate::panels) fn selected_refs(&self) -> Vec<BoneRef> {
         self.bones_to_pose().map(BoneRef::Index).collect()
@@ -83,7 +83,7 @@ impl<'a> PanelContext<'a> {
         bones.filter(|&bone| !self.keys.flags().locked(bone)).map(BoneRef::Index).collect()
     }
 
-    /// Returns the selected bones, or all bones where none is selected.
+    /// Returns the selected bones, or all bones if none is selected.
     pub(in crate::panels) fn selected_or_all(&self) -> Vec<BoneIndex> {
         if !self.selection.bones().is_empty() {
             return self.selection.bones().to_vec();
@@ -93,7 +93,7 @@ impl<'a> PanelContext<'a> {
 }
 
 impl PanelContext<'_> {
-    /// Returns the poses together with those that keep pinned bones in place, where `hold` is of some.
+    /// Returns the poses together with those that keep pinned bones in place, if `hold` is given.
     pub(in crate::panels) fn with_pins(
         hold: &mut Option<PoseDragState>,
         poses: Vec<BonePose>,

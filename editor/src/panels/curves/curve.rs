@@ -114,12 +114,12 @@ impl Curve {
         }
     }
 
-    /// Returns the number of numbers of a key.
+    /// Returns how many numbers a key has.
     pub(super) fn width(&self) -> usize {
         if self.id.1 == Property::Rotation { self.form.numbers() } else { 3 }
     }
 
-    /// Whether everything is computed.
+    /// Whether the numbers of all keys are computed.
     pub(super) fn is_whole(&self) -> bool {
         self.whole
     }
@@ -156,7 +156,8 @@ impl Curve {
         let (mut from, mut to) = (keys.start, keys.end.min(self.numbers.len()));
         let mut found = Extent::NONE;
         let mut below: Option<&[Extent]> = None;
-        // Single keys up to whole blocks, then blocks up to whole blocks of the next level.
+        // Single keys up to the border of a block, then blocks up to the border of a block of the next level, and so
+        // on.
         for level in 0..=self.levels.len() {
             let at =
                 |index: usize| below.map_or_else(|| Extent::of(&self.numbers[index]), |below| below[index]);
@@ -183,7 +184,7 @@ impl Curve {
         found
     }
 
-    /// Returns the numbers at a time, with those angles that are nearest to `near`.
+    /// Returns the numbers at a time; of equivalent angles, those nearest to `near`.
     pub(super) fn at(&self, time: f32, near: CurveNumbers) -> CurveNumbers {
         match &self.columns {
             CurveColumns::Vector(channel) => vector(sample_channel(channel, Vec3::ZERO, time)),
@@ -265,7 +266,7 @@ mod tests {
     use dragonfly_kit::random::{Random, seed};
 
     #[test]
-    fn the_extent_of_any_keys_is_what_looking_at_each_gives() {
+    fn the_extent_from_blocks_equals_the_extent_of_every_key() {
         let seed = seed(9);
         let mut random = Random::new(seed);
         for count in [1, 15, 16, 17, 255, 257, 5000] {

@@ -23,7 +23,8 @@ pub(super) struct CurveDrag {
     component: usize,
 }
 
-/// The dragged part of the curves. `requested` is whether the drag was requested, so that it must exist from now on.
+/// The dragged part of the curves. `requested` is whether the drag was requested; if no drag exists after that, it was
+/// refused or cancelled.
 #[derive(Debug)]
 enum CurveDragged {
     Times {
@@ -138,7 +139,8 @@ impl CurveDragged {
         }
     }
 
-    /// Shows how far the drag is, and returns the operation that it amounts to; `None` for a box and where there is none.
+    /// Shows the amount of the drag next to the pointer, and returns its operation; `None` for a selection box, and if
+    /// there is no valid operation.
     fn op(
         &mut self,
         ui: &Ui,
@@ -287,7 +289,8 @@ impl CurveCanvas<'_> {
 
     /// Returns the keys in a box of times and values.
     fn boxed(&self, [times, values]: [[f32; 2]; 2]) -> Vec<(ChannelId, Vec<[f32; 2]>)> {
-        /// Number of keys of a curve above which only their times count.
+        /// Number of keys of a curve in the range of times above which the values are not tested, and all of them are
+        /// selected.
         const LOOKED_AT: usize = 50_000;
         let mut parts = Vec::new();
         for curve in self.curves {

@@ -41,7 +41,7 @@ impl RotationForm {
         }
     }
 
-    /// Returns the number of numbers that a rotation has in this form.
+    /// Returns how many numbers a rotation has in this form.
     pub(super) fn numbers(self) -> usize {
         if self == Self::Quaternion { 4 } else { 3 }
     }
@@ -55,7 +55,7 @@ impl RotationForm {
         }
         let near = near.map(f64::from);
         let (a, b, c) = unit.to_euler(order);
-        // The other equivalent set of angles, with the middle one beyond a right angle.
+        // The other set of angles for the same rotation, whose middle angle is beyond a right angle.
         let half = std::f64::consts::PI;
         let sets = [[a, b, c], [a + half, half - b, c + half]];
         let best = sets.map(|angles| {
@@ -136,7 +136,7 @@ mod tests {
     use dragonfly_kit::random::{Random, seed};
 
     #[test]
-    fn numbers_and_rotation_say_the_same_in_every_form() {
+    fn the_numbers_of_a_rotation_give_it_back_in_every_form() {
         let seed = seed(3);
         let mut random = Random::new(seed);
         for _ in 0..500 {
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_go_on_over_half_a_turn() {
+    fn angles_continue_beyond_half_a_turn() {
         let mut near = [0.0; 4];
         for step in 0..=36 {
             let angle = step as f32 * 20.0;
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn slopes_and_rates_lead_to_each_other() {
+    fn slopes_converted_to_a_rate_and_back_stay_the_same() {
         let seed = seed(5);
         let mut random = Random::new(seed);
         for _ in 0..200 {

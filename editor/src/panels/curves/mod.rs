@@ -40,7 +40,7 @@ pub struct Curves {
     drag: CurveDrag,
     fields: Fields,
     scrub: Scrub,
-    /// Range of values that is shown; none until there are curves to fit.
+    /// Range of values that is shown; `None` until there are curves to fit.
     window: Option<ValueWindow>,
     /// Curves that the range of values was fitted to.
     fitted: Option<Fitted>,
@@ -252,7 +252,7 @@ impl Curves {
         }
     }
 
-    /// Draws whose curves they are.
+    /// Draws the name of the bone or the number of bones whose curves are shown.
     fn legend(
         &self,
         painter: &egui::Painter,

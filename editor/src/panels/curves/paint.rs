@@ -1,4 +1,4 @@
-//! The curves as triangles, made when something that they depend on changed.
+//! The curves as triangles, rebuilt only when something that they depend on changed.
 
 use super::axis::ValueScale;
 use super::curve::{Curve, CurveNumbers, Extent};

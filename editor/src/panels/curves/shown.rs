@@ -102,7 +102,8 @@ impl ShownCurves {
 
 /// Returns the channels whose curves are wanted: of the selected bones, or those with selected keys.
 ///
-/// If the bones have none of the wanted properties, those that they have: an empty panel explains nothing.
+/// If the bones have no keys in the wanted properties, returns the channels that have keys, because an empty panel
+/// would explain nothing.
 pub(super) fn wanted(context: &PanelContext<'_>, drawn: &Drawn, properties: u8) -> Vec<ChannelId> {
     let of_bones: Vec<ChannelId> = context
         .selection

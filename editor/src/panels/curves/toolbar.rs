@@ -51,7 +51,8 @@ pub(super) fn show(
         ui.set_height(HEIGHT);
         ui.spacing_mut().item_spacing.x = 2.0;
         ui.add_space(2.0 * GRID);
-        // The buttons show what is drawn: if the bones lack the chosen properties, others are.
+        // The buttons show what is drawn: if the bones have no keys in the chosen properties, other properties are
+        // drawn.
         let visible = curves.iter().fold(0, |all, curve| all | bit(curve.id.1));
         for (property, letter, name) in [
             (Property::Translation, "T", "Translation"),

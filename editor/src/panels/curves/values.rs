@@ -21,7 +21,7 @@ impl ValueKey {
         Some(Self { id: curve.id, time, numbers: curve.key(key), form: curve.form() })
     }
 
-    /// Returns the number of its numbers.
+    /// Returns how many numbers the key has.
     pub(super) fn width(&self) -> usize {
         if self.id.1 == Property::Rotation { self.form.numbers() } else { 3 }
     }

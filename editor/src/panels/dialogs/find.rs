@@ -15,13 +15,13 @@ use std::path::{Path, PathBuf};
 pub struct FindQuestion {
     /// The work.
     pub offer: Box<Offer>,
-    /// A file that was chosen and is another one; `None` asks for a path.
+    /// The file that the user chose, if its content is not that of the expected file; `None` asks for a path.
     pub other: Option<PathBuf>,
 }
 
 impl QuestionKind for FindQuestion {
     fn name(&self) -> &'static str {
-        if self.other.is_none() { "asked where a file is now" } else { "said that it is another file" }
+        if self.other.is_none() { "asked where a file is now" } else { "reported that it is another file" }
     }
 
     /// Returns the path where the file was.

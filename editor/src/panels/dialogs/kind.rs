@@ -1,4 +1,4 @@
-//! What every question has: a name for the log, a text for its field, and how it is drawn.
+//! The interface of a question: a name for the log, the first text of its field, and a function that draws it.
 
 use super::ask::Ask;
 use crate::panels::context::PanelContext;
@@ -14,6 +14,6 @@ pub(super) trait QuestionKind {
         String::new()
     }
 
-    /// Draws it.
+    /// Draws the question.
     fn show(&self, ask: &mut Ask<'_>);
 }

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Asks for the path to save at, which is typed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaceQuestion {
-    /// Whether the document keeps its own file.
+    /// Whether a copy is saved, and the document keeps its own file.
     pub copy: bool,
     /// The action to run after saving.
     pub then: Option<Then>,

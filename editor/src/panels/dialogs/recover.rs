@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ages_are_said_in_words() {
+    fn an_age_is_shown_in_the_largest_whole_unit() {
         let said = |seconds| ago(Some(Duration::from_secs(seconds)));
         assert_eq!(said(59), "just now");
         assert_eq!(said(60), "1 minute ago");

@@ -35,7 +35,7 @@ struct DraggedKeys {
     /// Time under the pointer at the press, seconds.
     pressed: f32,
     mode: DragMode,
-    /// Whether the drag was requested, so that it must exist from now on.
+    /// Whether the drag was requested. If no drag exists after that, it was refused or cancelled.
     requested: bool,
 }
 
@@ -128,7 +128,8 @@ impl DopeDrag {
             }
             Some(DopeDragged::Keys(keys)) => {
                 let op = keys.op(ui, pointer, sheet, input);
-                // A selection is made in this frame, and the drag is of what is selected after it.
+                // If a selection is requested in this frame, the drag begins after it, so it does not count as
+                // requested yet.
                 keys.requested |= !requests
                     .iter()
                     .any(|request| matches!(request, Request::Timeline(KeysRequest::Select { .. })));
@@ -268,7 +269,7 @@ impl Sheet<'_> {
     fn is_crowded(&self, on: &DopeKey) -> bool {
         let Some(row) = self.rows.list().get(on.row) else { return false };
         let reach = self.scale.seconds(REACH);
-        // A key less than twice the reach away is nearer to the middle of that stretch than this one.
+        // Another key less than twice the reach away is nearer to one of these times than the key itself.
         let middles = [on.time - reach, on.time + reach];
         self.rows.of(row.kind).iter().any(|&id| {
             let other = |middle| channel::nearest(&self.drawn.take, id, middle);

@@ -69,8 +69,8 @@ struct BoneLabel<'a> {
 }
 
 impl BoneLabel<'_> {
-    /// Draws it: the triangle opens and closes the bone, its name selects it, and at the right are its flags. Returns
-    /// whether the triangle was clicked.
+    /// Draws the label: the triangle opens and closes the bone, its name selects it, and at the right are its flags.
+    /// Returns whether the triangle was clicked.
     fn show(
         &self,
         ui: &mut Ui,
@@ -87,7 +87,7 @@ impl BoneLabel<'_> {
         }
         let over = ui.rect_contains_pointer(visible);
         let wide = rect.width() > 150.0;
-        // Flags that are not drawn leave their space to the name.
+        // If no flags are drawn, the name gets their space.
         let marked = over || BoneFlag::ALL.into_iter().any(|flag| context.keys.flags().has(flag, bone));
         let flags = if wide && marked { 3.0 * FLAG + 8.0 } else { 6.0 };
         let label = Rect::from_min_max(

@@ -41,7 +41,7 @@ struct Scaling {
     other: f32,
     /// Time of the dragged end when the drag began, seconds.
     grabbed: f32,
-    /// Whether the drag was requested, so that it must exist from now on.
+    /// Whether the drag was requested. If no drag exists after that, it was refused or cancelled.
     requested: bool,
 }
 

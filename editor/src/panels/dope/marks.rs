@@ -1,4 +1,4 @@
-//! The keys as triangles, made when something that they depend on changed.
+//! The keys as triangles, rebuilt only when something that they depend on changed.
 
 use super::rows::{DopeRow, RowKind};
 use super::sheet::{ROW, Sheet};
@@ -140,7 +140,7 @@ impl KeysMeshKey {
     }
 }
 
-/// Merges both kinds into one list, ascending; a column with both counts as selected.
+/// Merges unselected and selected keys into one ascending list; a column with both counts as selected.
 fn merge(plain: &Columns, chosen: &Columns, out: &mut Vec<Mark>) {
     out.clear();
     let mut chosen = chosen.marks().peekable();
@@ -214,7 +214,7 @@ impl Pen {
         }
     }
 
-    /// A diamond with soft edges.
+    /// Draws a diamond with soft edges.
     pub(in crate::panels) fn diamond(self, mesh: &mut Mesh, center: Pos2, radius: f32, color: Color32) {
         let first = mesh.vertices.len() as u32;
         let corners = [vec2(0.0, -1.0), vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(-1.0, 0.0)];

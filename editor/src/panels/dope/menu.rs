@@ -8,7 +8,7 @@ use crate::panels::request::Request;
 use dragonfly_document::Change;
 use egui::{Button, Response, Ui};
 
-/// See the module.
+/// The context menu of keys in the dope sheet.
 #[derive(Debug, Default)]
 pub(super) struct KeyMenu;
 

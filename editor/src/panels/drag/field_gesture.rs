@@ -1,4 +1,4 @@
-//! From what happens to a number field to changes of the document: a drag is one gesture.
+//! Converts the events of a number field into changes of the document; a drag is one gesture.
 
 use crate::panels::number_field::FieldEvent;
 use dragonfly_document::Change;
@@ -49,7 +49,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drag_is_one_gesture_that_counts_from_where_it_began() {
+    fn a_drag_is_one_gesture_relative_to_the_first_number() {
         let mut field = FieldGesture::default();
         let first = field.change(FieldEvent::Dragged(0.5), 1.0, || Gesture(3), start);
         assert_eq!(first, Some(Change::Edit(start(1.5), Some(Gesture(3)))));

@@ -20,7 +20,7 @@ use glam::Vec2;
 /// A press of the primary button.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::panels) struct Press<T> {
-    /// Where it was, points.
+    /// Position of the press, points.
     pub(in crate::panels) at: Pos2,
     /// Target under the pointer.
     pub(in crate::panels) on: T,
@@ -28,7 +28,7 @@ pub(in crate::panels) struct Press<T> {
     pub(in crate::panels) modifiers: Modifiers,
 }
 
-/// The machine of a panel whose presses are on a `T`.
+/// The drag machine of a panel: `T` is what can be pressed, `D` is what can be dragged.
 pub(in crate::panels) type PanelDrag<T, D> = DragMachine<Press<T>, D>;
 
 impl<T, D> PanelDrag<T, D> {
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn a_start_that_begins_nothing_is_spent() {
+    fn a_press_is_ignored_after_a_start_that_begins_no_drag() {
         let mut machine = Machine::default();
         step(&mut machine, down(0.0));
         assert!(matches!(step(&mut machine, down(9.0)), DragEvent::Started(_)));
@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_press_elsewhere_does_not_begin() {
+    fn a_press_that_egui_gives_to_another_widget_is_ignored() {
         let mut machine = Machine::default();
         assert_eq!(machine.step(&down(0.0), false, |_| "key"), DragEvent::Nothing);
         assert!(!machine.is_busy());

@@ -51,7 +51,7 @@ impl PointerInput {
     }
 }
 
-/// Returns a position of the drag machine as egui has it.
+/// Converts a position of the drag machine into the type of egui.
 pub(in crate::panels) fn position(at: glam::Vec2) -> Pos2 {
     pos2(at.x, at.y)
 }

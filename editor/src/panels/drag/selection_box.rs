@@ -24,7 +24,7 @@ impl SelectionBox {
         painter.rect_stroke(frame, CornerRadius::ZERO, edge, StrokeKind::Inside);
     }
 
-    /// Ranges from the first corner to `to`, ascending, in the units of the content.
+    /// Returns the ranges from the first corner to `to`, ascending, in the units of the content.
     pub(in crate::panels) fn ranges(&self, to: [f32; 2]) -> [[f32; 2]; 2] {
         std::array::from_fn(|axis| {
             let (a, b) = (self.from[axis], to[axis]);
@@ -33,7 +33,7 @@ impl SelectionBox {
     }
 }
 
-/// How a click or a box with these modifier keys alters the selection.
+/// Returns how a click or a box with these modifier keys changes the selection.
 pub(in crate::panels) fn choice_of(modifiers: Modifiers) -> Choice {
     match modifiers {
         Modifiers { command: true, .. } => Choice::Toggle,

@@ -6,7 +6,7 @@ pub use table::Icon;
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
 
-/// Makes the enum of all icons and the table of their strokes, a row each.
+/// Declares the enum of all icons and the table of their strokes; each icon is one row.
 macro_rules! icons {
     ($($name:ident: [$($stroke:expr),+ $(,)?],)+) => {
         /// An icon.

@@ -14,7 +14,7 @@ pub fn track(take: &Take, bone: BoneIndex) -> Option<&Track> {
     track.or_else(|| take.tracks.iter().find(|track| track.bone == bone))
 }
 
-/// Returns the times of a channel's keys; empty where there is none.
+/// Returns the times of a channel's keys; empty if there is none.
 pub fn times(take: &Take, (bone, property): ChannelId) -> &[f32] {
     shared_times(take, (bone, property)).map_or(&[], |times| times)
 }
@@ -53,7 +53,7 @@ pub fn nearest(take: &Take, channel: ChannelId, time: f32) -> Option<f32> {
     around.min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))
 }
 
-/// Returns a bone by its name, so that text means the same in another model; by its index where the name is not unique.
+/// Returns a bone by its name, so that text means the same in another model; by its index if the name is not unique.
 pub fn named(skeleton: &Skeleton, bone: BoneIndex) -> BoneRef {
     match skeleton.bones.get(bone as usize) {
         Some(rules) if !rules.name.is_empty() && skeleton.find(&rules.name) == Some(bone) => {

@@ -22,7 +22,7 @@ const LONGEST: usize = 64 << 20;
 pub(in crate::panels) struct Pasted {
     /// The document has them in a view newer than this.
     generation: u64,
-    /// Number of keys of the take before.
+    /// Number of keys that the take had before the paste.
     before: usize,
     parts: Vec<(ChannelId, Vec<[f32; 2]>)>,
 }
@@ -46,8 +46,8 @@ impl Pasted {
         Self { generation, before, parts: parts.collect() }
     }
 
-    /// Returns whether `slot`, of a view with this generation, has the keys. A view that was sent before they were pasted has
-    /// not.
+    /// Returns whether `slot`, of a view with this generation, has the keys. A view that was sent before the paste does
+    /// not have them.
     pub(super) fn is_in(&self, slot: &TakeVersions, generation: u64) -> bool {
         let is_key = |bone, property, time| slot.key_at(bone, property, time).is_some();
         let any =
@@ -83,11 +83,11 @@ struct Text {
 
 /// Returns the text of keys.
 pub fn to_text(channels: Vec<CopiedChannel>) -> String {
-    // Plain data always has a text.
+    // Plain data can always be serialized.
     serde_json::to_string(&Text { dragonfly: "keys".to_owned(), version: 1, channels }).unwrap_or_default()
 }
 
-/// Returns the keys in a text; `None` where it is anything else.
+/// Returns the keys in a text; `None` if it is anything else.
 pub fn from_text(text: &str) -> Option<Vec<CopiedChannel>> {
     if text.len() > LONGEST {
         return None;
@@ -121,7 +121,7 @@ fn column<T: Copy>(
     numbers: impl Fn(T) -> Vec<f32>,
 ) -> (KeyInterpolation, Vec<CopiedKey>) {
     let between = match channel.interpolation {
-        // The nearest key, which no edit can ask for: at the keys both show the same.
+        // Edits cannot set `Closest`. `Step` has the same values at the keys.
         Interpolation::Step | Interpolation::Closest => KeyInterpolation::Step,
         Interpolation::Linear => KeyInterpolation::Linear,
         Interpolation::CubicSpline => KeyInterpolation::CubicSpline,

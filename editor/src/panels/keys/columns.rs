@@ -137,7 +137,7 @@ impl Columns {
 
     /// Marks the column of a position that was found from column `next` on; `None` after the last.
     fn hit(&mut self, at: f64, next: usize, grid: Grid) -> Option<usize> {
-        // Also `None` for a position that is not a number.
+        // This comparison is also false for a position that is not a number.
         let inside = at < self.x.len() as f64;
         if !inside {
             return None;
@@ -166,7 +166,7 @@ impl Columns {
     }
 }
 
-/// Returns the first index from `index` on whose time is not before `time`: near ones are found at once.
+/// Returns the first index from `index` on whose time is not before `time`; fast if it is near `index`.
 pub fn gallop(times: &[f32], index: usize, time: f32) -> usize {
     let (mut low, mut step) = (index, 1);
     while times.get(low + step).is_some_and(|&at| at < time) {
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_are_those_that_looking_at_each_key_gives() {
+    fn columns_are_the_same_as_if_every_key_were_read() {
         let seed = seed(11);
         let mut random = Random::new(seed);
         for round in 0..300 {

@@ -1,8 +1,9 @@
 //! A drag of keys: one gesture, one undo step.
 //!
-//! The next edit is sent as soon as the previous one is shown: at once where the [`Echo`] carries it out, else when the document
-//! has answered it. So a slow edit makes the drag coarse in time, and the pointer is never late. What is drawn is always the take
-//! that an edit resulted in, and the selection follows the keys.
+//! The next edit is sent as soon as the previous one is shown: at once where the [`Echo`] carries it out, else when the
+//! document has answered it. So the keys follow in larger steps if an edit is slow, but they never lag further and
+//! further behind the pointer. What is drawn is always the take that an edit resulted in, and the selection follows the
+//! keys.
 
 use super::op::KeyDragOp;
 use super::selection::KeySelection;
@@ -31,9 +32,9 @@ pub struct KeyDrag {
     op: KeyDragOp,
     take: TakeRef,
     keys: Vec<KeySet>,
-    /// The operation that was sent last; `None` where nothing was, or the last one was cancelled.
+    /// The operation that was sent last; `None` if nothing was, or the last one was cancelled.
     sent: Option<KeyDragOp>,
-    /// The operation that the take contains that is shown.
+    /// The operation whose result is in the take that is shown.
     shown: Option<KeyDragOp>,
     answer: Outstanding,
     /// Whether the document refused the operation that was sent last.
@@ -44,16 +45,16 @@ pub struct KeyDrag {
 /// The answer of the document that a drag waits for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outstanding {
-    /// Nothing was ever sent.
+    /// No answer: nothing was ever sent.
     None,
-    /// To a change that has no number yet: it is sent at the end of the frame.
+    /// The answer to a change that has no number yet: it is sent at the end of the frame.
     ToUnsent,
-    /// To the change with this number.
+    /// The answer to the change with this number.
     To(u64),
 }
 
 impl KeyDrag {
-    /// Begins with `op` on the keys `moving` of `base`.
+    /// Begins a drag with `op` on the keys `moving` of `base`.
     pub(in crate::panels) fn begin(
         gesture: Gesture,
         take: TakeRef,
@@ -83,8 +84,8 @@ impl KeyDrag {
         !self.released
     }
 
-    /// Returns the change to send now; none while the previous one is not shown. `last`, when no later call follows, sends in
-    /// any case.
+    /// Returns the change to send now; none while the previous one is not shown. With `last`, which means that no later
+    /// call follows, the change is sent in any case.
     fn send(&mut self, echo: &Echo, last: bool) -> Option<Change> {
         if (!self.is_shown(echo) && !last) || self.sent.as_ref() == Some(&self.op) {
             return None;
@@ -123,7 +124,7 @@ impl KeyDrag {
         self.answer != Outstanding::None
     }
 
-    /// Notes that `take` is shown. Returns the selection in it, where it contains another operation than before.
+    /// Notes that `take` is shown. Returns the selection in it if it has the result of another operation than before.
     fn follow(&mut self, take: &Take, echo: &Echo) -> Option<KeySelection> {
         if !self.is_shown(echo) || self.refused || self.shown == self.sent {
             return None;
@@ -142,7 +143,8 @@ impl KeyDrag {
         })
     }
 
-    /// Returns the number of keys that the drag was to add to the take; `None` where it moved none.
+    /// Returns the number of keys that the drag was to add to the take; `None` if its operation is one for which
+    /// replaced keys are not counted.
     fn added(&self) -> Option<usize> {
         match self.shown.as_ref()? {
             KeyDragOp::Duplicate(_) => Some(self.moving.count(&self.base)),
@@ -211,7 +213,7 @@ impl KeyEditing {
         }
     }
 
-    /// Releases the drag. Returns the changes to send; `None` where no drag is held.
+    /// Releases the drag. Returns the changes to send; `None` if no drag is held.
     pub(in crate::panels) fn release_drag(&mut self, echo: &Echo) -> Option<Vec<Change>> {
         let drag = self.drag.as_mut().filter(|drag| drag.held())?;
         let change = drag.send(echo, true);
@@ -241,7 +243,7 @@ impl KeyEditing {
         self.drop_if(|drag| drag.gesture == gesture);
     }
 
-    /// Drops the drag if it is one of these, and selects what was selected before it.
+    /// Drops the drag if `is_one` returns true for it, and selects what was selected before it.
     fn drop_if(&mut self, is_one: impl Fn(&KeyDrag) -> bool) -> Option<KeyDrag> {
         let drag = self.drag.take_if(|drag| is_one(drag))?;
         self.selection = drag.selected.clone();

@@ -23,7 +23,7 @@ impl Intervals {
         if from <= to { Self(vec![[from, to]]) } else { Self::default() }
     }
 
-    /// Returns no interval.
+    /// Returns an empty set of intervals.
     pub const fn none() -> Self {
         Self(Vec::new())
     }
@@ -86,7 +86,8 @@ impl Intervals {
                 kept.push([from, to]);
                 continue;
             }
-            // The rest ends at keys, so that it means the same keys whatever is inserted between later.
+            // The remaining intervals end at keys, so that they contain the same keys even if others are inserted in
+            // the gap later.
             if keys.start < gone.start {
                 kept.push([from.max(times[keys.start]), times[gone.start - 1]]);
             }
@@ -123,7 +124,8 @@ impl Intervals {
         self.0 = kept.into_iter().map(|(stretch, _)| stretch).collect();
     }
 
-    /// Returns the index of the first key from `index` on that is selected, or that is not.
+    /// Returns the index of the first key from `index` on that is selected; if `selected` is false, of the first that
+    /// is not.
     pub fn next(&self, times: &[f32], index: usize, selected: bool) -> Option<usize> {
         let time = *times.get(index)?;
         match (self.at(time), selected) {
@@ -180,7 +182,7 @@ mod tests {
     const TIMES: [f32; 6] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5];
 
     #[test]
-    fn a_key_in_the_middle_is_taken_out() {
+    fn removing_a_key_in_the_middle_splits_the_interval() {
         let mut all = Intervals::one(WHOLE);
         all.remove([0.2, 0.2], &TIMES);
         assert_eq!(all.keys(&TIMES).collect::<Vec<_>>(), [0..2, 3..6]);
@@ -191,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn the_next_key_is_what_looking_at_each_finds() {
+    fn the_next_key_is_the_one_that_a_linear_search_finds() {
         let seed = dragonfly_kit::random::seed(7);
         let mut random = dragonfly_kit::random::Random::new(seed);
         for _ in 0..2000 {

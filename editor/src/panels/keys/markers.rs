@@ -18,13 +18,13 @@ pub struct Marker {
 /// A change of the markers of the take that is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MarkerAction {
-    /// Adds a marker, unless there is one already.
+    /// Adds a marker at this time, seconds, unless there is one already.
     Add(f32),
-    /// Moves this marker.
+    /// Moves the marker with this index to a time, seconds.
     Move(usize, f32),
-    /// Renames this marker.
+    /// Renames the marker with this index.
     Rename(usize, String),
-    /// Deletes this marker.
+    /// Deletes the marker with this index.
     Delete(usize),
 }
 
@@ -52,7 +52,7 @@ struct StoredMarkers {
 }
 
 impl Markers {
-    /// Returns no markers, for another model at `path`, until they are [read](Self::read).
+    /// Returns an empty list for another model at `path`, until its markers are [read](Self::read).
     pub fn open(path: String) -> Self {
         Self { path, unread: true, ..Self::default() }
     }
@@ -75,7 +75,7 @@ impl Markers {
         std::mem::take(&mut self.unread).then(|| self.file())
     }
 
-    /// Reads the text of the file; a damaged text has no markers.
+    /// Reads the text of the file; a damaged text counts as one without markers.
     pub fn read(&mut self, text: &str, slots: &[Arc<TakeVersions>]) {
         self.names = slots.iter().map(|slot| (slot.id, slot.result.name.clone())).collect();
         let stored: StoredMarkers = serde_json::from_str(text).unwrap_or_default();

@@ -1,5 +1,5 @@
-//! Editing of keys, as the timeline and the curves share it: the selected keys, the drag, the part of time that is shown,
-//! markers, flags of bones, and the range that plays. Nothing here draws.
+//! Editing of keys, as the timeline and the curves share it: the selected keys, the drag, the part of time that is
+//! shown, markers, flags of bones, and the play range. No function here draws.
 
 pub mod channel;
 pub mod clipboard;
@@ -41,7 +41,7 @@ pub struct KeyEditing {
     selection: KeySelection,
     /// Whether moved keys go to whole frames.
     snap: bool,
-    /// Whether only the selected bones are listed, where any are selected.
+    /// Whether only the selected bones are listed, if any are selected.
     only_selected: bool,
     /// Bones that were listed when one of their rows was clicked, and the selection that this made: the other bones stay
     /// listed as long as that is selected.
@@ -52,12 +52,12 @@ pub struct KeyEditing {
     markers: Markers,
     /// The part of time that is shown; `None` for the whole take.
     window: Option<TimeWindow>,
-    /// Start and end of the take when nothing was dragged last, seconds.
+    /// Start and end of the take when it was last shown without a drag, seconds.
     seen: Option<[f32; 2]>,
-    /// The part that plays, seconds; `None` for the whole take.
+    /// The play range, seconds; `None` for the whole take.
     range: Option<[f32; 2]>,
     drag: Option<KeyDrag>,
-    /// Whether the timeline or the curves were used last. Then the command that copies takes keys.
+    /// Whether the timeline or the curves were used last. Then the copy command copies keys.
     has_focus: bool,
     /// Keys that were pasted and are selected once the document has them.
     pasted: Option<Pasted>,
@@ -128,7 +128,7 @@ impl KeyEditing {
         self.snap = snap;
     }
 
-    /// Returns whether only the selected bones are listed, where any are selected.
+    /// Returns whether only the selected bones are listed, if any are selected.
     pub fn only_selected(&self) -> bool {
         self.only_selected
     }
@@ -170,7 +170,7 @@ impl KeyEditing {
         &mut self.markers
     }
 
-    /// Returns the part that plays, seconds; `None` for the whole take.
+    /// Returns the play range, seconds; `None` for the whole take.
     pub fn range(&self) -> Option<[f32; 2]> {
         self.range
     }
@@ -219,11 +219,11 @@ impl KeyEditing {
         }
     }
 
-    /// Shows the part of time with the playhead at `time`, where it is out of sight.
+    /// Shows the part of time with the playhead at `time`, if it is out of sight.
     pub(super) fn bring_into_sight(&mut self, take: &Take, time: f32) {
         let (at, window) = (f64::from(time), self.window(take));
         let end = window.start + window.length;
-        // Rounding to single precision does not put the playhead out of sight.
+        // The slack allows for rounding to single precision.
         let slack = window.length * 1e-3;
         if (window.start - slack..=end + slack).contains(&at) {
             return;
@@ -268,7 +268,7 @@ impl KeyEditing {
         self.kept = Some((listed, selected.to_vec()));
     }
 
-    /// Deselects the keys of bones that are not listed any more: only keys that are seen are deleted or moved. `selected` are
+    /// Deselects the keys of bones that are not listed any more: only visible keys are deleted or moved. `selected` are
     /// the selected bones.
     pub(super) fn deselect_unlisted(&mut self, selected: &BoneSelection) {
         if self.drag.is_none() && self.only_selected && selected.active().is_some() {
@@ -288,7 +288,7 @@ impl KeyEditing {
         self.selection = KeySelection::default();
     }
 
-    /// Selects the keys of channels between two times. Returns a locked bone where all channels are of locked bones.
+    /// Selects the keys of channels between two times. Returns a locked bone if all channels belong to locked bones.
     pub(super) fn select(
         &mut self,
         take: &Take,
@@ -297,7 +297,7 @@ impl KeyEditing {
         choice: Choice,
     ) -> Option<BoneIndex> {
         self.has_focus = true;
-        // The keys of a drag that waits for its answer are selected when the answer is there.
+        // While a drag waits for its answer, nothing is selected: its keys are selected when the answer arrives.
         if self.drag.is_some() {
             return None;
         }
@@ -325,7 +325,7 @@ impl KeyEditing {
         }
     }
 
-    /// Notes that an edit was refused: nothing is on its way any more.
+    /// Notes that an edit was refused, so that pasted keys and the drag do not wait for it any more.
     pub(super) fn refused(&mut self) {
         self.pasted = None;
         self.drag_refused();

@@ -12,7 +12,7 @@ pub enum KeyDragOp {
     Move(f32),
     /// Scales the times of the selected keys about a time.
     Scale {
-        /// Seconds.
+        /// Time that stays where it is, seconds.
         about: f32,
         /// Factor, not zero.
         factor: f32,
@@ -21,9 +21,9 @@ pub enum KeyDragOp {
     Duplicate(f32),
     /// Moves every key from a time on.
     Ripple {
-        /// Seconds.
+        /// Time from which on keys move, seconds.
         from: f32,
-        /// Seconds.
+        /// Distance, seconds.
         by: f32,
     },
     /// Moves the selected keys to whole frames at this rate per second.

@@ -52,7 +52,7 @@ impl KeySelection {
 
     /// Selects the keys of `channels` between two times, ends included; all of them with [`WHOLE`].
     ///
-    /// A toggle deselects them where all of them are selected, and selects them otherwise.
+    /// A toggle deselects them if all of them are selected, and selects them otherwise.
     pub fn choose(&mut self, take: &Take, channels: &[ChannelId], stretch: [f32; 2], choice: Choice) {
         let all = choice == Choice::Toggle
             && channels.iter().all(|&channel| {
@@ -121,7 +121,8 @@ impl KeySelection {
         Self { channels: Arc::new(moved.collect()) }
     }
 
-    /// Returns the same keys after everything from a time on was moved: `new` is the take in which they are.
+    /// Returns the same keys after all keys from time `from` on were moved by `by` seconds: `new` is the take with the
+    /// moved keys.
     pub fn rippled(&self, new: &Take, from: f32, by: f32) -> Self {
         let from = from - SAME_TIME;
         let late = |time: f32| if time.is_finite() { time + by } else { time };

@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn zooming_keeps_what_is_under_the_pointer() {
+    fn zooming_keeps_the_time_under_the_pointer() {
         let scale = |window| TimeScale { left: 50.0, width: 600.0, window };
         let before = TimeWindow { start: 1.0, length: 4.0 };
         let time = scale(before).time_at(200.0);
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn no_number_makes_a_window_without_size() {
+    fn a_window_from_any_numbers_is_finite_and_not_empty() {
         for start in [f64::NAN, f64::INFINITY, -1e300, 0.0] {
             for length in [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e300] {
                 let window = TimeWindow { start, length }.sanitized().near(0.0, 3.0);

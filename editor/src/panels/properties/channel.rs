@@ -80,7 +80,7 @@ struct Cell {
     spot: Spot,
     /// Component, 0 for X.
     index: usize,
-    /// Number that all selected bones share; `None` where they differ.
+    /// Number that all selected bones share; `None` if they differ.
     value: Option<f64>,
     /// Position, points.
     rect: Rect,

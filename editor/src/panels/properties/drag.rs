@@ -1,7 +1,7 @@
 //! Converts drags and typed numbers of the panel into edits.
 //!
-//! Typed Euler angles are kept as long as the rotation equals the one that they describe, as many angles describe the
-//! same rotation.
+//! Typed Euler angles are kept as long as the rotation equals the one that they describe, because different angles
+//! can describe the same rotation.
 
 use super::super::commands::Id;
 use super::super::context::PanelContext;
@@ -16,7 +16,7 @@ use dragonfly_document::history::Gesture;
 use dragonfly_document::posing;
 use glam::DQuat;
 
-/// Which numbers of a bone.
+/// Identifies the numbers of a bone: a channel, a column and a form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Spot {
     /// Translation, rotation or scale.
@@ -91,7 +91,7 @@ struct NumberChange {
     to: NewNumber,
 }
 
-/// What a number becomes.
+/// The new value of a number.
 #[derive(Clone, Copy)]
 enum NewNumber {
     Set(f64),
@@ -119,7 +119,7 @@ impl FieldDrag {
         Some(typed.filter(fits).map_or(now, |typed| typed.numbers))
     }
 
-    /// Returns the numbers that all selected bones share at `spot`; `None` where they differ. `pair` is the active
+    /// Returns the numbers that all selected bones share at `spot`; `None` if they differ. `pair` is the active
     /// bone.
     pub(super) fn shared(
         &self,

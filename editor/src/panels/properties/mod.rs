@@ -136,7 +136,7 @@ impl Properties {
             ui.spacing_mut().item_spacing.x = 0.0;
             ui.set_min_height(24.0);
             let room = ui.available_width();
-            ui.label(title).on_hover_text("In parent space, whatever axes the gizmo uses");
+            ui.label(title).on_hover_text("In parent space, independent of the gizmo's axes");
             if room > 180.0 {
                 ui.label(RichText::new(format!("  {unit}")).small().color(theme.faint));
             }
@@ -193,7 +193,7 @@ fn head(ui: &mut Ui, context: &PanelContext<'_>, bone: BoneIndex, requests: &mut
             return;
         }
         let Some(parent) = parent else {
-            ui.label(RichText::new("A root").color(theme.weak));
+            ui.label(RichText::new("Root bone").color(theme.weak));
             return;
         };
         ui.label(RichText::new("Child of").color(theme.weak));

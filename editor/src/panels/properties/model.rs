@@ -15,7 +15,7 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>) {
     // The built-in model may have been saved as a file.
     let kind = match (file.path.as_ref().or(loaded.path.as_ref()), loaded.format) {
         (Some(_), Some(format)) => format.title,
-        (None, _) | (_, None) => "Part of the program",
+        (None, _) | (_, None) => "Built-in model",
     };
     let kind = ui.label(RichText::new(kind).color(theme.weak));
     if let Some(path) = &file.path {

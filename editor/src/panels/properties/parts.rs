@@ -17,7 +17,7 @@ use glam::{DQuat, Quat, Vec3};
 pub enum Column {
     /// As read from the file.
     Original,
-    /// What was changed.
+    /// The change from original to result.
     Change,
     /// The combination of both.
     Result,
@@ -164,7 +164,7 @@ impl PosePart {
         pose
     }
 
-    /// Puts it into a pose.
+    /// Writes the part into a pose.
     pub fn put(self, pose: &mut Transform, property: Property) {
         match (self, property) {
             (Self::Vector(value), Property::Scale) => pose.scale = value,
@@ -173,7 +173,7 @@ impl PosePart {
         }
     }
 
-    /// The same, but for what arithmetic leaves over?
+    /// Returns whether both are equal up to rounding errors.
     pub fn is_near(self, other: Self) -> bool {
         match (self, other) {
             (Self::Vector(a), Self::Vector(b)) => {
@@ -193,7 +193,7 @@ pub fn turn_numbers(form: NumberForm, rotation: DQuat) -> FieldNumbers {
             let [x, y, z] = turn::degrees(order, rotation);
             [x, y, z, 0.0]
         }
-        // Of q and -q, the one that people write.
+        // Of q and -q, which are the same rotation, the one with a positive w is shown.
         _ if rotation.w < 0.0 => (-rotation).to_array(),
         _ => rotation.to_array(),
     }

@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn angles_give_the_rotation_back_everywhere() {
+    fn the_angles_of_any_rotation_give_it_back() {
         let seed = dragonfly_kit::random::seed(0x7u64);
         println!("seed {seed}");
         let mut random = Random::new(seed);
@@ -104,7 +104,7 @@ mod tests {
                     turn[order.axes()[1]] = if round % 8 == 0 { 90.0 - near } else { -90.0 + near };
                 }
                 let wanted = rotation(order, turn);
-                // In single precision, as a model contains it.
+                // Rounded to single precision, as in a model.
                 let kept = wanted.as_quat().as_dquat().normalize();
                 let read = degrees(order, kept);
                 let back = rotation(order, read);
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn plain_angles_are_read_as_they_were_written() {
+    fn angles_without_gimbal_lock_are_the_same_after_conversion() {
         for order in EulerOrder::ALL {
             for turn in [[30.0, 0.0, 0.0], [0.0, -45.0, 0.0], [10.0, 20.0, -30.0], [0.0, 0.0, 89.0]] {
                 let read = degrees(order, rotation(order, turn).as_quat().as_dquat());
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn orders_have_names() {
+    fn every_order_is_parsed_from_its_name() {
         for order in EulerOrder::ALL {
             assert_eq!(super::order(name(order)), Some(order));
         }

@@ -81,7 +81,7 @@ impl Panel for Takes {
         let rows = found.as_ref().map_or(count + 1, Vec::len);
         let take_at = |row: usize| found.as_ref().map_or(row.checked_sub(1), |found| Some(found[row]));
         let mut area = ScrollArea::vertical().auto_shrink(false);
-        // A search begins at the top of its results.
+        // During a search the list does not scroll to the shown take, so that it begins at the first result.
         let follow = context.playback.take.filter(|_| found.is_none());
         if std::mem::replace(&mut self.followed, follow) != follow
             && let Some(take) = follow
@@ -331,7 +331,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_all_names_begin_with_is_not_shown() {
+    fn a_prefix_with_a_bar_that_all_names_share_is_found() {
         let prefix = |names: &[&str]| shared_prefix(names.iter().copied());
         assert_eq!(prefix(&["Armature|Walk", "Armature|Run"]), 9);
         assert_eq!(prefix(&["a|b|Walk", "a|b|Run"]), 4);

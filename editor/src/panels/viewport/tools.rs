@@ -145,7 +145,7 @@ fn pivot_icon(pivot: Pivot) -> Icon {
 fn pivot_name(pivot: Pivot) -> &'static str {
     match pivot {
         Pivot::Individual => "Pivot: individual joints",
-        Pivot::Median => "Pivot: median",
+        Pivot::Median => "Pivot: median point",
         Pivot::Active => "Pivot: active bone",
     }
 }

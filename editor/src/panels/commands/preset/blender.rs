@@ -1,10 +1,10 @@
-//! As in Blender's pose mode and dope sheet.
+//! Shortcuts as in Blender's pose mode and dope sheet.
 
 use super::*;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const TABLE: PresetKeys = &[
-    // Dragging at once.
+    // Drags that a key begins at once.
     (Id::MoveNow, &[key(NONE, Key::G)]),
     (Id::RotateNow, &[key(NONE, Key::R)]),
     (Id::ScaleNow, &[key(NONE, Key::S)]),

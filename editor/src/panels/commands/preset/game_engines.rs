@@ -1,10 +1,10 @@
-//! As in Godot and Unity: where the two differ, the one whose key is not used otherwise.
+//! Shortcuts as in Godot and Unity. Where the two differ, the shortcut is used that no other command needs.
 
 use super::*;
 
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const TABLE: PresetKeys = &[
-    // Dragging; Q is the tool that selects in Godot, and the hand in Unity.
+    // Dragging; Q is the select tool in Godot, and the hand tool in Unity.
     (Id::ToolSelect, &[key(NONE, Key::Q)]),
     (Id::ToolMove, &[key(NONE, Key::W)]),
     (Id::ToolRotate, &[key(NONE, Key::E)]),

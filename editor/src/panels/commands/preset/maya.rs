@@ -1,4 +1,4 @@
-//! As in Maya.
+//! Shortcuts as in Maya.
 
 use super::*;
 

@@ -1,7 +1,7 @@
 //! Sets of keys that users know from other programs.
 //!
-//! A preset contains only what differs from the table; a key that it gives to a command is removed from the command that has
-//! it in the table. A new preset is a file here and a line in the list `presets!`.
+//! A preset contains only what differs from the table; a key that the preset gives to a command is removed from the
+//! command that has this key in the table. A new preset is a file here and a line in the list `presets!`.
 
 mod blender;
 mod game_engines;
@@ -12,8 +12,8 @@ use super::shortcut::{ALT, CTRL, NONE, PresetKeys, SHIFT, key};
 use egui::Key;
 use serde::{Deserialize, Serialize};
 
-/// Declares [`Preset`] from a list of `Name => "name on the screen", table;` lines. The name is the one in settings and never
-/// changes.
+/// Declares [`Preset`] from a list of `Name => "name on the screen", table;` lines. The name is the one that settings
+/// store, so it never changes.
 macro_rules! presets {
     ($($Name:ident => $title:literal, $table:expr;)*) => {
         /// A set of keys.

@@ -7,7 +7,7 @@ use dragonfly_picture::camera::ViewSide;
 commands! {
     FrameSelected => When::Model, "Frame selected", [key(NONE, Key::F)], "Frames the selection in the viewport", |w| { framing::frame_selected(w); None };
     FrameAll => When::Model, "Frame all", [key(SHIFT, Key::F)], "Frames the whole model in the viewport", |w| { framing::frame_shown(w); None };
-    ViewFront => When::Model, "Front", [key(NONE, Key::Num1)], "Sets the camera to the front view", |w| { w.camera.camera_mut().look_from(ViewSide::Front); None };
+    ViewFront => When::Always, "Front", [key(NONE, Key::Num1)], "Sets the camera to the front view", |w| { w.camera.camera_mut().look_from(ViewSide::Front); None };
     ViewBack => When::Always, "Back", [key(CTRL, Key::Num1)], "Sets the camera to the back view", |w| { w.camera.camera_mut().look_from(ViewSide::Back); None };
     ViewRight => When::Always, "Right", [key(NONE, Key::Num3)], "Sets the camera to the right view", |w| { w.camera.camera_mut().look_from(ViewSide::Right); None };
     ViewLeft => When::Always, "Left", [key(CTRL, Key::Num3)], "Sets the camera to the left view", |w| { w.camera.camera_mut().look_from(ViewSide::Left); None };

@@ -1,4 +1,4 @@
-//! Keys: selected, moved, copied; markers; the range that plays.
+//! Commands for keys (selecting, moving, copying), markers and the play range.
 
 use super::*;
 use crate::panels::actions::clipboard;
@@ -11,24 +11,24 @@ commands! {
     DeleteKeys => When::Keys, "Delete keys", [key(NONE, Key::Delete), key(NONE, Key::Backspace)], "Deletes the selected keys", keys::delete;
     DuplicateKeys => When::Keys, "Duplicate keys", [key(CTRL, Key::D), key(SHIFT, Key::D)], "Copies the selected keys to the playhead", keys::duplicate;
     CopyKeys => When::Keys, "Copy keys", [], "Copies the selected keys with their values and tangents; Paste inserts them at the playhead", clipboard::copy_keys;
-    KeysEarlier => When::Keys, "Keys a frame earlier", [key(ALT, Key::ArrowLeft)], "Moves the selected keys one frame earlier", |w| keys::nudge(w, -1.0), repeats;
-    KeysLater => When::Keys, "Keys a frame later", [key(ALT, Key::ArrowRight)], "Moves the selected keys one frame later", |w| keys::nudge(w, 1.0), repeats;
-    KeysSlower => When::Keys, "Keys twice as slow", [], "Doubles the distances of the selected keys to the playhead", |w| keys::scale(w, 2.0);
-    KeysFaster => When::Keys, "Keys twice as fast", [], "Halves the distances of the selected keys to the playhead", |w| keys::scale(w, 0.5);
+    KeysEarlier => When::Keys, "Move keys one frame earlier", [key(ALT, Key::ArrowLeft)], "Moves the selected keys one frame earlier", |w| keys::nudge(w, -1.0), repeats;
+    KeysLater => When::Keys, "Move keys one frame later", [key(ALT, Key::ArrowRight)], "Moves the selected keys one frame later", |w| keys::nudge(w, 1.0), repeats;
+    KeysSlower => When::Keys, "Stretch keys to half speed", [], "Doubles the time between the playhead and each selected key", |w| keys::scale(w, 2.0);
+    KeysFaster => When::Keys, "Compress keys to double speed", [], "Halves the time between the playhead and each selected key", |w| keys::scale(w, 0.5);
     KeysReverse => When::Keys, "Mirror keys about the playhead", [key(CTRL, Key::M)], "Reverses the selected keys in time about the playhead", |w| keys::scale(w, -1.0);
     SnapKeys => When::Keys, "Snap keys to frames", [key(SHIFT, Key::S)], "Moves the selected keys to whole frames", keys::snap;
-    ToggleSnap => When::Always, "Snap while dragging keys", [], "Snaps dragged keys to whole frames; Ctrl inverts that", |w| { w.keys.set_snap(!w.keys.snap()); None };
-    InterpolateStep => When::Keys, "Step between keys", [], "Sets the channels of the selected keys to step interpolation: each value holds until the next key", |w| keys::interpolate(w, KeyInterpolation::Step);
-    InterpolateLinear => When::Keys, "Linear between keys", [], "Sets the channels of the selected keys to linear interpolation", |w| keys::interpolate(w, KeyInterpolation::Linear);
-    InterpolateSpline => When::Keys, "Spline between keys", [], "Sets the channels of the selected keys to spline interpolation, with editable tangents", |w| keys::interpolate(w, KeyInterpolation::CubicSpline);
+    ToggleSnap => When::Always, "Snap while dragging keys", [], "Snaps dragged keys to whole frames; hold Ctrl to invert", |w| { w.keys.set_snap(!w.keys.snap()); None };
+    InterpolateStep => When::Keys, "Step interpolation", [], "Sets the channels of the selected keys to step interpolation: each value holds until the next key", |w| keys::interpolate(w, KeyInterpolation::Step);
+    InterpolateLinear => When::Keys, "Linear interpolation", [], "Sets the channels of the selected keys to linear interpolation", |w| keys::interpolate(w, KeyInterpolation::Linear);
+    InterpolateSpline => When::Keys, "Spline interpolation", [], "Sets the channels of the selected keys to spline interpolation, with editable tangents", |w| keys::interpolate(w, KeyInterpolation::CubicSpline);
     RippleOpen => When::Take, "Insert a frame", [key(NONE, Key::F5)], "Moves all keys after the playhead one frame later", |w| keys::ripple(w, 1.0);
     RippleClose => When::Take, "Remove a frame", [key(SHIFT, Key::F5)], "Removes the frame after the playhead, and its keys", |w| keys::ripple(w, -1.0);
     FitKeys => When::Take, "Fit the timeline", [key(SHIFT, Key::Home)], "Zooms the timeline to the selected keys, or to the whole take", |w| { keys::fit_window(w); None };
     AddMarker => When::Take, "Add a marker", [key(ALT, Key::M)], "Adds a marker at the playhead; markers are not saved in the model's file", |w| { keys::add_marker(w); None };
     PreviousMarker => When::Take, "Previous marker", [key(SHIFT, Key::PageUp)], "Moves the playhead to the previous marker", |w| { playback::step_marker(w, false); None };
     NextMarker => When::Take, "Next marker", [key(SHIFT, Key::PageDown)], "Moves the playhead to the next marker", |w| { playback::step_marker(w, true); None };
-    RangeOfKeys => When::Take, "Play range of the selection", [key(NONE, Key::P)], "Sets the play range to the selected keys, or to the visible time", |w| { keys::range_of_keys(w); None };
-    RangeFromHere => When::Take, "Play range begins here", [key(ALT, Key::Home)], "Sets the start of the play range to the playhead", |w| { keys::range_from_here(w); None };
-    RangeToHere => When::Take, "Play range ends here", [key(ALT, Key::End)], "Sets the end of the play range to the playhead", |w| { keys::range_to_here(w); None };
+    RangeOfKeys => When::Take, "Set play range to selection", [key(NONE, Key::P)], "Sets the play range to the selected keys, or to the visible time", |w| { keys::range_of_keys(w); None };
+    RangeFromHere => When::Take, "Start play range here", [key(ALT, Key::Home)], "Sets the start of the play range to the playhead", |w| { keys::range_from_here(w); None };
+    RangeToHere => When::Take, "End play range here", [key(ALT, Key::End)], "Sets the end of the play range to the playhead", |w| { keys::range_to_here(w); None };
     RangeWhole => When::Take, "Play the whole take", [key(ALT, Key::P)], "Clears the play range", |w| { keys::clear_range(w); None };
 }

@@ -7,7 +7,7 @@ use dragonfly_picture::Shading;
 commands! {
     ToggleGrid => When::Always, "Ground grid", [key(NONE, Key::G)], "Shows or hides the ground grid", |w| { w.settings.look.grid ^= true; None };
     ToggleSkeleton => When::Always, "Skeleton", [key(NONE, Key::B)], "Shows or hides the bones", |w| { w.settings.look.skeleton ^= true; None };
-    ToggleXRay => When::Always, "Bones in front", [key(NONE, Key::X)], "Draws bones in front of the surface", |w| { w.settings.look.bones_in_front ^= true; None };
+    ToggleXRay => When::Always, "Bones in front (X-ray)", [key(NONE, Key::X)], "Draws bones in front of the surface", |w| { w.settings.look.bones_in_front ^= true; None };
     ToggleSurface => When::Always, "Surface", [key(NONE, Key::M)], "Shows or hides the model's surface", |w| { w.settings.look.surface ^= true; None };
     ShadeMaterial => When::Always, "Materials", [key(SHIFT, Key::Num1)], "Shades surfaces with their materials", |w| { w.settings.look.shading = Shading::Material; None };
     ShadeClay => When::Always, "Clay", [key(SHIFT, Key::Num2)], "Shades surfaces as gray clay, to judge the shape", |w| { w.settings.look.shading = Shading::Clay; None };

@@ -1,8 +1,8 @@
-//! The table of all commands, a file a category. A new command is one row in one of these files: name, condition, title, keys,
-//! help, the function that runs it, and `repeats` where a held key runs it again and again.
+//! The table of all commands, one file for each category. A new command is one row in one of these files: name,
+//! condition, title, keys, help, the function that runs it, and `repeats` if a held key runs it repeatedly.
 
-/// Declares the commands of a category, `COMMANDS`, and the id of each from a list of rows. The name is the one in settings and
-/// never changes; two commands with the same name are refused by the compiler.
+/// Declares the commands of a category, `COMMANDS`, and the id of each from a list of rows. The name is the one that
+/// settings store, so it never changes; two commands with the same name are refused by the compiler.
 macro_rules! commands {
     ($($name:ident => $when:expr, $title:expr, $shortcuts:expr, $help:expr, $run:expr $(, $repeats:ident)?;)*) => {
         #[allow(non_upper_case_globals, reason = "an id has the name of its command")]

@@ -12,13 +12,13 @@ commands! {
     AutoKey => When::Always, "Auto-key", [key(SHIFT, Key::I)], "Inserts keys for every changed pose; when off, changed poses are pending until they are keyed", |w| { pose::toggle_auto_key(w); None };
     Key => When::Take, "Key", [key(NONE, Key::K), key(NONE, Key::I)], "Keys the pending poses at the playhead; if there are none, adds keys for the selected bones, or for all", pose::key;
     KeyAllPending => When::Pending, "Key all pending poses", [key(SHIFT, Key::K)], "Keys all pending poses of the take", pose::key_pending;
-    DropPending => When::Pending, "Drop pending poses", [key(ALT, Key::K)], "Discards all pending poses of the take", pose::drop_pending;
+    DropPending => When::Pending, "Discard pending poses", [key(ALT, Key::K)], "Discards all pending poses of the take", pose::drop_pending;
     CopyPose => When::Model, "Copy pose", [], "Copies the pose of the selected bones, or of all", pose::copy;
     PasteMirrored => When::Take, "Paste pose mirrored", [key(CTRL.plus(SHIFT), Key::V)], "Pastes the copied pose mirrored to the bones of the other side", |_| Some(Effect::PastePose { mirrored: true });
     ResetPose => When::BoneInTake, "Reset to original", [], "Resets the selected bones to the pose in the file", |w| pose::reset(w, &Property::ALL, ResetTo::Original);
-    RestTranslation => When::BoneInTake, "Position of the rest pose", [key(ALT, Key::G)], "Resets the position of the selected bones to the rest pose", |w| pose::reset(w, &[Property::Translation], ResetTo::Rest);
-    RestRotation => When::BoneInTake, "Rotation of the rest pose", [key(ALT, Key::R)], "Resets the rotation of the selected bones to the rest pose", |w| pose::reset(w, &[Property::Rotation], ResetTo::Rest);
-    RestScale => When::BoneInTake, "Scale of the rest pose", [key(ALT, Key::S)], "Resets the scale of the selected bones to the rest pose", |w| pose::reset(w, &[Property::Scale], ResetTo::Rest);
+    RestTranslation => When::BoneInTake, "Reset position to rest pose", [key(ALT, Key::G)], "Resets the position of the selected bones to the rest pose", |w| pose::reset(w, &[Property::Translation], ResetTo::Rest);
+    RestRotation => When::BoneInTake, "Reset rotation to rest pose", [key(ALT, Key::R)], "Resets the rotation of the selected bones to the rest pose", |w| pose::reset(w, &[Property::Rotation], ResetTo::Rest);
+    RestScale => When::BoneInTake, "Reset scale to rest pose", [key(ALT, Key::S)], "Resets the scale of the selected bones to the rest pose", |w| pose::reset(w, &[Property::Scale], ResetTo::Rest);
     ResetToRest => When::BoneInTake, "Reset to rest pose", [], "Resets position, rotation and scale of the selected bones to the rest pose", |w| pose::reset(w, &Property::ALL, ResetTo::Rest);
     ToggleIk => When::Always, "IK", [key(SHIFT, Key::C)], "Moves parent bones along with a moved bone (inverse kinematics)", |w| { ik::toggle_ik(w); None };
     LongerIk => When::Always, "Longer IK chain", [key(ALT, Key::CloseBracket)], "Lengthens the IK chain by one bone", |w| { ik::lengthen_ik(w, 1); None };
@@ -26,7 +26,7 @@ commands! {
     IkPole => When::Bone, "Set pole target", [], "Sets or clears the active bone as the pole target of IK: elbows and knees bend towards it", |w| { ik::toggle_pole(w); None };
     Pin => When::Bone, "Pin / unpin", [key(NONE, Key::N)], "Pins or unpins position and rotation of the selected bones while other bones move", |w| { ik::toggle_pins(w); None };
     FreePins => When::Pinned, "Unpin all bones", [key(ALT, Key::N)], "Unpins all bones", |w| { ik::free_pins(w); None };
-    BakePins => When::PinnedInTake, "Hold pins over what plays", [], "Keeps pinned bones where they are now at every frame of the play range, or of the take: the bones above get keys", baking::bake_pins;
+    BakePins => When::PinnedInTake, "Bake pins over the play range", [], "Adds keys to the bones above pinned bones at every frame of the play range, or of the take, so that pinned bones stay where they are now", baking::bake_pins;
     LookAt => When::BoneInTake, "Look at", [key(ALT, Key::L)], "Rotates the selected bones towards the active bone, the one selected last", ik::look;
     MirrorPairs => When::Model, "Mirror pairs…", [], "Lists the pairs of left and right bones", |w| { w.prompts.toggle(Overlay::MirrorPairs); None };
 }

@@ -8,17 +8,17 @@ use crate::panels::selected_bones::SelectionCommand;
 
 commands! {
     ClearSelection => When::Always, "Deselect all", [key(NONE, Key::Escape)], "Clears the selection", keys::cancel_or_deselect;
-    SelectParent => When::Model, "Parent bone", [key(NONE, Key::OpenBracket)], "Selects the parent of the selected bone", |w| { bones::select_parent(w); None }, repeats;
-    SelectChild => When::Model, "Child bone", [key(NONE, Key::CloseBracket)], "Selects the first child of the selected bone", |w| { bones::select_child(w); None }, repeats;
+    SelectParent => When::Model, "Select parent bone", [key(NONE, Key::OpenBracket)], "Selects the parent of the selected bone", |w| { bones::select_parent(w); None }, repeats;
+    SelectChild => When::Model, "Select child bone", [key(NONE, Key::CloseBracket)], "Selects the first child of the selected bone", |w| { bones::select_child(w); None }, repeats;
     SelectAll => When::Model, "Select all bones", [key(CTRL, Key::A)], "Selects all visible bones", |w| { bones::command(w, SelectionCommand::All); None };
     InvertSelection => When::Model, "Invert selection", [key(CTRL, Key::I)], "Inverts the selection of visible bones", |w| { bones::command(w, SelectionCommand::Invert); None };
-    ExtendParent => When::Bone, "Parents too", [key(SHIFT, Key::OpenBracket), key(SHIFT, Key::OpenCurlyBracket)], "Adds the parent of each selected bone to the selection", |w| { bones::command(w, SelectionCommand::ExtendParent); None };
-    ExtendChild => When::Bone, "Children too", [key(SHIFT, Key::CloseBracket), key(SHIFT, Key::CloseCurlyBracket)], "Adds the children of the selected bones to the selection", |w| { bones::command(w, SelectionCommand::ExtendChild); None };
-    SelectBranch => When::Bone, "Whole branch", [key(CTRL, Key::CloseBracket)], "Adds all bones below the selected ones to the selection", |w| { bones::command(w, SelectionCommand::Branch); None };
+    ExtendParent => When::Bone, "Add parents to selection", [key(SHIFT, Key::OpenBracket), key(SHIFT, Key::OpenCurlyBracket)], "Adds the parent of each selected bone to the selection", |w| { bones::command(w, SelectionCommand::ExtendParent); None };
+    ExtendChild => When::Bone, "Add children to selection", [key(SHIFT, Key::CloseBracket), key(SHIFT, Key::CloseCurlyBracket)], "Adds the children of the selected bones to the selection", |w| { bones::command(w, SelectionCommand::ExtendChild); None };
+    SelectBranch => When::Bone, "Select whole branch", [key(CTRL, Key::CloseBracket)], "Adds all bones below the selected ones to the selection", |w| { bones::command(w, SelectionCommand::Branch); None };
     GrowSelection => When::Bone, "Grow selection", [], "Adds the neighbors of the selected bones to the selection", |w| { bones::command(w, SelectionCommand::Grow); None };
-    ShrinkSelection => When::Bone, "Shrink selection", [], "Deselects the bones whose neighbors are not selected", |w| { bones::command(w, SelectionCommand::Shrink); None };
-    SelectMirror => When::Bone, "Other side", [key(SHIFT, Key::M)], "Selects the mirrored bones, found by their names", |w| { bones::select_mirror(w, false); None };
-    ExtendMirror => When::Bone, "Other side too", [], "Adds the bones of the other side to the selection", |w| { bones::select_mirror(w, true); None };
+    ShrinkSelection => When::Bone, "Shrink selection", [], "Deselects the bones at the edge of the selection: those with a parent or child that is not selected", |w| { bones::command(w, SelectionCommand::Shrink); None };
+    SelectMirror => When::Bone, "Select mirrored bones", [key(SHIFT, Key::M)], "Selects the bones on the other side of the body, found by their names", |w| { bones::select_mirror(w, false); None };
+    ExtendMirror => When::Bone, "Add mirrored bones to selection", [], "Adds the bones on the other side of the body to the selection", |w| { bones::select_mirror(w, true); None };
     HideSelected => When::Bone, "Hide bones", [key(NONE, Key::H)], "Hides the selected bones", |w| { bones::command(w, SelectionCommand::Hide); None };
     HideOthers => When::Bone, "Hide other bones", [key(SHIFT, Key::H)], "Hides all bones except the selected ones", |w| { bones::command(w, SelectionCommand::HideOthers); None };
     ShowAll => When::Model, "Show all bones", [key(ALT, Key::H)], "Shows and selects all hidden bones", |w| { bones::command(w, SelectionCommand::ShowAll); None };
