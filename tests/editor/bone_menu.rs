@@ -36,7 +36,7 @@ fn the_menu_in_the_tree_acts_on_the_bone_under_the_pointer() {
 }
 
 #[test]
-fn the_tree_stays_as_it_is_under_a_menu_and_after_an_edit() {
+fn the_tree_keeps_its_scroll_position_under_a_menu_and_stays_folded_after_an_edit() {
     let mut window = Workbench::full().window_of(egui::vec2(1280.0, 500.0), egui::Theme::Dark);
     window.state_mut().state.execute(Request::Select(Some(0)));
     window.run_steps(3);

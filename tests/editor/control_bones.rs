@@ -11,7 +11,7 @@ use glam::{Vec2, Vec3};
 use std::collections::BTreeSet;
 
 #[test]
-fn repeated_clicks_cycle_through_the_bones_behind() {
+fn repeated_clicks_at_one_position_cycle_through_the_bones_under_the_pointer() {
     let mut cycle = ClickCycle::default();
     let at = Vec2::new(100.0, 100.0);
     let hits = [7, 3, 5];
@@ -67,7 +67,7 @@ fn a_bone_is_in_a_region_if_its_joint_or_midpoint_is() {
 }
 
 #[test]
-fn a_lasso_selects_what_it_encloses_with_a_bounded_number_of_points() {
+fn a_lasso_contains_what_it_encloses_and_has_at_most_2048_points() {
     let mut lasso = Lasso::default();
     lasso.begin(Vec2::new(200.0, 100.0));
     for step in 0..100_000 {
@@ -159,7 +159,7 @@ fn neighbors_are_found_and_hidden_bones_are_skipped() {
 }
 
 #[test]
-fn growing_and_shrinking_go_bone_by_bone() {
+fn growing_adds_adjacent_bones_and_shrinking_again_keeps_the_original_ones() {
     let (tree, hidden) = (tree(), HiddenBones::default());
     let mut selection = select(&[2]);
     selection.grow(&tree, &hidden);

@@ -53,7 +53,7 @@ fn usual_expressions_are_evaluated() {
 }
 
 #[test]
-fn units_follow_the_quantity() {
+fn units_are_converted_to_the_unit_of_the_field() {
     let lengths = [
         ("10cm", 0.1),
         ("1m + 5cm", 1.05),
@@ -125,7 +125,7 @@ fn every_error_reports_its_position() {
 }
 
 #[test]
-fn depth_and_length_are_limited() {
+fn the_depth_and_length_of_an_expression_are_limited() {
     let deep = |depth: usize| format!("{}1{}", "(".repeat(depth), ")".repeat(depth));
     assert_eq!(evaluate(&deep(DEEPEST as usize), Quantity::Number), Ok(1.0));
     for text in [deep(DEEPEST as usize + 1), "-".repeat(4000) + "1", "2^".repeat(2000) + "1"] {

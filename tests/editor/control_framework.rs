@@ -51,7 +51,7 @@ fn a_control_is_the_parent_of_all_controls_entirely_inside_it() {
 }
 
 #[test]
-fn a_control_can_be_registered_inside_another_only() {
+fn a_child_control_must_lie_inside_its_parent_control() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     let inside = owner.get(picture).register_control(picture, area(10.0, 10.0, 5.0, 5.0), &mut framework);
     assert_eq!(framework.parent(inside.unwrap()), Some(picture));

@@ -80,7 +80,7 @@ fn names_without_a_counterpart_are_not_paired() {
 }
 
 #[test]
-fn surer_guesses_come_first_and_ambiguous_ones_pair_nothing() {
+fn names_that_differ_least_are_paired_and_ambiguous_names_are_not() {
     let names = ["Arm_R", "arm_r", "Arm_L", "arm_l"];
     assert_eq!(pairs(&names), [(2, 0, MirrorGuess::Name), (3, 1, MirrorGuess::Name)]);
     // Two figures in one file: the first with the first.

@@ -47,7 +47,7 @@ impl Naive {
 }
 
 #[test]
-fn random_rectangles_and_events_agree_with_the_plain_model() {
+fn on_random_rectangles_and_events_the_framework_agrees_with_a_naive_model() {
     let seed = seed(33);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -159,7 +159,7 @@ fn random_rectangles_and_events_agree_with_the_plain_model() {
 }
 
 #[test]
-fn random_sequences_leave_no_press_key_or_hover_without_its_end() {
+fn after_random_input_every_press_key_and_hover_has_ended() {
     let seed = seed(34);
     println!("seed {seed}");
     let mut random = Random::new(seed);

@@ -81,7 +81,7 @@ fn an_edit_is_shown_until_the_view_that_contains_it_arrives() {
 }
 
 #[test]
-fn a_view_without_the_newest_edit_does_not_bring_the_old_number_back() {
+fn a_view_without_the_newest_edit_does_not_hide_that_edit() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let one = echo.send(&set(1.0, Some(GESTURE)), &mut shown);
@@ -116,7 +116,7 @@ fn a_cancelled_drag_is_undone_at_once() {
 }
 
 #[test]
-fn an_invalid_edit_shows_nothing() {
+fn an_invalid_edit_is_not_shown() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let wrong = Change::Edit(
@@ -158,7 +158,7 @@ fn each_edit_of_a_drag_moves_the_keys_from_where_they_were_at_its_start() {
 }
 
 #[test]
-fn an_edit_that_takes_long_is_shown_when_it_is_answered() {
+fn a_slow_edit_is_shown_when_the_document_answers_it() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let before = x_of(shown.as_ref());
@@ -171,7 +171,7 @@ fn an_edit_that_takes_long_is_shown_when_it_is_answered() {
 }
 
 #[test]
-fn an_edit_after_one_that_takes_long_is_not_shown_without_it() {
+fn an_edit_after_a_slow_edit_is_shown_only_together_with_it() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let start = start_of(shown.as_ref());
@@ -188,7 +188,7 @@ fn an_edit_after_one_that_takes_long_is_not_shown_without_it() {
 }
 
 #[test]
-fn a_drag_that_began_during_an_edit_that_takes_long_is_shown_as_the_document_answers_it() {
+fn a_drag_begun_during_a_slow_edit_is_shown_only_as_the_document_answers() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let start = start_of(shown.as_ref());
@@ -206,7 +206,7 @@ fn a_drag_that_began_during_an_edit_that_takes_long_is_shown_as_the_document_ans
 }
 
 #[test]
-fn a_drag_may_change_between_edits_that_are_quick_and_edits_that_take_long() {
+fn a_drag_may_alternate_between_quick_and_slow_edits() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let start = start_of(shown.as_ref());

@@ -19,7 +19,7 @@ fn posed() -> Value {
 }
 
 #[test]
-fn a_bone_is_explained_up_to_the_very_matrix_that_pose_gives() {
+fn explaining_a_bone_ends_with_the_matrix_that_the_pose_command_prints() {
     let (explained, posed) = (explained(&["--bone", "b_Head_05"]), posed());
     let bones = explained["bones"].as_array().expect("bones");
     assert_eq!(explained["take"]["name"], "Run");
@@ -39,7 +39,7 @@ fn a_bone_is_explained_up_to_the_very_matrix_that_pose_gives() {
 }
 
 #[test]
-fn a_vertex_is_explained_up_to_the_very_position_that_pose_gives() {
+fn explaining_a_vertex_ends_with_the_position_that_the_pose_command_prints() {
     let (explained, posed) = (explained(&["--vertex", "9"]), posed());
     let vertex = &explained["vertex"];
     assert_eq!(vertex["final_position"], posed["poses"][0]["meshes"][0]["positions"][9]);

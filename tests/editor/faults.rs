@@ -102,16 +102,16 @@ fn draw_through(test: &str, call: &str, result: i32, times: usize, more: &[(&str
 }
 
 #[test]
-fn a_device_lost_at_any_submit_gives_the_same_picture_again() {
+fn after_a_device_loss_at_any_submit_the_same_image_is_drawn() {
     let _one = alone();
-    let test = "a_device_lost_at_any_submit_gives_the_same_picture_again";
+    let test = "after_a_device_loss_at_any_submit_the_same_image_is_drawn";
     draw_through(test, "submit", DEVICE_LOST, 50, &[("FAULT_CLIMB", "1")]);
 }
 
 #[test]
-fn a_device_lost_at_any_wait_gives_the_same_picture_again() {
+fn after_a_device_loss_at_any_wait_the_same_image_is_drawn() {
     let _one = alone();
-    let test = "a_device_lost_at_any_wait_gives_the_same_picture_again";
+    let test = "after_a_device_loss_at_any_wait_the_same_image_is_drawn";
     draw_through(test, "wait", DEVICE_LOST, 50, &[("FAULT_CLIMB", "1")]);
 }
 
@@ -182,13 +182,13 @@ fn show_through(name: &str, cases: &[(&str, i32, usize, &str)]) {
 }
 
 #[test]
-fn a_device_lost_while_an_image_of_the_window_is_asked_for_comes_back() {
+fn a_device_lost_while_acquiring_an_image_of_the_window_is_recreated() {
     let _one = alone();
     show_through("acquire", &[("acquire", DEVICE_LOST, 50, "1")]);
 }
 
 #[test]
-fn a_device_lost_while_an_image_is_shown_comes_back() {
+fn a_device_lost_while_presenting_an_image_is_recreated() {
     let _one = alone();
     show_through("present", &[("present", DEVICE_LOST, 50, "1")]);
 }

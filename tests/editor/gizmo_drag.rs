@@ -109,7 +109,7 @@ fn a_ring_counts_more_than_one_full_rotation() {
 }
 
 #[test]
-fn a_ring_seen_edge_on_turns_like_a_wheel() {
+fn a_ring_seen_edge_on_rotates_in_proportion_to_the_drag_across_its_axis() {
     let rig = Rig::new();
     for screen in Screen::all() {
         // The x and y axes of the view are parallel to the image plane: from its center, their rings are seen edge on.
@@ -177,7 +177,7 @@ fn arrows_and_squares_move_by_the_dragged_distance() {
 }
 
 #[test]
-fn scaling_is_the_ratio_of_the_distances() {
+fn the_scale_factor_is_the_ratio_of_the_pointer_distances_from_the_joint() {
     let rig = Rig::new();
     let joint = rig.joint(BONE);
     for screen in Screen::all() {
@@ -212,7 +212,7 @@ fn scaling_is_the_ratio_of_the_distances() {
 }
 
 #[test]
-fn an_axis_that_points_at_the_viewer_follows_the_way_up_and_never_jumps() {
+fn a_drag_up_moves_a_bone_along_an_axis_that_points_at_the_viewer_without_a_jump() {
     let rig = Rig::new();
     for mut screen in Screen::all() {
         screen.camera.target = rig.joint(BONE);
@@ -230,7 +230,7 @@ fn an_axis_that_points_at_the_viewer_follows_the_way_up_and_never_jumps() {
 }
 
 #[test]
-fn along_an_axis_the_bone_never_goes_back_while_the_pointer_goes_on() {
+fn a_bone_on_an_axis_never_moves_back_while_the_pointer_moves_forward() {
     let seed = seed(41);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -262,7 +262,7 @@ fn along_an_axis_the_bone_never_goes_back_while_the_pointer_goes_on() {
 }
 
 #[test]
-fn shift_slows_down_to_a_tenth_without_a_jump() {
+fn shift_slows_a_drag_to_a_tenth_without_a_jump() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let middle = screen.at(rig.joint(BONE));
     let on_ring = |degrees: f32| {
@@ -317,7 +317,7 @@ fn ctrl_snaps_to_the_steps_of_the_settings() {
 }
 
 #[test]
-fn cancelling_gives_the_old_poses_bit_for_bit_and_coming_back_does_almost() {
+fn cancelling_restores_the_poses_bit_for_bit_and_dragging_back_almost_exactly() {
     let seed = seed(42);
     println!("seed {seed}");
     let mut random = Random::new(seed);

@@ -85,7 +85,7 @@ fn a_gizmo_has_the_same_size_on_every_screen() {
 }
 
 #[test]
-fn lines_come_before_squares_and_squares_before_the_middle() {
+fn axis_lines_are_hit_before_squares_and_squares_before_the_center() {
     let rig = Rig::new();
     let joint = rig.joint(BONE);
     let mut screen = Screen::plain();
@@ -154,7 +154,7 @@ fn hovered_and_dragged_handles_are_highlighted() {
 }
 
 #[test]
-fn drawing_again_allocates_nothing() {
+fn drawing_the_gizmo_again_allocates_nothing() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let mut shape = GizmoShape::default();
     for tool in TOOLS {

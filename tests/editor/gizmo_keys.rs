@@ -41,7 +41,7 @@ fn delta(gizmo: &Gizmo) -> GizmoDelta {
 }
 
 #[test]
-fn a_typed_number_is_moved_exactly() {
+fn a_typed_number_moves_the_bone_by_exactly_that_distance() {
     let moves = [
         ("x2", [2.0, 0.0, 0.0]),
         ("2x", [2.0, 0.0, 0.0]),
@@ -156,7 +156,7 @@ fn an_axis_locked_drag_is_measured_from_its_start() {
 }
 
 #[test]
-fn an_incomplete_number_keeps_the_last_one_and_is_marked() {
+fn while_the_typed_number_is_incomplete_the_last_complete_one_applies() {
     let (_, mut gizmo) = dragging(Tool::Move, GizmoSpace::World);
     gizmo.pointer(Vec2::new(300.0, 100.0), NONE);
     let dragged = delta(&gizmo);

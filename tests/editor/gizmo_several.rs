@@ -71,7 +71,7 @@ fn about_a_common_pivot_the_selection_rotates_and_scales_as_one() {
 }
 
 #[test]
-fn each_about_its_own_joint_keeps_its_place() {
+fn bones_rotated_about_their_own_joints_keep_their_positions() {
     let rig = Rig::new();
     for space in SPACES {
         let gizmo = dragged(&rig, Tool::Rotate, settings(space, Pivot::Individual), &[1, 3], "x30");
@@ -107,7 +107,7 @@ fn a_drag_in_the_view_plane_moves_all_bones_equally() {
 }
 
 #[test]
-fn a_chain_can_be_curled() {
+fn the_curl_setting_rotates_every_bone_of_a_chain_by_the_same_angle() {
     let rig = Rig::new();
     let curl = GizmoSettings { curl: true, ..settings(GizmoSpace::Local, Pivot::Individual) };
     let gizmo = dragged(&rig, Tool::Rotate, curl, &[0, 1, 2], "z30");
@@ -128,7 +128,7 @@ fn under(scale: Vec3) -> Rig {
 }
 
 #[test]
-fn under_a_mirrored_parent_world_axes_are_exact() {
+fn rotating_and_moving_along_world_axes_is_exact_under_a_mirrored_parent() {
     for scale in [Vec3::new(-1.0, 1.0, 1.0), Vec3::new(2.0, -2.0, 2.0), Vec3::splat(-1.5)] {
         let rig = under(scale);
         let before = rig.to_root()[1];
@@ -215,7 +215,7 @@ fn under_a_nonuniformly_scaled_parent_joints_and_local_axes_are_exact() {
 }
 
 #[test]
-fn scaling_along_the_world_gives_each_own_axis_its_share() {
+fn scaling_along_a_world_axis_is_shared_among_the_local_axes_by_their_direction() {
     let mut rig = Rig::new();
     rig.poses[0] = Transform { rotation: Quat::from_rotation_z(45f32.to_radians()), ..Transform::IDENTITY };
     let gizmo = dragged(&rig, Tool::Scale, settings(GizmoSpace::World, Pivot::Individual), &[0], "x3");
@@ -227,7 +227,7 @@ fn scaling_along_the_world_gives_each_own_axis_its_share() {
 }
 
 #[test]
-fn under_a_flat_parent_the_joint_stays_and_the_rest_is_finite() {
+fn under_a_parent_scaled_to_zero_the_joint_stays_and_all_values_are_finite() {
     for scale in [Vec3::new(0.0, 1.0, 1.0), Vec3::ZERO] {
         let rig = under(scale);
         for (tool, keys) in [(Tool::Move, "x3"), (Tool::Rotate, "y30"), (Tool::Scale, "z2")] {

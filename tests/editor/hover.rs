@@ -8,7 +8,7 @@ fn at(x: f32) -> Option<HoverPoint> {
 }
 
 #[test]
-fn one_pick_is_in_flight_and_the_newest_position_follows() {
+fn only_one_pick_is_in_flight_and_the_newest_position_is_picked_next() {
     let mut hover = Hover::default();
     assert!(hover.asks(at(0.0), 1));
     for x in 1..100 {
@@ -21,7 +21,7 @@ fn one_pick_is_in_flight_and_the_newest_position_follows() {
 }
 
 #[test]
-fn a_resting_pointer_picks_once() {
+fn a_pointer_at_rest_is_picked_only_once() {
     let mut hover = Hover::default();
     assert!(hover.asks(at(5.0), 1));
     assert!(hover.answered(1));

@@ -110,7 +110,7 @@ fn a_file_changed_elsewhere_is_overwritten_only_on_request_with_a_backup() {
 }
 
 #[test]
-fn saved_as_another_file_it_is_that_file_and_the_first_one_has_nothing_unsaved() {
+fn after_save_as_the_document_is_the_new_file_and_the_old_file_has_no_unsaved_work() {
     let folder = Folder::new("saving-as");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let before = fs::read(&path).unwrap();
@@ -237,7 +237,7 @@ fn saving_without_a_file_asks_for_a_path_and_closing_asks_if_unsaved() {
 }
 
 #[test]
-fn every_format_is_saved_and_its_history_comes_back() {
+fn every_format_can_be_saved_and_reopened_with_its_undo_history() {
     let folder = Folder::new("saving-formats");
     let dfm = folder.join("fox.dfm");
     let model = {
@@ -271,7 +271,7 @@ fn every_format_is_saved_and_its_history_comes_back() {
 /// Between the file and the record that it was saved there is a moment; a program killed in it has saved, and keeps its
 /// history.
 #[test]
-fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
+fn a_kill_right_after_the_file_was_replaced_loses_no_undo_history() {
     let folder = Folder::new("saving-moment");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let mut desk = TestDocument::new(&autosave);
@@ -319,7 +319,7 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
 
 /// A reader gives a rotation the sign of the one before it; that is no other state of the file.
 #[test]
-fn a_turn_of_any_angle_keeps_its_history_through_saving_and_opening() {
+fn a_saved_rotation_by_any_angle_keeps_its_undo_history_when_reopened() {
     let folder = Folder::new("saving-turns");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let angles = [0.3, 2.0, 3.0, 3.5, 4.0, 6.0, -3.0, -5.0];

@@ -162,7 +162,7 @@ fn an_edit_and_its_undo_are_each_reported_once() {
 }
 
 #[test]
-fn overwritten_keys_are_counted() {
+fn the_status_line_counts_overwritten_keys() {
     use crate::timeline_rig::Animator;
     use dragonfly::panels::commands::Id;
     use dragonfly::panels::keys::KeysRequest;
@@ -211,7 +211,7 @@ fn overwritten_keys_are_counted() {
 }
 
 #[test]
-fn a_line_that_says_more_of_what_was_done_stays() {
+fn a_message_with_more_detail_is_not_replaced_by_the_edits_own_message() {
     use crate::timeline_rig::Animator;
     use dragonfly::panels::keys::{BoneFlag, KeysRequest};
     let mut animator = Animator::with_bone(3);
@@ -229,7 +229,7 @@ fn a_line_that_says_more_of_what_was_done_stays() {
 }
 
 #[test]
-fn what_is_part_of_the_program_and_was_saved_is_a_file() {
+fn the_built_in_model_is_shown_as_a_file_after_it_was_saved() {
     let source = dragonfly_document::Source::BuiltIn;
     let loaded = dragonfly_document::load_model(&source, &mut |_| {}, &dragonfly_document::Cancel::default());
     let mut view = View::opened(1, std::sync::Arc::new(loaded.unwrap()));
@@ -284,7 +284,7 @@ fn every_panel_draws_no_model_an_empty_one_and_a_full_one() {
 }
 
 #[test]
-fn every_panel_is_named() {
+fn every_panel_and_its_main_controls_have_a_label() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
     for panel in panels::all().iter().filter(|panel| panel.id() != panels::VIEWPORT) {
@@ -347,7 +347,7 @@ fn a_click_on_a_take_shows_it() {
 }
 
 #[test]
-fn the_search_finds_bones_and_shows_where_they_hang() {
+fn the_search_shows_the_bones_found_with_their_ancestors() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
     harness.get_by_label("Find a bone").click();
@@ -399,7 +399,7 @@ fn typing_in_a_field_does_not_start_playback() {
 }
 
 #[test]
-fn scrubbing_the_timeline_moves_the_time_and_gives_it_back() {
+fn scrubbing_sets_the_time_and_playback_continues_after_it() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
     harness.key_press(egui::Key::Space);
@@ -498,7 +498,7 @@ fn keys_do_not_reach_panels_behind_a_dialog() {
 }
 
 #[test]
-fn requests_that_leave_the_panels_become_effects() {
+fn a_request_that_the_state_cannot_handle_itself_becomes_an_effect() {
     let mut harness = harness(Bench::new(None));
     harness.run_steps(4);
     harness.get_by_label("Open a model…").click();
@@ -507,7 +507,7 @@ fn requests_that_leave_the_panels_become_effects() {
 }
 
 #[test]
-fn a_model_opens_with_its_first_take_that_moves_and_a_single_pose_stands() {
+fn a_model_opens_with_its_first_moving_take_playing_and_a_single_pose_paused() {
     let shown = |takes: &[(&str, f32, usize)]| {
         let mut state = State::new(Settings::default(), Instant::now());
         state.show(fixture::view("model", fixture::skeleton(3), takes));
@@ -519,7 +519,7 @@ fn a_model_opens_with_its_first_take_that_moves_and_a_single_pose_stands() {
 }
 
 #[test]
-fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
+fn an_edit_of_the_shown_take_keeps_the_time_selection_and_camera() {
     let opened = fixture::full();
     let mut state = Bench::new(Some(opened.clone())).state;
     let (selected, camera) = (Some(3), state.read().camera);
@@ -555,7 +555,7 @@ fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
 }
 
 #[test]
-fn a_model_has_the_name_it_was_last_saved_under() {
+fn a_model_is_shown_under_the_name_of_the_file_it_was_last_saved_to() {
     let mut view = fixture::full();
     let file = FileView { title: "renamed.glb".to_owned(), path: Some("renamed.glb".into()) };
     view.file = std::sync::Arc::new(file);

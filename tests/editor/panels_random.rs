@@ -25,7 +25,7 @@ fn times(few: usize) -> usize {
 
 /// Every field into which something can be typed takes every text; where it is no number nothing happens.
 #[test]
-fn any_text_in_any_field() {
+fn any_text_typed_into_any_number_field_leaves_a_finite_pose() {
     let mut window = bench().window_of_any_text();
     window.get_by_label("Show the quaternion").click();
     window.run_steps(3);
@@ -185,7 +185,7 @@ fn any_text_is_a_name_or_is_refused_and_changes_nothing() {
 }
 
 #[test]
-fn random_events_never_panic() {
+fn random_events_in_the_panels_never_panic() {
     let seed = seed(0xDA);
     println!("seed {seed}");
     let mut random = Random::new(seed);

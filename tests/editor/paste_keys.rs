@@ -54,7 +54,7 @@ fn paste(take: TakeRef, time: f32, channels: Vec<CopiedChannel>) -> Edit {
 }
 
 #[test]
-fn keys_put_back_where_they_were_are_the_same_to_the_bit_with_tangents_and_changes() {
+fn pasting_copied_keys_over_themselves_changes_no_bit() {
     let first = seed(41);
     for number in first..first + 20 {
         let mut random = Random::new(number);
@@ -95,7 +95,7 @@ fn keys_put_back_where_they_were_are_the_same_to_the_bit_with_tangents_and_chang
 }
 
 #[test]
-fn keys_keep_their_distances_and_numbers_in_another_take_and_at_another_time() {
+fn keys_pasted_into_another_take_at_another_time_keep_their_spacing_and_values() {
     let mut model = model(8);
     let take = model.slots()[0].result.clone();
     let channels = copied(&take, &selected(&take, WHOLE), model.skeleton());
@@ -148,7 +148,7 @@ fn a_channel_without_keys_gets_the_pasted_interpolation_and_a_spline_gets_tangen
 }
 
 #[test]
-fn invalid_keys_are_refused_and_unknown_bones_skipped() {
+fn invalid_pasted_keys_are_refused_and_unknown_bones_skipped() {
     let mut model = model(10);
     let before = model.slots()[0].clone();
     for (time, channels) in [

@@ -69,7 +69,7 @@ fn moved(bone: BoneIndex, to: Vec3) -> BonePose {
 }
 
 #[test]
-fn a_pinned_foot_stays_where_and_how_it_is_while_the_hips_move() {
+fn a_pinned_foot_keeps_its_position_and_rotation_while_the_hips_move() {
     let first = seed(71);
     for number in first..first + 300 {
         let mut random = Random::new(number);
@@ -201,7 +201,7 @@ fn joint_limits_are_kept() {
 }
 
 #[test]
-fn any_input_gives_finite_output() {
+fn solving_a_chain_gives_finite_poses_for_any_input() {
     let first = seed(74);
     for number in first..first + 300 {
         let mut random = Random::new(number);
@@ -273,7 +273,7 @@ fn solving_a_chain_allocates_nothing_that_grows_with_the_model() {
 }
 
 #[test]
-fn commands_pin_free_and_turn() {
+fn commands_pin_bones_change_the_ik_settings_and_aim_bones() {
     let mut bench = Bench::new(Some(fixture::full()));
     let state = &mut bench.state;
     state.execute(Request::SelectBones(vec![3, 4], Choice::Replace));

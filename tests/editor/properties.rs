@@ -62,7 +62,7 @@ fn tab_moves_to_the_next_number_and_enter_releases_the_keyboard() {
 }
 
 #[test]
-fn after_enter_tab_goes_on_where_the_keyboard_was_last() {
+fn after_enter_tab_continues_from_the_last_focused_field() {
     let mut window = window();
     let focused = |window: &Window| {
         let root = window.root();
@@ -140,7 +140,7 @@ fn typing_after_a_double_click_replaces_the_number() {
 }
 
 #[test]
-fn a_drag_is_one_step() {
+fn a_drag_of_a_number_is_one_undo_step() {
     let mut window = window();
     let before = window.state().pose(3);
     drag(&mut window, "Translation change X", vec2(40.0, 0.0), Modifiers::NONE);
@@ -165,7 +165,7 @@ fn a_drag_is_one_step() {
 }
 
 #[test]
-fn a_drag_is_finer_with_shift_and_snaps_with_ctrl() {
+fn a_drag_of_a_number_is_finer_with_shift_and_snaps_with_ctrl() {
     let turned = |modifiers| {
         let mut window = window();
         drag(&mut window, "Rotation result X", vec2(80.0, 0.0), modifiers);
@@ -179,7 +179,7 @@ fn a_drag_is_finer_with_shift_and_snaps_with_ctrl() {
 }
 
 #[test]
-fn a_drag_that_comes_back_leaves_no_step() {
+fn a_number_dragged_back_to_its_start_leaves_no_undo_step() {
     let mut window = window();
     let before = window.state().pose(3);
     let from = window.get_by_label("Translation result Z").rect().center();
@@ -192,7 +192,7 @@ fn a_drag_that_comes_back_leaves_no_step() {
 }
 
 #[test]
-fn a_drag_ends_where_something_else_is_shown() {
+fn a_drag_of_a_number_ends_when_another_time_is_shown() {
     let mut window = window();
     let from = window.get_by_label("Translation result Z").rect().center();
     press(&mut window, from);
@@ -219,7 +219,7 @@ fn playback_pauses_while_numbers_are_changed() {
 }
 
 #[test]
-fn a_wrong_number_is_refused_where_it_stands() {
+fn a_wrong_number_is_marked_and_its_field_keeps_the_focus() {
     for wrong in ["", "abc", "1..2", "1/0", "(((", "45m", "1e99", "🦊", "שלום", "1,234"] {
         for key in [Key::Enter, Key::Tab] {
             let mut bench = Workbench::full();
@@ -407,7 +407,7 @@ fn without_auto_key_a_number_is_pending_until_it_is_keyed() {
 }
 
 #[test]
-fn a_channel_goes_back_to_the_original_or_to_the_rest_pose() {
+fn a_channel_is_reset_to_the_original_or_to_the_rest_pose() {
     for time in [0.0, 0.05] {
         let mut window = window();
         window.state_mut().state.execute(Request::Seek(time));

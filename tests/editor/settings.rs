@@ -14,7 +14,7 @@ fn settings_survive_a_round_trip() {
 }
 
 #[test]
-fn a_damaged_file_gives_the_defaults() {
+fn a_damaged_settings_file_gives_the_defaults() {
     let whole = Settings { scale: 1.5, ..Settings::default() }.to_text();
     for text in ["", "{", "[]", "null", "{\"scale\": \"large\"}", "\u{0}\u{1}", &whole[..whole.len() / 2]] {
         assert_eq!(Settings::parse(text), Settings::default(), "{text:?}");

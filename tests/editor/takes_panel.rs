@@ -54,7 +54,7 @@ fn takes_are_made_copied_and_deleted_but_the_last_one_stays() {
 }
 
 #[test]
-fn a_command_also_asks_for_start_and_length() {
+fn a_command_shows_the_fields_for_start_and_length() {
     let mut window = Workbench::full().window();
     assert!(window.query_by_label("Length").is_none());
     give(&mut window, Id::RetimeTake);
@@ -65,7 +65,7 @@ fn a_command_also_asks_for_start_and_length() {
 }
 
 #[test]
-fn start_and_length_are_given_in_frames_too() {
+fn start_and_length_can_also_be_given_in_frames() {
     let mut window = Workbench::full().window();
     window.state_mut().state.settings_mut().frame_rate = 24;
     give(&mut window, Id::RetimeTake);
@@ -184,7 +184,7 @@ fn a_take_is_renamed_in_the_list() {
 }
 
 #[test]
-fn any_text_is_a_name() {
+fn any_text_that_is_not_blank_becomes_the_name_of_a_take() {
     let mut window = Workbench::full().window_of_any_text();
     window.get_by_label("Walk").click();
     window.run_steps(2);

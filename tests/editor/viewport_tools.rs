@@ -32,7 +32,7 @@ fn assert_turned(viewport: &ViewportHarness, before: Quat, by: Quat) {
 }
 
 #[test]
-fn a_ring_is_dragged_a_number_typed_and_it_is_one_step() {
+fn dragging_a_ring_and_typing_a_number_is_one_undo_step() {
     let mut viewport = arm();
     let before = viewport.rotation();
     let ring = viewport.handle(Handle::Axis(GizmoAxis::X));
@@ -84,7 +84,7 @@ fn escape_and_the_right_button_leave_no_trace() {
 }
 
 #[test]
-fn a_drag_that_comes_back_to_where_it_began_is_no_step() {
+fn a_drag_back_to_its_start_is_no_undo_step() {
     let mut viewport = arm();
     let ring = viewport.handle(Handle::Axis(GizmoAxis::Z));
     viewport.hold(Modifiers { ctrl: true, ..Modifiers::default() });
@@ -257,7 +257,7 @@ fn a_box_selection_started_by_command_can_start_on_a_handle() {
 }
 
 #[test]
-fn overlays_on_the_viewport_take_precedence() {
+fn a_click_on_an_overlay_does_not_reach_the_gizmo_below_it() {
     let mut viewport = arm();
     let ring = viewport.handle(Handle::Axis(GizmoAxis::X));
     let over = egui::Rect::from_center_size(egui::pos2(ring.x, ring.y), egui::Vec2::splat(30.0));

@@ -92,7 +92,7 @@ fn dragging_the_tip_moves_its_chain_in_one_undo_step() {
 }
 
 #[test]
-fn the_end_of_a_chain_follows_the_pointer() {
+fn with_ik_on_the_dragged_end_of_a_chain_follows_the_pointer() {
     let mut viewport = arm(2, Id::ToolMove);
     viewport.command(Id::ToggleIk);
     let from = viewport.joint();
@@ -180,7 +180,7 @@ fn a_pinned_tip_stays_while_the_root_is_moved_and_turned() {
 }
 
 #[test]
-fn numbers_typed_while_dragging_hold_pins_too() {
+fn pinned_bones_stay_while_a_number_is_typed_for_their_root() {
     let mut viewport = arm(2, Id::ToolMove);
     viewport.command(Id::Pin);
     viewport.state.execute(Request::Select(Some(0)));
@@ -284,7 +284,7 @@ fn a_muted_bone_is_dragged_where_it_is_drawn() {
 }
 
 #[test]
-fn a_key_of_the_path_is_pending_with_auto_key_off() {
+fn with_auto_key_off_a_dragged_key_of_the_motion_path_becomes_a_pending_pose() {
     let mut viewport = arm(2, Id::ToolSelect);
     viewport.command(Id::TogglePath);
     viewport.state.execute(Request::Seek(0.0));
@@ -334,7 +334,7 @@ fn pins_and_the_chain_are_drawn_where_the_bones_are() {
 }
 
 #[test]
-fn the_skin_is_clicked_where_a_pending_pose_shows_it() {
+fn a_click_on_the_skin_of_a_pending_pose_picks_its_bone() {
     let mut viewport = arm(0, Id::ToolMove);
     viewport.command(Id::AutoKey);
     viewport.command(Id::MoveNow);
@@ -350,7 +350,7 @@ fn the_skin_is_clicked_where_a_pending_pose_shows_it() {
 }
 
 #[test]
-fn a_bone_that_is_locked_or_muted_is_a_stiff_joint_of_the_chain() {
+fn a_locked_or_muted_bone_in_the_middle_of_a_chain_does_not_rotate() {
     for flag in [BoneFlag::Lock, BoneFlag::Mute] {
         let mut viewport = arm(2, Id::ToolMove);
         viewport.state.execute(Request::Timeline(KeysRequest::Flag(flag, 1, true)));

@@ -103,7 +103,7 @@ fn ghosts_are_drawn_before_and_after_within_the_take() {
 }
 
 #[test]
-fn a_key_of_the_path_moves_the_chain_with_ik_on_and_pins_hold() {
+fn with_ik_on_a_dragged_path_key_moves_its_chain_and_pinned_bones_stay() {
     let mut viewport = tip();
     viewport.command(Id::ToggleIk);
     let (time, place) =
@@ -156,7 +156,7 @@ fn a_key_of_the_path_moves_the_chain_with_ik_on_and_pins_hold() {
 }
 
 #[test]
-fn a_path_key_wins_over_gizmo_handles_but_not_over_the_center() {
+fn a_path_key_is_hit_before_gizmo_handles_but_not_before_the_gizmo_center() {
     let mut viewport = tip();
     viewport.command(Id::ToolRotate);
     let path = Arc::clone(viewport.state.read().tools.path().look().expect("a path"));

@@ -53,7 +53,7 @@ fn skips_are_counted(files: &[File]) -> Vec<String> {
 }
 
 #[test]
-fn every_test_that_does_not_run_is_counted() {
+fn a_test_skips_itself_only_through_the_function_that_counts_skips() {
     none(skips_are_counted(&files()));
     let planted = |text: &str| skips_are_counted(&[File::planted("tests/anim/rules.rs", text)]);
     one(planted("if !path.is_dir() {\n    println!(\"no folder\");\n    return;\n}"));

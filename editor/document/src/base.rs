@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn takes_come_back_bit_for_bit() {
+    fn takes_are_read_back_bit_for_bit() {
         let (mut takes, bones) = takes();
         let weights: Arc<[f32]> = Arc::from([0.0, -0.0, 1.0, f32::MIN_POSITIVE / 2.0, 0.5, 0.25]);
         let morph = |interpolation, weights: &Arc<[f32]>| MorphTrack {
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_that_are_no_takes_are_refused_and_cost_nothing() {
+    fn damaged_takes_are_refused_without_a_panic() {
         let (takes, bones) = takes();
         let bytes = write(&takes[..1]);
         for end in 0..bytes.len().min(2000) {

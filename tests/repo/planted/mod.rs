@@ -33,7 +33,7 @@ const WALKING: &[&str] = &[
 
 /// Takes about a minute where the project is built.
 #[test]
-fn one_file_and_one_entry_make_a_thing_of_each_kind_work() {
+fn one_file_and_one_list_entry_are_enough_to_add_a_thing_of_each_kind() {
     let copy = ProjectCopy::planted();
     let mut arguments = vec!["--no-fail-fast"];
     arguments.extend(["--test", "anim", "--test", "document", "--test", "picture", "--test", "editor", "--"]);

@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_of_one_bone_costs_its_keys_alone() {
+    fn the_cost_of_an_edit_of_one_bone_counts_only_the_keys_of_that_bone() {
         let model = built_in();
         let bones = vec![BoneRef::Index(1)];
         let of_bone = keys_of_bone(&model.slots()[0], 1);
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn poses_cost_their_number_and_takes_as_a_whole_are_left_to_the_document() {
+    fn the_cost_of_poses_is_their_number_and_an_edit_of_a_whole_take_has_no_cost() {
         let model = built_in();
         let pose =
             BonePose { bone: BoneRef::Index(1), translation: Some([0.0; 3]), rotation: None, scale: None };

@@ -129,7 +129,7 @@ mod tests {
     use dragonfly_kit::random::{Random, seed};
 
     #[test]
-    fn keys_that_are_searched_are_those_that_the_set_holds() {
+    fn the_search_finds_exactly_the_keys_that_a_key_set_contains() {
         let first = seed(12);
         for number in first..first + 300 {
             let mut random = Random::new(number);
