@@ -147,7 +147,7 @@ fn checked(name: &str) -> Result<PathBuf, FileAccessError> {
     if depth == 0 { refuse("it names the folder itself") } else { Ok(path) }
 }
 
-/// Names that Windows reserves for devices, with any extension.
+/// Returns whether Windows reserves the name for a device, with any extension.
 fn is_device_name(part: &str) -> bool {
     let stem = part.split('.').next().unwrap_or(part).trim_end().to_ascii_uppercase();
     matches!(stem.as_str(), "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$")
@@ -156,7 +156,7 @@ fn is_device_name(part: &str) -> bool {
             && stem.as_bytes()[3].is_ascii_digit())
 }
 
-/// Checks that it is a regular file; else returns what it is.
+/// Checks that a file is regular; the error names what it is instead.
 fn regular(metadata: &std::fs::Metadata) -> Result<(), FileAccessError> {
     if metadata.is_file() { Ok(()) } else { Err(FileAccessError::NotRegular(system::kind(metadata))) }
 }

@@ -168,13 +168,13 @@ impl Edited {
         self.saved = Some(self.done);
     }
 
-    /// Returns the number of steps applied or undone since it was saved or opened; of all applied ones where undo does not lead back
-    /// there.
+    /// Returns the number of steps applied or undone since the model was saved or opened. Where neither undo nor redo
+    /// leads back to that state, returns the number of all applied steps.
     pub fn unsaved_steps(&self) -> usize {
         self.saved.map_or(self.done, |saved| self.done.abs_diff(saved))
     }
 
-    /// Returns whether it is as it was saved or opened.
+    /// Returns whether the takes are as they were when last saved or opened.
     pub fn is_saved(&self) -> bool {
         self.saved == Some(self.done)
     }

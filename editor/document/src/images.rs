@@ -100,7 +100,7 @@ fn same_source(one: &Image, other: &Image) -> bool {
     !one.bytes.is_empty() && Arc::ptr_eq(&one.bytes, &other.bytes)
 }
 
-/// `2 "wings.png"`.
+/// Returns the index and the name of an image for messages, as in `2 "wings.png"`.
 fn label(index: usize, image: &Image) -> String {
     let name = image.file_name.as_deref().unwrap_or(&image.name);
     if name.is_empty() { format!("{index}") } else { format!("{index} \"{name}\"") }

@@ -1,4 +1,5 @@
-//! Opening a model: bytes, data, pixels; with progress, cancelable, for window and command line.
+//! Opens a model for the window and for the command line: reads its bytes, imports its data, decodes its images.
+//! Loading reports its progress and can be cancelled.
 
 use super::source::{LoadError, Source};
 use super::{Cancel, Editable, LoadStage, LoadedModel, Progress, read_file};

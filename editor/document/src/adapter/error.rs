@@ -47,7 +47,7 @@ pub enum EditError {
     /// A rotation has length zero.
     #[error("a rotation must not have length zero")]
     NoRotation,
-    /// No scale change leads from the original to this.
+    /// The original scale has a zero, which no factor turns into another number.
     #[error("bone {bone}: the original scale has a zero, which no factor can change")]
     ZeroScale {
         /// Index of the bone.

@@ -16,13 +16,13 @@ pub enum BodySide {
 pub enum MirrorGuess {
     /// The same name with the side exchanged.
     Name,
-    /// The same but for capitals.
+    /// The same name except for capitals.
     Capitals,
     /// The same words in another spelling.
     Words,
-    /// The same but for a number at the end.
+    /// The same name except for a number at its end.
     Numbers,
-    /// The side without a separator from another word.
+    /// The side is part of another word, as in `leftarm`.
     Glued,
     /// Their positions are symmetric; their names disagree or name only the side.
     Place,

@@ -79,7 +79,7 @@ mod tests {
             std::fs::write(path, &built).unwrap();
         }
         // The embedded file is the one at compile time: a second build agrees.
-        assert!(built == DRAGONFLY_GLB, "DRAGONFLY_REWRITE=1 cargo test -p dragonfly embedded");
+        assert!(built == DRAGONFLY_GLB, "DRAGONFLY_REWRITE=1 cargo test -p dragonfly-document embedded");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Estimates of the time that an edit takes, so that a sender knows whether it can carry it out on a copy between two frames.
 //!
-//! The unit is a key that is taken out and inserted elsewhere, which takes 100 to 200 ns, also where the previous edit of the
+//! The unit is the time to remove one key and insert it elsewhere: 100 to 200 ns, also where the previous edit of the
 //! same drag is undone first. Columns are copied as a whole where one of their keys changes: 2 to 10 ns per key. Keys that keep
 //! their order are cheaper than estimated. `benches/editor/edits.rs` measures all three.
 
@@ -55,7 +55,7 @@ pub(super) fn of_keys(adapter: &ModelAdapter, take: &TakeRef, sets: &[KeySet]) -
     sets.iter().map(of_set).sum()
 }
 
-/// Returns the largest number of keys among ascending `times` that a set can have.
+/// Returns an upper bound for the number of ascending `times` that belong to a set.
 fn keys_of_set(times: &[f32], set: &KeySet) -> usize {
     let begin = set.from.map_or(0, |from| times.partition_point(|&time| time < from));
     let end = set.to.map_or(times.len(), |to| times.partition_point(|&time| time <= to));
