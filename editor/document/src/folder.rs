@@ -127,7 +127,7 @@ fn checked(name: &str) -> Result<PathBuf, FileAccessError> {
     for part in name.split('/') {
         match part {
             "." => continue,
-            ".." => return refuse("it leads upwards"),
+            ".." => return refuse("it leads out of the folder"),
             "" => return refuse("a part of it is empty"),
             _ if part.len() > MAX_NAME => return refuse("a part of it is too long"),
             // Some systems ignore these characters and would open a different file.
@@ -141,7 +141,7 @@ fn checked(name: &str) -> Result<PathBuf, FileAccessError> {
         }
         depth += 1;
         if depth > MAX_DEPTH {
-            return refuse("it lies too deep");
+            return refuse("it is in too many nested folders");
         }
     }
     if depth == 0 { refuse("it names the folder itself") } else { Ok(path) }

@@ -53,7 +53,7 @@ impl Document {
             Err(JournalError::Held { owner, .. }) => {
                 let whom = owner.map_or_else(String::new, |owner| format!(" ({owner})"));
                 let text = format!(
-                    "{} is open in another window too{whom}: before it overwrites changes of the other window, a save asks",
+                    "{} is open in another window too{whom}; a save asks before it overwrites changes of the other window",
                     open.file.title
                 );
                 self.begin_beside();
@@ -63,7 +63,7 @@ impl Document {
         }
     }
 
-    /// Starts a journal in addition to the existing ones.
+    /// Starts another journal, in addition to the existing one.
     fn begin_beside(&mut self) {
         let (Some(open), Some(autosave)) = (&mut self.open, &self.autosave) else { return };
         let stamp = open.stamp();

@@ -35,7 +35,7 @@ pub enum EditError {
         value: f32,
     },
     /// A list has a wrong number of numbers.
-    #[error("{what} takes {wanted} numbers, not {given}")]
+    #[error("{what} needs {wanted} numbers, not {given}")]
     Count {
         /// Name of the numbers.
         what: &'static str,

@@ -36,11 +36,11 @@ impl MirrorGuess {
     pub fn title(self) -> &'static str {
         match self {
             Self::Name => "same name",
-            Self::Capitals => "same but for capitals",
-            Self::Words => "same words",
-            Self::Numbers => "same but for a number",
-            Self::Glued => "same with the side glued on",
-            Self::Place => "opposite places",
+            Self::Capitals => "same except for capitals",
+            Self::Words => "same words, other spelling",
+            Self::Numbers => "same except for a number",
+            Self::Glued => "side inside another word",
+            Self::Place => "mirrored positions",
         }
     }
 }

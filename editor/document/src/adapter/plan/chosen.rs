@@ -47,7 +47,7 @@ impl Transaction {
             }
         }
         found.retain(|(_, keys)| !keys.is_empty());
-        if found.is_empty() { Err(EditError::Nothing("no key is meant")) } else { Ok(found) }
+        if found.is_empty() { Err(EditError::Nothing("no key is selected")) } else { Ok(found) }
     }
 }
 
