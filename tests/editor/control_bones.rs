@@ -1,4 +1,4 @@
-//! Bones are chosen by click, region, neighbor and side, as hands expect.
+//! Bones are selected by click, by region, by neighborhood and by side.
 
 use crate::gizmo_rig::Rig;
 use dragonfly::control::Modifiers;
@@ -23,18 +23,18 @@ fn repeated_clicks_at_one_position_cycle_through_the_bones_under_the_pointer() {
         "within four points it is the same place"
     );
     assert_eq!(cycle.click(at + Vec2::new(4.1, 0.0), &hits), Some(7), "further away it is another");
-    // Small steps do not carry the place along.
+    // The position of the first click is kept, so many small movements count as a large one.
     let mut cycle = ClickCycle::default();
     let creeping: Vec<_> =
         (0..4).map(|step| cycle.click(at + Vec2::X * (2 * step) as f32, &[7, 3, 5, 9]).unwrap()).collect();
     assert_eq!(creeping, [7, 3, 5, 7]);
-    // The pose changed: another order, or what was chosen is gone.
+    // The pose changed between the clicks: the hits are in another order, or the chosen bone is no longer hit.
     let mut cycle = ClickCycle::default();
     cycle.click(at, &hits);
-    assert_eq!(cycle.click(at, &[3, 7, 5]), Some(5), "behind what was chosen");
+    assert_eq!(cycle.click(at, &[3, 7, 5]), Some(5), "the bone behind the chosen one");
     assert_eq!(cycle.click(at, &[1, 2]), Some(1));
     assert_eq!(cycle.click(at, &[]), None);
-    assert_eq!(cycle.click(at, &[1, 2]), Some(1), "after a miss it begins anew");
+    assert_eq!(cycle.click(at, &[1, 2]), Some(1), "after a miss the cycle starts again");
     assert_eq!(cycle.click(at, &[1]), Some(1));
     cycle.forget();
     assert_eq!(cycle.click(at, &[1, 2]), Some(1));
@@ -85,7 +85,7 @@ fn a_lasso_contains_what_it_encloses_and_has_at_most_2048_points() {
     }
     let Region::Lasso(line) = lasso.region() else { panic!() };
     assert!(line.len() <= 2048);
-    // Around twice is inside, too.
+    // A point that the line winds around twice is inside too.
     let twice: Vec<Vec2> = [0.0, 2.1, 4.2, 6.3, 8.4, 10.5].map(|angle| Vec2::from_angle(angle) * 10.0).into();
     assert!(Region::Lasso(&twice).holds(Vec2::ZERO));
 }

@@ -132,7 +132,7 @@ fn the_depth_and_length_of_an_expression_are_limited() {
         let fault = evaluate(&text, Quantity::Number).unwrap_err().reason;
         assert_eq!(fault, ExpressionFault::TooDeep);
     }
-    // Wide is not deep: brackets that are closed count no more.
+    // A long expression is not a deep one: brackets that are closed do not count towards the depth.
     assert_eq!(evaluate(&("(1)+".repeat(900) + "sqrt(4)"), Quantity::Number), Ok(902.0));
     let long = "1".repeat(LONGEST + 1);
     assert_eq!(evaluate(&long, Quantity::Number).unwrap_err().reason, ExpressionFault::TooLong);

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 const GESTURE: Gesture = Gesture(5);
 
-/// Puts bone 1 of the first take at `x` at its start.
+/// Returns a change that moves bone 1 to `x` at the start of the first take.
 fn set(x: f32, gesture: Option<Gesture>) -> Change {
     let translation = Some([x, 0.0, 0.0]);
     let pose = BonePose { bone: BoneRef::Index(1), translation, rotation: None, scale: None };
@@ -20,7 +20,8 @@ fn set(x: f32, gesture: Option<Gesture>) -> Change {
     Change::Edit(Edit::SetPose(SetPose { take, time: 0.0, poses: vec![pose], unstep: false }), gesture)
 }
 
-/// Puts bone 1 of the first take at `x` at its start, by an edit that takes too long for a preview.
+/// Returns a change that moves bone 1 to `x` at the start of the first take, by an edit that takes too long to be shown
+/// before the document answers.
 fn set_slowly(x: f32, gesture: Option<Gesture>) -> Change {
     let pose =
         BonePose { bone: BoneRef::Index(1), translation: Some([x, 0.0, 0.0]), rotation: None, scale: None };
@@ -28,7 +29,7 @@ fn set_slowly(x: f32, gesture: Option<Gesture>) -> Change {
     Change::Edit(Edit::SetPoses(SetPoses { take: TakeRef::Index(0), at, unstep: false }), gesture)
 }
 
-/// Moves all keys of the first take.
+/// Returns a change that moves all keys of the first take.
 fn move_keys(by: f32, gesture: Option<Gesture>) -> Change {
     let keys = vec![KeySet::default()];
     Change::Edit(Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys, by }), gesture)
@@ -46,7 +47,7 @@ fn x_of(view: Option<&View>) -> f32 {
     dragonfly_anim::sample::sample_track(&view.takes[0].tracks[1], bone, 0.0).translation.x
 }
 
-/// The document's view after `changes`, the last of which has number `answered`.
+/// Returns the document's view after `changes`, the last of which has number `answered`.
 fn answer(first: &View, answered: u64, changes: &[Change]) -> View {
     let mut edited = first.edited();
     for change in changes {
@@ -70,7 +71,7 @@ fn an_edit_is_shown_until_the_view_that_contains_it_arrives() {
     assert_ne!(
         shown.as_ref().unwrap().generation,
         first.generation,
-        "whoever caches by generation looks again"
+        "the generation differs, so that caches are updated"
     );
     assert!(!echo.has_answered(number));
     let view = answer(&first, number, &[set(3.0, None)]);

@@ -52,7 +52,7 @@ fn explaining_a_vertex_ends_with_the_position_that_the_pose_command_prints() {
     }
 }
 
-/// Every number that is none is `null` in JSON: those that may be missing are known.
+/// Asserts that no number is missing: JSON has `null` for NaN and infinity, which only the listed fields may have.
 fn no_missing_numbers(value: &Value, place: &str) {
     const MAY_BE_MISSING: [&str; 12] = [
         "take",
@@ -105,7 +105,7 @@ fn a_json_document_has_the_names_and_numbers_of_the_other_commands() {
             assert_eq!(step["to_parent"].as_array().map(Vec::len), Some(16));
         }
     }
-    // One end each, and the fields that scripts may rely on.
+    // The fields that scripts may rely on.
     assert_eq!(names(&bone), ["bone", "bones", "file", "take", "time"]);
     assert_eq!(names(&vertex), ["bones", "file", "take", "time", "vertex"]);
     assert_eq!(names(&bone["bone"]), ["final", "index", "offset"]);

@@ -63,7 +63,7 @@ fn a_skeleton_without_meshes_is_shown_and_framed() {
     let (bones, empty) = (with(true), with(false));
     let seen = difference(&bones, &empty);
     assert!(seen > 500, "only {seen} pixels show a bone");
-    // Framed: the bones reach over much of the picture and stay away from its edges.
+    // The model is framed: the bones cover much of the image and do not touch its edges.
     let columns: Vec<u32> =
         (0..160).filter(|&x| (0..120).any(|y| bones.get_pixel(x, y) != empty.get_pixel(x, y))).collect();
     let (first, last) = (columns[0], columns[columns.len() - 1]);

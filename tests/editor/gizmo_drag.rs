@@ -1,4 +1,4 @@
-//! A handle that is dragged so far moves, turns and scales its bones by exactly that, seen from anywhere.
+//! Dragging a handle by a distance moves, rotates and scales the bones by exactly that amount, from any view.
 
 use crate::gizmo_rig::{Rig, SPACES, Screen, along, between, unit};
 use dragonfly::control::gizmo::{Gizmo, GizmoAnswer};
@@ -100,7 +100,7 @@ fn a_ring_counts_more_than_one_full_rotation() {
         80f32.to_radians(),
     );
     assert!(between(gizmo.drag().bones[0].to_parent.rotation, expected) < 1e-4);
-    // Over the middle there is no angle: it stays.
+    // With the pointer at the center there is no angle, so the rotation stays.
     gizmo.pointer(screen.at(joint), NONE);
     let Some(GizmoDelta::Rotate { angle, .. }) = gizmo.readout().map(|readout| readout.delta) else {
         panic!()
@@ -202,7 +202,7 @@ fn the_scale_factor_is_the_ratio_of_the_pointer_distances_from_the_joint() {
         gizmo.pointer(middle + Vec2::new(OUTER as f32 * 2.5, 0.0), NONE);
         let found = gizmo.drag().bones[0].to_parent.scale;
         assert!(found.distance(Vec3::splat(2.5)) < 1e-4, "{found}");
-        // At the middle nothing can be divided by: right and up enlarge.
+        // A drag from the center has no distance to divide by: moving right and up enlarges.
         gizmo.cancel();
         gizmo.begin(Some(Handle::Center), middle);
         gizmo.pointer(middle + Vec2::new(AXIS_TO as f32 / 2.0, -AXIS_TO as f32 / 2.0), NONE);
@@ -242,7 +242,7 @@ fn a_bone_on_an_axis_never_moves_back_while_the_pointer_moves_forward() {
         screen.camera.field_of_view = random.between(0.3, 2.0);
         let joint = rig.joint(BONE);
         let (from, to) = (screen.at(joint), screen.at(joint + Vec3::X * 0.01));
-        // Past the point where the axis vanishes, too: a screen as large as none.
+        // The pointer moves farther than any screen is large, also past the point where the axis vanishes.
         let way = (to - from).normalize_or(Vec2::X);
         let is_line = from.distance(to) / (0.01 / screen.unit(joint)) > 0.12;
         if !is_line {
@@ -356,7 +356,7 @@ fn cancelling_restores_the_poses_bit_for_bit_and_dragging_back_almost_exactly() 
         }
         assert!(changed, "{tool:?} {handle:?}");
         assert!(rig.after(&gizmo).iter().all(Transform::is_finite));
-        // The way back, and not straight over the middle, where a turn could be counted.
+        // The pointer moves back, but not straight over the center, where the gizmo could count a full turn.
         for share in 1..=20 {
             gizmo.pointer(at.lerp(start, share as f32 / 20.0), NONE);
         }

@@ -7,7 +7,7 @@ use dragonfly_anim::data::Transform;
 use dragonfly_picture::gizmo::{GizmoDelta, GizmoSettings, GizmoSpace, Pivot, Tool};
 use glam::{Mat3, Mat4, Quat, Vec2, Vec3};
 
-/// A drag by typed keys.
+/// Returns a gizmo that is dragged by typed keys.
 fn dragged(rig: &Rig, tool: Tool, settings: GizmoSettings, selected: &[u32], keys: &str) -> Gizmo {
     let mut gizmo = Gizmo::new(tool);
     gizmo.settings = settings;
@@ -41,7 +41,7 @@ fn descendants_of_a_selected_bone_are_not_moved_twice() {
             assert!(near(way, Vec3::Y * 2.0), "{bone} {way} {pivot:?}");
         }
     }
-    // Through bones that are not selected, too.
+    // The ancestor may be selected with bones between that are not.
     let gizmo = dragged(&rig, Tool::Rotate, settings(GizmoSpace::World, Pivot::Median), &[2, 0], "z10");
     assert_eq!(gizmo.drag().bones.len(), 1);
 }
@@ -116,11 +116,11 @@ fn the_curl_setting_rotates_every_bone_of_a_chain_by_the_same_angle() {
         let expected = rig.poses[change.bone as usize].rotation * Quat::from_rotation_z(30f32.to_radians());
         assert!(between(change.to_parent.rotation, expected) < 1e-6);
     }
-    // Not when moving: that would tear the chain apart.
+    // The setting does not apply to moving: that would tear the chain apart.
     assert_eq!(dragged(&rig, Tool::Move, curl, &[0, 1, 2], "z30").drag().bones.len(), 1);
 }
 
-/// Bone 1 under a parent that is turned and has this scale.
+/// Returns a rig whose bone 1 has a rotated parent with this scale.
 fn under(scale: Vec3) -> Rig {
     let mut rig = Rig::new();
     rig.poses[0].scale = scale;
@@ -195,7 +195,7 @@ fn under_a_nonuniformly_scaled_parent_joints_and_local_axes_are_exact() {
         assert!(between(turned.rotation, expected) < 1e-6);
         let grown = dragged(&rig, Tool::Scale, by, &[1], "z3").drag().bones[0].to_parent;
         assert!(near(grown.scale, start.scale * Vec3::new(1.0, 1.0, 3.0)), "{}", grown.scale);
-        // In parent space, about the parent's axis.
+        // In parent space the bone rotates about the axis of its parent.
         let by = settings(GizmoSpace::Parent, Pivot::Individual);
         let turned = dragged(&rig, Tool::Rotate, by, &[1], "y30").drag().bones[0].to_parent;
         let expected = Quat::from_rotation_y(30f32.to_radians()) * start.rotation;
@@ -208,7 +208,8 @@ fn under_a_nonuniformly_scaled_parent_joints_and_local_axes_are_exact() {
         let gizmo = dragged(&rig, Tool::Rotate, world, &[1, 3], "x50");
         let expected = active + Quat::from_rotation_x(50f32.to_radians()) * (joint - active);
         assert!(near(rig.to_root_of(&rig.after(&gizmo))[1].w_axis.truncate(), expected));
-        // It turned by 50 degrees; that the world's axis is not met exactly is the shear that is left out.
+        // The bone is rotated by 50 degrees. The axis is not exactly that of the world, because a pose cannot store
+        // shear.
         let angle = between(gizmo.drag().bones[0].to_parent.rotation, start.rotation);
         assert!((angle - 50f32.to_radians()).abs() < 1e-5);
     }

@@ -5,7 +5,7 @@ use dragonfly::panels::Request;
 use egui::Key;
 use egui_kittest::kittest::{NodeT, Queryable};
 
-/// Three steps with bone 3, the history in front.
+/// Opens a window with three undo steps of bone 3, and shows the history panel.
 fn window() -> Window {
     let mut bench = Workbench::full();
     bench.state.execute(Request::Select(Some(3)));

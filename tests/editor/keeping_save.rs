@@ -14,7 +14,7 @@ use dragonfly_store::{FileState, RealFiles};
 use std::fs;
 use std::path::Path;
 
-/// Orders a save that is refused; why.
+/// Orders a save that is refused. Returns the reason.
 #[track_caller]
 fn refused(desk: &mut TestDocument, to: SaveTo) -> NotSaved {
     desk.send(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
@@ -25,7 +25,7 @@ fn refused(desk: &mut TestDocument, to: SaveTo) -> NotSaved {
     })
 }
 
-/// Orders a save that is done whatever is there.
+/// Orders a save that overwrites any existing file.
 #[track_caller]
 fn anyway(desk: &mut TestDocument, to: SaveTo) {
     desk.send(DocumentMessage::Save(SaveOrder { to, anyway: true, then: None }));
@@ -83,7 +83,7 @@ fn a_file_changed_elsewhere_is_overwritten_only_on_request_with_a_backup() {
     desk.view();
     assert!(!desk.unread_replies().iter().any(|said| said.contains("FileChanged")), "nobody changed it");
     fs::write(&path, &other).unwrap();
-    // Said once, however often the window gets the focus.
+    // Reported once, however often the window gets the focus.
     for _ in 0..3 {
         desk.send(DocumentMessage::LookAtFile);
     }
@@ -268,8 +268,8 @@ fn every_format_can_be_saved_and_reopened_with_its_undo_history() {
     }
 }
 
-/// Between the file and the record that it was saved there is a moment; a program killed in it has saved, and keeps its
-/// history.
+/// The file is replaced before the journal records that it was saved. A program killed between the two has saved, and
+/// keeps its history.
 #[test]
 fn a_kill_right_after_the_file_was_replaced_loses_no_undo_history() {
     let folder = Folder::new("saving-moment");
@@ -283,7 +283,7 @@ fn a_kill_right_after_the_file_was_replaced_loses_no_undo_history() {
     let second = folder.join("second");
     copy_after_kill(&autosave, &second);
     let journal = fs::read_dir(second.join("journals")).unwrap().next().unwrap().unwrap().path();
-    // The record that the save succeeded is the last one, and was not finished.
+    // Damages the last record of the journal, which says that the save succeeded.
     let bytes = fs::read(&journal).unwrap();
     fs::write(&journal, &bytes[..bytes.len() - 1]).unwrap();
     let mut desk = TestDocument::new(&second);
@@ -297,7 +297,7 @@ fn a_kill_right_after_the_file_was_replaced_loses_no_undo_history() {
     );
     desk.change(Change::GoTo(0));
     assert!(!desk.view().history.saved);
-    // And the other way round: something was done after the save, and is offered with what was before.
+    // If edits followed that save, they are offered together with the history before it.
     let third = folder.join("third");
     fs::remove_dir_all(second.join("journals")).unwrap();
     fs::create_dir_all(second.join("journals")).unwrap();
@@ -317,7 +317,7 @@ fn a_kill_right_after_the_file_was_replaced_loses_no_undo_history() {
     same_takes(&before, &after);
 }
 
-/// A reader gives a rotation the sign of the one before it; that is no other state of the file.
+/// Reading a file gives each rotation the sign of the one before it. Such a file counts as unchanged.
 #[test]
 fn a_saved_rotation_by_any_angle_keeps_its_undo_history_when_reopened() {
     let folder = Folder::new("saving-turns");

@@ -1,4 +1,4 @@
-//! The order in which the program comes and goes.
+//! The order of the steps in which the program starts and ends.
 
 use dragonfly::app::timeline::{Step, StepTrace};
 

@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable;
 
 const PALETTE: &str = "Find a command or a take";
 
-/// The palette, with something typed into it.
+/// Opens the palette and types a text into it.
 fn palette(text: &str) -> Harness<'static, Bench> {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);

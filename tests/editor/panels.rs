@@ -11,7 +11,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::time::Instant;
 
-/// The whole window without a window.
+/// The whole user interface without a real window.
 pub(crate) struct Bench {
     pub(crate) desk: Desk,
     pub(crate) state: State,
@@ -95,7 +95,7 @@ fn the_panels_are_drawn_empty_full_and_loading() {
         bench.state.show_overlay(Some(overlay));
         shoot(&format!("overlay_{overlay:?}"), bench, egui::Theme::Dark, 1.0);
     }
-    // The viewer's own model, with selected keys, a marker and a play range.
+    // The model that `DRAGONFLY_SHOTS_MODEL` names, with selected keys, a marker and a play range.
     if let Some(path) = std::env::var_os("DRAGONFLY_SHOTS_MODEL") {
         let source = dragonfly_document::Source::File(path.into());
         let cancel = dragonfly_document::Cancel::default();
@@ -190,7 +190,7 @@ fn the_status_line_counts_overwritten_keys() {
         said.starts_with("Duplicate keys  ·  ") && said.ends_with("1 more  ·  2 keys replaced"),
         "{said}"
     );
-    // Moved beside all others.
+    // Moved to a time without other keys.
     select(&mut animator, 0, 0);
     animator.request(Request::Timeline(KeysRequest::Drag(dragonfly::panels::keys::KeyDragOp::Move(0.03))));
     animator.request(Request::Timeline(KeysRequest::Release));
@@ -362,7 +362,7 @@ fn the_search_shows_the_bones_found_with_their_ancestors() {
 #[test]
 fn enter_in_the_search_selects_the_exact_match_or_the_first() {
     let mut skeleton = fixture::skeleton(9);
-    // A name that holds another one, and comes before it.
+    // A name that contains the name of another bone, and comes before it in the list.
     skeleton.bones[1].name = "spine_05_helper".to_owned();
     let mut harness = harness(Bench::new(Some(fixture::view("model", skeleton, &[("Walk", 1.0, 5)]))));
     let mut find = |text: &str| {
@@ -419,7 +419,7 @@ fn scrubbing_sets_the_time_and_playback_continues_after_it() {
     assert!(harness.state().state.read().playback.playing, "and goes on afterwards");
 }
 
-/// On a slow frame a click lasts longer than a click may, and must not be lost for it.
+/// In a slow frame a click may last longer than clicks usually do, and must not be lost because of that.
 #[test]
 fn a_press_on_the_timeline_moves_the_time_before_it_is_a_click_or_a_drag() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
@@ -544,7 +544,7 @@ fn an_edit_of_the_shown_take_keeps_the_time_selection_and_camera() {
     assert_eq!(
         (state.read().selected(), state.read().camera),
         (selected, camera),
-        "all else is as the person left it"
+        "everything else is as the user left it"
     );
     state.begin_frame(state.read().now);
     assert_eq!((state.read().digest.takes.len(), state.read().digest.takes[0].length), (3, 1.0));

@@ -1,4 +1,4 @@
-//! With auto-key off a changed pose is seen, undone, kept, and in no key.
+//! With auto-key off a changed pose is shown, can be undone, is kept, and is in no key.
 
 use crate::panels::{Bench, harness_of};
 use crate::shots::{self, PictureFolder};

@@ -1,4 +1,4 @@
-//! Numbers of the selected bones are dragged and typed, and the pose becomes what they say.
+//! Numbers of the selected bones are dragged and typed, and the pose changes accordingly.
 
 use crate::workbench::{Window, Workbench, drag, move_to, press, release, type_into};
 use dragonfly::panels::Request;
@@ -9,14 +9,14 @@ use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{Quat, Vec3};
 
-/// Bone 3 at a key of the first take.
+/// Opens a window with bone 3 selected, at a key of the first take.
 fn window() -> Window {
     let mut bench = Workbench::full();
     bench.state.execute(Request::Select(Some(3)));
     bench.window()
 }
 
-/// What a field shows.
+/// Returns the value that a field shows.
 fn value(window: &Window, field: &str) -> Option<f64> {
     window.get_by_label(field).accesskit_node().numeric_value()
 }
@@ -247,7 +247,7 @@ fn a_wrong_number_is_marked_and_its_field_keeps_the_focus() {
     }
 }
 
-/// A field with the cursor, and something in it that is no number.
+/// Opens a window in which the focused field contains a text that is no number.
 fn with_a_wrong_number() -> Window {
     let mut window = window();
     window.get_by_label("Scale result Y").click();
@@ -316,7 +316,7 @@ fn a_quaternion_is_typed_number_by_number() {
     assert!((rotation - wanted).length() < 1e-6, "{rotation}");
 }
 
-/// Near 90° of the second turn many angles say the same rotation; those that were typed are the ones that stay.
+/// If the second angle is near 90°, many angles mean the same rotation; the typed ones must stay.
 #[test]
 fn typed_angles_stay_as_they_were_typed() {
     let mut window = window();
@@ -457,7 +457,7 @@ fn a_locked_bone_is_shown_and_not_changed_and_others_change_without_it() {
     assert!(window.query_by_label(said).is_some());
     drag(&mut window, "Rotation change X", vec2(50.0, 0.0), Modifiers::NONE);
     assert_eq!(window.state().changes, []);
-    // The last one is the active one, whose numbers are shown.
+    // The bone that was selected last is the active one, whose numbers are shown.
     window.state_mut().state.execute(Request::SelectBones(vec![3, 5], Choice::Replace));
     window.run_steps(3);
     assert!(window.query_by_label(said).is_none());

@@ -242,7 +242,7 @@ fn each_button_for_unsaved_work_applies_to_the_document_that_is_shown() {
             panic!("{button}: {:?}", harness.state().effects)
         };
         assert!(offer.title.starts_with("A bear") && *decided == decision, "{button}");
-        // The document that was set aside does not answer for the others; an opened file is asked about first.
+        // If work is left or discarded, the question about the other document stays; otherwise a file is opened first.
         let left = match harness.state().state.read().question() {
             Some(Question::Recover(recover)) => recover.offers.len(),
             _ => 0,

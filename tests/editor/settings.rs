@@ -70,7 +70,7 @@ fn the_store_replaces_files_and_tolerates_missing_ones() {
     store.write(store::SETTINGS, "one").unwrap();
     store.write(store::SETTINGS, "two").unwrap();
     assert_eq!(store.read(store::SETTINGS), "two");
-    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1, "nothing half written stays");
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1, "no partly written file stays");
     std::fs::remove_dir_all(folder).unwrap();
 }
 

@@ -277,7 +277,7 @@ fn a_take_is_split_reversed_and_trimmed() {
     assert_eq!(window.state().steps(), (steps.0 + 1, steps.1 + 1), "a drag is one step");
     type_into(&mut window, "Length", "-1", Key::Enter);
     assert!((window.state().state.read().take().unwrap().length - 2.5).abs() < 1e-3);
-    assert_eq!(window.state().refused, [""; 0], "what cannot be is not even asked for");
+    assert_eq!(window.state().refused, [""; 0], "impossible edits are not even requested");
 }
 
 #[test]

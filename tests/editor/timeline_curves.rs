@@ -40,7 +40,7 @@ fn a_key_dragged_up_changes_one_angle_as_one_step() {
     animator.release(at - vec2(0.0, 40.0));
     let after = angle(&animator, 8);
     assert!(after > before + 3.0, "{before} → {after}");
-    assert!((angle(&animator, 7) - animator_angle(7)).abs() < 0.01, "the key beside stays");
+    assert!((angle(&animator, 7) - animator_angle(7)).abs() < 0.01, "the neighboring key stays");
     assert!(
         matches!(animator.edits().last(), Some(Edit::SetPose(SetPose { poses, .. })) if poses[0].rotation.is_some())
     );

@@ -253,7 +253,7 @@ fn keying_a_pose_after_the_end_extends_the_take() {
     animator.request(Request::Command(Id::PlayPause));
     assert!(!animator.harness.state().state.read().playback.playing);
     assert!(animator.said().ends_with("there is nothing to play"), "{}", animator.said());
-    // By a click in the ruler, by frames, by a number.
+    // The time is set by a click in the ruler, by steps of a frame, and by a typed number.
     let ruler = animator.harness.get_by_label("Time track").rect();
     let at = pos2(animator.x_in(animator.keys(), 0.5), ruler.center().y);
     animator.click(at);
@@ -303,7 +303,7 @@ fn dragging_to_the_edge_of_the_ruler_goes_to_the_end_of_the_take() {
         assert_eq!(
             state.read().time(),
             state.read().take().unwrap().end(),
-            "{beyond} points beside the edge"
+            "{beyond} points beyond the edge"
         );
     }
 }
@@ -467,7 +467,7 @@ fn only_the_play_range_plays_but_any_time_can_be_shown() {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Timeline(KeysRequest::Range(Some([1.0, 0.5]))));
     animator.request(Request::Seek(3.0));
-    assert_eq!(animator.harness.state().state.read().time(), 3.0, "outside of the range, too");
+    assert_eq!(animator.harness.state().state.read().time(), 3.0, "even outside of the range");
     animator.request(Request::Command(Id::PlayPause));
     let state = &animator.harness.state().state;
     assert_eq!((state.read().playback.start, state.read().playback.length), (0.5, 0.5));
@@ -491,7 +491,7 @@ fn a_refused_drag_changes_nothing() {
     animator.request(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(-5.0))));
     animator.request(Request::Timeline(KeysRequest::Release));
     assert_eq!(animator.times(3), before);
-    assert!(animator.harness.state().state.read().keys.drag().is_none(), "nothing is waited for");
+    assert!(animator.harness.state().state.read().keys.drag().is_none(), "no drag is active");
     assert_eq!(animator.selected(), 1);
 }
 

@@ -17,7 +17,7 @@ fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedMod
     Ok(Arc::into_inner(arm::loaded()).expect("the only one").into())
 }
 
-/// The tip of the arm is selected, and its path shown.
+/// Opens the arm with its tip selected and the path of the tip shown.
 fn tip() -> ViewportHarness {
     let mut viewport = ViewportHarness::new(load);
     viewport.state.execute(Request::Select(Some(2)));
@@ -199,7 +199,7 @@ fn path_keys_of_an_unlocked_bone_can_be_dragged_in_any_selection() {
         viewport.state.begin_frame(viewport.state.read().now);
         viewport.state.read().tools.controls().path().editable
     };
-    // The last one is the active one, of which the path is.
+    // The bone that was selected last is the active one, whose path is shown.
     for (bones, wanted) in [(&[2, 1][..], false), (&[2], true), (&[2, 1], false), (&[1, 2], true)] {
         assert_eq!(select(&mut viewport, bones), wanted, "{bones:?}");
     }

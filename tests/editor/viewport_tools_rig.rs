@@ -1,4 +1,4 @@
-//! Fixture of the viewport tool tests: the state of the window and a document, both iterated manually by the test.
+//! Fixture of the viewport tool tests: the state of the window and a document, which the test runs step by step.
 
 use dragonfly::control::gizmo::Gizmo;
 use dragonfly::control::{Button, InputEvent, Key, Modifiers};

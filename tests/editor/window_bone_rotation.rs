@@ -142,7 +142,7 @@ fn a_bone_is_picked_rotated_by_thirty_degrees_undone_and_redone() {
     let before = rotation(&mut editor);
     let turned = before * Quat::from_rotation_x(30f32.to_radians());
 
-    // With the ring, and the angle typed while it is held.
+    // The head is rotated by its ring; the angle is typed during the drag.
     let ring = inside.handle("b_Head_05", Handle::Axis(GizmoAxis::X));
     screen.point(ring.x as i16, ring.y as i16);
     screen.hold();
@@ -160,7 +160,7 @@ fn a_bone_is_picked_rotated_by_thirty_degrees_undone_and_redone() {
     screen.press_with(key::CONTROL, key::Y);
     wait_for_turn(&mut editor, &screen, turned);
 
-    // By a command and keys alone: once more about the same axis.
+    // The head is rotated about the same axis again, by a command and keys alone.
     screen.press(key::F3);
     for letter in [27, 32, 28, 38, 28, 26, 65, 57, 32, 25] {
         // "rotate now" on a US keyboard.

@@ -26,7 +26,7 @@ fn f11_and_the_menu_toggle_full_screen() {
             "key" => screen.press(key::F11),
             _ => {
                 MENU.into_iter().for_each(|(x, y)| screen.click(x, y));
-                // Away from everything that would be highlighted under the pointer.
+                // The pointer is moved away, so that nothing is highlighted under it.
                 screen.point(i16::MAX, i16::MAX);
             }
         };
@@ -44,7 +44,7 @@ fn f11_and_the_menu_toggle_full_screen() {
             &screen,
             &settled(&screen, VIEWPORT),
             &whole,
-            "the screen filled and given back changed the picture",
+            "entering and leaving full screen changed the picture",
         );
     }
     screen.close(window);

@@ -53,7 +53,7 @@ impl Document {
             Err(JournalError::Held { owner, .. }) => {
                 let whom = owner.map_or_else(String::new, |owner| format!(" ({owner})"));
                 let text = format!(
-                    "{} is open in another window too{whom}; a save asks before it overwrites changes of the other window",
+                    "{} is open in another window too{whom}; a save asks before it overwrites changes made there",
                     open.file.title
                 );
                 self.begin_beside();

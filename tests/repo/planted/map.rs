@@ -106,7 +106,7 @@ fn listed_name(plant: &Plant, path: &str, line: &str) -> String {
     file_name(path).trim_end_matches(".rs").to_owned()
 }
 
-/// Returns what a file defines and its list does not contain.
+/// Returns the files whose definitions are missing in their list.
 fn unlisted(files: &[File], plant: &Plant) -> Vec<String> {
     let Some((place, _)) = plant.file.filter(|_| !plant.mark.is_empty()) else { return Vec::new() };
     let source = &place[..place.find("/src/").map_or(0, |at| at + 5)];
