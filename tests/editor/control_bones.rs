@@ -23,7 +23,7 @@ fn repeated_clicks_at_one_position_cycle_through_the_bones_under_the_pointer() {
         "within four points it is the same place"
     );
     assert_eq!(cycle.click(at + Vec2::new(4.1, 0.0), &hits), Some(7), "further away it is another");
-    // The position of the first click is kept, so many small movements count as a large one.
+    // Positions are compared with that of the first click, so small movements add up.
     let mut cycle = ClickCycle::default();
     let creeping: Vec<_> =
         (0..4).map(|step| cycle.click(at + Vec2::X * (2 * step) as f32, &[7, 3, 5, 9]).unwrap()).collect();

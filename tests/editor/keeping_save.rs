@@ -283,7 +283,7 @@ fn a_kill_right_after_the_file_was_replaced_loses_no_undo_history() {
     let second = folder.join("second");
     copy_after_kill(&autosave, &second);
     let journal = fs::read_dir(second.join("journals")).unwrap().next().unwrap().unwrap().path();
-    // Damages the last record of the journal, which says that the save succeeded.
+    // Damages the last record of the journal: the one that the save succeeded.
     let bytes = fs::read(&journal).unwrap();
     fs::write(&journal, &bytes[..bytes.len() - 1]).unwrap();
     let mut desk = TestDocument::new(&second);

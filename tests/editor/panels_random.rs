@@ -18,7 +18,7 @@ fn bench() -> Workbench {
     bench
 }
 
-/// Returns the number of rounds: `few`, or ten times as many with `DRAGONFLY_LONG`.
+/// Returns the number of rounds: `few`, or ten times `few` with `DRAGONFLY_LONG`.
 fn times(few: usize) -> usize {
     if takes_long() { 10 * few } else { few }
 }

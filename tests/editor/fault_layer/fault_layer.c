@@ -6,7 +6,7 @@
 //   FAULT_CALL    submit | wait | acquire | present | allocate
 //   FAULT_RESULT  the VkResult to return, as a number: -4 device lost, -2 no device memory, -1000000000 surface lost …
 //   FAULT_AT      the n-th call fails, counted from 1
-//   FAULT_CLIMB   1: calls are counted separately for each device, the first device fails at call n, the next one that was
+//   FAULT_CLIMB   1: calls are counted for each device; the first device fails at call n, the next one that was
 //                 used at call n + 1, and so on: every n in one run
 //   FAULT_EVERY   k: after that every k-th call fails too; 0 (default): only one call fails
 //   FAULT_TIMES   maximum number of faults (default: 1, or no maximum where FAULT_EVERY is set)
@@ -135,7 +135,7 @@ static long now(void) {
     return time.tv_sec * 1000 + time.tv_nsec / 1000000;
 }
 
-// XCB queues the events that it reads for other threads, and a thread that waits for the socket does not look at the queue.
+// XCB queues events that it reads for other threads. A thread that waits for the socket does not look at the queue.
 static void *read_on(void *connection) {
     struct extension { const char *name; int id; } present = {"Present", 0};
     void *xcb = dlopen("libxcb.so.1", RTLD_NOW);

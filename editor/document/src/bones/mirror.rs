@@ -90,7 +90,7 @@ impl MirrorPairs {
             let right = stance.opposite(left, &rights)?;
             (stance.opposite(right, &lefts) == Some(left)).then_some((left, right))
         };
-        // Only a file that is made to be slow has so many of them; its pairs by name stay.
+        // Only a file that is made to be slow has more of them than this; its pairs by name stay.
         if lefts.len().saturating_mul(rights.len()) > MOST_COMPARED {
             return;
         }
