@@ -59,7 +59,11 @@ fn a_bone_is_in_a_region_if_its_joint_or_midpoint_is() {
     assert_eq!(inside(Region::Box(Vec2::new(11.0, 1.0), Vec2::new(4.0, -1.0))), [0, 1], "any two corners");
     assert_eq!(inside(Region::Box(Vec2::new(6.0, -1.0), Vec2::new(9.0, 1.0))), [0_u32; 0], "only touched");
     assert_eq!(inside(Region::Box(Vec2::new(19.0, 10.0), Vec2::new(25.0, 30.0))), [2], "one of its shapes");
-    assert_eq!(inside(Region::Box(Vec2::splat(-100.0), Vec2::splat(100.0))), [0, 1, 2], "not behind the eye");
+    assert_eq!(
+        inside(Region::Box(Vec2::splat(-100.0), Vec2::splat(100.0))),
+        [0, 1, 2],
+        "not behind the camera"
+    );
     let line = [Vec2::new(-5.0, -5.0), Vec2::new(6.0, -5.0), Vec2::new(6.0, 5.0), Vec2::new(-5.0, 5.0)];
     assert_eq!(inside(Region::Lasso(&line)), [0]);
     assert_eq!(inside(Region::Lasso(&[])), [0_u32; 0]);
@@ -103,7 +107,7 @@ fn select(bones: &[u32]) -> BoneSelection {
 }
 
 #[test]
-fn shift_adds_and_ctrl_toggles() {
+fn a_click_with_shift_adds_a_bone_and_with_ctrl_toggles_it() {
     let mut selection = select(&[]);
     let none = Modifiers::default();
     selection.click(Some(3), Choice::from(none));
@@ -128,7 +132,7 @@ fn shift_adds_and_ctrl_toggles() {
 }
 
 #[test]
-fn neighbors_are_found_and_hidden_bones_are_skipped() {
+fn selecting_parents_children_and_descendants_skips_hidden_bones() {
     let (tree, mut hidden) = (tree(), HiddenBones::default());
     let after = |bones: &[u32], hidden: &HiddenBones, act: &dyn Fn(&mut BoneSelection, &HiddenBones)| {
         let mut selection = select(bones);

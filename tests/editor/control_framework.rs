@@ -239,7 +239,7 @@ fn two_controls_that_take_the_focus_from_each_other_do_not_loop() {
 }
 
 #[test]
-fn an_input_allocates_nothing() {
+fn handling_an_input_allocates_nothing() {
     let (mut framework, mut owner, [_, tool, panel]) = window();
     owner.get(tool).passes = true;
     let events = [to(120.0, 120.0), InputEvent::MouseDown(LEFT), to(300.0, 10.0), InputEvent::MouseUp(LEFT)];

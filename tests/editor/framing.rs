@@ -36,7 +36,7 @@ fn framing_uses_the_current_pose() {
     let places = evaluator.all_positions();
     let seen: Vec<Vec2> =
         places.iter().filter_map(|place| view.to_screen(place.as_dvec3())).map(|at| at.as_vec2()).collect();
-    assert_eq!(seen.len(), places.len(), "all of the running fox is before the eye");
+    assert_eq!(seen.len(), places.len(), "all of the running fox is in front of the camera");
     let outside = seen.iter().filter(|at| at.min_element() < 0.0 || at.cmpgt(size).any()).count();
     assert_eq!(outside, 0, "of {} vertices", places.len());
 }

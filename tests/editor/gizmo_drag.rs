@@ -129,7 +129,7 @@ fn a_ring_seen_edge_on_rotates_in_proportion_to_the_drag_across_its_axis() {
 }
 
 #[test]
-fn the_ball_rotates_with_the_pointer() {
+fn dragging_the_center_rotates_freely_with_the_pointer() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, GizmoSpace::Local);
     let start = screen.at(rig.joint(BONE));

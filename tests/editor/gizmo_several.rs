@@ -145,7 +145,7 @@ fn rotating_and_moving_along_world_axes_is_exact_under_a_mirrored_parent() {
 }
 
 #[test]
-fn a_ball_and_a_ring_follow_the_pointer_under_a_mirrored_parent_too() {
+fn rotating_by_center_and_ring_follows_the_pointer_under_a_mirrored_parent() {
     let screen = Screen::plain();
     for space in SPACES {
         for scale in [Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0)] {
@@ -239,10 +239,7 @@ fn under_a_parent_scaled_to_zero_the_joint_stays_and_all_values_are_finite() {
                     let start = rig.poses[change.bone as usize];
                     assert_eq!(change.to_parent.translation, start.translation);
                     if tool == Tool::Rotate {
-                        assert!(
-                            between(change.to_parent.rotation, start.rotation) > 0.5,
-                            "it turns all the same"
-                        );
+                        assert!(between(change.to_parent.rotation, start.rotation) > 0.5, "it still rotates");
                     }
                 }
             }

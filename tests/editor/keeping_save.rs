@@ -81,7 +81,10 @@ fn a_file_changed_elsewhere_is_overwritten_only_on_request_with_a_backup() {
     desk.send(DocumentMessage::LookAtFile);
     let other = fs::read(data("gltf/Fox_skeleton.glb")).unwrap();
     desk.view();
-    assert!(!desk.unread_replies().iter().any(|said| said.contains("FileChanged")), "nobody changed it");
+    assert!(
+        !desk.unread_replies().iter().any(|said| said.contains("FileChanged")),
+        "no other program changed it"
+    );
     fs::write(&path, &other).unwrap();
     // Reported once, however often the window gets the focus.
     for _ in 0..3 {

@@ -152,7 +152,7 @@ fn an_edit_and_its_undo_are_each_reported_once() {
     assert_eq!(lines(&animator), before + 1);
     animator.request(Request::Change(Change::Cancel(gesture)));
     assert!(animator.said().starts_with("Cancelled: Move"), "{}", animator.said());
-    // Several steps at once.
+    // Several steps are undone at once.
     for name in ["a", "b"] {
         let rename = Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() });
         animator.request(Request::Change(Change::Edit(rename, None)));
@@ -317,7 +317,7 @@ fn a_click_on_a_row_selects_the_bone_and_shows_its_numbers() {
 }
 
 #[test]
-fn the_button_for_bones_is_pressed_whenever_they_are_shown() {
+fn the_bones_button_is_pressed_whenever_bones_are_shown() {
     let pressed = |view| {
         let mut harness = harness(Bench::new(view));
         harness.run_steps(4);

@@ -156,7 +156,7 @@ fn a_drag_of_a_number_is_one_undo_step() {
     assert!(window.state().pose(3).rotation != after.rotation);
     window.key_press(Key::Escape);
     window.run_steps(2);
-    assert_eq!(window.state().pose(3), after, "Escape takes the drag back");
+    assert_eq!(window.state().pose(3), after, "Escape cancels the drag");
     assert_eq!(window.state().state.read().selected(), Some(3), "and nothing else");
     move_to(&mut window, from + vec2(60.0, 0.0), Modifiers::NONE);
     release(&mut window, from + vec2(60.0, 0.0));
@@ -240,7 +240,7 @@ fn a_wrong_number_is_marked_and_its_field_keeps_the_focus() {
             window.key_press(Key::Escape);
             window.run_steps(3);
             let field = window.get_by_label("Rotation result Y");
-            assert!(!field.is_focused() && !is_marked(&field), "Escape takes it back");
+            assert!(!field.is_focused() && !is_marked(&field), "Escape cancels it");
             assert_eq!(value(&window, "Rotation result Y"), Some(0.0));
             assert_eq!(window.state().state.read().selected(), Some(3), "and nothing else");
         }
@@ -367,7 +367,7 @@ fn a_number_goes_to_all_selected_bones() {
 }
 
 #[test]
-fn keys_are_shown_added_and_deleted() {
+fn the_key_button_of_a_channel_adds_and_deletes_its_key() {
     let mut window = window();
     let keys =
         |window: &Window| window.state().state.read().view.unwrap().takes[0].tracks[3].rotation.times.len();

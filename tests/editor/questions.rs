@@ -122,7 +122,7 @@ fn bench(question: Question) -> Bench {
 }
 
 #[test]
-fn every_kind_of_question_has_an_example_here() {
+fn every_kind_of_question_has_an_example_in_this_file() {
     let names: Vec<String> = questions().iter().map(|(_, question)| format!("{question:?}")).collect();
     for kind in Question::KINDS {
         assert!(names.iter().any(|name| name.starts_with(&format!("{kind}("))), "{kind} has no example");

@@ -149,7 +149,7 @@ fn a_take_is_renamed_in_the_list() {
     rename(&mut window, "Stroll", Key::Enter);
     assert_eq!(names(&window)[1], "Stroll");
     rename(&mut window, "No", Key::Escape);
-    assert_eq!(names(&window)[1], "Stroll", "Escape takes it back");
+    assert_eq!(names(&window)[1], "Stroll", "Escape cancels it");
     assert!(window.query_by_label("Name of the take").is_none());
     rename(&mut window, "", Key::Enter);
     assert_eq!(names(&window)[1], "Stroll");
@@ -229,7 +229,7 @@ fn a_take_that_is_dragged_to_another_position_stays_shown() {
     window.run_steps(2);
     button(&mut window, from + vec2(0.0, 60.0), false);
     window.run_steps(2);
-    assert_eq!(names(&window), ["Run", "Survey", "Walk"], "Escape takes it back");
+    assert_eq!(names(&window), ["Run", "Survey", "Walk"], "Escape cancels it");
     give(&mut window, Id::MoveTakeDown);
     assert_eq!(
         (names(&window), shown(&window)),
@@ -281,7 +281,7 @@ fn a_take_is_split_reversed_and_trimmed() {
 }
 
 #[test]
-fn the_list_is_shown_without_takes() {
+fn the_take_list_is_shown_even_for_a_model_without_takes() {
     let empty = Workbench::new(Some(fixture::empty())).window();
     assert!(empty.query_by_label("Rest pose").is_some());
     let nothing = Workbench::new(None).window();

@@ -340,7 +340,7 @@ fn keys_stay_selected_when_time_is_inserted_or_removed_before_them() {
 }
 
 #[test]
-fn the_end_of_the_bar_scales_about_the_other_end_and_with_alt_about_the_playhead() {
+fn dragging_the_end_of_selected_keys_scales_about_their_start_or_with_alt_the_playhead() {
     for alt in [false, true] {
         scale_by_the_end(alt);
     }

@@ -143,7 +143,7 @@ fn a_drag_without_a_release_leaves_nothing_held_and_no_partial_edit() {
         animator.steps(2);
         nothing_is_held(&animator, round);
     }
-    println!("{taken_back} drags taken back, {ended} ended, {deaf} commands in the middle of one");
+    println!("{taken_back} drags cancelled, {ended} ended, {deaf} commands in the middle of one");
     assert!(taken_back > rounds / 20 && ended > 0 && deaf > 0);
     // All of it can be undone.
     animator.edited.go_to(0);

@@ -28,7 +28,8 @@ fn tip() -> ViewportHarness {
 /// Returns the window position of a point in the scene.
 fn seen(viewport: &ViewportHarness, place: Vec3) -> Vec2 {
     let view = GizmoView::new(&viewport.state.read().camera, Vec2::new(PICTURE[2], PICTURE[3]));
-    view.to_screen(place.as_dvec3()).expect("before the eye").as_vec2() + Vec2::new(PICTURE[0], PICTURE[1])
+    view.to_screen(place.as_dvec3()).expect("in front of the camera").as_vec2()
+        + Vec2::new(PICTURE[0], PICTURE[1])
 }
 
 #[test]
@@ -69,7 +70,7 @@ fn a_key_of_the_path_is_dragged_to_the_pointer_in_one_step() {
     let keys = &viewport.state.read().tools.path().look().expect("a path").keys;
     let now = keys.iter().find(|key| key.0 == time).expect("the key is there").1;
     assert!(now.distance(place) < 1e-5);
-    // Escape takes a drag back.
+    // Escape cancels a drag.
     viewport.press(from);
     viewport.to(to);
     assert_eq!(viewport.steps(), ["Move"]);

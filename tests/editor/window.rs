@@ -307,7 +307,7 @@ fn a_hundred_device_losses_lose_no_data() {
 }
 
 #[test]
-fn resizing_and_hiding_the_window_does_not_stop_it() {
+fn resizing_and_hiding_the_window_does_not_stop_the_program() {
     let _one = alone();
     let mut screen = Screen::new("sizes", 1280, 800);
     let mut editor = Editor::open(&mut screen, &[], &[]);

@@ -50,7 +50,7 @@ impl ExpectedWindow {
         self.state.begin_frame(self.state.read().now);
         let to_root = self.state.read().posed.animation().expect("posed").to_root();
         let place = bones.map(|bone| to_root[bone as usize].w_axis.truncate().as_dvec3());
-        let at = self.view().to_screen((place[0] + place[1]) / 2.0).expect("before the eye");
+        let at = self.view().to_screen((place[0] + place[1]) / 2.0).expect("in front of the camera");
         at.as_vec2() + self.corner
     }
 
@@ -66,7 +66,7 @@ impl ExpectedWindow {
         gizmo.select(skeleton, animation.poses(), animation.to_root(), &[bone], None);
         gizmo.look(self.view());
         let joint = animation.to_root()[bone as usize].w_axis.truncate().as_dvec3();
-        let joint = self.view().to_screen(joint).expect("before the eye").as_vec2();
+        let joint = self.view().to_screen(joint).expect("in front of the camera").as_vec2();
         find(&gizmo, joint, wanted).expect("the handle is seen") + self.corner
     }
 }

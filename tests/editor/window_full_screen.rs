@@ -32,7 +32,7 @@ fn f11_and_the_menu_toggle_full_screen() {
         };
         toggle(&mut screen);
         eventually(SOON, || screen.place(window) == [0, 0, 1600, 1000]);
-        // The area that was only black screen before is drawn to the last pixel.
+        // The area around the former window, which was black, is now drawn to the last pixel.
         eventually(SOON, || colors(&screen.part([1400, 0, 200, 1000])) > 20);
         let full = settled(&screen, [0, 0, 1600, 1000]);
         for (x, y) in [(1599, 0), (1599, 999), (0, 999)] {

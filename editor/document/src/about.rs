@@ -31,7 +31,7 @@ fn bone_name(adapter: &ModelAdapter, bone: BoneIndex) -> String {
     if name.is_empty() { format!("Bone {bone}") } else { shortened(name) }
 }
 
-/// Returns the name, cut to the longest one in a list.
+/// Returns the name, cut to [`LONGEST`] characters.
 pub(crate) fn shortened(name: &str) -> String {
     match name.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{}…", &name[..end]),

@@ -73,14 +73,14 @@ impl Edited {
         self.apply(edit, gesture)
     }
 
-    /// Applies an edit as a step. All edits of one gesture are one step: each replaces the one before, and applies to the document as it was
-    /// when the gesture started.
+    /// Applies an edit as a step. All edits of one gesture are one step: each replaces the previous one, and
+    /// applies to the document as it was when the gesture started.
     ///
     /// Undone steps are removed.
     ///
     /// # Errors
     ///
-    /// The reason why it cannot be applied; nothing has changed then, and a gesture keeps its edit before.
+    /// The reason why it cannot be applied; nothing has changed then, and a gesture keeps its previous edit.
     pub fn apply(&mut self, edit: Edit, gesture: Option<Gesture>) -> Result<(), EditError> {
         let goes_on = gesture.is_some()
             && self.done == self.steps.len()

@@ -21,7 +21,7 @@ pub struct OpenedModel {
 }
 
 impl From<LoadedModel> for OpenedModel {
-    /// A model without a file.
+    /// Makes an opened model that has no file and cannot be saved.
     fn from(loaded: LoadedModel) -> Self {
         Self { loaded, editable: Err("it was not read from a file".to_owned()) }
     }

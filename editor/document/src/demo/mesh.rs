@@ -118,7 +118,7 @@ impl DemoMesh {
         self.indices.extend(order.map(narrow));
     }
 
-    /// Adds the mirror image across the middle plane, carried by the other side's bones.
+    /// Adds the mirror image across the middle plane, bound to the bones of the other side.
     pub(super) fn mirror(&mut self) {
         let count = self.vertices.len();
         for i in 0..count {
