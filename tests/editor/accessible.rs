@@ -7,7 +7,7 @@ use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::sync::Arc;
 
-/// Roles of things that are used.
+/// Returns whether a role is that of a control that the user operates.
 fn is_control(role: Role) -> bool {
     matches!(
         role,

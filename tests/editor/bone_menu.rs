@@ -1,4 +1,4 @@
-//! The right button at a bone.
+//! The menu that a click on a bone with the right button opens.
 
 use crate::workbench::{Window, Workbench};
 use dragonfly::panels::Request;
@@ -36,7 +36,7 @@ fn the_menu_in_the_tree_acts_on_the_bone_under_the_pointer() {
 }
 
 #[test]
-fn the_tree_stays_as_it_is_under_a_menu_and_after_an_edit() {
+fn the_tree_keeps_its_scroll_position_under_a_menu_and_stays_folded_after_an_edit() {
     let mut window = Workbench::full().window_of(egui::vec2(1280.0, 500.0), egui::Theme::Dark);
     window.state_mut().state.execute(Request::Select(Some(0)));
     window.run_steps(3);
@@ -46,7 +46,7 @@ fn the_tree_stays_as_it_is_under_a_menu_and_after_an_edit() {
         |window: &Window| ["Collapse root", "Collapse spine_00"].map(|name| window.get_by_label(name).rect());
     let before = rows(&window);
     assert!(window.query_by_label("rib_00_left_tip").is_none());
-    // The last row in sight.
+    // The last visible row.
     let area = window.get_by_label("Takes").rect();
     let names: Vec<String> = (0..20).map(|bone| window.state().state.read().bone_name(bone)).collect();
     let seen = names.iter().flat_map(|name| window.query_all_by_label(name)).map(|row| row.rect());

@@ -12,7 +12,7 @@ fn fox() -> PathBuf {
     data("gltf/Fox.glb")
 }
 
-/// A copy of Fox to which `edits` were applied, one JSON object a line.
+/// A copy of Fox to which `edits` were applied, one JSON object per line.
 fn edited(folder: &Folder, name: &str, edits: &str) -> PathBuf {
     let (lines, out) = (folder.join("edits.jsonl"), folder.join(name));
     std::fs::write(&lines, edits).expect("written");

@@ -250,7 +250,7 @@ fn a_full_disk_under_standard_output_is_reported() {
 }
 
 #[test]
-fn the_table_of_commands_has_a_line_for_each_with_its_keys() {
+fn the_table_of_commands_lists_every_command_with_its_keys() {
     let table = run(["--commands"]).expect(0);
     let lines: Vec<&str> = table.text().lines().collect();
     assert_eq!(lines.len(), dragonfly::panels::commands::all().count() + 1);

@@ -1,4 +1,4 @@
-//! The table of commands is whole.
+//! The table of commands: titles, help texts and shortcuts.
 
 use dragonfly::panels::commands;
 use std::collections::HashMap;
@@ -20,7 +20,7 @@ fn no_two_commands_share_a_shortcut() {
 fn every_command_is_listed_once_with_a_title_and_help() {
     let mut seen = HashMap::new();
     for command in commands::all() {
-        assert!(seen.insert(command.id, ()).is_none(), "{:?} stands twice", command.id);
+        assert!(seen.insert(command.id, ()).is_none(), "{:?} is listed twice", command.id);
         assert_eq!(commands::get(command.id).id, command.id);
         assert_eq!(commands::named(command.id.name()), Some(command.id));
         assert_eq!(format!("{:?}", command.id), command.id.name(), "settings and logs have the bare name");

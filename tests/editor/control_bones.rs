@@ -1,4 +1,4 @@
-//! Bones are chosen by click, region, neighbor and side, as hands expect.
+//! Bones are selected by click, by region, by neighborhood and by side.
 
 use crate::gizmo_rig::Rig;
 use dragonfly::control::Modifiers;
@@ -11,7 +11,7 @@ use glam::{Vec2, Vec3};
 use std::collections::BTreeSet;
 
 #[test]
-fn repeated_clicks_cycle_through_the_bones_behind() {
+fn repeated_clicks_at_one_position_cycle_through_the_bones_under_the_pointer() {
     let mut cycle = ClickCycle::default();
     let at = Vec2::new(100.0, 100.0);
     let hits = [7, 3, 5];
@@ -23,18 +23,18 @@ fn repeated_clicks_cycle_through_the_bones_behind() {
         "within four points it is the same place"
     );
     assert_eq!(cycle.click(at + Vec2::new(4.1, 0.0), &hits), Some(7), "further away it is another");
-    // Small steps do not carry the place along.
+    // Positions are compared with that of the first click, so small movements add up.
     let mut cycle = ClickCycle::default();
     let creeping: Vec<_> =
         (0..4).map(|step| cycle.click(at + Vec2::X * (2 * step) as f32, &[7, 3, 5, 9]).unwrap()).collect();
     assert_eq!(creeping, [7, 3, 5, 7]);
-    // The pose changed: another order, or what was chosen is gone.
+    // The pose changed between the clicks: the hits are in another order, or the chosen bone is no longer hit.
     let mut cycle = ClickCycle::default();
     cycle.click(at, &hits);
-    assert_eq!(cycle.click(at, &[3, 7, 5]), Some(5), "behind what was chosen");
+    assert_eq!(cycle.click(at, &[3, 7, 5]), Some(5), "the bone behind the chosen one");
     assert_eq!(cycle.click(at, &[1, 2]), Some(1));
     assert_eq!(cycle.click(at, &[]), None);
-    assert_eq!(cycle.click(at, &[1, 2]), Some(1), "after a miss it begins anew");
+    assert_eq!(cycle.click(at, &[1, 2]), Some(1), "after a miss the cycle starts again");
     assert_eq!(cycle.click(at, &[1]), Some(1));
     cycle.forget();
     assert_eq!(cycle.click(at, &[1, 2]), Some(1));
@@ -59,7 +59,11 @@ fn a_bone_is_in_a_region_if_its_joint_or_midpoint_is() {
     assert_eq!(inside(Region::Box(Vec2::new(11.0, 1.0), Vec2::new(4.0, -1.0))), [0, 1], "any two corners");
     assert_eq!(inside(Region::Box(Vec2::new(6.0, -1.0), Vec2::new(9.0, 1.0))), [0_u32; 0], "only touched");
     assert_eq!(inside(Region::Box(Vec2::new(19.0, 10.0), Vec2::new(25.0, 30.0))), [2], "one of its shapes");
-    assert_eq!(inside(Region::Box(Vec2::splat(-100.0), Vec2::splat(100.0))), [0, 1, 2], "not behind the eye");
+    assert_eq!(
+        inside(Region::Box(Vec2::splat(-100.0), Vec2::splat(100.0))),
+        [0, 1, 2],
+        "not behind the camera"
+    );
     let line = [Vec2::new(-5.0, -5.0), Vec2::new(6.0, -5.0), Vec2::new(6.0, 5.0), Vec2::new(-5.0, 5.0)];
     assert_eq!(inside(Region::Lasso(&line)), [0]);
     assert_eq!(inside(Region::Lasso(&[])), [0_u32; 0]);
@@ -67,7 +71,7 @@ fn a_bone_is_in_a_region_if_its_joint_or_midpoint_is() {
 }
 
 #[test]
-fn a_lasso_selects_what_it_encloses_with_a_bounded_number_of_points() {
+fn a_lasso_contains_what_it_encloses_and_has_at_most_2048_points() {
     let mut lasso = Lasso::default();
     lasso.begin(Vec2::new(200.0, 100.0));
     for step in 0..100_000 {
@@ -85,7 +89,7 @@ fn a_lasso_selects_what_it_encloses_with_a_bounded_number_of_points() {
     }
     let Region::Lasso(line) = lasso.region() else { panic!() };
     assert!(line.len() <= 2048);
-    // Around twice is inside, too.
+    // A point that the line winds around twice is inside too.
     let twice: Vec<Vec2> = [0.0, 2.1, 4.2, 6.3, 8.4, 10.5].map(|angle| Vec2::from_angle(angle) * 10.0).into();
     assert!(Region::Lasso(&twice).holds(Vec2::ZERO));
 }
@@ -103,7 +107,7 @@ fn select(bones: &[u32]) -> BoneSelection {
 }
 
 #[test]
-fn shift_adds_and_ctrl_toggles() {
+fn a_click_with_shift_adds_a_bone_and_with_ctrl_toggles_it() {
     let mut selection = select(&[]);
     let none = Modifiers::default();
     selection.click(Some(3), Choice::from(none));
@@ -128,7 +132,7 @@ fn shift_adds_and_ctrl_toggles() {
 }
 
 #[test]
-fn neighbors_are_found_and_hidden_bones_are_skipped() {
+fn selecting_parents_children_and_descendants_skips_hidden_bones() {
     let (tree, mut hidden) = (tree(), HiddenBones::default());
     let after = |bones: &[u32], hidden: &HiddenBones, act: &dyn Fn(&mut BoneSelection, &HiddenBones)| {
         let mut selection = select(bones);
@@ -159,7 +163,7 @@ fn neighbors_are_found_and_hidden_bones_are_skipped() {
 }
 
 #[test]
-fn growing_and_shrinking_go_bone_by_bone() {
+fn growing_adds_adjacent_bones_and_shrinking_again_keeps_the_original_ones() {
     let (tree, hidden) = (tree(), HiddenBones::default());
     let mut selection = select(&[2]);
     selection.grow(&tree, &hidden);

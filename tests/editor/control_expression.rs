@@ -53,7 +53,7 @@ fn usual_expressions_are_evaluated() {
 }
 
 #[test]
-fn units_follow_the_quantity() {
+fn units_are_converted_to_the_unit_of_the_field() {
     let lengths = [
         ("10cm", 0.1),
         ("1m + 5cm", 1.05),
@@ -125,14 +125,14 @@ fn every_error_reports_its_position() {
 }
 
 #[test]
-fn depth_and_length_are_limited() {
+fn the_depth_and_length_of_an_expression_are_limited() {
     let deep = |depth: usize| format!("{}1{}", "(".repeat(depth), ")".repeat(depth));
     assert_eq!(evaluate(&deep(DEEPEST as usize), Quantity::Number), Ok(1.0));
     for text in [deep(DEEPEST as usize + 1), "-".repeat(4000) + "1", "2^".repeat(2000) + "1"] {
         let fault = evaluate(&text, Quantity::Number).unwrap_err().reason;
         assert_eq!(fault, ExpressionFault::TooDeep);
     }
-    // Wide is not deep: brackets that are closed count no more.
+    // A long expression is not a deep one: brackets that are closed do not count towards the depth.
     assert_eq!(evaluate(&("(1)+".repeat(900) + "sqrt(4)"), Quantity::Number), Ok(902.0));
     let long = "1".repeat(LONGEST + 1);
     assert_eq!(evaluate(&long, Quantity::Number).unwrap_err().reason, ExpressionFault::TooLong);

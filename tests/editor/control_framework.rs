@@ -35,23 +35,23 @@ fn a_control_is_the_parent_of_all_controls_entirely_inside_it() {
     assert_eq!(framework.parent(picture), Some(ControlId::ROOT));
     assert_eq!(framework.parent(panel), Some(ControlId::ROOT));
     assert_eq!(framework.parent(ControlId::ROOT), None);
-    // As large as the picture, and later: it comes between the two.
+    // As large as the picture and registered later, so it becomes the parent of the tool and a child of the picture.
     let between = owner.add(&mut framework, area(0.0, 0.0, 600.0, 600.0));
     assert_eq!(framework.parent(tool), Some(between));
     assert_eq!(framework.parent(between), Some(picture));
     assert!(framework.is_inside(tool, picture) && !framework.is_inside(picture, tool));
-    // It goes: those inside get its parent. Its name means nothing any more.
+    // When it is unregistered, its children get its parent, and its identifier is no longer valid.
     assert!(framework.unregister_control(between));
     assert!(!framework.unregister_control(between));
     assert_eq!(framework.parent(tool), Some(picture));
-    // It leaves the picture.
+    // The tool is moved, so that it is no longer inside the picture.
     assert!(framework.move_control(tool, area(590.0, 0.0, 50.0, 50.0)));
     assert_eq!(framework.parent(tool), Some(ControlId::ROOT));
     assert!(!framework.unregister_control(ControlId::ROOT));
 }
 
 #[test]
-fn a_control_can_be_registered_inside_another_only() {
+fn a_child_control_must_lie_inside_its_parent_control() {
     let (mut framework, mut owner, [picture, tool, panel]) = window();
     let inside = owner.get(picture).register_control(picture, area(10.0, 10.0, 5.0, 5.0), &mut framework);
     assert_eq!(framework.parent(inside.unwrap()), Some(picture));
@@ -76,7 +76,7 @@ fn mouse_events_go_to_the_deepest_control_and_bubble_while_passed_on() {
     assert_eq!(owner.take_events(tool), [ProbeEvent::Leave]);
     assert_eq!(owner.take_events(panel), [ProbeEvent::Enter, ProbeEvent::Move]);
     assert_eq!(owner.take_events(picture), []);
-    // A control that is round is met on its disc only.
+    // A round control is hit only on its disc.
     owner.get(tool).circle = Some((Vec2::new(125.0, 125.0), 10.0));
     assert_eq!(framework.resolve_input(to(101.0, 101.0), &mut owner), Some(picture));
     assert_eq!(framework.resolve_input(to(900.0, 50.0), &mut owner), None, "outside of the window");
@@ -128,7 +128,7 @@ fn keys_go_to_the_focus_or_the_hovered_control_and_are_released_there() {
     framework.resolve_input(InputEvent::KeyUp(Key::Enter), &mut owner);
     framework.resolve_input(InputEvent::KeyUp(Key::Enter), &mut owner);
     assert_eq!(owner.take_events(panel), [ProbeEvent::NoFocus, ProbeEvent::KeyUp(Key::Enter)]);
-    // Passed on like everything else.
+    // A control may pass key events on to its parent, as it may mouse events.
     owner.get(tool).passes = true;
     framework.set_focus(tool);
     assert_eq!(framework.resolve_input(InputEvent::KeyDown(A), &mut owner), Some(picture));
@@ -169,7 +169,7 @@ fn lost_input_cancels_the_capture_and_releases_every_key() {
     );
     assert_eq!(owner.take_events(panel), []);
     assert_eq!(framework.captured(), None);
-    // The release that comes late means nothing.
+    // A release after the loss of input has no effect.
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
     framework.resolve_input(InputEvent::KeyUp(A), &mut owner);
     assert_eq!(owner.take_events(tool), []);
@@ -200,7 +200,7 @@ fn controls_can_be_added_and_removed_during_an_input() {
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     framework.unregister_control(tool);
     framework.resolve_input(to(130.0, 120.0), &mut owner);
-    assert_eq!(owner.take_events(picture), [], "nobody has a mouse whose owner is gone");
+    assert_eq!(owner.take_events(picture), [], "no control gets the mouse of a control that is gone");
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
     assert_eq!(owner.take_events(picture), [ProbeEvent::Enter]);
 
@@ -210,14 +210,14 @@ fn controls_can_be_added_and_removed_during_an_input() {
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     owner.forget();
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
-    assert_eq!(owner.take_events(picture), [], "it is gone, though its owner has it still");
+    assert_eq!(owner.take_events(picture), [], "it is unregistered, although its owner still has it");
 
     let (mut framework, mut owner, [_, tool, panel]) = window();
     owner.get(tool).on_press = PressAction::Register(area(110.0, 110.0, 20.0, 20.0));
     framework.resolve_input(to(120.0, 120.0), &mut owner);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     framework.resolve_input(InputEvent::MouseUp(LEFT), &mut owner);
-    assert_eq!(framework.hovered(), Some(tool), "a control that its owner does not have is not met");
+    assert_eq!(framework.hovered(), Some(tool), "a control that its owner does not have is not hit");
     owner.get(tool).on_press = PressAction::Focus(panel);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     assert_eq!(owner.take_events(panel), [ProbeEvent::Focus]);
@@ -239,7 +239,7 @@ fn two_controls_that_take_the_focus_from_each_other_do_not_loop() {
 }
 
 #[test]
-fn an_input_allocates_nothing() {
+fn handling_an_input_allocates_nothing() {
     let (mut framework, mut owner, [_, tool, panel]) = window();
     owner.get(tool).passes = true;
     let events = [to(120.0, 120.0), InputEvent::MouseDown(LEFT), to(300.0, 10.0), InputEvent::MouseUp(LEFT)];
@@ -276,7 +276,7 @@ fn a_control_that_grabs_the_input_receives_all_of_it_until_it_releases_it() {
     framework.resolve_input(to(700.0, 50.0), &mut owner);
     framework.resolve_input(InputEvent::MouseDown(LEFT), &mut owner);
     framework.resolve_input(InputEvent::Lost, &mut owner);
-    assert_eq!(owner.take_events(tool), [Enter, Move, Down(LEFT), Lost, Leave], "told once");
+    assert_eq!(owner.take_events(tool), [Enter, Move, Down(LEFT), Lost, Leave], "one event only");
     framework.grab(tool);
     framework.unregister_control(tool);
     assert_eq!(framework.captured(), None);

@@ -80,10 +80,10 @@ fn names_without_a_counterpart_are_not_paired() {
 }
 
 #[test]
-fn surer_guesses_come_first_and_ambiguous_ones_pair_nothing() {
+fn names_that_differ_least_are_paired_and_ambiguous_names_are_not() {
     let names = ["Arm_R", "arm_r", "Arm_L", "arm_l"];
     assert_eq!(pairs(&names), [(2, 0, MirrorGuess::Name), (3, 1, MirrorGuess::Name)]);
-    // Two figures in one file: the first with the first.
+    // Two figures in one file: the first left arm is paired with the first right arm.
     let names = ["Arm.L", "Arm.R", "Arm.L", "Arm.R"];
     assert_eq!(pairs(&names), [(0, 1, MirrorGuess::Name), (2, 3, MirrorGuess::Name)]);
     assert_eq!(pairs(&["Arm.L", "Arm.R", "Arm.L"]), [], "which of the two?");
@@ -133,7 +133,7 @@ fn any_names_are_paired_in_bounded_time() {
     assert!(start.elapsed().as_secs() < 20);
 }
 
-/// The files of a folder.
+/// Reads files of a folder for the importer.
 struct FolderFs(PathBuf);
 
 impl AssetFs for FolderFs {

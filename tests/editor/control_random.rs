@@ -9,7 +9,7 @@ use glam::Vec2;
 /// The naive model: plain lists, and the documented rules applied literally.
 struct Naive {
     window: Area,
-    /// In the order of registration.
+    /// All controls, in the order of registration.
     controls: Vec<(ControlId, Area)>,
 }
 
@@ -47,7 +47,7 @@ impl Naive {
 }
 
 #[test]
-fn random_rectangles_and_events_agree_with_the_plain_model() {
+fn on_random_rectangles_and_events_the_framework_agrees_with_a_naive_model() {
     let seed = seed(33);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -62,7 +62,7 @@ fn random_rectangles_and_events_agree_with_the_plain_model() {
             let place = |random: &mut Random| {
                 Vec2::new(random.below(12) as f32 * 10.0 - 5.0, random.below(12) as f32 * 10.0 - 5.0)
             };
-            // Few different edges, so that there are many equal and nested ones.
+            // Coordinates have few different values, so that many rectangles are equal or nested.
             let corner =
                 |random: &mut Random| Vec2::new(random.below(6) as f32 * 20.0, random.below(6) as f32 * 20.0);
             match random.below(12) {
@@ -159,7 +159,7 @@ fn random_rectangles_and_events_agree_with_the_plain_model() {
 }
 
 #[test]
-fn random_sequences_leave_no_press_key_or_hover_without_its_end() {
+fn after_random_input_every_press_key_and_hover_has_ended() {
     let seed = seed(34);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -167,7 +167,7 @@ fn random_sequences_leave_no_press_key_or_hover_without_its_end() {
     for _ in 0..1_000 {
         let (mut framework, mut owner) = (ControlFramework::new(Vec2::splat(100.0)), Owner::default());
         for _ in 0..10 {
-            // Quarters of quarters: none overlaps another in part.
+            // Squares of a grid that is halved again and again: two of them are nested or do not overlap at all.
             let size = 100.0 / (1 << random.below(4)) as f32;
             let count = (100.0 / size) as usize;
             let corner = Vec2::new(random.below(count) as f32, random.below(count) as f32) * size;

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 /// Longer than a program takes to answer on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// A file manager, as far as dragging goes.
+/// The part of a file manager that drags files.
 pub(crate) struct Drag {
     wire: Wire,
     own: Window,
@@ -24,9 +24,9 @@ impl Drag {
         Self { wire, own, selection, list }
     }
 
-    /// Drags what has these addresses over the middle of `window`, where it is held until it is dropped.
+    /// Drags the files with these addresses over the middle of `window`, and holds them there until they are dropped.
     ///
-    /// Returns whether the window takes it.
+    /// Returns whether the window accepts them.
     pub(crate) fn hold(&mut self, window: Window, addresses: &[String]) -> bool {
         let list = self.list;
         self.send(window, "XdndEnter", [5 << 24, list, 0, 0]);
@@ -51,7 +51,7 @@ impl Drag {
         takes == Some(true)
     }
 
-    /// Lets go of it, and waits until the window has it.
+    /// Drops the files, and waits until the window has received them.
     pub(crate) fn drop(&mut self, window: Window) {
         self.send(window, "XdndDrop", [0, 0, 0, 0]);
         let finished = self.wire.atom("XdndFinished");
@@ -61,11 +61,11 @@ impl Drag {
             if event.kind() == event::CLIENT_MESSAGE && event.word(8) == finished {
                 return;
             }
-            assert!(Instant::now() < deadline, "the window does not say that it has what was dropped");
+            assert!(Instant::now() < deadline, "the window does not report that it received the files");
         }
     }
 
-    /// Drags it away again.
+    /// Drags the files away from the window again.
     pub(crate) fn leave(&mut self, window: Window) {
         self.send(window, "XdndLeave", [0, 0, 0, 0]);
     }
@@ -79,7 +79,7 @@ impl Drag {
         self.wire.message(window, 0, window, name, [self.own, a, b, c, d]);
     }
 
-    /// Answers what is dragged, to whom it asks.
+    /// Answers a request for the addresses of the dragged files.
     fn tell(&mut self, asked: &Event, addresses: &[String]) {
         let [time, asker, selection, target, property] = [4, 12, 16, 20, 24].map(|at| asked.word(at));
         assert_eq!((selection, target), (self.selection, self.list), "asked for something else");
@@ -91,7 +91,7 @@ impl Drag {
     }
 }
 
-/// The address of a file, as file managers write it: every byte that is not plain as a number.
+/// Returns the address of a file as file managers write it: percent-encoded except for letters, digits and `/-_.~`.
 pub(crate) fn address(path: &std::path::Path) -> String {
     let plain = |byte: &u8| byte.is_ascii_alphanumeric() || b"/-_.~".contains(byte);
     let written = |byte: u8| if plain(&byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };

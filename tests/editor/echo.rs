@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 const GESTURE: Gesture = Gesture(5);
 
-/// Puts bone 1 of the first take at `x` at its start.
+/// Returns a change that moves bone 1 to `x` at the start of the first take.
 fn set(x: f32, gesture: Option<Gesture>) -> Change {
     let translation = Some([x, 0.0, 0.0]);
     let pose = BonePose { bone: BoneRef::Index(1), translation, rotation: None, scale: None };
@@ -20,7 +20,8 @@ fn set(x: f32, gesture: Option<Gesture>) -> Change {
     Change::Edit(Edit::SetPose(SetPose { take, time: 0.0, poses: vec![pose], unstep: false }), gesture)
 }
 
-/// Puts bone 1 of the first take at `x` at its start, by an edit that takes too long for a preview.
+/// Returns a change that moves bone 1 to `x` at the start of the first take, by an edit that takes too long to be shown
+/// before the document answers.
 fn set_slowly(x: f32, gesture: Option<Gesture>) -> Change {
     let pose =
         BonePose { bone: BoneRef::Index(1), translation: Some([x, 0.0, 0.0]), rotation: None, scale: None };
@@ -28,7 +29,7 @@ fn set_slowly(x: f32, gesture: Option<Gesture>) -> Change {
     Change::Edit(Edit::SetPoses(SetPoses { take: TakeRef::Index(0), at, unstep: false }), gesture)
 }
 
-/// Moves all keys of the first take.
+/// Returns a change that moves all keys of the first take.
 fn move_keys(by: f32, gesture: Option<Gesture>) -> Change {
     let keys = vec![KeySet::default()];
     Change::Edit(Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys, by }), gesture)
@@ -46,7 +47,7 @@ fn x_of(view: Option<&View>) -> f32 {
     dragonfly_anim::sample::sample_track(&view.takes[0].tracks[1], bone, 0.0).translation.x
 }
 
-/// The document's view after `changes`, the last of which has number `answered`.
+/// Returns the document's view after `changes`, the last of which has number `answered`.
 fn answer(first: &View, answered: u64, changes: &[Change]) -> View {
     let mut edited = first.edited();
     for change in changes {
@@ -70,7 +71,7 @@ fn an_edit_is_shown_until_the_view_that_contains_it_arrives() {
     assert_ne!(
         shown.as_ref().unwrap().generation,
         first.generation,
-        "whoever caches by generation looks again"
+        "the generation differs, so that caches are updated"
     );
     assert!(!echo.has_answered(number));
     let view = answer(&first, number, &[set(3.0, None)]);
@@ -81,7 +82,7 @@ fn an_edit_is_shown_until_the_view_that_contains_it_arrives() {
 }
 
 #[test]
-fn a_view_without_the_newest_edit_does_not_bring_the_old_number_back() {
+fn a_view_without_the_newest_edit_does_not_hide_that_edit() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let one = echo.send(&set(1.0, Some(GESTURE)), &mut shown);
@@ -116,7 +117,7 @@ fn a_cancelled_drag_is_undone_at_once() {
 }
 
 #[test]
-fn an_invalid_edit_shows_nothing() {
+fn an_invalid_edit_is_not_shown() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let wrong = Change::Edit(
@@ -158,7 +159,7 @@ fn each_edit_of_a_drag_moves_the_keys_from_where_they_were_at_its_start() {
 }
 
 #[test]
-fn an_edit_that_takes_long_is_shown_when_it_is_answered() {
+fn a_slow_edit_is_shown_when_the_document_answers_it() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let before = x_of(shown.as_ref());
@@ -171,7 +172,7 @@ fn an_edit_that_takes_long_is_shown_when_it_is_answered() {
 }
 
 #[test]
-fn an_edit_after_one_that_takes_long_is_not_shown_without_it() {
+fn an_edit_after_a_slow_edit_is_shown_only_together_with_it() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let start = start_of(shown.as_ref());
@@ -188,7 +189,7 @@ fn an_edit_after_one_that_takes_long_is_not_shown_without_it() {
 }
 
 #[test]
-fn a_drag_that_began_during_an_edit_that_takes_long_is_shown_as_the_document_answers_it() {
+fn a_drag_begun_during_a_slow_edit_is_shown_only_as_the_document_answers() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let start = start_of(shown.as_ref());
@@ -206,7 +207,7 @@ fn a_drag_that_began_during_an_edit_that_takes_long_is_shown_as_the_document_ans
 }
 
 #[test]
-fn a_drag_may_change_between_edits_that_are_quick_and_edits_that_take_long() {
+fn a_drag_may_alternate_between_quick_and_slow_edits() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let start = start_of(shown.as_ref());

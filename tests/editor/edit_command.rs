@@ -15,14 +15,14 @@ fn text(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// A file with `lines` in it.
+/// Writes `lines` to a file and returns its path.
 fn edits(folder: &Folder, lines: &str) -> String {
     let path = folder.join("edits.jsonl");
     std::fs::write(&path, lines).expect("a file");
     text(&path)
 }
 
-/// The rotation of a bone relative to its parent, by `explain`.
+/// Returns the rotation of a bone relative to its parent, as `explain` prints it.
 fn rotation(file: &str, bone: &str, time: &str) -> Vec<f64> {
     let arguments = ["explain", file, "--take", "Run", "--time", time, "--bone", bone, "--json"];
     let explained = run(arguments).expect(0).json();
@@ -72,7 +72,7 @@ fn an_edit_is_saved_and_the_rest_of_the_file_keeps_its_bytes() {
         bytes[from..].to_vec()
     };
     assert!(chunk(&after).starts_with(&chunk(&before)));
-    // Once more: the room that was appended is used again.
+    // A second edit reuses the space that the first one appended.
     let again = text(&folder.join("again.glb"));
     run(["edit", &saved, "--edits", &edits(&folder, &TURN.replace("0.2588190", "0.3")), "-o", &again])
         .expect(0);
@@ -252,8 +252,8 @@ fn a_node_that_loses_its_animation_is_reported_before_saving() {
         let listed = run(["pose", file, "--take", "turn", "--time", "0", "--json"]).expect(0).json();
         listed["poses"][0]["bones"].as_array().map(Vec::len)
     };
-    assert_eq!((bones(&text(&file)), bones(&saved)), (Some(2), Some(1)), "as was said");
-    // One key less is no reason to say anything.
+    assert_eq!((bones(&text(&file)), bones(&saved)), (Some(2), Some(1)), "as was reported");
+    // Deleting one of several keys is not reported.
     let one = r#"{"edit":"delete_keys","take":"turn","keys":[{"bones":["fan"],"at":[1]}]}"#;
     let report = run(["edit", &text(&file), "--edits", &edits(&folder, one), "-o", &saved, "--json"]);
     assert_eq!(report.expect(0).json()["changes"]["bonesLost"], serde_json::json!([]));

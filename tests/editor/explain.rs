@@ -19,7 +19,7 @@ fn posed() -> Value {
 }
 
 #[test]
-fn a_bone_is_explained_up_to_the_very_matrix_that_pose_gives() {
+fn explaining_a_bone_ends_with_the_matrix_that_the_pose_command_prints() {
     let (explained, posed) = (explained(&["--bone", "b_Head_05"]), posed());
     let bones = explained["bones"].as_array().expect("bones");
     assert_eq!(explained["take"]["name"], "Run");
@@ -39,7 +39,7 @@ fn a_bone_is_explained_up_to_the_very_matrix_that_pose_gives() {
 }
 
 #[test]
-fn a_vertex_is_explained_up_to_the_very_position_that_pose_gives() {
+fn explaining_a_vertex_ends_with_the_position_that_the_pose_command_prints() {
     let (explained, posed) = (explained(&["--vertex", "9"]), posed());
     let vertex = &explained["vertex"];
     assert_eq!(vertex["final_position"], posed["poses"][0]["meshes"][0]["positions"][9]);
@@ -52,7 +52,7 @@ fn a_vertex_is_explained_up_to_the_very_position_that_pose_gives() {
     }
 }
 
-/// Every number that is none is `null` in JSON: those that may be missing are known.
+/// Asserts that no number is missing: JSON has `null` for NaN and infinity, which only the listed fields may have.
 fn no_missing_numbers(value: &Value, place: &str) {
     const MAY_BE_MISSING: [&str; 12] = [
         "take",
@@ -105,7 +105,7 @@ fn a_json_document_has_the_names_and_numbers_of_the_other_commands() {
             assert_eq!(step["to_parent"].as_array().map(Vec::len), Some(16));
         }
     }
-    // One end each, and the fields that scripts may rely on.
+    // The fields that scripts may rely on.
     assert_eq!(names(&bone), ["bone", "bones", "file", "take", "time"]);
     assert_eq!(names(&vertex), ["bones", "file", "take", "time", "vertex"]);
     assert_eq!(names(&bone["bone"]), ["final", "index", "offset"]);

@@ -1,4 +1,4 @@
-//! The eyes in the tree of the skeleton, and the names over the picture.
+//! The eye buttons in the tree of the skeleton, and the names over the viewport.
 
 use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;

@@ -21,7 +21,7 @@ const SURFACE_LOST: i32 = -1_000_000_000;
 const OUT_OF_DATE: i32 = -1_000_001_004;
 const SUBOPTIMAL: i32 = 1_000_001_003;
 
-/// Set in a child process, which runs the same test: the file of the picture that it must draw.
+/// Environment variable with the file of the expected image. It is set in a child process, which runs the same test.
 const CHILD: &str = "DRAGONFLY_FAULT_CHILD";
 
 fn fox() -> Arc<LoadedModel> {
@@ -44,7 +44,7 @@ fn draw_behind_the_layer(reference: &str) {
     let log = std::env::var("FAULT_LOG").expect("where the faults are told");
     let (mut drawn, mut refused, mut slowest) = (0, 0, Duration::ZERO);
     let mut since_fault = Instant::now();
-    // Some more after the last fault, to see that all is well again.
+    // A few more images after the last fault must be right too.
     let mut after = 0;
     while after < 3 {
         assert!(Instant::now() < deadline, "{drawn} drawn, {refused} refused, {} faults", lines(&log));
@@ -72,8 +72,8 @@ fn slowness() -> u32 {
     5
 }
 
-/// Draws in a child process while the layer makes `call` return `result`. The child runs `test`, the caller, which gets
-/// here and draws.
+/// Draws in a child process while the layer makes `call` return `result`. The child runs `test`, which is the calling
+/// test, and draws when it reaches this function.
 #[track_caller]
 fn draw_through(test: &str, call: &str, result: i32, times: usize, more: &[(&str, &str)]) {
     if let Ok(reference) = std::env::var(CHILD) {
@@ -102,16 +102,16 @@ fn draw_through(test: &str, call: &str, result: i32, times: usize, more: &[(&str
 }
 
 #[test]
-fn a_device_lost_at_any_submit_gives_the_same_picture_again() {
+fn after_a_device_loss_at_any_submit_the_same_image_is_drawn() {
     let _one = alone();
-    let test = "a_device_lost_at_any_submit_gives_the_same_picture_again";
+    let test = "after_a_device_loss_at_any_submit_the_same_image_is_drawn";
     draw_through(test, "submit", DEVICE_LOST, 50, &[("FAULT_CLIMB", "1")]);
 }
 
 #[test]
-fn a_device_lost_at_any_wait_gives_the_same_picture_again() {
+fn after_a_device_loss_at_any_wait_the_same_image_is_drawn() {
     let _one = alone();
-    let test = "a_device_lost_at_any_wait_gives_the_same_picture_again";
+    let test = "after_a_device_loss_at_any_wait_the_same_image_is_drawn";
     draw_through(test, "wait", DEVICE_LOST, 50, &[("FAULT_CLIMB", "1")]);
 }
 
@@ -138,7 +138,7 @@ fn out_of_memory_is_an_error_and_no_crash() {
                 image::open(&file).expect("what is written is a picture");
             }
             if layer.faults() == 0 {
-                // There is no such allocation any more: all of them were tried.
+                // No fault occurred: the program makes fewer allocations, so all of them were tried.
                 finished = true;
                 break;
             }
@@ -182,13 +182,13 @@ fn show_through(name: &str, cases: &[(&str, i32, usize, &str)]) {
 }
 
 #[test]
-fn a_device_lost_while_an_image_of_the_window_is_asked_for_comes_back() {
+fn a_device_lost_while_acquiring_an_image_of_the_window_is_recreated() {
     let _one = alone();
     show_through("acquire", &[("acquire", DEVICE_LOST, 50, "1")]);
 }
 
 #[test]
-fn a_device_lost_while_an_image_is_shown_comes_back() {
+fn a_device_lost_while_presenting_an_image_is_recreated() {
     let _one = alone();
     show_through("present", &[("present", DEVICE_LOST, 50, "1")]);
 }

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// A place for one test's faults.
+/// The fault layer as one test uses it, with a folder for its log.
 pub(crate) struct Layer {
     pub(crate) folder: Folder,
 }
 
 impl Layer {
-    /// The layer, built at the first use.
+    /// Returns the layer, which is built at the first use.
     pub(crate) fn new(name: &str) -> Self {
         library();
         Self { folder: Folder::new(&format!("layer-{name}")) }
@@ -33,12 +33,12 @@ impl Layer {
         .into()
     }
 
-    /// Faults so far.
+    /// Returns the number of faults so far.
     pub(crate) fn faults(&self) -> usize {
         lines(self.log())
     }
 
-    /// Begins to count anew.
+    /// Restarts the count.
     pub(crate) fn forget(&self) {
         let _ = std::fs::remove_file(self.log());
     }
@@ -48,7 +48,7 @@ impl Layer {
     }
 }
 
-/// Lines of a file; none when it is not there yet.
+/// Returns the number of lines of a file; 0 if it does not exist yet.
 pub(crate) fn lines(path: impl AsRef<Path>) -> usize {
     std::fs::read_to_string(path).map_or(0, |text| text.lines().count())
 }
@@ -58,7 +58,7 @@ fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| {
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/editor/fault_layer/fault_layer.c");
-        // One folder a process: two test runs at once must not write into each other's library.
+        // One folder per process: two test runs at once must not write into each other's library.
         let folder =
             Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("fault-layer-{}", std::process::id()));
         std::fs::create_dir_all(&folder).expect("a folder");

@@ -63,7 +63,7 @@ fn a_link_that_stays_inside_is_followed_and_one_that_leads_out_is_not() {
     for name in ["outside.bin", "up/secret.bin", "up/model/good.bin.", "loop.bin"] {
         assert!(folder.read(name, LIMIT).is_err(), "{name}");
     }
-    // The way out and in again ends inside: nothing outside is read.
+    // A path that leads out of the folder and in again ends inside, so no file outside is read.
     assert_eq!(folder.read("up/model/good.bin", LIMIT).expect("inside after all"), [7; 36]);
 }
 
@@ -80,13 +80,13 @@ fn a_pipe_a_device_and_a_folder_are_refused_at_once() {
     for name in ["pipe.bin", "zero.bin", "textures", "socket.bin"] {
         let began = Instant::now();
         assert!(folder.read(name, LIMIT).is_err(), "{name}");
-        assert!(read_file(&model.join(name), LIMIT).is_err(), "{name} as the file that a person named");
+        assert!(read_file(&model.join(name), LIMIT).is_err(), "{name} as the file that the user named");
         assert!(began.elapsed() < AT_ONCE, "{name} took {:?}", began.elapsed());
     }
     drop(socket);
 }
 
-/// How the name of a buffer ends: nothing may be read, or all is well.
+/// The expected result for the name of a buffer.
 #[derive(Clone, Copy, PartialEq)]
 enum End {
     Refused,
@@ -133,7 +133,7 @@ fn names(place: &Place) -> Vec<(String, End)> {
     names
 }
 
-/// A triangle whose buffer of 36 bytes has this name.
+/// Returns a triangle whose buffer of 36 bytes has this name.
 fn model(name: &str) -> String {
     format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],

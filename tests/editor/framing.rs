@@ -36,7 +36,7 @@ fn framing_uses_the_current_pose() {
     let places = evaluator.all_positions();
     let seen: Vec<Vec2> =
         places.iter().filter_map(|place| view.to_screen(place.as_dvec3())).map(|at| at.as_vec2()).collect();
-    assert_eq!(seen.len(), places.len(), "all of the running fox is before the eye");
+    assert_eq!(seen.len(), places.len(), "all of the running fox is in front of the camera");
     let outside = seen.iter().filter(|at| at.min_element() < 0.0 || at.cmpgt(size).any()).count();
     assert_eq!(outside, 0, "of {} vertices", places.len());
 }
@@ -63,7 +63,7 @@ fn a_skeleton_without_meshes_is_shown_and_framed() {
     let (bones, empty) = (with(true), with(false));
     let seen = difference(&bones, &empty);
     assert!(seen > 500, "only {seen} pixels show a bone");
-    // Framed: the bones reach over much of the picture and stay away from its edges.
+    // The model is framed: the bones cover much of the image and do not touch its edges.
     let columns: Vec<u32> =
         (0..160).filter(|&x| (0..120).any(|y| bones.get_pixel(x, y) != empty.get_pixel(x, y))).collect();
     let (first, last) = (columns[0], columns[columns.len() - 1]);

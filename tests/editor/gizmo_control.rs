@@ -1,4 +1,5 @@
-//! The gizmo in the tree of controls: met at its handles, in charge while it drags, cancelled when input is lost.
+//! The gizmo as a control: it is hit at its handles, receives all input during a drag, and is cancelled when input is
+//! lost.
 
 use crate::gizmo_rig::{Rig, Screen, along};
 use dragonfly::control::gizmo::{GizmoAnswer, GizmoControl};
@@ -39,7 +40,7 @@ struct Window {
     framework: ControlFramework,
     owner: Owner,
     rig: Rig,
-    /// Of an arrow along the world's y axis, in the window.
+    /// Window position of the tip of the arrow along the world's y axis.
     tip: Vec2,
 }
 
@@ -115,7 +116,8 @@ fn a_handle_is_dragged_and_input_that_misses_it_goes_to_the_viewport() {
     assert!(window.is_moved());
     window.to(CORNER + Vec2::splat(20.0));
     assert!(window.control().gizmo.hovered().is_none());
-    // A drag begun by a key while the button of a cancelled one is still held does not end with that.
+    // A drag is cancelled, and another one started by a key while the button is still held. Releasing the button does
+    // not end it.
     window.to(tip);
     window.send(InputEvent::MouseDown(Button::Left));
     window.send(InputEvent::KeyDown(Key::Escape));
@@ -125,7 +127,7 @@ fn a_handle_is_dragged_and_input_that_misses_it_goes_to_the_viewport() {
     assert!(window.control().gizmo.is_dragging());
     window.send(InputEvent::KeyUp(Key::Escape));
     window.send(InputEvent::KeyDown(Key::Escape));
-    // With Alt the picture has the mouse.
+    // With Alt held, the mouse goes to the viewport.
     window.send(InputEvent::Modifiers(Modifiers { alt: true, ..Modifiers::default() }));
     window.to(tip);
     assert_eq!(window.send(InputEvent::MouseDown(Button::Left)), Some(picture));
@@ -138,7 +140,7 @@ fn a_click_on_a_handle_goes_to_the_control_behind_and_changes_nothing() {
         let tip = window.tip;
         window.to(tip);
         window.send(InputEvent::MouseDown(Button::Left));
-        // Nothing jumps where a drag turns out to be one.
+        // Nothing jumps when the pointer has moved so far that the press becomes a drag.
         window.to(tip - Vec2::Y * by);
         assert_eq!(window.is_moved(), by > 0.0, "{by}");
         window.send(InputEvent::MouseUp(Button::Left));

@@ -1,4 +1,4 @@
-//! A handle that is dragged so far moves, turns and scales its bones by exactly that, seen from anywhere.
+//! Dragging a handle by a distance moves, rotates and scales the bones by exactly that amount, from any view.
 
 use crate::gizmo_rig::{Rig, SPACES, Screen, along, between, unit};
 use dragonfly::control::gizmo::{Gizmo, GizmoAnswer};
@@ -100,7 +100,7 @@ fn a_ring_counts_more_than_one_full_rotation() {
         80f32.to_radians(),
     );
     assert!(between(gizmo.drag().bones[0].to_parent.rotation, expected) < 1e-4);
-    // Over the middle there is no angle: it stays.
+    // With the pointer at the center there is no angle, so the rotation stays.
     gizmo.pointer(screen.at(joint), NONE);
     let Some(GizmoDelta::Rotate { angle, .. }) = gizmo.readout().map(|readout| readout.delta) else {
         panic!()
@@ -109,7 +109,7 @@ fn a_ring_counts_more_than_one_full_rotation() {
 }
 
 #[test]
-fn a_ring_seen_edge_on_turns_like_a_wheel() {
+fn a_ring_seen_edge_on_rotates_in_proportion_to_the_drag_across_its_axis() {
     let rig = Rig::new();
     for screen in Screen::all() {
         // The x and y axes of the view are parallel to the image plane: from its center, their rings are seen edge on.
@@ -129,7 +129,7 @@ fn a_ring_seen_edge_on_turns_like_a_wheel() {
 }
 
 #[test]
-fn the_ball_rotates_with_the_pointer() {
+fn dragging_the_center_rotates_freely_with_the_pointer() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let mut gizmo = gizmo(&rig, &screen, Tool::Rotate, GizmoSpace::Local);
     let start = screen.at(rig.joint(BONE));
@@ -177,7 +177,7 @@ fn arrows_and_squares_move_by_the_dragged_distance() {
 }
 
 #[test]
-fn scaling_is_the_ratio_of_the_distances() {
+fn the_scale_factor_is_the_ratio_of_the_pointer_distances_from_the_joint() {
     let rig = Rig::new();
     let joint = rig.joint(BONE);
     for screen in Screen::all() {
@@ -202,7 +202,7 @@ fn scaling_is_the_ratio_of_the_distances() {
         gizmo.pointer(middle + Vec2::new(OUTER as f32 * 2.5, 0.0), NONE);
         let found = gizmo.drag().bones[0].to_parent.scale;
         assert!(found.distance(Vec3::splat(2.5)) < 1e-4, "{found}");
-        // At the middle nothing can be divided by: right and up enlarge.
+        // A drag from the center has no distance to divide by: moving right and up enlarges.
         gizmo.cancel();
         gizmo.begin(Some(Handle::Center), middle);
         gizmo.pointer(middle + Vec2::new(AXIS_TO as f32 / 2.0, -AXIS_TO as f32 / 2.0), NONE);
@@ -212,7 +212,7 @@ fn scaling_is_the_ratio_of_the_distances() {
 }
 
 #[test]
-fn an_axis_that_points_at_the_viewer_follows_the_way_up_and_never_jumps() {
+fn a_drag_up_moves_a_bone_along_an_axis_that_points_at_the_viewer_without_a_jump() {
     let rig = Rig::new();
     for mut screen in Screen::all() {
         screen.camera.target = rig.joint(BONE);
@@ -230,7 +230,7 @@ fn an_axis_that_points_at_the_viewer_follows_the_way_up_and_never_jumps() {
 }
 
 #[test]
-fn along_an_axis_the_bone_never_goes_back_while_the_pointer_goes_on() {
+fn a_bone_on_an_axis_never_moves_back_while_the_pointer_moves_forward() {
     let seed = seed(41);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -242,7 +242,7 @@ fn along_an_axis_the_bone_never_goes_back_while_the_pointer_goes_on() {
         screen.camera.field_of_view = random.between(0.3, 2.0);
         let joint = rig.joint(BONE);
         let (from, to) = (screen.at(joint), screen.at(joint + Vec3::X * 0.01));
-        // Past the point where the axis vanishes, too: a screen as large as none.
+        // The pointer moves farther than any screen is large, also past the point where the axis vanishes.
         let way = (to - from).normalize_or(Vec2::X);
         let is_line = from.distance(to) / (0.01 / screen.unit(joint)) > 0.12;
         if !is_line {
@@ -262,7 +262,7 @@ fn along_an_axis_the_bone_never_goes_back_while_the_pointer_goes_on() {
 }
 
 #[test]
-fn shift_slows_down_to_a_tenth_without_a_jump() {
+fn shift_slows_a_drag_to_a_tenth_without_a_jump() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let middle = screen.at(rig.joint(BONE));
     let on_ring = |degrees: f32| {
@@ -317,7 +317,7 @@ fn ctrl_snaps_to_the_steps_of_the_settings() {
 }
 
 #[test]
-fn cancelling_gives_the_old_poses_bit_for_bit_and_coming_back_does_almost() {
+fn cancelling_restores_the_poses_bit_for_bit_and_dragging_back_almost_exactly() {
     let seed = seed(42);
     println!("seed {seed}");
     let mut random = Random::new(seed);
@@ -356,7 +356,7 @@ fn cancelling_gives_the_old_poses_bit_for_bit_and_coming_back_does_almost() {
         }
         assert!(changed, "{tool:?} {handle:?}");
         assert!(rig.after(&gizmo).iter().all(Transform::is_finite));
-        // The way back, and not straight over the middle, where a turn could be counted.
+        // The pointer moves back, but not straight over the center, where the gizmo could count a full turn.
         for share in 1..=20 {
             gizmo.pointer(at.lerp(start, share as f32 / 20.0), NONE);
         }

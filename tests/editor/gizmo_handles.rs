@@ -1,4 +1,4 @@
-//! Handles are met where they are drawn, and as large on every screen.
+//! Handles are hit where they are drawn, and have the same size on every screen.
 
 use crate::gizmo_rig::{Rig, SPACES, Screen, along, unit};
 use dragonfly::control::gizmo::Gizmo;
@@ -73,7 +73,7 @@ fn a_gizmo_has_the_same_size_on_every_screen() {
     let mut shape = GizmoShape::default();
     for screen in Screen::all() {
         let mut screen = screen;
-        // In the middle of the picture perspective tilts nothing.
+        // In the center of the image, perspective distorts nothing.
         screen.camera.target = rig.joint(BONE);
         let gizmo = gizmo(&rig, &screen, Tool::Rotate, GizmoSpace::View);
         gizmo.present(&mut shape);
@@ -85,7 +85,7 @@ fn a_gizmo_has_the_same_size_on_every_screen() {
 }
 
 #[test]
-fn lines_come_before_squares_and_squares_before_the_middle() {
+fn axis_lines_are_hit_before_squares_and_squares_before_the_center() {
     let rig = Rig::new();
     let joint = rig.joint(BONE);
     let mut screen = Screen::plain();
@@ -99,7 +99,7 @@ fn lines_come_before_squares_and_squares_before_the_middle() {
     assert_eq!(gizmo.hover(Some(at(Vec3::new(35.0, 27.0, 0.0)))), Some(Handle::Plane(GizmoAxis::Z)));
     assert_eq!(gizmo.hover(Some(at(Vec3::new(8.0, 0.0, 0.0)))), Some(Handle::Axis(GizmoAxis::X)));
     assert_eq!(gizmo.hover(Some(at(Vec3::new(-8.0, 0.0, 0.0)))), Some(Handle::Center));
-    // Arrows and squares that are seen end on and edge on are not there.
+    // Arrows seen end-on and squares seen edge-on are hidden.
     assert_eq!(gizmo.hover(Some(at(Vec3::new(0.0, 0.0, 60.0)))), Some(Handle::Center));
     assert_eq!(gizmo.hovered(), Some(Handle::Center));
     assert_eq!(gizmo.hover(None), None);
@@ -154,7 +154,7 @@ fn hovered_and_dragged_handles_are_highlighted() {
 }
 
 #[test]
-fn drawing_again_allocates_nothing() {
+fn drawing_the_gizmo_again_allocates_nothing() {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let mut shape = GizmoShape::default();
     for tool in TOOLS {

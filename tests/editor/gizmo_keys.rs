@@ -1,4 +1,4 @@
-//! Keys bind a drag to an axis, and typed numbers are taken exactly.
+//! Keys lock a drag to an axis, and typed numbers are applied exactly.
 
 use crate::gizmo_rig::{Rig, Screen};
 use dragonfly::control::gizmo::{Gizmo, GizmoAnswer};
@@ -10,7 +10,7 @@ use glam::{DVec3, Vec2, Vec3};
 const NONE: Modifiers = Modifiers { shift: false, ctrl: false, alt: false };
 const SHIFT: Modifiers = Modifiers { shift: true, ..NONE };
 
-/// A drag of bone 0, whose parent is the scene, begun with a key.
+/// Starts a drag of bone 0, which is a root, by a key.
 fn dragging(tool: Tool, space: GizmoSpace) -> (Rig, Gizmo) {
     let (rig, screen) = (Rig::new(), Screen::plain());
     let mut gizmo = Gizmo::new(tool);
@@ -41,7 +41,7 @@ fn delta(gizmo: &Gizmo) -> GizmoDelta {
 }
 
 #[test]
-fn a_typed_number_is_moved_exactly() {
+fn a_typed_number_moves_the_bone_by_exactly_that_distance() {
     let moves = [
         ("x2", [2.0, 0.0, 0.0]),
         ("2x", [2.0, 0.0, 0.0]),
@@ -64,7 +64,7 @@ fn a_typed_number_is_moved_exactly() {
         assert_eq!(delta(&gizmo), GizmoDelta::Move(DVec3::from_array(by)), "{keys}");
         let expected = (rig.poses[0].translation.as_dvec3() + DVec3::from_array(by)).as_vec3();
         assert_eq!(gizmo.drag().bones[0].to_parent.translation, expected, "{keys}");
-        // The pointer counts no more.
+        // Once a number is typed, the pointer has no effect.
         gizmo.pointer(Vec2::new(700.0, 500.0), NONE);
         assert_eq!(delta(&gizmo), GizmoDelta::Move(DVec3::from_array(by)), "{keys}");
         assert_eq!(press(&mut gizmo, "\n"), GizmoAnswer::Confirmed);
@@ -156,7 +156,7 @@ fn an_axis_locked_drag_is_measured_from_its_start() {
 }
 
 #[test]
-fn an_incomplete_number_keeps_the_last_one_and_is_marked() {
+fn while_the_typed_number_is_incomplete_the_last_complete_one_applies() {
     let (_, mut gizmo) = dragging(Tool::Move, GizmoSpace::World);
     gizmo.pointer(Vec2::new(300.0, 100.0), NONE);
     let dragged = delta(&gizmo);

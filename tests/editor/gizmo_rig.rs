@@ -16,7 +16,7 @@ pub(crate) struct Rig {
 }
 
 impl Rig {
-    /// Root, 1 on root, 2 on 1, 3 on root: all turned, nothing stretched.
+    /// Bone 0 is the root, 1 and 3 are its children, 2 is a child of 1. All are rotated, none is scaled.
     pub(crate) fn new() -> Self {
         let turn = |x: f32, y: f32, z: f32| Quat::from_xyzw(x, y, z, 1.0).normalize();
         let at = |x: f32, y: f32, z: f32, rotation: Quat| Transform {
@@ -62,7 +62,7 @@ impl Rig {
         self.to_root()[bone].w_axis.truncate()
     }
 
-    /// The poses after a drag.
+    /// Returns the poses after a drag.
     pub(crate) fn after(&self, gizmo: &Gizmo) -> Vec<Transform> {
         let mut poses = self.poses.clone();
         for change in &gizmo.drag().bones {
@@ -76,7 +76,7 @@ impl Rig {
         gizmo.select(&self.skeleton, &self.poses, &self.to_root(), bones, None);
     }
 
-    /// The axes of a bone in a space, of a rig where nothing is stretched.
+    /// Returns the axes of a bone in a space, for a rig without scale.
     pub(crate) fn axes(&self, bone: usize, space: GizmoSpace, camera: &Camera) -> Mat3 {
         let parent = self.skeleton.bones[bone].parent;
         let to_root = self.to_root();
@@ -91,7 +91,7 @@ impl Rig {
     }
 }
 
-/// A picture: from where, how large in points, on which screen.
+/// A viewport: the camera, the size in points, and the scale of the screen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Screen {
     pub(crate) camera: Camera,
@@ -105,7 +105,7 @@ impl Screen {
         Self { camera, size: Vec2::new(800.0, 600.0), pixels_per_point: 1.0 }
     }
 
-    /// Near and far, from several sides, with and without perspective, of many sizes and scales.
+    /// Returns views from near and far, from several sides, with and without perspective, of many sizes and scales.
     pub(crate) fn all() -> Vec<Self> {
         let mut screens = Vec::new();
         let sides = [(0.5, 0.26), (-2.2, -0.6), (0.0, 0.0), (1.2, 1.3)];
@@ -123,7 +123,7 @@ impl Screen {
         screens
     }
 
-    /// As the program would make it: from pixels.
+    /// Returns the view as the program creates it, from pixels.
     pub(crate) fn view(&self) -> GizmoView {
         GizmoView::of_pixels(&self.camera, self.size * self.pixels_per_point, self.pixels_per_point)
     }
@@ -137,7 +137,7 @@ impl Screen {
         Vec2::new(place.x * 0.5 + 0.5, 0.5 - place.y * 0.5) * self.size
     }
 
-    /// Scene units that a point covers at a place.
+    /// Returns the number of scene units that one point of the screen covers at a place.
     pub(crate) fn unit(&self, place: Vec3) -> f32 {
         let depth = match self.camera.projection {
             Projection::Perspective => (self.camera.eye() - place).dot(self.camera.back()),
@@ -146,7 +146,7 @@ impl Screen {
         2.0 * (self.camera.field_of_view / 2.0).tan() * depth / self.size.y
     }
 
-    /// Unit vector from a place to the viewer.
+    /// Returns the unit vector from a place to the viewer.
     pub(crate) fn towards(&self, place: Vec3) -> Vec3 {
         match self.camera.projection {
             Projection::Perspective => (self.camera.eye() - place).normalize(),
@@ -160,7 +160,7 @@ pub(crate) fn along(screen: &Screen, joint: Vec3, axes: Mat3, points: Vec3) -> V
     joint + axes * points * screen.unit(joint)
 }
 
-/// Radians between two rotations.
+/// Returns the angle between two rotations in radians.
 pub(crate) fn between(a: Quat, b: Quat) -> f32 {
     let (a, b) = (a.as_dquat().normalize(), b.as_dquat().normalize());
     let difference = a.conjugate() * b;

@@ -7,7 +7,7 @@ use dragonfly_anim::data::Transform;
 use dragonfly_picture::gizmo::{GizmoDelta, GizmoSettings, GizmoSpace, Pivot, Tool};
 use glam::{Mat3, Mat4, Quat, Vec2, Vec3};
 
-/// A drag by typed keys.
+/// Returns a gizmo that is dragged by typed keys.
 fn dragged(rig: &Rig, tool: Tool, settings: GizmoSettings, selected: &[u32], keys: &str) -> Gizmo {
     let mut gizmo = Gizmo::new(tool);
     gizmo.settings = settings;
@@ -41,7 +41,7 @@ fn descendants_of_a_selected_bone_are_not_moved_twice() {
             assert!(near(way, Vec3::Y * 2.0), "{bone} {way} {pivot:?}");
         }
     }
-    // Through bones that are not selected, too.
+    // The ancestor may be selected with bones between that are not.
     let gizmo = dragged(&rig, Tool::Rotate, settings(GizmoSpace::World, Pivot::Median), &[2, 0], "z10");
     assert_eq!(gizmo.drag().bones.len(), 1);
 }
@@ -71,7 +71,7 @@ fn about_a_common_pivot_the_selection_rotates_and_scales_as_one() {
 }
 
 #[test]
-fn each_about_its_own_joint_keeps_its_place() {
+fn bones_rotated_about_their_own_joints_keep_their_positions() {
     let rig = Rig::new();
     for space in SPACES {
         let gizmo = dragged(&rig, Tool::Rotate, settings(space, Pivot::Individual), &[1, 3], "x30");
@@ -107,7 +107,7 @@ fn a_drag_in_the_view_plane_moves_all_bones_equally() {
 }
 
 #[test]
-fn a_chain_can_be_curled() {
+fn the_curl_setting_rotates_every_bone_of_a_chain_by_the_same_angle() {
     let rig = Rig::new();
     let curl = GizmoSettings { curl: true, ..settings(GizmoSpace::Local, Pivot::Individual) };
     let gizmo = dragged(&rig, Tool::Rotate, curl, &[0, 1, 2], "z30");
@@ -116,11 +116,11 @@ fn a_chain_can_be_curled() {
         let expected = rig.poses[change.bone as usize].rotation * Quat::from_rotation_z(30f32.to_radians());
         assert!(between(change.to_parent.rotation, expected) < 1e-6);
     }
-    // Not when moving: that would tear the chain apart.
+    // The setting does not apply to moving: that would tear the chain apart.
     assert_eq!(dragged(&rig, Tool::Move, curl, &[0, 1, 2], "z30").drag().bones.len(), 1);
 }
 
-/// Bone 1 under a parent that is turned and has this scale.
+/// Returns a rig whose bone 1 has a rotated parent with this scale.
 fn under(scale: Vec3) -> Rig {
     let mut rig = Rig::new();
     rig.poses[0].scale = scale;
@@ -128,7 +128,7 @@ fn under(scale: Vec3) -> Rig {
 }
 
 #[test]
-fn under_a_mirrored_parent_world_axes_are_exact() {
+fn rotating_and_moving_along_world_axes_is_exact_under_a_mirrored_parent() {
     for scale in [Vec3::new(-1.0, 1.0, 1.0), Vec3::new(2.0, -2.0, 2.0), Vec3::splat(-1.5)] {
         let rig = under(scale);
         let before = rig.to_root()[1];
@@ -145,7 +145,7 @@ fn under_a_mirrored_parent_world_axes_are_exact() {
 }
 
 #[test]
-fn a_ball_and_a_ring_follow_the_pointer_under_a_mirrored_parent_too() {
+fn rotating_by_center_and_ring_follows_the_pointer_under_a_mirrored_parent() {
     let screen = Screen::plain();
     for space in SPACES {
         for scale in [Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0)] {
@@ -195,7 +195,7 @@ fn under_a_nonuniformly_scaled_parent_joints_and_local_axes_are_exact() {
         assert!(between(turned.rotation, expected) < 1e-6);
         let grown = dragged(&rig, Tool::Scale, by, &[1], "z3").drag().bones[0].to_parent;
         assert!(near(grown.scale, start.scale * Vec3::new(1.0, 1.0, 3.0)), "{}", grown.scale);
-        // In parent space, about the parent's axis.
+        // In parent space the bone rotates about the axis of its parent.
         let by = settings(GizmoSpace::Parent, Pivot::Individual);
         let turned = dragged(&rig, Tool::Rotate, by, &[1], "y30").drag().bones[0].to_parent;
         let expected = Quat::from_rotation_y(30f32.to_radians()) * start.rotation;
@@ -208,14 +208,15 @@ fn under_a_nonuniformly_scaled_parent_joints_and_local_axes_are_exact() {
         let gizmo = dragged(&rig, Tool::Rotate, world, &[1, 3], "x50");
         let expected = active + Quat::from_rotation_x(50f32.to_radians()) * (joint - active);
         assert!(near(rig.to_root_of(&rig.after(&gizmo))[1].w_axis.truncate(), expected));
-        // It turned by 50 degrees; that the world's axis is not met exactly is the shear that is left out.
+        // The bone is rotated by 50 degrees. The axis is not exactly that of the world, because a pose cannot store
+        // shear.
         let angle = between(gizmo.drag().bones[0].to_parent.rotation, start.rotation);
         assert!((angle - 50f32.to_radians()).abs() < 1e-5);
     }
 }
 
 #[test]
-fn scaling_along_the_world_gives_each_own_axis_its_share() {
+fn scaling_along_a_world_axis_is_shared_among_the_local_axes_by_their_direction() {
     let mut rig = Rig::new();
     rig.poses[0] = Transform { rotation: Quat::from_rotation_z(45f32.to_radians()), ..Transform::IDENTITY };
     let gizmo = dragged(&rig, Tool::Scale, settings(GizmoSpace::World, Pivot::Individual), &[0], "x3");
@@ -227,7 +228,7 @@ fn scaling_along_the_world_gives_each_own_axis_its_share() {
 }
 
 #[test]
-fn under_a_flat_parent_the_joint_stays_and_the_rest_is_finite() {
+fn under_a_parent_scaled_to_zero_the_joint_stays_and_all_values_are_finite() {
     for scale in [Vec3::new(0.0, 1.0, 1.0), Vec3::ZERO] {
         let rig = under(scale);
         for (tool, keys) in [(Tool::Move, "x3"), (Tool::Rotate, "y30"), (Tool::Scale, "z2")] {
@@ -238,10 +239,7 @@ fn under_a_flat_parent_the_joint_stays_and_the_rest_is_finite() {
                     let start = rig.poses[change.bone as usize];
                     assert_eq!(change.to_parent.translation, start.translation);
                     if tool == Tool::Rotate {
-                        assert!(
-                            between(change.to_parent.rotation, start.rotation) > 0.5,
-                            "it turns all the same"
-                        );
+                        assert!(between(change.to_parent.rotation, start.rotation) > 0.5, "it still rotates");
                     }
                 }
             }

@@ -5,7 +5,7 @@ use dragonfly::panels::Request;
 use egui::Key;
 use egui_kittest::kittest::{NodeT, Queryable};
 
-/// Three steps with bone 3, the history in front.
+/// Opens a window with three undo steps of bone 3, and shows the history panel.
 fn window() -> Window {
     let mut bench = Workbench::full();
     bench.state.execute(Request::Select(Some(3)));
@@ -53,7 +53,7 @@ fn the_saved_step_is_marked() {
 }
 
 #[test]
-fn the_list_is_used_with_the_keyboard() {
+fn enter_on_a_focused_step_goes_to_that_step() {
     let mut window = window();
     window.get_by_label("Opened").focus();
     window.run_steps(2);
@@ -66,7 +66,7 @@ fn the_list_is_used_with_the_keyboard() {
 }
 
 #[test]
-fn the_list_scrolls_along_and_draws_only_visible_rows() {
+fn the_list_scrolls_to_the_current_step_and_draws_only_visible_rows() {
     let mut window = window();
     for step in 0..3000 {
         let name = format!("Take {step}");

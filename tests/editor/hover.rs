@@ -1,4 +1,4 @@
-//! The bone under a pointer that moves: one question at a time, and only the newest place counts.
+//! Picking the bone under a moving pointer: one request at a time, and only the newest position counts.
 
 use dragonfly::app::hover::{Hover, HoverPoint};
 use dragonfly_picture::camera::Camera;
@@ -8,11 +8,11 @@ fn at(x: f32) -> Option<HoverPoint> {
 }
 
 #[test]
-fn one_pick_is_in_flight_and_the_newest_position_follows() {
+fn only_one_pick_is_in_flight_and_the_newest_position_is_picked_next() {
     let mut hover = Hover::default();
     assert!(hover.asks(at(0.0), 1));
     for x in 1..100 {
-        assert!(!hover.asks(at(x as f32), 2), "another question while one is on its way");
+        assert!(!hover.asks(at(x as f32), 2), "no second request while one is in flight");
     }
     assert!(hover.answered(1));
     assert!(hover.asks(at(99.0), 2), "the pointer has moved since");
@@ -21,7 +21,7 @@ fn one_pick_is_in_flight_and_the_newest_position_follows() {
 }
 
 #[test]
-fn a_resting_pointer_picks_once() {
+fn a_pointer_at_rest_is_picked_only_once() {
     let mut hover = Hover::default();
     assert!(hover.asks(at(5.0), 1));
     assert!(hover.answered(1));
@@ -40,5 +40,5 @@ fn a_late_pick_is_ignored_after_the_pointer_left() {
     assert!(!hover.answered(1), "it points at nothing any more");
     assert!(!hover.asks(None, 2));
     assert!(hover.asks(at(5.0), 2), "it came back");
-    assert!(!hover.answered(7), "somebody else's question");
+    assert!(!hover.answered(7), "the request of another caller");
 }

@@ -14,7 +14,7 @@ use dragonfly_store::{FileState, RealFiles};
 use std::fs;
 use std::path::Path;
 
-/// Orders a save that is refused; why.
+/// Orders a save that is refused. Returns the reason.
 #[track_caller]
 fn refused(desk: &mut TestDocument, to: SaveTo) -> NotSaved {
     desk.send(DocumentMessage::Save(SaveOrder { to, anyway: false, then: None }));
@@ -25,7 +25,7 @@ fn refused(desk: &mut TestDocument, to: SaveTo) -> NotSaved {
     })
 }
 
-/// Orders a save that is done whatever is there.
+/// Orders a save that overwrites any existing file.
 #[track_caller]
 fn anyway(desk: &mut TestDocument, to: SaveTo) {
     desk.send(DocumentMessage::Save(SaveOrder { to, anyway: true, then: None }));
@@ -81,9 +81,12 @@ fn a_file_changed_elsewhere_is_overwritten_only_on_request_with_a_backup() {
     desk.send(DocumentMessage::LookAtFile);
     let other = fs::read(data("gltf/Fox_skeleton.glb")).unwrap();
     desk.view();
-    assert!(!desk.unread_replies().iter().any(|said| said.contains("FileChanged")), "nobody changed it");
+    assert!(
+        !desk.unread_replies().iter().any(|said| said.contains("FileChanged")),
+        "no other program changed it"
+    );
     fs::write(&path, &other).unwrap();
-    // Said once, however often the window gets the focus.
+    // Reported once, however often the window gets the focus.
     for _ in 0..3 {
         desk.send(DocumentMessage::LookAtFile);
     }
@@ -110,7 +113,7 @@ fn a_file_changed_elsewhere_is_overwritten_only_on_request_with_a_backup() {
 }
 
 #[test]
-fn saved_as_another_file_it_is_that_file_and_the_first_one_has_nothing_unsaved() {
+fn after_save_as_the_document_is_the_new_file_and_the_old_file_has_no_unsaved_work() {
     let folder = Folder::new("saving-as");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let before = fs::read(&path).unwrap();
@@ -237,7 +240,7 @@ fn saving_without_a_file_asks_for_a_path_and_closing_asks_if_unsaved() {
 }
 
 #[test]
-fn every_format_is_saved_and_its_history_comes_back() {
+fn every_format_can_be_saved_and_reopened_with_its_undo_history() {
     let folder = Folder::new("saving-formats");
     let dfm = folder.join("fox.dfm");
     let model = {
@@ -268,10 +271,10 @@ fn every_format_is_saved_and_its_history_comes_back() {
     }
 }
 
-/// Between the file and the record that it was saved there is a moment; a program killed in it has saved, and keeps its
-/// history.
+/// The file is replaced before the journal records that it was saved. A program killed between the two has saved, and
+/// keeps its history.
 #[test]
-fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
+fn a_kill_right_after_the_file_was_replaced_loses_no_undo_history() {
     let folder = Folder::new("saving-moment");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let mut desk = TestDocument::new(&autosave);
@@ -283,7 +286,7 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
     let second = folder.join("second");
     copy_after_kill(&autosave, &second);
     let journal = fs::read_dir(second.join("journals")).unwrap().next().unwrap().unwrap().path();
-    // The record that the save succeeded is the last one, and was not finished.
+    // Damages the last record of the journal: the one that the save succeeded.
     let bytes = fs::read(&journal).unwrap();
     fs::write(&journal, &bytes[..bytes.len() - 1]).unwrap();
     let mut desk = TestDocument::new(&second);
@@ -297,7 +300,7 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
     );
     desk.change(Change::GoTo(0));
     assert!(!desk.view().history.saved);
-    // And the other way round: something was done after the save, and is offered with what was before.
+    // If edits followed that save, they are offered together with the history before it.
     let third = folder.join("third");
     fs::remove_dir_all(second.join("journals")).unwrap();
     fs::create_dir_all(second.join("journals")).unwrap();
@@ -317,9 +320,9 @@ fn a_kill_right_after_the_file_was_replaced_costs_no_history() {
     same_takes(&before, &after);
 }
 
-/// A reader gives a rotation the sign of the one before it; that is no other state of the file.
+/// Reading a file gives each rotation the sign of the one before it. Such a file counts as unchanged.
 #[test]
-fn a_turn_of_any_angle_keeps_its_history_through_saving_and_opening() {
+fn a_saved_rotation_by_any_angle_keeps_its_undo_history_when_reopened() {
     let folder = Folder::new("saving-turns");
     let (path, autosave) = (fox(&folder), folder.join("autosave"));
     let angles = [0.3, 2.0, 3.0, 3.5, 4.0, 6.0, -3.0, -5.0];

@@ -84,7 +84,7 @@ fn unknown_names_and_keys_in_the_settings_are_ignored() {
 }
 
 #[test]
-fn a_key_is_chosen_in_the_sheet_by_pressing_it() {
+fn a_shortcut_is_changed_in_the_shortcut_sheet_by_pressing_its_new_key() {
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.show_overlay(Some(Overlay::Shortcuts));
     let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
@@ -94,7 +94,7 @@ fn a_key_is_chosen_in_the_sheet_by_pressing_it() {
     harness.key_press(Key::Space);
     harness.run_steps(3);
     let state = &harness.state().state;
-    assert!(!state.read().playback.playing, "the key that is chosen does nothing else");
+    assert!(!state.read().playback.playing, "the key that is pressed for a shortcut runs no command");
     let keymap = Keymap::new(state.read().settings.keys.clone());
     assert_eq!(keymap.command_of(Key::Space, Modifiers::NONE), Some(Id::Undo));
     assert!(!keymap.shortcuts(Id::PlayPause).contains(&KeyboardShortcut::new(Modifiers::NONE, Key::Space)));

@@ -1,15 +1,15 @@
-//! The order in which the program comes and goes.
+//! The order of the steps in which the program starts and ends.
 
 use dragonfly::app::timeline::{Step, StepTrace};
 
 #[test]
-fn the_steps_are_the_eleven_of_the_thesis() {
+fn starting_and_ending_the_program_have_eleven_numbered_steps() {
     let numbers: Vec<usize> = Step::ALL.iter().map(|step| step.number()).collect();
     assert_eq!(numbers, (1..=11).collect::<Vec<_>>());
 }
 
 #[test]
-fn a_failed_start_can_skip_steps() {
+fn after_a_failed_start_steps_in_between_may_be_skipped() {
     let mut timeline = StepTrace::default();
     timeline.reach(Step::MainFunction);
     timeline.reach(Step::MainRuntime);

@@ -1,4 +1,4 @@
-//! Locked bones: what leaves them alone, what is refused, and what goes for the whole take.
+//! Locked bones: edits that leave them out, edits that are refused, and edits of the whole take that include them.
 
 use crate::timeline_rig::Animator;
 use dragonfly::panels::commands::{Id, KeySettings, Preset};
@@ -29,7 +29,7 @@ fn turned(bone: u32) -> BonePose {
     BonePose { bone: BoneRef::Index(bone), translation: None, rotation, scale: None }
 }
 
-/// Bones of the edit that was asked for last.
+/// Returns the bones of the edit that was requested last.
 fn bones(animator: &Animator) -> Vec<BoneRef> {
     match animator.edits().last() {
         Some(Edit::PastePose(PastePose { poses, .. })) => {
@@ -62,7 +62,7 @@ fn keys_typed_after_a_refused_drag_run_no_command() {
     assert!(animator.edits().is_empty(), "{:?}", animator.edits());
     assert_eq!(animator.harness.state().state.read().camera, camera);
     assert_eq!(animator.harness.state().state.read().playback.take, Some(0));
-    // Afterwards keys mean what they mean.
+    // After the drag, keys run their commands again.
     animator.harness.key_press(egui::Key::X);
     animator.steps(2);
     assert!(matches!(animator.edits()[..], [Edit::DeleteKeys(DeleteKeys { .. })]), "{:?}", animator.edits());
@@ -89,7 +89,7 @@ fn a_pose_is_pasted_on_all_bones_but_the_locked_ones() {
     animator.request(Request::PastePose { text: text.clone(), mirrored: false });
     assert_eq!(bones(&animator), [BoneRef::Index(RIGHT)]);
     assert!(said(&animator).contains("is locked and stays"), "{}", said(&animator));
-    // Mirrored, the other side counts.
+    // For a mirrored pose, the lock of the bone on the other side counts.
     animator.request(Request::PastePose { text: text.clone(), mirrored: true });
     assert_eq!(bones(&animator), [BoneRef::Index(LEFT)], "it goes to the right one");
     lock(&mut animator, RIGHT, true);
@@ -137,7 +137,7 @@ fn keys_are_added_to_unlocked_bones_that_moved_only() {
     assert_eq!([LEFT, RIGHT].map(|bone| keys(&animator, bone)), [before[0], before[1] + 1]);
     let track = &animator.edited.adapter().slots()[0].original.tracks[RIGHT as usize];
     assert!(track.scale.times.is_empty(), "it never grew");
-    // Selected with a locked one, the free one gets its key.
+    // If a locked and an unlocked bone are selected, the unlocked one gets its key.
     animator.harness.state_mut().state.execute(Request::SelectBones(vec![LEFT, RIGHT], Choice::Replace));
     animator.request(Request::Seek(0.06));
     animator.harness.get_by_label("Add a rotation key").click();

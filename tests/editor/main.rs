@@ -1,4 +1,4 @@
-//! Tests of the editor, one module for each promise or part.
+//! Tests of the editor, one module for each part of it or promise to the user.
 
 mod accessible;
 mod bone_menu;

@@ -1,5 +1,5 @@
-//! A window manager of our own: it lets windows be as they ask to be, and makes them fill the screen when they ask for that
-//! the way all desktops understand (the `_NET_WM_STATE` of the Extended Window Manager Hints).
+//! A minimal window manager: it gives windows the rectangles that they request, and makes them full-screen on request
+//! (by `_NET_WM_STATE` of the Extended Window Manager Hints).
 
 use crate::screen::Screen;
 use crate::wire::{Event, Window, WindowRect, Wire, atom, event, words};
@@ -57,7 +57,7 @@ impl Manager {
             event::MAP_REQUEST => {
                 let window = event.word(8);
                 self.wire.tell(8, 0, &words(&[window]));
-                // The newest window has the keyboard.
+                // The newest window gets the keyboard focus.
                 self.wire.tell(42, 2, &words(&[window, 0]));
             }
             event::CONFIGURE_REQUEST => self.configure(event),

@@ -1,8 +1,8 @@
-//! Texts that people and programs really put into fields, and that break programs that did not think of them.
+//! Texts that users and programs really put into fields, and that break programs which do not expect them.
 
 use dragonfly_kit::random::Random;
 
-/// Each once into every field.
+/// Returns the fixed list of such texts.
 pub(crate) fn texts() -> Vec<String> {
     let mut texts: Vec<String> = [
         " ",
@@ -49,7 +49,8 @@ pub(crate) fn texts() -> Vec<String> {
     texts
 }
 
-/// Any text: pieces of numbers and formulas, letters of many scripts, signs that are none. Now and then a very long one.
+/// Returns a random text: pieces of numbers and formulas, letters of many scripts, unusual characters; sometimes a very
+/// long one.
 pub(crate) fn any(random: &mut Random) -> String {
     const PIECES: &[&str] = &[
         "1",

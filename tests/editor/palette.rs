@@ -8,7 +8,7 @@ use egui_kittest::kittest::Queryable;
 
 const PALETTE: &str = "Find a command or a take";
 
-/// The palette, with something typed into it.
+/// Opens the palette and types a text into it.
 fn palette(text: &str) -> Harness<'static, Bench> {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
@@ -20,7 +20,7 @@ fn palette(text: &str) -> Harness<'static, Bench> {
 }
 
 #[test]
-fn the_palette_runs_the_command_found() {
+fn the_palette_runs_the_command_that_the_search_found() {
     let mut harness = palette("ground");
     harness.key_press(egui::Key::Enter);
     harness.run_steps(4);
@@ -29,7 +29,7 @@ fn the_palette_runs_the_command_found() {
 }
 
 #[test]
-fn the_palette_shows_a_take_that_is_searched() {
+fn the_palette_shows_the_take_that_the_search_found() {
     let mut harness = palette("");
     assert!(harness.query_all_by_label("Walk").count() == 1, "in the list of takes alone");
     harness.get_by_label(PALETTE).type_text("walk");
@@ -55,7 +55,7 @@ fn the_palette_lists_title_matches_first_and_shows_every_row() {
 }
 
 #[test]
-fn the_palette_finds_one_where_several_are_asked_for() {
+fn a_plural_search_word_finds_a_title_in_the_singular() {
     let mut harness = palette("shortcuts");
     harness.key_press(egui::Key::Enter);
     harness.run_steps(4);

@@ -10,7 +10,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::time::Instant;
 
-/// The whole window without a window.
+/// The whole user interface without a real window.
 pub(crate) struct Bench {
     pub(crate) desk: Desk,
     pub(crate) state: State,
@@ -100,7 +100,7 @@ fn an_edit_and_its_undo_are_each_reported_once() {
     assert_eq!(lines(&animator), before + 1);
     animator.request(Request::Change(Change::Cancel(gesture)));
     assert!(animator.said().starts_with("Cancelled: Move"), "{}", animator.said());
-    // Several steps at once.
+    // Several steps are undone at once.
     for name in ["a", "b"] {
         let rename = Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() });
         animator.request(Request::Change(Change::Edit(rename, None)));
@@ -110,7 +110,7 @@ fn an_edit_and_its_undo_are_each_reported_once() {
 }
 
 #[test]
-fn overwritten_keys_are_counted() {
+fn the_status_line_counts_overwritten_keys() {
     use crate::timeline_rig::Animator;
     use dragonfly::panels::commands::Id;
     use dragonfly::panels::keys::KeysRequest;
@@ -138,7 +138,7 @@ fn overwritten_keys_are_counted() {
         said.starts_with("Duplicate keys  ·  ") && said.ends_with("1 more  ·  2 keys replaced"),
         "{said}"
     );
-    // Moved beside all others.
+    // Moved to a time without other keys.
     select(&mut animator, 0, 0);
     animator.request(Request::Timeline(KeysRequest::Drag(dragonfly::panels::keys::KeyDragOp::Move(0.03))));
     animator.request(Request::Timeline(KeysRequest::Release));
@@ -159,7 +159,7 @@ fn overwritten_keys_are_counted() {
 }
 
 #[test]
-fn a_line_that_says_more_of_what_was_done_stays() {
+fn a_message_with_more_detail_is_not_replaced_by_the_edits_own_message() {
     use crate::timeline_rig::Animator;
     use dragonfly::panels::keys::{BoneFlag, KeysRequest};
     let mut animator = Animator::with_bone(3);
@@ -177,7 +177,7 @@ fn a_line_that_says_more_of_what_was_done_stays() {
 }
 
 #[test]
-fn what_is_part_of_the_program_and_was_saved_is_a_file() {
+fn the_built_in_model_is_shown_as_a_file_after_it_was_saved() {
     let source = dragonfly_document::Source::BuiltIn;
     let loaded = dragonfly_document::load_model(&source, &mut |_| {}, &dragonfly_document::Cancel::default());
     let mut view = View::opened(1, std::sync::Arc::new(loaded.unwrap()));
@@ -232,7 +232,7 @@ fn every_panel_draws_no_model_an_empty_one_and_a_full_one() {
 }
 
 #[test]
-fn every_panel_is_named() {
+fn every_panel_and_its_main_controls_have_a_label() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
     for panel in panels::all().iter().filter(|panel| panel.id() != panels::VIEWPORT) {
@@ -265,7 +265,7 @@ fn a_click_on_a_row_selects_the_bone_and_shows_its_numbers() {
 }
 
 #[test]
-fn the_button_for_bones_is_pressed_whenever_they_are_shown() {
+fn the_bones_button_is_pressed_whenever_bones_are_shown() {
     let pressed = |view| {
         let mut harness = harness(Bench::new(view));
         harness.run_steps(4);
@@ -295,7 +295,7 @@ fn a_click_on_a_take_shows_it() {
 }
 
 #[test]
-fn the_search_finds_bones_and_shows_where_they_hang() {
+fn the_search_shows_the_bones_found_with_their_ancestors() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
     harness.get_by_label("Find a bone").click();
@@ -310,7 +310,7 @@ fn the_search_finds_bones_and_shows_where_they_hang() {
 #[test]
 fn enter_in_the_search_selects_the_exact_match_or_the_first() {
     let mut skeleton = fixture::skeleton(9);
-    // A name that holds another one, and comes before it.
+    // A name that contains the name of another bone, and comes before it in the list.
     skeleton.bones[1].name = "spine_05_helper".to_owned();
     let mut harness = harness(Bench::new(Some(fixture::view("model", skeleton, &[("Walk", 1.0, 5)]))));
     let mut find = |text: &str| {
@@ -347,7 +347,7 @@ fn typing_in_a_field_does_not_start_playback() {
 }
 
 #[test]
-fn scrubbing_the_timeline_moves_the_time_and_gives_it_back() {
+fn scrubbing_sets_the_time_and_playback_continues_after_it() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
     harness.run_steps(4);
     harness.key_press(egui::Key::Space);
@@ -367,7 +367,7 @@ fn scrubbing_the_timeline_moves_the_time_and_gives_it_back() {
     assert!(harness.state().state.read().playback.playing, "and goes on afterwards");
 }
 
-/// On a slow frame a click lasts longer than a click may, and must not be lost for it.
+/// In a slow frame a click may last longer than clicks usually do, and must not be lost because of that.
 #[test]
 fn a_press_on_the_timeline_moves_the_time_before_it_is_a_click_or_a_drag() {
     let mut harness = harness(Bench::new(Some(fixture::full())));
@@ -446,7 +446,7 @@ fn keys_do_not_reach_panels_behind_a_dialog() {
 }
 
 #[test]
-fn requests_that_leave_the_panels_become_effects() {
+fn a_request_that_the_state_cannot_handle_itself_becomes_an_effect() {
     let mut harness = harness(Bench::new(None));
     harness.run_steps(4);
     harness.get_by_label("Open a model…").click();
@@ -455,7 +455,7 @@ fn requests_that_leave_the_panels_become_effects() {
 }
 
 #[test]
-fn a_model_opens_with_its_first_take_that_moves_and_a_single_pose_stands() {
+fn a_model_opens_with_its_first_moving_take_playing_and_a_single_pose_paused() {
     let shown = |takes: &[(&str, f32, usize)]| {
         let mut state = State::new(Settings::default(), Instant::now());
         state.show(fixture::view("model", fixture::skeleton(3), takes));
@@ -467,7 +467,7 @@ fn a_model_opens_with_its_first_take_that_moves_and_a_single_pose_stands() {
 }
 
 #[test]
-fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
+fn an_edit_of_the_shown_take_keeps_the_time_selection_and_camera() {
     let opened = fixture::full();
     let mut state = Bench::new(Some(opened.clone())).state;
     let (selected, camera) = (Some(3), state.read().camera);
@@ -492,7 +492,7 @@ fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
     assert_eq!(
         (state.read().selected(), state.read().camera),
         (selected, camera),
-        "all else is as the person left it"
+        "everything else is as the user left it"
     );
     state.begin_frame(state.read().now);
     assert_eq!((state.read().digest.takes.len(), state.read().digest.takes[0].length), (3, 1.0));
@@ -503,7 +503,7 @@ fn a_take_that_changes_goes_on_at_the_same_time_of_it() {
 }
 
 #[test]
-fn a_model_has_the_name_it_was_last_saved_under() {
+fn a_model_is_shown_under_the_name_of_the_file_it_was_last_saved_to() {
     let mut view = fixture::full();
     let file = FileView { title: "renamed.glb".to_owned(), path: Some("renamed.glb".into()) };
     view.file = std::sync::Arc::new(file);

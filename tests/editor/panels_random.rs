@@ -18,14 +18,14 @@ fn bench() -> Workbench {
     bench
 }
 
-/// How often: `few` times, or ten times as often when asked to take long.
+/// Returns the number of rounds: `few`, or ten times `few` with `DRAGONFLY_LONG`.
 fn times(few: usize) -> usize {
     if takes_long() { 10 * few } else { few }
 }
 
-/// Every field into which something can be typed takes every text; where it is no number nothing happens.
+/// Every number field accepts or refuses any text. A text that is no number changes nothing.
 #[test]
-fn any_text_in_any_field() {
+fn any_text_typed_into_any_number_field_leaves_a_finite_pose() {
     let mut window = bench().window_of_any_text();
     window.get_by_label("Show the quaternion").click();
     window.run_steps(3);
@@ -114,7 +114,7 @@ fn run(window: &mut Window, random: &mut Random, events: usize, texts: &[String]
     let mut down = false;
     for _ in 0..events {
         let at = pos2(random.between(-20.0, 1300.0), random.between(-20.0, 740.0));
-        // Half of the time where the panels are that this is about.
+        // Half of the positions are in the panels that this test is about.
         let at = match random.below(4) {
             0 => pos2(random.between(1020.0, 1275.0), random.between(40.0, 530.0)),
             1 => pos2(random.between(5.0, 245.0), random.between(370.0, 530.0)),
@@ -132,7 +132,7 @@ fn run(window: &mut Window, random: &mut Random, events: usize, texts: &[String]
     button(window, pos2(0.0, 0.0), false);
 }
 
-/// Fields for names and for words that something is looked for with.
+/// Any text can be typed into the search fields.
 #[test]
 fn any_text_can_be_searched_for() {
     let seed = seed(0x5ea4);
@@ -185,7 +185,7 @@ fn any_text_is_a_name_or_is_refused_and_changes_nothing() {
 }
 
 #[test]
-fn random_events_never_panic() {
+fn random_events_in_the_panels_never_panic() {
     let seed = seed(0xDA);
     println!("seed {seed}");
     let mut random = Random::new(seed);

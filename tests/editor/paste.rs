@@ -94,7 +94,7 @@ fn a_mirrored_pose_puts_every_bone_on_the_other_side_whatever_its_axes() {
 
 /// An arm whose bones are counted from the shoulder on one side and from the hand on the other.
 #[test]
-fn names_that_count_against_each_other_are_paired_by_where_the_bones_stand() {
+fn bones_numbered_in_opposite_order_on_the_two_sides_are_paired_by_position() {
     let places = [
         ("torso", None, [0.0, 1.0, 0.0]),
         ("leg_L_1", Some(0), [0.1, 0.6, 0.0]),
@@ -173,7 +173,7 @@ fn clipboard_text_that_is_no_pose_is_refused() {
 }
 
 #[test]
-fn copying_and_pasting_between_the_panels_and_the_clipboard() {
+fn a_copied_pose_is_text_that_can_be_pasted_mirrored_and_other_text_is_refused() {
     let mut bench = Bench::new(Some(fixture::full()));
     let state = &mut bench.state;
     state.execute(Request::Select(Some(1)));
@@ -200,7 +200,7 @@ fn copying_and_pasting_between_the_panels_and_the_clipboard() {
 }
 
 #[test]
-fn the_window_systems_copy_and_paste_are_the_commands() {
+fn copy_and_paste_events_of_the_window_system_run_the_pose_commands() {
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.execute(Request::Select(Some(1)));
     let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
@@ -217,7 +217,7 @@ fn the_window_systems_copy_and_paste_are_the_commands() {
 }
 
 #[test]
-fn resetting_goes_back_to_the_original_or_to_rest_with_keys_or_without() {
+fn a_pose_is_reset_to_the_original_or_to_the_rest_pose_keyed_or_pending() {
     let mut bench = Bench::new(Some(fixture::full()));
     let state = &mut bench.state;
     state.execute(Request::Select(Some(1)));

@@ -1,4 +1,4 @@
-//! Keys copied, cut and pasted: exactly what they held, where the playhead is.
+//! Keys are copied, cut and pasted with exactly their values, at the playhead.
 
 use crate::timeline_rig::Animator;
 use dragonfly::panels::commands::Id;
@@ -28,7 +28,7 @@ fn selected(take: &Take, stretch: [f32; 2]) -> KeySelection {
     selection
 }
 
-/// Keys of a channel between two times, every number as its bits.
+/// Returns the keys of a channel from a time on: the bits of the time and of all numbers of each key.
 fn bits(take: &Take, (bone, property): ChannelId, from: f32) -> Vec<(u32, Vec<u32>)> {
     let track = channel::track(take, bone).expect("a track");
     let times = channel::times(take, (bone, property));
@@ -54,7 +54,7 @@ fn paste(take: TakeRef, time: f32, channels: Vec<CopiedChannel>) -> Edit {
 }
 
 #[test]
-fn keys_put_back_where_they_were_are_the_same_to_the_bit_with_tangents_and_changes() {
+fn pasting_copied_keys_over_themselves_changes_no_bit() {
     let first = seed(41);
     for number in first..first + 20 {
         let mut random = Random::new(number);
@@ -95,7 +95,7 @@ fn keys_put_back_where_they_were_are_the_same_to_the_bit_with_tangents_and_chang
 }
 
 #[test]
-fn keys_keep_their_distances_and_numbers_in_another_take_and_at_another_time() {
+fn keys_pasted_into_another_take_at_another_time_keep_their_spacing_and_values() {
     let mut model = model(8);
     let take = model.slots()[0].result.clone();
     let channels = copied(&take, &selected(&take, WHOLE), model.skeleton());
@@ -109,7 +109,7 @@ fn keys_keep_their_distances_and_numbers_in_another_take_and_at_another_time() {
         for (old, new) in old.iter().zip(&new) {
             let (was, is) = (f32::from_bits(old.0), f32::from_bits(new.0));
             assert!((was + 2.0 - is).abs() < 1e-6, "{id:?}: {was} {is}");
-            // The channel that gets them keeps its own way, so that tangents are left out here.
+            // The channel that gets the keys keeps its own interpolation, so only the values are compared.
             let per_key = old.1.len() / new.1.len();
             let value = if per_key == 3 { &old.1[new.1.len()..2 * new.1.len()] } else { &old.1[..] };
             assert_eq!(value, &new.1[..], "{id:?}");
@@ -148,7 +148,7 @@ fn a_channel_without_keys_gets_the_pasted_interpolation_and_a_spline_gets_tangen
 }
 
 #[test]
-fn invalid_keys_are_refused_and_unknown_bones_skipped() {
+fn invalid_pasted_keys_are_refused_and_unknown_bones_skipped() {
     let mut model = model(10);
     let before = model.slots()[0].clone();
     for (time, channels) in [
@@ -206,7 +206,7 @@ fn ctrl_c_copies_keys_in_the_timeline_and_the_pose_elsewhere() {
     let channels = from_text(&text).unwrap_or_else(|| panic!("keys, not {text}"));
     assert_eq!((channels.len(), channels[0].keys.len()), (1, 2));
     assert!(said(&animator).contains("Copied 2 keys"), "{}", said(&animator));
-    // In the picture it is the pose.
+    // With the pointer over the viewport, the pose is copied.
     let picture = animator.harness.state().state.read().viewport.center();
     animator.press(picture);
     animator.button(picture, PointerButton::Primary, false);
@@ -223,11 +223,11 @@ fn ctrl_c_copies_keys_in_the_timeline_and_the_pose_elsewhere() {
     let apart = animator.key(11) - animator.key(8);
     assert_eq!(new.len(), 2, "{new:?}");
     assert!((new[0] - 2.0).abs() < 1e-6 && (new[1] - 2.0 - apart).abs() < 1e-6, "{new:?}");
-    assert_eq!(animator.selected(), 2, "those that came");
+    assert_eq!(animator.selected(), 2, "the pasted keys");
     assert_eq!(animator.edited.steps().0.len(), 1);
     animator.request(Request::Change(Change::Undo));
     assert_eq!(animator.times(3), before);
-    // A view of something else, which was on its way when they were pasted, does not take their place.
+    // A view that arrives between the paste and its answer does not prevent the selection of the pasted keys.
     let bench = animator.harness.state_mut();
     let effect = bench.state.execute(Request::PastePose { text, mirrored: false });
     let mut view = bench.state.read().view.cloned().expect("open");
@@ -235,7 +235,7 @@ fn ctrl_c_copies_keys_in_the_timeline_and_the_pose_elsewhere() {
     bench.state.show(view);
     bench.effects.extend(effect);
     animator.steps(3);
-    assert_eq!(animator.selected(), 2, "those that came");
+    assert_eq!(animator.selected(), 2, "the pasted keys");
 }
 
 #[test]
@@ -250,7 +250,7 @@ fn keys_are_pasted_onto_the_same_number_of_bones_and_into_another_take() {
     put_in(&mut animator, &text);
     assert_eq!(animator.times(3), three);
     assert_eq!(animator.times(5).len(), five.len() + 1);
-    // Two are selected: the keys of one go where they came from.
+    // Two bones are selected, and the keys are from one bone, so they are pasted to the bone that they came from.
     animator.request(Request::SelectBones(vec![6], Choice::Add));
     animator.request(Request::Seek(1.03));
     put_in(&mut animator, &text);
@@ -284,7 +284,7 @@ fn cutting_copies_and_deletes_in_one_step_and_a_locked_bone_gets_no_keys() {
     animator.request(Request::Seek(animator.key(8)));
     put_in(&mut animator, &text);
     assert_eq!(animator.times(3), before, "back where it was");
-    // Mirrored are poses only.
+    // Only poses can be pasted mirrored.
     animator.request(Request::PastePose { text, mirrored: true });
     assert!(said(&animator).contains("only poses"), "{}", said(&animator));
 }

@@ -1,4 +1,4 @@
-//! With auto-key off a changed pose is seen, undone, kept, and in no key.
+//! With auto-key off a changed pose is shown, can be undone, is kept, and is in no key.
 
 use crate::panels::{Bench, harness_of};
 use dragonfly::panels::commands::Id;
@@ -45,7 +45,7 @@ fn waiting(model: &ModelAdapter) -> Vec<(f32, u32, Property, f32)> {
 }
 
 #[test]
-fn a_pending_pose_changes_no_key_and_is_kept_to_the_channel() {
+fn a_pending_pose_changes_no_key_and_is_stored_per_channel() {
     let mut model = model(1);
     let before = Arc::clone(&model.slots()[0].result);
     model.apply(&pend(0.3, vec![moved("hip", [1.0, 2.0, 3.0])])).unwrap();
@@ -68,7 +68,7 @@ fn a_pending_pose_changes_no_key_and_is_kept_to_the_channel() {
 }
 
 #[test]
-fn keying_stores_exactly_the_pose_that_was_shown() {
+fn keying_a_pending_pose_stores_exactly_the_pose_that_was_shown() {
     let mut model = model(2);
     model.apply(&pend(0.3, vec![moved("hip", [1.0, 2.0, 3.0])])).unwrap();
     model.apply(&pend(0.6, vec![moved("root", [7.0, 0.0, 0.0])])).unwrap();
@@ -135,7 +135,7 @@ fn a_new_key_replaces_the_pending_pose_at_its_time() {
 }
 
 #[test]
-fn pending_poses_go_along_with_the_take() {
+fn pending_poses_move_with_a_take_that_is_retimed_reversed_or_split() {
     let mut model = model(5);
     model.apply(&pend(0.25, vec![moved("hip", [1.0; 3])])).unwrap();
     model.apply(&pend(0.75, vec![moved("hip", [2.0; 3])])).unwrap();
@@ -239,7 +239,7 @@ fn auto_key_decides_whether_a_pose_becomes_a_key() {
 }
 
 #[test]
-fn the_key_command_keys_what_is_pending_here_and_else_the_selected_bones() {
+fn the_key_command_keys_the_pending_pose_at_the_playhead_or_otherwise_the_selected_bones() {
     let (view, _) = pending_view([0.0, 1.0, 0.0]);
     let mut bench = Bench::new(Some(view));
     let state = &mut bench.state;

@@ -43,7 +43,7 @@ impl Bus {
             .spawn()
             .expect("dbus-daemon (Debian: dbus-daemon) starts");
         let mut address = String::new();
-        // Written once it listens.
+        // The bus prints its address once it listens.
         let read = BufReader::new(daemon.stdout.take().expect("piped")).read_line(&mut address);
         read.expect("the address of the bus");
         Self { daemon, address: address.trim().to_owned() }
@@ -62,7 +62,7 @@ impl Drop for Bus {
     }
 }
 
-/// Somebody wants a file.
+/// A request of a program for a file.
 pub(crate) struct Question {
     pub(crate) title: String,
     /// Names of the other options that were passed.
@@ -75,7 +75,7 @@ pub(crate) struct Question {
 pub(crate) enum Answer {
     /// Chooses the file with this address.
     File(String),
-    /// Closes it.
+    /// Closes the dialog without a file.
     Nothing,
 }
 
@@ -85,7 +85,7 @@ pub(crate) struct Portal {
     asked: Receiver<Question>,
 }
 
-/// The part of it that the bus sees.
+/// The object of the portal on the bus.
 struct Chooser(SyncSender<Question>);
 
 #[zbus::interface(name = "org.freedesktop.portal.FileChooser")]
@@ -129,7 +129,7 @@ impl Portal {
     /// Blocks until a program asks for a file.
     #[track_caller]
     pub(crate) fn question(&self, limit: Duration) -> Question {
-        self.asked.recv_timeout(limit).expect("nobody asked for a file")
+        self.asked.recv_timeout(limit).expect("no program asked for a file")
     }
 
     /// Answers a question.

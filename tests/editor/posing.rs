@@ -1,4 +1,4 @@
-//! Rows of bones that follow a hand, pins that hold, bones that look.
+//! Chains of bones that follow the pointer, pinned bones that stay, and bones that aim at a target.
 
 use crate::gizmo_rig::Rig;
 use crate::panels::Bench;
@@ -43,7 +43,7 @@ fn hold(rig: &Rig, pins: &[BoneIndex], length: u32) -> PoseDragState {
     PoseDragState::new(Arc::new(rig.skeleton.clone()), &rig.poses, pins, mode, None)
 }
 
-/// The poses with what came out put over them.
+/// Returns the poses of the rig with the resulting poses applied.
 fn with(rig: &Rig, found: &[BonePose]) -> Vec<Transform> {
     let mut poses = rig.poses.clone();
     for pose in found {
@@ -69,7 +69,7 @@ fn moved(bone: BoneIndex, to: Vec3) -> BonePose {
 }
 
 #[test]
-fn a_pinned_foot_stays_where_and_how_it_is_while_the_hips_move() {
+fn a_pinned_foot_keeps_its_position_and_rotation_while_the_hips_move() {
     let first = seed(71);
     for number in first..first + 300 {
         let mut random = Random::new(number);
@@ -119,7 +119,7 @@ fn moving_an_end_bone_moves_a_chain_of_any_length() {
         let rig = figure(&mut random);
         for length in [1, 2, 3, 4, 9] {
             let mut hold = hold(&rig, &[], length);
-            // A place that the row surely reaches: where another pose of it has the hand.
+            // A position that the chain can certainly reach: the position of the hand in another pose.
             let mut other = rig.poses.clone();
             let row = [8, 7, 6, 5, 0];
             for &bone in row.iter().take(length as usize) {
@@ -201,7 +201,7 @@ fn joint_limits_are_kept() {
 }
 
 #[test]
-fn any_input_gives_finite_output() {
+fn solving_a_chain_gives_finite_poses_for_any_input() {
     let first = seed(74);
     for number in first..first + 300 {
         let mut random = Random::new(number);
@@ -273,7 +273,7 @@ fn solving_a_chain_allocates_nothing_that_grows_with_the_model() {
 }
 
 #[test]
-fn commands_pin_free_and_turn() {
+fn commands_pin_bones_change_the_ik_settings_and_aim_bones() {
     let mut bench = Bench::new(Some(fixture::full()));
     let state = &mut bench.state;
     state.execute(Request::SelectBones(vec![3, 4], Choice::Replace));
@@ -294,7 +294,7 @@ fn commands_pin_free_and_turn() {
     state.execute(Request::Command(Id::IkPole));
     assert_eq!(state.read().ik.pole, Some(4));
     assert!(state.read().bones_follow());
-    // One alone has nothing to look at.
+    // A single selected bone has no other bone to aim at.
     assert_eq!(state.execute(Request::Command(Id::LookAt)), None);
     assert!(state.read().status.last().unwrap().text.contains("last the bone to look at"));
     state.execute(Request::SelectBones(vec![6, 4], Choice::Replace));

@@ -46,7 +46,7 @@ pub(crate) fn dragonfly<I: AsRef<OsStr>>(arguments: impl IntoIterator<Item = I>)
     start(env!("CARGO_BIN_EXE_dragonfly"), arguments)
 }
 
-/// The same with injected faults; see `tests/faulty` for its switches.
+/// Returns the command that runs the program with injected faults; see `tests/faulty` for its switches.
 pub(crate) fn dragonfly_with_faults<I: AsRef<OsStr>>(arguments: impl IntoIterator<Item = I>) -> Command {
     start(env!("CARGO_BIN_EXE_dragonfly-faults"), arguments)
 }
@@ -83,7 +83,7 @@ pub(crate) fn run<I: AsRef<OsStr>>(arguments: impl IntoIterator<Item = I>) -> Ou
     outcome(&mut dragonfly(arguments))
 }
 
-/// The end of `child`, which is killed when it does not come within `limit`.
+/// Waits for the end of `child`, which is killed if it does not end within `limit`.
 #[track_caller]
 pub(crate) fn wait(child: &mut Child, limit: Duration) -> ExitStatus {
     let deadline = Instant::now() + limit;
@@ -117,7 +117,7 @@ pub(crate) fn threads(process: u32) -> String {
     told.collect::<Vec<_>>().join("\n")
 }
 
-/// Reads to the end in another thread.
+/// Reads everything in another thread, and sends it when the end is reached.
 fn drain(mut from: impl Read + Send + 'static) -> Receiver<Vec<u8>> {
     let (sender, receiver) = channel();
     let read = move || {

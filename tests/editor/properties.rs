@@ -1,4 +1,4 @@
-//! Numbers of the selected bones are dragged and typed, and the pose becomes what they say.
+//! Numbers of the selected bones are dragged and typed, and the pose changes accordingly.
 
 use crate::workbench::{Window, Workbench, drag, move_to, press, release, type_into};
 use dragonfly::panels::Request;
@@ -9,14 +9,14 @@ use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{Quat, Vec3};
 
-/// Bone 3 at a key of the first take.
+/// Opens a window with bone 3 selected, at a key of the first take.
 fn window() -> Window {
     let mut bench = Workbench::full();
     bench.state.execute(Request::Select(Some(3)));
     bench.window()
 }
 
-/// What a field shows.
+/// Returns the value that a field shows.
 fn value(window: &Window, field: &str) -> Option<f64> {
     window.get_by_label(field).accesskit_node().numeric_value()
 }
@@ -62,7 +62,7 @@ fn tab_moves_to_the_next_number_and_enter_releases_the_keyboard() {
 }
 
 #[test]
-fn after_enter_tab_goes_on_where_the_keyboard_was_last() {
+fn after_enter_tab_continues_from_the_last_focused_field() {
     let mut window = window();
     let focused = |window: &Window| {
         let root = window.root();
@@ -140,7 +140,7 @@ fn typing_after_a_double_click_replaces_the_number() {
 }
 
 #[test]
-fn a_drag_is_one_step() {
+fn a_drag_of_a_number_is_one_undo_step() {
     let mut window = window();
     let before = window.state().pose(3);
     drag(&mut window, "Translation change X", vec2(40.0, 0.0), Modifiers::NONE);
@@ -156,7 +156,7 @@ fn a_drag_is_one_step() {
     assert!(window.state().pose(3).rotation != after.rotation);
     window.key_press(Key::Escape);
     window.run_steps(2);
-    assert_eq!(window.state().pose(3), after, "Escape takes the drag back");
+    assert_eq!(window.state().pose(3), after, "Escape cancels the drag");
     assert_eq!(window.state().state.read().selected(), Some(3), "and nothing else");
     move_to(&mut window, from + vec2(60.0, 0.0), Modifiers::NONE);
     release(&mut window, from + vec2(60.0, 0.0));
@@ -165,7 +165,7 @@ fn a_drag_is_one_step() {
 }
 
 #[test]
-fn a_drag_is_finer_with_shift_and_snaps_with_ctrl() {
+fn a_drag_of_a_number_is_finer_with_shift_and_snaps_with_ctrl() {
     let turned = |modifiers| {
         let mut window = window();
         drag(&mut window, "Rotation result X", vec2(80.0, 0.0), modifiers);
@@ -179,7 +179,7 @@ fn a_drag_is_finer_with_shift_and_snaps_with_ctrl() {
 }
 
 #[test]
-fn a_drag_that_comes_back_leaves_no_step() {
+fn a_number_dragged_back_to_its_start_leaves_no_undo_step() {
     let mut window = window();
     let before = window.state().pose(3);
     let from = window.get_by_label("Translation result Z").rect().center();
@@ -192,7 +192,7 @@ fn a_drag_that_comes_back_leaves_no_step() {
 }
 
 #[test]
-fn a_drag_ends_where_something_else_is_shown() {
+fn a_drag_of_a_number_ends_when_another_time_is_shown() {
     let mut window = window();
     let from = window.get_by_label("Translation result Z").rect().center();
     press(&mut window, from);
@@ -219,7 +219,7 @@ fn playback_pauses_while_numbers_are_changed() {
 }
 
 #[test]
-fn a_wrong_number_is_refused_where_it_stands() {
+fn a_wrong_number_is_marked_and_its_field_keeps_the_focus() {
     for wrong in ["", "abc", "1..2", "1/0", "(((", "45m", "1e99", "🦊", "שלום", "1,234"] {
         for key in [Key::Enter, Key::Tab] {
             let mut bench = Workbench::full();
@@ -240,14 +240,14 @@ fn a_wrong_number_is_refused_where_it_stands() {
             window.key_press(Key::Escape);
             window.run_steps(3);
             let field = window.get_by_label("Rotation result Y");
-            assert!(!field.is_focused() && !is_marked(&field), "Escape takes it back");
+            assert!(!field.is_focused() && !is_marked(&field), "Escape cancels it");
             assert_eq!(value(&window, "Rotation result Y"), Some(0.0));
             assert_eq!(window.state().state.read().selected(), Some(3), "and nothing else");
         }
     }
 }
 
-/// A field with the cursor, and something in it that is no number.
+/// Opens a window in which the focused field contains a text that is no number.
 fn with_a_wrong_number() -> Window {
     let mut window = window();
     window.get_by_label("Scale result Y").click();
@@ -316,7 +316,7 @@ fn a_quaternion_is_typed_number_by_number() {
     assert!((rotation - wanted).length() < 1e-6, "{rotation}");
 }
 
-/// Near 90° of the second turn many angles say the same rotation; those that were typed are the ones that stay.
+/// If the second angle is near 90°, many angles mean the same rotation; the typed ones must stay.
 #[test]
 fn typed_angles_stay_as_they_were_typed() {
     let mut window = window();
@@ -367,7 +367,7 @@ fn a_number_goes_to_all_selected_bones() {
 }
 
 #[test]
-fn keys_are_shown_added_and_deleted() {
+fn the_key_button_of_a_channel_adds_and_deletes_its_key() {
     let mut window = window();
     let keys =
         |window: &Window| window.state().state.read().view.unwrap().takes[0].tracks[3].rotation.times.len();
@@ -407,7 +407,7 @@ fn without_auto_key_a_number_is_pending_until_it_is_keyed() {
 }
 
 #[test]
-fn a_channel_goes_back_to_the_original_or_to_the_rest_pose() {
+fn a_channel_is_reset_to_the_original_or_to_the_rest_pose() {
     for time in [0.0, 0.05] {
         let mut window = window();
         window.state_mut().state.execute(Request::Seek(time));
@@ -457,7 +457,7 @@ fn a_locked_bone_is_shown_and_not_changed_and_others_change_without_it() {
     assert!(window.query_by_label(said).is_some());
     drag(&mut window, "Rotation change X", vec2(50.0, 0.0), Modifiers::NONE);
     assert_eq!(window.state().changes, []);
-    // The last one is the active one, whose numbers are shown.
+    // The bone that was selected last is the active one, whose numbers are shown.
     window.state_mut().state.execute(Request::SelectBones(vec![3, 5], Choice::Replace));
     window.run_steps(3);
     assert!(window.query_by_label(said).is_none());

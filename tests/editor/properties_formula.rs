@@ -1,4 +1,4 @@
-//! Whatever is typed in any column, in any order of angles, gives the pose that the rules of the document say.
+//! A number typed in any column, with any order of angles, gives the pose that the rules of the document define.
 
 use crate::workbench::{Window, Workbench, type_into};
 use dragonfly::panels::Request;
@@ -13,7 +13,7 @@ use egui::Key;
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{DQuat, DVec3};
 
-/// Relative to the size of the numbers; what numbers of 32 bits leave over in a handful of operations.
+/// Tolerance, relative to the size of the numbers: the rounding error of a few operations in single precision.
 const NEAR: f64 = 4e-6;
 
 fn original(window: &Window, bone: u32) -> Transform {
@@ -31,7 +31,7 @@ fn shown(window: &Window, field: &str) -> [f64; 3] {
     })
 }
 
-/// The product of three turns, each about an axis: what an order of angles means.
+/// Returns the product of three rotations, each about one axis, in the order that `order` defines.
 fn product(order: EulerOrder, degrees: [f64; 3]) -> DQuat {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     order.axes().into_iter().fold(DQuat::IDENTITY, |turn, axis| {
@@ -50,7 +50,7 @@ fn a_typed_formula_sets_the_pose_of_the_reference_model() {
         let order = random.choice(&EulerOrder::ALL);
         let look = PropertiesLook { euler: order, quaternion: true, ..PropertiesLook::default() };
         window.state_mut().state.execute(Request::PropertiesLook(look));
-        // Another pose, on a key or between two, so that the change before is something.
+        // First sets another pose, on a key or between two keys, so that the change is not the identity.
         let time = random.between(0.0, 3.4);
         window.state_mut().state.execute(Request::Seek(time));
         let mut angle = || f64::from(random.between(-179.0, 179.0));

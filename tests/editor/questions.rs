@@ -121,7 +121,7 @@ fn bench(question: Question) -> Bench {
 }
 
 #[test]
-fn every_kind_of_question_has_an_example_here() {
+fn every_kind_of_question_has_an_example_in_this_file() {
     let names: Vec<String> = questions().iter().map(|(_, question)| format!("{question:?}")).collect();
     for kind in Question::KINDS {
         assert!(names.iter().any(|name| name.starts_with(&format!("{kind}("))), "{kind} has no example");
@@ -223,7 +223,7 @@ fn each_button_for_unsaved_work_applies_to_the_document_that_is_shown() {
             panic!("{button}: {:?}", harness.state().effects)
         };
         assert!(offer.title.starts_with("A bear") && *decided == decision, "{button}");
-        // The document that was set aside does not answer for the others; an opened file is asked about first.
+        // If work is left or discarded, the question about the other document stays; otherwise a file is opened first.
         let left = match harness.state().state.read().question() {
             Some(Question::Recover(recover)) => recover.offers.len(),
             _ => 0,

@@ -54,7 +54,7 @@ fn bone_flags_and_pins_of_a_file_are_restored_with_it() {
             && state.read().ik.pole.is_none()
     );
     let text = state.side_files().unsaved_marks().expect("changed");
-    assert_eq!(state.side_files().unsaved_marks(), None, "said once");
+    assert_eq!(state.side_files().unsaved_marks(), None, "reported once");
     let mut again = State::new(Settings::default(), Instant::now());
     again.side_files().read_marks(&text);
     again.show(file("Crow.glb"));

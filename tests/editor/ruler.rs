@@ -43,12 +43,12 @@ fn ticks_are_legible_at_any_length() {
 }
 
 #[test]
-fn a_pose_has_one_tick() {
+fn a_take_of_length_zero_has_one_tick() {
     assert_eq!(Ruler { length: 0.0, ..ruler() }.ticks(30).len(), 1);
 }
 
 #[test]
-fn frames_and_times_agree() {
+fn converting_a_frame_to_a_time_and_back_gives_the_same_frame() {
     for frame in [-3, 0, 1, 17, 100_000] {
         for rate in [24, 25, 30, 60] {
             assert_eq!(frame_of(time_of(frame, rate), rate), frame);
@@ -66,7 +66,7 @@ fn a_frame_step_goes_to_the_adjacent_frame() {
 }
 
 #[test]
-fn a_key_step_leaves_the_key_at_the_playhead() {
+fn a_key_step_goes_to_the_next_key_and_not_to_the_one_at_the_playhead() {
     let keys = [0.0, 0.5, 1.0];
     assert_eq!(step_key(&keys, 0.5, true), Some(1.0));
     assert_eq!(step_key(&keys, 0.5, false), Some(0.0));

@@ -14,7 +14,7 @@ fn settings_survive_a_round_trip() {
 }
 
 #[test]
-fn a_damaged_file_gives_the_defaults() {
+fn a_damaged_settings_file_gives_the_defaults() {
     let whole = Settings { scale: 1.5, ..Settings::default() }.to_text();
     for text in ["", "{", "[]", "null", "{\"scale\": \"large\"}", "\u{0}\u{1}", &whole[..whole.len() / 2]] {
         assert_eq!(Settings::parse(text), Settings::default(), "{text:?}");
@@ -70,7 +70,7 @@ fn the_store_replaces_files_and_tolerates_missing_ones() {
     store.write(store::SETTINGS, "one").unwrap();
     store.write(store::SETTINGS, "two").unwrap();
     assert_eq!(store.read(store::SETTINGS), "two");
-    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1, "nothing half written stays");
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1, "no partly written file stays");
     std::fs::remove_dir_all(folder).unwrap();
 }
 

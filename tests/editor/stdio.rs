@@ -170,7 +170,7 @@ fn stdio_and_the_edit_command_write_the_same_file() {
 }
 
 #[test]
-fn saving_again_and_again_keeps_the_file_small_and_right() {
+fn saving_again_and_again_keeps_the_file_small_and_correct() {
     let folder = Folder::new("stdio-again");
     let file = fox(&folder);
     let mut talk = StdioSession::about(&file);

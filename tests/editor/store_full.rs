@@ -46,7 +46,7 @@ fn saves(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
         let saved = replace(&path, &pages(30, 2));
         let wanted = if saved.is_ok() { pages(30, 2) } else { pages(3, 1) };
         assert!(fs::read(&path).unwrap() == wanted);
-        assert_eq!(count(disk), 2, "nothing is left beside it");
+        assert_eq!(count(disk), 2, "no other file is left in the folder");
         is_full(saved.err())
     })
 }
@@ -111,7 +111,8 @@ fn records(disk: &Path) -> Box<dyn FnOnce(&Path) -> bool> {
         drop(journal);
         let found = autosave.recoverable().unwrap();
         assert_eq!(found.len(), 1);
-        // It can be read and taken over however full the disk is: its last page has space, or an error is reported.
+        // The journal can be read and taken over however full the disk is: its last page has space, or an error is
+        // reported.
         assert!(autosave.entries(&found[0]).unwrap() == wanted);
         assert_eq!(count(&autosave.journals()), 1);
         all

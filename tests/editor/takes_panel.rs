@@ -54,7 +54,7 @@ fn takes_are_made_copied_and_deleted_but_the_last_one_stays() {
 }
 
 #[test]
-fn a_command_also_asks_for_start_and_length() {
+fn a_command_shows_the_fields_for_start_and_length() {
     let mut window = Workbench::full().window();
     assert!(window.query_by_label("Length").is_none());
     give(&mut window, Id::RetimeTake);
@@ -65,7 +65,7 @@ fn a_command_also_asks_for_start_and_length() {
 }
 
 #[test]
-fn start_and_length_are_given_in_frames_too() {
+fn start_and_length_can_also_be_given_in_frames() {
     let mut window = Workbench::full().window();
     window.state_mut().state.settings_mut().frame_rate = 24;
     give(&mut window, Id::RetimeTake);
@@ -149,7 +149,7 @@ fn a_take_is_renamed_in_the_list() {
     rename(&mut window, "Stroll", Key::Enter);
     assert_eq!(names(&window)[1], "Stroll");
     rename(&mut window, "No", Key::Escape);
-    assert_eq!(names(&window)[1], "Stroll", "Escape takes it back");
+    assert_eq!(names(&window)[1], "Stroll", "Escape cancels it");
     assert!(window.query_by_label("Name of the take").is_none());
     rename(&mut window, "", Key::Enter);
     assert_eq!(names(&window)[1], "Stroll");
@@ -184,7 +184,7 @@ fn a_take_is_renamed_in_the_list() {
 }
 
 #[test]
-fn any_text_is_a_name() {
+fn any_text_that_is_not_blank_becomes_the_name_of_a_take() {
     let mut window = Workbench::full().window_of_any_text();
     window.get_by_label("Walk").click();
     window.run_steps(2);
@@ -229,7 +229,7 @@ fn a_take_that_is_dragged_to_another_position_stays_shown() {
     window.run_steps(2);
     button(&mut window, from + vec2(0.0, 60.0), false);
     window.run_steps(2);
-    assert_eq!(names(&window), ["Run", "Survey", "Walk"], "Escape takes it back");
+    assert_eq!(names(&window), ["Run", "Survey", "Walk"], "Escape cancels it");
     give(&mut window, Id::MoveTakeDown);
     assert_eq!(
         (names(&window), shown(&window)),
@@ -277,11 +277,11 @@ fn a_take_is_split_reversed_and_trimmed() {
     assert_eq!(window.state().steps(), (steps.0 + 1, steps.1 + 1), "a drag is one step");
     type_into(&mut window, "Length", "-1", Key::Enter);
     assert!((window.state().state.read().take().unwrap().length - 2.5).abs() < 1e-3);
-    assert_eq!(window.state().refused, [""; 0], "what cannot be is not even asked for");
+    assert_eq!(window.state().refused, [""; 0], "impossible edits are not even requested");
 }
 
 #[test]
-fn the_list_is_shown_without_takes() {
+fn the_take_list_is_shown_even_for_a_model_without_takes() {
     let empty = Workbench::new(Some(fixture::empty())).window();
     assert!(empty.query_by_label("Rest pose").is_some());
     let nothing = Workbench::new(None).window();

@@ -40,7 +40,7 @@ fn a_key_dragged_up_changes_one_angle_as_one_step() {
     animator.release(at - vec2(0.0, 40.0));
     let after = angle(&animator, 8);
     assert!(after > before + 3.0, "{before} → {after}");
-    assert!((angle(&animator, 7) - animator_angle(7)).abs() < 0.01, "the key beside stays");
+    assert!((angle(&animator, 7) - animator_angle(7)).abs() < 0.01, "the neighboring key stays");
     assert!(
         matches!(animator.edits().last(), Some(Edit::SetPose(SetPose { poses, .. })) if poses[0].rotation.is_some())
     );
@@ -129,7 +129,7 @@ fn a_tangent_is_dragged_by_its_end_and_alt_breaks_it() {
 }
 
 #[test]
-fn the_fields_accept_sums_and_refuse_other_text() {
+fn the_fields_of_a_key_accept_formulas_and_refuse_other_text() {
     let mut animator = Animator::with_bone(3);
     animator.click(animator.at(animator.key(8), 2));
     animator.harness.get_by_label("Component X").click();
@@ -196,7 +196,7 @@ fn dragging_a_number_of_a_key_is_one_step_and_escape_cancels_it() {
     animator.harness.key_press(Key::Escape);
     animator.steps(3);
     animator.release(field + vec2(20.0, 0.0));
-    assert_eq!(animator.edited.steps().1, 1, "Escape takes it back");
+    assert_eq!(animator.edited.steps().1, 1, "Escape cancels it");
     assert!((shown(&animator, "Time of the key") - time).abs() < 1e-3);
     animator.drag(field, field + vec2(20.0, 0.0));
     animator.release(field + vec2(20.0, 0.0));

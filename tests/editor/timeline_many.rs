@@ -1,4 +1,5 @@
-//! Drags of more keys than are moved between two frames: coarse in time, and nothing is drawn that no edit made.
+//! Drags of more keys than can be moved between two frames: they are drawn in coarser steps, and each drawn state is
+//! that after an edit.
 
 use dragonfly::panels::keys::{ChannelId, KeyDragOp, KeysRequest, channel};
 use dragonfly::panels::{Effect, Request, Settings, State};
@@ -46,7 +47,7 @@ impl SlowDocument {
         }
     }
 
-    /// Answers everything that waits, with one view.
+    /// Answers all waiting changes with one view.
     fn answer(&mut self) {
         for (number, change) in self.waiting.drain(..) {
             match change {

@@ -183,7 +183,7 @@ fn a_drag_back_to_its_start_changes_nothing() {
 }
 
 #[test]
-fn alt_drags_a_copy_and_two_inserts_time() {
+fn a_drag_with_alt_copies_keys_and_with_the_2_key_held_inserts_time() {
     let mut animator = Animator::with_bone(3);
     animator.click(animator.at(animator.key(8), 2));
     animator.hold(Modifiers::ALT);
@@ -227,7 +227,7 @@ fn dragging_the_playhead_snaps_to_keys_and_frames() {
 }
 
 #[test]
-fn a_click_on_a_row_keeps_the_other_rows_until_another_selection() {
+fn after_a_click_on_a_row_the_other_rows_stay_listed_until_the_selection_changes_elsewhere() {
     let mut animator = Animator::new(fixture::full());
     let rows = |animator: &Animator| animator.harness.state().state.read().listed_bones().len();
     let all = rows(&animator);
@@ -253,7 +253,7 @@ fn keying_a_pose_after_the_end_extends_the_take() {
     animator.request(Request::Command(Id::PlayPause));
     assert!(!animator.harness.state().state.read().playback.playing);
     assert!(animator.said().ends_with("there is nothing to play"), "{}", animator.said());
-    // By a click in the ruler, by frames, by a number.
+    // The time is set by a click in the ruler, by steps of a frame, and by a typed number.
     let ruler = animator.harness.get_by_label("Time track").rect();
     let at = pos2(animator.x_in(animator.keys(), 0.5), ruler.center().y);
     animator.click(at);
@@ -292,7 +292,7 @@ fn keying_a_pose_after_the_end_extends_the_take() {
 }
 
 #[test]
-fn the_edge_of_the_ruler_is_the_end_of_the_take() {
+fn dragging_to_the_edge_of_the_ruler_goes_to_the_end_of_the_take() {
     let mut animator = Animator::with_bone(3);
     let ruler = animator.harness.get_by_label("Time track").rect();
     let middle = ruler.center();
@@ -303,7 +303,7 @@ fn the_edge_of_the_ruler_is_the_end_of_the_take() {
         assert_eq!(
             state.read().time(),
             state.read().take().unwrap().end(),
-            "{beyond} points beside the edge"
+            "{beyond} points beyond the edge"
         );
     }
 }
@@ -340,7 +340,7 @@ fn keys_stay_selected_when_time_is_inserted_or_removed_before_them() {
 }
 
 #[test]
-fn the_end_of_the_bar_scales_about_the_other_end_and_with_alt_about_the_playhead() {
+fn dragging_the_end_of_selected_keys_scales_about_their_start_or_with_alt_the_playhead() {
     for alt in [false, true] {
         scale_by_the_end(alt);
     }
@@ -410,7 +410,7 @@ fn muted_bones_show_the_rest_pose_and_solo_mutes_all_others() {
 }
 
 #[test]
-fn commands_change_the_selected_keys_as_named() {
+fn commands_interpolate_snap_retime_and_delete_the_selected_keys() {
     let mut animator = Animator::with_bone(3);
     animator.harness.key_press(Key::Delete);
     animator.steps(2);
@@ -463,11 +463,11 @@ fn the_wheel_zooms_about_the_pointer_and_the_middle_button_pans() {
 }
 
 #[test]
-fn the_play_range_plays_and_any_time_can_be_shown() {
+fn only_the_play_range_plays_but_any_time_can_be_shown() {
     let mut animator = Animator::with_bone(3);
     animator.request(Request::Timeline(KeysRequest::Range(Some([1.0, 0.5]))));
     animator.request(Request::Seek(3.0));
-    assert_eq!(animator.harness.state().state.read().time(), 3.0, "outside of the range, too");
+    assert_eq!(animator.harness.state().state.read().time(), 3.0, "even outside of the range");
     animator.request(Request::Command(Id::PlayPause));
     let state = &animator.harness.state().state;
     assert_eq!((state.read().playback.start, state.read().playback.length), (0.5, 0.5));
@@ -491,7 +491,7 @@ fn a_refused_drag_changes_nothing() {
     animator.request(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(-5.0))));
     animator.request(Request::Timeline(KeysRequest::Release));
     assert_eq!(animator.times(3), before);
-    assert!(animator.harness.state().state.read().keys.drag().is_none(), "nothing is waited for");
+    assert!(animator.harness.state().state.read().keys.drag().is_none(), "no drag is active");
     assert_eq!(animator.selected(), 1);
 }
 

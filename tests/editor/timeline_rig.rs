@@ -16,7 +16,7 @@ pub(crate) struct Animator {
     pub(crate) harness: Harness<'static, Bench>,
     pub(crate) edited: Edited,
     first: View,
-    /// State for the last view of the document.
+    /// Generation of the last view of the document.
     generation: u64,
     modifiers: Modifiers,
     /// Effects that are not addressed to the document.

@@ -40,7 +40,7 @@ fn nothing_is_held(animator: &Animator, round: usize) {
     assert!(!state.read().dragging.is_open(), "round {round}: a drag goes on");
     assert!(
         !state.read().tools.controls().is_busy() && !state.read().tools.controls().edits(),
-        "round {round}: the hands are busy"
+        "round {round}: a viewport tool is still dragging"
     );
     assert!(!state.read().keys.drag().is_some_and(|drag| drag.held()), "round {round}: keys are held");
     assert_eq!(state.read().tools.controls().modifiers(), Default::default(), "round {round}: a key is held");
@@ -116,7 +116,7 @@ fn a_drag_without_a_release_leaves_nothing_held_and_no_partial_edit() {
         } else {
             lose(&mut animator);
             if open {
-                assert!(same(&animator.edited, &before), "round {round}: half of a drag is left");
+                assert!(same(&animator.edited, &before), "round {round}: a part of the drag is left");
                 taken_back += 1;
             }
         }
@@ -143,7 +143,7 @@ fn a_drag_without_a_release_leaves_nothing_held_and_no_partial_edit() {
         animator.steps(2);
         nothing_is_held(&animator, round);
     }
-    println!("{taken_back} drags taken back, {ended} ended, {deaf} commands in the middle of one");
+    println!("{taken_back} drags cancelled, {ended} ended, {deaf} commands in the middle of one");
     assert!(taken_back > rounds / 20 && ended > 0 && deaf > 0);
     // All of it can be undone.
     animator.edited.go_to(0);

@@ -1,4 +1,4 @@
-//! Hands on the picture: what mouse and keys do there reaches the document at once, as one step a drag.
+//! The viewport tools: input in the viewport changes the document at once, with one undo step per drag.
 
 use crate::viewport_tools_rig::ViewportHarness;
 use dragonfly::control::{InputEvent, Key, Modifiers};
@@ -17,7 +17,7 @@ fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedMod
     Ok(Arc::into_inner(arm::loaded()).expect("the only one").into())
 }
 
-/// The middle bone of the arm is selected.
+/// Opens the arm with its middle bone selected.
 fn arm() -> ViewportHarness {
     let mut viewport = ViewportHarness::new(load);
     viewport.state.execute(Request::Select(Some(1)));
@@ -32,7 +32,7 @@ fn assert_turned(viewport: &ViewportHarness, before: Quat, by: Quat) {
 }
 
 #[test]
-fn a_ring_is_dragged_a_number_typed_and_it_is_one_step() {
+fn dragging_a_ring_and_typing_a_number_is_one_undo_step() {
     let mut viewport = arm();
     let before = viewport.rotation();
     let ring = viewport.handle(Handle::Axis(GizmoAxis::X));
@@ -84,7 +84,7 @@ fn escape_and_the_right_button_leave_no_trace() {
 }
 
 #[test]
-fn a_drag_that_comes_back_to_where_it_began_is_no_step() {
+fn a_drag_back_to_its_start_is_no_undo_step() {
     let mut viewport = arm();
     let ring = viewport.handle(Handle::Axis(GizmoAxis::Z));
     viewport.hold(Modifiers { ctrl: true, ..Modifiers::default() });
@@ -106,7 +106,7 @@ fn a_click_inside_the_rings_picks_the_bone_behind() {
     viewport.release();
     assert_eq!(viewport.effects, [Effect::Pick(egui::pos2(ball.x, ball.y), Choice::Add)]);
     assert!(viewport.steps().is_empty());
-    // Once it moved it turns freely.
+    // Once the pointer has moved, the drag rotates the bone freely.
     viewport.hold(Modifiers::default());
     viewport.press(ball);
     viewport.to(ball + Vec2::new(30.0, 5.0));
@@ -132,7 +132,7 @@ fn moving_and_scaling_change_their_own_channel_alone() {
     assert_eq!(
         crate::viewport_tools_rig::find(gizmo, viewport.joint(), Handle::Center),
         None,
-        "who only selects has none"
+        "the selection tool shows no gizmo"
     );
 }
 
@@ -148,7 +148,7 @@ fn the_rest_pose_cannot_be_edited_and_a_message_gives_the_reason() {
     assert!(viewport.steps().is_empty());
     let said = viewport.state.read().status.last().expect("it was said").text.clone();
     assert!(said.contains("rest pose"), "{said}");
-    // A box is not drawn either: the handle was meant.
+    // No box selection is started either, because the press was on a handle.
     assert!(viewport.effects.is_empty(), "{:?}", viewport.effects);
 }
 
@@ -174,7 +174,7 @@ fn locked_bones_stay_and_a_single_locked_bone_cannot_be_dragged() {
     let after = turns(&viewport);
     assert_eq!(after[0], before[0], "it is locked");
     assert_ne!(after[1], before[1], "the other one is not");
-    // With all of them locked nothing turns, not even the gizmo.
+    // If all selected bones are locked, nothing rotates, not even the gizmo.
     lock(&mut viewport, 1, true);
     for by_key in [false, true] {
         let ring = viewport.handle(Handle::Axis(GizmoAxis::X));
@@ -257,7 +257,7 @@ fn a_box_selection_started_by_command_can_start_on_a_handle() {
 }
 
 #[test]
-fn overlays_on_the_viewport_take_precedence() {
+fn a_click_on_an_overlay_does_not_reach_the_gizmo_below_it() {
     let mut viewport = arm();
     let ring = viewport.handle(Handle::Axis(GizmoAxis::X));
     let over = egui::Rect::from_center_size(egui::pos2(ring.x, ring.y), egui::Vec2::splat(30.0));

@@ -1,4 +1,4 @@
-//! Whatever mouse and keys do over the window, nothing panics and nothing stays held.
+//! Random mouse and keyboard input over the window causes no panic and leaves nothing held.
 
 use crate::panels::{Bench, harness_of};
 use crate::viewport_tools_rig::{PICTURE, ViewportHarness};

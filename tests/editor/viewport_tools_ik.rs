@@ -1,4 +1,4 @@
-//! A bone that is dragged takes those above it along with IK on, and pinned bones stay where they are.
+//! With IK on, dragging a bone moves the bones above it too, and pinned bones stay where they are.
 
 use crate::viewport_tools_rig::{PICTURE, ViewportHarness};
 use dragonfly::control::{InputEvent, Key};
@@ -19,7 +19,7 @@ fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedMod
     Ok(Arc::into_inner(arm::loaded()).expect("the only one").into())
 }
 
-/// The arm in the middle of its take, where it is bent; this bone is selected, and moved with this tool.
+/// Opens the arm in the middle of its take, where it is bent, with this bone selected and this tool active.
 fn arm(bone: BoneIndex, tool: Id) -> ViewportHarness {
     let mut viewport = ViewportHarness::new(load);
     viewport.state.execute(Request::Seek(0.5));
@@ -79,7 +79,7 @@ fn dragging_the_tip_moves_its_chain_in_one_undo_step() {
     assert_eq!(keyed(&viewport), rotations);
     assert!(place(&viewport, 2).distance(tip) > 0.1, "it moved");
     assert!(facing(&viewport, 2).angle_between(direction) < 1e-3, "a hand keeps its direction");
-    // Where the pointer is.
+    // Undo restores the takes.
     viewport.command(Id::Undo);
     assert_eq!(poses(&viewport), before);
     assert_eq!(viewport.state.read().view.expect("open").takes, takes, "bit for bit");
@@ -92,7 +92,7 @@ fn dragging_the_tip_moves_its_chain_in_one_undo_step() {
 }
 
 #[test]
-fn the_end_of_a_chain_follows_the_pointer() {
+fn with_ik_on_the_dragged_end_of_a_chain_follows_the_pointer() {
     let mut viewport = arm(2, Id::ToolMove);
     viewport.command(Id::ToggleIk);
     let from = viewport.joint();
@@ -127,7 +127,7 @@ fn a_pinned_tip_is_held_at_every_played_frame_in_one_step() {
     viewport.state.execute(Request::Timeline(KeysRequest::Range(Some([0.25, 0.76]))));
     viewport.command(Id::BakePins);
     assert_eq!(viewport.steps().len(), 1, "{:?} {:?}", viewport.steps(), viewport.refused);
-    // At frames, at the ends of what plays, and nearly so between them.
+    // The tip is exact at the frames and at the ends of the play range, and nearly exact between them.
     let frames = (8..=22).map(|frame| frame as f32 / 30.0);
     for time in frames.chain([0.25, 0.76]) {
         let (apart, turned) = at(&mut viewport, time);
@@ -135,7 +135,7 @@ fn a_pinned_tip_is_held_at_every_played_frame_in_one_step() {
         assert!(at(&mut viewport, (time + 0.011).min(0.76)).0 < 2e-3, "behind {time} s");
     }
     for (time, outside) in [0.0, 1.0].into_iter().zip(outside) {
-        assert!((at(&mut viewport, time).0 - outside).abs() < 1e-5, "what does not play stays");
+        assert!((at(&mut viewport, time).0 - outside).abs() < 1e-5, "keys outside the play range stay");
     }
     viewport.command(Id::Undo);
     assert_eq!(viewport.state.read().view.expect("open").takes, takes, "bit for bit");
@@ -180,7 +180,7 @@ fn a_pinned_tip_stays_while_the_root_is_moved_and_turned() {
 }
 
 #[test]
-fn numbers_typed_while_dragging_hold_pins_too() {
+fn pinned_bones_stay_while_a_number_is_typed_for_their_root() {
     let mut viewport = arm(2, Id::ToolMove);
     viewport.command(Id::Pin);
     viewport.state.execute(Request::Select(Some(0)));
@@ -284,7 +284,7 @@ fn a_muted_bone_is_dragged_where_it_is_drawn() {
 }
 
 #[test]
-fn a_key_of_the_path_is_pending_with_auto_key_off() {
+fn with_auto_key_off_a_dragged_key_of_the_motion_path_becomes_a_pending_pose() {
     let mut viewport = arm(2, Id::ToolSelect);
     viewport.command(Id::TogglePath);
     viewport.state.execute(Request::Seek(0.0));
@@ -334,7 +334,7 @@ fn pins_and_the_chain_are_drawn_where_the_bones_are() {
 }
 
 #[test]
-fn the_skin_is_clicked_where_a_pending_pose_shows_it() {
+fn a_click_on_the_skin_of_a_pending_pose_picks_its_bone() {
     let mut viewport = arm(0, Id::ToolMove);
     viewport.command(Id::AutoKey);
     viewport.command(Id::MoveNow);
@@ -350,7 +350,7 @@ fn the_skin_is_clicked_where_a_pending_pose_shows_it() {
 }
 
 #[test]
-fn a_bone_that_is_locked_or_muted_is_a_stiff_joint_of_the_chain() {
+fn a_locked_or_muted_bone_in_the_middle_of_a_chain_does_not_rotate() {
     for flag in [BoneFlag::Lock, BoneFlag::Mute] {
         let mut viewport = arm(2, Id::ToolMove);
         viewport.state.execute(Request::Timeline(KeysRequest::Flag(flag, 1, true)));

@@ -17,7 +17,7 @@ fn load(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedMod
     Ok(Arc::into_inner(arm::loaded()).expect("the only one").into())
 }
 
-/// The tip of the arm is selected, and its path shown.
+/// Opens the arm with its tip selected and the path of the tip shown.
 fn tip() -> ViewportHarness {
     let mut viewport = ViewportHarness::new(load);
     viewport.state.execute(Request::Select(Some(2)));
@@ -28,7 +28,8 @@ fn tip() -> ViewportHarness {
 /// Returns the window position of a point in the scene.
 fn seen(viewport: &ViewportHarness, place: Vec3) -> Vec2 {
     let view = GizmoView::new(&viewport.state.read().camera, Vec2::new(PICTURE[2], PICTURE[3]));
-    view.to_screen(place.as_dvec3()).expect("before the eye").as_vec2() + Vec2::new(PICTURE[0], PICTURE[1])
+    view.to_screen(place.as_dvec3()).expect("in front of the camera").as_vec2()
+        + Vec2::new(PICTURE[0], PICTURE[1])
 }
 
 #[test]
@@ -69,7 +70,7 @@ fn a_key_of_the_path_is_dragged_to_the_pointer_in_one_step() {
     let keys = &viewport.state.read().tools.path().look().expect("a path").keys;
     let now = keys.iter().find(|key| key.0 == time).expect("the key is there").1;
     assert!(now.distance(place) < 1e-5);
-    // Escape takes a drag back.
+    // Escape cancels a drag.
     viewport.press(from);
     viewport.to(to);
     assert_eq!(viewport.steps(), ["Move"]);
@@ -103,7 +104,7 @@ fn ghosts_are_drawn_before_and_after_within_the_take() {
 }
 
 #[test]
-fn a_key_of_the_path_moves_the_chain_with_ik_on_and_pins_hold() {
+fn with_ik_on_a_dragged_path_key_moves_its_chain_and_pinned_bones_stay() {
     let mut viewport = tip();
     viewport.command(Id::ToggleIk);
     let (time, place) =
@@ -156,7 +157,7 @@ fn a_key_of_the_path_moves_the_chain_with_ik_on_and_pins_hold() {
 }
 
 #[test]
-fn a_path_key_wins_over_gizmo_handles_but_not_over_the_center() {
+fn a_path_key_is_hit_before_gizmo_handles_but_not_before_the_gizmo_center() {
     let mut viewport = tip();
     viewport.command(Id::ToolRotate);
     let path = Arc::clone(viewport.state.read().tools.path().look().expect("a path"));
@@ -199,7 +200,7 @@ fn path_keys_of_an_unlocked_bone_can_be_dragged_in_any_selection() {
         viewport.state.begin_frame(viewport.state.read().now);
         viewport.state.read().tools.controls().path().editable
     };
-    // The last one is the active one, of which the path is.
+    // The bone that was selected last is the active one, whose path is shown.
     for (bones, wanted) in [(&[2, 1][..], false), (&[2], true), (&[2, 1], false), (&[1, 2], true)] {
         assert_eq!(select(&mut viewport, bones), wanted, "{bones:?}");
     }

@@ -1,4 +1,4 @@
-//! Fixture of the viewport tool tests: the state of the window and a document, both iterated manually by the test.
+//! Fixture of the viewport tool tests: the state of the window and a document, which the test runs step by step.
 
 use dragonfly::control::gizmo::Gizmo;
 use dragonfly::control::{Button, InputEvent, Key, Modifiers};
@@ -181,7 +181,7 @@ impl ViewportHarness {
         let bone = self.state.read().selected().expect("a bone is selected");
         let joint = self.state.read().posed.animation().expect("posed").to_root()[bone as usize].w_axis;
         let view = GizmoView::new(&self.state.read().camera, Vec2::new(PICTURE[2], PICTURE[3]));
-        view.to_screen(joint.truncate().as_dvec3()).expect("before the eye").as_vec2()
+        view.to_screen(joint.truncate().as_dvec3()).expect("in front of the camera").as_vec2()
     }
 
     /// Returns the local rotation of the active bone in the pose shown.

@@ -242,7 +242,7 @@ fn a_model_opens_plays_scrubs_pauses_and_closes_cleanly() {
     let mut editor = Editor::open(&mut screen, &[], &[]);
     eventually_shows_something(&screen);
 
-    // It plays by itself.
+    // The model plays as soon as it is opened.
     let before = screen.part(VIEWPORT);
     pass(Duration::from_millis(500));
     // Half a second is enough for a program that is scheduled.
@@ -250,7 +250,7 @@ fn a_model_opens_plays_scrubs_pauses_and_closes_cleanly() {
     while screen.program.is_some_and(works) && before == screen.part(VIEWPORT) && Instant::now() < deadline {
         pass(Duration::from_millis(100));
     }
-    assert!(before != screen.part(VIEWPORT), "two pictures half a second apart are the same");
+    assert!(before != screen.part(VIEWPORT), "the picture did not change within half a second");
 
     // A click on the timeline changes the pose, to the same one each time.
     screen.click(PLAY.0, PLAY.1);
@@ -307,7 +307,7 @@ fn a_hundred_device_losses_lose_no_data() {
 }
 
 #[test]
-fn resizing_and_hiding_the_window_does_not_stop_it() {
+fn resizing_and_hiding_the_window_does_not_stop_the_program() {
     let _one = alone();
     let mut screen = Screen::new("sizes", 1280, 800);
     let mut editor = Editor::open(&mut screen, &[], &[]);
@@ -328,7 +328,7 @@ fn resizing_and_hiding_the_window_does_not_stop_it() {
             screen.show(editor.window, false);
             screen.show(editor.window, true);
         }
-        // Sometimes it gets the time to draw in the current size.
+        // Now and then the window gets the time to draw in its current size.
         if step % 20 == 19 {
             pass(Duration::from_millis(60));
         }
@@ -346,7 +346,7 @@ fn resizing_and_hiding_the_window_does_not_stop_it() {
 fn destroying_the_window_from_outside_ends_the_program_without_a_crash() {
     let _one = alone();
     let mut screen = Screen::new("destroyed", 1280, 800);
-    // Before anything was drawn, and after.
+    // The window is destroyed before anything was drawn, and after.
     for shown in [false, true] {
         let mut editor = Editor::open(&mut screen, &[], &[]);
         if shown {
@@ -358,8 +358,9 @@ fn destroying_the_window_from_outside_ends_the_program_without_a_crash() {
     }
 }
 
-/// Checks only that the program ends: Xlib itself exits when its server is gone, in the middle of any other thread's work,
-/// and safe code cannot change that. Mostly that is exit code 1; a driver that still draws can turn it into a signal.
+/// Checks only that the program ends: Xlib itself exits when its server is gone, in the middle of any other thread's
+/// work, and safe code cannot change that. Usually the exit code is 1, but a driver that is drawing can end the program
+/// by a signal instead.
 #[test]
 fn the_program_ends_when_its_x_server_dies() {
     let _one = alone();
@@ -368,5 +369,5 @@ fn the_program_ends_when_its_x_server_dies() {
     eventually_shows_something(&screen);
     screen.kill();
     let status = editor.ends(SOON);
-    assert_ne!(status.code(), Some(0), "a screen that is gone is no orderly end");
+    assert_ne!(status.code(), Some(0), "the program must report an error when its screen is gone");
 }

@@ -50,7 +50,7 @@ impl ExpectedWindow {
         self.state.begin_frame(self.state.read().now);
         let to_root = self.state.read().posed.animation().expect("posed").to_root();
         let place = bones.map(|bone| to_root[bone as usize].w_axis.truncate().as_dvec3());
-        let at = self.view().to_screen((place[0] + place[1]) / 2.0).expect("before the eye");
+        let at = self.view().to_screen((place[0] + place[1]) / 2.0).expect("in front of the camera");
         at.as_vec2() + self.corner
     }
 
@@ -66,7 +66,7 @@ impl ExpectedWindow {
         gizmo.select(skeleton, animation.poses(), animation.to_root(), &[bone], None);
         gizmo.look(self.view());
         let joint = animation.to_root()[bone as usize].w_axis.truncate().as_dvec3();
-        let joint = self.view().to_screen(joint).expect("before the eye").as_vec2();
+        let joint = self.view().to_screen(joint).expect("in front of the camera").as_vec2();
         find(&gizmo, joint, wanted).expect("the handle is seen") + self.corner
     }
 }
@@ -142,7 +142,7 @@ fn a_bone_is_picked_rotated_by_thirty_degrees_undone_and_redone() {
     let before = rotation(&mut editor);
     let turned = before * Quat::from_rotation_x(30f32.to_radians());
 
-    // With the ring, and the angle typed while it is held.
+    // The head is rotated by its ring; the angle is typed during the drag.
     let ring = inside.handle("b_Head_05", Handle::Axis(GizmoAxis::X));
     screen.point(ring.x as i16, ring.y as i16);
     screen.hold();
@@ -160,7 +160,7 @@ fn a_bone_is_picked_rotated_by_thirty_degrees_undone_and_redone() {
     screen.press_with(key::CONTROL, key::Y);
     wait_for_turn(&mut editor, &screen, turned);
 
-    // By a command and keys alone: once more about the same axis.
+    // The head is rotated about the same axis again, by a command and keys alone.
     screen.press(key::F3);
     for letter in [27, 32, 28, 38, 28, 26, 65, 25, 31, 28, 43] {
         // "rotate with" on a US keyboard.

@@ -75,7 +75,7 @@ fn without_a_file_dialog_a_message_is_shown_and_the_path_can_be_typed() {
     let bus = Bus::new();
     let mut screen = Screen::new("no-dialog", 1280, 800);
     for address in [bus.address(), "unix:path=/nonexistent"] {
-        // There is no program either that would show one instead.
+        // The search path is empty, so no other program can show a dialog.
         let environment = [(BUS, address), ("PATH", "/nonexistent")];
         let mut editor = Editor::open(&mut screen, &[], &environment);
         let closed = rest(&mut screen, VIEWPORT);

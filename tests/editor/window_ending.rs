@@ -223,6 +223,6 @@ fn every_way_to_end_the_window_preserves_all_edits() {
         assert!(done > steps, "life {life}: {done} steps, {steps} before it");
         steps = done;
     }
-    assert!(fs::read(&visit.file).unwrap() == before, "nobody saved");
+    assert!(fs::read(&visit.file).unwrap() == before, "the file was never saved");
     println!("all of it took {:?}", began.elapsed());
 }

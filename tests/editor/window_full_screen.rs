@@ -26,13 +26,13 @@ fn f11_and_the_menu_toggle_full_screen() {
             "key" => screen.press(key::F11),
             _ => {
                 MENU.into_iter().for_each(|(x, y)| screen.click(x, y));
-                // Away from everything that would be highlighted under the pointer.
+                // The pointer is moved away, so that nothing is highlighted under it.
                 screen.point(i16::MAX, i16::MAX);
             }
         };
         toggle(&mut screen);
         eventually(SOON, || screen.place(window) == [0, 0, 1600, 1000]);
-        // The area that was only black screen before is drawn to the last pixel.
+        // The area around the former window, which was black, is now drawn to the last pixel.
         eventually(SOON, || colors(&screen.part([1400, 0, 200, 1000])) > 20);
         let full = settled(&screen, [0, 0, 1600, 1000]);
         for (x, y) in [(1599, 0), (1599, 999), (0, 999)] {
@@ -44,7 +44,7 @@ fn f11_and_the_menu_toggle_full_screen() {
             &screen,
             &settled(&screen, VIEWPORT),
             &whole,
-            "the screen filled and given back changed the picture",
+            "entering and leaving full screen changed the picture",
         );
     }
     screen.close(window);

@@ -35,7 +35,7 @@ fn two_thousand_random_inputs_lose_nothing() {
     visit.screen.pace = Duration::from_millis(6);
     let began = Instant::now();
     for round in 0..2000 {
-        // Below the menus.
+        // Positions are below the menus.
         let mut place = || [random.below(1280) as i16, 40 + random.below(760) as i16];
         let [mut from, to] = [place(), place()];
         match random.below(8) {
@@ -57,7 +57,7 @@ fn two_thousand_random_inputs_lose_nothing() {
                 visit.screen.button(button, false);
             }
             4..6 => {
-                // Mostly in the viewport, and among the number fields of the bone.
+                // Positions of drags: mostly in the viewport and among the number fields of the bone.
                 match random.below(3) {
                     0 => from = [540 + random.below(200) as i16, 200 + random.below(200) as i16],
                     1 => from = [1040 + random.below(220) as i16, 60 + random.below(400) as i16],

@@ -219,7 +219,7 @@ fn a_full_or_read_only_disk_is_reported_and_nothing_is_lost() {
     screen.press(key::ENTER);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
     assert!(fs::read(&bench.file).unwrap() == expected);
-    assert_eq!(fs::read_dir(disk.path()).unwrap().count(), 1, "nothing is left beside it");
+    assert_eq!(fs::read_dir(disk.path()).unwrap().count(), 1, "no other file is left in the folder");
 }
 
 #[test]

@@ -41,7 +41,8 @@ impl Desktop {
     fn set(&mut self, dots_an_inch: u32) {
         const NAME: &[u8] = b"Xft/DPI";
         self.serial += 1;
-        // Little-endian; one setting: a number, its name with a byte to fill the word, when it changed, what it is.
+        // Little-endian, with one setting: its type and name, padded to a whole word, the serial of its last change,
+        // its value.
         let mut text = vec![0, 0, 0, 0];
         text.extend(self.serial.to_le_bytes());
         text.extend(1u32.to_le_bytes());
@@ -54,7 +55,8 @@ impl Desktop {
     }
 }
 
-/// Starts the program on its own screen, at scale 1 and paused. Returns its image, and the one of a start at 1.5.
+/// Starts the program on its own screen, at scale 1 and paused. Returns its image, and the image of a program that was
+/// started at scale 1.5.
 fn begin(screen: &mut Screen) -> (Desktop, Editor, [RgbaImage; 2]) {
     let mut desktop = Desktop::new(screen, 144);
     let larger = {
@@ -92,7 +94,7 @@ fn a_new_scale_gives_the_same_layout_as_starting_with_it() {
             desktop.set(144);
             eventually(SOON, || screen.place(editor.window) == LARGER.map(|side| side as i32));
             let now = settled(&screen, still(LARGER));
-            same(&screen, &now, &larger, "a scale that became 1.5 looks other than one that was 1.5");
+            same(&screen, &now, &larger, "a change to scale 1.5 looks different from a start at scale 1.5");
             desktop.set(96);
             eventually(SOON, || screen.place(editor.window) == USUAL.map(|side| side as i32));
             same(
@@ -117,7 +119,7 @@ fn a_hundred_scale_changes_leave_the_window_unchanged() {
     let mut random = dragonfly_kit::random::Random::new(seed);
     for step in 0..100 {
         desktop.set(72 + random.below(120) as u32);
-        // Sometimes it gets the time to draw in the current scale.
+        // Now and then the program gets the time to draw in its current scale.
         if step % 5 == 4 {
             pass(Duration::from_millis(60));
         }

@@ -76,7 +76,7 @@ impl Visit {
         self.go_to_the_start();
     }
 
-    /// Goes to the start, where the playhead is also after work was restored.
+    /// Goes to the start of the take: the position of the playhead after unsaved work was restored.
     #[track_caller]
     pub(crate) fn go_to_the_start(&mut self) {
         self.screen.press(key::HOME);

@@ -1,5 +1,4 @@
-//! A minimal client of the X protocol: the few requests that the tests need are easier to write than a tool for them is to
-//! install.
+//! A minimal client of the X protocol. Writing the few requests that the tests need is easier than installing a tool.
 
 use std::collections::VecDeque;
 use std::io::{self, ErrorKind, Read, Write};
@@ -32,7 +31,7 @@ pub(crate) mod event {
 pub(crate) struct Event([u8; 32]);
 
 impl Event {
-    /// Returns one of [`event`], whether the server or another program sent it.
+    /// Returns the code of the event, one of [`event`], whether the server or another program sent it.
     pub(crate) fn kind(&self) -> u8 {
         self.0[0] & 0x7f
     }

@@ -18,7 +18,7 @@ const CRATES: &[(&str, usize)] = &[
     ("editor", LARGEST),
 ];
 
-/// Returns the files that a file leads to over any number of arrows.
+/// Returns the files that a file uses directly or through other files.
 fn reached<'a>(arrows: &'a Arrows, start: &'a str) -> BTreeSet<&'a str> {
     let mut found = BTreeSet::new();
     let mut open = vec![start];
@@ -32,7 +32,7 @@ fn reached<'a>(arrows: &'a Arrows, start: &'a str) -> BTreeSet<&'a str> {
     found
 }
 
-/// Returns the sets of files in which each file leads to every other.
+/// Returns the sets of files in which each file uses every other one, directly or through other files.
 fn circles(arrows: &Arrows) -> Vec<BTreeSet<&str>> {
     let leads: BTreeMap<&str, BTreeSet<&str>> =
         arrows.keys().map(|file| (file.as_str(), reached(arrows, file))).collect();

@@ -27,7 +27,7 @@ fn dependencies(manifest: &str) -> Vec<String> {
     found
 }
 
-fn depends_on_little(files: &[File]) -> Vec<String> {
+fn forbidden_dependencies(files: &[File]) -> Vec<String> {
     let mut complaints = Vec::new();
     for (name, allowed) in DEPENDENCIES {
         let manifest = files.iter().find(|file| file.path == format!("{name}/Cargo.toml"));
@@ -46,14 +46,14 @@ fn dependencies_have_one_direction_and_libraries_use_no_window_or_gpu() {
     let found =
         files.iter().filter(|file| file.path == "anim/Cargo.toml").flat_map(|file| dependencies(&file.text));
     assert!(found.count() >= 3, "the dependencies of anim were not understood");
-    none(depends_on_little(&files));
+    none(forbidden_dependencies(&files));
     let back = "[dependencies]\nglam.workspace = true\ndragonfly-runtime.workspace = true\n[dev-dependencies]\nwgpu.workspace = true";
-    one(depends_on_little(&[File::planted("anim/Cargo.toml", back)]));
+    one(forbidden_dependencies(&[File::planted("anim/Cargo.toml", back)]));
     let platform = "[target.'cfg(unix)'.dependencies]\nwgpu.workspace = true";
-    one(depends_on_little(&[File::planted("runtime/Cargo.toml", platform)]));
+    one(forbidden_dependencies(&[File::planted("runtime/Cargo.toml", platform)]));
 }
 
-fn versions_are_chosen_at_the_root(files: &[File]) -> Vec<String> {
+fn versions_outside_the_root(files: &[File]) -> Vec<String> {
     let mut complaints = Vec::new();
     for file in files.iter().filter(|file| file.path.ends_with("/Cargo.toml")) {
         let mut inside = false;
@@ -75,11 +75,8 @@ fn versions_are_chosen_at_the_root(files: &[File]) -> Vec<String> {
 
 #[test]
 fn dependency_versions_are_declared_once() {
-    none(versions_are_chosen_at_the_root(&files()));
-    one(versions_are_chosen_at_the_root(&[File::planted(
-        "anim/Cargo.toml",
-        "[dependencies]\nglam = \"0.34\"",
-    )]));
+    none(versions_outside_the_root(&files()));
+    one(versions_outside_the_root(&[File::planted("anim/Cargo.toml", "[dependencies]\nglam = \"0.34\"")]));
 }
 
 /// A part of the source, the words that it must not contain, and the reason.
@@ -159,7 +156,7 @@ const UNSAFE: &[(&str, &str)] = &[
     ("tests/runtime/models.rs", "the races planted there must be found, and safe code cannot have any"),
 ];
 
-fn says_no_such_word(files: &[File]) -> Vec<String> {
+fn forbidden_words(files: &[File]) -> Vec<String> {
     let mut complaints = Vec::new();
     for absence in ABSENCES {
         let inside = |path: &str| {
@@ -178,24 +175,21 @@ fn says_no_such_word(files: &[File]) -> Vec<String> {
 
 #[test]
 fn forbidden_words_of_the_architecture_do_not_occur() {
-    none(says_no_such_word(&files()));
-    one(says_no_such_word(&[File::planted("anim/src/format/obj.rs", "let text = std::fs::read(path)?;")]));
-    one(says_no_such_word(&[File::planted(
-        "editor/src/app/state.rs",
-        "state: Arc<Mutex<State>>, // shared",
-    )]));
-    one(says_no_such_word(&[File::planted("editor/src/panels/takes.rs", "let answer = receiver.recv();")]));
-    one(says_no_such_word(&[File::planted(
+    none(forbidden_words(&files()));
+    one(forbidden_words(&[File::planted("anim/src/format/obj.rs", "let text = std::fs::read(path)?;")]));
+    one(forbidden_words(&[File::planted("editor/src/app/state.rs", "state: Arc<Mutex<State>>, // shared")]));
+    one(forbidden_words(&[File::planted("editor/src/panels/takes.rs", "let answer = receiver.recv();")]));
+    one(forbidden_words(&[File::planted(
         "editor/src/app/dialog.rs",
         "std::thread::Builder::new().spawn(ask)?;",
     )]));
-    one(says_no_such_word(&[File::planted("editor/src/app/window.rs", "device: wgpu::Device,")]));
-    one(says_no_such_word(&[File::planted("tests/editor/light.rs", "let studio = Studio::new()?;")]));
-    one(says_no_such_word(&[File::planted("runtime/src/thread.rs", "use winit::event_loop;")]));
-    none(says_no_such_word(&[File::planted("editor/src/app/state.rs", "// no Mutex here")]));
+    one(forbidden_words(&[File::planted("editor/src/app/window.rs", "device: wgpu::Device,")]));
+    one(forbidden_words(&[File::planted("tests/editor/light.rs", "let studio = Studio::new()?;")]));
+    one(forbidden_words(&[File::planted("runtime/src/thread.rs", "use winit::event_loop;")]));
+    none(forbidden_words(&[File::planted("editor/src/app/state.rs", "// no Mutex here")]));
 }
 
-fn is_safe(files: &[File]) -> Vec<String> {
+fn unlisted_unsafe_code(files: &[File]) -> Vec<String> {
     let mut complaints = Vec::new();
     for file in files.iter().filter(|file| file.is_rust() && !file.path.starts_with("tests/repo/")) {
         if UNSAFE.iter().any(|(allowed, _)| *allowed == file.path) {
@@ -217,7 +211,7 @@ fn is_safe(files: &[File]) -> Vec<String> {
 
 #[test]
 fn unsafe_code_occurs_only_in_the_listed_files() {
-    none(is_safe(&files()));
-    one(is_safe(&[File::planted("anim/src/fast.rs", "let x = unsafe { *pointer };")]));
-    none(is_safe(&[File::planted("anim/src/lib.rs", "#![forbid(unsafe_code)]")]));
+    none(unlisted_unsafe_code(&files()));
+    one(unlisted_unsafe_code(&[File::planted("anim/src/fast.rs", "let x = unsafe { *pointer };")]));
+    none(unlisted_unsafe_code(&[File::planted("anim/src/lib.rs", "#![forbid(unsafe_code)]")]));
 }

@@ -98,7 +98,7 @@ fn every_module_and_test_file_is_declared() {
     ]));
 }
 
-fn is_short_enough(files: &[File]) -> Vec<String> {
+fn too_long_files(files: &[File]) -> Vec<String> {
     let long = |file: &&File| file.is_rust() && file.text.lines().count() > LONGEST;
     let complain =
         |file: &File| format!("{}: {} lines, at most {LONGEST}", file.path, file.text.lines().count());
@@ -107,8 +107,8 @@ fn is_short_enough(files: &[File]) -> Vec<String> {
 
 #[test]
 fn no_source_file_exceeds_the_length_limit() {
-    none(is_short_enough(&files()));
-    one(is_short_enough(&[File::planted("anim/src/long.rs", &"\n".repeat(LONGEST + 1))]));
+    none(too_long_files(&files()));
+    one(too_long_files(&[File::planted("anim/src/long.rs", &"\n".repeat(LONGEST + 1))]));
 }
 
 #[test]
@@ -126,7 +126,7 @@ fn the_readme_names_two_commands_and_both_can_be_run() {
     }
 }
 
-fn points_at_something(path: &str, text: &str, exists: impl Fn(&str) -> bool) -> Vec<String> {
+fn broken_links(path: &str, text: &str, exists: impl Fn(&str) -> bool) -> Vec<String> {
     let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
     let local = targets.filter(|target| !target.contains("://") && !target.starts_with('#'));
     local
@@ -140,14 +140,12 @@ fn points_at_something(path: &str, text: &str, exists: impl Fn(&str) -> bool) ->
 fn every_link_in_the_root_documents_has_a_target() {
     for document in ["README.md", "ARCHITECTURE.md", "CHANGELOG.md"] {
         let text = std::fs::read_to_string(root().join(document)).expect(document);
-        none(points_at_something(document, &text, |target| root().join(target).exists()));
+        none(broken_links(document, &text, |target| root().join(target).exists()));
     }
-    one(points_at_something("README.md", "see [this](nowhere.md) and [that](https://example.org)", |_| {
-        false
-    }));
+    one(broken_links("README.md", "see [this](nowhere.md) and [that](https://example.org)", |_| false));
 }
 
-fn is_read_in_minutes(path: &str, text: &str) -> Vec<String> {
+fn too_long_documents(path: &str, text: &str) -> Vec<String> {
     let (words, lines) = (text.split_whitespace().count(), text.lines().count());
     match path {
         "ARCHITECTURE.md" if words > 1500 => vec![format!("{path}: {words} words; a map has at most 1,500")],
@@ -159,8 +157,8 @@ fn is_read_in_minutes(path: &str, text: &str) -> Vec<String> {
 #[test]
 fn the_map_and_the_change_log_stay_short() {
     for path in ["ARCHITECTURE.md", "CHANGELOG.md"] {
-        none(is_read_in_minutes(path, &std::fs::read_to_string(root().join(path)).expect(path)));
+        none(too_long_documents(path, &std::fs::read_to_string(root().join(path)).expect(path)));
     }
-    one(is_read_in_minutes("ARCHITECTURE.md", &"word ".repeat(1501)));
-    one(is_read_in_minutes("CHANGELOG.md", &"line\n".repeat(41)));
+    one(too_long_documents("ARCHITECTURE.md", &"word ".repeat(1501)));
+    one(too_long_documents("CHANGELOG.md", &"line\n".repeat(41)));
 }

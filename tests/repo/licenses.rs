@@ -101,13 +101,13 @@ fn packages() -> Vec<(String, String)> {
         .collect()
 }
 
-fn is_free(packages: &[(String, String)]) -> Vec<String> {
+fn forbidden_licenses(packages: &[(String, String)]) -> Vec<String> {
     let mut complaints = Vec::new();
-    for (name, licence) in packages {
+    for (name, license) in packages {
         let excepted =
             |term: &str| EXCEPTIONS.iter().any(|(package, other, _)| package == name && *other == term);
-        if !permits(licence, &|term| PERMISSIVE.contains(&term) || excepted(term)) {
-            complaints.push(format!("{name}: licence \"{licence}\" is neither permissive nor excepted"));
+        if !permits(license, &|term| PERMISSIVE.contains(&term) || excepted(term)) {
+            complaints.push(format!("{name}: license \"{license}\" is neither permissive nor excepted"));
         }
     }
     complaints
@@ -117,21 +117,21 @@ fn is_free(packages: &[(String, String)]) -> Vec<String> {
 fn every_dependency_has_an_allowed_license() {
     let packages = packages();
     assert!(packages.len() > 100, "only {} packages found", packages.len());
-    none(is_free(&packages));
-    let planted = |licence: &str| vec![("planted".to_owned(), licence.to_owned())];
-    one(is_free(&planted("GPL-3.0-only")));
-    one(is_free(&planted("MIT AND GPL-3.0-only")));
-    one(is_free(&planted("(MIT OR Apache-2.0) AND MPL-2.0")));
-    one(is_free(&planted("")));
-    none(is_free(&planted("GPL-2.0-only OR Apache-2.0")));
-    none(is_free(&planted("MIT/Apache-2.0")));
+    none(forbidden_licenses(&packages));
+    let planted = |license: &str| vec![("planted".to_owned(), license.to_owned())];
+    one(forbidden_licenses(&planted("GPL-3.0-only")));
+    one(forbidden_licenses(&planted("MIT AND GPL-3.0-only")));
+    one(forbidden_licenses(&planted("(MIT OR Apache-2.0) AND MPL-2.0")));
+    one(forbidden_licenses(&planted("")));
+    none(forbidden_licenses(&planted("GPL-2.0-only OR Apache-2.0")));
+    none(forbidden_licenses(&planted("MIT/Apache-2.0")));
 }
 
 #[test]
 fn no_license_exception_is_unused() {
     let packages = packages();
     for (name, term, _) in EXCEPTIONS.iter().filter(|(name, ..)| *name != "colored") {
-        let used = packages.iter().any(|(package, licence)| package == name && licence.contains(term));
+        let used = packages.iter().any(|(package, license)| package == name && license.contains(term));
         assert!(used, "{name} ({term}) is excepted but not used");
     }
 }

@@ -139,7 +139,7 @@ fn without_tests(tokens: &[String]) -> Vec<String> {
 }
 
 #[test]
-fn comments_texts_and_test_code_are_left_out() {
+fn tokens_leave_out_comments_string_literals_and_test_code() {
     let source = r###"
         // one
         /* two /* three */ */

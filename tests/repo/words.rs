@@ -107,7 +107,7 @@ fn folder_of(path: &str) -> String {
     parts[..depth].join("/")
 }
 
-fn reads_as_plain_english(files: &[File]) -> Vec<String> {
+fn unclear_language(files: &[File]) -> Vec<String> {
     let patterns: Vec<(&str, Regex)> =
         UNCLEAR.iter().map(|(name, pattern)| (*name, Regex::new(pattern).expect("a pattern"))).collect();
     let mut folders: BTreeMap<String, (usize, Vec<String>)> = BTreeMap::new();
@@ -137,7 +137,7 @@ fn reads_as_plain_english(files: &[File]) -> Vec<String> {
 
 #[test]
 fn comments_and_names_are_plain_english() {
-    none(reads_as_plain_english(&files()));
+    none(unclear_language(&files()));
     for comment in [
         "/// Is it made now? Then it is made so often less later.",
         "/// Nothing, of so many bones that a skeleton has.",
@@ -145,21 +145,18 @@ fn comments_and_names_are_plain_english() {
         "// The file says where its buffers are, and is believed.",
         "//! What a person did last, and what is beside it.",
     ] {
-        one(reads_as_plain_english(&[File::planted("anim/src/poses.rs", comment)]));
+        one(unclear_language(&[File::planted("anim/src/poses.rs", comment)]));
     }
-    one(reads_as_plain_english(&[File::planted(
-        "editor/src/app/mod.rs",
-        concat!("fn has", "ten(&mut self) {}"),
-    )]));
-    one(reads_as_plain_english(&[File::planted("editor/src/app/mod.rs", concat!("enum File", "Deed {}"))]));
-    none(reads_as_plain_english(&[File::planted(
+    one(unclear_language(&[File::planted("editor/src/app/mod.rs", concat!("fn has", "ten(&mut self) {}"))]));
+    one(unclear_language(&[File::planted("editor/src/app/mod.rs", concat!("enum File", "Deed {}"))]));
+    none(unclear_language(&[File::planted(
         "anim/src/poses.rs",
         "/// Returns whether the skeleton has no bones.\nfn handle_of() {}",
     )]));
 }
 
 /// Returns the types of the workspace that are declared in two or more files without a comment that gives the reason.
-fn has_one_meaning(files: &[File]) -> Vec<String> {
+fn shared_type_names(files: &[File]) -> Vec<String> {
     let declaration = Regex::new(
         r"(?m)^[ \t]*(?:pub(?:\([^)]*\))? )?(?:(?:unsafe )?(?:struct|enum|trait|union)|type) +([A-Z]\w*)",
     )
@@ -187,13 +184,13 @@ fn has_one_meaning(files: &[File]) -> Vec<String> {
 
 #[test]
 fn no_two_types_share_a_name_without_a_reason() {
-    none(has_one_meaning(&files()));
+    none(shared_type_names(&files()));
     let two = |comment: &str| {
         [
             File::planted("anim/src/fast/level.rs", &format!("{comment}\npub enum Level {{}}")),
             File::planted("editor/src/panels/status.rs", "pub(crate) enum Level {}"),
         ]
     };
-    one(has_one_meaning(&two("")));
-    none(has_one_meaning(&two("// Same name as another `Level`: both are the thesis's.")));
+    one(shared_type_names(&two("")));
+    none(shared_type_names(&two("// Same name as another `Level`: both are the thesis's.")));
 }

@@ -31,7 +31,7 @@ fn bone_name(adapter: &ModelAdapter, bone: BoneIndex) -> String {
     if name.is_empty() { format!("Bone {bone}") } else { shortened(name) }
 }
 
-/// Returns the name, cut to the longest one in a list.
+/// Returns the name, cut to [`LONGEST`] characters.
 pub(crate) fn shortened(name: &str) -> String {
     match name.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{}…", &name[..end]),
@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn every_edit_says_what_it_was_done_to() {
+    fn the_description_of_the_target_of_every_edit_is_short() {
         let long = "é".repeat(10_000);
         let skeleton = Skeleton { bones: vec![bone("b_Head_05"), bone(&long)] };
         let takes = vec![take("Survey"), take(&long)];
@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mirrored_pose_is_about_the_bones_that_it_changes() {
+    fn the_target_of_a_mirrored_pose_is_the_bones_that_it_changes() {
         let names = ["hips", "hand.L", "hand.R"];
         let skeleton = Skeleton { bones: names.into_iter().map(bone).collect() };
         let adapter =
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bone_that_is_named_more_than_once_is_one() {
+    fn a_bone_that_an_edit_names_twice_is_counted_once() {
         let skeleton = Skeleton { bones: ["hips", "hand.L"].into_iter().map(bone).collect() };
         let adapter =
             ModelAdapter::new(&AnimationData { skeleton: Arc::new(skeleton), takes: vec![take("Walk")] });
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn pasted_keys_are_about_the_bones_that_the_model_has_each_once() {
+    fn the_target_of_pasted_keys_is_each_bone_of_the_model_once() {
         let skeleton = Skeleton { bones: ["hips", "hand.L"].into_iter().map(bone).collect() };
         let adapter =
             ModelAdapter::new(&AnimationData { skeleton: Arc::new(skeleton), takes: vec![take("Walk")] });

@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn the_other_sign_and_the_last_digit_are_the_same_and_anything_else_is_not() {
+    fn takes_are_alike_if_rotations_differ_only_in_their_sign_or_last_digit() {
         let turn = Quat::from_rotation_z(2.7);
         let one = take(turn, Vec3::ONE);
         for other in [turn, -turn, turn * (1.0 + 2e-7)] {

@@ -99,7 +99,7 @@ impl<'a> TakesReader<'a> {
         Some(u32::from_le_bytes(*self.bytes(4)?.first_chunk()?))
     }
 
-    /// An element has at least one byte, so a longer list is an error.
+    /// Reads the length of a list; `None` where fewer bytes follow, because an element has at least one byte.
     fn length(&mut self) -> Option<usize> {
         let length = self.number()? as usize;
         (length <= self.0.len()).then_some(length)
@@ -122,7 +122,7 @@ impl<'a> TakesReader<'a> {
         KINDS.get(usize::from(*self.bytes(1)?.first()?)).copied()
     }
 
-    /// Returns whether numbers ascend strictly.
+    /// Reads times; `None` where they do not ascend strictly or are not finite.
     fn times(&mut self, count: usize) -> Option<Arc<[f32]>> {
         let times: Arc<[f32]> = self.floats::<1>(count)?.map(|[time]| time).collect();
         let rising =
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn takes_come_back_bit_for_bit() {
+    fn takes_are_read_back_bit_for_bit() {
         let (mut takes, bones) = takes();
         let weights: Arc<[f32]> = Arc::from([0.0, -0.0, 1.0, f32::MIN_POSITIVE / 2.0, 0.5, 0.25]);
         let morph = |interpolation, weights: &Arc<[f32]>| MorphTrack {
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_that_are_no_takes_are_refused_and_cost_nothing() {
+    fn damaged_takes_are_refused_without_a_panic() {
         let (takes, bones) = takes();
         let bytes = write(&takes[..1]);
         for end in 0..bytes.len().min(2000) {

@@ -56,7 +56,8 @@ impl Editable {
             Some(path) => Some(Folder::of(path).map_err(|error| wrong(error.to_string()))?),
             None => None,
         };
-        // Taken before the file is read: any later change was made by another program.
+        // Taken after the file was read. A change between the two is found below: the stamp is then not that of the
+        // bytes.
         let stamp = path.as_deref().and_then(|path| FileStamp::take(&RealFiles, path).ok());
         let door: &dyn AssetFs = door.as_ref().map_or(&NoFiles, |folder| folder);
         let imported = import::read(&name, &bytes, door, &|_| {}, cancel)?;
@@ -256,7 +257,7 @@ impl Editable {
         Ok(saved)
     }
 
-    /// Makes later saves relative to `bytes`, which have the takes of `adapter`.
+    /// Makes later saves relative to `bytes`, which contain the takes of `adapter`.
     fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
         let file = opened(self.file.format(), &self.title, bytes, self.path.as_deref());
         self.file = file.map_err(|error| error.to_string())?;

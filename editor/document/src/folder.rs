@@ -127,7 +127,7 @@ fn checked(name: &str) -> Result<PathBuf, FileAccessError> {
     for part in name.split('/') {
         match part {
             "." => continue,
-            ".." => return refuse("it leads upwards"),
+            ".." => return refuse("it leads out of the folder"),
             "" => return refuse("a part of it is empty"),
             _ if part.len() > MAX_NAME => return refuse("a part of it is too long"),
             // Some systems ignore these characters and would open a different file.
@@ -141,13 +141,13 @@ fn checked(name: &str) -> Result<PathBuf, FileAccessError> {
         }
         depth += 1;
         if depth > MAX_DEPTH {
-            return refuse("it lies too deep");
+            return refuse("it is in too many nested folders");
         }
     }
     if depth == 0 { refuse("it names the folder itself") } else { Ok(path) }
 }
 
-/// Names that Windows reserves for devices, with any extension.
+/// Returns whether Windows reserves the name for a device, with any extension.
 fn is_device_name(part: &str) -> bool {
     let stem = part.split('.').next().unwrap_or(part).trim_end().to_ascii_uppercase();
     matches!(stem.as_str(), "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$")
@@ -156,7 +156,7 @@ fn is_device_name(part: &str) -> bool {
             && stem.as_bytes()[3].is_ascii_digit())
 }
 
-/// Checks that it is a regular file; else returns what it is.
+/// Checks that a file is regular; the error names what it is instead.
 fn regular(metadata: &std::fs::Metadata) -> Result<(), FileAccessError> {
     if metadata.is_file() { Ok(()) } else { Err(FileAccessError::NotRegular(system::kind(metadata))) }
 }

@@ -73,14 +73,14 @@ impl Edited {
         self.apply(edit, gesture)
     }
 
-    /// Applies an edit as a step. All edits of one gesture are one step: each replaces the one before, and applies to the document as it was
-    /// when the gesture started.
+    /// Applies an edit as a step. All edits of one gesture are one step: each replaces the previous one, and
+    /// applies to the document as it was when the gesture started.
     ///
     /// Undone steps are removed.
     ///
     /// # Errors
     ///
-    /// The reason why it cannot be applied; nothing has changed then, and a gesture keeps its edit before.
+    /// The reason why it cannot be applied; nothing has changed then, and a gesture keeps its previous edit.
     pub fn apply(&mut self, edit: Edit, gesture: Option<Gesture>) -> Result<(), EditError> {
         let goes_on = gesture.is_some()
             && self.done == self.steps.len()
@@ -168,13 +168,13 @@ impl Edited {
         self.saved = Some(self.done);
     }
 
-    /// Returns the number of steps applied or undone since it was saved or opened; of all applied ones where undo does not lead back
-    /// there.
+    /// Returns the number of steps applied or undone since the model was saved or opened. Where neither undo nor redo
+    /// leads back to that state, returns the number of all applied steps.
     pub fn unsaved_steps(&self) -> usize {
         self.saved.map_or(self.done, |saved| self.done.abs_diff(saved))
     }
 
-    /// Returns whether it is as it was saved or opened.
+    /// Returns whether the takes are as they were when last saved or opened.
     pub fn is_saved(&self) -> bool {
         self.saved == Some(self.done)
     }

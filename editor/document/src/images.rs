@@ -55,7 +55,7 @@ pub fn decode_all(images: &[Image], cancel: &Cancel, mut done: impl FnMut(usize)
 /// Decodes an image. A decoder that panics loses only its image, like one that fails.
 fn decode_guarded(image: &Image, budget: u64) -> Result<DecodedImage, String> {
     std::panic::catch_unwind(|| decode(image, budget))
-        .unwrap_or_else(|_| Err("the decoder failed on it".to_owned()))
+        .unwrap_or_else(|_| Err("the decoder failed".to_owned()))
 }
 
 /// Decodes one image of at most `budget` pixels to RGBA.
@@ -74,7 +74,7 @@ pub fn decode(image: &Image, budget: u64) -> Result<DecodedImage, String> {
     let pixels = u64::from(width) * u64::from(height);
     if width > MAX_SIDE || height > MAX_SIDE || pixels > MAX_PIXELS {
         return Err(format!(
-            "{width} × {height} pixels are more than {MAX_SIDE} a side or {} million",
+            "{width} × {height} pixels are more than {MAX_SIDE} per side or {} million",
             MAX_PIXELS >> 20
         ));
     }
@@ -100,7 +100,7 @@ fn same_source(one: &Image, other: &Image) -> bool {
     !one.bytes.is_empty() && Arc::ptr_eq(&one.bytes, &other.bytes)
 }
 
-/// `2 "wings.png"`.
+/// Returns the index and the name of an image for messages, as in `2 "wings.png"`.
 fn label(index: usize, image: &Image) -> String {
     let name = image.file_name.as_deref().unwrap_or(&image.name);
     if name.is_empty() { format!("{index}") } else { format!("{index} \"{name}\"") }

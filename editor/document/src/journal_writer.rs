@@ -135,7 +135,7 @@ impl JournalWriter {
         self.line.clear();
         // No edit that was applied can fail here: numbers are finite, keys are text.
         if let Err(error) = serde_json::to_writer(&mut self.line, recorded) {
-            tracing::error!("an edit has no JSON: {error}");
+            tracing::error!("an edit cannot be written as JSON: {error}");
         }
         journal.append(&self.line, now)
     }

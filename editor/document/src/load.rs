@@ -1,4 +1,5 @@
-//! Opening a model: bytes, data, pixels; with progress, cancelable, for window and command line.
+//! Opens a model for the window and for the command line: reads its bytes, imports its data, decodes its images.
+//! Loading reports its progress and can be cancelled.
 
 use super::source::{LoadError, Source};
 use super::{Cancel, Editable, LoadStage, LoadedModel, Progress, read_file};
@@ -20,7 +21,7 @@ pub struct OpenedModel {
 }
 
 impl From<LoadedModel> for OpenedModel {
-    /// A model without a file.
+    /// Makes an opened model that has no file and cannot be saved.
     fn from(loaded: LoadedModel) -> Self {
         Self { loaded, editable: Err("it was not read from a file".to_owned()) }
     }

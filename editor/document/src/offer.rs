@@ -197,7 +197,7 @@ impl HistoryOutline {
         (self.done.abs_diff(saved), labels)
     }
 
-    /// Returns the labels of the steps from one on, the newest first.
+    /// Returns the labels of the applied steps from index `from` on, the newest first.
     fn last(&self, from: usize) -> Vec<String> {
         self.steps[from..self.done].iter().rev().take(SHOWN).map(|(label, _)| (*label).to_owned()).collect()
     }

@@ -168,7 +168,7 @@ impl Open {
         let base = (saves || self.base.is_some() || self.edited.is_cut()).then(|| self.beginning());
         match Snapshot::bytes(self.about.clone(), &self.edited, base.as_deref()) {
             Ok(bytes) => self.journal_writer.snapshot(&bytes, self.edited.is_saved(), now),
-            Err(error) => tracing::error!("the history has no JSON: {error}"),
+            Err(error) => tracing::error!("the history cannot be written as JSON: {error}"),
         }
     }
 

@@ -42,7 +42,7 @@ pub struct Document {
     changed: bool,
     /// Number of the last numbered change that was carried out or refused.
     answered: u64,
-    /// Whether a view has to tell the sender that a change was answered, though nothing changed.
+    /// Whether a view must be published only to tell a sender that its change was answered: nothing else has changed.
     answers: bool,
     pub(super) job: Option<LoadingModel>,
     tickets: u64,
@@ -160,7 +160,7 @@ impl Document {
     /// Replaces a document that a panic may have left half changed with a new one; recorded work can be restored.
     fn replace_lost(&mut self, new: Self) {
         let mut lost = std::mem::replace(self, new);
-        // Nothing more is written of it. The journal has all applied edits.
+        // The lost document is not written any more: its journal has all applied edits.
         drop(lost.open.take());
         (self.generation, self.tickets) = (lost.generation, lost.tickets);
         self.answered = lost.answered;
@@ -301,7 +301,7 @@ impl Document {
         if open.revert(now) {
             self.changed();
         } else if let Some(path) = open.file.path.clone() {
-            // Undo does not lead there any more, so the file is read again.
+            // Undo no longer leads to the saved state, so the file is read again.
             self.open(Source::File(path), None);
         } else {
             self.reply(DocumentReply::Refused(

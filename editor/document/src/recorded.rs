@@ -50,7 +50,7 @@ impl EditsOrigin {
         Self { version: VERSION, built_in, source }
     }
 
-    /// The model that was read, where the journal has no path of it.
+    /// Returns the model that was read for a document without a file; `None` where the document has a file.
     pub(super) fn source(&self) -> Option<Source> {
         match (&self.source, self.built_in) {
             (Some(path), _) => Some(Source::File(path.into())),
@@ -75,7 +75,7 @@ pub(super) struct Snapshot {
     pub(super) done: usize,
     /// Number of steps that were applied at the last save, where that state can be reached.
     pub(super) saved: Option<usize>,
-    /// Whether the first takes of the history follow; else they are those of the file.
+    /// Whether the takes with which the history starts follow. If not, the history starts with those of the file.
     pub(super) has_base: bool,
 }
 

@@ -53,7 +53,7 @@ impl Document {
             Err(JournalError::Held { owner, .. }) => {
                 let whom = owner.map_or_else(String::new, |owner| format!(" ({owner})"));
                 let text = format!(
-                    "{} is open in another window too{whom}: before it overwrites changes of the other window, a save asks",
+                    "{} is open in another window too{whom}; a save asks before it overwrites changes made there",
                     open.file.title
                 );
                 self.begin_beside();
@@ -63,7 +63,7 @@ impl Document {
         }
     }
 
-    /// Starts a journal in addition to the existing ones.
+    /// Starts another journal, in addition to the existing one.
     fn begin_beside(&mut self) {
         let (Some(open), Some(autosave)) = (&mut self.open, &self.autosave) else { return };
         let stamp = open.stamp();
@@ -186,7 +186,7 @@ impl Document {
                 open.file.title
             );
             self.put_away(journal, "");
-            self.begin_journal_anew();
+            self.begin_new_journal();
             return self.reply(DocumentReply::Notice(text));
         }
         let steps = replayed.edited.unsaved_steps();
@@ -232,7 +232,7 @@ impl Document {
         }
     }
 
-    fn begin_journal_anew(&mut self) {
+    fn begin_new_journal(&mut self) {
         let (Some(open), Some(autosave)) = (&mut self.open, &self.autosave) else { return };
         let stamp = open.stamp();
         match autosave.begin(open.file.path.as_deref(), stamp.as_ref()) {

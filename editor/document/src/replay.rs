@@ -118,19 +118,19 @@ impl Replay<'_> {
     }
 
     fn snapshot(&mut self, bytes: &[u8]) -> Result<(), String> {
-        let unknown = || "its snapshot is not understood".to_owned();
+        let unknown = || "its snapshot cannot be read".to_owned();
         let (snapshot, base) = Snapshot::read(bytes).ok_or_else(unknown)?;
         self.about(&snapshot.about)?;
         let animation = &self.model.animation;
         let takes = match base {
             Some(bytes) => {
-                base::read(bytes, animation.skeleton.len()).ok_or("its takes are of another model")?
+                base::read(bytes, animation.skeleton.len()).ok_or("its takes belong to another model")?
             }
             None => animation.takes.clone(),
         };
         let instances = self.model.instances.len();
         if takes.iter().flat_map(|take| &take.morphs).any(|morph| morph.instance as usize >= instances) {
-            return Err("its takes are of another model".to_owned());
+            return Err("its takes belong to another model".to_owned());
         }
         self.replayed.base = base.map(|_| takes.clone().into());
         let skeleton = Arc::clone(&animation.skeleton);

@@ -16,7 +16,7 @@ pub enum Decision {
     Later,
 }
 
-/// How many journals with nothing but history are kept.
+/// Limits for journals that are kept although they contain history but no unsaved work.
 const HISTORIES: FolderLimits = FolderLimits { least: 20, most: 200, bytes: 1 << 30 };
 
 /// The unsaved work in the autosave folder.

@@ -100,7 +100,7 @@ impl FileView {
     }
 }
 
-/// Set in the generation of an echo, so that it differs from those of the document.
+/// Bit that is set in the generation of an echo, so that it differs from the generations of the document.
 const ECHO: u64 = 1 << 63;
 
 /// The newest state of the document. Panels read it, and nothing changes it.
@@ -145,12 +145,13 @@ impl View {
         Self { generation, answered: 0, loaded, takes, slots: adapter.slots().into(), history, file }
     }
 
-    /// The takes of this view, to be edited apart from the document. The copy is cheap: everything large is shared.
+    /// Returns a copy of the takes of this view, to be edited apart from the document. The copy is cheap: everything
+    /// large is shared.
     pub fn edited(&self) -> Edited {
         Edited::new(ModelAdapter::of_slots(&self.loaded.model.animation.skeleton, &self.slots))
     }
 
-    /// This view with the takes of `edited`: what a sender shows until the document has answered change `number`.
+    /// Returns this view with the takes of `edited`. A sender shows it until the document has answered change `number`.
     pub fn echo(&self, number: u64, edited: &Edited) -> Self {
         let adapter = edited.adapter();
         let takes = adapter.results().cloned().collect();

@@ -18,7 +18,7 @@ pub(super) enum Overwrite {
 /// Options of a save.
 pub(super) struct Writing<'a> {
     pub(super) overwrite: Overwrite,
-    /// The journal of the file, which records the save before and after.
+    /// The journal of the file, in which the save is recorded before it starts and after it has succeeded.
     pub(super) journal: Option<&'a mut Journal>,
     /// The folder for old versions of the file.
     pub(super) versions: Option<&'a Versions>,

@@ -27,12 +27,12 @@ pub struct Appearances {
 }
 
 impl Appearances {
-    /// Sets the value of its type.
+    /// Sets the value of its type, in place of an earlier one.
     pub fn set<T: Appearance>(&mut self, appearance: T) {
         self.receive(AnyAppearance::new(appearance));
     }
 
-    /// Sets the value of its type.
+    /// Sets the value of its type, in place of an earlier one.
     pub fn receive(&mut self, AnyAppearance(value): AnyAppearance) {
         self.values.insert((*value).type_id(), value);
     }

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 /// Sends appearances to the graphics thread when they have changed. Allocates only for a change.
 #[derive(Default)]
 pub struct AppearanceSender {
-    /// By type: the value sent last, and one to fill, as `Box<(T, T)>`.
+    /// For each type `T` a `Box<(T, T)>`: the value sent last, and a value to be filled next.
     values: HashMap<TypeId, Box<dyn Any>>,
 }
 

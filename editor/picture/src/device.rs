@@ -16,7 +16,7 @@ pub struct DeviceParameters {
     pub backends: wgpu::Backends,
     /// The window to draw into; `None` draws into textures only.
     pub source: Option<SurfaceSource>,
-    /// DeviceReports that a test injects.
+    /// Faults that a test injects.
     pub faults: FaultInjection,
 }
 

@@ -139,7 +139,7 @@ fn check(adapter: &wgpu::Adapter) -> Result<(), GraphicsError> {
     for format in [SCENE_FORMAT, DEPTH_FORMAT] {
         let features = adapter.get_texture_format_features(format);
         if !features.flags.sample_count_supported(SAMPLES) {
-            return lack("draw with four samples a pixel");
+            return lack("draw with four samples per pixel");
         }
     }
     Ok(())

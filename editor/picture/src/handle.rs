@@ -17,7 +17,8 @@ pub struct GraphicsHandle {
     thread: ThreadHandle,
     address: Address<GraphicsMessage>,
     views: Address<View>,
-    /// Address whose newest camera replaces a waiting one; the following ones do the same.
+    /// Address for cameras: a new camera replaces one that is still queued. The addresses below do the same for their
+    /// messages.
     camera: Address<GraphicsMessage>,
     look: Address<GraphicsMessage>,
     playback: Address<GraphicsMessage>,

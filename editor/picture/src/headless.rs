@@ -17,7 +17,7 @@ use std::time::Instant;
 pub struct PictureSettings {
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// Position in the model's takes; `None` shows the rest pose.
+    /// Index of the take; `None` shows the rest pose.
     pub take: Option<usize>,
     /// Time in the take, seconds, clamped to the take.
     pub time: f32,

@@ -73,7 +73,8 @@ pub struct Look {
 }
 
 impl Default for Look {
-    /// A look for images without a window, with an empty viewport: set the viewport and what differs.
+    /// A look for images without a window, with an empty viewport: the caller sets the viewport and everything that
+    /// differs.
     fn default() -> Self {
         Self {
             viewport: [0; 4],

@@ -20,7 +20,7 @@ pub const LATEST: f32 = 86_400.0;
 /// Playback state: the take was at `anchor_time` at the instant `anchor`, and time advances at `speed` from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaybackClock {
-    /// Position in the model's takes; `None` shows the rest pose.
+    /// Index of the take; `None` shows the rest pose.
     pub take: Option<usize>,
     /// Start of the take, seconds.
     pub start: f32,

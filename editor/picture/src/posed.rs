@@ -16,11 +16,11 @@ use std::sync::Arc;
 /// A primitive of a mesh, as part of an instance.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawItem {
-    /// Position in the model's meshes.
+    /// Index in the model's meshes.
     pub mesh: u32,
-    /// Position in the mesh's primitives.
+    /// Index in the mesh's primitives.
     pub primitive: u32,
-    /// Position in the model's materials.
+    /// Index in the model's materials.
     pub material: Option<u32>,
     /// Whether it blends with what is behind it.
     pub blend: bool,
@@ -28,7 +28,7 @@ pub struct DrawItem {
     pub uniform: DrawUniform,
     /// Center of its vertices, mesh space.
     center: Vec3,
-    /// Index of the matrix that represents the whole: that of the joint with the most weight.
+    /// Index of the matrix that represents the whole item: that of the joint with the largest total weight.
     main_matrix: u32,
 }
 
@@ -50,7 +50,7 @@ pub struct PosedModel {
     /// First weight of each instance, and their number.
     weight_ranges: Vec<(usize, usize)>,
     items: Vec<DrawItem>,
-    /// Blended items by falling distance.
+    /// Distances and indices of the blended items, farthest first.
     back_to_front: Vec<(f32, u32)>,
     shape: SkeletonShape,
     at: (Option<usize>, f32),
@@ -139,7 +139,7 @@ impl PosedModel {
         &self.items
     }
 
-    /// Positions of the blended items in [`Self::items`], farthest first.
+    /// Indices of the blended items in [`Self::items`], farthest first.
     pub fn back_to_front(&self) -> impl Iterator<Item = usize> + '_ {
         self.back_to_front.iter().map(|&(_, item)| item as usize)
     }

@@ -9,7 +9,7 @@ use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{BoneIndex, ModelData};
 use glam::{Mat4, Vec3};
 
-/// Thickness over length of a bone.
+/// Ratio of the thickness of a bone to its length.
 const SLIMNESS: f32 = 0.1;
 /// Smallest and largest thickness of a bone, relative to the whole skeleton.
 const THICKNESS: [f32; 2] = [0.0028, 0.02];

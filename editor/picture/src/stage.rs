@@ -45,7 +45,7 @@ enum DrawMode {
     All,
     /// The panels only, because drawing the scene seems to cause the losses.
     PanelsOnly,
-    /// Nothing, because drawing the panels does too.
+    /// Nothing, because drawing the panels seems to cause them too.
     Nothing,
 }
 
@@ -401,7 +401,7 @@ impl RenderStage {
     }
 }
 
-/// Number of pixels that can actually be drawn into.
+/// Returns the size that can actually be drawn into, in pixels.
 fn window_extent(texture: Option<&wgpu::SurfaceTexture>, otherwise: [u32; 2]) -> [u32; 2] {
     texture.map_or(otherwise, |texture| [texture.texture.width(), texture.texture.height()])
 }

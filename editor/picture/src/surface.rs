@@ -81,8 +81,8 @@ impl WindowSurface {
         use wgpu::CurrentSurfaceTexture as Current;
         for _ in 0..2 {
             match self.surface.get_current_texture() {
-                // Shows the right content; the new size of the window arrives as a message and configures the surface
-                // again.
+                // A suboptimal image can be drawn into; the new size of the window arrives as a message and configures
+                // the surface again.
                 Current::Success(texture) | Current::Suboptimal(texture) => {
                     self.refusals = 0;
                     return Acquired::Frame(texture);

@@ -62,7 +62,8 @@ impl Graphics {
         Ok(Self::register(&thread.handle().clone(), Some(thread), parameters, size, replies))
     }
 
-    /// As [`start`](Self::start), in a thread of the caller that may be run by hand, with or without a window.
+    /// Does the same as [`start`](Self::start) in a thread of the caller, which a test may step, with or without a
+    /// window.
     pub fn start_in(
         thread: &ThreadHandle,
         parameters: DeviceParameters,

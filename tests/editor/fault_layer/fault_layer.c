@@ -6,15 +6,15 @@
 //   FAULT_CALL    submit | wait | acquire | present | allocate
 //   FAULT_RESULT  the VkResult to return, as a number: -4 device lost, -2 no device memory, -1000000000 surface lost …
 //   FAULT_AT      the n-th call fails, counted from 1
-//   FAULT_CLIMB   1: calls are counted anew for each device, the first device fails at call n, the next one that was
+//   FAULT_CLIMB   1: calls are counted for each device; the first device fails at call n, the next one that was
 //                 used at call n + 1, and so on: every n in one run
-//   FAULT_EVERY   k: after that every k-th call fails too; 0 (usual): only the one
-//   FAULT_TIMES   so many faults, then none any more (usual: 1, or without end where FAULT_EVERY is set)
+//   FAULT_EVERY   k: after that every k-th call fails too; 0 (default): only one call fails
+//   FAULT_TIMES   maximum number of faults (default: 1, or no maximum where FAULT_EVERY is set)
 //   FAULT_LOG     a file; a line "call n result" is added for each fault
-//   FAULT_READS   for so many milliseconds after each picture a thread reads, faster than anybody else, what comes over
+//   FAULT_READS   milliseconds for which, after each frame, a thread reads (before any other thread) what comes over
 //                 the surface's connection to the X server, as real drivers do where they wait for their own events
 //
-// As with a real driver, a device that was lost stays lost: every later call on it says so.
+// As with a real driver, a lost device stays lost: every later call on it except an allocation reports that.
 
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -36,7 +36,7 @@ static struct {
 } wanted;
 
 struct device {
-    void *key; // what the loader stores in every handle of this device; null: a free place
+    void *key; // what the loader stores in every handle of this device; null: a free slot
     int lost;
     long calls;
     PFN_vkGetDeviceProcAddr next;
@@ -50,7 +50,7 @@ struct device {
     PFN_vkQueuePresentKHR QueuePresentKHR;
 };
 
-// One test process makes hundreds of devices, one after the other; a place is used again when its device is gone.
+// One test process creates hundreds of devices, one after the other; a slot is reused when its device is destroyed.
 static struct device devices[64];
 struct surface_info;
 typedef VkResult(VKAPI_PTR *surface_maker)(VkInstance, const struct surface_info *, const VkAllocationCallbacks *, VkSurfaceKHR *);
@@ -83,7 +83,7 @@ static void read_wishes(void) {
     wanted.reads = number("FAULT_READS", 0);
 }
 
-// The first word of every dispatchable handle tells to which device (or instance) it belongs.
+// The first word of every dispatchable handle identifies the device (or instance) that it belongs to.
 static void *key_of(const void *handle) { return *(void *const *)handle; }
 
 static struct device *device_of(const void *handle) {
@@ -92,7 +92,7 @@ static struct device *device_of(const void *handle) {
     abort();
 }
 
-// Counts a call. Is it one that shall fail?
+// Counts a call. Returns the error to inject, or VK_SUCCESS if the call is not to fail.
 static VkResult judge(struct device *device, int call) {
     VkResult verdict = VK_SUCCESS;
     pthread_mutex_lock(&lock);
@@ -117,7 +117,7 @@ static VkResult judge(struct device *device, int call) {
     return verdict;
 }
 
-// What a surface of X is made of; the real headers would want those of X.
+// The parameters of a surface on X; declared here, because the headers of Vulkan would need those of X.
 struct surface_info {
     VkStructureType type;
     const void *next;
@@ -125,7 +125,7 @@ struct surface_info {
     void *connection; // of XCB, or a display of Xlib
 };
 
-static _Atomic(long) read_until; // milliseconds; negative: never again
+static _Atomic(long) read_until; // milliseconds; negative: no more reading
 static pthread_t reader;
 static int reads;
 
@@ -135,7 +135,7 @@ static long now(void) {
     return time.tv_sec * 1000 + time.tv_nsec / 1000000;
 }
 
-// XCB puts what it reads for others into its queue, where nobody looks who waits for the socket to become readable.
+// XCB queues events that it reads for other threads. A thread that waits for the socket does not look at the queue.
 static void *read_on(void *connection) {
     struct extension { const char *name; int id; } present = {"Present", 0};
     void *xcb = dlopen("libxcb.so.1", RTLD_NOW);
@@ -299,7 +299,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fault_CreateInstance(const VkInstanceCreat
     while (index < 63 && instances[index].key && instances[index].key != key_of(*made)) index++;
     instances[index].key = key_of(*made);
     instances[index].next = next;
-    // Asked for now: later the loader would answer with what is ours.
+    // Looked up now, because later the loader would return the functions of this layer.
     instances[index].of_xlib = (surface_maker)next(*made, "vkCreateXlibSurfaceKHR");
     instances[index].of_xcb = (surface_maker)next(*made, "vkCreateXcbSurfaceKHR");
     instances[index].unmake = (PFN_vkDestroySurfaceKHR)next(*made, "vkDestroySurfaceKHR");
@@ -332,7 +332,7 @@ static PFN_vkVoidFunction ours_of_device(const char *name) {
 static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL fault_GetDeviceProcAddr(VkDevice handle, const char *name) {
     PFN_vkVoidFunction next = device_of(handle)->next(handle, name);
     PFN_vkVoidFunction ours = ours_of_device(name);
-    // What the driver does not have, we do not have either.
+    // A function that the driver lacks is not offered by the layer either.
     return next && ours ? ours : next;
 }
 

@@ -80,7 +80,8 @@ impl ProjectCopy {
         Self { folder, target }
     }
 
-    /// Runs tests in the copy. What is built from packages of others is shared with the project; the programs are not.
+    /// Runs tests in the copy. The builds of external packages are shared with the project; those of its own programs
+    /// are not.
     pub(crate) fn test(&self, arguments: &[&str]) -> Output {
         Command::new(env!("CARGO"))
             .args(["test", "--workspace", "--offline", "--locked"])

@@ -1,4 +1,4 @@
-//! The things that are planted: one for each row of the table in ARCHITECTURE.md.
+//! The planted additions: one for each row of the table in ARCHITECTURE.md.
 
 /// A thing that a developer adds.
 pub(crate) struct Plant {
@@ -172,7 +172,7 @@ pub(crate) const PLANTS: &[Plant] = &[
     },
 ];
 
-/// A panel that is declared and that no list names.
+/// A panel that is declared but is in no list.
 pub(crate) const FORGOTTEN: (&str, &str) = ("editor/src/panels/forgotten.rs", "editor/src/panels/mod.rs");
 
 /// Number of planted tests.

@@ -71,7 +71,7 @@ fn wrong_rows(map: &str) -> Vec<String> {
 }
 
 #[test]
-fn the_table_states_exactly_what_each_thing_needs() {
+fn the_architecture_table_states_exactly_what_each_kind_of_addition_needs() {
     let map = std::fs::read_to_string(root().join("ARCHITECTURE.md")).expect("the map");
     none(wrong_rows(&map));
     assert_eq!(
@@ -106,7 +106,7 @@ fn listed_name(plant: &Plant, path: &str, line: &str) -> String {
     file_name(path).trim_end_matches(".rs").to_owned()
 }
 
-/// Returns what a file defines and its list does not contain.
+/// Returns the files whose definitions are missing in their list.
 fn unlisted(files: &[File], plant: &Plant) -> Vec<String> {
     let Some((place, _)) = plant.file.filter(|_| !plant.mark.is_empty()) else { return Vec::new() };
     let source = &place[..place.find("/src/").map_or(0, |at| at + 5)];
@@ -127,7 +127,7 @@ fn unlisted(files: &[File], plant: &Plant) -> Vec<String> {
 }
 
 #[test]
-fn every_list_contains_all_things_of_its_kind() {
+fn every_list_names_all_files_of_its_kind() {
     let files = files();
     for plant in PLANTS {
         let list = files.iter().find(|file| file.path == plant.list).expect(plant.list);

@@ -33,7 +33,7 @@ const WALKING: &[&str] = &[
 
 /// Takes about a minute where the project is built.
 #[test]
-fn one_file_and_one_entry_make_a_thing_of_each_kind_work() {
+fn one_file_and_one_list_entry_are_enough_to_add_a_thing_of_each_kind() {
     let copy = ProjectCopy::planted();
     let mut arguments = vec!["--no-fail-fast"];
     arguments.extend(["--test", "anim", "--test", "document", "--test", "picture", "--test", "editor", "--"]);
@@ -48,7 +48,7 @@ fn one_file_and_one_entry_make_a_thing_of_each_kind_work() {
         assert!(passed(test) > 0, "{test} did not run:\n{report}");
     }
     assert_eq!(passed("planted::"), list::COUNT, "{report}");
-    // The panel that no list names is reported, and nothing else.
+    // Only the panel that is in no list is reported.
     let warnings: Vec<&str> = messages.lines().filter(|line| line.starts_with("warning: ")).collect();
     let about = |line: &&&str| !line.contains("generated 1 warning");
     let warnings: Vec<&&str> = warnings.iter().filter(about).collect();

@@ -10,21 +10,21 @@ use crate::edit::Edit;
 pub struct Inverse(pub(super) Vec<Op>);
 
 impl std::fmt::Debug for Inverse {
-    /// Writes only their number: the data would fill pages.
+    /// Writes only the number of operations: their data would fill pages.
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(out, "Inverse({} operations)", self.0.len())
     }
 }
 
 impl Inverse {
-    /// Returns its size in bytes, about.
+    /// Returns its approximate size in bytes.
     pub fn bytes(&self) -> usize {
         self.0.iter().map(Op::bytes).sum()
     }
 }
 
 impl ModelAdapter {
-    /// Applies an edit and returns what undoes it.
+    /// Applies an edit and returns the inverse that undoes it.
     ///
     /// # Errors
     ///

@@ -26,12 +26,12 @@ impl KeyChange {
         Self { value, arrive: NONE, leave: NONE }
     }
 
-    /// Returns the change that changes nothing.
+    /// Returns the identity: the change that leaves the original as it is.
     pub(crate) fn identity<K: ChannelKind>() -> Self {
         Self::of_value(K::IDENTITY)
     }
 
-    /// Returns the change where it changes anything.
+    /// Returns the change; `None` if it is the identity.
     pub(crate) fn some<K: ChannelKind>(self) -> Option<Self> {
         (self != Self::identity::<K>()).then_some(self)
     }

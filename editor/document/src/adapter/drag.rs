@@ -1,9 +1,9 @@
 //! A pose that is being dragged: the same channels at the same time get new values again and again.
 //!
-//! Each edit of a gesture applies to the document as it was when the gesture started. Undoing the edit before and
-//! applying the next one would copy the columns of their channels with every move of the mouse. So where only values
-//! differ, the next edit overwrites the one before, in memory that is no longer shown. The result is the same to the
-//! bit.
+//! Each edit of a gesture applies to the document as it was when the gesture started. Undoing the previous
+//! edit and applying the next one would copy the columns of their channels with every move of the mouse. So where only
+//! values differ, the next edit overwrites the previous one, in memory that is no longer shown. The result is the same
+//! to the bit.
 
 use super::change::KeyChange;
 use super::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
@@ -20,7 +20,7 @@ use std::sync::Arc;
 /// Number of states of a take that are kept to be overwritten: those that panels and graphics show, and a free one.
 const KEPT: usize = 4;
 
-/// See the module.
+/// The keys whose values a drag overwrites; see the module.
 #[derive(Clone, Debug)]
 pub(crate) struct ValueDrag {
     time: u32,
@@ -48,9 +48,9 @@ impl ValueDrag {
                     [(key, before)] => held.push(HeldKey { address: *address, key, before }),
                     _ => return None,
                 },
-                // A key that the edit added.
+                // The edit added a key, whose value the next edits overwrite.
                 Op::Splice(_, gone, back) if gone.len() == 1 && back.is_empty() => {}
-                // A step channel that the edit made linear; once is enough.
+                // The edit made a step channel linear; the next edits need not do that again.
                 Op::Replace(..) => {}
                 _ => return None,
             }
@@ -86,7 +86,8 @@ impl ValueDrag {
             && !self.channels.iter().enumerate().any(twice)
     }
 
-    /// Applies the next edit of the gesture in place of the one before; `None` where it does something else.
+    /// Applies the next edit of the gesture in place of the previous one. Returns `None`, and changes nothing, if it
+    /// gives other channels a value or belongs to another time.
     ///
     /// # Errors
     ///

@@ -35,7 +35,7 @@ pub enum EditError {
         value: f32,
     },
     /// A list has a wrong number of numbers.
-    #[error("{what} takes {wanted} numbers, not {given}")]
+    #[error("{what} needs {wanted} numbers, not {given}")]
     Count {
         /// Name of the numbers.
         what: &'static str,
@@ -47,7 +47,7 @@ pub enum EditError {
     /// A rotation has length zero.
     #[error("a rotation must not have length zero")]
     NoRotation,
-    /// No scale change leads from the original to this.
+    /// The original scale has a zero, which no factor turns into another number.
     #[error("bone {bone}: the original scale has a zero, which no factor can change")]
     ZeroScale {
         /// Index of the bone.

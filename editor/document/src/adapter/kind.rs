@@ -12,7 +12,7 @@ pub type ChannelNumbers = [f32; 4];
 pub(crate) trait ChannelKind {
     /// The value of a key.
     type Value: PartialEq + ChannelValue;
-    /// The change that changes nothing.
+    /// The identity: the change that leaves the original as it is.
     const IDENTITY: ChannelNumbers;
 
     fn channel(track: &Track) -> &Channel<Self::Value>;
@@ -23,11 +23,11 @@ pub(crate) trait ChannelKind {
 
     /// Returns the result of an original and a change.
     fn result(original: Self::Value, change: ChannelNumbers) -> Self::Value;
-    /// Returns the tangent of the result, to which the rule applies as to a small difference.
+    /// Returns a tangent of the result, from the tangent of the original and the change of the value.
     fn tangent(original: Self::Value, change: ChannelNumbers) -> Self::Value;
-    /// Returns the change from one to the other; `None` where there is none.
+    /// Returns the change that turns `original` into `result`; `None` where there is none.
     fn change(original: Self::Value, result: Self::Value) -> Option<ChannelNumbers>;
-    /// Returns an interpolated value as a key can have it.
+    /// Returns an interpolated value as a key stores it: rotations are normalized.
     fn as_key(value: Self::Value) -> Self::Value {
         value
     }
@@ -108,7 +108,7 @@ impl ChannelKind for TranslationChannel {
     }
 }
 
-/// Returns the number that added to `from` gives `to`, to the last bit where one exists.
+/// Returns the number that turns `from` into `to` when it is added; exact to the last bit where such a number exists.
 fn addend(from: f32, to: f32) -> f32 {
     let guess = to - from;
     let exact = |addend: &f32| from + addend == to;
@@ -150,7 +150,7 @@ impl ChannelKind for RotationChannel {
     }
 
     fn tangent(original: Quat, change: ChannelNumbers) -> Quat {
-        // A product is linear in each factor, so a derivative goes through it.
+        // The product is linear in the original, so its tangent is multiplied in the same way.
         Quat::from_array(change) * original
     }
 
@@ -214,7 +214,8 @@ impl ChannelKind for ScaleChannel {
     }
 }
 
-/// Returns the factor from `from` to `to`, to the last bit where one exists.
+/// Returns the factor that turns `from` into `to`; exact to the last bit where such a factor exists. `None` where no
+/// finite factor does.
 fn factor(from: f32, to: f32) -> Option<f32> {
     if from == to {
         return Some(1.0);
@@ -222,7 +223,7 @@ fn factor(from: f32, to: f32) -> Option<f32> {
     let guess = to / from;
     let exact = |factor: &f32| from * factor == to;
     let best = [guess, guess.next_up(), guess.next_down()].into_iter().find(exact).unwrap_or(guess);
-    // No factor leads from zero.
+    // No factor turns zero into another number.
     (best.is_finite() && from != 0.0).then_some(best)
 }
 
@@ -262,7 +263,7 @@ impl ChannelValue for Quat {
 }
 
 impl Property {
-    /// The change that changes nothing.
+    /// The identity: the change that leaves the original as it is.
     pub(crate) fn identity(self) -> ChannelNumbers {
         match self {
             Self::Translation => TranslationChannel::IDENTITY,

@@ -26,7 +26,7 @@ impl ModelAdapter {
     ///
     /// # Errors
     ///
-    /// The reason why not.
+    /// The reason why it is not allowed.
     pub fn allows(&self, edit: &Edit) -> Result<(), EditError> {
         edit.allowed(self)
     }

@@ -23,9 +23,9 @@ pub(crate) struct ChannelAddress {
 pub(crate) enum Op {
     /// Replaces the changes of some keys.
     Changes(ChannelAddress, Vec<(u32, Option<KeyChange>)>),
-    /// Removes keys (positions before) and inserts keys (positions after).
+    /// Removes keys (positions before the operation) and inserts keys (positions after the operation).
     Splice(ChannelAddress, Vec<u32>, Vec<(u32, KeyContent)>),
-    /// Replaces the times of some keys, ascending, whose order stays.
+    /// Replaces the times of some keys, listed in ascending order. The order of the keys stays the same.
     Times(ChannelAddress, Vec<(u32, f32)>),
     /// Replaces a channel.
     Replace(ChannelAddress, Box<ChannelContent>),
@@ -55,7 +55,7 @@ impl ChannelContent {
 }
 
 impl Op {
-    /// Returns its size in bytes, about.
+    /// Returns its approximate size in bytes.
     pub(crate) fn bytes(&self) -> usize {
         size_of::<Self>()
             + match self {
@@ -136,7 +136,7 @@ impl ModelAdapter {
         }
     }
 
-    /// Measures start and length of takes whose keys have changed, if they still exist.
+    /// Computes start and length of takes whose keys have changed, if they still exist.
     pub(crate) fn measure(&mut self, takes: &[TakeId]) {
         for slot in self.slots.iter_mut().filter(|slot| takes.contains(&slot.id)) {
             Arc::make_mut(slot).measure();

@@ -83,7 +83,7 @@ impl PendingAt {
         &mut self.poses[at]
     }
 
-    /// Merges the poses of another; where both have a value, the other's counts.
+    /// Merges the poses of another; where both have a value, that of `other` wins.
     fn merge(&mut self, other: &Self) {
         for pose in &other.poses {
             let entry = self.entry(pose.bone);
@@ -106,7 +106,8 @@ pub(crate) fn place_of(pending: &[Arc<PendingAt>], time: f32) -> Result<usize, u
     }
 }
 
-/// Returns the poses at other times, without those for which `to` returns `None`. Poses at the same time are merged.
+/// Returns the poses moved to the times that `to` returns, without those for which it returns `None`. Poses that come
+/// to the same time are merged.
 pub(crate) fn remapped(pending: &[Arc<PendingAt>], to: impl Fn(f32) -> Option<f32>) -> Pending {
     let mut moved: Vec<PendingAt> = pending
         .iter()

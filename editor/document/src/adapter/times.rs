@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-/// The columns of times that one edit has made, by the columns from which they were made.
+/// The columns of times that one edit has created, each with the column that it was created from.
 ///
 /// A file often has one column for all channels of a take. Where an edit does the same to all of them, they still
 /// share one: in memory, and in the saved file.
@@ -15,11 +15,12 @@ type MovedTimes = (TimeColumn, Vec<(u32, f32)>, TimeColumn);
 /// Seconds, ascending; shared by channels.
 type TimeColumn = Arc<[f32]>;
 
-/// Number of columns that are compared: an edit that makes more makes different ones.
+/// Maximum number of columns that are compared with a new one: an edit that creates more than that creates different
+/// ones.
 const REMEMBERED: usize = 8;
 
 impl SharedTimes {
-    /// Returns `new` as a column, or the column that another channel got for the same.
+    /// Returns `new` as a column. If another channel already got the same times in place of `old`, returns its column.
     pub(crate) fn times(&mut self, old: &TimeColumn, new: Vec<f32>) -> TimeColumn {
         let same = |(from, to): &&(TimeColumn, TimeColumn)| Arc::ptr_eq(from, old) && **to == *new;
         if let Some((_, to)) = self.0.iter().find(same) {
@@ -33,7 +34,8 @@ impl SharedTimes {
         new
     }
 
-    /// Returns `old` with other times for some keys, or the column that another channel got for the same.
+    /// Returns `old` with other times for some keys. If `old` was already changed in this way for another channel,
+    /// returns the column of that channel.
     pub(crate) fn moved(&mut self, old: &TimeColumn, wanted: &[(u32, f32)]) -> TimeColumn {
         let same = |(from, moved, _): &&MovedTimes| Arc::ptr_eq(from, old) && moved == wanted;
         if let Some((.., to)) = self.1.iter().find(same) {

@@ -72,7 +72,7 @@ impl MirrorPairs {
         Self { pairs, unpaired, partners, middle }
     }
 
-    /// Splits pairs that are not symmetric, where other bones of the same sides are.
+    /// Splits pairs that are not symmetric, and pairs their bones with those that are their mirror images.
     fn split_asymmetric(&mut self, stance: &Stance) {
         let wrong: Vec<MirrorPair> =
             self.pairs.iter().filter(|pair| stance.contradicts(pair.left, pair.right)).copied().collect();
@@ -90,7 +90,7 @@ impl MirrorPairs {
             let right = stance.opposite(left, &rights)?;
             (stance.opposite(right, &lefts) == Some(left)).then_some((left, right))
         };
-        // There are many of them only in a file that is made to be slow; names have to do then.
+        // Only a file that is made to be slow has more of them than this; its pairs by name stay.
         if lefts.len().saturating_mul(rights.len()) > MOST_COMPARED {
             return;
         }
@@ -112,7 +112,7 @@ impl MirrorPairs {
         self.pairs.retain(|pair| partners[pair.left as usize] == Some(pair.right));
         self.pairs.sort_unstable_by_key(|pair| pair.left);
         self.unpaired.retain(|alone| partners[alone.bone as usize].is_none());
-        // A bone that lost its partner and got no other one is unpaired, and of a side.
+        // A bone that lost its partner and got no other one is now unpaired, with the side that it had in its pair.
         let sided =
             wrong.iter().flat_map(|pair| [(pair.left, BodySide::Left), (pair.right, BodySide::Right)]);
         let lost = sided.filter(|(bone, _)| partners[*bone as usize].is_none());
@@ -120,7 +120,7 @@ impl MirrorPairs {
         self.unpaired.sort_unstable_by_key(|alone| alone.bone);
     }
 
-    /// Returns the other bone of its pair.
+    /// Returns the other bone of the pair; `None` for an unpaired bone.
     pub fn partner(&self, bone: BoneIndex) -> Option<BoneIndex> {
         self.partners.get(bone as usize).copied().flatten()
     }
@@ -133,7 +133,8 @@ impl MirrorPairs {
     }
 }
 
-/// Returns the name without its side, and the side. Bones with the same key and opposite sides are a pair.
+/// Returns the keys of a name: each is the name without one word for a side, together with that side. Bones with the
+/// same key and opposite sides are a pair.
 fn keys(name: &str, words: &[SideWord], guess: MirrorGuess) -> Vec<(String, BodySide)> {
     let without = |word: &SideWord, lower: bool| {
         let (before, after) = (&name[..word.range.start], &name[word.range.end..]);
@@ -159,7 +160,7 @@ fn keys(name: &str, words: &[SideWord], guess: MirrorGuess) -> Vec<(String, Body
             let inside = |word: &&SideWord| word.range.end <= counted.len();
             let words = words.iter().filter(inside);
             let keys = words.map(|word| (without(word, true), word));
-            // The key without the number and what follows.
+            // Removes the number and everything after it from the key.
             let cut = |(key, word): (String, &SideWord)| {
                 let rest = name[counted.len()..].to_lowercase();
                 (key.strip_suffix(&rest).unwrap_or(&key).to_owned(), word.side)

@@ -16,13 +16,13 @@ pub enum BodySide {
 pub enum MirrorGuess {
     /// The same name with the side exchanged.
     Name,
-    /// The same but for capitals.
+    /// The same name except for capitals.
     Capitals,
     /// The same words in another spelling.
     Words,
-    /// The same but for a number at the end.
+    /// The same name except for a number at its end.
     Numbers,
-    /// The side without a separator from another word.
+    /// The side is part of another word, as in `leftarm`.
     Glued,
     /// Their positions are symmetric; their names disagree or name only the side.
     Place,
@@ -36,11 +36,11 @@ impl MirrorGuess {
     pub fn title(self) -> &'static str {
         match self {
             Self::Name => "same name",
-            Self::Capitals => "same but for capitals",
-            Self::Words => "same words",
-            Self::Numbers => "same but for a number",
-            Self::Glued => "same with the side glued on",
-            Self::Place => "opposite places",
+            Self::Capitals => "same except for capitals",
+            Self::Words => "same words, other spelling",
+            Self::Numbers => "same except for a number",
+            Self::Glued => "side inside another word",
+            Self::Place => "mirrored positions",
         }
     }
 }

@@ -99,15 +99,15 @@ impl BoneSelection {
         self.set(|selected, bone| !selected[bone as usize] && !hidden.is_hidden(bone));
     }
 
-    /// Selects the nearest visible bone above each; with `extend` in addition to the selection. Bones without one stay
-    /// selected.
+    /// Selects the nearest visible ancestor of each selected bone; with `extend` in addition to the selection. Bones
+    /// without such an ancestor stay selected.
     pub fn parents(&mut self, skeleton: &Skeleton, hidden: &HiddenBones, extend: bool) {
         let above = |bone: BoneIndex| shown_parent(skeleton, hidden, bone).unwrap_or(bone);
         self.replace_each(extend, |bone, add| add(above(bone)));
     }
 
-    /// Selects all visible children of each; with `extend` in addition to the selection. Bones without children stay
-    /// selected.
+    /// Selects all visible children of each selected bone; with `extend` in addition to the selection. Bones without
+    /// children stay selected.
     pub fn children(&mut self, skeleton: &Skeleton, hidden: &HiddenBones, extend: bool) {
         let before = self.selected.clone();
         let mut has_child = vec![false; before.len()];
@@ -164,8 +164,8 @@ impl BoneSelection {
         self.sweep();
     }
 
-    /// Selects the mirror bone of each; with `extend` in addition to the selection. Bones without a visible mirror
-    /// bone stay selected.
+    /// Selects the mirror bone of each selected bone; with `extend` in addition to the selection. Bones without a
+    /// visible mirror bone stay selected.
     pub fn mirror(&mut self, pairs: &MirrorPairs, hidden: &HiddenBones, extend: bool) {
         let other = |bone: BoneIndex| pairs.partner(bone).filter(|&other| !hidden.is_hidden(other));
         self.replace_each(extend, |bone, add| add(other(bone).unwrap_or(bone)));
@@ -176,7 +176,7 @@ impl BoneSelection {
         self.set_off(|bone| hidden.is_hidden(bone));
     }
 
-    /// Calls `act` with each visible bone that has a visible bone above it, and that bone.
+    /// Calls `act` with each visible bone that has a visible ancestor, and with the nearest such ancestor.
     fn for_each_joint(
         &mut self,
         skeleton: &Skeleton,
@@ -209,7 +209,7 @@ impl BoneSelection {
         }
     }
 
-    /// Selects exactly these bones, in the order of the skeleton.
+    /// Selects exactly the bones for which `keep` returns `true`, in the order of the skeleton.
     fn set(&mut self, keep: impl Fn(&[bool], BoneIndex) -> bool) {
         let before = self.selected.clone();
         self.clear();
@@ -231,7 +231,7 @@ impl BoneSelection {
     }
 }
 
-/// Returns the next visible bone above.
+/// Returns the nearest visible ancestor.
 fn shown_parent(skeleton: &Skeleton, hidden: &HiddenBones, bone: BoneIndex) -> Option<BoneIndex> {
     let parent = |bone: BoneIndex| {
         let parent = skeleton.bones.get(bone as usize)?.parent;

@@ -64,7 +64,7 @@ fn thorax(u: f32, v: f32) -> Vec3 {
     Vec3::new(curve(&WIDTH, u) * s * square, y, THORAX_Z.0 + (THORAX_Z.1 - THORAX_Z.0) * u - lean)
 }
 
-/// The abdomen's radius by the place along it: swollen at the base, waisted, then a long
+/// Radius of the abdomen at positions along it: swollen at the base, waisted, then a long
 /// taper to a slight club.
 const GIRTH: [(f32, f32); 12] = [
     (0.0, 0.0265),

@@ -46,5 +46,5 @@ pub(super) const DARK: Chart = chart(336.0, 448.0, 688.0, 64.0, SKIN);
 pub(super) const EYE: Chart = chart(0.0, 0.0, 512.0, 512.0, EYES);
 pub(super) const FORE_WING: Chart = chart(4.0, 4.0, 960.0, 204.0, WINGS);
 pub(super) const HIND_WING: Chart = chart(4.0, 216.0, 920.0, 292.0, WINGS);
-/// Texels of a wing picture to one unit of the model.
+/// Texels of the wing texture per unit of the model.
 pub(super) const WING_SCALE: f32 = 1410.0;

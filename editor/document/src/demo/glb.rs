@@ -15,7 +15,7 @@ const INDICES: u32 = 34963;
 /// Everything the file holds.
 pub(super) struct Model {
     pub(super) bones: Vec<DemoBone>,
-    /// One mesh to a material: body, eyes, wings.
+    /// One mesh per material: body, eyes, wings.
     pub(super) meshes: [DemoMesh; 3],
     pub(super) pictures: [Picture; 7],
     pub(super) takes: Vec<DemoTake>,
@@ -47,7 +47,7 @@ impl GlbWriter {
         self.accessors.len() - 1
     }
 
-    /// Rows of floats, in a view of their own.
+    /// Adds rows of floats in a buffer view of their own, and returns the index of their accessor.
     fn floats(&mut self, data: &[f32], kind: &str, target: Option<u32>) -> usize {
         let view = self.view(&little_endian(data), target);
         self.accessor(view, FLOAT, kind, data.len() / width(kind))
@@ -106,7 +106,8 @@ impl GlbWriter {
         json!({"attributes": attributes, "indices": indices, "material": material})
     }
 
-    /// Key data of all takes goes into one view, `at`, which is filled last.
+    /// Adds key data and returns the index of its accessor. The data of all takes goes into one buffer view, `at`,
+    /// which is filled last.
     fn keys(&mut self, all: &mut Vec<f32>, at: usize, data: &[f32], kind: &str) -> usize {
         let index = self.accessor(at, FLOAT, kind, data.len() / width(kind));
         self.accessors[index]["byteOffset"] = json!(all.len() * 4);
@@ -147,7 +148,7 @@ impl GlbWriter {
     }
 }
 
-/// How many numbers a row of an accessor of this kind has.
+/// Returns the number of floats in a row of an accessor of this kind.
 fn width(kind: &str) -> usize {
     match kind {
         "SCALAR" => 1,
@@ -161,7 +162,7 @@ fn little_endian(data: &[f32]) -> Vec<u8> {
     data.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
-/// The bytes of the file.
+/// Returns the bytes of the file.
 pub(super) fn write(model: &Model) -> Vec<u8> {
     let mut out = GlbWriter::default();
     let primitives: Vec<Value> = (0..3).map(|i| out.primitive(&model.meshes[i], i, i < 2)).collect();
@@ -169,7 +170,7 @@ pub(super) fn write(model: &Model) -> Vec<u8> {
         model.bones.iter().flat_map(|b| glam::Mat4::from_translation(-b.head).to_cols_array()).collect();
     let bind = out.floats(&inverse, "MAT4", None);
     let (mut keys, at) = (Vec::new(), out.views.len());
-    // The view's place is taken now; a view per track would only bloat the document.
+    // Reserves the index of the view for all keys; a view per track would make the JSON larger for nothing.
     out.views.push(Value::Null);
     let animations: Vec<Value> = model.takes.iter().map(|take| out.animation(take, &mut keys, at)).collect();
     out.view(&little_endian(&keys), None);
@@ -251,8 +252,8 @@ fn materials() -> Value {
     ])
 }
 
-/// Writes JSON with its keys in order, so that the bytes do not hang on how the map type of the
-/// JSON library was configured.
+/// Writes JSON with its keys in order, so that the bytes do not depend on how the map type of
+/// the JSON library was configured.
 fn write_sorted(value: &Value, out: &mut String) {
     match value {
         Value::Object(map) => {

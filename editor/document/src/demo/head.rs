@@ -41,7 +41,7 @@ fn capsule(u: f32, v: f32) -> Vec3 {
     Vec3::new(HALF_WIDTH * s, CENTRE.y + (y - CENTRE.y) * full, CENTRE.z + (z - CENTRE.z) * full)
 }
 
-/// Adds the left half of everything on the head that wears the body's texture.
+/// Adds the left half of all parts of the head that use the body's texture.
 pub(super) fn add(mesh: &mut DemoMesh) {
     let patch = MeshPatch {
         surface: &capsule,

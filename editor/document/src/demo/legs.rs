@@ -11,11 +11,11 @@ use std::f32::consts::TAU;
 pub(super) struct Limb {
     pub(super) from: Vec3,
     pub(super) to: Vec3,
-    /// Radius by the part of the length.
+    /// Radius at fractions of the length.
     pub(super) radius: &'static [(f32, f32)],
     /// Height over width of its section.
     pub(super) flat: f32,
-    /// The part of the length, at either end, over which the ends round off.
+    /// Fraction of the length, at either end, over which the ends are rounded.
     pub(super) cap: f32,
     /// Distance of its middle from the straight line.
     pub(super) bow: Vec3,
@@ -24,7 +24,7 @@ pub(super) struct Limb {
     pub(super) chart: Chart,
 }
 
-/// Adds a limb; `bind` gives a vertex's bones from its part of the length and its position.
+/// Adds a limb; `bind` returns the bones of a vertex from its fraction of the length and its position.
 pub(super) fn add_limb(mesh: &mut DemoMesh, limb: &Limb, bind: &dyn Fn(f32, Vec3) -> Bind) {
     let along = (limb.to - limb.from).normalize();
     let up = (Vec3::Y - along * along.y).normalize();
@@ -84,7 +84,7 @@ pub(super) fn add(mesh: &mut DemoMesh) {
             let bone = leg(0, pair, part);
             let before = if part == 0 { THORAX } else { leg(0, pair, part - 1) };
             add_limb(mesh, &limb, &|u, _| {
-                // The first ring of each piece gives a little to the piece before.
+                // The first ring of each piece is bound in part to the bone of the piece before.
                 Bind::chain(&[(before, -1.0, 0.0), (bone, 0.04, 0.06)], u)
             });
             if part == 1 || part == 2 {

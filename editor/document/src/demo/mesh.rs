@@ -28,7 +28,7 @@ impl Bind {
         let (mut joints, mut weights, mut left) = ([0; 4], [0; 4], 255);
         for (i, (bone, weight)) in parts.iter().enumerate().skip(1) {
             let w = (weight / sum * 255.0 + 0.5) as u8;
-            // A joint named with no weight is an error to some readers.
+            // Some readers refuse a joint with a weight of zero.
             if w > 0 {
                 (joints[i], weights[i]) = (*bone as u8, w);
                 left -= w;
@@ -38,8 +38,8 @@ impl Bind {
         Self { joints, weights }
     }
 
-    /// A place `x` along a chain of bones: each of `joints` is (bone, where it begins, half the
-    /// width over which it takes over from the one before).
+    /// The bones of a vertex at `x` along a chain. Each of `joints` is (bone, its start along the chain,
+    /// half the width of the transition from the bone before).
     pub(super) fn chain(joints: &[(usize, f32, f32)], x: f32) -> Self {
         let grip = |k: usize| match joints.get(k) {
             Some(_) if k == 0 => 1.0,
@@ -118,7 +118,7 @@ impl DemoMesh {
         self.indices.extend(order.map(narrow));
     }
 
-    /// Adds the mirror image across the middle plane, carried by the other side's bones.
+    /// Adds the mirror image across the middle plane, bound to the bones of the other side.
     pub(super) fn mirror(&mut self) {
         let count = self.vertices.len();
         for i in 0..count {
@@ -164,7 +164,7 @@ impl DemoMesh {
             let position = foot + normal * radius;
             self.vertices.push(DemoVertex { position, normal, tangent, uv, bind });
         }
-        // The tip leans on any one side: it is far smaller than a pixel.
+        // The tip has the normal of one of the sides: it is far smaller than a pixel.
         self.vertices.push(DemoVertex { position: tip, normal: side, tangent, uv, bind });
         for k in 0..3 {
             self.triangle(base + k, base + (k + 1) % 3, base + 3, false);
@@ -179,7 +179,7 @@ fn frame(patch: &MeshPatch, u: f32, v: f32) -> (Vec3, Vec4) {
     let slopes = |u: f32, v: f32| (f(u + STEP, v) - f(u - STEP, v), f(u, v + STEP) - f(u, v - STEP));
     let (mut du, mut dv) = slopes(u, v);
     if du.cross(dv).length_squared() < 1e-16 {
-        // At a pole a whole row is one point: look a little way in from it.
+        // At a pole a whole row is one point, so the surface is evaluated a little away from it.
         let inward = |x: f32| x + (0.5 - x) * 0.02;
         (du, dv) = slopes(inward(u), inward(v));
     }

@@ -72,18 +72,18 @@ mod tests {
     }
 
     #[test]
-    fn the_embedded_file_is_what_is_built() {
+    fn the_embedded_file_equals_the_built_one() {
         let built = build();
         if std::env::var_os("DRAGONFLY_REWRITE").is_some() {
             let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/dragonfly.glb");
             std::fs::write(path, &built).unwrap();
         }
         // The embedded file is the one at compile time: a second build agrees.
-        assert!(built == DRAGONFLY_GLB, "DRAGONFLY_REWRITE=1 cargo test -p dragonfly embedded");
+        assert!(built == DRAGONFLY_GLB, "DRAGONFLY_REWRITE=1 cargo test -p dragonfly-document embedded");
     }
 
     #[test]
-    fn the_file_is_small_and_well_framed() {
+    fn the_file_is_smaller_than_a_megabyte_and_its_lengths_agree() {
         assert!(DRAGONFLY_GLB.len() < 1_000_000);
         assert_eq!(&DRAGONFLY_GLB[..4], b"glTF");
         let size = u32::from_le_bytes(DRAGONFLY_GLB[8..12].try_into().unwrap());
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn bones_are_named_apart_and_stand_before_their_children() {
+    fn bone_names_are_unique_and_parents_precede_their_children() {
         let bones = skeleton::bones();
         assert!((25..=60).contains(&bones.len()));
         assert_eq!(bones.len(), skeleton::COUNT);
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn every_vertex_is_wholly_carried_and_every_frame_is_square() {
+    fn vertex_weights_sum_to_one_and_normals_are_orthogonal_to_tangents() {
         for mesh in &model().meshes {
             assert!(!mesh.indices.is_empty());
             for v in &mesh.vertices {
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn three_takes_and_the_loops_close() {
+    fn the_model_has_three_takes_and_those_that_loop_end_as_they_start() {
         let takes = takes::takes();
         let names: Vec<_> = takes.iter().map(|t| t.name).collect();
         assert_eq!(names, ["hover", "cruise", "land"]);

@@ -1,4 +1,4 @@
-//! Small numbers work shared by the model's parts.
+//! Numeric functions that all parts of the model use.
 //!
 //! The model is built twice and compared byte for byte, so nothing here asks the platform's
 //! mathematics library: only `+ - * /`, `sqrt` and `floor`, which IEEE 754 fixes exactly.

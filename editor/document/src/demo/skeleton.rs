@@ -28,7 +28,7 @@ pub(super) const ANTENNA: usize = 4;
 pub(super) const ABDOMEN: usize = 6;
 const WINGS: usize = 14;
 const LEGS: usize = 26;
-/// How many bones there are.
+/// Number of bones.
 pub(super) const COUNT: usize = 50;
 
 /// A side of the body: 0 is left (+X), 1 is right.

@@ -29,7 +29,7 @@ pub(super) struct DemoTake {
     pub(super) tracks: Vec<DemoTrack>,
 }
 
-/// One moment: a turn for every bone, and where the thorax joint is.
+/// The pose at one time: a rotation for every bone, and the position of the thorax joint.
 struct DemoPose {
     turns: Vec<Quat>,
     place: Vec3,
@@ -88,10 +88,10 @@ fn still() -> DemoPose {
     DemoPose { turns: vec![Quat::IDENTITY; COUNT], place: rest_place() }
 }
 
-/// How long the hover is before it repeats, in seconds.
+/// Length of the hover, which then repeats, in seconds.
 const HOVER: f32 = 2.0;
 
-/// Standing in the air: fore and hind wings beat against each other, five times a second.
+/// The hover: fore and hind wings beat in opposite directions, five times a second.
 fn hover(t: f32) -> DemoPose {
     let mut pose = still();
     let slow = TAU * t / HOVER;
@@ -138,10 +138,10 @@ fn hover(t: f32) -> DemoPose {
     pose
 }
 
-/// How long the cruise is before it repeats, in seconds.
+/// Length of the cruise, which then repeats, in seconds.
 const CRUISE: f32 = 1.5;
 
-/// Going somewhere: nose down, quick shallow strokes, a wave running down the tail.
+/// The cruise: nose down, quick shallow strokes, a wave running down the tail.
 fn cruise(t: f32) -> DemoPose {
     let mut pose = still();
     let slow = TAU * t / CRUISE;
@@ -187,12 +187,12 @@ fn cruise(t: f32) -> DemoPose {
     pose
 }
 
-/// How long the landing takes, in seconds.
+/// Length of the landing, in seconds.
 const LAND: f32 = 3.2;
-/// When the feet touch.
+/// Time at which the feet touch the ground, in seconds.
 const TOUCH: f32 = 1.45;
 
-/// Coming down, catching the ground, and settling with wings spread.
+/// The landing: the animal descends, touches the ground, and settles with its wings spread.
 fn land(t: f32) -> DemoPose {
     let t = t.clamp(0.0, LAND);
     let mut pose = still();
@@ -273,7 +273,7 @@ fn rests(busy: &[f32], count: usize) -> Vec<f32> {
     busy.iter().copied().chain(more).collect()
 }
 
-/// Reads tracks off a pose function.
+/// Samples a pose function and makes tracks of it.
 struct PoseRecorder<'a> {
     pose: &'a dyn Fn(f32) -> DemoPose,
     closed: bool,

@@ -26,7 +26,7 @@ pub struct AddKeys {
     /// The value of the new keys.
     #[serde(default)]
     pub value: NewKey,
-    /// Only in channels that have keys, also of bones that are named.
+    /// Adds keys only in channels that already have keys, even where bones are named.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub keyed_only: bool,
 }

@@ -1,6 +1,6 @@
 //! Estimates of the time that an edit takes, so that a sender knows whether it can carry it out on a copy between two frames.
 //!
-//! The unit is a key that is taken out and inserted elsewhere, which takes 100 to 200 ns, also where the previous edit of the
+//! The unit is the time to remove one key and insert it elsewhere: 100 to 200 ns, also where the previous edit of the
 //! same drag is undone first. Columns are copied as a whole where one of their keys changes: 2 to 10 ns per key. Keys that keep
 //! their order are cheaper than estimated. `benches/editor/edits.rs` measures all three.
 
@@ -55,7 +55,7 @@ pub(super) fn of_keys(adapter: &ModelAdapter, take: &TakeRef, sets: &[KeySet]) -
     sets.iter().map(of_set).sum()
 }
 
-/// Returns the largest number of keys among ascending `times` that a set can have.
+/// Returns an upper bound for the number of ascending `times` that belong to a set.
 fn keys_of_set(times: &[f32], set: &KeySet) -> usize {
     let begin = set.from.map_or(0, |from| times.partition_point(|&time| time < from));
     let end = set.to.map_or(times.len(), |to| times.partition_point(|&time| time <= to));
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_of_one_bone_costs_its_keys_alone() {
+    fn the_cost_of_an_edit_of_one_bone_counts_only_the_keys_of_that_bone() {
         let model = built_in();
         let bones = vec![BoneRef::Index(1)];
         let of_bone = keys_of_bone(&model.slots()[0], 1);
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn poses_cost_their_number_and_takes_as_a_whole_are_left_to_the_document() {
+    fn the_cost_of_poses_is_their_number_and_an_edit_of_a_whole_take_has_no_cost() {
         let model = built_in();
         let pose =
             BonePose { bone: BoneRef::Index(1), translation: Some([0.0; 3]), rotation: None, scale: None };

@@ -14,7 +14,7 @@ pub(crate) trait EditKind: Sized {
     /// The edit as a line of JSON, with a description; for help texts and tests.
     const EXAMPLE: Example;
 
-    /// Returns what the history and the undo command call it, in a few words.
+    /// Returns the name of the edit for the history and the undo command, in a few words.
     fn label(&self) -> &'static str;
 
     /// Returns the take that it changes; `None` where it creates one.
@@ -44,7 +44,7 @@ pub(crate) trait EditKind: Sized {
     ///
     /// # Errors
     ///
-    /// The reason why not.
+    /// The reason why they may not.
     fn allowed(&self, _adapter: &ModelAdapter) -> Result<(), EditError> {
         Ok(())
     }
@@ -103,7 +103,7 @@ macro_rules! edits {
         },)*];
 
         impl Edit {
-            /// Returns what the history and the undo command call it, in a few words.
+            /// Returns the name of the edit for the history and the undo command, in a few words.
             pub fn label(&self) -> &'static str {
                 match self { $(Self::$Kind(edit) => edit.label(),)* }
             }
@@ -118,8 +118,8 @@ macro_rules! edits {
                 match self { $(Self::$Kind(edit) => edit.bones(skeleton),)* }
             }
 
-            /// Estimates the time that it takes: a unit is a key that is taken out and inserted elsewhere, about 150 ns.
-            /// `None` where only the document can carry it out.
+            /// Estimates the time that it takes. The unit is the time to remove one key and insert it elsewhere, about
+            /// 150 ns. `None` where only the document can carry it out.
             pub fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
                 match self { $(Self::$Kind(edit) => edit.cost(adapter),)* }
             }

@@ -44,7 +44,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_are_edits_and_a_wrong_one_says_where_it_is() {
+    fn each_line_is_parsed_as_an_edit_and_an_error_names_its_line() {
         let good = "{\"edit\":\"delete_take\",\"take\":1}\n\n{\"edit\":\"reverse_take\",\"take\":\"a\"}\n";
         let lines: Vec<usize> = parse_lines(good).unwrap().into_iter().map(|(line, _)| line).collect();
         assert_eq!(lines, [1, 3]);

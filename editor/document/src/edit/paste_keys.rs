@@ -77,7 +77,7 @@ impl EditKind for PasteKeys {
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let property = from.property();
         let count = if property == Property::Rotation { 4 } else { 3 };
-        // No rotation of length zero.
+        // The numbers are positive, because a rotation must not have length zero.
         let value =
             |from: &mut Arbitrary<'_>| (0..count).map(|_| from.between(0.1, 1.0)).collect::<Vec<f32>>();
         let key = |from: &mut Arbitrary<'_>| CopiedKey {
@@ -113,7 +113,7 @@ fn paste<K: ChannelKind>(
         .map(|key| read(work, address, time, key))
         .collect::<Result<Vec<_>, EditError>>()?;
     given.sort_by(|a, b| a.key.time.total_cmp(&b.key.time));
-    // Of neighbors at one time the last counts.
+    // Of several keys at the same time, the last one wins.
     given.reverse();
     given.dedup_by(|next, kept| (kept.key.time - next.key.time).abs() <= SAME_TIME);
     given.reverse();
@@ -178,8 +178,8 @@ fn is_spline<K: ChannelKind>(work: &Transaction, address: ChannelAddress) -> boo
     channel.is_some_and(|channel| channel.interpolation == Interpolation::CubicSpline)
 }
 
-/// q and -q are the same rotation, but a spline between them takes the long way: gives all keys the sign of the key
-/// before them, or after.
+/// Gives all rotations the sign of the key before them, or after them where there is none. q and -q are the same
+/// rotation, but a spline from one to the other takes the long way.
 fn on_one_side<K: ChannelKind>(work: &Transaction, address: ChannelAddress, given: &mut [PastedKey]) {
     let slot = work.slot(address.take);
     let (Some(first), Some(last)) = (given.first(), given.last()) else { return };

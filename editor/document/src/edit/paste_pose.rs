@@ -28,14 +28,14 @@ pub struct PastePose {
     pub time: f32,
     /// The copied poses; one for each bone.
     pub poses: Vec<BonePose>,
-    /// Mirrored to the other side. Which bones are pairs is guessed from their names.
+    /// Mirrors the poses to the other side. Pairs of bones are guessed from their names and positions.
     #[serde(default)]
     pub mirrored: bool,
-    /// As pending poses instead of keys.
+    /// Makes pending poses instead of keys.
     #[serde(default)]
     pub pending: bool,
-    /// Makes channels linear first that do not move and have step interpolation: two equal keys, as exporters write
-    /// such channels. The bone then moves to the pose instead of jumping to it.
+    /// Makes channels linear first that consist of two equal keys with step interpolation, as exporters write channels
+    /// that do not move. The bone then moves to the pose instead of jumping to it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unstep: bool,
 }
@@ -117,7 +117,8 @@ impl EditKind for PastePose {
     }
 }
 
-/// Returns the value, unless the channel has no keys and shows that value without them: pasting a pose does not key everything.
+/// Returns the value; `None` for a channel that has no keys and already shows that value, so that pasting a pose does
+/// not add keys to every channel.
 fn changed<K: ChannelKind>(
     work: &Transaction,
     take: TakeId,

@@ -36,8 +36,8 @@ impl EditKind for ReverseTake {
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
-        // A step channel keeps the value of each key on its key, so reversing twice is the identity. KeyInterpolation keys it then shows the
-        // value of the key on the other side.
+        // A step channel keeps the value of each key on its key, so reversing twice is the identity. Between
+        // keys it then shows the value of the key on the other side.
         let take = work.take(&self.take)?;
         let (start, end) = (work.slot(take).original.start, work.slot(take).original.end());
         apply(work, take, TimeMap { from: start, about: end, stretch: -1.0 })

@@ -16,8 +16,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Shows bones in a pose at a time without keys. A pending pose is part of the document and of undo, and not of a saved
-/// file until it is keyed. It replaces an earlier pending pose of the same channels at that time.
+/// Shows bones in a pose at a time without adding keys. A pending pose is part of the document and of undo, but it is
+/// not in a saved file until it is keyed. It replaces an earlier pending pose of the same channels at that time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetPending {

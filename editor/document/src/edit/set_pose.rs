@@ -18,8 +18,8 @@ pub struct SetPose {
     pub time: f32,
     /// The wanted poses; one for each bone.
     pub poses: Vec<BonePose>,
-    /// Makes channels linear first that do not move and have step interpolation: two equal keys, as exporters write
-    /// such channels. The bone then moves to the pose instead of jumping to it.
+    /// Makes channels linear first that consist of two equal keys with step interpolation, as exporters write channels
+    /// that do not move. The bone then moves to the pose instead of jumping to it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unstep: bool,
 }

@@ -23,7 +23,7 @@ pub struct TrimTake {
     pub from: f32,
     /// Seconds, not before `from`.
     pub to: f32,
-    /// The remaining keys move to where the take started.
+    /// Moves the remaining keys to where the take started.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub to_start: bool,
 }

@@ -16,7 +16,7 @@ pub const LONGEST_CHAIN: u32 = 255;
 /// Inverse kinematics: whether the bones above follow when a bone is moved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IkMode {
-    /// Whether it is on; else only the bone itself moves.
+    /// Whether it is on; if not, only the bone itself moves.
     pub on: bool,
     /// Number of bones above the moved one that rotate; 1 to [`LONGEST_CHAIN`]. Two are an arm or a leg.
     pub length: u32,

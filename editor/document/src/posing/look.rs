@@ -1,4 +1,4 @@
-//! Bones that look at a place.
+//! Rotates bones so that they look at a position.
 
 use crate::edit::{BonePose, BoneRef};
 use dragonfly_anim::animation::to_root;
@@ -6,8 +6,8 @@ use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use dragonfly_anim::ik::{Gaze, LookAt, look_at as solve};
 use glam::{Mat4, Vec3};
 
-/// The axis along which a bone looks, in its own space: towards its children; without any, on along the way from its
-/// parent; without that, y.
+/// Returns the axis along which a bone looks, in its own space: towards its children; without children, away from its
+/// parent; for a bone at the joint of its parent, y.
 pub fn forward_of(skeleton: &Skeleton, poses: &[Transform], bone: BoneIndex) -> Vec3 {
     let children: Vec3 = skeleton
         .children(Some(bone))
@@ -19,8 +19,8 @@ pub fn forward_of(skeleton: &Skeleton, poses: &[Transform], bone: BoneIndex) -> 
     [children, onwards].into_iter().find_map(|axis| axis.try_normalize()).unwrap_or(Vec3::Y)
 }
 
-/// The poses in which `bones` look at `target` (scene space), from those nearer to the root to the others. A bone at the
-/// target itself, or in a space without volume, stays as it is.
+/// Returns the poses in which `bones` look at `target` (scene space), parents before children. A bone at the target
+/// itself, or in a space without volume, stays as it is.
 pub fn look_at(skeleton: &Skeleton, poses: &[Transform], bones: &[BoneIndex], target: Vec3) -> Vec<BonePose> {
     let count = skeleton.len();
     let mut now: Vec<Transform> =

@@ -1,4 +1,4 @@
-//! The pose of the other side: what one hand does, done by the other.
+//! Mirrors poses: the other side of the body gets the pose of one side.
 
 use crate::bones::{MirrorPairs, MirrorPlane, Stance};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
@@ -15,10 +15,10 @@ pub struct Mirror {
     stances: Vec<BoneStance>,
 }
 
-/// A bone before anything moves it.
+/// A bone in the symmetric pose of the skeleton, from which mirrored poses are measured.
 #[derive(Clone, Copy, Debug)]
 struct BoneStance {
-    /// Space of the parent → scene space, without place.
+    /// Matrix from the space of the parent to scene space, without the translation.
     parent: Mat3,
     parent_turn: Quat,
     /// In the space of the parent.
@@ -28,7 +28,7 @@ struct BoneStance {
 }
 
 impl Mirror {
-    /// For a skeleton. Takes time in proportion to its bones.
+    /// Finds the pairs and the mirror plane of a skeleton. Takes time in proportion to its bones.
     pub fn of(skeleton: &Skeleton) -> Self {
         let pairs = MirrorPairs::of(skeleton);
         let Stance { to_root, plane, .. } = Stance::of(skeleton, &pairs.pairs);
@@ -54,7 +54,7 @@ impl Mirror {
         self.pairs.mirror_of(bone)
     }
 
-    /// A translation of `bone` (parent space) as one of its other side.
+    /// Returns the translation of the mirror bone for a translation of `bone` (both in parent space).
     pub fn translation(&self, bone: BoneIndex, translation: Vec3) -> Option<Vec3> {
         let (from, to) = self.both(bone)?;
         let moved = self.plane.direction(from.parent * (translation - from.translation));
@@ -62,18 +62,18 @@ impl Mirror {
         moved.is_finite().then_some(moved)
     }
 
-    /// A rotation of `bone` (parent space, unit) as one of its other side.
+    /// Returns the rotation of the mirror bone for a rotation of `bone` (both in parent space, unit length).
     pub fn rotation(&self, bone: BoneIndex, rotation: Quat) -> Option<Quat> {
         let (from, to) = self.both(bone)?;
         let turn = from.parent_turn * (rotation * from.rotation.inverse()) * from.parent_turn.inverse();
-        // A mirror keeps what turns in its plane and turns round everything else.
+        // A mirror reverses the sense of a rotation: the axis is mirrored and negated, and the angle stays.
         let axis = -self.plane.direction(Vec3::new(turn.x, turn.y, turn.z));
         let turn = Quat::from_xyzw(axis.x, axis.y, axis.z, turn.w);
         let turned = to.parent_turn.inverse() * turn * to.parent_turn * to.rotation;
         (turned.is_finite() && turned.length_squared() > 1e-12).then(|| turned.normalize())
     }
 
-    /// A scale of `bone` as one of its other side.
+    /// Returns the scale of the mirror bone for a scale of `bone`.
     pub fn scale(&self, bone: BoneIndex, scale: Vec3) -> Option<Vec3> {
         let (from, to) = self.both(bone)?;
         let scaled = to.scale * (scale / from.scale);
@@ -85,7 +85,7 @@ impl Mirror {
     }
 }
 
-/// Scale, rotation, translation; of a matrix without them what changes nothing.
+/// Returns scale, rotation and translation of a matrix; those of the identity where it cannot be decomposed.
 fn parts(matrix: &Mat4) -> (Vec3, Quat, Vec3) {
     let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
     let whole = scale.is_finite() && rotation.is_finite() && translation.is_finite();

@@ -1,4 +1,4 @@
-//! A row of bones turned so that its end comes to a place, with the pole, the limits and the end's own direction.
+//! Rotates a chain of bones so that its end reaches a position, with a pole, joint limits and the rotation of the end.
 
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
@@ -10,19 +10,19 @@ use std::collections::BTreeMap;
 /// A goal of a chain.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reaching {
-    /// Comes to the place; does not count to the length.
+    /// The bone that reaches the position. It does not count towards `length`.
     pub(super) end: BoneIndex,
-    /// How many bones above it turn, at least 1.
+    /// Number of bones above it that rotate, at least 1.
     pub(super) length: u32,
-    /// Scene space.
+    /// Position to reach, scene space.
     pub(super) place: Vec3,
-    /// Scene space: the direction that the end keeps or gets; none: it turns with the bone above it.
+    /// Rotation that the end gets, scene space; without one it rotates with the bone above it.
     pub(super) rotation: Option<Quat>,
-    /// Scene space: towards which place the row bends.
+    /// Position towards which the chain bends, scene space.
     pub(super) pole: Option<Vec3>,
 }
 
-/// Poses that are worked on.
+/// Solves chains, one after another, on the poses of a skeleton.
 pub(super) struct ChainSolver<'a> {
     pub(super) skeleton: &'a Skeleton,
     pub(super) limits: Option<&'a JointLimits>,
@@ -33,7 +33,7 @@ pub(super) struct ChainSolver<'a> {
     pub(super) scratch: &'a mut ChainScratch,
 }
 
-/// The parent of a bone; one that does not come before its child counts as none.
+/// Returns the parent of a bone. A parent that does not come before its child counts as none.
 pub(super) fn parent_of(skeleton: &Skeleton, bone: BoneIndex) -> Option<BoneIndex> {
     skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone)
 }
@@ -45,12 +45,13 @@ pub(super) fn row(skeleton: &Skeleton, end: BoneIndex, length: u32) -> impl Iter
 }
 
 impl ChainSolver<'_> {
-    /// The matrices from the poses.
+    /// Updates the matrices from the poses.
     pub(super) fn chain_poses(&mut self) {
         to_root(self.skeleton, self.poses, self.to_root);
     }
 
-    /// Turns the row as near to its goal as it comes. Where there is no answer, nothing moves.
+    /// Rotates a chain so that its end comes as near to its goal as possible. Where there is no solution, nothing
+    /// moves.
     pub(super) fn reach(&mut self, wanted: &Reaching) {
         let limits = self.limits;
         let is_limited = |bone: BoneIndex| {
@@ -86,7 +87,7 @@ impl ChainSolver<'_> {
             let limit = limits.and_then(|limits| limits.get(bone));
             limit.map_or(rotation, |limit| limit.clamp(rotation, rest).rotation)
         };
-        // Towards the pole first, so that the row bends there; then it reaches, and keeps that side.
+        // The chain is turned towards the pole first, so that it bends to that side and keeps the side when it reaches.
         if let Some(pole) = wanted.pole.filter(|_| !limited) {
             self.swing(root, wanted, pole);
         }
@@ -102,7 +103,8 @@ impl ChainSolver<'_> {
         }
     }
 
-    /// Turns a row about the line from its root to its end until the joint farthest from that line points to the pole.
+    /// Rotates a chain about the line from its root to its end until the joint farthest from that line points to the
+    /// pole.
     fn swing(&mut self, root: BoneIndex, wanted: &Reaching, pole: Vec3) {
         let place = |bone: BoneIndex| self.to_root[bone as usize].w_axis.truncate();
         let (begin, end) = (place(root), place(wanted.end));
@@ -128,7 +130,7 @@ impl ChainSolver<'_> {
         let Some(pose) = self.poses.get_mut(bone as usize) else { return };
         if local.is_finite() && local.length_squared() > 0.5 {
             let local = local.normalize();
-            // In the hemisphere of what was there, so that nothing flips.
+            // With the sign of the previous rotation, so that nothing flips.
             pose.rotation = if local.dot(pose.rotation) < 0.0 { -local } else { local };
             self.chain_poses();
         }

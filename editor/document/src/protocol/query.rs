@@ -7,7 +7,7 @@ use dragonfly_anim::sample::sample_track;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// Something that is read.
+/// A query: data of the document that a client reads.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "query", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Query {
@@ -19,28 +19,28 @@ pub enum Query {
     History,
     /// Original, change and result of a bone at a time, and what is pending there, relative to its parent.
     Pose {
-        /// Which take.
+        /// The take.
         take: TakeRef,
         /// Seconds.
         time: f32,
-        /// Which bone.
+        /// The bone.
         bone: BoneRef,
     },
     /// The keys of a bone: times of each channel.
     Keys {
-        /// Which take.
+        /// The take.
         take: TakeRef,
-        /// Which bone.
+        /// The bone.
         bone: BoneRef,
     },
 }
 
 impl Query {
-    /// The answer.
+    /// Returns the answer.
     ///
     /// # Errors
     ///
-    /// What is not there.
+    /// The reason why there is no answer: a take or bone does not exist, or the time is not finite.
     pub fn answer(&self, edited: &Edited) -> Result<Value, String> {
         let adapter = edited.adapter();
         match self {

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 pub enum ProtocolCommand {
     /// Apply an edit. Each edit of a gesture replaces the one before.
     Edit {
-        /// Which.
+        /// The edit.
         edit: Edit,
         /// All edits of one gesture are one step.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -22,7 +22,7 @@ pub enum ProtocolCommand {
     },
     /// Cancel a gesture, as if it had never started.
     Cancel {
-        /// Which.
+        /// The gesture.
         gesture: Gesture,
     },
     /// Undo the last step.

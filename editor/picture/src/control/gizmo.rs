@@ -1,5 +1,5 @@
 //! Draws the gizmo at the selected bones in the pose of the frame, so that it moves with them without delay. During a
-//! drag it draws the shape computed by the tool, which has the start of the drag.
+//! drag it draws the shape computed by the tool, which depends on the start of the drag.
 
 use super::component::{ControlFrame, GraphicComponent};
 use crate::appearance::Appearance;

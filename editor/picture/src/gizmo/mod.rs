@@ -32,7 +32,7 @@ pub struct GizmoSettings {
     pub rotate_step: f64,
     /// Snapping step for scaling, as a factor.
     pub scale_step: f64,
-    /// Part of the pointer's movement that counts with Shift.
+    /// Fraction of the pointer's movement that counts while Shift is held.
     pub precise: f64,
 }
 

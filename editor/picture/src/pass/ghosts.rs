@@ -23,7 +23,7 @@ impl GhostsPass {
     }
 }
 
-/// The model is a listener itself.
+/// Holds no resources of the device: those of the model are released by the model, which is a listener itself.
 impl DeviceListener for GhostsPass {
     fn on_lost(&mut self) {}
 

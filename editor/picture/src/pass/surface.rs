@@ -19,7 +19,7 @@ impl SurfacePass {
     }
 }
 
-/// The model is a listener itself.
+/// Holds no resources of the device: those of the model are released by the model, which is a listener itself.
 impl DeviceListener for SurfacePass {
     fn on_lost(&mut self) {}
 

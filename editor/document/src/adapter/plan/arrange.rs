@@ -1,4 +1,4 @@
-//! Keys at other times, among the keys that stay.
+//! Moves and inserts keys among the other keys of a channel.
 
 use super::super::change::KeyChange;
 use super::super::kind::ChannelKind;
@@ -41,7 +41,7 @@ pub(crate) fn arrange<K: ChannelKind>(
         .filter_map(|&(at, time)| Some(KeyContent { time, ..stretched(key(at)?, how.stretch) }))
         .collect();
     moved.sort_by(|a, b| a.time.total_cmp(&b.time));
-    // Of neighbors at one time the last counts.
+    // Of several keys at the same time, the last one wins.
     moved.reverse();
     moved.dedup_by(|next, kept| (kept.time - next.time).abs() <= SAME_TIME);
     moved.reverse();
@@ -49,8 +49,8 @@ pub(crate) fn arrange<K: ChannelKind>(
     insert_keys_overwriting(work, address, moved, away);
 }
 
-/// Inserts keys, ascending and apart from each other, into a channel and removes its keys at the positions `remove`. Keys at the times of
-/// inserted ones are overwritten.
+/// Inserts `keys` into a channel, and removes its keys at the positions `remove`. The times of `keys` ascend, and no
+/// two are the same. Keys that the channel has at these times are overwritten.
 pub(crate) fn insert_keys_overwriting(
     work: &mut Transaction,
     address: ChannelAddress,
@@ -80,7 +80,7 @@ pub(crate) fn insert_keys_overwriting(
     work.perform(Op::Splice(address, remove, insert));
 }
 
-/// Returns whether the order of all keys stays and no two come together. The column of values stays as it is then.
+/// Returns whether all keys keep their order and no two get the same time. The column of values then stays as it is.
 fn stays_in_order(times: &[f32], chosen: &[(u32, f32)]) -> bool {
     let apart = |before: f32, after: f32| after - before > SAME_TIME;
     chosen.iter().enumerate().all(|(index, &(at, time))| {
@@ -93,12 +93,12 @@ fn stays_in_order(times: &[f32], chosen: &[(u32, f32)]) -> bool {
             Some(&(key, time)) if key as usize == at + 1 => Some(time),
             _ => times.get(at + 1).copied(),
         };
-        // Keys that were nearer than that before would need no new order, but are too rare for a rule of their own.
+        // Keys that were nearer than that already would keep their order too, but are too rare for a rule of their own.
         before.is_none_or(|before| apart(before, time)) && after.is_none_or(|after| apart(time, after))
     })
 }
 
-/// Returns the same key where time runs `stretch` times slower.
+/// Returns the key with its tangents adapted to a time that runs `stretch` times slower; negative: backwards.
 pub(crate) fn stretched(key: KeyContent, stretch: f32) -> KeyContent {
     if stretch == 1.0 {
         return key;

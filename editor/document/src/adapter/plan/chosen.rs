@@ -1,4 +1,4 @@
-//! Keys of a selection: many sets of keys, each looked up once.
+//! Finds the keys that a list of key sets selects.
 
 use super::super::op::ChannelAddress;
 use super::super::slot::TakeId;
@@ -6,7 +6,7 @@ use super::{EditError, Transaction, finite};
 use crate::edit::target::{BoneRef, KeySet, Property, SAME_TIME};
 use std::collections::HashMap;
 
-/// Sets of the same channels, with the times of all of them.
+/// Key sets that name the same channels, with all their times.
 struct KeyGroup<'a> {
     bones: &'a [BoneRef],
     properties: &'a [Property],
@@ -47,11 +47,12 @@ impl Transaction {
             }
         }
         found.retain(|(_, keys)| !keys.is_empty());
-        if found.is_empty() { Err(EditError::Nothing("no key is meant")) } else { Ok(found) }
+        if found.is_empty() { Err(EditError::Nothing("no key is selected")) } else { Ok(found) }
     }
 }
 
-/// Groups consecutive sets of the same channels, so that a key in a set of its own costs no more than one in a list.
+/// Groups consecutive sets of the same channels, so that many sets with one time each cost no more
+/// than one set with many times.
 fn groups(sets: &[KeySet]) -> Result<Vec<KeyGroup<'_>>, EditError> {
     let mut groups: Vec<KeyGroup<'_>> = Vec::new();
     for set in sets {
@@ -81,7 +82,7 @@ fn groups(sets: &[KeySet]) -> Result<Vec<KeyGroup<'_>>, EditError> {
     Ok(groups)
 }
 
-/// Adds the keys at ascending `wanted` times.
+/// Adds the positions of the keys at the `wanted` times, which ascend, to `keys`.
 fn held_at(times: &[f32], wanted: &[f32], keys: &mut Vec<u32>) {
     let mut from = 0;
     for &wanted in wanted {
@@ -97,7 +98,7 @@ fn held_at(times: &[f32], wanted: &[f32], keys: &mut Vec<u32>) {
     }
 }
 
-/// Adds the keys of a set with a range.
+/// Adds the positions of the keys of a set with a range to `keys`.
 fn held_between(times: &[f32], set: &KeySet, keys: &mut Vec<u32>) {
     let begin = set.from.map_or(0, |from| times.partition_point(|&time| time < from - SAME_TIME));
     let end = set.to.map_or(times.len(), |to| times.partition_point(|&time| time <= to + SAME_TIME));
@@ -113,7 +114,8 @@ fn held_between(times: &[f32], set: &KeySet, keys: &mut Vec<u32>) {
     }
 }
 
-/// Returns how many of ascending times come before. The number is usually small, so the search starts at the front.
+/// Returns how many of the ascending `times` satisfy `is_before`. The number is usually small, so the search starts at
+/// the front.
 fn first(times: &[f32], is_before: impl Fn(f32) -> bool) -> usize {
     let mut reach = 1;
     while reach < times.len() && is_before(times[reach]) {
@@ -129,7 +131,7 @@ mod tests {
     use dragonfly_kit::random::{Random, seed};
 
     #[test]
-    fn keys_that_are_searched_are_those_that_the_set_holds() {
+    fn the_search_finds_exactly_the_keys_that_a_key_set_contains() {
         let first = seed(12);
         for number in first..first + 300 {
             let mut random = Random::new(number);

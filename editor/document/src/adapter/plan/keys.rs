@@ -45,7 +45,7 @@ pub(crate) fn current<K: ChannelKind>(
     let original = shown(K::channel(original));
     let change = match KeyChange::between::<K>(&original, &shown(K::channel(result))) {
         Some(change) => change,
-        // No change leads from one to the other: that of the key before comes near.
+        // No change turns the original into the result; the change of the key before comes close to it.
         None => {
             let times = slot.times(address.bone, address.property);
             let before = times.partition_point(|&key| key < time).saturating_sub(1);

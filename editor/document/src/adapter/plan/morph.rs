@@ -1,4 +1,4 @@
-//! Changes of morph weights with a whole take.
+//! Moves and cuts morph weights together with the keys of their take.
 
 use crate::edit::SAME_TIME;
 use dragonfly_anim::data::{Interpolation, MorphTrack, Take};
@@ -10,8 +10,9 @@ fn per_key(track: &MorphTrack) -> usize {
     track.targets as usize * if track.interpolation == Interpolation::CubicSpline { 3 } else { 1 }
 }
 
-/// The track with its keys at other times, `None` for a key that goes; the order of the times may turn round as a
-/// whole. Where time runs `stretch` times slower, tangents become as much flatter.
+/// Returns the track with its keys moved to the times that `to` returns, without those for which it returns `None`.
+/// Time runs `stretch` times slower, so tangents are divided by it. Where it is negative, `to` reverses the order of
+/// all keys.
 pub(crate) fn mapped(track: &MorphTrack, to: impl Fn(f32) -> Option<f32>, stretch: f32) -> MorphTrack {
     let width = per_key(track);
     let mut keys: Vec<(f32, usize)> =
@@ -28,7 +29,7 @@ pub(crate) fn mapped(track: &MorphTrack, to: impl Fn(f32) -> Option<f32>, stretc
     MorphTrack { times, weights: weights.into(), ..track.clone() }
 }
 
-/// Appends a key, with tangents as `stretch` makes them.
+/// Appends a key, with its tangents divided by `stretch`; a negative `stretch` also swaps them.
 fn put(weights: &mut Vec<f32>, values: &[f32], track: &MorphTrack, stretch: f32) {
     let targets = track.targets as usize;
     if track.interpolation != Interpolation::CubicSpline || values.len() < 3 * targets {
@@ -68,7 +69,7 @@ pub(crate) fn between(track: &MorphTrack, from: f32, to: f32) -> MorphTrack {
     MorphTrack { times: times.into(), weights: weights.into(), ..track.clone() }
 }
 
-/// A key that holds what the track shows at `time`.
+/// Returns the numbers of a new key at `time` that leaves the curves of the track as they are.
 fn key_at(track: &MorphTrack, time: f32) -> Vec<f32> {
     let targets = track.targets as usize;
     let mut value = vec![0.0; targets];

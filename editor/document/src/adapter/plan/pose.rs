@@ -135,7 +135,8 @@ pub(crate) fn changed<K: ChannelKind>(
     Ok(change.some::<K>())
 }
 
-/// q and -q are the same rotation; the one that keeps a spline from turning the long mode.
+/// Returns the wanted value. A quaternion gets the sign that keeps a spline from turning the long way: q and -q are the
+/// same rotation.
 fn near<K: ChannelKind>(wanted: K::Value, now: ChannelNumbers) -> K::Value {
     let numbers = K::numbers(wanted);
     let turn = K::IDENTITY == RotationChannel::IDENTITY;

@@ -50,7 +50,7 @@ pub(crate) fn apply(work: &mut Transaction, take: TakeId, map: TimeMap) -> Resul
     Ok(())
 }
 
-/// Returns whether keys are still as far apart from each other as they were before.
+/// Returns whether the new times ascend, and no more neighbors are at the same time ([`SAME_TIME`]) than before.
 fn apart(old: &[f32], new: &[f32]) -> bool {
     let near = |times: &[f32]| times.windows(2).filter(|pair| pair[1] - pair[0] <= SAME_TIME).count();
     new.windows(2).all(|pair| pair[0] < pair[1]) && near(new) <= near(old)

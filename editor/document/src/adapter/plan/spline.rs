@@ -15,7 +15,7 @@ pub(crate) fn slope<K: ChannelKind>(channel: &Channel<K::Value>, key: usize) -> 
     let (before, after) = (key.saturating_sub(1), (key + 1).min(channel.len() - 1));
     let seconds = channel.times[after] - channel.times[before];
     let middle = value::<K>(channel, key);
-    // q and -q are the same rotation: both neighbors on the side of this key.
+    // q and -q are the same rotation: gives both neighbors the sign that is nearer to this key.
     let near = |numbers: ChannelNumbers| {
         let dot: f32 = numbers.iter().zip(middle).map(|(a, b)| a * b).sum();
         let turn = K::IDENTITY == [0.0, 0.0, 0.0, 1.0];

@@ -9,7 +9,7 @@ use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::Value;
 use std::sync::Arc;
 
-/// Puts one change into a list; the one that was there.
+/// Replaces the change of a key in a list; `None` removes it. Returns the previous change.
 pub(super) fn exchange(
     changes: &mut ChannelChanges,
     key: u32,
@@ -26,7 +26,7 @@ pub(super) fn exchange(
     }
 }
 
-/// Calculates the result of a channel again: of the keys in `touched`, or of all.
+/// Computes the result of a channel again, for the keys in `touched` or for all keys.
 pub(super) fn refresh<K: ChannelKind>(
     slot: &mut TakeVersions,
     property: Property,
@@ -44,10 +44,10 @@ pub(super) fn refresh<K: ChannelKind>(
         *result = original;
         return;
     }
-    // Only the keys that were touched differ from the last result, if there is one of its own.
+    // If the last result has a column of its own, only the touched keys differ from it.
     let (mut values, keys): (Arc<[K::Value]>, Vec<u32>) = match touched {
         Some(touched) if !Arc::ptr_eq(&result.values, &original.values) => {
-            // A column that is not shared is overwritten.
+            // A column that is not shared is overwritten in place.
             (std::mem::take(&mut result.values), touched.iter().map(|(key, _)| *key).collect())
         }
         _ => (Arc::from(&*original.values), changes.iter().map(|(key, _)| *key).collect()),
@@ -106,14 +106,14 @@ pub(super) fn spliced<K: ChannelKind>(
     taken
 }
 
-/// Runs of keys between those at ascending `gone`, as begin and end.
+/// Returns the runs of keys between those that are removed, each as start and end. The positions `gone` ascend.
 fn runs(keys: usize, gone: &[u32]) -> impl Iterator<Item = (usize, usize)> + '_ {
     let ends = gone.iter().map(move |&gone| (gone as usize).min(keys)).chain([keys]);
     let begins = [0].into_iter().chain(gone.iter().map(|&gone| gone as usize + 1));
     begins.zip(ends).filter(|(begin, end)| begin < end)
 }
 
-/// Puts in the keys whose place has come.
+/// Appends the inserted keys whose position has been reached.
 fn put_in<K: ChannelKind>(
     inserted: &mut std::iter::Peekable<std::slice::Iter<'_, (u32, KeyContent)>>,
     times: &mut Vec<f32>,
@@ -130,7 +130,7 @@ fn put_in<K: ChannelKind>(
     }
 }
 
-/// Other times for some keys, which stay in their order; the times from before.
+/// Replaces the times of a channel. The order of its keys stays the same.
 pub(super) fn retimed<K: ChannelKind>(slot: &mut TakeVersions, bone: u32, times: &Arc<[f32]>) {
     K::channel_mut(&mut slot.original_mut().tracks[bone as usize]).times = Arc::clone(times);
     if slot.changes.is_empty() {
@@ -157,7 +157,7 @@ pub(super) fn replaced<K: ChannelKind>(
     before
 }
 
-/// Puts an original channel and its changes in, and makes the result.
+/// Replaces a channel by an original and its changes, and computes the result.
 fn put_channel<K: ChannelKind>(
     slot: &mut TakeVersions,
     property: Property,

@@ -12,11 +12,11 @@ use dragonfly_anim::data::{Channel, MorphTrack, Take};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Identifies a take among all of its document, including deleted ones.
+/// Identifies a take among all takes that its document has or had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
 pub struct TakeId(pub u32);
 
-/// The changes of one channel by key, ascending, without identities.
+/// The changes of one channel: key index and change, ascending by index. Identities are left out.
 pub type ChannelChanges = Vec<(u32, KeyChange)>;
 
 /// A key with its original and its change.
@@ -62,7 +62,7 @@ impl TakeVersions {
         }
     }
 
-    /// The same take under another number, made here; pending poses come along.
+    /// Returns a copy of the take, including its pending poses, with another identifier. The copy is not from the file.
     pub(crate) fn copied(&self, id: TakeId) -> Self {
         Self { id, origin: None, ..self.clone() }
     }
@@ -77,34 +77,34 @@ impl TakeVersions {
         self.key_change(bone, property, key).map_or(property.identity(), |change| change.value)
     }
 
-    /// The key of a channel at `time` seconds, if there is one.
+    /// Returns the index of the key of a channel at `time` seconds, if there is one.
     pub fn key_at(&self, bone: u32, property: Property, time: f32) -> Option<usize> {
         ((bone as usize) < self.original.tracks.len())
             .then(|| key_at(self.times(bone, property), time).ok())
             .flatten()
     }
 
-    /// Poses that are shown at their times and held by no key, ascending in time.
+    /// Returns the poses that are shown at their times but are in no key, ascending in time.
     pub fn pending(&self) -> &[Arc<PendingAt>] {
         &self.pending
     }
 
-    /// Those at `time` seconds, if there are any.
+    /// Returns the pending poses at `time` seconds, if there are any.
     pub fn pending_at(&self, time: f32) -> Option<&Arc<PendingAt>> {
         place_of(&self.pending, time).ok().map(|at| &self.pending[at])
     }
 
-    /// How many poses are pending: bones, summed over times.
+    /// Returns the number of pending poses: of bones, summed over all times.
     pub fn pending_poses(&self) -> usize {
         self.pending.iter().map(|at| at.poses.len()).sum()
     }
 
-    /// A take without anything pending.
+    /// Removes all pending poses.
     pub(crate) fn forget_pending(&mut self) {
         self.pending.clear();
     }
 
-    /// Puts in other pending poses at a time, `None` for none; those from before.
+    /// Replaces the pending poses at a time; `None` removes them. Returns the previous ones.
     pub(crate) fn set_pending(&mut self, time: f32, poses: Option<Arc<PendingAt>>) -> Option<Arc<PendingAt>> {
         match (place_of(&self.pending, time), poses) {
             (Ok(at), Some(poses)) => Some(std::mem::replace(&mut self.pending[at], poses)),
@@ -123,7 +123,7 @@ impl TakeVersions {
         Some(changes[at].1)
     }
 
-    /// Channels of which something was changed.
+    /// Returns the channels that have changes.
     pub fn changed(&self) -> impl Iterator<Item = (u32, Property)> + '_ {
         self.changes.keys().copied()
     }
@@ -144,7 +144,7 @@ impl TakeVersions {
         Some(KeyContent { time, original: triple::<K>(channel, key), change })
     }
 
-    /// Times of a channel's keys.
+    /// Returns the times of a channel's keys.
     pub(crate) fn times(&self, bone: u32, property: Property) -> &Arc<[f32]> {
         let track = &self.original.tracks[bone as usize];
         match property {
@@ -154,7 +154,7 @@ impl TakeVersions {
         }
     }
 
-    /// Gives keys other changes, `None` for none; what they had before.
+    /// Replaces the changes of keys; `None` removes a change. Returns the previous ones.
     pub(crate) fn set_changes(
         &mut self,
         bone: u32,
@@ -171,8 +171,8 @@ impl TakeVersions {
         before
     }
 
-    /// Takes keys out (ascending positions as they are) and puts others in (ascending positions as they will be);
-    /// answers with the positions and keys that undo it.
+    /// Removes keys (ascending positions before the operation) and inserts others (ascending positions after it).
+    /// Returns the positions and keys that undo it.
     pub(crate) fn splice(
         &mut self,
         bone: u32,
@@ -185,7 +185,7 @@ impl TakeVersions {
         (insert.iter().map(|(at, _)| *at).collect(), taken)
     }
 
-    /// Gives keys other times, without another order; their times from before.
+    /// Replaces the times of keys, which keep their order. Returns the previous times.
     pub(crate) fn set_times(
         &mut self,
         bone: u32,
@@ -200,7 +200,7 @@ impl TakeVersions {
         before
     }
 
-    /// Puts a whole channel in the place of another; the other.
+    /// Replaces a whole channel. Returns the previous one.
     pub(crate) fn replace(
         &mut self,
         bone: u32,
@@ -210,7 +210,7 @@ impl TakeVersions {
         with_kind!(property, replaced::<K>(self, property, bone, content))
     }
 
-    /// Puts in other morph tracks; those from before.
+    /// Replaces the morph tracks. Returns the previous ones.
     pub(crate) fn set_morphs(&mut self, morphs: Vec<MorphTrack>) -> Vec<MorphTrack> {
         let before = self.original.morphs.clone();
         self.both(|take| take.morphs.clone_from(&morphs));
@@ -223,8 +223,9 @@ impl TakeVersions {
         before
     }
 
-    /// Returns the original, to be altered. The caller makes the result again: where nothing is changed, it is the original
-    /// itself and is released here, because a take that both share would be copied for each channel of an edit.
+    /// Returns the original, to be modified. The caller must set the result afterwards: without changes, the result is
+    /// the original itself and is released here, because a take that both share would be copied for each channel of an
+    /// edit.
     fn original_mut(&mut self) -> &mut Take {
         if self.changes.is_empty() {
             self.result = Arc::default();
@@ -232,7 +233,7 @@ impl TakeVersions {
         Arc::make_mut(&mut self.original)
     }
 
-    /// Does the same to original and result.
+    /// Makes the same modification in the original and in the result.
     fn both(&mut self, mut change: impl FnMut(&mut Take)) {
         change(self.original_mut());
         if self.changes.is_empty() {
@@ -242,7 +243,7 @@ impl TakeVersions {
         }
     }
 
-    /// Start and length are those of the keys.
+    /// Sets start and length to those of the keys.
     pub(crate) fn measure(&mut self) {
         let (start, length) = extent(&self.original);
         for take in [&mut self.original, &mut self.result] {
@@ -266,7 +267,7 @@ pub(crate) fn key_at(times: &[f32], time: f32) -> Result<usize, usize> {
     }
 }
 
-/// Seconds: the first key of any channel, and from it to the last one.
+/// Returns the time of the first key of all channels, and the duration from it to the last key, in seconds.
 pub(crate) fn extent(take: &Take) -> (f32, f32) {
     take.range_of_keys().map_or((0.0, 0.0), |(start, end)| (start, end - start))
 }
