@@ -138,7 +138,7 @@ fn the_status_line_counts_overwritten_keys() {
         said.starts_with("Duplicate keys  ·  ") && said.ends_with("1 more  ·  2 keys replaced"),
         "{said}"
     );
-    // Moved to a time without other keys.
+    // A key that is moved to a time without other keys replaces none.
     select(&mut animator, 0, 0);
     animator.request(Request::Timeline(KeysRequest::Drag(dragonfly::panels::keys::KeyDragOp::Move(0.03))));
     animator.request(Request::Timeline(KeysRequest::Release));

@@ -182,7 +182,7 @@ mod tests {
     use dragonfly_kit::random::{Random, seed};
 
     #[test]
-    fn a_head_block_returns_the_lanes_that_it_was_built_from_narrow_or_wide() {
+    fn a_head_block_with_narrow_or_wide_lanes_returns_the_lanes_it_was_built_from() {
         let mut random = Random::new(seed(17));
         let mut wide = Vec::new();
         for round in 0..2000 {

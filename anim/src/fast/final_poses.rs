@@ -82,7 +82,7 @@ impl Kernel for FinalPoses<'_> {
     }
 }
 
-/// As [`final_poses`], as part of a larger kernel.
+/// Computes the same as [`final_poses`]; inlined into larger kernels.
 #[inline(always)]
 pub(super) fn final_poses_with<S: Simd>(binding: &SkinBinding, to_root: &RootPoses, out: &mut [Matrix34]) {
     let is_finite = if binding.is_near {

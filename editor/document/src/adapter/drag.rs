@@ -33,7 +33,7 @@ pub(crate) struct ValueDrag {
 struct HeldKey {
     address: ChannelAddress,
     key: u32,
-    /// Its change when the gesture started.
+    /// Change of the key when the gesture started.
     before: Option<KeyChange>,
 }
 

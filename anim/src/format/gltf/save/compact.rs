@@ -144,7 +144,7 @@ impl IdleSamplers {
         Self { instead }
     }
 
-    /// Returns the sampler whose accessors a sampler gets, in most cases the sampler itself.
+    /// Returns the sampler from which a sampler takes its accessors: in most cases from itself.
     fn source(&self, document: &SourceDocument<'_>, animation: usize, sampler: usize) -> ValueId {
         let number = self.instead.get(&(animation, sampler)).copied().unwrap_or(sampler);
         document.animations[animation].samplers[number]
