@@ -109,10 +109,12 @@ fn a_planted_loop_of_four_files_is_found_in_every_spelling() {
 
 #[test]
 fn loops_of_three_files_and_chains_are_allowed() {
-    let three = [("a", "use crate::b::B; pub struct A;"), ("b", "use crate::c::C; pub struct B;")];
-    none(complaints(&[three[0], three[1], ("c", "use crate::a::A; pub struct C;")]));
-    let chain = [three[0], three[1], ("c", "use crate::d::D; pub struct C;"), ("d", "pub struct D;")];
-    none(complaints(&chain));
+    let root = ("lib", "mod a; mod b; mod c; mod d;");
+    let [a, b] = [("a", "use crate::b::B; pub struct A;"), ("b", "use crate::c::C; pub struct B;")];
+    none(complaints(&[root, a, b, ("c", "use crate::a::A; pub struct C;")]));
+    let c = ("c", "use crate::d::D; pub struct C;");
+    none(complaints(&[root, a, b, c, ("d", "pub struct D;")]));
+    one(complaints(&[root, a, b, c, ("d", "use crate::a::A; pub struct D;")]));
 }
 
 #[test]
@@ -138,4 +140,18 @@ fn a_parent_that_uses_what_it_lists_is_part_of_the_loop() {
     let child = "use super::Row; pub const ROW: Row = Row;";
     let parent = "mod a; mod b; mod c; pub struct Row; pub const ALL: [Row; 3] = [a::ROW, b::ROW, c::ROW];";
     one(complaints(&[("list/mod", parent), ("list/a", child), ("list/b", child), ("list/c", child)]));
+}
+
+#[test]
+fn a_name_that_a_macro_defines_belongs_to_the_file_of_the_macro() {
+    let list = "macro_rules! kinds { ($($K:ident => $m:ident::$T:ident,)*) => { pub enum Kind { $($K($m::$T),)* } } } \
+                kinds! { A => a::Kind1, }";
+    let loop_of_four = [
+        ("lib", "mod list; mod ask; mod prompts;"),
+        ("list/mod", list),
+        ("list/a", "use crate::ask::Ask; pub struct Kind1;"),
+        ("ask", "use crate::prompts::Prompts; pub struct Ask;"),
+        ("prompts", "use crate::list::Kind; pub struct Prompts;"),
+    ];
+    one(complaints(&loop_of_four));
 }

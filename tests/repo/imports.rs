@@ -23,6 +23,8 @@ struct Import {
 struct Module {
     file: String,
     defined: BTreeSet<String>,
+    /// Whether it declares a macro, whose output may define further names.
+    has_macro: bool,
     imports: Vec<Import>,
     /// Paths in the code outside of `use`; one word is a path, too.
     paths: Vec<Vec<String>>,
@@ -92,6 +94,7 @@ impl Crate {
                     let name = at + 1 + usize::from(word(at + 1) == "!");
                     // `const fn` and `*const T` name nothing here.
                     // Inside braces it belongs to a type or a function.
+                    found.has_macro |= item == "macro_rules";
                     if is_name(word(name)) && !ITEMS.contains(&word(name)) {
                         if depth == 0 {
                             found.defined.insert(word(name).to_owned());
@@ -188,13 +191,29 @@ impl Crate {
         None
     }
 
+    /// Returns the file with the macro that defines the name at the end of a path, for paths that lead into this crate.
+    fn macro_file(&self, module: &str, path: &[String]) -> Option<Destination> {
+        let (_, parent) = path.split_last()?;
+        if !matches!(parent.first()?.as_str(), "crate" | "self" | "super") {
+            return None;
+        }
+        match self.follow(module, parent, &mut BTreeSet::new())? {
+            Destination::Module(inner) => {
+                let inner = self.modules.get(&inner).filter(|inner| inner.has_macro)?;
+                Some(Destination::Name(inner.file.clone()))
+            }
+            Destination::Name(_) => None,
+        }
+    }
+
     fn arrows(&self) -> Arrows {
         let mut arrows = Arrows::new();
         for (module, here) in &self.modules {
             // A re-export depends on nothing; the code that uses the name does.
             let private = here.imports.iter().filter(|import| !import.public && import.name != "*");
             for path in here.paths.iter().chain(private.map(|import| &import.path)) {
-                if let Some(Destination::Name(file)) = self.follow(module, path, &mut BTreeSet::new())
+                let found = self.follow(module, path, &mut BTreeSet::new());
+                if let Some(Destination::Name(file)) = found.or_else(|| self.macro_file(module, path))
                     && file != here.file
                 {
                     let targets = arrows.entry(here.file.clone()).or_default();

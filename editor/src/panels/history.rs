@@ -1,5 +1,6 @@
 //! The list of all steps: a click on a step undoes or redoes everything up to it.
 
+use super::command_button;
 use super::commands::Id;
 use super::context::PanelContext;
 use super::icons::Icon;
@@ -63,7 +64,7 @@ fn buttons(ui: &mut Ui, context: &PanelContext<'_>, history: &HistoryView, reque
         for (icon, id) in [(Icon::Revert, Id::Undo), (Icon::Redo, Id::Redo)] {
             let when = super::commands::get(id).when;
             ui.add_enabled_ui(when.holds(context), |ui| {
-                let _ = widgets::command_button(ui, icon, id, false, requests)
+                let _ = command_button::command_button(ui, icon, id, false, requests)
                     .on_disabled_hover_text(when.reason());
             });
         }

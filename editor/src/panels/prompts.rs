@@ -1,26 +1,12 @@
 //! Modal dialogs and overlays shown over the panels.
 
 pub use super::dialogs::Question;
+pub use super::overlay::Overlay;
 
 use super::dialogs::{FindQuestion, RecoverQuestion};
 use dragonfly_document::{Decision, Offer};
 use std::collections::VecDeque;
 use std::path::PathBuf;
-
-/// An overlay over the panels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overlay {
-    /// Search for a command.
-    Palette,
-    /// Keys and mouse.
-    Shortcuts,
-    /// Version and licenses.
-    About,
-    /// A field for a path.
-    OpenPath,
-    /// The pairs of left and right bones.
-    MirrorPairs,
-}
 
 /// Questions in their order, the overlay, and the search field's request for the cursor.
 #[derive(Debug, Default)]

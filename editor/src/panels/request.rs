@@ -3,7 +3,7 @@
 use super::commands::id::Id;
 use super::commands::key_settings::KeySettings;
 use super::keys::request::KeysRequest;
-use super::prompts::Overlay;
+use super::overlay::Overlay;
 use super::properties::look::PropertiesLook;
 use super::settings::GhostSettings;
 use dragonfly_anim::data::BoneIndex;

@@ -1,5 +1,6 @@
 //! The bar over the timeline: buttons, repeat, speed, time.
 
+use super::command_button::command_button;
 use super::commands::{self, Id};
 use super::context::PanelContext;
 use super::icons::Icon;
@@ -8,7 +9,7 @@ use super::ruler;
 use super::settings::{FRAME_RATES, SPEEDS};
 use super::style::{CONTROL, GRID};
 use super::theme::Theme;
-use super::widgets::{command_button, icon_button, text_width};
+use super::widgets::{icon_button, text_width};
 use crate::control::expression::{Quantity, evaluate};
 use dragonfly_picture::playback::{LATEST, Repeat};
 use egui::{Align, Button, DragValue, Layout, RichText, TextStyle, Ui, vec2};

@@ -1,9 +1,7 @@
 //! Small widgets that several panels share.
 
-use super::commands::{self, Id};
 pub(super) use super::count_text::{count, grouped};
 use super::icons::Icon;
-use super::request::Request;
 use super::style::{self, GRID, RADIUS, ROW};
 use super::theme::Theme;
 use egui::accesskit::Role;
@@ -12,32 +10,6 @@ use egui::{
     Align2, Color32, Context, CornerRadius, FontId, Id as WidgetId, Rect, RectAlign, Response, RichText,
     Sense, TextEdit, TextStyle, Tooltip, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
-
-/// Draws a square button with an icon that runs a command; highlighted when `on`. Its tooltip contains the shortcut.
-pub(super) fn command_button(
-    ui: &mut Ui,
-    icon: Icon,
-    id: Id,
-    on: bool,
-    requests: &mut Vec<Request>,
-) -> Response {
-    let hint = commands::tooltip(ui.ctx(), id);
-    command(ui, icon, id, on, requests).on_hover_text(hint)
-}
-
-/// Draws [`command_button`] in a column of buttons: the tooltip is at the right and does not cover the next one.
-pub(super) fn column_button(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request>) {
-    let hint = commands::tooltip(ui.ctx(), id);
-    hint_beside(&command(ui, icon, id, on, requests), hint);
-}
-
-fn command(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request>) -> Response {
-    let response = icon_button(ui, icon, commands::get(id).title, on);
-    if response.clicked() {
-        requests.push(Request::Command(id));
-    }
-    response
-}
 
 /// Shows a tooltip on the right of a widget.
 pub(super) fn hint_beside(response: &Response, hint: impl Into<WidgetText>) {

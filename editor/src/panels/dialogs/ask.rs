@@ -1,16 +1,17 @@
 //! A question as it is drawn: its sentences, and its row of buttons.
 
-use crate::panels::context::PanelContext;
 use crate::panels::request::Request;
 use crate::panels::style::{GRID, RADIUS};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
+use dragonfly_document::View;
 use egui::{Button, CornerRadius, Frame, Response, RichText, Stroke, Ui, vec2};
 
 /// A question that is being drawn.
 pub(super) struct Ask<'a> {
     pub(super) ui: &'a mut Ui,
-    pub(super) context: &'a PanelContext<'a>,
+    /// The newest view of the document.
+    pub(super) view: Option<&'a View>,
     /// Whether this is its first frame, in which the default button gets the focus.
     pub(super) fresh: bool,
     pub(super) requests: &'a mut Vec<Request>,

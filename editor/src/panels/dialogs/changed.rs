@@ -31,7 +31,7 @@ impl QuestionKind for ChangedQuestion {
 
     fn show(&self, ask: &mut Ask<'_>) {
         ask.ui.set_width(480.0);
-        let Some(view) = &ask.context.view else { return };
+        let Some(view) = ask.view else { return };
         let (title, saved) = (view.file.title.clone(), view.history.saved);
         let order = self.order.as_ref();
         let gone = self.file == FileState::Missing;

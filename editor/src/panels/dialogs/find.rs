@@ -3,10 +3,9 @@
 
 use super::ask::{Ask, Tone};
 use super::kind::QuestionKind;
-use crate::panels::context::PanelContext;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
-use dragonfly_document::{Decision, DocumentMessage, Offer, Source};
+use dragonfly_document::{Decision, DocumentMessage, Offer, Source, View};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
@@ -25,7 +24,7 @@ impl QuestionKind for FindQuestion {
     }
 
     /// Returns the path where the file was.
-    fn proposal(&self, _: &PanelContext<'_>) -> String {
+    fn proposal(&self, _view: Option<&View>) -> String {
         let path = self.offer.found.document.as_ref();
         path.map_or_else(String::new, |path| path.display().to_string())
     }

@@ -1,7 +1,7 @@
 //! The interface of a question: a name for the log, the first text of its field, and a function that draws it.
 
 use super::ask::Ask;
-use crate::panels::context::PanelContext;
+use dragonfly_document::View;
 
 /// A kind of question: its data, and how it is drawn.
 pub(super) trait QuestionKind {
@@ -9,8 +9,8 @@ pub(super) trait QuestionKind {
     fn name(&self) -> &'static str;
 
     /// Returns the text that its field contains at first.
-    fn proposal(&self, context: &PanelContext<'_>) -> String {
-        let _ = context;
+    fn proposal(&self, view: Option<&View>) -> String {
+        let _ = view;
         String::new()
     }
 

@@ -2,10 +2,9 @@
 
 use super::ask::{Ask, Tone};
 use super::kind::QuestionKind;
-use crate::panels::context::PanelContext;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
-use dragonfly_document::{DocumentMessage, SaveOrder, SaveTo, Then};
+use dragonfly_document::{DocumentMessage, SaveOrder, SaveTo, Then, View};
 use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
@@ -23,8 +22,8 @@ impl QuestionKind for PlaceQuestion {
         "asked where to save"
     }
 
-    fn proposal(&self, context: &PanelContext<'_>) -> String {
-        let Some(view) = context.view else { return String::new() };
+    fn proposal(&self, view: Option<&View>) -> String {
+        let Some(view) = view else { return String::new() };
         let read = view.loaded.path.as_deref();
         let own = view.file.path.as_deref();
         let beside = |path: &Path, what: &str| {

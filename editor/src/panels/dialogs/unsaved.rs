@@ -28,7 +28,7 @@ impl QuestionKind for UnsavedQuestion {
     fn show(&self, ask: &mut Ask<'_>) {
         let then = &self.then;
         ask.ui.set_width(440.0);
-        let title = ask.context.view.map_or(String::new(), |view| view.file.title.clone());
+        let title = ask.view.map_or(String::new(), |view| view.file.title.clone());
         ask.title(&format!("Save {title}?"));
         ask.says(match then {
             Then::Quit => "It has unsaved changes, and the program is about to close.".to_owned(),
@@ -36,7 +36,7 @@ impl QuestionKind for UnsavedQuestion {
                 format!("It has unsaved changes, and {} is about to be opened.", source.title())
             }
         });
-        if let Some(last) = ask.context.view.and_then(|view| view.history.last_unsaved()) {
+        if let Some(last) = ask.view.and_then(|view| view.history.last_unsaved()) {
             ask.adds(last);
         }
         let save = ("Save", "Save, then continue", Tone::First, UnsavedChoice::Save);

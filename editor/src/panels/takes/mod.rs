@@ -10,7 +10,7 @@ use super::icons::Icon;
 use super::request::Request;
 use super::style::{GRID, RADIUS, ROW};
 use super::theme::Theme;
-use super::{Panel, PanelPlace, menu, search_field, widgets};
+use super::{Panel, PanelPlace, command_button, menu, search_field, widgets};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{Edit, MoveTake, TakeRef};
 use egui::accesskit::Role;
@@ -277,7 +277,8 @@ fn shared_prefix<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> usize 
 fn command(ui: &mut Ui, context: &PanelContext<'_>, icon: Icon, id: Id, requests: &mut Vec<Request>) {
     let when = super::commands::get(id).when;
     ui.add_enabled_ui(when.holds(context), |ui| {
-        let _ = widgets::command_button(ui, icon, id, false, requests).on_disabled_hover_text(when.reason());
+        let _ = command_button::command_button(ui, icon, id, false, requests)
+            .on_disabled_hover_text(when.reason());
     });
 }
 

@@ -1,5 +1,6 @@
 //! The buttons for IK on the left of the viewport: on and off, chain length, pins.
 
+use crate::panels::command_button::column_button;
 use crate::panels::commands::{self, Id};
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
@@ -7,7 +8,7 @@ use crate::panels::menu;
 use crate::panels::request::Request;
 use crate::panels::style::{self, RADIUS};
 use crate::panels::theme::Theme;
-use crate::panels::widgets::{column_button, count, focus_ring, hint_beside};
+use crate::panels::widgets::{count, focus_ring, hint_beside};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, CornerRadius, FontId, Response, Sense, Ui, WidgetInfo};
 

@@ -1,13 +1,14 @@
 //! The toolbar for camera and shading, at the top right of the viewport.
 
 use super::glass::{divider, glass};
+use crate::panels::command_button::command_button;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::menu;
 use crate::panels::request::Request;
 use crate::panels::style::GRID;
-use crate::panels::widgets::{command_button, icon_button};
+use crate::panels::widgets::icon_button;
 use dragonfly_picture::camera::Projection;
 use dragonfly_picture::{BoneLook, Shading};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};

@@ -2,13 +2,14 @@
 
 use super::glass::{divider_across, glass};
 use super::ik;
+use crate::panels::command_button::column_button;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::menu;
 use crate::panels::request::Request;
 use crate::panels::style::GRID;
-use crate::panels::widgets::{column_button, hint_beside, icon_button};
+use crate::panels::widgets::{hint_beside, icon_button};
 use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 

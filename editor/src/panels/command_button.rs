@@ -1,0 +1,33 @@
+//! Buttons that run a command of the table.
+
+use super::commands::{self, Id};
+use super::icons::Icon;
+use super::request::Request;
+use super::widgets::{hint_beside, icon_button};
+use egui::{Response, Ui};
+
+/// Draws a square button with an icon that runs a command; highlighted when `on`. Its tooltip contains the shortcut.
+pub(super) fn command_button(
+    ui: &mut Ui,
+    icon: Icon,
+    id: Id,
+    on: bool,
+    requests: &mut Vec<Request>,
+) -> Response {
+    let hint = commands::tooltip(ui.ctx(), id);
+    command(ui, icon, id, on, requests).on_hover_text(hint)
+}
+
+/// Draws [`command_button`] in a column of buttons: the tooltip is at the right and does not cover the next one.
+pub(super) fn column_button(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request>) {
+    let hint = commands::tooltip(ui.ctx(), id);
+    hint_beside(&command(ui, icon, id, on, requests), hint);
+}
+
+fn command(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request>) -> Response {
+    let response = icon_button(ui, icon, commands::get(id).title, on);
+    if response.clicked() {
+        requests.push(Request::Command(id));
+    }
+    response
+}

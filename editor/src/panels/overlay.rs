@@ -1,0 +1,16 @@
+//! The overlays over the panels, by name; `overlays.rs` draws them.
+
+/// An overlay over the panels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overlay {
+    /// Search for a command.
+    Palette,
+    /// Keys and mouse.
+    Shortcuts,
+    /// Version and licenses.
+    About,
+    /// A field for a path.
+    OpenPath,
+    /// The pairs of left and right bones.
+    MirrorPairs,
+}
