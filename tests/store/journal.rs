@@ -278,3 +278,24 @@ fn documents_may_have_names_that_are_not_utf8_or_very_long() {
         assert_eq!(autosave.versions().of(&RealFiles, &path).unwrap(), []);
     }
 }
+
+/// A process that is being started has copies of all open files until it runs its program, and a copy keeps a lock.
+#[test]
+fn inspecting_a_journal_leaves_it_free_while_other_processes_are_started() {
+    let folder = quick_folder("journal-inspected");
+    let autosave = autosave(&folder, RealFiles);
+    let mut journal = begin(&autosave, None, None);
+    journal.append(b"one", Instant::now()).unwrap();
+    drop(journal);
+    let done = std::sync::atomic::AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while !done.load(std::sync::atomic::Ordering::Relaxed) {
+                std::process::Command::new("true").status().unwrap();
+            }
+        });
+        let running = (0..2000).filter(|_| only(&autosave).owner_status != OwnerStatus::Exited).count();
+        done.store(true, std::sync::atomic::Ordering::Relaxed);
+        assert_eq!(running, 0, "inspections that took the lock of an earlier one for that of an owner");
+    });
+}

@@ -148,6 +148,10 @@ impl VfsFile for InMemory {
         Ok(true)
     }
 
+    fn unlock(&self) -> io::Result<()> {
+        Ok(())
+    }
+
     fn set_owner(&self, _: Option<u32>, _: u32) -> io::Result<()> {
         Ok(())
     }

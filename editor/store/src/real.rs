@@ -107,6 +107,10 @@ impl VfsFile for File {
         }
     }
 
+    fn unlock(&self) -> io::Result<()> {
+        File::unlock(self)
+    }
+
     fn set_owner(&self, owner: Option<u32>, group: u32) -> io::Result<()> {
         system::set_owner(self, owner, group)
     }

@@ -282,6 +282,11 @@ fn owner_status(file: &dyn VfsFile, state: &JournalState) -> io::Result<OwnerSta
     // If the owner runs, it is the process that holds the lock; otherwise the lock is held by a process that only
     // inspects the journal and releases it soon.
     let lock = if owner == OwnerStatus::Running { lock(file)? } else { lock_with_retries(file)? };
+    if lock == LockResult::Ours {
+        // Closing the file is not enough: a process that is being started has a copy of the handle for a moment, and the next
+        // inspection would take its lock for that of the owner.
+        let _ = file.unlock();
+    }
     Ok(match lock {
         LockResult::Held => OwnerStatus::Running,
         // A lock held on another computer may not be visible here.

@@ -94,6 +94,8 @@ pub trait VfsFile: Debug + Send {
     /// Takes the advisory lock, which is released when the file is closed. Returns `false` when another process holds
     /// it.
     fn try_lock(&self) -> io::Result<bool>;
+    /// Releases the advisory lock at once, also if a process that is being started still has a copy of the handle.
+    fn unlock(&self) -> io::Result<()>;
     /// Changes the owning user, unless `None`, and the owning group.
     fn set_owner(&self, owner: Option<u32>, group: u32) -> io::Result<()>;
     /// Sets the permission bits.

@@ -234,6 +234,11 @@ impl VfsFile for FaultyFile {
         self.file.try_lock()
     }
 
+    fn unlock(&self) -> io::Result<()> {
+        self.plan.call()?;
+        self.file.unlock()
+    }
+
     fn set_owner(&self, owner: Option<u32>, group: u32) -> io::Result<()> {
         self.plan.call()?;
         self.file.set_owner(owner, group)
