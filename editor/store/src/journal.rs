@@ -125,6 +125,13 @@ pub struct Journal {
     pub(super) frame: Vec<u8>,
 }
 
+impl Drop for Journal {
+    /// Releases the lock at once: closing the file is not enough while a process that is being started has a copy of its handle.
+    fn drop(&mut self) {
+        let _ = self.file.unlock();
+    }
+}
+
 impl Journal {
     /// Begins a journal in `file`, which is new, empty, locked and named `path`.
     pub(super) fn begin(
