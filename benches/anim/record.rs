@@ -120,7 +120,7 @@ fn run(rivals: Option<&Rivals>) -> Vec<(String, String)> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let kernel = fs::read_to_string("/proc/sys/kernel/osrelease").unwrap_or_default();
     let kernel = kernel.split('-').next().unwrap_or_default().trim();
-    // What earlier runs recorded changes nothing that is measured.
+    // Recorded results of earlier runs do not affect the measurement.
     let sources = [".", ":!benches/anim/results", ":!anim/README.md"];
     let changes = output("git", &[&["status", "--porcelain", "--"], &sources[..]].concat());
     let changed = if changes.is_empty() { "" } else { " with changes" };

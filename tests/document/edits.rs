@@ -69,7 +69,7 @@ fn setting_a_value_changes_the_result_and_not_the_original() {
     assert!(Arc::ptr_eq(&slot.result.tracks[1].rotation.values, &before.tracks[1].rotation.values));
 }
 
-/// Returns an edit that poses a bone in the take "stand": bone, seconds, meters along x.
+/// Returns an edit that poses the bone `name` in the take that does not move; `time` is in seconds, `x` in meters.
 fn stands(name: &str, time: f32, x: f32, unstep: bool) -> Edit {
     let wanted = BonePose { translation: Some([x, 0.0, 0.0]), ..pose(name) };
     Edit::SetPose(SetPose { take: TakeRef::Name("stand".to_owned()), time, poses: vec![wanted], unstep })

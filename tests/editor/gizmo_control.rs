@@ -13,7 +13,7 @@ use glam::{Mat3, Vec2, Vec3};
 
 const CORNER: Vec2 = Vec2::new(200.0, 50.0);
 
-/// The control behind the gizmo; counts the events that reach it.
+/// The control that the gizmo covers; counts the events that reach it.
 #[derive(Default)]
 struct Picture {
     moves: usize,

@@ -34,7 +34,7 @@ fn every_handle_is_hit_where_it_is_drawn_on_every_screen() {
                 for axis in GizmoAxis::ALL {
                     let [a, b] = axis.others().map(unit);
                     let tip = along(&screen, joint, axes, unit(axis) * (AXIS_TO as f32 - 2.0));
-                    // Where other arrows or squares are close on the screen, either one is a valid hit.
+                    // Near other arrows or squares on the screen, either one is a valid hit.
                     if facing(axis) < 0.7 && GizmoAxis::ALL.into_iter().all(|other| facing(other) < 0.8) {
                         assert_eq!(gizmo.hover(Some(screen.at(tip))), Some(Handle::Axis(axis)), "{screen:?}");
                         let beyond = along(&screen, joint, axes, unit(axis) * (AXIS_TO as f32 * 2.0));

@@ -1,4 +1,4 @@
-//! What several rules measure: unit length, flat and mirroring scales, neighboring key times.
+//! Measurements that several rules share: unit length, flat and mirroring scales, neighboring key times.
 
 use super::channels::channels;
 use super::{ModelPath, PathKind, TakeContext};

@@ -21,7 +21,7 @@ pub struct GizmoControl {
     pub corner: Vec2,
     /// Whether poses can be changed. If not, a press on a handle is only noted, see [`Self::take_refused`].
     pub editable: bool,
-    /// A press on a handle that is released at the same position is a click on the object behind the handle.
+    /// The press or drag of a handle. A press that is released at the same position is a click on what the handle covers.
     machine: DragMachine<HandlePress, DragOrigin>,
     answer: Option<GizmoAnswer>,
     clicked: Option<Mouse>,
@@ -83,7 +83,7 @@ impl GizmoControl {
         self.answer.take()
     }
 
-    /// Returns and clears the last click that went through a handle to the object behind it.
+    /// Returns and clears the last click on a handle, which is meant for the object that the handle covers.
     pub fn take_click(&mut self) -> Option<Mouse> {
         self.clicked.take()
     }

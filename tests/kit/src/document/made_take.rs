@@ -12,9 +12,9 @@ use std::sync::Arc;
 /// Bones of the model: `root`, `hip`, `hand.L`, `hand.R`, `still`.
 pub const BONES: [&str; 5] = ["root", "hip", "hand.L", "hand.R", "still"];
 
-/// Returns three takes: "walk" (linear, step and cubic channels, morph weights; one column of times for most), "wave"
-/// (one key per channel), "stand" (two equal keys per channel, with step interpolation, as exporters write channels
-/// that do not move).
+/// Returns three takes. The first has linear, step and cubic channels and morph weights, and one column of times for most
+/// channels; the second has one key per channel; the third has two equal keys per channel, with step interpolation, as
+/// exporters write channels that do not move.
 pub fn animation(random: &mut Random) -> AnimationData {
     let bones = BONES.iter().enumerate().map(|(index, name)| Bone {
         name: (*name).to_owned(),
