@@ -9,6 +9,7 @@ use dragonfly_document::bones::Choice;
 use dragonfly_document::{Cancel, LoadError, OpenedModel, Progress, Source};
 use dragonfly_kit::counting;
 use dragonfly_kit::document::arm;
+use dragonfly_kit::document::fixture;
 use dragonfly_picture::gizmo::{GizmoAxis, Handle, Tool};
 use glam::{Quat, Vec2};
 use std::sync::Arc;
@@ -309,29 +310,15 @@ fn allocations_of_a_move(load: crate::viewport_tools_rig::Load, bone: u32) -> (u
 
 #[test]
 fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
+    fn of_size(name: &str, bones: u32) -> OpenedModel {
+        let view = fixture::view(name, fixture::skeleton(bones), TAKES);
+        Arc::into_inner(view.loaded).expect("no other view").into()
+    }
     fn few(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {
-        Ok(Arc::into_inner(
-            dragonfly_kit::document::fixture::view(
-                "few",
-                dragonfly_kit::document::fixture::skeleton(3),
-                TAKES,
-            )
-            .loaded,
-        )
-        .expect("one")
-        .into())
+        Ok(of_size("few", 3))
     }
     fn many(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {
-        Ok(Arc::into_inner(
-            dragonfly_kit::document::fixture::view(
-                "many",
-                dragonfly_kit::document::fixture::skeleton(200),
-                TAKES,
-            )
-            .loaded,
-        )
-        .expect("one")
-        .into())
+        Ok(of_size("many", 200))
     }
     const TAKES: &[(&str, f32, usize)] = &[("Walk", 1.0, 11)];
     let (small, large) = (allocations_of_a_move(few, 5), allocations_of_a_move(many, 5));

@@ -6,8 +6,8 @@ use crate::window_visit::Visit;
 use dragonfly_picture::gizmo::Handle;
 use std::time::Duration;
 
-/// Rotates the selected head by a drag.
-fn turn(visit: &mut Visit, done: usize) {
+/// Drags the ring of the gizmo at the selected head.
+fn drag_ring(visit: &mut Visit) {
     let ring = visit.inside().handle("b_Head_05", Handle::Ring);
     visit.screen.point(ring.x as i16, ring.y as i16);
     visit.screen.hold();
@@ -15,6 +15,11 @@ fn turn(visit: &mut Visit, done: usize) {
         visit.screen.point(ring.x as i16 + 2 * by, ring.y as i16 + 3 * by);
     }
     visit.screen.release_button();
+}
+
+/// Rotates the selected head by a drag, after which `done` steps are applied.
+fn turn(visit: &mut Visit, done: usize) {
+    drag_ring(visit);
     visit.until_shown("done", &done.to_string());
 }
 
@@ -71,13 +76,7 @@ fn repeated_panics_end_the_program_cleanly_and_the_next_start_restores_the_work(
         println!("{place}");
         let mut visit = Visit::with(&format!("mistakes-{place}"), &["--fail", &format!("{place}:1:9")]);
         visit.pick_head();
-        let ring = visit.inside().handle("b_Head_05", Handle::Ring);
-        visit.screen.point(ring.x as i16, ring.y as i16);
-        visit.screen.hold();
-        for by in 1..8 {
-            visit.screen.point(ring.x as i16 + 2 * by, ring.y as i16 + 3 * by);
-        }
-        visit.screen.release_button();
+        drag_ring(&mut visit);
         stir(&mut visit);
         let status = visit.editor.ends(SOON);
         let log = visit.editor.log();

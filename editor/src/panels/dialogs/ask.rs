@@ -5,7 +5,10 @@ use crate::panels::style::{GRID, RADIUS};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
 use dragonfly_document::View;
-use egui::{Button, CornerRadius, Frame, Response, RichText, Stroke, Ui, vec2};
+use egui::{
+    Button, CornerRadius, Frame, Key, Margin, Response, RichText, Stroke, TextEdit, TextStyle, Ui, vec2,
+};
+use std::path::PathBuf;
 
 /// A question that is being drawn.
 pub(super) struct Ask<'a> {
@@ -83,6 +86,38 @@ impl Ask<'_> {
             });
         });
         pressed
+    }
+
+    /// Draws a field for a path, called `name` for screen readers, and the buttons `confirm` and `cancel`, each a title and its
+    /// tooltip. Returns the path once it is confirmed; a cancel dismisses the question.
+    pub(super) fn path(
+        &mut self,
+        name: &str,
+        confirm: (&str, &str),
+        cancel: (&str, &str),
+    ) -> Option<PathBuf> {
+        let field = TextEdit::singleline(&mut self.fields.path)
+            .desired_width(f32::INFINITY)
+            .font(TextStyle::Monospace)
+            .margin(Margin::symmetric(10, 7));
+        let response = self.ui.add(field).accessible_name(name);
+        if self.fresh {
+            response.request_focus();
+        }
+        let entered = response.lost_focus() && self.ui.input(|input| input.key_pressed(Key::Enter));
+        // The field has the focus, not the default button.
+        let fresh = std::mem::replace(&mut self.fresh, false);
+        let pressed = self
+            .buttons(&[(confirm.0, confirm.1, Tone::First, true), (cancel.0, cancel.1, Tone::Plain, false)]);
+        self.fresh = fresh;
+        let typed = self.fields.path.trim().trim_matches('"');
+        if (entered || pressed == Some(true)) && !typed.is_empty() {
+            return Some(PathBuf::from(typed));
+        }
+        if pressed == Some(false) {
+            self.requests.push(Request::Dismiss);
+        }
+        None
     }
 }
 

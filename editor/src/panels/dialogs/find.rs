@@ -6,7 +6,6 @@ use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use dragonfly_document::{Decision, DocumentMessage, Offer, Source, View};
-use egui::{Key, TextEdit, TextStyle};
 use std::path::{Path, PathBuf};
 
 /// Asks for the current path of the file that unsaved work belongs to.
@@ -74,25 +73,9 @@ fn is_another(ask: &mut Ask<'_>, offer: &Offer, other: &Path) {
 
 fn typed(ask: &mut Ask<'_>, offer: &Offer) {
     ask.title(&format!("Where is {} now?", offer.title));
-    let field =
-        TextEdit::singleline(&mut ask.fields.path).desired_width(f32::INFINITY).font(TextStyle::Monospace);
-    let response = ask.ui.add(field.margin(egui::Margin::symmetric(10, 7)));
-    let response = response.accessible_name("Path of the file");
-    if ask.fresh {
-        response.request_focus();
-    }
-    let entered = response.lost_focus() && ask.ui.input(|input| input.key_pressed(Key::Enter));
-    let fresh = std::mem::replace(&mut ask.fresh, false);
-    let open = ("Open", "Open the file with the work, if its content is unchanged", Tone::First, true);
-    let cancel = ("Cancel", "Keep the work for later", Tone::Plain, false);
-    let pressed = ask.buttons(&[open, cancel]);
-    ask.fresh = fresh;
-    let wanted = ask.fields.path.trim().trim_matches('"');
-    if (entered || pressed == Some(true)) && !wanted.is_empty() {
-        let action =
-            FileAction::Send(DocumentMessage::FoundAt(Box::new(offer.clone()), PathBuf::from(wanted)));
+    let open = ("Open", "Open the file with the work, if its content is unchanged");
+    if let Some(path) = ask.path("Path of the file", open, ("Cancel", "Keep the work for later")) {
+        let action = FileAction::Send(DocumentMessage::FoundAt(Box::new(offer.clone()), path));
         ask.requests.push(Request::Answer(action));
-    } else if pressed == Some(false) {
-        ask.requests.push(Request::Dismiss);
     }
 }

@@ -1,12 +1,11 @@
 //! A field for the path to save at, for desktops without a file dialog.
 
-use super::ask::{Ask, Tone};
+use super::ask::Ask;
 use super::kind::QuestionKind;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
 use dragonfly_document::{DocumentMessage, SaveOrder, SaveTo, Then, View};
-use egui::{Key, TextEdit, TextStyle};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Asks for the path to save at, which is typed.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,28 +46,11 @@ impl QuestionKind for PlaceQuestion {
     fn show(&self, ask: &mut Ask<'_>) {
         ask.ui.set_width(520.0);
         ask.title(if self.copy { "Save a copy" } else { "Save as" });
-        let field = TextEdit::singleline(&mut ask.fields.path)
-            .desired_width(f32::INFINITY)
-            .font(TextStyle::Monospace);
-        let response = ask.ui.add(field.margin(egui::Margin::symmetric(10, 7)));
-        let response = response.accessible_name("Path to save at");
-        if ask.fresh {
-            response.request_focus();
-        }
-        let entered = response.lost_focus() && ask.ui.input(|input| input.key_pressed(Key::Enter));
-        let fresh = std::mem::replace(&mut ask.fresh, false);
-        let save = ("Save", "Write the file", Tone::First, true);
-        let cancel = ("Cancel", "Close without saving", Tone::Plain, false);
-        let pressed = ask.buttons(&[save, cancel]);
-        ask.fresh = fresh;
-        let typed = ask.fields.path.trim().trim_matches('"');
-        if (entered || pressed == Some(true)) && !typed.is_empty() {
-            let path = PathBuf::from(typed);
+        let save = ("Save", "Write the file");
+        if let Some(path) = ask.path("Path to save at", save, ("Cancel", "Close without saving")) {
             let to = if self.copy { SaveTo::Copy(path) } else { SaveTo::As(path) };
             let order = SaveOrder { to, anyway: false, then: self.then.clone() };
             ask.requests.push(Request::Answer(FileAction::Send(DocumentMessage::Save(order))));
-        } else if pressed == Some(false) {
-            ask.requests.push(Request::Dismiss);
         }
     }
 }
