@@ -23,8 +23,6 @@ pub use when::When;
 use super::context::PanelContext;
 use egui::{Key, Modifiers, Popup};
 use std::borrow::Cow;
-use std::collections::HashMap;
-use std::sync::LazyLock;
 
 /// Returns every command, in the order of the table.
 pub fn all() -> impl Iterator<Item = &'static Command> {
@@ -64,14 +62,10 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Alt + wheel over the timeline", "Step frame by frame"),
 ];
 
-/// The rows by id. Every button of every frame looks one up.
-static ROWS: LazyLock<HashMap<Id, &'static Command>> =
-    LazyLock::new(|| all().map(|command| (command.id, command)).collect());
-
 /// Returns the row of `id`.
 pub fn get(id: Id) -> &'static Command {
     // A row declares its id, so every id has one.
-    ROWS.get(&id).copied().unwrap_or(&TABLE[0].1[0])
+    all().find(|command| command.id == id).unwrap_or(&TABLE[0].1[0])
 }
 
 /// Returns the title of a command as menus show it: undo and redo with the step that they are about.
