@@ -9,6 +9,7 @@ mod images;
 mod keeping;
 mod old_journals;
 mod save_and_open;
+mod save_in_background;
 mod undo;
 
 #[global_allocator]

@@ -10,15 +10,14 @@ use dragonfly_anim::format::{
     AssetFs, EditableFile, EditedTake, ExportError, Format, ImportError, NoFiles, ReadOptions, SavePlan,
 };
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_store::{
-    ExpectedFile, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file, save_document,
-};
+use dragonfly_store::{ExpectedFile, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file};
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A file that is edited.
+/// A file that is edited. A clone is cheap: large data is shared.
+#[derive(Clone)]
 pub struct Editable {
     /// File name without folder.
     pub title: String,
@@ -29,7 +28,7 @@ pub struct Editable {
     /// Contents that are not shown or were sanitized, one sentence each.
     pub warnings: Vec<String>,
     /// The opened file, which later saves start from.
-    file: EditableFile,
+    file: Arc<EditableFile>,
     /// State of the file when it was last read or saved.
     stamp: Option<FileStamp>,
     /// The model with the takes that are in the file now.
@@ -68,6 +67,7 @@ impl Editable {
         let file = file.map_err(|error| wrong(error.to_string()))?;
         let (model, warnings) = (Arc::new(imported.model), imported.warnings);
         let on_disk = Arc::clone(&model);
+        let file = Arc::new(file);
         Ok(Self { title: source.title(), path, model, warnings, file, stamp, on_disk, places: None })
     }
 
@@ -86,7 +86,7 @@ impl Editable {
             path: loaded.path.clone(),
             model: Arc::clone(&loaded.model),
             warnings: loaded.warnings.clone(),
-            file,
+            file: Arc::new(file),
             stamp,
             on_disk: Arc::clone(&loaded.model),
             places: None,
@@ -177,8 +177,9 @@ impl Editable {
     ) -> Result<Vec<PathBuf>, String> {
         let own = self.is_own(output);
         let overwrite = if own { Overwrite::AsRead } else { Overwrite::Anything };
-        let how = Writing { overwrite, journal: None, versions: None, becomes: own };
-        let saved = self.save_with(adapter, plan, output, how).map_err(|error| error.to_string())?;
+        let how = Writing { overwrite, versions: None, becomes: own };
+        let files = self.files(plan, output)?;
+        let saved = self.write(adapter, files, how).map_err(|error| error.to_string())?;
         Ok(saved.files)
     }
 
@@ -208,19 +209,18 @@ impl Editable {
         self.stamp = None;
     }
 
-    /// Saves as `output`.
+    /// Writes `files`, which [`Self::files`] returned, and makes later saves relative to them where they become the file of the
+    /// document.
     ///
     /// # Errors
     ///
     /// The reason. Existing files are unchanged then, unless the error names them.
-    pub(super) fn save_with(
+    pub(super) fn write(
         &mut self,
         adapter: &ModelAdapter,
-        plan: &SavePlan,
-        output: &Path,
+        mut files: Vec<WrittenFile>,
         how: Writing<'_>,
     ) -> Result<FilesSaved, SaveFailure> {
-        let mut files = self.files(plan, output)?;
         let Some((main, bytes)) = files.pop() else { return Ok(FilesSaved::default()) };
         let mut saved = FilesSaved::default();
         for (path, bytes) in &files {
@@ -236,11 +236,7 @@ impl Editable {
             _ => ExpectedFile::Anything,
         };
         let options = SaveOptions { expected, versions: how.versions };
-        let done = match how.journal {
-            Some(journal) => save_document(&RealFiles, journal, &main, &bytes, &options),
-            None => save_file(&RealFiles, &main, &bytes, &options),
-        };
-        let done = done.map_err(SaveFailure::of)?;
+        let done = save_file(&RealFiles, &main, &bytes, &options).map_err(SaveFailure::of)?;
         saved.files.push(main.clone());
         saved.notices = done.notices;
         saved.bytes = bytes.len();
@@ -260,7 +256,7 @@ impl Editable {
     /// Makes later saves relative to `bytes`, which contain the takes of `adapter`.
     fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
         let file = opened(self.file.format(), &self.title, bytes, self.path.as_deref());
-        self.file = file.map_err(|error| error.to_string())?;
+        self.file = Arc::new(file.map_err(|error| error.to_string())?);
         let skeleton = Arc::clone(&self.model.animation.skeleton);
         let animation = AnimationData { skeleton, takes: adapter.results().cloned().collect() };
         self.on_disk = Arc::new(ModelData { animation, ..ModelData::clone(&self.model) });

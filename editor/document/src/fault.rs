@@ -8,6 +8,10 @@ use std::sync::Arc;
 pub enum FaultPoint {
     /// The document thread, before it makes a change.
     Change,
+    /// The job that prepares a save, before it computes anything.
+    PrepareSave,
+    /// The job that writes a save, before it writes anything.
+    WriteSave,
     /// The graphics thread, after it has handled a message.
     GraphicsMessage,
     /// The graphics thread, before it draws a frame.
@@ -20,7 +24,8 @@ pub enum FaultPoint {
 
 /// The faults to inject, written by a test. Every method has a default that injects nothing.
 pub trait FaultPlan: Debug + Send + Sync {
-    /// Called each time a point is reached, in the thread that reaches it. A plan injects a fault by panicking.
+    /// Called each time a point is reached, in the thread that reaches it. A plan injects a fault by panicking,
+    /// or by not returning for a while.
     fn reach(&self, _point: FaultPoint) {}
 
     /// Returns whether to lose the graphics device now. Called in the graphics thread with the number of frames shown

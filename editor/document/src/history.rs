@@ -39,6 +39,8 @@ pub struct Edited {
     done: usize,
     /// Number of steps that were applied at the last save; `None` where neither undo nor redo leads there.
     saved: Option<usize>,
+    /// The same for the save that is running.
+    saving: Option<usize>,
     /// Size of all steps in bytes, about.
     bytes: usize,
     /// Whether the oldest steps were removed because there were too many.
@@ -50,7 +52,8 @@ pub struct Edited {
 impl Edited {
     /// Creates an empty history.
     pub fn new(adapter: ModelAdapter) -> Self {
-        Self { adapter, steps: VecDeque::new(), done: 0, saved: Some(0), bytes: 0, cut: false, drag: None }
+        let (steps, saved) = (VecDeque::new(), Some(0));
+        Self { adapter, steps, done: 0, saved, saving: None, bytes: 0, cut: false, drag: None }
     }
 
     /// Returns the takes as they are now.
@@ -94,7 +97,8 @@ impl Edited {
                 step.edit = edit;
             }
             // The saved state is not the present one any more.
-            self.saved = self.saved.filter(|&saved| saved < self.done);
+            let done = self.done;
+            self.lose_saves(|saved| saved >= done);
             return Ok(());
         }
         let mut adapter = self.adapter.clone();
@@ -109,9 +113,8 @@ impl Edited {
         let inverse = adapter.apply(&edit)?;
         self.adapter = adapter;
         self.forget_after(if goes_on { self.done - 1 } else { self.done });
-        if self.saved.is_some_and(|saved| saved > self.steps.len()) {
-            self.saved = None;
-        }
+        let kept = self.steps.len();
+        self.lose_saves(|saved| saved > kept);
         self.drag = gesture.and_then(|_| ValueDrag::of(&self.adapter, &edit, &inverse));
         let bytes = inverse.bytes();
         self.bytes += bytes;
@@ -168,6 +171,27 @@ impl Edited {
         self.saved = Some(self.done);
     }
 
+    /// Notes that the present state is being saved, and ends the last gesture, whose later edits are not saved.
+    pub fn begin_save(&mut self) {
+        self.end_gesture();
+        self.saving = Some(self.done);
+    }
+
+    /// Ends the save that [`begin_save`](Self::begin_save) began: where it succeeded, the state of then counts as saved.
+    pub fn end_save(&mut self, succeeded: bool) {
+        let saving = self.saving.take();
+        if succeeded {
+            self.saved = saving;
+        }
+    }
+
+    /// Forgets the saved states for which `is_lost` returns true: neither undo nor redo leads there.
+    fn lose_saves(&mut self, is_lost: impl Fn(usize) -> bool) {
+        for saved in [&mut self.saved, &mut self.saving] {
+            *saved = saved.filter(|saved| !is_lost(*saved));
+        }
+    }
+
     /// Returns the number of steps applied or undone since the model was saved or opened. Where neither undo nor redo
     /// leads back to that state, returns the number of all applied steps.
     pub fn unsaved_steps(&self) -> usize {
@@ -211,7 +235,9 @@ impl Edited {
             self.bytes -= self.steps.pop_front().map_or(0, |step| step.bytes);
             self.done -= 1;
             self.cut = true;
-            self.saved = self.saved.and_then(|saved| saved.checked_sub(1));
+            for saved in [&mut self.saved, &mut self.saving] {
+                *saved = saved.and_then(|saved| saved.checked_sub(1));
+            }
         }
     }
 }

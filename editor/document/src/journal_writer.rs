@@ -5,7 +5,7 @@
 
 use super::history::Gesture;
 use super::recorded::{EditsOrigin, Recorded};
-use dragonfly_store::{Autosave, FileStamp, Journal, JournalError};
+use dragonfly_store::{Autosave, FileStamp, Journal, JournalError, Successor, SuccessorJournal};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -35,8 +35,19 @@ pub(super) struct JournalWriter {
     compact: u64,
     gesture: Option<(Gesture, Instant)>,
     line: Vec<u8>,
+    /// The save that is running.
+    save: Option<RecordedSave>,
     /// Warnings that the user has not seen yet.
     trouble: Vec<String>,
+}
+
+/// A save that is running, as far as the journal is concerned.
+#[derive(Debug, Default)]
+struct RecordedSave {
+    /// The entries since it began; the first one names this program and the model.
+    newer: Vec<Vec<u8>>,
+    /// Whether the journal has the record that it is running.
+    is_recorded: bool,
 }
 
 impl JournalWriter {
@@ -57,9 +68,93 @@ impl JournalWriter {
         self.journal.replace(journal)
     }
 
-    /// Returns the journal, to record a save in it; `None` while edits are missing in it.
-    pub(super) fn journal(&mut self) -> Option<&mut Journal> {
+    /// Begins a save: later entries are not in the file. Returns the plan of a journal with a snapshot, in which the document goes
+    /// on; `None` where nothing is recorded, or edits are missing.
+    pub(super) fn begin_save(&mut self, now: Instant) -> Option<Successor> {
+        self.end_of_gesture(now);
+        // The next entry begins anew: a gesture that goes on is another step.
+        self.begun = false;
+        self.save = Some(RecordedSave::default());
+        self.complete().map(|journal| journal.successor())
+    }
+
+    /// Goes on in the journal that was written for the save, and records that a file of `size` bytes with this hash is about to be
+    /// written.
+    pub(super) fn record_saving(
+        &mut self,
+        new: Option<Result<SuccessorJournal, JournalError>>,
+        (size, hash): (u64, u64),
+        now: Instant,
+    ) {
+        if self.gap.is_none()
+            && let Some(new) = new
+        {
+            let done = new.and_then(|new| self.continue_in(new));
+            self.compacted(done, now);
+        }
+        let mut save = self.save.take().unwrap_or_default();
+        if let Some(journal) = self.complete() {
+            let done = journal.saving_without(save.newer.len() as u64, size, hash);
+            save.is_recorded = done.is_ok();
+            self.report_unrecorded_save(done);
+        }
+        self.save = Some(save);
+    }
+
+    /// Ends a save; `stamp` is that of the file if it was written and is the file of this journal.
+    pub(super) fn end_save(&mut self, stamp: Option<&FileStamp>) {
+        let save = self.save.take();
+        if let (Some(stamp), true) = (stamp, save.is_some_and(|save| save.is_recorded)) {
+            let done = self.complete().map_or(Ok(()), |journal| journal.saved(stamp));
+            self.report_unrecorded_save(done);
+        }
+    }
+
+    /// Ends a save under another name, and goes on in `journal`, which was written for it. Returns the journal before.
+    pub(super) fn move_to(
+        &mut self,
+        journal: Result<Journal, JournalError>,
+        about: &EditsOrigin,
+        now: Instant,
+    ) -> Option<Journal> {
+        let newer = self.save.take().unwrap_or_default().newer;
+        let old = match journal {
+            Ok(journal) => self.set(journal),
+            Err(error) => {
+                self.never(&error);
+                return None;
+            }
+        };
+        if !newer.is_empty() {
+            let done = self.begun(about, now).and_then(|()| {
+                let Some(journal) = &mut self.journal else { return Ok(()) };
+                newer.iter().skip(1).try_for_each(|entry| journal.append(entry, now))
+            });
+            if let Err(error) = done {
+                self.failed(&error, now);
+            }
+        }
+        old
+    }
+
+    /// Returns the journal; `None` while edits are missing in it.
+    fn complete(&mut self) -> Option<&mut Journal> {
         self.journal.as_mut().filter(|_| self.gap.is_none())
+    }
+
+    /// Appends the entries since the save began to `new` and goes on in it.
+    fn continue_in(&mut self, mut new: SuccessorJournal) -> Result<(), JournalError> {
+        let (Some(journal), Some(save)) = (&mut self.journal, &self.save) else { return Ok(()) };
+        save.newer.iter().try_for_each(|entry| new.append(entry))?;
+        journal.continue_in(new)?;
+        self.begun = !save.newer.is_empty();
+        Ok(())
+    }
+
+    fn report_unrecorded_save(&mut self, done: Result<(), JournalError>) {
+        if let Err(error) = done {
+            self.trouble.push(format!("The journal could not record that the document was saved: {error}"));
+        }
     }
 
     /// Returns the path of the journal.
@@ -137,7 +232,11 @@ impl JournalWriter {
         if let Err(error) = serde_json::to_writer(&mut self.line, recorded) {
             tracing::error!("an edit cannot be written as JSON: {error}");
         }
-        journal.append(&self.line, now)
+        journal.append(&self.line, now)?;
+        if let Some(save) = &mut self.save {
+            save.newer.push(self.line.clone());
+        }
+        Ok(())
     }
 
     /// Warns that there is no journal for this document.
@@ -167,7 +266,8 @@ impl JournalWriter {
 
     /// Returns whether a snapshot is due: because edits are missing, or because it would be much smaller than the journal.
     pub(super) fn wants_snapshot(&self, now: Instant) -> bool {
-        let Some(journal) = &self.journal else { return false };
+        // A save that is running writes a snapshot, too.
+        let Some(journal) = self.journal.as_ref().filter(|_| self.save.is_none()) else { return false };
         match self.gap {
             Some(last) => now.saturating_duration_since(last) >= RETRY_AFTER,
             None => {
@@ -185,10 +285,17 @@ impl JournalWriter {
     /// Replaces the contents of the journal by a snapshot; `saved` if the file has the same state.
     pub(super) fn snapshot(&mut self, bytes: &[u8], saved: bool, now: Instant) {
         let Some(journal) = &mut self.journal else { return };
-        match journal.compact_as(bytes, saved) {
+        let done = journal.compact_as(bytes, saved);
+        self.begun &= done.is_err();
+        self.compacted(done, now);
+    }
+
+    /// Handles the outcome of a snapshot.
+    fn compacted(&mut self, done: Result<(), JournalError>, now: Instant) {
+        let Some(journal) = &mut self.journal else { return };
+        match done {
             Ok(()) => {
                 self.compact = journal.size();
-                self.begun = false;
                 if self.gap.take().is_some() {
                     self.trouble.push("Unsaved work is recorded again".to_owned());
                 }
@@ -204,7 +311,8 @@ impl JournalWriter {
 
     /// Returns the time at which there is something to do without a message.
     pub(super) fn next_due(&self) -> Option<Instant> {
-        let again = self.gap.filter(|_| self.journal.is_some()).map(|last| last + RETRY_AFTER);
+        let again =
+            self.gap.filter(|_| self.journal.is_some() && self.save.is_none()).map(|last| last + RETRY_AFTER);
         let due = self.journal.as_ref().filter(|_| self.gap.is_none()).and_then(Journal::next_due);
         let quiet = self.gesture.map(|(_, last)| last + GESTURE_TIMEOUT);
         [again, due, quiet].into_iter().flatten().min()

@@ -37,6 +37,8 @@ mod receivers;
 mod recorded;
 mod recovering;
 mod replay;
+mod running_save;
+mod save_job;
 mod saving;
 mod scan;
 mod source;

@@ -8,7 +8,7 @@ use super::journal_writer::JournalWriter;
 use super::offer::recovered;
 use super::recorded::{EditsOrigin, Recorded, Snapshot};
 use super::replay::Replayed;
-use super::{FileView, HistoryView, LoadedModel, OpenedModel, Source, View, base};
+use super::{FileView, HistoryView, LoadedModel, OpenedModel, Source, View};
 use dragonfly_anim::data::Take;
 use dragonfly_store::{Autosave, FileStamp};
 use std::sync::Arc;
@@ -163,24 +163,18 @@ impl Open {
     }
 
     /// Replaces the contents of the journal by a snapshot. It includes the takes with which the history starts if the file no longer has
-    /// them, or will not have them after a save (`saves`).
-    pub(super) fn snapshot(&mut self, saves: bool, now: Instant) {
-        let base = (saves || self.base.is_some() || self.edited.is_cut()).then(|| self.beginning());
+    /// them, or if `with_base`.
+    pub(super) fn snapshot(&mut self, with_base: bool, now: Instant) {
+        let base = (with_base || self.base.is_some()).then(|| self.base());
         match Snapshot::bytes(self.about.clone(), &self.edited, base.as_deref()) {
             Ok(bytes) => self.journal_writer.snapshot(&bytes, self.edited.is_saved(), now),
             Err(error) => tracing::error!("the history cannot be written as JSON: {error}"),
         }
     }
 
-    /// Returns the takes with which the history starts, as bytes.
-    fn beginning(&self) -> Vec<u8> {
-        if self.edited.is_cut() {
-            let mut first = self.edited.clone();
-            first.go_to(0);
-            let takes: Vec<_> = first.adapter().results().cloned().collect();
-            return base::write(&takes);
-        }
-        base::write(self.base.as_deref().unwrap_or(&self.loaded.model.animation.takes))
+    /// Returns the takes with which the history starts, unless its oldest steps were removed.
+    pub(super) fn base(&self) -> Arc<[Arc<Take>]> {
+        self.base.clone().unwrap_or_else(|| self.loaded.model.animation.takes.clone().into())
     }
 
     /// Closes the journal. Unsaved work stays in it, or goes to the trash folder if the user discarded it.

@@ -6,6 +6,7 @@ use super::job::{JobNews, start_loading, start_search};
 use super::message::DocumentReply;
 use super::open::Open;
 use super::receivers::{ChangeReceiver, DocumentWorker, JobReceiver, MessageReceiver};
+use super::running_save::{Deferred, RunningSave};
 use super::saving::{SaveOrder, Then};
 use super::scan::{Decision, RecoveryScan};
 use super::{Change, LoadError, Loader, Offer, OpenedModel, Progress, Source, View, open_model};
@@ -13,6 +14,7 @@ use crate::text::sentence;
 use dragonfly_runtime::{Address, Job, Thread, ThreadHandle};
 use dragonfly_store::{Autosave, FileState, Recoverable};
 use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::Instant;
@@ -45,6 +47,10 @@ pub struct Document {
     /// Whether a view must be published only to tell a sender that its change was answered: nothing else has changed.
     answers: bool,
     pub(super) job: Option<LoadingModel>,
+    /// The save that is running.
+    pub(super) save: Option<RunningSave>,
+    /// The messages that wait for its end, in order.
+    pub(super) deferred: VecDeque<Deferred>,
     tickets: u64,
     load: Loader,
     pub(super) autosave: Option<Autosave>,
@@ -55,15 +61,15 @@ pub struct Document {
     /// Whether the user asked for the search.
     pub(super) searched: bool,
     /// The change of the file by another program that was reported last.
-    noticed: Option<FileState>,
-    faults: FaultInjection,
+    pub(super) noticed: Option<FileState>,
+    pub(super) faults: FaultInjection,
     replies: Address<DocumentReply>,
     /// The same address for views: the newest view replaces one that is still queued.
     views: Address<DocumentReply>,
     /// The graphics thread; here too, the newest view replaces one that is still queued.
     picture: Address<View>,
     /// The address of this document for its jobs.
-    own: Address<JobNews>,
+    pub(super) own: Address<JobNews>,
 }
 
 /// A model that is loading.
@@ -119,6 +125,8 @@ impl Document {
                 answered: 0,
                 answers: false,
                 job: None,
+                save: None,
+                deferred: VecDeque::new(),
                 tickets: 0,
                 load: setup.load,
                 autosave: setup.autosave.clone(),
@@ -192,12 +200,17 @@ impl Document {
 
     /// Starts to load a model in the background; `offer` is the unsaved work that it is opened for.
     pub(super) fn open(&mut self, source: Source, offer: Option<(Offer, Decision)>) {
-        self.tickets += 1;
-        let ticket = self.tickets;
+        let ticket = self.next_ticket();
         match start_loading(&self.own, ticket, source.clone(), self.load) {
             Ok(job) => self.job = Some(LoadingModel { _job: job, ticket, source, offer }),
             Err(error) => self.reply(DocumentReply::Failed { source, reason: error.to_string() }),
         }
+    }
+
+    /// Returns the number of the next job.
+    pub(super) fn next_ticket(&mut self) -> u64 {
+        self.tickets += 1;
+        self.tickets
     }
 
     pub(super) fn cancel(&mut self) {
@@ -215,6 +228,9 @@ impl Document {
 
     /// Opens what the loading job with this ticket has loaded, or reports why it failed.
     pub(super) fn finish_loading(&mut self, ticket: u64, loaded: Result<Box<OpenedModel>, LoadError>) {
+        if self.save.is_some() {
+            return self.deferred.push_back(Deferred::Loaded(ticket, loaded));
+        }
         let Some(running) = self.job.take_if(|running| running.ticket == ticket) else { return };
         match loaded {
             Ok(opened) => {
@@ -258,6 +274,9 @@ impl Document {
 
     /// Carries out a change; `number` is that of a numbered one.
     pub(super) fn change(&mut self, change: Change, number: Option<u64>, now: Instant) {
+        if self.save.is_some() && self.all_wait() {
+            return self.deferred.push_back(Deferred::Change(change, number));
+        }
         self.apply(change, now);
         if let Some(number) = number {
             (self.answered, self.answers) = (number, true);
@@ -275,20 +294,6 @@ impl Document {
             Err(error) => self.reply(DocumentReply::Refused(sentence(&error.to_string()))),
         }
         self.report_trouble();
-    }
-
-    pub(super) fn save(&mut self, order: SaveOrder, now: Instant) {
-        let autosave = self.autosave.clone();
-        let Some(open) = &mut self.open else { return };
-        match open.save(&order, autosave.as_ref(), now) {
-            Ok(saved) => {
-                self.noticed = None;
-                self.reply(DocumentReply::Saved(saved));
-            }
-            Err(reason) => self.reply(DocumentReply::NotSaved(order, reason)),
-        }
-        self.report_trouble();
-        self.changed();
     }
 
     pub(super) fn plan(&mut self, order: Option<SaveOrder>) {
@@ -353,6 +358,7 @@ impl Document {
 
 impl Drop for Document {
     fn drop(&mut self) {
+        self.wait_for_save();
         if let Some(open) = &mut self.open
             && let Err(reason) = open.close(self.autosave.as_ref())
         {

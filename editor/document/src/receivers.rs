@@ -11,6 +11,7 @@ use super::saving::Then;
 use dragonfly_runtime::{Context, Receiver, Worker};
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::time::Instant;
 
 /// Receives messages about files.
 pub(super) struct MessageReceiver(pub(super) Rc<RefCell<Document>>);
@@ -20,30 +21,38 @@ impl Receiver for MessageReceiver {
 
     fn receive(&mut self, message: DocumentMessage, thread: &mut Context) {
         let document = &mut *self.0.borrow_mut();
-        let now = thread.now();
+        if let Some(message) = document.unless_deferred(message) {
+            document.message(message, thread.now());
+        }
+    }
+}
+
+impl Document {
+    /// Handles a message about files.
+    pub(super) fn message(&mut self, message: DocumentMessage, now: Instant) {
         match message {
-            DocumentMessage::Open { source, anyway } => document.open_or_ask(source, anyway),
-            DocumentMessage::CancelLoading => document.cancel(),
-            DocumentMessage::Save(order) => document.save(order, now),
-            DocumentMessage::Plan(order) => document.plan(order),
-            DocumentMessage::Revert => document.revert(now),
+            DocumentMessage::Open { source, anyway } => self.open_or_ask(source, anyway),
+            DocumentMessage::CancelLoading => self.cancel(),
+            DocumentMessage::Save(order) => self.save(order, now),
+            DocumentMessage::Plan(order) => self.plan(order),
+            DocumentMessage::Revert => self.revert(now),
             DocumentMessage::Quit => {
-                let unsaved = document.has_unsaved_work();
+                let unsaved = self.has_unsaved_work();
                 let reply = if unsaved { DocumentReply::Unsaved(Then::Quit) } else { DocumentReply::MayQuit };
-                document.reply(reply);
+                self.reply(reply);
             }
             DocumentMessage::DoNotSave => {
-                if let Some(open) = &mut document.open {
+                if let Some(open) = &mut self.open {
                     open.unwanted = true;
                 }
             }
-            DocumentMessage::LookAtFile => document.look_at_file(),
+            DocumentMessage::LookAtFile => self.look_at_file(),
             DocumentMessage::Search => {
-                document.searched = true;
-                document.search();
+                self.searched = true;
+                self.search();
             }
-            DocumentMessage::Decide(offer, decision) => document.decide(*offer, decision),
-            DocumentMessage::FoundAt(offer, path) => document.found_at(*offer, path),
+            DocumentMessage::Decide(offer, decision) => self.decide(*offer, decision),
+            DocumentMessage::FoundAt(offer, path) => self.found_at(*offer, path),
         }
     }
 }
@@ -67,11 +76,12 @@ pub(super) struct JobReceiver(pub(super) Rc<RefCell<Document>>);
 impl Receiver for JobReceiver {
     type Message = JobNews;
 
-    fn receive(&mut self, news: JobNews, _thread: &mut Context) {
+    fn receive(&mut self, news: JobNews, thread: &mut Context) {
         let document = &mut *self.0.borrow_mut();
         match news {
             JobNews::Progress(ticket, progress) => document.show_progress(ticket, progress),
             JobNews::Loaded(ticket, loaded) => document.finish_loading(ticket, loaded),
+            JobNews::SaveStep(ticket) => document.save_step(ticket, thread.now()),
             JobNews::Scanned(scan) => document.offer(scan),
         }
     }

@@ -1,11 +1,13 @@
 //! Entries of a journal as JSON: each change, and from time to time a snapshot of all.
 
-use super::Source;
 use super::edit::{Edit, VERSION};
 use super::history::{Edited, Gesture};
+use super::{Source, base};
 use crate::demo::DRAGONFLY_GLB;
+use dragonfly_anim::data::Take;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// One entry. Failed changes are not recorded, so each of them can be applied again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,12 +82,21 @@ pub(super) struct Snapshot {
 }
 
 impl Snapshot {
-    /// Writes a snapshot of `edited`, whose history started with the takes `base`, or else with those of the file.
+    /// Writes a snapshot of `edited`, whose history started with the takes `base`, or else with those of the file. Where the oldest
+    /// steps were removed, the takes before the first one that is left are written.
     pub(super) fn bytes(
         about: EditsOrigin,
         edited: &Edited,
-        base: Option<&[u8]>,
+        base: Option<&[Arc<Take>]>,
     ) -> serde_json::Result<Vec<u8>> {
+        let base = if edited.is_cut() {
+            let mut first = edited.clone();
+            first.go_to(0);
+            let takes: Vec<_> = first.adapter().results().cloned().collect();
+            Some(base::write(&takes))
+        } else {
+            base.map(base::write)
+        };
         let (steps, done) = edited.steps();
         let steps = steps.iter().map(|step| step.edit.clone()).collect();
         let snapshot = Self { about, steps, done, saved: edited.saved(), has_base: base.is_some() };

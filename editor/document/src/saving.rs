@@ -1,9 +1,12 @@
 //! Saving the open document.
 
+use super::fault::FaultInjection;
 use super::open::Open;
-use super::writing::{Overwrite, SaveFailure, Writing};
+use super::recorded::EditsOrigin;
+use super::save_job::{PreparedSave, SaveInput, SaveTarget, WrittenSave};
+use super::writing::{Overwrite, SaveFailure};
 use super::{FileView, Source, formats};
-use dragonfly_store::{Autosave, FileState, RealFiles};
+use dragonfly_store::{Autosave, FileState, Journal, JournalError, RealFiles};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -97,13 +100,14 @@ impl Open {
         format!("{} cannot be saved: {reason}", self.file.title)
     }
 
-    /// Saves, and records it in the journal, which keeps the history.
-    pub(super) fn save(
+    /// Begins a save of the present state, which [`prepare`](super::save_job::prepare) continues.
+    pub(super) fn begin_save(
         &mut self,
         order: &SaveOrder,
         autosave: Option<&Autosave>,
+        faults: FaultInjection,
         now: Instant,
-    ) -> Result<SavedFile, NotSaved> {
+    ) -> Result<SaveInput, NotSaved> {
         let unsavable = self.editable.as_ref().err().map(|reason| self.unsavable(reason));
         let Ok(editable) = &self.editable else {
             return Err(NotSaved::Failed(unsavable.unwrap_or_default()));
@@ -119,12 +123,11 @@ impl Open {
         if own && copy {
             return Err(NotSaved::Failed("A copy of a file cannot be the file itself".to_owned()));
         }
-        let plan =
-            editable.plan(self.edited.adapter()).map_err(|error| NotSaved::Failed(error.to_string()))?;
-        if own {
-            // The file will no longer have the takes with which the history starts.
-            self.snapshot(true, now);
-        }
+        let target = match (own, copy) {
+            (_, true) => SaveTarget::Copy,
+            (true, false) => SaveTarget::Own,
+            (false, false) => SaveTarget::Other,
+        };
         let overwrite = match &order.to {
             SaveTo::Own if order.anyway => Overwrite::Anything,
             SaveTo::Own => Overwrite::AsRead,
@@ -134,47 +137,86 @@ impl Open {
             _ if order.anyway => Overwrite::Anything,
             _ => Overwrite::Nothing,
         };
-        let journal = if own { self.journal_writer.journal() } else { None };
-        let how = Writing { overwrite, journal, versions: autosave.map(Autosave::versions), becomes: !copy };
-        let Ok(editable) = &mut self.editable else { return Err(NotSaved::NoFile) };
-        let saved = editable.save_with(self.edited.adapter(), &plan, &output, how)?;
+        let editable = editable.clone();
+        let successor = if copy {
+            None
+        } else {
+            self.edited.begin_save();
+            self.journal_writer.begin_save(now)
+        };
+        Ok(SaveInput {
+            editable,
+            edited: self.edited.clone(),
+            base: self.base(),
+            about: self.about.clone(),
+            output,
+            overwrite,
+            target,
+            autosave: autosave.cloned(),
+            // The file will no longer have the takes with which the history starts.
+            successor: successor.filter(|_| own),
+            faults,
+        })
+    }
+
+    /// Records that the prepared file is about to be written.
+    pub(super) fn record_saving(&mut self, prepared: &mut PreparedSave, now: Instant) {
+        if prepared.target() == SaveTarget::Own {
+            let new = prepared.take_journal();
+            self.journal_writer.record_saving(new, prepared.size_and_hash(), now);
+        }
+    }
+
+    /// Ends a save: what was written is the file of the document, unless it is a copy.
+    pub(super) fn end_save(
+        &mut self,
+        written: Result<WrittenSave, NotSaved>,
+        autosave: Option<&Autosave>,
+        now: Instant,
+    ) -> Result<SavedFile, NotSaved> {
+        let copy = written.as_ref().is_ok_and(|written| written.target == SaveTarget::Copy);
         if !copy {
-            self.edited.mark_saved();
-            if self.base.is_none() {
-                self.base = Some(self.loaded.model.animation.takes.clone().into());
+            self.edited.end_save(written.is_ok());
+        }
+        let WrittenSave { editable, saved, path, target, journal } = match written {
+            Ok(written) => written,
+            Err(reason) => {
+                self.journal_writer.end_save(None);
+                return Err(reason);
             }
-            if !own {
-                self.move_to(&output, autosave, now);
+        };
+        if !copy {
+            let stamp = editable.stamp().copied();
+            self.base = Some(self.base());
+            self.editable = Ok(editable);
+            match target {
+                SaveTarget::Other => self.move_to(&path, journal, autosave, now),
+                SaveTarget::Own | SaveTarget::Copy => self.journal_writer.end_save(stamp.as_ref()),
             }
             self.look();
         }
         let beside = saved.files.len().saturating_sub(1);
-        let (bytes, notices, then) = (saved.bytes, saved.notices, order.then.clone());
-        Ok(SavedFile { path: output, bytes, beside, copy, notices, then })
+        Ok(SavedFile { path, bytes: saved.bytes, beside, copy, notices: saved.notices, then: None })
     }
 
-    /// Makes `path` the file of the document and of its journal.
-    fn move_to(&mut self, path: &Path, autosave: Option<&Autosave>, now: Instant) {
+    /// Makes `path` the file of the document, and `journal` its journal.
+    fn move_to(
+        &mut self,
+        path: &Path,
+        journal: Option<Result<Journal, JournalError>>,
+        autosave: Option<&Autosave>,
+        now: Instant,
+    ) {
         let title = super::source::file_name(path);
         self.file = Arc::new(FileView { title, path: Some(path.to_path_buf()) });
-        self.about = super::recorded::EditsOrigin::new(None);
-        let Some(autosave) = autosave else { return };
-        let stamp = self.stamp();
-        match autosave.begin_another(Some(path), stamp.as_ref()) {
-            Ok(journal) => {
-                let old = self.journal_writer.set(journal);
-                self.snapshot(true, now);
-                if let (Some(journal), Some(stamp)) = (self.journal_writer.journal(), stamp)
-                    && let Err(error) = journal.saved(&stamp)
-                {
-                    tracing::warn!("{error}");
-                }
-                // Its edits are in a file now.
-                if let Some(Err(error)) = old.map(|old| autosave.discard_own(old)) {
-                    tracing::warn!("{error}");
-                }
-            }
-            Err(error) => self.journal_writer.never(&error),
+        self.about = EditsOrigin::new(None);
+        let (Some(autosave), Some(journal)) = (autosave, journal) else {
+            return self.journal_writer.end_save(None);
+        };
+        // The edits of the old journal are in a file now.
+        let old = self.journal_writer.move_to(journal, &self.about, now);
+        if let Some(Err(error)) = old.map(|old| autosave.discard_own(old)) {
+            tracing::warn!("{error}");
         }
     }
 

@@ -1,6 +1,6 @@
 //! Options and results of writing a saved file.
 
-use dragonfly_store::{FileSaveError as DiskError, Journal, Versions};
+use dragonfly_store::{FileSaveError as DiskError, Versions};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -18,8 +18,6 @@ pub(super) enum Overwrite {
 /// Options of a save.
 pub(super) struct Writing<'a> {
     pub(super) overwrite: Overwrite,
-    /// The journal of the file, in which the save is recorded before it starts and after it has succeeded.
-    pub(super) journal: Option<&'a mut Journal>,
     /// The folder for old versions of the file.
     pub(super) versions: Option<&'a Versions>,
     /// Whether the written file becomes the file of the document.

@@ -5,11 +5,11 @@
 //! makes the call at [`next_due`](Journal::next_due).
 
 use super::error::reason;
-use super::lock::lock_with_retries;
 use super::owner::JournalOwner;
 use super::record::{self, JournalHeader, LONGEST_RECORD, Saving, Tag};
 use super::stamp::{FileStamp, hash};
 use super::state::JournalState;
+use super::successor::{Successor, SuccessorJournal};
 use super::vfs::{Vfs, VfsFile, folder_of, retry, write_all};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -201,12 +201,21 @@ impl Journal {
     /// # Errors
     /// As [`append`](Self::append).
     pub fn saving(&mut self, bytes: &[u8]) -> Result<(), JournalError> {
-        self.write_json(Tag::Saving, &Saving { size: bytes.len() as u64, hash: hash(bytes) })?;
+        self.saving_without(0, bytes.len() as u64, hash(bytes))
+    }
+
+    /// As [`saving`](Self::saving), for a file of `size` bytes with this [`hash`](hash()) that does not contain the last
+    /// `newer` edits, which were appended while the file was computed.
+    ///
+    /// # Errors
+    /// As [`append`](Self::append).
+    pub fn saving_without(&mut self, newer: u64, size: u64, hash: u64) -> Result<(), JournalError> {
+        self.write_json(Tag::Saving, &Saving { size, hash, newer })?;
         self.sync()
     }
 
-    /// Records that the document was saved: the file contains everything appended before [`saving`](Self::saving).
-    /// Flushed to the disk before returning.
+    /// Records that the document was saved: the file contains everything appended before [`saving`](Self::saving), except
+    /// for the edits that [`saving_without`](Self::saving_without) named. Flushed to the disk before returning.
     ///
     /// # Errors
     /// As [`append`](Self::append).
@@ -270,48 +279,26 @@ impl Journal {
     /// # Errors
     /// As [`compact`](Self::compact).
     pub fn compact_as(&mut self, snapshot: &[u8], saved: bool) -> Result<(), JournalError> {
-        self.ensure_fits(snapshot)?;
-        // Only the holder of the lock uses this name: an existing file with it was left by a killed program.
-        let temporary = self.path.with_extension("compact");
-        let _ = retry(|| self.files.remove(&temporary));
-        let made = self.make_compact(&temporary, snapshot, saved).and_then(|new| {
-            retry(|| self.files.rename(&temporary, &self.path))?;
-            Ok(new)
-        });
-        let mut new = match made {
-            Ok(new) => new,
-            Err(error) => {
-                let _ = retry(|| self.files.remove(&temporary));
-                return Err(JournalError::io(&self.path, "its snapshot cannot be written")(error));
-            }
-        };
-        new.path.clone_from(&self.path);
-        // The old file has no name anymore, so the new one is the journal even if the sync below fails.
-        *self = new;
+        let new = self.successor().write(snapshot, saved)?;
+        self.continue_in(new)
+    }
+
+    /// Returns the plan of a journal that is to take the place of this one, for [`Successor::write`] in another thread.
+    pub fn successor(&self) -> Successor {
+        Successor::of(self)
+    }
+
+    /// Continues in `new`, which takes the place of this journal in one step. It must contain everything that this one
+    /// contains: the caller appends what was appended here since [`successor`](Self::successor) was called.
+    ///
+    /// # Errors
+    /// As [`compact`](Self::compact).
+    pub fn continue_in(&mut self, new: SuccessorJournal) -> Result<(), JournalError> {
+        *self = new.renamed_to(&self.path)?;
         retry(|| self.files.sync_folder(folder_of(&self.path))).map_err(|error| {
             self.broken = Some(reason(&error));
             JournalError::io(&self.path, "could not be flushed to the disk")(error)
         })
-    }
-
-    fn make_compact(&self, temporary: &Path, snapshot: &[u8], saved: bool) -> io::Result<Self> {
-        let file = retry(|| self.files.create_new(temporary, true))?;
-        lock_with_retries(&*file)?;
-        let header = JournalHeader {
-            number: new_number(),
-            document: self.header.document.clone(),
-            stamp: self.state.stamp,
-        };
-        let mut new = Self::begin(Arc::clone(&self.files), file, temporary.to_path_buf(), header)?;
-        if let Some((saving, _)) = &self.state.saving {
-            new.put(Tag::Saving, &serde_json::to_vec(saving)?)?;
-        }
-        new.put(Tag::Snapshot, snapshot)?;
-        if let Some(stamp) = self.state.stamp.filter(|_| saved) {
-            new.put(Tag::Saved, &serde_json::to_vec(&stamp)?)?;
-        }
-        retry(|| new.file.sync_all())?;
-        Ok(new)
     }
 
     /// Closes the journal. A journal without any work is removed; any other is kept for its history.
@@ -338,7 +325,7 @@ impl Journal {
         }
     }
 
-    fn ensure_fits(&self, bytes: &[u8]) -> Result<(), JournalError> {
+    pub(super) fn ensure_fits(&self, bytes: &[u8]) -> Result<(), JournalError> {
         if bytes.len() <= LONGEST_RECORD {
             return Ok(());
         }
@@ -358,7 +345,7 @@ impl Journal {
     }
 
     /// Appends a record completely or not at all.
-    fn put(&mut self, tag: Tag, bytes: &[u8]) -> io::Result<()> {
+    pub(super) fn put(&mut self, tag: Tag, bytes: &[u8]) -> io::Result<()> {
         self.frame.clear();
         record::push(&mut self.frame, self.header.number, self.next, tag, bytes);
         let written = write_all(&*self.file, &self.frame, self.length);

@@ -8,7 +8,7 @@
 //! All access to the file system goes through the trait [`Vfs`], so that tests can make every single call fail.
 //!
 //! The modules depend on each other in one direction: `vfs` ← `stamp` ← `target`, `temporary` ← `in_place`, `versions` ←
-//! `save`; `record`, `state`, `lock` ← `journal` ← `autosave` ← `recoverable` ← `begin` ← `recovery`.
+//! `save`; `record`, `state`, `lock` ← `journal` (with `successor`) ← `autosave` ← `recoverable` ← `begin` ← `recovery`.
 
 mod autosave;
 mod begin;
@@ -26,6 +26,7 @@ mod recovery;
 mod save;
 mod stamp;
 mod state;
+mod successor;
 mod target;
 mod temporary;
 mod versions;
@@ -45,6 +46,7 @@ pub use recoverable::{DocumentFileState, JournalEntry, Readability, Recoverable}
 pub use recovery::{Claim, Resumed};
 pub use save::{SaveOptions, SaveOutcome, replace, save};
 pub use stamp::{FileStamp, FileState, hash};
+pub use successor::{Successor, SuccessorJournal};
 pub use target::ExpectedFile;
 pub use versions::{OldVersion, VersionLimits, Versions};
 pub use vfs::{Attribute, FileData, FileKind, Vfs, VfsFile, folder_of};

@@ -105,6 +105,13 @@ impl PathText {
 pub(super) struct Saving {
     pub(super) size: u64,
     pub(super) hash: u64,
+    /// Number of the last edits that the file does not contain, because they were made while it was computed.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub(super) newer: u64,
+}
+
+fn is_zero(number: &u64) -> bool {
+    *number == 0
 }
 
 impl Saving {

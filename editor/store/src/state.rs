@@ -13,7 +13,7 @@ pub(super) struct JournalState {
     pub(super) unsaved: u64,
     /// Stamp of the file when it last had the journal's state.
     pub(super) stamp: Option<FileStamp>,
-    /// A save that was started without a record of its end, and the number of edits before it.
+    /// A save that was started without a record of its end, and the number of edits in it.
     pub(super) saving: Option<(Saving, u64)>,
     /// The process that opened the journal last.
     pub(super) owner: Option<JournalOwner>,
@@ -42,7 +42,7 @@ impl JournalState {
                 Err(_) => return false,
             },
             Tag::Saving => match serde_json::from_slice::<Saving>(bytes) {
-                Ok(saving) => self.saving = Some((saving, self.work)),
+                Ok(saving) => self.saving = Some((saving, self.work.saturating_sub(saving.newer))),
                 Err(_) => return false,
             },
             Tag::Saved => match serde_json::from_slice::<FileStamp>(bytes) {

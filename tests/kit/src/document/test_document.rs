@@ -247,6 +247,11 @@ impl TestDocument {
         })
     }
 
+    /// Asks the document to end, without waiting for it.
+    pub fn stop(&self) {
+        self.document.stop();
+    }
+
     /// Ends the document normally.
     pub fn end(self) {
         drop(self);

@@ -1,0 +1,221 @@
+//! A save that is running, and what must wait for its end.
+
+use super::job::JobNews;
+use super::message::{DocumentMessage, DocumentReply};
+use super::owner::Document;
+use super::save_job::{PreparedSave, SaveInput, WrittenSave, prepare};
+use super::saving::{NotSaved, SaveOrder, SavedFile};
+use super::{Change, LoadError, OpenedModel};
+use dragonfly_runtime::{Address, Job};
+use std::time::Instant;
+
+/// Size in bytes of a file from which the user is told that it is being saved.
+const LARGE: u64 = 8 << 20;
+
+/// A save that is running.
+pub(super) struct RunningSave {
+    order: SaveOrder,
+    ticket: u64,
+    steps: flume::Receiver<SaveStep>,
+    _job: Job,
+}
+
+/// The end of a step of a save.
+enum SaveStep {
+    Prepared(Result<Box<PreparedSave>, NotSaved>),
+    Written(Result<Box<WrittenSave>, NotSaved>),
+}
+
+/// A message that waits for the end of a save.
+pub(super) enum Deferred {
+    Message(DocumentMessage),
+    Change(Change, Option<u64>),
+    Loaded(u64, Result<Box<OpenedModel>, LoadError>),
+}
+
+/// Whether a message must wait while a save is running.
+#[derive(PartialEq, Eq)]
+enum Waits {
+    No,
+    /// It waits, and later messages do not wait for it.
+    Alone,
+    /// It waits, and so do all later messages.
+    WithAllAfter,
+}
+
+fn waits(message: &DocumentMessage) -> Waits {
+    match message {
+        DocumentMessage::CancelLoading | DocumentMessage::Plan(_) | DocumentMessage::Search => Waits::No,
+        DocumentMessage::Save(_) | DocumentMessage::LookAtFile => Waits::Alone,
+        DocumentMessage::Open { .. }
+        | DocumentMessage::Revert
+        | DocumentMessage::Quit
+        | DocumentMessage::DoNotSave
+        | DocumentMessage::Decide(..)
+        | DocumentMessage::FoundAt(..) => Waits::WithAllAfter,
+    }
+}
+
+impl RunningSave {
+    /// Starts `work`, a step of a save, in a job. The document gets a message when it has ended, and finds the outcome in `steps`.
+    fn start(
+        document: &Address<JobNews>,
+        ticket: u64,
+        order: SaveOrder,
+        failed: fn(NotSaved) -> SaveStep,
+        work: impl FnOnce() -> SaveStep + Send + 'static,
+    ) -> Result<Self, (SaveOrder, NotSaved)> {
+        let (ended, steps) = flume::bounded(1);
+        let panicked = ended.clone();
+        let job = Job::start(
+            document,
+            "save",
+            move |_| {
+                // Fails only if the document has ended without waiting for the save.
+                let _ = ended.send(work());
+                JobNews::SaveStep(ticket)
+            },
+            move |panic| {
+                let reason = format!("an internal error stopped the save: {panic}");
+                let _ = panicked.send(failed(NotSaved::Failed(reason)));
+                JobNews::SaveStep(ticket)
+            },
+        );
+        match job {
+            Ok(job) => Ok(Self { order, ticket, steps, _job: job }),
+            Err(error) => Err((order, NotSaved::Failed(format!("the save could not be started: {error}")))),
+        }
+    }
+
+    fn prepare(
+        document: &Address<JobNews>,
+        ticket: u64,
+        order: SaveOrder,
+        input: SaveInput,
+    ) -> Result<Self, (SaveOrder, NotSaved)> {
+        let work = move || SaveStep::Prepared(prepare(input).map(Box::new));
+        Self::start(document, ticket, order, |reason| SaveStep::Prepared(Err(reason)), work)
+    }
+
+    fn write(
+        document: &Address<JobNews>,
+        ticket: u64,
+        order: SaveOrder,
+        prepared: Box<PreparedSave>,
+    ) -> Result<Self, (SaveOrder, NotSaved)> {
+        let work = move || SaveStep::Written(prepared.write().map(Box::new));
+        Self::start(document, ticket, order, |reason| SaveStep::Written(Err(reason)), work)
+    }
+}
+
+impl Document {
+    /// Returns the message, or `None` where it must wait for the end of a save.
+    pub(super) fn unless_deferred(&mut self, message: DocumentMessage) -> Option<DocumentMessage> {
+        if self.save.is_none() || (waits(&message) == Waits::No && !self.all_wait()) {
+            return Some(message);
+        }
+        self.deferred.push_back(Deferred::Message(message));
+        None
+    }
+
+    /// Returns whether changes wait for the end of a save, because a message before them does.
+    pub(super) fn all_wait(&self) -> bool {
+        self.deferred.iter().any(|deferred| match deferred {
+            Deferred::Message(message) => waits(message) == Waits::WithAllAfter,
+            Deferred::Change(..) | Deferred::Loaded(..) => true,
+        })
+    }
+
+    /// Begins to save. The document can be edited in the meantime.
+    pub(super) fn save(&mut self, order: SaveOrder, now: Instant) {
+        let (autosave, faults) = (self.autosave.clone(), self.faults.clone());
+        let Some(open) = &mut self.open else { return };
+        let large = open.stamp().is_some_and(|stamp| stamp.size >= LARGE);
+        let title = open.file.title.clone();
+        match open.begin_save(&order, autosave.as_ref(), faults, now) {
+            Ok(input) => {
+                if large {
+                    self.reply(DocumentReply::Notice(format!("Saving {title}…")));
+                }
+                let ticket = self.next_ticket();
+                let begun = RunningSave::prepare(&self.own, ticket, order, input);
+                self.go_on_saving(begun, now);
+            }
+            Err(reason) => {
+                self.reply(DocumentReply::NotSaved(order, reason));
+                self.report_trouble();
+                self.changed();
+            }
+        }
+    }
+
+    fn go_on_saving(&mut self, step: Result<RunningSave, (SaveOrder, NotSaved)>, now: Instant) {
+        match step {
+            Ok(running) => self.save = Some(running),
+            Err((order, reason)) => self.end_save(order, Err(reason), now),
+        }
+    }
+
+    /// Handles the end of a step of the save with this ticket.
+    pub(super) fn save_step(&mut self, ticket: u64, now: Instant) {
+        let Some(save) = self.save.take_if(|save| save.ticket == ticket) else { return };
+        match save.steps.recv() {
+            Ok(SaveStep::Prepared(Ok(mut prepared))) => {
+                let Some(open) = &mut self.open else { return };
+                open.record_saving(&mut prepared, now);
+                let ticket = self.next_ticket();
+                let begun = RunningSave::write(&self.own, ticket, save.order, prepared);
+                self.go_on_saving(begun, now);
+            }
+            Ok(SaveStep::Prepared(Err(reason))) => self.end_save(save.order, Err(reason), now),
+            Ok(SaveStep::Written(written)) => self.end_save(save.order, written, now),
+            // Its sender is in the job, which sends before it ends.
+            Err(flume::RecvError::Disconnected) => {}
+        }
+    }
+
+    /// Waits for the end of the save that is running, before the document ends.
+    pub(super) fn wait_for_save(&mut self) {
+        let Some(save) = self.save.take() else { return };
+        let now = Instant::now();
+        let written = match save.steps.recv() {
+            Ok(SaveStep::Prepared(Ok(mut prepared))) => {
+                // The document was lost, and with it the journal.
+                let Some(open) = &mut self.open else { return };
+                open.record_saving(&mut prepared, now);
+                prepared.write().map(Box::new)
+            }
+            Ok(SaveStep::Prepared(Err(reason))) => Err(reason),
+            Ok(SaveStep::Written(written)) => written,
+            Err(flume::RecvError::Disconnected) => return,
+        };
+        self.reply_saved(save.order, written, now);
+    }
+
+    fn end_save(&mut self, order: SaveOrder, written: Result<Box<WrittenSave>, NotSaved>, now: Instant) {
+        self.reply_saved(order, written, now);
+        self.report_trouble();
+        self.changed();
+        while self.save.is_none()
+            && let Some(deferred) = self.deferred.pop_front()
+        {
+            match deferred {
+                Deferred::Message(message) => self.message(message, now),
+                Deferred::Change(change, number) => self.change(change, number, now),
+                Deferred::Loaded(ticket, loaded) => self.finish_loading(ticket, loaded),
+            }
+        }
+    }
+
+    fn reply_saved(&mut self, order: SaveOrder, written: Result<Box<WrittenSave>, NotSaved>, now: Instant) {
+        let autosave = self.autosave.clone();
+        let Some(open) = &mut self.open else { return };
+        match open.end_save(written.map(|written| *written), autosave.as_ref(), now) {
+            Ok(saved) => {
+                self.noticed = None;
+                self.reply(DocumentReply::Saved(SavedFile { then: order.then, ..saved }));
+            }
+            Err(reason) => self.reply(DocumentReply::NotSaved(order, reason)),
+        }
+    }
+}

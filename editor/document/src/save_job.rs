@@ -1,0 +1,142 @@
+//! The work of a save that takes long. It runs in two jobs, so that the document can be edited while a large file is written:
+//!
+//! 1. [`prepare`] computes the bytes of the file, and writes a journal with a snapshot of the history.
+//! 2. The document goes on in that journal, with the edits made since, and records that the file is about to be written.
+//! 3. [`PreparedSave::write`] writes the file.
+//! 4. The document records the end. Edits made since the beginning are unsaved.
+
+use super::editable::{Editable, WrittenFile};
+use super::fault::{FaultInjection, FaultPoint};
+use super::history::Edited;
+use super::recorded::{EditsOrigin, Snapshot};
+use super::saving::NotSaved;
+use super::writing::{FilesSaved, Overwrite, Writing};
+use dragonfly_anim::data::Take;
+use dragonfly_store::{Autosave, Journal, JournalError, Successor, SuccessorJournal};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// What the written file becomes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SaveTarget {
+    /// It replaces the file of the document.
+    Own,
+    /// It becomes the file of the document.
+    Other,
+    /// The document keeps its file.
+    Copy,
+}
+
+/// The state of the document when a save began, and what is to be written.
+#[derive(Debug)]
+pub(super) struct SaveInput {
+    pub(super) editable: Editable,
+    pub(super) edited: Edited,
+    /// The takes with which the history starts.
+    pub(super) base: Arc<[Arc<Take>]>,
+    pub(super) about: EditsOrigin,
+    pub(super) output: PathBuf,
+    pub(super) overwrite: Overwrite,
+    pub(super) target: SaveTarget,
+    pub(super) autosave: Option<Autosave>,
+    /// The plan of the journal in which the document goes on.
+    pub(super) successor: Option<Successor>,
+    pub(super) faults: FaultInjection,
+}
+
+/// A save whose bytes are computed and not yet written.
+#[derive(Debug)]
+pub(super) struct PreparedSave {
+    input: SaveInput,
+    /// All files, the model last.
+    files: Vec<WrittenFile>,
+    size_and_hash: (u64, u64),
+    journal: Option<Result<SuccessorJournal, JournalError>>,
+}
+
+/// A save that has succeeded.
+#[derive(Debug)]
+pub(super) struct WrittenSave {
+    /// The file as it is now.
+    pub(super) editable: Editable,
+    pub(super) saved: FilesSaved,
+    pub(super) path: PathBuf,
+    pub(super) target: SaveTarget,
+    /// The journal of another file that becomes the file of the document, where work is recorded.
+    pub(super) journal: Option<Result<Journal, JournalError>>,
+}
+
+/// Computes the files that a save writes, and writes the journal in which the document goes on.
+///
+/// # Errors
+/// The reason why it cannot be saved. Nothing was written.
+pub(super) fn prepare(mut input: SaveInput) -> Result<PreparedSave, NotSaved> {
+    input.faults.reach(FaultPoint::PrepareSave);
+    let failed = |reason: String| NotSaved::Failed(reason);
+    let plan = input.editable.plan(input.edited.adapter()).map_err(|error| failed(error.to_string()))?;
+    let files = input.editable.files(&plan, &input.output).map_err(failed)?;
+    let bytes = files.last().map_or(&[][..], |(_, bytes)| bytes);
+    let size_and_hash = (bytes.len() as u64, dragonfly_store::hash(bytes));
+    let journal = match input.successor.take() {
+        Some(successor) => {
+            let snapshot = input.snapshot()?;
+            Some(successor.write(&snapshot, input.edited.is_saved()))
+        }
+        None => None,
+    };
+    Ok(PreparedSave { input, files, size_and_hash, journal })
+}
+
+impl SaveInput {
+    /// Returns the whole history as bytes for a journal.
+    fn snapshot(&self) -> Result<Vec<u8>, NotSaved> {
+        Snapshot::bytes(self.about.clone(), &self.edited, Some(&*self.base))
+            .map_err(|error| NotSaved::Failed(format!("the history cannot be written as JSON: {error}")))
+    }
+
+    /// Begins the journal of a file that has just been written and becomes the file of the document.
+    fn begin_journal(&mut self) -> Option<Result<Journal, JournalError>> {
+        let autosave = self.autosave.as_ref()?;
+        let stamp = self.editable.stamp().copied();
+        self.edited.end_save(true);
+        self.about = EditsOrigin::new(None);
+        let snapshot = self.snapshot().ok()?;
+        let journal = autosave.begin_another(Some(&self.output), stamp.as_ref()).and_then(|mut journal| {
+            journal.compact_as(&snapshot, true)?;
+            Ok(journal)
+        });
+        Some(journal)
+    }
+}
+
+impl PreparedSave {
+    pub(super) fn target(&self) -> SaveTarget {
+        self.input.target
+    }
+
+    /// Returns size and hash of the model's file.
+    pub(super) fn size_and_hash(&self) -> (u64, u64) {
+        self.size_and_hash
+    }
+
+    /// Takes the journal in which the document goes on.
+    pub(super) fn take_journal(&mut self) -> Option<Result<SuccessorJournal, JournalError>> {
+        self.journal.take()
+    }
+
+    /// Writes the files.
+    ///
+    /// # Errors
+    /// The reason why nothing was saved.
+    pub(super) fn write(self) -> Result<WrittenSave, NotSaved> {
+        let Self { mut input, files, .. } = self;
+        input.faults.reach(FaultPoint::WriteSave);
+        let target = input.target;
+        let versions = input.autosave.as_ref().map(Autosave::versions);
+        let becomes = target != SaveTarget::Copy;
+        let how = Writing { overwrite: input.overwrite, versions, becomes };
+        let saved = input.editable.write(input.edited.adapter(), files, how)?;
+        let journal = if target == SaveTarget::Other { input.begin_journal() } else { None };
+        Ok(WrittenSave { editable: input.editable, saved, path: input.output, target, journal })
+    }
+}
