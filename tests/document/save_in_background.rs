@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::Duration;
 
-/// A fault plan that holds a save at a point until it is let go.
+/// A fault plan that holds a save at a point until it is released.
 #[derive(Debug)]
 struct HeldSave {
     at: FaultPoint,
@@ -47,7 +47,7 @@ impl HeldSave {
         self.change(|held| held.closed = true);
     }
 
-    fn let_go(&self) {
+    fn release(&self) {
         self.change(|held| *held = Held { panics: held.panics, ..Held::default() });
     }
 
@@ -123,7 +123,7 @@ fn edits_made_during_a_save_are_answered_before_its_end_and_are_unsaved_after_it
         held.wait_until_reached();
         document.edit(rename("newer"));
         document.wait_for_view(|view| view.history.done == 2);
-        held.let_go();
+        held.release();
         wait_until_saved(&mut document);
         assert!(!document.view().history.saved);
         same_takes(&on_disk(&path), &saved);
@@ -157,7 +157,7 @@ fn a_kill_at_any_point_of_a_save_loses_neither_the_saved_nor_the_newer_edits() {
         assert_eq!(steps, 4, "{at:?}: the file is the old one");
         same_takes(&view, &before);
 
-        held.let_go();
+        held.release();
         wait_until_saved(&mut document);
         copy_after_kill(&folder.join("autosave"), &folder.join("after"));
         let (steps, view) = restored(&folder.join("after"), &path);
@@ -180,7 +180,7 @@ fn a_kill_between_the_write_of_a_file_and_its_record_is_noticed_at_the_next_star
     document.edit(turn(0.7));
     let before = document.view();
     copy_after_kill(&folder.join("autosave"), &folder.join("during"));
-    held.let_go();
+    held.release();
     wait_until_saved(&mut document);
     // The journal of before the end of the save, and the file of after it.
     let (steps, view) = restored(&folder.join("during"), &path);
@@ -206,7 +206,7 @@ fn a_drag_that_goes_on_during_a_save_is_a_second_step() {
         document.change(Change::Release(Gesture(7)));
         let before = document.view();
         assert_eq!(before.history.done, 2);
-        held.let_go();
+        held.release();
         wait_until_saved(&mut document);
         same_takes(&on_disk(&path), &saved);
         copy_after_kill(&folder.join("autosave"), &folder.join("after"));
@@ -232,7 +232,7 @@ fn an_end_is_asked_for_only_after_the_save_and_counts_the_edits_made_during_it()
         // A change after it waits, too: otherwise the question would be about a later state.
         document.edit(rename("after the question"));
         assert!(document.unread_replies().iter().all(|said| !said.contains("Quit")));
-        held.let_go();
+        held.release();
         wait_until_saved(&mut document);
         let asks = document.wait_for_reply(|reply| match reply {
             DocumentReply::Unsaved(_) => Some(true),
@@ -260,7 +260,7 @@ fn a_second_save_and_a_revert_follow_the_one_that_is_running() {
     document.edit(rename("third"));
     document.wait_for_view(|view| view.history.done == 3);
     document.send(DocumentMessage::Revert);
-    held.let_go();
+    held.release();
     wait_until_saved(&mut document);
     wait_until_saved(&mut document);
     let view = document.wait_for_view(|view| view.history.saved);
@@ -306,7 +306,7 @@ fn a_document_that_ends_during_a_save_finishes_it_first() {
         document.send(order(SaveTo::Own));
         held.wait_until_reached();
         document.stop();
-        held.let_go();
+        held.release();
         document.end();
         same_takes(&on_disk(&path), &before);
         let found = autosave_in(&folder.join("autosave")).recoverable().unwrap();
@@ -328,7 +328,7 @@ fn edits_made_while_a_file_is_saved_under_another_name_go_to_the_journal_of_that
         held.wait_until_reached();
         document.edit(turn(0.7));
         let before = document.view();
-        held.let_go();
+        held.release();
         wait_until_saved(&mut document);
         document.edit(rename("newest"));
         let newest = document.view();
@@ -378,7 +378,7 @@ fn random_edits_before_during_and_after_saves_are_restored_exactly_after_a_kill(
             if during {
                 check_kill(&mut document, &folder, &path, &format!("{save}-during"));
             }
-            held.let_go();
+            held.release();
             wait_until_saved(&mut document);
             if moves {
                 path = other;

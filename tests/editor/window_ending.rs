@@ -86,8 +86,9 @@ impl End {
 }
 
 impl Activity {
-    /// Changes the pose of the selected head, and returns in the middle of the activity.
-    fn begins(self, visit: &mut Visit) {
+    /// Changes the pose of the selected head, and returns in the middle of the activity: the number of requests of this run whose
+    /// outcome is shown.
+    fn begins(self, visit: &mut Visit) -> usize {
         let done: usize = visit.shown("done").parse().expect("a number");
         match self {
             Self::Field => {
@@ -123,12 +124,13 @@ impl Activity {
             visit.screen.release_button();
         }
         // The last input is visible.
-        visit.until("the pose that was asked for", |visit| {
-            let asked = visit.asked().into_iter().rfind(|request| request["do"] == "edit")?;
+        let shown = visit.until("the pose that was asked for", |visit| {
+            let requests = visit.asked();
+            let asked = requests.iter().rfind(|request| request["do"] == "edit")?;
             let rotation = &asked["edit"]["poses"][0]["rotation"];
             let asked = Quat::from_array([0, 1, 2, 3].map(|at| rotation[at].as_f64().unwrap() as f32));
             let shown = Quat::from_array(numbers(&visit.shown("rotation")));
-            ((asked - shown).length().min((asked + shown).length()) < 1e-5).then_some(())
+            ((asked - shown).length().min((asked + shown).length()) < 1e-5).then_some(requests.len())
         });
         match self {
             Self::Pending => drop(visit.control("1 pose pending")),
@@ -138,6 +140,7 @@ impl Activity {
             }
             _ => {}
         }
+        shown
     }
 }
 
@@ -203,7 +206,7 @@ fn every_way_to_end_the_window_preserves_all_edits() {
         }
         visit.pick_head();
         visit.go_on(2 + 3 * life);
-        activity.begins(&mut visit);
+        let shown = asked.len() + activity.begins(&mut visit);
         end.comes(&mut visit);
         lost_screen = end == End::Screen;
         if !lost_screen {
@@ -217,9 +220,14 @@ fn every_way_to_end_the_window_preserves_all_edits() {
             }
             line
         }));
-        let expected = saved_by_asking(&visit, &asked);
         let (kept, done) = saved_by_keeping(&visit, life);
-        assert!(kept == expected, "life {life}: another file than what was done makes");
+        // The program may be killed after a move of the mouse was handled and before it was recorded, which is before it is
+        // shown.
+        let recorded =
+            (shown..=asked.len()).rev().find(|&asks| kept == saved_by_asking(&visit, &asked[..asks]));
+        let recorded =
+            recorded.unwrap_or_else(|| panic!("life {life}: another file than what was done makes"));
+        asked.truncate(recorded);
         assert!(done > steps, "life {life}: {done} steps, {steps} before it");
         steps = done;
     }

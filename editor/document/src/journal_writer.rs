@@ -68,17 +68,17 @@ impl JournalWriter {
         self.journal.replace(journal)
     }
 
-    /// Begins a save: later entries are not in the file. Returns the plan of a journal with a snapshot, in which the document goes
-    /// on; `None` where nothing is recorded, or edits are missing.
+    /// Begins a save: later entries are not in the file. Returns the successor of the journal, which a job fills
+    /// with a snapshot; `None` where nothing is recorded, or edits are missing.
     pub(super) fn begin_save(&mut self, now: Instant) -> Option<Successor> {
         self.end_of_gesture(now);
-        // The next entry begins anew: a gesture that goes on is another step.
+        // The next entry separates the gestures before the save from those after it.
         self.begun = false;
         self.save = Some(RecordedSave::default());
         self.complete().map(|journal| journal.successor())
     }
 
-    /// Goes on in the journal that was written for the save, and records that a file of `size` bytes with this hash is about to be
+    /// Switches to the journal that was written for the save, and records that a file of `size` bytes with this hash is about to be
     /// written.
     pub(super) fn record_saving(
         &mut self,
@@ -110,7 +110,7 @@ impl JournalWriter {
         }
     }
 
-    /// Ends a save under another name, and goes on in `journal`, which was written for it. Returns the journal before.
+    /// Ends a save under another name, and switches to `journal`, which was written for it. Returns the journal before.
     pub(super) fn move_to(
         &mut self,
         journal: Result<Journal, JournalError>,
@@ -142,7 +142,7 @@ impl JournalWriter {
         self.journal.as_mut().filter(|_| self.gap.is_none())
     }
 
-    /// Appends the entries since the save began to `new` and goes on in it.
+    /// Appends the entries since the save began to `new` and switches to it.
     fn continue_in(&mut self, mut new: SuccessorJournal) -> Result<(), JournalError> {
         let (Some(journal), Some(save)) = (&mut self.journal, &self.save) else { return Ok(()) };
         save.newer.iter().try_for_each(|entry| new.append(entry))?;

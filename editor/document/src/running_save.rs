@@ -9,7 +9,7 @@ use super::{Change, LoadError, OpenedModel};
 use dragonfly_runtime::{Address, Job};
 use std::time::Instant;
 
-/// Size in bytes of a file from which the user is told that it is being saved.
+/// Size in bytes of a file from which the status line shows that it is being saved.
 const LARGE: u64 = 8 << 20;
 
 /// A save that is running.

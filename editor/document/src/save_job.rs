@@ -1,7 +1,7 @@
 //! The work of a save that takes long. It runs in two jobs, so that the document can be edited while a large file is written:
 //!
 //! 1. [`prepare`] computes the bytes of the file, and writes a journal with a snapshot of the history.
-//! 2. The document goes on in that journal, with the edits made since, and records that the file is about to be written.
+//! 2. The document switches to that journal, with the edits made since, and records that the file is about to be written.
 //! 3. [`PreparedSave::write`] writes the file.
 //! 4. The document records the end. Edits made since the beginning are unsaved.
 
@@ -16,7 +16,7 @@ use dragonfly_store::{Autosave, Journal, JournalError, Successor, SuccessorJourn
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What the written file becomes.
+/// The role of the written file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SaveTarget {
     /// It replaces the file of the document.
@@ -39,7 +39,7 @@ pub(super) struct SaveInput {
     pub(super) overwrite: Overwrite,
     pub(super) target: SaveTarget,
     pub(super) autosave: Option<Autosave>,
-    /// The plan of the journal in which the document goes on.
+    /// The successor of the document's journal.
     pub(super) successor: Option<Successor>,
     pub(super) faults: FaultInjection,
 }
@@ -66,7 +66,7 @@ pub(super) struct WrittenSave {
     pub(super) journal: Option<Result<Journal, JournalError>>,
 }
 
-/// Computes the files that a save writes, and writes the journal in which the document goes on.
+/// Computes the files that a save writes, and writes the successor of the journal.
 ///
 /// # Errors
 /// The reason why it cannot be saved. Nothing was written.
@@ -119,7 +119,7 @@ impl PreparedSave {
         self.size_and_hash
     }
 
-    /// Takes the journal in which the document goes on.
+    /// Takes the successor of the journal.
     pub(super) fn take_journal(&mut self) -> Option<Result<SuccessorJournal, JournalError>> {
         self.journal.take()
     }

@@ -1,5 +1,5 @@
 //! A journal that takes the place of another one. Its snapshot may be large, so that it can be written in another thread
-//! while the old journal goes on.
+//! while edits are still appended to the old journal.
 
 use super::journal::{Journal, JournalError, new_number};
 use super::lock::lock_with_retries;
