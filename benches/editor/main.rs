@@ -1,6 +1,7 @@
 //! Cost of opening and editing a model, and of a frame of the panels: `cargo bench -p dragonfly`.
 
 mod edits;
+mod save;
 mod timeline;
 
 use dragonfly_document::{Cancel, Source, load_model};
@@ -15,4 +16,5 @@ fn main() {
         load_model(&Source::BuiltIn, &mut |_| {}, &Cancel::default()).expect("part of the program")
     });
     timeline::all();
+    save::all();
 }

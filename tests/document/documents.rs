@@ -7,35 +7,11 @@ use dragonfly_document::{
     Setup, Source, View, images, load_model,
 };
 use dragonfly_kit::document::arm;
+use dragonfly_kit::document::received::Received;
 use dragonfly_kit::eventually;
-use dragonfly_runtime::{Context, Receiver, Stage, Thread, ThreadHandle};
-use std::cell::RefCell;
+use dragonfly_runtime::{Stage, Thread, ThreadHandle};
 use std::path::PathBuf;
-use std::rc::Rc;
 use std::time::{Duration, Instant};
-
-#[derive(Clone, Default)]
-struct ReplyRecorder(Rc<RefCell<Vec<DocumentReply>>>);
-
-impl Receiver for ReplyRecorder {
-    type Message = DocumentReply;
-
-    fn receive(&mut self, reply: DocumentReply, _thread: &mut Context) {
-        self.0.borrow_mut().push(reply);
-    }
-}
-
-/// Records the views that are sent to the main or the graphics thread.
-#[derive(Clone, Default)]
-struct Picture(Rc<RefCell<Vec<View>>>);
-
-impl Receiver for Picture {
-    type Message = View;
-
-    fn receive(&mut self, view: View, _thread: &mut Context) {
-        self.0.borrow_mut().push(view);
-    }
-}
 
 #[test]
 fn the_built_in_model_opens_and_reports_progress() {
@@ -69,10 +45,10 @@ fn a_file_that_does_not_exist_is_named_in_the_error() {
 
 #[test]
 fn the_open_model_stays_open_when_loading_another_file_fails() {
-    let heard = ReplyRecorder::default();
+    let heard = Received::<DocumentReply>::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
-    let picture = main.context().register_receiver(Picture::default());
+    let picture = main.context().register_receiver(Received::<View>::default());
     let document = Document::start(replies, picture).unwrap();
     document.open(Source::BuiltIn);
     let mut wait = |what: fn(&DocumentReply) -> bool| {
@@ -154,10 +130,10 @@ fn panics_on_files(
 
 #[test]
 fn a_hundred_importer_panics_are_reported_and_the_document_keeps_running() {
-    let heard = ReplyRecorder::default();
+    let heard = Received::<DocumentReply>::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
-    let picture = main.context().register_receiver(Picture::default());
+    let picture = main.context().register_receiver(Received::<View>::default());
     let document =
         Document::start_with(Setup { load: panics_on_files, ..Setup::default() }, replies, picture).unwrap();
     let mut wait = |what: &dyn Fn(&[DocumentReply]) -> bool| {
@@ -202,15 +178,15 @@ struct DocumentBench {
     thread: ThreadHandle,
     graphics: ThreadHandle,
     document: DocumentHandle,
-    heard: ReplyRecorder,
-    picture: Picture,
+    heard: Received<DocumentReply>,
+    picture: Received<View>,
 }
 
 impl DocumentBench {
     fn new() -> Self {
-        let (mut stage, heard) = (Stage::default(), ReplyRecorder::default());
+        let (mut stage, heard) = (Stage::default(), Received::<DocumentReply>::default());
         let [main, thread, graphics] = ["main", "document", "graphics"].map(|name| stage.start(name));
-        let picture = Picture::default();
+        let picture = Received::<View>::default();
         let shown = stage.context(&graphics).register_receiver(picture.clone());
         let replies = stage.context(&main).register_receiver(heard.clone());
         let setup = Setup { load: opens_anything, ..Setup::default() };
@@ -295,8 +271,8 @@ fn the_graphics_thread_receives_the_newest_view_while_the_main_thread_is_blocked
 
 #[test]
 fn an_edit_reaches_panels_and_viewport_and_an_invalid_one_is_refused_with_a_reason() {
-    let heard = ReplyRecorder::default();
-    let shown = Picture::default();
+    let heard = Received::<DocumentReply>::default();
+    let shown = Received::<View>::default();
     let mut main = Thread::capture("main", || {});
     let replies = main.context().register_receiver(heard.clone());
     let picture = main.context().register_receiver(shown.clone());

@@ -8,29 +8,17 @@ use dragonfly_document::{
     Cancel, Change, Document, DocumentHandle, DocumentReply, LoadError, OpenedModel, Progress, Setup, Source,
     View,
 };
+use dragonfly_kit::document::received::Received;
 use dragonfly_kit::eventually;
 use dragonfly_picture::gizmo::{GizmoView, Handle};
 use dragonfly_runtime::{Captured, Context, Receiver, Thread};
 use glam::{Quat, Vec2};
-use std::cell::RefCell;
-use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 /// Rectangle of the viewport in the window: x, y, width, height, in points.
 pub(crate) const PICTURE: [f32; 4] = [200.0, 50.0, 800.0, 600.0];
 
 pub(crate) type Load = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<OpenedModel, LoadError>;
-
-#[derive(Clone, Default)]
-struct ReceivedReplies(Rc<RefCell<Vec<DocumentReply>>>);
-
-impl Receiver for ReceivedReplies {
-    type Message = DocumentReply;
-
-    fn receive(&mut self, reply: DocumentReply, _: &mut Context) {
-        self.0.borrow_mut().push(reply);
-    }
-}
 
 struct IgnoredViews;
 
@@ -50,13 +38,13 @@ pub(crate) struct ViewportHarness {
     main: Captured,
     thread: Captured,
     document: DocumentHandle,
-    replies_received: ReceivedReplies,
+    replies_received: Received<DocumentReply>,
 }
 
 impl ViewportHarness {
     /// Opens the model that `load` returns, paused at the start of its first take.
     pub(crate) fn new(load: Load) -> Self {
-        let replies_received = ReceivedReplies::default();
+        let replies_received = Received::default();
         let mut main = Thread::capture("main", || {});
         let thread = Thread::capture("document", || {});
         let replies = main.context().register_receiver(replies_received.clone());

@@ -4,6 +4,7 @@
 use dragonfly_anim::data::{ModelData, Take};
 use dragonfly_document::{Document, DocumentReply, FaultInjection, FaultPlan, Source, View};
 use dragonfly_kit::document::arm;
+use dragonfly_kit::document::received::Received;
 use dragonfly_kit::eventually;
 use dragonfly_kit::picture::complaints::NoComplaints;
 use dragonfly_kit::skip::{TestNeed, skip};
@@ -257,24 +258,13 @@ fn a_request_is_answered_and_the_newest_camera_is_used() {
     assert_eq!(picked, Some((Some(1), 7)));
 }
 
-/// Receives the replies of the document in the main thread.
-struct Panels(Rc<RefCell<Vec<DocumentReply>>>);
-
-impl Receiver for Panels {
-    type Message = DocumentReply;
-
-    fn receive(&mut self, reply: DocumentReply, _: &mut Context) {
-        self.0.borrow_mut().push(reply);
-    }
-}
-
 #[test]
 fn a_model_is_shown_while_the_main_thread_is_blocked() {
     let Some(mut bench) = GraphicsBench::with_arm() else { return };
     let path = scratch("stalled.png");
     let before = bench.capture(&path);
-    let heard = Rc::new(RefCell::new(Vec::new()));
-    let replies = bench.main.context().register_receiver(Panels(Rc::clone(&heard)));
+    let heard = Received::<DocumentReply>::default();
+    let replies = bench.main.context().register_receiver(heard.clone());
     let document = Document::start(replies, bench.graphics.views().clone()).unwrap();
     document.open(Source::BuiltIn);
     // From here on the main thread runs no iteration.
@@ -284,10 +274,10 @@ fn a_model_is_shown_while_the_main_thread_is_blocked() {
         let now = image::open(&path).unwrap().into_rgba8();
         dragonfly_kit::picture::images::difference(&before, &now) > 100
     });
-    assert!(heard.borrow().is_empty());
+    assert!(heard.0.borrow().is_empty());
     bench.main.iterate();
     assert!(
-        heard.borrow().iter().any(|reply| matches!(reply, DocumentReply::View(_))),
+        heard.0.borrow().iter().any(|reply| matches!(reply, DocumentReply::View(_))),
         "then it hears of it"
     );
     document.stop();

@@ -4,4 +4,5 @@ pub mod arm;
 pub mod fixture;
 pub mod made;
 pub mod made_take;
+pub mod received;
 pub mod test_document;

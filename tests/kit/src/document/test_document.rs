@@ -1,5 +1,6 @@
 //! A document in its thread, without a window: tests send messages to it and wait for its replies and views.
 
+use super::received::Received;
 use crate::folder::{Folder, data};
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, RenameTake, SetPose, TakeRef};
 use dragonfly_document::{
@@ -17,17 +18,6 @@ use std::time::{Duration, Instant};
 const SOON: Duration = Duration::from_secs(60);
 
 #[derive(Clone, Default)]
-struct RecordedReplies(Rc<RefCell<Vec<DocumentReply>>>);
-
-impl Receiver for RecordedReplies {
-    type Message = DocumentReply;
-
-    fn receive(&mut self, reply: DocumentReply, _thread: &mut Context) {
-        self.0.borrow_mut().push(reply);
-    }
-}
-
-#[derive(Clone, Default)]
 struct LatestView(Rc<RefCell<Option<View>>>);
 
 impl Receiver for LatestView {
@@ -42,7 +32,7 @@ impl Receiver for LatestView {
 pub struct TestDocument {
     main: Captured,
     document: DocumentHandle,
-    heard: RecordedReplies,
+    heard: Received<DocumentReply>,
     shown: LatestView,
 }
 
@@ -112,7 +102,7 @@ impl TestDocument {
 
     /// Starts a document with `setup`.
     pub fn with(setup: Setup) -> Self {
-        let (heard, shown) = (RecordedReplies::default(), LatestView::default());
+        let (heard, shown) = (Received::default(), LatestView::default());
         let mut main = Thread::capture("main", || {});
         let replies = main.context().register_receiver(heard.clone());
         let picture = main.context().register_receiver(shown.clone());
@@ -137,6 +127,17 @@ impl TestDocument {
             std::thread::park_timeout(Duration::from_millis(1));
         }
         found.expect("found")
+    }
+
+    /// Returns whether there is a reply for which `what` returns true, without waiting, and removes it from the unread replies.
+    pub fn has_reply(&mut self, mut what: impl FnMut(&DocumentReply) -> bool) -> bool {
+        self.main.iterate();
+        let mut heard = self.heard.0.borrow_mut();
+        let place = heard.iter().position(&mut what);
+        if let Some(place) = place {
+            heard.remove(place);
+        }
+        place.is_some()
     }
 
     /// Returns all unread replies as text, without the large ones.

@@ -1,0 +1,141 @@
+//! Time until an edit is answered while a file of 170 MB is saved.
+
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, SetPose, TakeRef};
+use dragonfly_document::{DocumentMessage, DocumentReply, SaveOrder};
+use dragonfly_kit::document::test_document::TestDocument;
+use dragonfly_kit::folder::Folder;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+const BONES: usize = 200;
+const KEYS: usize = 30_000;
+
+/// Writes a GLB with one take of 200 bones, each with rotations and translations of its own.
+fn write_model(path: &Path) {
+    let mut bytes: Vec<u8> = Vec::new();
+    let (mut views, mut accessors) = (Vec::new(), Vec::new());
+    let mut add = |values: &mut dyn Iterator<Item = f32>, kind: &str| {
+        let begin = bytes.len();
+        values.for_each(|value| bytes.extend(value.to_le_bytes()));
+        views.push(json!({"buffer": 0, "byteOffset": begin, "byteLength": bytes.len() - begin}));
+        accessors
+            .push(json!({"bufferView": views.len() - 1, "componentType": 5126, "count": KEYS, "type": kind}));
+        accessors.len() - 1
+    };
+    let times = add(&mut (0..KEYS).map(|key| key as f32 / 60.0), "SCALAR");
+    let (mut samplers, mut channels, mut nodes) = (Vec::new(), Vec::new(), Vec::new());
+    for bone in 0..BONES {
+        let angle = |key: usize| (0.3 * (key as f32 * 0.01 + bone as f32).sin()).sin_cos();
+        let rotations = add(
+            &mut (0..KEYS).flat_map(|key| {
+                let (sine, cosine) = angle(key);
+                [0.0, 0.0, sine, cosine]
+            }),
+            "VEC4",
+        );
+        let places = add(&mut (0..KEYS).flat_map(|key| [key as f32 * 1e-4, 0.1, 0.0]), "VEC3");
+        for (output, path) in [(rotations, "rotation"), (places, "translation")] {
+            channels.push(json!({"sampler": samplers.len(), "target": {"node": bone, "path": path}}));
+            samplers.push(json!({"input": times, "output": output}));
+        }
+        let children: Vec<usize> =
+            [2 * bone + 1, 2 * bone + 2].into_iter().filter(|&child| child < BONES).collect();
+        let mut node = json!({"name": format!("bone {bone}"), "translation": [0.0, 0.1, 0.0]});
+        if !children.is_empty() {
+            node["children"] = json!(children);
+        }
+        nodes.push(node);
+    }
+    accessors[times]["min"] = json!([0.0]);
+    accessors[times]["max"] = json!([(KEYS - 1) as f32 / 60.0]);
+    let document = json!({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": nodes,
+        "buffers": [{"byteLength": bytes.len()}], "bufferViews": views, "accessors": accessors,
+        "animations": [{"name": "long", "samplers": samplers, "channels": channels}],
+    });
+    fs::write(path, glb(&document, &bytes)).expect("a folder of this bench");
+}
+
+fn glb(document: &Value, bytes: &[u8]) -> Vec<u8> {
+    let mut text = document.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let length = 12 + 8 + text.len() + 8 + bytes.len();
+    let mut out = b"glTF".to_vec();
+    let word = |out: &mut Vec<u8>, number: usize| out.extend((number as u32).to_le_bytes());
+    word(&mut out, 2);
+    word(&mut out, length);
+    word(&mut out, text.len());
+    out.extend(b"JSON");
+    out.extend(text);
+    word(&mut out, bytes.len());
+    out.extend(b"BIN\0");
+    out.extend(bytes);
+    out
+}
+
+fn pose(angle: f32) -> Edit {
+    let (sine, cosine) = (angle / 2.0).sin_cos();
+    let pose = BonePose {
+        bone: BoneRef::Index(7),
+        translation: None,
+        rotation: Some([0.0, 0.0, sine, cosine]),
+        scale: None,
+    };
+    Edit::SetPose(SetPose { take: TakeRef::Index(0), time: 0.5, poses: vec![pose], unstep: false })
+}
+
+/// Sends one edit and returns the time until its view has arrived.
+fn answered(document: &mut TestDocument, steps: usize) -> Duration {
+    let begin = Instant::now();
+    document.edit(pose(steps as f32 * 0.001));
+    document.wait_for_view(|view| view.history.done == steps);
+    begin.elapsed()
+}
+
+fn print(what: &str, mut times: Vec<Duration>) {
+    times.sort();
+    let at = |share: usize| times[(times.len() - 1) * share / 100].as_secs_f64() * 1e3;
+    println!(
+        "editor/save/{what:<44} median {:>8.2} ms   p99 {:>8.2} ms   worst {:>8.2} ms   {} edits",
+        at(50),
+        at(99),
+        at(100),
+        times.len()
+    );
+}
+
+/// Measures edits without a save, and during a save of the model.
+pub(crate) fn all() {
+    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    if wanted.is_some_and(|part| !"editor/save".contains(&part)) {
+        return;
+    }
+    let folder = Folder::new("bench-save");
+    let path = folder.join("long.glb");
+    write_model(&path);
+    let size = fs::metadata(&path).map_or(0, |file| file.len()) as f64 / 1e6;
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&path);
+    let mut steps = 0;
+    let mut next = |document: &mut TestDocument| {
+        steps += 1;
+        answered(document, steps)
+    };
+    let quiet = (0..200).map(|_| next(&mut document)).collect();
+    print("edit_without_a_save", quiet);
+    for round in ["first", "second"] {
+        let begin = Instant::now();
+        document.send(DocumentMessage::Save(SaveOrder::own(None)));
+        let mut during = Vec::new();
+        while !document.has_reply(|reply| match reply {
+            DocumentReply::NotSaved(_, reason) => panic!("{reason:?}"),
+            reply => matches!(reply, DocumentReply::Saved(_)),
+        }) {
+            during.push(next(&mut document));
+        }
+        println!("editor/save/{round}_save_of_{size:.0}_MB {:>32.0} ms", begin.elapsed().as_secs_f64() * 1e3);
+        print(&format!("edit_during_the_{round}_save"), during);
+    }
+}
