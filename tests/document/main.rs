@@ -7,7 +7,9 @@ mod edit_cost;
 mod edits;
 mod images;
 mod keeping;
+mod limits;
 mod old_journals;
+mod savable;
 mod save_and_open;
 mod undo;
 
