@@ -6,6 +6,7 @@ mod documents;
 mod edit_cost;
 mod edits;
 mod images;
+mod journal_later;
 mod keeping;
 mod limits;
 mod old_journals;

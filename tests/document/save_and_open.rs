@@ -50,6 +50,13 @@ fn with_keys(take: &Take, skeleton: &Skeleton) -> Take {
         !(track.translation.is_empty() && track.rotation.is_empty() && track.scale.is_empty())
     });
     take.morphs.retain(|morph| !morph.times.is_empty());
+    for morph in &mut take.morphs {
+        let targets = morph.targets as usize;
+        if morph.times.len() == 1 && morph.interpolation == Interpolation::CubicSpline {
+            morph.weights = morph.weights[targets..2 * targets].into();
+            morph.interpolation = Interpolation::Linear;
+        }
+    }
     take
 }
 

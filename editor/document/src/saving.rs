@@ -143,7 +143,9 @@ impl Open {
             if self.base.is_none() {
                 self.base = Some(self.loaded.model.animation.takes.clone().into());
             }
-            if !own {
+            if own {
+                self.journal_writer.file_is(Some(output.clone()), self.stamp());
+            } else {
                 self.move_to(&output, autosave, now);
             }
             self.look();
@@ -174,7 +176,7 @@ impl Open {
                     tracing::warn!("{error}");
                 }
             }
-            Err(error) => self.journal_writer.never(&error),
+            Err(error) => self.journal_writer.not_begun(Some(path.to_path_buf()), stamp, &error),
         }
     }
 
