@@ -2,15 +2,17 @@
 
 use crate::timeline_rig::Animator;
 use dragonfly::panels::commands::{Id, KeySettings, Preset};
-use dragonfly::panels::keys::{BoneFlag, KeysRequest};
+use dragonfly::panels::keys::{BoneFlag, BoneFlags, KeysRequest};
 use dragonfly::panels::{Effect, Request};
 use dragonfly_document::Change;
+use dragonfly_document::adapter::{ModelAdapter, TakeVersions};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{
-    BonePose, BoneRef, DeleteKeys, DropPending, Edit, KeyPending, PastePose, Property, RetimeTake,
-    SetPending, TakeRef, TrimTake,
+    Arbitrary, BonePose, BoneRef, DeleteKeys, DropPending, EDITS, Edit, EditedBones, KeyPending, PastePose,
+    Property, RetimeTake, SetPending, TakeRef, TrimTake,
 };
 use dragonfly_document::posing::clipboard;
+use dragonfly_kit::random::{Random, seed};
 use egui_kittest::kittest::Queryable;
 
 const LEFT: u32 = 3;
@@ -173,4 +175,72 @@ fn edits_of_the_whole_take_include_locked_bones() {
         assert_ne!(animator.times(LEFT as usize), before);
     }
     assert!(!animator.harness.state().effects.iter().any(|effect| matches!(effect, Effect::Change(_))));
+}
+
+/// Edits of whole takes: they include locked bones, see [`edits_of_the_whole_take_include_locked_bones`].
+const OF_WHOLE_TAKES: [&str; 8] = [
+    "create_take",
+    "delete_take",
+    "rename_take",
+    "move_take",
+    "split_take",
+    "trim_take",
+    "reverse_take",
+    "retime_take",
+];
+
+/// Returns a model of three bones with two takes and a pending pose.
+fn small_model() -> ModelAdapter {
+    let view = dragonfly_kit::document::fixture::view(
+        "small.glb",
+        dragonfly_kit::document::fixture::skeleton(1),
+        &[("Walk", 1.0, 5), ("Run", 1.3, 4)],
+    );
+    let mut model = ModelAdapter::new(&view.loaded.model.animation);
+    let poses = vec![turned(1), turned(LEFT)];
+    model.apply(&Edit::SetPending(SetPending { take: TakeRef::Index(0), time: 0.3, poses })).expect("bones");
+    model
+}
+
+#[test]
+fn no_kind_of_edit_changes_a_locked_bone_unless_it_changes_the_whole_take() {
+    let before = small_model();
+    let skeleton = before.skeleton();
+    let names: Vec<BoneRef> = (0..skeleton.len() as u32).map(BoneRef::Index).collect();
+    let state = |slot: &TakeVersions, bone: u32| {
+        let poses = slot.pending().iter().filter_map(|at| Some((at.time, *at.of(bone)?)));
+        (slot.result.tracks.get(bone as usize).cloned(), poses.collect::<Vec<_>>())
+    };
+    let mut random = Random::new(seed(43));
+    for locked in 0..skeleton.len() as u32 {
+        let mut flags = BoneFlags::default();
+        flags.set(BoneFlag::Lock, locked, true);
+        for kind in EDITS {
+            let (mut refused, mut applied) = (0, 0);
+            for _ in 0..150 {
+                let edit = (kind.arbitrary)(&mut Arbitrary::new(&mut || random.bits(), 2, &names));
+                let whole = edit.bones(skeleton) == EditedBones::WholeTake;
+                assert_eq!(whole, OF_WHOLE_TAKES.contains(&kind.name), "{edit:?}");
+                let mut after = before.clone();
+                if whole || after.apply(&edit).is_err() {
+                    continue;
+                }
+                let change = Change::Edit(edit, None);
+                if flags.locked_bone_in(&change, skeleton).is_some() {
+                    refused += 1;
+                    continue;
+                }
+                applied += 1;
+                for (before, after) in before.slots().iter().zip(after.slots()) {
+                    assert!(
+                        state(before, locked) == state(after, locked),
+                        "{change:?} changes bone {locked}"
+                    );
+                }
+            }
+            // There is no spline whose tangents could be set.
+            let none = kind.name == "set_tangents" || OF_WHOLE_TAKES.contains(&kind.name);
+            assert!(refused + applied > 0 || none, "no {} applies", kind.name);
+        }
+    }
 }

@@ -128,6 +128,56 @@ fn a_failure_of_any_system_call_leaves_the_old_file_or_the_new_one() {
     assert!(runs > 4 * 6 * 15, "only {runs} calls failed");
 }
 
+/// The calls that may fail although the save succeeds, with the faults that they may have and the reason.
+const MAY_FAIL: [(&str, &[Fault], &str); 4] = [
+    (
+        "open_to_write",
+        &[Fault::Io, Fault::Full, Fault::ReadOnly],
+        "only asks whether the file is write-protected",
+    ),
+    ("set_owner", &[Fault::Denied], "only the administrator may give files away; a notice says so"),
+    ("set_attribute", &[Fault::Denied], "some attributes belong to the system; a notice says so"),
+    ("open", &[Fault::Denied], "the old file became unreadable, so its attributes are unknown"),
+];
+
+#[test]
+fn a_save_succeeds_only_if_every_call_up_to_the_last_sync_succeeds() {
+    let all = quick_folder("store-syncs");
+    let new = new();
+    let mut synced = 0;
+    for case in &CASES {
+        let (_, path, _) = prepared(&all, case);
+        let files = FaultyFiles::once(u64::MAX, Fault::Io);
+        save(&files, &path, &new, &SaveOptions::default()).expect(case.name);
+        let names = files.names();
+        let last_sync = names.iter().rposition(|name| name.starts_with("sync_")).expect("it syncs");
+        assert_eq!(names[last_sync], "sync_folder", "{}", case.name);
+        synced += names.iter().filter(|name| name.starts_with("sync_")).count();
+        // What follows is cleaning up, and the stamp of the file.
+        let after = &names[last_sync + 1..];
+        assert!(after.iter().all(|name| ["metadata", "list", "remove"].contains(name)), "{after:?}");
+        for (at, name) in names[..=last_sync].iter().enumerate() {
+            for fault in Fault::ALL.into_iter().filter(|fault| !fault.is_harmless()) {
+                let (_, path, _) = prepared(&all, case);
+                let files = FaultyFiles::once(at as u64 + 1, fault);
+                let saved = save(&files, &path, &new, &SaveOptions::default());
+                let place = format!("{}, call {}, {name}, {fault:?}: {saved:?}", case.name, at + 1);
+                assert_eq!(files.names()[at], *name, "{place}");
+                let may = |(may, faults, _): &(&str, &[Fault], &str)| may == name && faults.contains(&fault);
+                match (&saved, MAY_FAIL.iter().any(may)) {
+                    (Err(_), _) => {}
+                    (Ok(_), false) => panic!("reported as saved: {place}"),
+                    (Ok(saved), true) => {
+                        assert!(name.starts_with("open") || !saved.notices.is_empty(), "{place}");
+                    }
+                }
+            }
+        }
+    }
+    // The bytes and the folder; for a file of two names also its old content, with the folder before and after.
+    assert_eq!(synced, 2 + 2 + 2 + 4);
+}
+
 fn names_after(case: &Case, saved: &Result<dragonfly_store::SaveOutcome, FileSaveError>) -> Vec<String> {
     let there = case.old.is_some() || matches!(saved, Ok(_) | Err(FileSaveError::Unconfirmed { .. }));
     case.names.iter().filter(|_| there).map(|name| (*name).to_owned()).collect()

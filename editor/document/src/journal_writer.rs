@@ -1,7 +1,7 @@
 //! Writes the journal of the open document: an edit is handed to the system before it counts as applied.
 //!
-//! A journal that fails does not stop the work. The user is warned once, and the journal is retried with a snapshot of everything: the
-//! edits since the failure would be missing otherwise.
+//! A journal that fails, or that cannot be created, does not stop the work. The user is warned once, and the journal is retried with
+//! the next edit and after a while, with a snapshot of everything: the edits since the failure would be missing otherwise.
 
 use super::history::Gesture;
 use super::recorded::{EditsOrigin, Recorded};
@@ -25,8 +25,10 @@ const COMPACT_GROWTH: u64 = 4;
 pub(super) struct JournalWriter {
     autosave: Option<Autosave>,
     journal: Option<Journal>,
-    /// The document whose journal is created with the first edit.
+    /// The document whose journal is created with the first edit, or as soon as that is possible.
     wanted: Option<(Option<PathBuf>, Option<FileStamp>)>,
+    /// Whether the journal could not be created so far.
+    is_overdue: bool,
     /// Whether this journal has the entry that names this program.
     begun: bool,
     /// Time of the last failure, while edits are missing in the journal.
@@ -64,7 +66,7 @@ impl JournalWriter {
     /// Continues with this journal, and returns the one before.
     pub(super) fn set(&mut self, journal: Journal) -> Option<Journal> {
         self.compact = journal.size();
-        (self.begun, self.gap, self.wanted) = (false, None, None);
+        (self.begun, self.gap, self.wanted, self.is_overdue) = (false, None, None, false);
         self.journal.replace(journal)
     }
 
@@ -113,6 +115,7 @@ impl JournalWriter {
     /// Ends a save under another name, and switches to `journal`, which was written for it. Returns the journal before.
     pub(super) fn move_to(
         &mut self,
+        (document, stamp): (Option<PathBuf>, Option<FileStamp>),
         journal: Result<Journal, JournalError>,
         about: &EditsOrigin,
         now: Instant,
@@ -121,7 +124,7 @@ impl JournalWriter {
         let old = match journal {
             Ok(journal) => self.set(journal),
             Err(error) => {
-                self.never(&error);
+                self.not_begun(document, stamp, &error);
                 return None;
             }
         };
@@ -173,24 +176,42 @@ impl JournalWriter {
     }
 
     /// Appends an entry. When this returns, the system has it, or there is a warning that it has not.
-    pub(super) fn record(&mut self, about: &EditsOrigin, recorded: &Recorded<'_>, now: Instant) {
-        self.begin();
+    ///
+    /// Returns whether a snapshot is due at once: a journal that could not be created before is there now.
+    #[must_use]
+    pub(super) fn record(&mut self, about: &EditsOrigin, recorded: &Recorded<'_>, now: Instant) -> bool {
+        let gesture = match recorded {
+            Recorded::Edit { gesture, .. } => *gesture,
+            _ => None,
+        };
+        // The creation is tried once in a gesture, not with each movement of the mouse.
+        let goes_on = gesture.is_some() && self.gesture.map(|(own, _)| own) == gesture;
+        // Nor during a save, which would need another snapshot then.
+        let waits = self.is_overdue && (goes_on || self.save.is_some());
+        if !waits && self.begin(now) {
+            return true;
+        }
+        if self.journal.is_none() {
+            self.gesture = gesture.map(|gesture| (gesture, now));
+        }
         if self.journal.is_none() || self.gap.is_some() {
-            return;
+            return false;
         }
         let done = self.begun(about, now).and_then(|()| self.append(recorded, now));
         if let Err(error) = done {
-            return self.failed(&error, now);
+            self.failed(&error, now);
+            return false;
         }
-        match recorded {
-            Recorded::Edit { gesture: Some(gesture), .. } => {
-                if self.gesture.is_some_and(|(other, _)| other != *gesture) {
+        match gesture {
+            Some(gesture) => {
+                if self.gesture.is_some_and(|(other, _)| other != gesture) {
                     self.end_of_gesture(now);
                 }
-                self.gesture = Some((*gesture, now));
+                self.gesture = Some((gesture, now));
             }
-            _ => self.end_of_gesture(now),
+            None => self.end_of_gesture(now),
         }
+        false
     }
 
     /// Ends a gesture: its edit is due to be flushed to the disk.
@@ -207,13 +228,38 @@ impl JournalWriter {
         }
     }
 
-    fn begin(&mut self) {
-        let (Some(autosave), Some((document, stamp))) = (&self.autosave, self.wanted.take()) else { return };
+    /// Creates the journal that is wanted, if there is one. Returns whether it had failed before.
+    fn begin(&mut self, now: Instant) -> bool {
+        let (Some(autosave), Some((document, stamp))) = (&self.autosave, self.wanted.take()) else {
+            return false;
+        };
         match autosave.begin_another(document.as_deref(), stamp.as_ref()) {
             Ok(journal) => {
+                let overdue = self.is_overdue;
                 self.set(journal);
+                // Until the snapshot is written, edits are missing.
+                self.gap = overdue.then_some(now);
+                overdue
             }
-            Err(error) => self.never(&error),
+            Err(error) => {
+                self.not_begun(document, stamp, &error);
+                self.gap = Some(now);
+                false
+            }
+        }
+    }
+
+    /// Tries again to create a journal that could not be created before.
+    pub(super) fn begin_overdue(&mut self, now: Instant) {
+        if self.is_overdue {
+            self.begin(now);
+        }
+    }
+
+    /// Sets the file of a journal that is still to be created.
+    pub(super) fn file_is(&mut self, document: Option<PathBuf>, stamp: Option<FileStamp>) {
+        if let Some(wanted) = &mut self.wanted {
+            *wanted = (document, stamp);
         }
     }
 
@@ -239,9 +285,17 @@ impl JournalWriter {
         Ok(())
     }
 
-    /// Warns that there is no journal for this document.
-    pub(super) fn never(&mut self, error: &JournalError) {
-        self.trouble.push(format!("Unsaved work is not recorded, so a crash would lose it: {error}"));
+    /// Warns that the journal of this document could not be created. It is tried again later.
+    pub(super) fn not_begun(
+        &mut self,
+        document: Option<PathBuf>,
+        stamp: Option<FileStamp>,
+        error: &JournalError,
+    ) {
+        self.wanted = Some((document, stamp));
+        if !std::mem::replace(&mut self.is_overdue, true) {
+            self.trouble.push(format!("Unsaved work is not recorded, so a crash would lose it: {error}"));
+        }
     }
 
     fn failed(&mut self, error: &JournalError, now: Instant) {
@@ -253,6 +307,9 @@ impl JournalWriter {
 
     /// Flushes entries that are due to the disk.
     pub(super) fn sync(&mut self, now: Instant) {
+        if self.is_overdue && self.gap.is_none() {
+            self.gap = Some(now);
+        }
         if self.gesture.is_some_and(|(_, last)| now.saturating_duration_since(last) >= GESTURE_TIMEOUT) {
             self.end_of_gesture(now);
         }
@@ -267,19 +324,22 @@ impl JournalWriter {
     /// Returns whether a snapshot is due: because edits are missing, or because it would be much smaller than the journal.
     pub(super) fn wants_snapshot(&self, now: Instant) -> bool {
         // A save that is running writes a snapshot, too.
-        let Some(journal) = self.journal.as_ref().filter(|_| self.save.is_none()) else { return false };
-        match self.gap {
-            Some(last) => now.saturating_duration_since(last) >= RETRY_AFTER,
-            None => {
+        if self.save.is_some() {
+            return false;
+        }
+        match (self.gap, &self.journal) {
+            (Some(last), _) => now.saturating_duration_since(last) >= RETRY_AFTER,
+            (None, None) => false,
+            (None, Some(journal)) => {
                 self.gesture.is_none()
                     && journal.size() > COMPACT_ABOVE.max(self.compact.saturating_mul(COMPACT_GROWTH))
             }
         }
     }
 
-    /// Returns whether edits are missing in the journal.
+    /// Returns whether edits are missing in the journal, or there is none although there should be one.
     pub(super) fn has_gap(&self) -> bool {
-        self.gap.is_some()
+        self.gap.is_some() || self.is_overdue
     }
 
     /// Replaces the contents of the journal by a snapshot; `saved` if the file has the same state.
@@ -311,8 +371,7 @@ impl JournalWriter {
 
     /// Returns the time at which there is something to do without a message.
     pub(super) fn next_due(&self) -> Option<Instant> {
-        let again =
-            self.gap.filter(|_| self.journal.is_some() && self.save.is_none()).map(|last| last + RETRY_AFTER);
+        let again = self.gap.filter(|_| self.save.is_none()).map(|last| last + RETRY_AFTER);
         let due = self.journal.as_ref().filter(|_| self.gap.is_none()).and_then(Journal::next_due);
         let quiet = self.gesture.map(|(_, last)| last + GESTURE_TIMEOUT);
         [again, due, quiet].into_iter().flatten().min()

@@ -105,9 +105,12 @@ impl Open {
         let done = match change {
             Change::Edit(edit, gesture) => {
                 self.edited.ask(edit, gesture)?;
-                if let Some(step) = self.edited.steps().0.back() {
+                let due = self.edited.steps().0.back().is_some_and(|step| {
                     let edit = std::borrow::Cow::Borrowed(&step.edit);
-                    self.journal_writer.record(&self.about, &Recorded::Edit { edit, gesture }, now);
+                    self.journal_writer.record(&self.about, &Recorded::Edit { edit, gesture }, now)
+                });
+                if due {
+                    self.snapshot(false, now);
                 }
                 true
             }
@@ -118,7 +121,7 @@ impl Open {
             Change::Cancel(gesture) => {
                 let done = self.edited.cancel(gesture);
                 if done {
-                    self.journal_writer.record(&self.about, &Recorded::Cancel { gesture }, now);
+                    self.record(&Recorded::Cancel { gesture }, now);
                 }
                 done
             }
@@ -139,9 +142,15 @@ impl Open {
         let done = walk(&mut self.edited);
         if done {
             let steps = self.edited.steps().1;
-            self.journal_writer.record(&self.about, &Recorded::GoTo { steps }, now);
+            self.record(&Recorded::GoTo { steps }, now);
         }
         done
+    }
+
+    fn record(&mut self, recorded: &Recorded<'_>, now: Instant) {
+        if self.journal_writer.record(&self.about, recorded, now) {
+            self.snapshot(false, now);
+        }
     }
 
     /// Undoes or redoes to the saved state. Returns `false` where neither leads there.
@@ -165,6 +174,10 @@ impl Open {
     /// Replaces the contents of the journal by a snapshot. It includes the takes with which the history starts if the file no longer has
     /// them, or if `with_base`.
     pub(super) fn snapshot(&mut self, with_base: bool, now: Instant) {
+        self.journal_writer.begin_overdue(now);
+        if self.journal_writer.path().is_none() {
+            return;
+        }
         let base = (with_base || self.base.is_some()).then(|| self.base());
         match Snapshot::bytes(self.about.clone(), &self.edited, base.as_deref()) {
             Ok(bytes) => self.journal_writer.snapshot(&bytes, self.edited.is_saved(), now),
@@ -199,7 +212,9 @@ impl Open {
 
     pub(super) fn view(&self, generation: u64) -> View {
         let history = Arc::clone(&self.history);
-        View::of(generation, Arc::clone(&self.loaded), self.edited.adapter(), history, Arc::clone(&self.file))
+        let file = Arc::clone(&self.file);
+        let view = View::of(generation, Arc::clone(&self.loaded), self.edited.adapter(), history, file);
+        View { is_unrecorded: self.journal_writer.has_gap(), ..view }
     }
 
     /// Updates the published history. During a gesture its step stays the same, and nothing is allocated.

@@ -60,6 +60,8 @@ pub struct Document {
     pub(super) scan: Option<RecoveryScan>,
     /// Whether the user asked for the search.
     pub(super) searched: bool,
+    /// Whether the last view said that work is unrecorded.
+    shown_unrecorded: bool,
     /// The change of the file by another program that was reported last.
     pub(super) noticed: Option<FileState>,
     pub(super) faults: FaultInjection,
@@ -133,6 +135,7 @@ impl Document {
                 waiting: None,
                 scan: None,
                 searched: false,
+                shown_unrecorded: false,
                 noticed: None,
                 faults: setup.faults.clone(),
                 views: replies.latest(),
@@ -330,6 +333,21 @@ impl Document {
         self.changed = true;
     }
 
+    /// Flushes and retries the journal where that is due, and publishes whether work is unrecorded. Returns the time at which there is
+    /// something to do again.
+    pub(super) fn keep(&mut self, now: Instant) -> Option<Instant> {
+        let open = self.open.as_mut()?;
+        let before = open.journal_writer.has_gap();
+        open.keep(now);
+        let due = open.journal_writer.next_due();
+        if open.journal_writer.has_gap() != before || before != self.shown_unrecorded {
+            self.changed();
+            self.publish();
+        }
+        self.report_trouble();
+        due
+    }
+
     /// Publishes the newest state, if it changed or a sender waits for an answer.
     pub(super) fn publish(&mut self) {
         let (changed, answers) = (std::mem::take(&mut self.changed), std::mem::take(&mut self.answers));
@@ -338,6 +356,7 @@ impl Document {
         }
         let Some(view) = self.open.as_ref().map(|open| open.view(self.generation)) else { return };
         let view = View { answered: self.answered, ..view };
+        self.shown_unrecorded = view.is_unrecorded;
         // Errors are ignored as in `reply`. The graphics thread comes first: it has more to do.
         if changed {
             let _ = self.picture.send(view.clone());

@@ -95,13 +95,8 @@ impl Worker for DocumentWorker {
     fn update(&mut self, thread: &mut Context) -> bool {
         let document = &mut *self.0.borrow_mut();
         document.publish();
-        let now = thread.now();
-        if let Some(open) = &mut document.open {
-            open.keep(now);
-            if let Some(due) = open.journal_writer.next_due() {
-                thread.wake_at(due);
-            }
-            document.report_trouble();
+        if let Some(due) = document.keep(thread.now()) {
+            thread.wake_at(due);
         }
         true
     }

@@ -59,7 +59,7 @@ impl Document {
                 self.begin_beside();
                 self.reply(DocumentReply::Warning(text));
             }
-            Err(error) => open.journal_writer.never(&error),
+            Err(error) => open.journal_writer.not_begun(Some(path), stamp, &error),
         }
     }
 
@@ -71,7 +71,7 @@ impl Document {
             Ok(journal) => {
                 open.journal_writer.set(journal);
             }
-            Err(error) => open.journal_writer.never(&error),
+            Err(error) => open.journal_writer.not_begun(open.file.path.clone(), stamp, &error),
         }
     }
 

@@ -191,7 +191,10 @@ impl Open {
             self.editable = Ok(editable);
             match target {
                 SaveTarget::Other => self.move_to(&path, journal, autosave, now),
-                SaveTarget::Own | SaveTarget::Copy => self.journal_writer.end_save(stamp.as_ref()),
+                SaveTarget::Own | SaveTarget::Copy => {
+                    self.journal_writer.end_save(stamp.as_ref());
+                    self.journal_writer.file_is(Some(path.clone()), stamp);
+                }
             }
             self.look();
         }
@@ -213,8 +216,9 @@ impl Open {
         let (Some(autosave), Some(journal)) = (autosave, journal) else {
             return self.journal_writer.end_save(None);
         };
+        let file = (Some(path.to_path_buf()), self.stamp());
         // The edits of the old journal are in a file now.
-        let old = self.journal_writer.move_to(journal, &self.about, now);
+        let old = self.journal_writer.move_to(file, journal, &self.about, now);
         if let Some(Err(error)) = old.map(|old| autosave.discard_own(old)) {
             tracing::warn!("{error}");
         }

@@ -122,6 +122,8 @@ pub struct View {
     pub history: Arc<HistoryView>,
     /// The file of the document.
     pub file: Arc<FileView>,
+    /// Whether unsaved work is not recorded, so that a crash would lose it.
+    pub is_unrecorded: bool,
 }
 
 impl View {
@@ -142,7 +144,8 @@ impl View {
         file: Arc<FileView>,
     ) -> Self {
         let takes = adapter.results().cloned().collect();
-        Self { generation, answered: 0, loaded, takes, slots: adapter.slots().into(), history, file }
+        let slots = adapter.slots().into();
+        Self { generation, answered: 0, loaded, takes, slots, history, file, is_unrecorded: false }
     }
 
     /// Returns a copy of the takes of this view, to be edited apart from the document. The copy is cheap: everything

@@ -18,6 +18,7 @@ pub fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>
         ui.add_space(3.0 * GRID);
         corner(ui, context);
         ui.add_space(3.0 * GRID);
+        unrecorded(ui, context);
         pending(ui, context, requests);
         message(ui, context);
     });
@@ -43,6 +44,18 @@ fn corner(ui: &mut Ui, context: &PanelContext<'_>) {
             }
         }
     }
+}
+
+/// Shows that unsaved work is not recorded, for as long as that is so.
+fn unrecorded(ui: &mut Ui, context: &PanelContext<'_>) {
+    if !context.view.is_some_and(|view| view.is_unrecorded) {
+        return;
+    }
+    let text = RichText::new("Not recorded").small().color(Theme::of(ui).warning);
+    ui.label(text).on_hover_text(
+        "A crash would lose unsaved work: its journal cannot be written\nIt is tried again; save to be safe",
+    );
+    ui.add_space(2.0 * GRID);
 }
 
 /// Shows the number of pending poses; a click goes to the next one.

@@ -1,9 +1,12 @@
 //! Applying an edit, and undoing it.
 
 use super::op::Op;
+use super::pending::PendingAt;
 use super::plan::Transaction;
 use super::{EditError, ModelAdapter};
-use crate::edit::Edit;
+use crate::edit::{Edit, EditedBones};
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// The operations that undo or redo an edit.
 #[derive(Clone)]
@@ -32,7 +35,12 @@ impl ModelAdapter {
     pub fn apply(&mut self, edit: &Edit) -> Result<Inverse, EditError> {
         let mut work = Transaction::on(self.clone());
         edit.plan(&mut work)?;
-        let (adapter, mut undo) = work.done();
+        let (adapter, mut undo, touched) = work.done();
+        adapter.within_limits(self, &touched)?;
+        // Locks ask the edit for its bones, so it cannot change others.
+        if let EditedBones::Named(named) = edit.bones(&self.skeleton) {
+            only_named(&named, self, &adapter, &undo)?;
+        }
         *self = adapter;
         undo.reverse();
         Ok(Inverse(undo))
@@ -45,9 +53,40 @@ impl ModelAdapter {
         for op in inverse.0 {
             work.perform(op);
         }
-        let (adapter, mut redo) = work.done();
+        let (adapter, mut redo, _) = work.done();
         *self = adapter;
         redo.reverse();
         Inverse(redo)
     }
+}
+
+/// Checks that the operations of an edit changed only bones that it names.
+fn only_named(
+    named: &BTreeSet<u32>,
+    before: &ModelAdapter,
+    after: &ModelAdapter,
+    undo: &[Op],
+) -> Result<(), EditError> {
+    for op in undo {
+        let bone = match op {
+            Op::Changes(place, _) | Op::Splice(place, ..) | Op::Times(place, _) | Op::Replace(place, _) => {
+                (!named.contains(&place.bone)).then_some(place.bone)
+            }
+            Op::Pending(take, time, _) => {
+                let [old, new] = [before, after].map(|adapter| {
+                    let slot = adapter.slots.iter().find(|slot| slot.id == *take);
+                    slot.and_then(|slot| slot.pending_at(*time))
+                });
+                let poses = [old, new].into_iter().flatten().flat_map(|at| &at.poses);
+                let mut bones = poses.map(|pose| pose.bone);
+                let pose = |at: Option<&Arc<PendingAt>>, bone| at.and_then(|at| at.of(bone).copied());
+                bones.find(|bone| !named.contains(bone) && pose(old, *bone) != pose(new, *bone))
+            }
+            Op::Morphs(..) | Op::Name(..) | Op::Insert(..) | Op::Remove(_) | Op::Move(..) => None,
+        };
+        if let Some(bone) = bone {
+            return Err(EditError::Unnamed(bone));
+        }
+    }
+    Ok(())
 }

@@ -1,6 +1,8 @@
 //! The reason why an edit cannot be applied.
 
+use super::limits::KEY_BYTES;
 use crate::edit::target::{BoneRef, Property, TakeRef};
+use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 use std::fmt;
 use thiserror::Error;
 
@@ -56,6 +58,26 @@ pub enum EditError {
     /// A key would have a time before 0 s.
     #[error("a key would be at {0} s; times before 0 s cannot be saved")]
     BeforeZero(f32),
+    /// A key would be later than any file may have it.
+    #[error("a key would be at {0} s; times after {CLIP_SECONDS} s cannot be saved")]
+    TooLate(f32),
+    /// A channel would have too many keys.
+    #[error("a channel would have {keys} keys; at most {KEYS_PER_CHANNEL} can be saved and opened again")]
+    TooManyKeys {
+        /// Number of keys.
+        keys: usize,
+    },
+    /// The keys of all takes would be too large.
+    #[error(
+        "the takes would have {} MiB of keys; at most {} MiB can be saved and opened again", bytes >> 20, KEY_BYTES >> 20
+    )]
+    TooLarge {
+        /// Number of bytes.
+        bytes: u64,
+    },
+    /// There is not enough memory for the keys.
+    #[error("there is not enough memory for that many keys")]
+    NoMemory,
     /// Keys would have the same time.
     #[error("keys would be at the same time; use a larger length")]
     TooShort,
@@ -89,6 +111,9 @@ pub enum EditError {
         /// Which channel.
         property: Property,
     },
+    /// The edit would change a bone that it does not name, so that no lock of the bone could stop it: a bug in this program.
+    #[error("bone {0} would change, although the edit does not name it; this is an error of the program")]
+    Unnamed(u32),
     /// The edit would change nothing.
     #[error("{0}")]
     Nothing(&'static str),

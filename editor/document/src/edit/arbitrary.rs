@@ -7,6 +7,8 @@ pub struct Arbitrary<'a> {
     bits: &'a mut dyn FnMut() -> u64,
     takes: usize,
     bones: &'a [BoneRef],
+    /// Whether a third of the numbers is out of the ordinary.
+    extreme: bool,
 }
 
 impl std::fmt::Debug for Arbitrary<'_> {
@@ -18,7 +20,12 @@ impl std::fmt::Debug for Arbitrary<'_> {
 impl<'a> Arbitrary<'a> {
     /// A source that draws from `bits`, which returns 64 random bits each time. There is at least one bone.
     pub fn new(bits: &'a mut dyn FnMut() -> u64, takes: usize, bones: &'a [BoneRef]) -> Self {
-        Self { bits, takes, bones }
+        Self { bits, takes, bones, extreme: false }
+    }
+
+    /// As [`Self::new`], but with times before 0 s, single instants, and the largest and smallest numbers.
+    pub fn extreme(bits: &'a mut dyn FnMut() -> u64, takes: usize, bones: &'a [BoneRef]) -> Self {
+        Self { extreme: true, ..Self::new(bits, takes, bones) }
     }
 
     /// Returns any edit of any kind, whether it can be applied or not.
@@ -39,6 +46,10 @@ impl<'a> Arbitrary<'a> {
 
     /// A number in `low..high`.
     pub(super) fn between(&mut self, low: f32, high: f32) -> f32 {
+        if self.extreme && self.below(3) == 0 {
+            return self
+                .choice([0.0, -1.0, 1e-6, -1e-5, 1e-4, 1e4, 43_200.0, -86_400.0, 86_400.0, 1e18, 1e-30]);
+        }
         let unit = ((self.bits)() >> 40) as f32 / (1u64 << 24) as f32;
         low + (high - low) * unit
     }
@@ -70,6 +81,9 @@ impl<'a> Arbitrary<'a> {
 
     /// Seconds, at which there often is a key.
     pub(super) fn time(&mut self) -> f32 {
+        if self.extreme && self.below(3) == 0 {
+            return self.choice([-1.0, -0.5, -1e-5, 4e-5, 86_399.99, 86_400.0, 86_401.0, 1e9, f32::NAN]);
+        }
         self.choice([0.0, 0.125, 0.3, 0.5, 0.77, 1.0, 1.3])
     }
 

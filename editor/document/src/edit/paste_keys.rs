@@ -127,7 +127,8 @@ fn paste<K: ChannelKind>(
     if spline {
         on_one_side::<K>(work, address, &mut given);
     }
-    insert_keys_overwriting(work, address, given.iter().map(|given| given.key).collect(), Vec::new());
+    work.room_for(address, given.len())?;
+    insert_keys_overwriting(work, address, given.iter().map(|given| given.key).collect(), Vec::new())?;
     if spline {
         smooth::<K>(work, address, &given);
     }

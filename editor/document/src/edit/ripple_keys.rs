@@ -61,7 +61,7 @@ impl EditKind for RippleKeys {
                 work.perform(Op::Splice(address, (gap..first).collect(), Vec::new()));
             }
             let moved: Vec<(u32, f32)> = moved.into_iter().map(|(key, time)| (key - deleted, time)).collect();
-            move_positions(work, address, &moved, KeyMove::PLAIN);
+            move_positions(work, address, &moved, KeyMove::PLAIN)?;
         }
         let to = |time: f32| rippled(time, from, by);
         for at in work.slot(take).pending() {

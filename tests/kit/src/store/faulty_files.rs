@@ -5,8 +5,8 @@ use std::ffi::OsString;
 use std::fmt::{self, Debug, Formatter};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The error with which a call fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,6 +62,8 @@ impl Debug for Interference {
 #[derive(Debug)]
 struct Plan {
     calls: AtomicU64,
+    /// Names of the calls made, in order.
+    names: Mutex<Vec<&'static str>>,
     from: u64,
     to: u64,
     fault: Fault,
@@ -70,8 +72,9 @@ struct Plan {
 
 impl Plan {
     /// Counts a call. Returns `Ok(true)` when only half of it is to be done.
-    fn call(&self) -> io::Result<bool> {
+    fn call(&self, name: &'static str) -> io::Result<bool> {
         let call = self.calls.fetch_add(1, Ordering::Relaxed) + 1;
+        self.names.lock().unwrap_or_else(PoisonError::into_inner).push(name);
         if !(self.from..=self.to).contains(&call) {
             return Ok(false);
         }
@@ -101,18 +104,27 @@ impl FaultyFiles {
     /// Returns a file system that runs `act` right before call `number`; no call fails.
     pub fn meddling(number: u64, act: impl Fn() + Send + Sync + 'static) -> Self {
         let meddling = Some(Interference(Box::new(act)));
-        let calls = AtomicU64::new(0);
-        Self(Arc::new(Plan { calls, from: number, to: number, fault: Fault::Io, meddling }))
+        Self::planned(number, number, Fault::Io, meddling)
     }
 
     /// Returns a file system in which the calls `from..=to` fail with `fault`.
     pub fn between(from: u64, to: u64, fault: Fault) -> Self {
-        Self(Arc::new(Plan { calls: AtomicU64::new(0), from, to, fault, meddling: None }))
+        Self::planned(from, to, fault, None)
+    }
+
+    fn planned(from: u64, to: u64, fault: Fault, meddling: Option<Interference>) -> Self {
+        let (calls, names) = (AtomicU64::new(0), Mutex::default());
+        Self(Arc::new(Plan { calls, names, from, to, fault, meddling }))
     }
 
     /// Returns the number of calls made so far.
     pub fn calls(&self) -> u64 {
         self.0.calls.load(Ordering::Relaxed)
+    }
+
+    /// Returns the names of the calls made so far, in order.
+    pub fn names(&self) -> Vec<&'static str> {
+        self.0.names.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     fn file(&self, file: io::Result<Box<dyn VfsFile>>) -> io::Result<Box<dyn VfsFile>> {
@@ -128,79 +140,79 @@ struct FaultyFile {
 
 impl Vfs for FaultyFiles {
     fn create_new(&self, path: &Path, private: bool) -> io::Result<Box<dyn VfsFile>> {
-        self.0.call()?;
+        self.0.call("create_new")?;
         self.file(RealFiles.create_new(path, private))
     }
 
     fn open(&self, path: &Path) -> io::Result<Box<dyn VfsFile>> {
-        self.0.call()?;
+        self.0.call("open")?;
         self.file(RealFiles.open(path))
     }
 
     fn open_to_write(&self, path: &Path) -> io::Result<Box<dyn VfsFile>> {
-        self.0.call()?;
+        self.0.call("open_to_write")?;
         self.file(RealFiles.open_to_write(path))
     }
 
     fn metadata(&self, path: &Path) -> io::Result<FileData> {
-        self.0.call()?;
+        self.0.call("metadata")?;
         RealFiles.metadata(path)
     }
 
     fn read_link(&self, path: &Path) -> io::Result<PathBuf> {
-        self.0.call()?;
+        self.0.call("read_link")?;
         RealFiles.read_link(path)
     }
 
     fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
-        self.0.call()?;
+        self.0.call("resolve")?;
         RealFiles.resolve(path)
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
-        self.0.call()?;
+        self.0.call("rename")?;
         RealFiles.rename(from, to)
     }
 
     fn rename_to_new(&self, from: &Path, to: &Path) -> io::Result<()> {
-        self.0.call()?;
+        self.0.call("rename_to_new")?;
         RealFiles.rename_to_new(from, to)
     }
 
     fn remove(&self, path: &Path) -> io::Result<()> {
-        self.0.call()?;
+        self.0.call("remove")?;
         RealFiles.remove(path)
     }
 
     fn create_folder(&self, path: &Path) -> io::Result<()> {
-        self.0.call()?;
+        self.0.call("create_folder")?;
         RealFiles.create_folder(path)
     }
 
     fn sync_folder(&self, path: &Path) -> io::Result<()> {
-        self.0.call()?;
+        self.0.call("sync_folder")?;
         RealFiles.sync_folder(path)
     }
 
     fn list(&self, path: &Path) -> io::Result<Vec<OsString>> {
-        self.0.call()?;
+        self.0.call("list")?;
         RealFiles.list(path)
     }
 }
 
 impl VfsFile for FaultyFile {
     fn metadata(&self) -> io::Result<FileData> {
-        self.plan.call()?;
+        self.plan.call("metadata")?;
         self.file.metadata()
     }
 
     fn read_at(&self, bytes: &mut [u8], offset: u64) -> io::Result<usize> {
-        let whole = if self.plan.call()? { bytes.len().div_ceil(2) } else { bytes.len() };
+        let whole = if self.plan.call("read_at")? { bytes.len().div_ceil(2) } else { bytes.len() };
         self.file.read_at(&mut bytes[..whole], offset)
     }
 
     fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<usize> {
-        match self.plan.call() {
+        match self.plan.call("write_at") {
             Ok(short) => {
                 let whole = if short { bytes.len().div_ceil(2) } else { bytes.len() };
                 self.file.write_at(&bytes[..whole], offset)
@@ -215,47 +227,47 @@ impl VfsFile for FaultyFile {
     }
 
     fn set_size(&self, size: u64) -> io::Result<()> {
-        self.plan.call()?;
+        self.plan.call("set_size")?;
         self.file.set_size(size)
     }
 
     fn sync_data(&self) -> io::Result<()> {
-        self.plan.call()?;
+        self.plan.call("sync_data")?;
         self.file.sync_data()
     }
 
     fn sync_all(&self) -> io::Result<()> {
-        self.plan.call()?;
+        self.plan.call("sync_all")?;
         self.file.sync_all()
     }
 
     fn try_lock(&self) -> io::Result<bool> {
-        self.plan.call()?;
+        self.plan.call("try_lock")?;
         self.file.try_lock()
     }
 
     fn unlock(&self) -> io::Result<()> {
-        self.plan.call()?;
+        self.plan.call("unlock")?;
         self.file.unlock()
     }
 
     fn set_owner(&self, owner: Option<u32>, group: u32) -> io::Result<()> {
-        self.plan.call()?;
+        self.plan.call("set_owner")?;
         self.file.set_owner(owner, group)
     }
 
     fn set_mode(&self, mode: u32) -> io::Result<()> {
-        self.plan.call()?;
+        self.plan.call("set_mode")?;
         self.file.set_mode(mode)
     }
 
     fn attributes(&self) -> io::Result<Vec<Attribute>> {
-        self.plan.call()?;
+        self.plan.call("attributes")?;
         self.file.attributes()
     }
 
     fn set_attribute(&self, name: &[u8], value: &[u8]) -> io::Result<()> {
-        self.plan.call()?;
+        self.plan.call("set_attribute")?;
         self.file.set_attribute(name, value)
     }
 }

@@ -47,7 +47,6 @@ pub(super) fn edits(
     if now.tracks.len() != bones.len() {
         return Err(mismatch(format!("{} tracks for {} bones", now.tracks.len(), bones.len())));
     }
-    let may_be_negative = opened.is_some_and(|(take, _)| take.start < 0.0);
     let still = Track::default();
     for (index, (bone, track)) in bones.iter().zip(&now.tracks).enumerate() {
         if track.bone as usize != index {
@@ -61,11 +60,11 @@ pub(super) fn edits(
             let Some(node) = bone.node else {
                 return Err(no_node(now, &bone.name, "is not a node of the file"));
             };
-            let owner = KeysOwner { take: &now.name, bone: &bone.name, path, may_be_negative };
+            let owner = KeysOwner { take: &now.name, bone: &bone.name, path };
             found.push(edit((node, path), opened, before, after, owner)?);
         }
     }
-    weights(model, opened, now, may_be_negative, &mut found)?;
+    weights(model, opened, now, &mut found)?;
     Ok(found)
 }
 
@@ -96,7 +95,6 @@ fn weights(
     model: &ModelData,
     opened: Option<(&Take, &FileAnimation)>,
     now: &Take,
-    may_be_negative: bool,
     found: &mut Vec<ChannelEdit>,
 ) -> Result<(), SaveError> {
     let no_keys = |instance, targets| MorphTrack {
@@ -143,7 +141,7 @@ fn weights(
         let Some(node) = model.instances[index].node else {
             return Err(no_node(now, &label, "is not a node of the file"));
         };
-        let owner = KeysOwner { take: &now.name, bone: &label, path: TargetPath::Weights, may_be_negative };
+        let owner = KeysOwner { take: &now.name, bone: &label, path: TargetPath::Weights };
         found.push(edit((node, TargetPath::Weights), opened, before, after, owner)?);
     }
     Ok(())
@@ -169,12 +167,7 @@ pub(super) fn placeholder(
     if before.is_some_and(|before| KeyColumns::Vector(before).is_same(&KeyColumns::Vector(&channel))) {
         return Ok(None);
     }
-    let owner = KeysOwner {
-        take: &now.name,
-        bone: &bone.name,
-        path: TargetPath::Translation,
-        may_be_negative: false,
-    };
+    let owner = KeysOwner { take: &now.name, bone: &bone.name, path: TargetPath::Translation };
     let keys = keys(KeyColumns::Vector(&channel), owner)?;
     let target = (bone.node.unwrap_or_default(), TargetPath::Translation);
     Ok(Some(ChannelEdit { target, label: bone.name.clone(), action: Action::Set(keys), values_of: None }))

@@ -124,8 +124,6 @@ pub(super) struct KeysOwner<'a> {
     pub(super) take: &'a str,
     pub(super) bone: &'a str,
     pub(super) path: TargetPath,
-    /// Whether key times may be negative. glTF forbids them; a file that has them may keep them.
-    pub(super) may_be_negative: bool,
 }
 
 impl KeysOwner<'_> {
@@ -187,9 +185,6 @@ fn check_times(times: &[f32], owner: KeysOwner<'_>) -> Result<(), SaveError> {
         }
         if time.abs() > CLIP_SECONDS {
             return owner.refuse(format!("key {key} is at {time} s, at most {CLIP_SECONDS} s"));
-        }
-        if time < 0.0 && !owner.may_be_negative {
-            return owner.refuse(format!("key {key} is at {time} s, but glTF forbids negative key times"));
         }
         if key > 0 && times[key - 1] >= time {
             return owner.refuse(format!("key {key} at {time} s is not later than the key before it"));
@@ -258,7 +253,7 @@ mod tests {
         let times: [f32; 5] = [0.0, 0.1, 0.3, 7.7, 7.700_001];
         let values: Vec<Vec3> = (0..5).map(|key| Vec3::splat(key as f32)).collect();
         let closest = Channel::new(times, values, Interpolation::Closest);
-        let owner = KeysOwner { take: "", bone: "", path: TargetPath::Translation, may_be_negative: false };
+        let owner = KeysOwner { take: "", bone: "", path: TargetPath::Translation };
         let keys = keys(KeyColumns::Vector(&closest), owner).unwrap();
         assert_eq!(keys.interpolation, "STEP");
         assert!(keys.times.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", keys.times);

@@ -29,7 +29,7 @@
 //! | start and length of a take | not stored: they are those of its keys |
 //! | a bone that is not a joint and that no take animates any more | its node, at rest; the saved file has no bone for it ([`Changes::bones_lost`]) |
 //! | a channel of a node with a matrix | the matrix becomes translation, rotation and scale |
-//! | key times below zero, in a take that had none | [`SaveError::Keys`] |
+//! | key times below zero | themselves, although glTF forbids them; the importer keeps them with a warning |
 //! | rotations that are not of unit length | [`SaveError::Keys`] |
 //! | neighboring rotations in different hemispheres, or of unit length except for rounding | their bits; the importer negates and normalizes them |
 //!

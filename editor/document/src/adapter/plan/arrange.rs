@@ -4,7 +4,7 @@ use super::super::change::KeyChange;
 use super::super::kind::ChannelKind;
 use super::super::op::{ChannelAddress, Op};
 use super::super::slot::KeyContent;
-use super::Transaction;
+use super::{EditError, Transaction, list};
 use crate::edit::SAME_TIME;
 
 /// How keys are moved.
@@ -29,24 +29,28 @@ pub(crate) fn arrange<K: ChannelKind>(
     address: ChannelAddress,
     chosen: &[(u32, f32)],
     how: KeyMove,
-) {
+) -> Result<(), EditError> {
+    if how.copy {
+        work.room_for(address, chosen.len())?;
+    }
     let slot = work.slot(address.take);
     let times = slot.times(address.bone, address.property);
     if !how.copy && how.stretch == 1.0 && stays_in_order(times, chosen) {
-        return work.perform(Op::Times(address, chosen.to_vec()));
+        work.perform(Op::Times(address, chosen.to_vec()));
+        return Ok(());
     }
     let key = |at: u32| slot.key::<K>(address.property, address.bone, at as usize);
-    let mut moved: Vec<KeyContent> = chosen
-        .iter()
-        .filter_map(|&(at, time)| Some(KeyContent { time, ..stretched(key(at)?, how.stretch) }))
-        .collect();
+    let mut moved: Vec<KeyContent> = list(chosen.len())?;
+    let contents =
+        chosen.iter().filter_map(|&(at, time)| Some(KeyContent { time, ..stretched(key(at)?, how.stretch) }));
+    moved.extend(contents);
     moved.sort_by(|a, b| a.time.total_cmp(&b.time));
     // Of several keys at the same time, the last one wins.
     moved.reverse();
     moved.dedup_by(|next, kept| (kept.time - next.time).abs() <= SAME_TIME);
     moved.reverse();
     let away = if how.copy { Vec::new() } else { chosen.iter().map(|&(at, _)| at).collect() };
-    insert_keys_overwriting(work, address, moved, away);
+    insert_keys_overwriting(work, address, moved, away)
 }
 
 /// Inserts `keys` into a channel, and removes its keys at the positions `remove`. The times of `keys` ascend, and no
@@ -56,7 +60,7 @@ pub(crate) fn insert_keys_overwriting(
     address: ChannelAddress,
     keys: Vec<KeyContent>,
     mut remove: Vec<u32>,
-) {
+) -> Result<(), EditError> {
     let times = work.slot(address.take).times(address.bone, address.property);
     for key in &keys {
         let near = times.partition_point(|&time| time < key.time - 2.0 * SAME_TIME);
@@ -72,12 +76,13 @@ pub(crate) fn insert_keys_overwriting(
         let gone = remove.partition_point(|&at| (at as usize) < there);
         there - gone + position
     };
-    let insert = keys
-        .into_iter()
-        .enumerate()
-        .map(|(position, key)| (before(position, key.time) as u32, key))
-        .collect();
+    let mut insert = list(keys.len())?;
+    let placed = keys.into_iter().enumerate();
+    insert.extend(placed.map(|(position, key)| (before(position, key.time) as u32, key)));
+    // The columns are made without a way back, so this finds out whether there is room for them.
+    std::hint::black_box(list::<[f32; 16]>(times.len() + insert.len())?);
     work.perform(Op::Splice(address, remove, insert));
+    Ok(())
 }
 
 /// Returns whether all keys keep their order and no two get the same time. The column of values then stays as it is.

@@ -22,9 +22,10 @@ use super::kind::{ChannelKind, ChannelValue};
 use super::op::{ChannelAddress, Op};
 use super::slot::{ChannelContent, TakeId, TakeVersions};
 use super::times::SharedTimes;
-use super::{EditError, ModelAdapter};
+use super::{EditError, KEY_BYTES, ModelAdapter};
 use crate::edit::target::{BoneRef, Property, TakeRef};
 use dragonfly_anim::data::{Bone, Channel, Skeleton};
+use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -35,6 +36,8 @@ pub(crate) struct Transaction {
     shared: SharedTimes,
     /// Takes whose keys changed their times: their start and length are measured once, at the end.
     touched: Vec<TakeId>,
+    /// Size in bytes of the keys that were copied so far, at least.
+    added: u64,
 }
 
 /// Bones and channels as an edit names them; an empty list means all.
@@ -42,13 +45,26 @@ pub(crate) type NamedChannels<'a> = (&'a [BoneRef], &'a [Property]);
 
 impl Transaction {
     pub(crate) fn on(adapter: ModelAdapter) -> Self {
-        Self { adapter, undo: Vec::new(), shared: SharedTimes::default(), touched: Vec::new() }
+        Self { adapter, undo: Vec::new(), shared: SharedTimes::default(), touched: Vec::new(), added: 0 }
     }
 
-    /// Returns the document, and the operations that undo the edit, in the order in which they were found.
-    pub(crate) fn done(mut self) -> (ModelAdapter, Vec<Op>) {
+    /// Returns the document, the operations that undo the edit, in the order in which they were found, and the takes whose keys
+    /// changed their times or their number.
+    pub(crate) fn done(mut self) -> (ModelAdapter, Vec<Op>, Vec<TakeId>) {
         self.adapter.measure(&self.touched);
-        (self.adapter, self.undo)
+        (self.adapter, self.undo, self.touched)
+    }
+
+    /// Checks, before memory is allocated for them, that a channel may get `more` keys.
+    pub(crate) fn room_for(&mut self, address: ChannelAddress, more: usize) -> Result<(), EditError> {
+        let keys = self.slot(address.take).times(address.bone, address.property).len().saturating_add(more);
+        if keys > KEYS_PER_CHANNEL {
+            return Err(EditError::TooManyKeys { keys });
+        }
+        // A key has its time and at least three numbers.
+        self.added += 16 * more as u64;
+        let bytes = self.adapter.key_bytes() + self.added;
+        if bytes > KEY_BYTES { Err(EditError::TooLarge { bytes }) } else { Ok(()) }
     }
 
     pub(crate) fn perform(&mut self, op: Op) {
@@ -152,7 +168,20 @@ pub(crate) fn finite(what: &'static str, value: f32) -> Result<f32, EditError> {
 pub(crate) fn key_time(time: f32, slot: &TakeVersions) -> Result<f32, EditError> {
     finite("a time", time)?;
     // A take that was read with keys before 0 s may keep them.
-    if time < slot.original.start.min(0.0) { Err(EditError::BeforeZero(time)) } else { Ok(time) }
+    if time < slot.original.start.min(0.0) {
+        Err(EditError::BeforeZero(time))
+    } else if time > CLIP_SECONDS {
+        Err(EditError::TooLate(time))
+    } else {
+        Ok(time)
+    }
+}
+
+/// Returns an empty list with room for `items`.
+pub(crate) fn list<T>(items: usize) -> Result<Vec<T>, EditError> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(items).map_err(|_| EditError::NoMemory)?;
+    Ok(list)
 }
 
 /// Returns the rest value of a channel.

@@ -63,7 +63,8 @@ pub(crate) fn between(track: &MorphTrack, from: f32, to: f32) -> MorphTrack {
         times.push(time);
         weights.extend_from_slice(track.weights.get(key * width..(key + 1) * width).unwrap_or(&[]));
     }
-    if !on(to) && first < to && last > to {
+    // A range of length zero needs only one key.
+    if !on(to) && first < to && last > to && to - from > SAME_TIME {
         sampled(to, &mut times, &mut weights);
     }
     MorphTrack { times: times.into(), weights: weights.into(), ..track.clone() }

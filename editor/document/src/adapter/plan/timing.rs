@@ -22,7 +22,7 @@ pub(crate) fn move_keys(
             .into_iter()
             .map(|key| Ok((key, key_time(to(times[key as usize]), slot)?)))
             .collect::<Result<Vec<_>, EditError>>()?;
-        move_positions(work, address, &chosen, how);
+        move_positions(work, address, &chosen, how)?;
     }
     Ok(())
 }
@@ -32,6 +32,6 @@ pub(crate) fn move_positions(
     address: ChannelAddress,
     chosen: &[(u32, f32)],
     how: KeyMove,
-) {
-    with_kind!(address.property, arrange::<K>(work, address, chosen, how));
+) -> Result<(), EditError> {
+    with_kind!(address.property, arrange::<K>(work, address, chosen, how))
 }

@@ -4,6 +4,7 @@ mod channel;
 
 use super::change::{KeyChange, Triple, triple};
 use super::kind::{AnyChannel, ChannelKind, ChannelNumbers, with_kind};
+use super::limits::key_bytes;
 use super::pending::{Pending, PendingAt, place_of};
 use super::times::SharedTimes;
 use crate::edit::target::{Property, SAME_TIME};
@@ -46,6 +47,8 @@ pub struct TakeVersions {
     pub original: Arc<Take>,
     /// Original + changes: the take that is shown and saved.
     pub result: Arc<Take>,
+    /// Size of its keys in bytes.
+    pub(crate) key_bytes: u64,
     changes: BTreeMap<(u32, Property), Arc<ChannelChanges>>,
     pending: Pending,
 }
@@ -55,6 +58,7 @@ impl TakeVersions {
         Self {
             id,
             origin,
+            key_bytes: key_bytes(&take),
             original: Arc::clone(&take),
             result: take,
             changes: BTreeMap::new(),
@@ -243,8 +247,9 @@ impl TakeVersions {
         }
     }
 
-    /// Sets start and length to those of the keys.
+    /// Sets start, length and size to those of the keys.
     pub(crate) fn measure(&mut self) {
+        self.key_bytes = key_bytes(&self.original);
         let (start, length) = extent(&self.original);
         for take in [&mut self.original, &mut self.result] {
             if take.start.to_bits() != start.to_bits() || take.length.to_bits() != length.to_bits() {

@@ -1,0 +1,63 @@
+//! Limits of an edited document: what an edit makes can be saved, and the saved file can be opened again.
+
+use super::slot::{TakeId, TakeVersions};
+use super::{EditError, ModelAdapter};
+use crate::edit::SAME_TIME;
+use dragonfly_anim::data::Take;
+use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL, MEMORY_MAX};
+
+/// Largest size of the keys of all takes in bytes. Importing a file needs about twice the size of its keys, and must leave room for
+/// meshes and images.
+pub const KEY_BYTES: u64 = MEMORY_MAX / 4;
+
+/// Returns the size of the keys of a take in bytes.
+pub(crate) fn key_bytes(take: &Take) -> u64 {
+    let of_tracks = take.tracks.iter().map(|track| {
+        let times = track.translation.times.len() + track.rotation.times.len() + track.scale.times.len();
+        let vectors = track.translation.values.len() + track.scale.values.len();
+        4 * times + 12 * vectors + 16 * track.rotation.values.len()
+    });
+    let of_morphs = take.morphs.iter().map(|morph| 4 * (morph.times.len() + morph.weights.len()));
+    of_tracks.chain(of_morphs).map(|bytes| bytes as u64).sum()
+}
+
+impl ModelAdapter {
+    /// Returns the size of the keys of all takes in bytes.
+    pub(crate) fn key_bytes(&self) -> u64 {
+        self.slots.iter().map(|slot| slot.key_bytes).sum()
+    }
+
+    /// Checks that an edit, which changed the keys of the takes `touched`, can be saved. A document that was over a limit when it was
+    /// opened may be edited as long as that does not take it further.
+    pub(crate) fn within_limits(&self, before: &Self, touched: &[TakeId]) -> Result<(), EditError> {
+        let bytes = self.key_bytes();
+        if bytes > KEY_BYTES && bytes > before.key_bytes() {
+            return Err(EditError::TooLarge { bytes });
+        }
+        for slot in self.slots.iter().filter(|slot| touched.contains(&slot.id)) {
+            let old = before.slots.iter().find(|old| old.id == slot.id);
+            times_within(slot, old.map(|old| &**old))?;
+            let longest = slot.original.tracks.iter().flat_map(|track| {
+                [track.translation.times.len(), track.rotation.times.len(), track.scale.times.len()]
+            });
+            if let Some(keys) = longest.max().filter(|&keys| keys > KEYS_PER_CHANNEL) {
+                return Err(EditError::TooManyKeys { keys });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Checks the times of the first and the last key. A take that was read with keys before 0 s may keep them.
+fn times_within(slot: &TakeVersions, old: Option<&TakeVersions>) -> Result<(), EditError> {
+    let Some((start, end)) = slot.original.range_of_keys() else { return Ok(()) };
+    if end > CLIP_SECONDS {
+        return Err(EditError::TooLate(end));
+    }
+    let earliest = match old.map_or(0.0, |old| old.original.start) {
+        // Rounding may lead a little below the earliest time.
+        below if below < 0.0 => (below - SAME_TIME).max(-CLIP_SECONDS),
+        _ => 0.0,
+    };
+    if start < earliest { Err(EditError::BeforeZero(start)) } else { Ok(()) }
+}
