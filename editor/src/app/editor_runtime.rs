@@ -206,6 +206,8 @@ impl BaseRuntime for EditorRuntime {
         let Some(running) = &mut self.running else { return };
         let mut interface = running.parts.interface.borrow_mut();
         match reply {
+            // The manager that called this has answered.
+            GraphicsReply::NeedsSurface(_) => return,
             GraphicsReply::Ready { adapter, max_texture_side } => {
                 interface.set_max_texture_side(max_texture_side);
                 interface.state.window_mut().set_device(DeviceStatus::Ready { adapter });
