@@ -113,3 +113,49 @@ fn two_thousand_random_inputs_lose_nothing() {
     assert!(!first.takes.iter().eq(last.takes.iter()), "nothing was changed");
     println!("all of it took {:?}", began.elapsed());
 }
+
+#[test]
+fn random_inputs_in_a_narrow_window_cause_no_failure() {
+    let _one = alone();
+    let seed = seed(12);
+    println!("DRAGONFLY_SEED={seed}");
+    let mut random = Random::new(seed);
+    let mut visit = Visit::new("monkey-narrow");
+    let keys = keys();
+    let pause = visit.screen.pace;
+    visit.screen.pace = Duration::from_millis(6);
+    for round in 0..60 {
+        let (width, height) = (300 + random.below(301) as u32, 200 + random.below(521) as u32);
+        visit.screen.resize(visit.editor.window, width, height);
+        let place =
+            |random: &mut Random| (random.below(width as usize) as i16, random.below(height as usize) as i16);
+        let (x, y) = place(&mut random);
+        visit.screen.point(x, y);
+        // What asks for a drag shows a text next to the pointer until the drag.
+        visit.screen.press_with(key::SHIFT, key::of(random.choice(&['b', 'l'])));
+        pass(Duration::from_millis(30));
+        for _ in 0..4 {
+            let (x, y) = place(&mut random);
+            match random.below(3) {
+                0 => visit.screen.click(x, y.max(40)),
+                1 => {
+                    visit.screen.hold();
+                    visit.screen.point(x, y);
+                    pass(Duration::from_millis(20));
+                    visit.screen.release_button();
+                }
+                _ => visit.screen.press(random.choice(&keys)),
+            }
+        }
+        if round % 5 == 0 {
+            visit.screen.press(key::ESCAPE);
+        }
+    }
+    visit.screen.pace = pause;
+    (0..4).for_each(|_| visit.screen.press(key::ESCAPE));
+    visit.screen.resize(visit.editor.window, 1280, 800);
+    visit.screen.focus(visit.editor.window);
+    visit.save();
+    let log = visit.editor.log();
+    assert!(!log.contains("panic") && !log.contains("failed"), "{log}");
+}

@@ -2,7 +2,7 @@
 
 use super::connection::Connection;
 use super::error::GraphicsError;
-use super::gpu::Gpu;
+use super::gpu::{Gpu, SAMPLES};
 use super::losses::{DeviceReports, LossRecord, LossTolerance};
 use super::surface::WindowSurface;
 use dragonfly_document::FaultInjection;
@@ -17,6 +17,8 @@ pub struct DeviceParameters {
     pub backends: wgpu::Backends,
     /// Connection to the window system with the window to draw into; `None` draws into textures only.
     pub connection: Option<Connection>,
+    /// Largest number of samples per pixel of the scene; 1 turns the smoothing of edges off.
+    pub most_samples: u32,
     /// Faults that a test injects.
     pub faults: FaultInjection,
 }
@@ -25,7 +27,7 @@ impl Default for DeviceParameters {
     /// Uses the platform's native APIs, or those that `WGPU_BACKEND` names, and no window.
     fn default() -> Self {
         let backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
-        Self { backends, connection: None, faults: FaultInjection::default() }
+        Self { backends, connection: None, most_samples: SAMPLES, faults: FaultInjection::default() }
     }
 }
 
@@ -263,9 +265,8 @@ impl Device {
         if let Some(surface) = &mut self.surface {
             surface.forget_configuration();
         }
-        if let Ok(gpu) =
-            Gpu::new(&self.adapter, self.surface.as_ref().map(WindowSurface::surface), &self.reports)
-        {
+        let surface = self.surface.as_ref().map(WindowSurface::surface);
+        if let Ok(gpu) = Gpu::new(&self.adapter, surface, self.parameters.most_samples, &self.reports) {
             self.gpu = gpu;
             return Ok(true);
         }
@@ -321,7 +322,7 @@ fn make(
         tracing::debug!(backends = ?parameters.backends, %error, "no adapter");
         GraphicsError::NoAdapter(first_line(&error.to_string()))
     })?;
-    let gpu = Gpu::new(&adapter, surface.map(WindowSurface::surface), reports)?;
+    let gpu = Gpu::new(&adapter, surface.map(WindowSurface::surface), parameters.most_samples, reports)?;
     Ok((adapter, gpu))
 }
 

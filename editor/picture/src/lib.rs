@@ -14,6 +14,7 @@
 
 mod appearance;
 mod appearance_sender;
+mod between;
 pub mod body;
 pub mod camera;
 pub mod connection;
@@ -49,6 +50,7 @@ mod x11;
 
 pub use appearance::{AnyAppearance, Appearance, Appearances};
 pub use appearance_sender::AppearanceSender;
+pub use between::between;
 pub use connection::{Connection, TargetWindow};
 pub use control::{
     GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance, IkLook, PathAppearance,

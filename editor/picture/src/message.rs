@@ -179,6 +179,8 @@ pub enum GraphicsReply {
         adapter: String,
         /// Longest side of a texture, pixels.
         max_texture_side: u32,
+        /// Whether the edges of the scene are smooth; not on an adapter without multisampling.
+        smooth: bool,
     },
     /// Reply to [`GraphicsMessage::Pick`].
     Picked {

@@ -155,8 +155,9 @@ impl Graphics {
             Err(panic) => return self.fail(&panic),
         };
         let adapter = stage.device().adapter_name();
-        let max_texture_side = stage.device().gpu().max_side;
-        tracing::info!(%adapter, "graphics device created");
+        let gpu = stage.device().gpu();
+        let (max_texture_side, samples) = (gpu.max_side, gpu.samples);
+        tracing::info!(%adapter, samples, "graphics device created");
         let passes = stage.passes().to_vec();
         let stage = Rc::new(RefCell::new(stage));
         for pass in passes {
@@ -169,7 +170,7 @@ impl Graphics {
             statistics: Rc::clone(&self.statistics),
         });
         self.stage = Some(stage);
-        self.reply(GraphicsReply::Ready { adapter, max_texture_side });
+        self.reply(GraphicsReply::Ready { adapter, max_texture_side, smooth: samples > 1 });
         for message in std::mem::take(&mut self.waiting) {
             self.handle(message, thread);
         }

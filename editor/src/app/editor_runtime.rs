@@ -208,7 +208,12 @@ impl BaseRuntime for EditorRuntime {
         match reply {
             // The manager that called this has answered.
             GraphicsReply::NeedsSurface(_) => return,
-            GraphicsReply::Ready { adapter, max_texture_side } => {
+            GraphicsReply::Ready { adapter, max_texture_side, smooth } => {
+                if !smooth {
+                    let text =
+                        format!("{adapter} has no multisampling: edges in the viewport are not smooth");
+                    interface.state.say(MessageSeverity::Info, text);
+                }
                 interface.set_max_texture_side(max_texture_side);
                 interface.state.window_mut().set_device(DeviceStatus::Ready { adapter });
             }

@@ -68,6 +68,7 @@ impl InitManager {
     /// Makes a surface for the graphics thread, which cannot: a window gives its handle only to the thread that created it.
     fn send_surface(&self, instance: &wgpu::Instance) {
         if let Some(graphics) = &self.graphics {
+            tracing::info!("surface of the window made");
             graphics.set_surface(self.surfaces.surface(instance));
         }
     }
