@@ -150,6 +150,9 @@ fn lit_phong(base: vec3f, normal: vec3f, view: vec3f, occlusion: f32) -> vec3f {
     return light;
 }
 
+// Whether a pixel has only one sample.
+override single_sample: bool = false;
+
 // Coverage of the texel, with an edge one pixel wide at the cutoff of a masked surface.
 fn mask_coverage(alpha: f32, cut: f32) -> f32 {
     return clamp((alpha - cut) / max(fwidth(alpha), 1e-4) + 0.5, 0.0, 1.0);
@@ -221,8 +224,12 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
     return shown(tone_map(light + emissive), alpha);
 }
 
-// Blended colors are premultiplied by alpha; a mask's alpha only discards samples.
+// Blended colors are premultiplied by alpha; a mask's alpha only discards samples: in the fixed part of the pipeline where
+// a pixel has several, here where it has one.
 fn shown(color: vec3f, alpha: f32) -> vec4f {
+    if single_sample && material.alpha_mode == 1u && alpha < 0.5 {
+        discard;
+    }
     if material.alpha_mode == 2u {
         return vec4f(color * alpha, alpha);
     }

@@ -17,6 +17,7 @@ use std::time::{Duration, Instant};
 const DEVICE_LOST: i32 = -4;
 const OUT_OF_HOST_MEMORY: i32 = -1;
 const OUT_OF_DEVICE_MEMORY: i32 = -2;
+const INITIALIZATION_FAILED: i32 = -3;
 const SURFACE_LOST: i32 = -1_000_000_000;
 const OUT_OF_DATE: i32 = -1_000_001_004;
 const SUBOPTIMAL: i32 = 1_000_001_003;
@@ -201,6 +202,42 @@ fn a_surface_that_is_lost_outdated_or_suboptimal_is_recreated() {
         .flat_map(|call| [SURFACE_LOST, OUT_OF_DATE, SUBOPTIMAL].map(|result| (call, result, 20, "0")))
         .collect();
     show_through("surface", &kinds);
+}
+
+/// Each loss is followed by two devices that cannot be created. Only a new instance helps then, and the main thread makes
+/// its surface.
+#[test]
+fn a_loss_that_needs_a_new_instance_and_surface_keeps_the_image() {
+    let _one = alone();
+    const PART: [u32; 4] = [250, 60, 180, 180];
+    const LOSSES: usize = 10;
+    let mut screen = Screen::new("new-surface", 640, 480);
+    let whole = {
+        let mut editor = Editor::open(&mut screen, &[], &[]);
+        screen.resize(editor.window, 640, 480);
+        let whole = rest(&mut screen, PART);
+        screen.close(editor.window);
+        assert_eq!(editor.ends(SOON).code(), Some(0));
+        whole
+    };
+    let layer = Layer::new("new-surface");
+    let mut environment = layer.environment("device", INITIALIZATION_FAILED, 2 * LOSSES);
+    environment.extend(
+        [("FAULT_EVERY", "1"), ("FAULT_SPARES", "3")]
+            .map(|(name, value)| (name.to_owned(), value.to_owned())),
+    );
+    let environment: Vec<(&str, &str)> =
+        environment.iter().map(|(name, value)| (&**name, &**value)).collect();
+    let mut editor = Editor::open(&mut screen, &["--lose-device", "3", "--never-pause"], &environment);
+    screen.resize(editor.window, 640, 480);
+    // The first is that of the start.
+    editor.wait_for_log("surface of the window made", LOSSES + 1, 2 * SOON);
+    assert_eq!(layer.faults(), 2 * LOSSES);
+    let after = rest(&mut screen, PART);
+    same(&screen, &after, &whole, "new surfaces changed the picture");
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+    assert!(!editor.log().contains("panic"), "{}", editor.log());
 }
 
 #[test]

@@ -33,6 +33,7 @@ mod keymap;
 mod life;
 mod locks;
 mod manager;
+mod narrow;
 mod nasty;
 mod palette;
 mod panels;

@@ -1,7 +1,7 @@
 //! Nothing that is typed, pressed or dragged anywhere in the window breaks it.
 
 use crate::nasty;
-use crate::workbench::{Window, Workbench, button};
+use crate::workbench::{WINDOW, Window, Workbench, button};
 use dragonfly::panels::Request;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{CreateTake, Edit, RenameTake, SplitTake, TakeRef};
@@ -9,7 +9,7 @@ use dragonfly_document::history::Edited;
 use dragonfly_kit::document::fixture;
 use dragonfly_kit::folder::takes_long;
 use dragonfly_kit::random::{Random, seed};
-use egui::{Event, Key, Modifiers, MouseWheelUnit, pos2, vec2};
+use egui::{Event, Key, Modifiers, MouseWheelUnit, Vec2, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 
 fn bench() -> Workbench {
@@ -110,14 +110,15 @@ fn some_event(random: &mut Random, at: egui::Pos2, texts: &[String]) -> Event {
     }
 }
 
-fn run(window: &mut Window, random: &mut Random, events: usize, texts: &[String]) {
+/// Sends random events to a window of `size` points.
+pub(crate) fn run(window: &mut Window, size: Vec2, random: &mut Random, events: usize, texts: &[String]) {
     let mut down = false;
     for _ in 0..events {
-        let at = pos2(random.between(-20.0, 1300.0), random.between(-20.0, 740.0));
+        let at = pos2(random.between(-20.0, size.x + 20.0), random.between(-20.0, size.y + 20.0));
         // Half of the positions are in the panels that this test is about.
         let at = match random.below(4) {
-            0 => pos2(random.between(1020.0, 1275.0), random.between(40.0, 530.0)),
-            1 => pos2(random.between(5.0, 245.0), random.between(370.0, 530.0)),
+            0 => pos2(random.between(size.x - 260.0, size.x - 5.0), random.between(40.0, size.y - 190.0)),
+            1 => pos2(random.between(5.0, 245.0), random.between(size.y - 350.0, size.y - 190.0)),
             _ => at,
         };
         if random.below(4) == 0 {
@@ -197,7 +198,7 @@ fn random_events_in_the_panels_never_panic() {
             _ => bench(),
         };
         let mut window = bench.window_of_any_text();
-        run(&mut window, &mut random, if round < 2 { 100 } else { 500 }, &texts);
+        run(&mut window, WINDOW, &mut random, if round < 2 { 100 } else { 500 }, &texts);
         let Some(edited) = &window.state().edited else { continue };
         assert_eq!(edited.adapter().check(), Ok(()), "seed {seed}");
         // All of it can be undone.

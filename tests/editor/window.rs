@@ -346,15 +346,18 @@ fn resizing_and_hiding_the_window_does_not_stop_the_program() {
 fn destroying_the_window_from_outside_ends_the_program_without_a_crash() {
     let _one = alone();
     let mut screen = Screen::new("destroyed", 1280, 800);
-    // The window is destroyed before anything was drawn, and after.
-    for shown in [false, true] {
+    // The window is destroyed before anything was drawn, and after, while it plays.
+    for shown in [false, true, false, true, true] {
         let mut editor = Editor::open(&mut screen, &[], &[]);
         if shown {
             eventually_shows_something(&screen);
         }
         screen.destroy(editor.window);
         let status = editor.ends(SOON);
-        assert!(matches!(status.code(), Some(0 | 3)), "{status}: {}", editor.log());
+        let log = editor.log();
+        assert_eq!(status.code(), Some(3), "{status}: {log}");
+        assert!(log.contains("the window was destroyed by another program"), "{log}");
+        assert!(log.contains("step=10") && !log.contains("panic"), "{log}");
     }
 }
 

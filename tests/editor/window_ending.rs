@@ -31,6 +31,8 @@ enum End {
     Kill,
     /// The X server dies.
     Screen,
+    /// Another program destroys the window.
+    Destroyed,
 }
 
 /// Activities of the user at that moment, each with unsaved work.
@@ -48,7 +50,7 @@ enum Activity {
     Asked,
 }
 
-const ENDS: [End; 5] = [End::Term, End::Hup, End::Int, End::Kill, End::Screen];
+const ENDS: [End; 6] = [End::Term, End::Hup, End::Int, End::Kill, End::Screen, End::Destroyed];
 
 const ACTIVITIES: [Activity; 5] =
     [Activity::Gizmo, Activity::Field, Activity::Pending, Activity::Asked, Activity::Rest];
@@ -60,7 +62,7 @@ impl End {
             Self::Hup => Some(Signal::HUP),
             Self::Int => Some(Signal::INT),
             Self::Kill => Some(Signal::KILL),
-            Self::Screen => None,
+            Self::Screen | Self::Destroyed => None,
         }
     }
 
@@ -69,6 +71,7 @@ impl End {
         let process = Pid::from_raw(visit.editor.process() as i32).expect("a number");
         match self.signal() {
             Some(signal) => kill_process(process, signal).expect("it runs"),
+            None if self == Self::Destroyed => visit.screen.destroy(visit.editor.window),
             None => visit.screen.kill(),
         }
         let asked = Instant::now();
@@ -76,11 +79,12 @@ impl End {
         match self.signal() {
             // The parent process sees the signal that ended it.
             Some(signal) => assert_eq!(status.signal(), Some(signal.as_raw()), "{self:?}: {status}"),
+            None if self == Self::Destroyed => assert_eq!(status.code(), Some(3)),
             None => assert_ne!(status.code(), Some(0)),
         }
         assert!(asked.elapsed() < Duration::from_secs(20), "{self:?} took {:?}", asked.elapsed());
         let log = visit.editor.log();
-        let in_order = self.signal().is_some() && self != Self::Kill;
+        let in_order = !matches!(self, Self::Kill | Self::Screen);
         assert_eq!(log.contains("step=11") || log.contains("step=10"), in_order, "{self:?}: {log}");
     }
 }
@@ -188,9 +192,9 @@ fn every_way_to_end_the_window_preserves_all_edits() {
     // Each way to end once, and some twice; each activity once, and some twice.
     let ends: Vec<End> =
         ENDS.into_iter().filter(|end| end.signal().is_none_or(|signal| !ignores(signal))).collect();
-    let turn = random.below(5);
-    for life in 0..7 {
-        let end = if life < 5 { ends[(life + turn) % ends.len()] } else { random.choice(&ends) };
+    let turn = random.below(ends.len());
+    for life in 0..8 {
+        let end = if life < 6 { ends[(life + turn) % ends.len()] } else { random.choice(&ends) };
         let activity = if life < 5 { ACTIVITIES[life] } else { random.choice(&ACTIVITIES) };
         println!("life {life}: {end:?} during {activity:?}, after {:?}", began.elapsed());
         if life > 0 {

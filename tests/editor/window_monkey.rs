@@ -1,11 +1,13 @@
 //! Random input does no harm: the window reacts, nothing is lost, everything can be undone.
 
 use crate::screen::{key, pass};
-use crate::window::alone;
+use crate::window::{SOON, alone};
 use crate::window_visit::Visit;
 use dragonfly_document::Change;
 use dragonfly_kit::document::test_document::{TestDocument, same_takes};
 use dragonfly_kit::random::{Random, seed};
+use rustix::process::{Pid, Signal, kill_process};
+use std::os::unix::process::ExitStatusExt;
 use std::time::{Duration, Instant};
 
 /// Keys that are pressed: all that type a character, and those that move, end and delete.
@@ -112,4 +114,53 @@ fn two_thousand_random_inputs_lose_nothing() {
     same_takes(&original, &first);
     assert!(!first.takes.iter().eq(last.takes.iter()), "nothing was changed");
     println!("all of it took {:?}", began.elapsed());
+}
+
+#[test]
+fn random_inputs_in_a_narrow_window_cause_no_failure() {
+    let _one = alone();
+    let seed = seed(12);
+    println!("DRAGONFLY_SEED={seed}");
+    let mut random = Random::new(seed);
+    let mut visit = Visit::new("monkey-narrow");
+    let keys = keys();
+    let pause = visit.screen.pace;
+    visit.screen.pace = Duration::from_millis(6);
+    for round in 0..60 {
+        let (width, height) = (300 + random.below(301) as u32, 200 + random.below(521) as u32);
+        visit.screen.resize(visit.editor.window, width, height);
+        let place =
+            |random: &mut Random| (random.below(width as usize) as i16, random.below(height as usize) as i16);
+        let (x, y) = place(&mut random);
+        visit.screen.point(x, y);
+        // What asks for a drag shows a text next to the pointer until the drag.
+        visit.screen.press_with(key::SHIFT, key::of(random.choice(&['b', 'l'])));
+        pass(Duration::from_millis(30));
+        for _ in 0..4 {
+            let (x, y) = place(&mut random);
+            match random.below(3) {
+                0 => visit.screen.click(x, y.max(40)),
+                1 => {
+                    visit.screen.hold();
+                    visit.screen.point(x, y);
+                    pass(Duration::from_millis(20));
+                    visit.screen.release_button();
+                }
+                _ => visit.screen.press(random.choice(&keys)),
+            }
+        }
+        if round % 5 == 0 {
+            visit.screen.press(key::ESCAPE);
+        }
+    }
+    visit.screen.pace = pause;
+    (0..4).for_each(|_| visit.screen.press(key::ESCAPE));
+    // It still reacts: it ends in order when it is asked to.
+    let process = Pid::from_raw(visit.editor.process() as i32).expect("a number");
+    kill_process(process, Signal::TERM).expect("it runs");
+    assert_eq!(visit.editor.ends(SOON).signal(), Some(Signal::TERM.as_raw()));
+    let log = visit.editor.log();
+    let failed = |line: &&str| line.contains("panic") || line.contains("input failed");
+    assert_eq!(log.lines().find(failed), None);
+    assert!(log.contains("step=10"));
 }

@@ -24,6 +24,9 @@ pub(crate) struct Workbench {
     pub(crate) refused: Vec<String>,
 }
 
+/// Size of the window of [`Workbench::window_of_any_text`], points.
+pub(crate) const WINDOW: egui::Vec2 = egui::vec2(1280.0, 720.0);
+
 pub(crate) type Window = Harness<'static, Workbench>;
 
 impl Workbench {
@@ -53,7 +56,7 @@ impl Workbench {
     /// Opens a window that draws a box for characters that no font has, as the program does.
     pub(crate) fn window_of_any_text(self) -> Window {
         let builder = Harness::builder()
-            .with_size(egui::vec2(1280.0, 720.0))
+            .with_size(WINDOW)
             .with_max_steps(20)
             .allow_missing_glyphs()
             .with_context_setup(style::install);

@@ -1,5 +1,6 @@
 //! Tests of the graphics crate, one module for each guarantee.
 
+mod between;
 mod camera;
 mod complaints;
 mod device_loss;
@@ -13,8 +14,10 @@ mod picking_scene;
 mod picking_skin;
 mod picture;
 mod playback;
+mod samples;
 mod shaders;
 mod skinning_on_device;
+mod surface_thread;
 mod surfaces;
 
 #[global_allocator]

@@ -130,6 +130,18 @@ const ABSENCES: &[Absence] = &[
         because: "the graphics thread alone owns the device and the surface",
     },
     Absence {
+        within: &["editor/"],
+        // The type of a window, and the places of the main thread that make a surface of it.
+        except: &[
+            "editor/src/app/target_window.rs",
+            "editor/picture/src/connection.rs",
+            "editor/picture/src/surface_source.rs",
+            "editor/picture/src/x11.rs",
+        ],
+        words: &["window_handle(", "HasWindowHandle", "create_surface"],
+        because: "Windows and macOS give the handle of a window only to the main thread",
+    },
+    Absence {
         within: &["runtime/src/"],
         except: &[],
         words: &["wgpu", "winit", "egui", "glam"],
@@ -137,9 +149,10 @@ const ABSENCES: &[Absence] = &[
     },
     Absence {
         within: &["tests/editor/", "tests/picture/"],
-        // Two files run the graphics thread themselves and watch it, and one has a layer that makes errors on purpose.
+        // Three files run the graphics thread themselves, and one has a layer that makes errors on purpose.
         except: &[
             "tests/picture/graphics_thread.rs",
+            "tests/picture/surface_thread.rs",
             "tests/editor/pictures/windows.rs",
             "tests/editor/faults.rs",
         ],
@@ -184,6 +197,10 @@ fn forbidden_words_of_the_architecture_do_not_occur() {
         "std::thread::Builder::new().spawn(ask)?;",
     )]));
     one(forbidden_words(&[File::planted("editor/src/app/window.rs", "device: wgpu::Device,")]));
+    one(forbidden_words(&[File::planted(
+        "editor/picture/src/stage.rs",
+        "instance.create_surface(window)?;",
+    )]));
     one(forbidden_words(&[File::planted("tests/editor/light.rs", "let studio = Studio::new()?;")]));
     one(forbidden_words(&[File::planted("runtime/src/thread.rs", "use winit::event_loop;")]));
     none(forbidden_words(&[File::planted("editor/src/app/state.rs", "// no Mutex here")]));

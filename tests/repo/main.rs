@@ -4,6 +4,7 @@
 //! that never reports anything is detected.
 
 mod circles;
+mod clamps;
 mod crates;
 mod direction;
 mod imports;

@@ -65,17 +65,19 @@ impl fmt::Debug for Connection {
 }
 
 /// A window that frames can be presented in. The window system belongs to the caller; only its handles are needed here.
+/// Windows and macOS give the handle of a window only to the thread that created it, so only
+/// [`SurfaceSource`](super::SurfaceSource), which stays in that thread, asks for it.
 pub trait TargetWindow: HasWindowHandle + HasDisplayHandle + Send + Sync + 'static {
     /// Notifies the window system that a frame is about to be presented.
     fn pre_present_notify(&self);
 }
 
 /// A window as the driver reaches it over a connection.
-pub struct ConnectedWindow {
+pub(super) struct ConnectedWindow {
     /// The window.
-    pub window: Arc<dyn TargetWindow>,
+    pub(super) window: Arc<dyn TargetWindow>,
     /// The connection to it.
-    pub connection: Connection,
+    pub(super) connection: Connection,
 }
 
 impl HasDisplayHandle for ConnectedWindow {

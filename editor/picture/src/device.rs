@@ -1,9 +1,10 @@
 //! The graphics device, and the listeners notified of its loss (thesis §3.2.8.1, `DirectDevice`, `DirectReceiver`).
 
+use super::connection::Connection;
 use super::error::GraphicsError;
-use super::gpu::Gpu;
+use super::gpu::{Gpu, SAMPLES};
 use super::losses::{DeviceReports, LossRecord, LossTolerance};
-use super::surface::{SurfaceSource, WindowSurface};
+use super::surface::WindowSurface;
 use dragonfly_document::FaultInjection;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -14,8 +15,10 @@ use std::time::Instant;
 pub struct DeviceParameters {
     /// Graphics APIs to search for adapters.
     pub backends: wgpu::Backends,
-    /// The window to draw into; `None` draws into textures only.
-    pub source: Option<SurfaceSource>,
+    /// Connection to the window system with the window to draw into; `None` draws into textures only.
+    pub connection: Option<Connection>,
+    /// Largest number of samples per pixel of the scene; 1 turns the smoothing of edges off.
+    pub most_samples: u32,
     /// Faults that a test injects.
     pub faults: FaultInjection,
 }
@@ -24,7 +27,23 @@ impl Default for DeviceParameters {
     /// Uses the platform's native APIs, or those that `WGPU_BACKEND` names, and no window.
     fn default() -> Self {
         let backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
-        Self { backends, source: None, faults: FaultInjection::default() }
+        Self { backends, connection: None, most_samples: SAMPLES, faults: FaultInjection::default() }
+    }
+}
+
+impl DeviceParameters {
+    /// Creates an instance, which can draw into a window if there is a connection.
+    pub fn instance(&self) -> wgpu::Instance {
+        let mut descriptor = match &self.connection {
+            Some(connection) => {
+                wgpu::InstanceDescriptor::new_with_display_handle(Box::new(connection.clone()))
+            }
+            None => wgpu::InstanceDescriptor::new_without_display_handle(),
+        }
+        .with_env();
+        descriptor.backends = self.backends;
+        descriptor.backend_options.noop.enable = self.backends.contains(wgpu::Backends::NOOP);
+        wgpu::Instance::new(descriptor)
     }
 }
 
@@ -36,18 +55,26 @@ pub trait DeviceListener {
     fn on_reset(&mut self, gpu: &Gpu);
 }
 
+/// A loss of the device.
+#[derive(Debug)]
+pub struct DeviceLoss {
+    /// Message of the driver.
+    pub reason: String,
+    /// Whether the device is lost too often.
+    pub patience: LossTolerance,
+}
+
 /// Result of [`Device::check_device_state`].
 #[derive(Debug)]
 pub enum DeviceState {
     /// The device works.
     Working,
     /// The device was lost and created again; listeners have reloaded.
-    Reset {
-        /// Message of the driver.
-        reason: String,
-        /// Whether the device is lost too often.
-        patience: LossTolerance,
-    },
+    Reset(DeviceLoss),
+    /// The device was lost, and another one needs a surface made with this instance. Returned once.
+    NeedsSurface(wgpu::Instance),
+    /// The device was lost, and the surface for another one has not arrived yet.
+    AwaitsSurface,
     /// The device could not be created again.
     Gone(GraphicsError),
 }
@@ -62,26 +89,45 @@ pub struct Device {
     listeners: Vec<Rc<RefCell<dyn DeviceListener>>>,
     reports: DeviceReports,
     losses: LossRecord,
+    /// The loss after which a surface is awaited; until it arrives there is no usable device.
+    awaits_surface: Option<DeviceLoss>,
 }
 
 impl Device {
-    /// Creates a device after checking `parameters` against the hardware.
+    /// Creates a device that draws into textures only, after checking `parameters` against the hardware.
     pub fn new(parameters: DeviceParameters) -> Result<Self, GraphicsError> {
+        let instance = parameters.instance();
+        Self::with(parameters, instance, None)
+    }
+
+    /// Creates a device that draws into a window, whose surface the main thread made with `instance`.
+    pub fn in_window(
+        parameters: DeviceParameters,
+        instance: wgpu::Instance,
+        surface: Result<WindowSurface, GraphicsError>,
+    ) -> Result<Self, GraphicsError> {
+        let surface = surface.map_err(|error| explain(error, &instance, parameters.backends))?;
+        Self::with(parameters, instance, Some(surface))
+    }
+
+    fn with(
+        parameters: DeviceParameters,
+        instance: wgpu::Instance,
+        surface: Option<WindowSurface>,
+    ) -> Result<Self, GraphicsError> {
         let reports = DeviceReports::default();
-        let instance = instance(&parameters);
-        let surface = parameters.source.as_ref().map(|source| source.surface(&instance)).transpose();
-        // Without a driver there is no surface either, and the missing driver is what the user needs to know.
-        let mut surface = surface.map_err(|error| {
-            let adapters = pollster::block_on(instance.enumerate_adapters(parameters.backends));
-            if adapters.is_empty() {
-                GraphicsError::NoAdapter("no driver was found".to_owned())
-            } else {
-                error
-            }
-        })?;
-        let (adapter, gpu) = make(&instance, &parameters, surface.as_mut(), &reports)?;
-        let losses = LossRecord::default();
-        Ok(Self { parameters, instance, adapter, gpu, surface, listeners: Vec::new(), reports, losses })
+        let (adapter, gpu) = make(&instance, &parameters, surface.as_ref(), &reports)?;
+        Ok(Self {
+            parameters,
+            instance,
+            adapter,
+            gpu,
+            surface,
+            listeners: Vec::new(),
+            reports,
+            losses: LossRecord::default(),
+            awaits_surface: None,
+        })
     }
 
     /// Registers `listener` for losses, after the existing listeners, and calls it with the present device.
@@ -155,8 +201,12 @@ impl Device {
     }
 
     /// Checks whether the device is usable (thesis §3.2.8.1). A lost one is created again and the listeners reload:
-    /// first from the same adapter, then from a new one, then from a new instance.
+    /// first from the same adapter, then from a new one, then from a new instance. For a window, that instance needs
+    /// another surface, which arrives by [`set_surface`](Self::set_surface).
     pub fn check_device_state(&mut self, now: Instant) -> DeviceState {
+        if self.awaits_surface.is_some() {
+            return DeviceState::AwaitsSurface;
+        }
         // The callback of a lost device runs during a poll, and polling a lost device may panic.
         if let Err(panic) = super::guard::caught(|| drop(self.gpu.device.poll(wgpu::PollType::Poll))) {
             self.reports.report_loss(&panic);
@@ -167,41 +217,73 @@ impl Device {
         for listener in &self.listeners {
             listener.borrow_mut().on_lost();
         }
-        if let Err(error) = self.recreate() {
-            return DeviceState::Gone(error);
+        let loss = DeviceLoss { reason, patience };
+        match self.recreate() {
+            Ok(true) => self.reload(loss),
+            Ok(false) => {
+                self.awaits_surface = Some(loss);
+                DeviceState::NeedsSurface(self.instance.clone())
+            }
+            Err(error) => DeviceState::Gone(error),
         }
+    }
+
+    /// Returns whether the device is lost until [`set_surface`](Self::set_surface) is called.
+    pub fn awaits_surface(&self) -> bool {
+        self.awaits_surface.is_some()
+    }
+
+    /// Creates the device again with the surface that [`DeviceState::NeedsSurface`] asked for.
+    pub fn set_surface(&mut self, surface: Result<WindowSurface, GraphicsError>) -> DeviceState {
+        let Some(loss) = self.awaits_surface.take() else { return DeviceState::Working };
+        let made = surface
+            .map_err(|error| explain(error, &self.instance, self.parameters.backends))
+            .and_then(|surface| {
+                let surface = self.surface.insert(surface);
+                make(&self.instance, &self.parameters, Some(surface), &self.reports)
+            });
+        match made {
+            Ok((adapter, gpu)) => {
+                (self.adapter, self.gpu) = (adapter, gpu);
+                self.reload(loss)
+            }
+            Err(error) => DeviceState::Gone(error),
+        }
+    }
+
+    fn reload(&self, loss: DeviceLoss) -> DeviceState {
         for listener in &self.listeners {
             listener.borrow_mut().on_reset(&self.gpu);
         }
-        DeviceState::Reset { reason, patience }
+        DeviceState::Reset(loss)
     }
 
-    fn recreate(&mut self) -> Result<(), GraphicsError> {
+    /// Creates the device again. Returns `false` if that needs a surface made with the new instance.
+    fn recreate(&mut self) -> Result<bool, GraphicsError> {
         // Late reports of the old device must not be mistaken for reports of the new one.
         self.reports = self.reports.successor();
         if let Some(surface) = &mut self.surface {
             surface.forget_configuration();
         }
-        if let Ok(gpu) =
-            Gpu::new(&self.adapter, self.surface.as_ref().map(WindowSurface::surface), &self.reports)
-        {
+        let surface = self.surface.as_ref().map(WindowSurface::surface);
+        if let Ok(gpu) = Gpu::new(&self.adapter, surface, self.parameters.most_samples, &self.reports) {
             self.gpu = gpu;
-            return Ok(());
+            return Ok(true);
         }
         if let Ok((adapter, gpu)) =
-            make(&self.instance, &self.parameters, self.surface.as_mut(), &self.reports)
+            make(&self.instance, &self.parameters, self.surface.as_ref(), &self.reports)
         {
             (self.adapter, self.gpu) = (adapter, gpu);
-            return Ok(());
+            return Ok(true);
         }
         // The old surface must be dropped before the window can have another.
-        self.surface = None;
-        self.instance = instance(&self.parameters);
-        self.surface =
-            self.parameters.source.as_ref().map(|source| source.surface(&self.instance)).transpose()?;
-        (self.adapter, self.gpu) =
-            make(&self.instance, &self.parameters, self.surface.as_mut(), &self.reports)?;
-        Ok(())
+        let had_surface = self.surface.take().is_some();
+        self.instance = self.parameters.instance();
+        if had_surface {
+            return Ok(false);
+        }
+        (self.adapter, self.gpu) = make(&self.instance, &self.parameters, None, &self.reports)?;
+        Ok(true)
     }
 }
 
@@ -212,24 +294,22 @@ impl Drop for Device {
     }
 }
 
-fn instance(parameters: &DeviceParameters) -> wgpu::Instance {
-    let mut descriptor = match &parameters.source {
-        Some(source) => source.instance_descriptor(),
-        None => wgpu::InstanceDescriptor::new_without_display_handle(),
+/// Returns the error to report when no surface could be made: without a driver there is none, and the missing driver is
+/// what the user needs to know.
+fn explain(error: GraphicsError, instance: &wgpu::Instance, backends: wgpu::Backends) -> GraphicsError {
+    if pollster::block_on(instance.enumerate_adapters(backends)).is_empty() {
+        GraphicsError::NoAdapter("no driver was found".to_owned())
+    } else {
+        error
     }
-    .with_env();
-    descriptor.backends = parameters.backends;
-    descriptor.backend_options.noop.enable = parameters.backends.contains(wgpu::Backends::NOOP);
-    wgpu::Instance::new(descriptor)
 }
 
 fn make(
     instance: &wgpu::Instance,
     parameters: &DeviceParameters,
-    surface: Option<&mut WindowSurface>,
+    surface: Option<&WindowSurface>,
     reports: &DeviceReports,
 ) -> Result<(wgpu::Adapter, Gpu), GraphicsError> {
-    let surface = surface.map(|surface| &*surface);
     let request = |force_fallback_adapter| {
         pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
@@ -242,7 +322,7 @@ fn make(
         tracing::debug!(backends = ?parameters.backends, %error, "no adapter");
         GraphicsError::NoAdapter(first_line(&error.to_string()))
     })?;
-    let gpu = Gpu::new(&adapter, surface.map(WindowSurface::surface), reports)?;
+    let gpu = Gpu::new(&adapter, surface.map(WindowSurface::surface), parameters.most_samples, reports)?;
     Ok((adapter, gpu))
 }
 

@@ -9,7 +9,7 @@ use super::uniform::FrameUniform;
 pub const SCENE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Format of the depth; reversed: 1 is near.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Number of samples per pixel of the scene; every adapter supports four.
+/// Number of samples per pixel of the scene, where the adapter supports it; almost every adapter does.
 pub const SAMPLES: u32 = 4;
 /// Format of whole frames without a window; egui needs one that does not encode.
 const OFFSCREEN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -24,6 +24,8 @@ pub struct Gpu {
     pub window_format: wgpu::TextureFormat,
     /// Longest side of a texture.
     pub max_side: u32,
+    /// Samples per pixel of the scene; 1 is no smoothing of edges.
+    pub samples: u32,
     /// Samples of an image that a pixel may take along a surface seen at a flat angle; 1 is no anisotropic filtering.
     pub anisotropy: u16,
     /// Layout of bind group 0 of all passes of the scene.
@@ -34,13 +36,17 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// Creates a device of `adapter` that can draw into `surface`.
+    /// Creates a device of `adapter` that can draw into `surface`, with at most `most_samples` samples per pixel.
     pub fn new(
         adapter: &wgpu::Adapter,
         surface: Option<&wgpu::Surface<'static>>,
+        most_samples: u32,
         reports: &DeviceReports,
     ) -> Result<Self, GraphicsError> {
         check(adapter)?;
+        let features =
+            [SCENE_FORMAT, DEPTH_FORMAT].map(|format| adapter.get_texture_format_features(format).flags);
+        let samples = samples(features, most_samples);
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("dragonfly"),
             required_limits: limits(&adapter.limits()),
@@ -60,6 +66,7 @@ impl Gpu {
             queue,
             window_format,
             max_side,
+            samples,
             anisotropy,
             frame_layout,
             frame_group,
@@ -80,6 +87,13 @@ impl Gpu {
     /// Writes this frame's uniform to the device.
     pub fn write_frame(&self, uniform: &FrameUniform) {
         self.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(uniform));
+    }
+
+    /// Returns the multisampling of the scene's pipelines.
+    pub fn scene_samples(&self, alpha_to_coverage: bool) -> wgpu::MultisampleState {
+        // One sample is covered or not; a mask then discards it in its shader.
+        let alpha_to_coverage_enabled = alpha_to_coverage && self.samples > 1;
+        wgpu::MultisampleState { count: self.samples, mask: !0, alpha_to_coverage_enabled }
     }
 
     /// Creates a pipeline layout with the frame in group 0, followed by `groups`.
@@ -114,11 +128,6 @@ pub fn scene_depth(write: bool) -> wgpu::DepthStencilState {
     }
 }
 
-/// The multisampling of the scene.
-pub fn scene_samples(alpha_to_coverage_enabled: bool) -> wgpu::MultisampleState {
-    wgpu::MultisampleState { count: SAMPLES, mask: !0, alpha_to_coverage_enabled }
-}
-
 /// Returns the format to draw in: one that does not encode, because egui encodes colors itself.
 fn format(
     surface: &wgpu::Surface<'static>,
@@ -136,13 +145,14 @@ fn check(adapter: &wgpu::Adapter) -> Result<(), GraphicsError> {
     if !capabilities.flags.contains(wgpu::DownlevelFlags::VERTEX_STORAGE) {
         return lack("read storage buffers in vertex shaders, which skinning by any number of bones needs");
     }
-    for format in [SCENE_FORMAT, DEPTH_FORMAT] {
-        let features = adapter.get_texture_format_features(format);
-        if !features.flags.sample_count_supported(SAMPLES) {
-            return lack("draw with four samples per pixel");
-        }
-    }
     Ok(())
+}
+
+/// Returns the number of samples per pixel to draw with, for formats with these features: [`SAMPLES`], or 1 where one of
+/// the formats does not support that or `most` is less.
+pub fn samples(formats: [wgpu::TextureFormatFeatureFlags; 2], most: u32) -> u32 {
+    let supported = most >= SAMPLES && formats.iter().all(|flags| flags.sample_count_supported(SAMPLES));
+    if supported { SAMPLES } else { 1 }
 }
 
 /// Anisotropy is expensive on a software adapter, and not safe: Mesa's llvmpipe visits every texel of the ellipse

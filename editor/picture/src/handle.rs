@@ -1,6 +1,8 @@
 //! The handle of the graphics thread for other threads: each method of [`Graphics`](super::Graphics) sends a message.
 
+use super::error::GraphicsError;
 use super::message::{GraphicsMessage, Look, PanelsFrame};
+use super::surface::WindowSurface;
 use crate::camera::Camera;
 use crate::pick::region::OwnedRegion;
 use crate::playback::PlaybackClock;
@@ -120,6 +122,11 @@ impl GraphicsHandle {
     /// Resumes drawing the scene after a pause.
     pub fn resume(&self) {
         self.send(GraphicsMessage::Resume);
+    }
+
+    /// Answers [`GraphicsReply::NeedsSurface`](super::GraphicsReply::NeedsSurface).
+    pub fn set_surface(&self, surface: Result<WindowSurface, GraphicsError>) {
+        self.send(GraphicsMessage::Surface(Box::new(surface)));
     }
 
     /// Writes the whole window as a PNG file.

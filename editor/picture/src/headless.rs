@@ -81,6 +81,11 @@ impl Studio {
         Ok(Self { stage: RenderStage::new(parameters, Instant::now())?, shown: None })
     }
 
+    /// Returns whether the edges of surfaces are smooth; not on an adapter without multisampling.
+    pub fn is_smooth(&mut self) -> bool {
+        self.stage.device().gpu().samples > 1
+    }
+
     /// The stage, for tests that manipulate it.
     pub fn stage(&mut self) -> &mut RenderStage {
         &mut self.stage

@@ -14,6 +14,7 @@
 
 mod appearance;
 mod appearance_sender;
+mod between;
 pub mod body;
 pub mod camera;
 pub mod connection;
@@ -40,6 +41,7 @@ pub mod shape;
 mod skin;
 pub mod stage;
 pub mod surface;
+mod surface_source;
 pub mod target;
 pub mod uniform;
 mod worker;
@@ -48,6 +50,7 @@ mod x11;
 
 pub use appearance::{AnyAppearance, Appearance, Appearances};
 pub use appearance_sender::AppearanceSender;
+pub use between::between;
 pub use connection::{Connection, TargetWindow};
 pub use control::{
     GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance, IkLook, PathAppearance,
@@ -58,5 +61,6 @@ pub use error::GraphicsError;
 pub use handle::GraphicsHandle;
 pub use headless::{PictureSettings, Studio, render_picture};
 pub use message::{BoneLook, GraphicsMessage, GraphicsReply, Look, PanelsFrame, Shading};
-pub use surface::SurfaceSource;
+pub use surface::WindowSurface;
+pub use surface_source::SurfaceSource;
 pub use worker::{Drawer, Graphics, Present};

@@ -1,6 +1,8 @@
 //! Messages to the graphics thread, and its replies.
 
 use super::appearance::AnyAppearance;
+use super::error::GraphicsError;
+use super::surface::WindowSurface;
 use crate::camera::Camera;
 use crate::gizmo::RoleColors;
 use crate::pick::region::OwnedRegion;
@@ -159,6 +161,8 @@ pub enum GraphicsMessage {
     Appearance(AnyAppearance),
     /// Resumes drawing the scene after [`GraphicsReply::Paused`].
     Resume,
+    /// Draws into this surface from now on: the answer to [`GraphicsReply::NeedsSurface`].
+    Surface(Box<Result<WindowSurface, GraphicsError>>),
     /// Writes the next whole frame as a PNG file, then replies [`GraphicsReply::Captured`].
     Capture(PathBuf),
 }
@@ -166,12 +170,17 @@ pub enum GraphicsMessage {
 /// Replies and reports of the graphics thread to the main thread.
 #[derive(Debug)]
 pub enum GraphicsReply {
+    /// Drawing needs a surface of the window, made with this instance; answered by [`GraphicsMessage::Surface`]. Sent
+    /// before [`Ready`](Self::Ready), and after a loss that needs a new instance.
+    NeedsSurface(wgpu::Instance),
     /// The device is ready.
     Ready {
         /// Name of the adapter, its API and driver.
         adapter: String,
         /// Longest side of a texture, pixels.
         max_texture_side: u32,
+        /// Whether the edges of the scene are smooth; not on an adapter without multisampling.
+        smooth: bool,
     },
     /// Reply to [`GraphicsMessage::Pick`].
     Picked {

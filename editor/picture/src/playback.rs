@@ -1,5 +1,6 @@
 //! Playback: the take and time on screen as a function of the clock, so that playing needs no message per frame.
 
+use crate::between;
 use std::time::Instant;
 
 /// Behavior at the end of the take.
@@ -67,7 +68,7 @@ impl PlaybackClock {
         }
         let inside = self.anchor_time - start + passed;
         let wrapped = match self.repeat {
-            Repeat::Once => inside.clamp(0.0, length),
+            Repeat::Once => between(inside, 0.0, length),
             // A time exactly at the end stays there, so that playing backwards starts at the end.
             Repeat::Loop if (0.0..=length).contains(&inside) => inside,
             Repeat::Loop => inside.rem_euclid(length),
@@ -101,7 +102,7 @@ impl PlaybackClock {
         if !self.playing && self.take.is_some() {
             (first, last) = (first.min(0.0), last.max(LATEST));
         }
-        let time = if time.is_finite() { time.clamp(first, last) } else { self.start };
+        let time = if time.is_finite() { between(time, first, last) } else { self.start };
         (self.anchor_time, self.anchor) = (f64::from(time), now);
         self
     }

@@ -4,6 +4,7 @@
 //! parent. Bones that move no surface (such as the nodes above a character) are drawn as thin lines.
 
 use super::message::{BoneLook, Look};
+use crate::between;
 use bytemuck::{Pod, Zeroable};
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{BoneIndex, ModelData};
@@ -208,7 +209,7 @@ impl SkeletonShape {
     }
 
     fn radius(&self, length: f32) -> f32 {
-        (length * SLIMNESS).clamp(self.size * THICKNESS[0], self.size * THICKNESS[1]).min(length * 0.3)
+        between(length * SLIMNESS, self.size * THICKNESS[0], self.size * THICKNESS[1]).min(length * 0.3)
     }
 
     fn add(&mut self, body: Body, bone: BoneIndex, instance: BoneInstance) {

@@ -4,14 +4,14 @@
 //! without a window does the same. Everything that touches the device is guarded: a panic there means that the device
 //! is lost.
 
-use super::device::{Device, DeviceParameters, DeviceState};
+use super::device::{Device, DeviceLoss, DeviceParameters, DeviceState};
 use super::error::GraphicsError;
 use super::guard::caught;
 use super::losses::LossTolerance;
 use super::pass::{self, FrameCommands, Pass, PassLayer, Passes, SharedPass, Surroundings};
 use super::readback;
 use super::scene::Scene;
-use super::surface::Acquired;
+use super::surface::{Acquired, WindowSurface};
 use super::target::{SceneTarget, begin_window};
 use image::RgbaImage;
 use std::cell::RefCell;
@@ -36,6 +36,8 @@ pub enum DeviceEvent {
     Recovered(String),
     /// The device is lost too often; the scene is no longer drawn.
     Paused(String),
+    /// Another device needs a surface made with this instance; nothing is drawn until it arrives.
+    NeedsSurface(wgpu::Instance),
 }
 
 /// Parts of the window that are drawn.
@@ -80,16 +82,20 @@ pub struct RenderStage {
 }
 
 impl RenderStage {
-    /// Creates a device and an empty scene.
+    /// Creates a device that draws into textures only, and an empty scene.
     pub fn new(parameters: DeviceParameters, now: Instant) -> Result<Self, GraphicsError> {
-        let mut device = Device::new(parameters)?;
+        Ok(Self::with(Device::new(parameters)?, now))
+    }
+
+    /// Creates an empty scene that `device` draws.
+    pub fn with(mut device: Device, now: Instant) -> Self {
         let passes = pass::all();
         // The model first, because the passes draw with it.
         device.add_listener(Rc::clone(&passes.model) as _);
         for pass in &passes.list {
             device.add_listener(pass::listener(pass));
         }
-        Ok(Self {
+        Self {
             device,
             scene: Scene::new(now),
             passes,
@@ -102,7 +108,7 @@ impl RenderStage {
             mode: DrawMode::All,
             events: Vec::new(),
             frames: 0,
-        })
+        }
     }
 
     /// The device.
@@ -145,7 +151,8 @@ impl RenderStage {
 
     /// Returns whether there is anything new to draw at `now`.
     pub fn wants_frame(&self, now: Instant) -> bool {
-        let visible = !self.window_size.contains(&0) && self.mode != DrawMode::Nothing;
+        let possible = self.mode != DrawMode::Nothing && !self.device.awaits_surface();
+        let visible = possible && !self.window_size.contains(&0);
         let scene_wants = self.mode == DrawMode::All && (self.scene_changed || self.moves(now));
         visible && (scene_wants || self.window_changed)
     }
@@ -177,7 +184,13 @@ impl RenderStage {
         self.frame = None;
         match self.device.check_device_state(now) {
             DeviceState::Working => {}
-            DeviceState::Reset { reason, patience } => self.after_reset(reason, patience),
+            DeviceState::Reset(loss) => self.after_reset(loss),
+            DeviceState::NeedsSurface(instance) => {
+                self.forget_textures();
+                self.events.push(DeviceEvent::NeedsSurface(instance));
+                return FrameOpening::Nothing;
+            }
+            DeviceState::AwaitsSurface => return FrameOpening::Nothing,
             DeviceState::Gone(error) => return FrameOpening::Gone(error),
         }
         if self.mode == DrawMode::Nothing || self.window_size.contains(&0) {
@@ -280,9 +293,27 @@ impl RenderStage {
         }
     }
 
-    fn after_reset(&mut self, reason: String, patience: LossTolerance) {
+    /// Continues with the surface that [`DeviceEvent::NeedsSurface`] asked for.
+    pub fn set_surface(
+        &mut self,
+        surface: Result<WindowSurface, GraphicsError>,
+    ) -> Result<(), GraphicsError> {
+        match self.device.set_surface(surface) {
+            DeviceState::Reset(loss) => self.after_reset(loss),
+            DeviceState::Gone(error) => return Err(error),
+            DeviceState::Working | DeviceState::NeedsSurface(_) | DeviceState::AwaitsSurface => {}
+        }
+        Ok(())
+    }
+
+    /// Drops the textures of a lost device.
+    fn forget_textures(&mut self) {
         self.target = None;
         self.stand_in = None;
+    }
+
+    fn after_reset(&mut self, DeviceLoss { reason, patience }: DeviceLoss) {
+        self.forget_textures();
         (self.scene_changed, self.window_changed) = (true, true);
         if patience == LossTolerance::Left || !self.device.parameters().faults.pauses() {
             self.events.push(DeviceEvent::Recovered(reason));

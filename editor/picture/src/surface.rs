@@ -1,35 +1,8 @@
-//! The window's surface: configured before use, never with a size of zero.
+//! The window's surface in the graphics thread: configured before use, never with a size of zero.
 
-use super::connection::{ConnectedWindow, Connection, TargetWindow};
-use super::error::GraphicsError;
+use super::connection::TargetWindow;
 use super::gpu::Gpu;
 use std::sync::Arc;
-
-/// The window and connection that a surface is made from. Kept, so that the surface can be made again after a loss.
-#[derive(Clone)]
-pub struct SurfaceSource {
-    /// The window.
-    pub window: Arc<dyn TargetWindow>,
-    /// The driver's connection to the window system.
-    pub connection: Connection,
-}
-
-impl SurfaceSource {
-    /// Describes an instance that can draw into the window.
-    pub fn instance_descriptor(&self) -> wgpu::InstanceDescriptor {
-        wgpu::InstanceDescriptor::new_with_display_handle(Box::new(self.connection.clone()))
-    }
-
-    /// Creates a surface of the window.
-    pub fn surface(&self, instance: &wgpu::Instance) -> Result<WindowSurface, GraphicsError> {
-        let window =
-            ConnectedWindow { window: Arc::clone(&self.window), connection: self.connection.clone() };
-        let surface = instance
-            .create_surface(wgpu::SurfaceTarget::DisplayAndWindow(Box::new(window)))
-            .map_err(|error| GraphicsError::NoSurface(error.to_string()))?;
-        Ok(WindowSurface { surface, window: Arc::clone(&self.window), configured: None, refusals: 0 })
-    }
-}
 
 /// Result of acquiring the next image to draw into.
 pub enum Acquired {
@@ -44,13 +17,20 @@ pub enum Acquired {
 /// A surface and its present configuration.
 pub struct WindowSurface {
     surface: wgpu::Surface<'static>,
-    window: Arc<dyn TargetWindow>,
+    notify_window: Box<dyn Fn() + Send>,
     configured: Option<wgpu::SurfaceConfiguration>,
     /// Number of consecutive "validation" results.
     refusals: u32,
 }
 
 impl WindowSurface {
+    /// A surface of `window` that is not configured yet.
+    pub(super) fn new(surface: wgpu::Surface<'static>, window: Arc<dyn TargetWindow>) -> Self {
+        // From here on only the notification can be reached, and not the handles of the window.
+        let notify_window = Box::new(move || window.pre_present_notify());
+        Self { surface, notify_window, configured: None, refusals: 0 }
+    }
+
     /// The surface itself.
     pub fn surface(&self) -> &wgpu::Surface<'static> {
         &self.surface
@@ -64,7 +44,7 @@ impl WindowSurface {
 
     /// Notifies the window system that a frame is about to be presented.
     pub fn pre_present_notify(&self) {
-        self.window.pre_present_notify();
+        (self.notify_window)();
     }
 
     /// Acquires the next image of the window, which has `size` pixels.

@@ -1,11 +1,12 @@
 //! The textures that the scene is drawn into: as large as the viewport, created again when its size changes.
 
-use super::gpu::{DEPTH_FORMAT, Gpu, SAMPLES, SCENE_FORMAT};
+use super::gpu::{DEPTH_FORMAT, Gpu, SCENE_FORMAT};
 
-/// Multisampled color, depth, and the color that the samples are resolved to.
+/// Multisampled color, depth, and the color that the samples are resolved to. With one sample per pixel there is nothing to
+/// resolve.
 pub struct SceneTarget {
     size: [u32; 2],
-    samples: wgpu::TextureView,
+    samples: Option<wgpu::TextureView>,
     depth: wgpu::TextureView,
     resolved: wgpu::Texture,
     view: wgpu::TextureView,
@@ -32,8 +33,9 @@ impl SceneTarget {
         let resolved = texture("scene", SCENE_FORMAT, 1, readable);
         Self {
             size,
-            samples: view(&texture("scene samples", SCENE_FORMAT, SAMPLES, nothing)),
-            depth: view(&texture("scene depth", DEPTH_FORMAT, SAMPLES, nothing)),
+            samples: (gpu.samples > 1)
+                .then(|| view(&texture("scene samples", SCENE_FORMAT, gpu.samples, nothing))),
+            depth: view(&texture("scene depth", DEPTH_FORMAT, gpu.samples, nothing)),
             view: view(&resolved),
             resolved,
         }
@@ -57,13 +59,13 @@ impl SceneTarget {
     /// Begins drawing the scene into a cleared target.
     pub fn begin(&self, encoder: &mut wgpu::CommandEncoder) -> wgpu::RenderPass<'static> {
         let color = wgpu::RenderPassColorAttachment {
-            view: &self.samples,
+            view: self.samples.as_ref().unwrap_or(&self.view),
             depth_slice: None,
-            resolve_target: Some(&self.view),
+            resolve_target: self.samples.as_ref().map(|_| &self.view),
             ops: wgpu::Operations {
                 load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
                 // Only the resolved color is needed.
-                store: wgpu::StoreOp::Discard,
+                store: if self.samples.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store },
             },
         };
         let depth = wgpu::RenderPassDepthStencilAttachment {

@@ -2,13 +2,14 @@
 //! pass, and last [`Present`]. A worker that cannot do its part ends the iteration, so an unfinished frame is never
 //! presented.
 
-use super::device::DeviceParameters;
+use super::device::{Device, DeviceParameters};
 use super::error::GraphicsError;
 use super::guard::caught;
 use super::message::{GraphicsMessage, GraphicsReply};
 use super::pass::SharedPass;
 use super::pick::{pick, pick_region};
 use super::stage::{DeviceEvent, FrameOpening, RenderStage};
+use super::surface::WindowSurface;
 use super::{GraphicsHandle, Look};
 use crate::camera::Camera;
 use crate::playback::PlaybackClock;
@@ -31,7 +32,7 @@ const RETRY: Duration = Duration::from_millis(100);
 
 /// Opens frames, and keeps what is shown.
 pub struct Graphics {
-    parameters: Option<DeviceParameters>,
+    start: StartStep,
     replies: Address<GraphicsReply>,
     stage: Option<Rc<RefCell<RenderStage>>>,
     /// Messages that arrived before the device was ready.
@@ -40,6 +41,16 @@ pub struct Graphics {
     statistics: Rc<RefCell<Statistics>>,
     failed: bool,
     faults: FaultInjection,
+}
+
+/// Progress of the start.
+enum StartStep {
+    /// The thread has not been called yet.
+    Prepared(DeviceParameters),
+    /// The main thread was asked for a surface made with this instance.
+    AwaitsSurface(DeviceParameters, wgpu::Instance),
+    /// The device exists, or could not be created.
+    Done,
 }
 
 /// Times of frames, shared with the presenter.
@@ -51,8 +62,8 @@ struct Statistics {
 
 impl Graphics {
     /// Starts the graphics thread (T-133), whose replies go to `replies`. The device for a window of `size` physical
-    /// pixels is created at the first call in that thread, which replies [`GraphicsReply::Ready`] or
-    /// [`GraphicsReply::Fatal`].
+    /// pixels is created in that thread, which first replies [`GraphicsReply::NeedsSurface`] if there is a window, and
+    /// then [`GraphicsReply::Ready`] or [`GraphicsReply::Fatal`].
     pub fn start(
         parameters: DeviceParameters,
         size: [u32; 2],
@@ -86,7 +97,7 @@ impl Graphics {
         let _ = thread.run(move |context| {
             let faults = parameters.faults.clone();
             let graphics = Rc::new(RefCell::new(Self {
-                parameters: Some(parameters),
+                start: StartStep::Prepared(parameters),
                 replies,
                 stage: None,
                 waiting: vec![GraphicsMessage::Resized(size)],
@@ -108,18 +119,45 @@ impl Graphics {
         GraphicsHandle::new(thread.clone(), address, views, owner)
     }
 
-    /// First call in the thread: creates the device and the workers that draw with it.
-    fn initialize(&mut self, thread: &mut Context) -> bool {
-        let Some(parameters) = self.parameters.take() else { return false };
+    /// First call in the thread: creates the device, or asks for the surface that the device must be able to draw into.
+    fn initialize(&mut self, thread: &mut Context) {
+        match std::mem::replace(&mut self.start, StartStep::Done) {
+            StartStep::Prepared(parameters) if parameters.connection.is_some() => {
+                match caught(|| parameters.instance()) {
+                    Ok(instance) => {
+                        self.reply(GraphicsReply::NeedsSurface(instance.clone()));
+                        self.start = StartStep::AwaitsSurface(parameters, instance);
+                    }
+                    Err(panic) => self.fail(&panic),
+                }
+            }
+            StartStep::Prepared(parameters) => self.begin(|| Device::new(parameters), thread),
+            waits @ (StartStep::AwaitsSurface(..) | StartStep::Done) => self.start = waits,
+        }
+    }
+
+    /// Creates the device that can draw into the surface that was asked for at the start.
+    fn initialize_window(&mut self, surface: Result<WindowSurface, GraphicsError>, thread: &mut Context) {
+        match std::mem::replace(&mut self.start, StartStep::Done) {
+            StartStep::AwaitsSurface(parameters, instance) => {
+                self.begin(|| Device::in_window(parameters, instance, surface), thread);
+            }
+            waits @ (StartStep::Prepared(_) | StartStep::Done) => self.start = waits,
+        }
+    }
+
+    /// Creates the device with `make`, and the workers that draw with it.
+    fn begin(&mut self, make: impl FnOnce() -> Result<Device, GraphicsError>, thread: &mut Context) {
         let now = thread.now();
-        let mut stage = match caught(|| RenderStage::new(parameters, now)) {
+        let mut stage = match caught(|| make().map(|device| RenderStage::with(device, now))) {
             Ok(Ok(stage)) => stage,
             Ok(Err(error)) => return self.fail(&error.to_string()),
             Err(panic) => return self.fail(&panic),
         };
         let adapter = stage.device().adapter_name();
-        let max_texture_side = stage.device().gpu().max_side;
-        tracing::info!(%adapter, "graphics device created");
+        let gpu = stage.device().gpu();
+        let (max_texture_side, samples) = (gpu.max_side, gpu.samples);
+        tracing::info!(%adapter, samples, "graphics device created");
         let passes = stage.passes().to_vec();
         let stage = Rc::new(RefCell::new(stage));
         for pass in passes {
@@ -132,13 +170,12 @@ impl Graphics {
             statistics: Rc::clone(&self.statistics),
         });
         self.stage = Some(stage);
-        self.reply(GraphicsReply::Ready { adapter, max_texture_side });
+        self.reply(GraphicsReply::Ready { adapter, max_texture_side, smooth: samples > 1 });
         for message in std::mem::take(&mut self.waiting) {
             self.handle(message, thread);
         }
         // The drawers are called from the next iteration on.
         thread.iterate_again();
-        false
     }
 
     fn draw_again(&self) {
@@ -147,12 +184,11 @@ impl Graphics {
         }
     }
 
-    fn fail(&mut self, reason: &str) -> bool {
+    fn fail(&mut self, reason: &str) {
         tracing::error!(reason, "no graphics");
         self.failed = true;
         self.waiting.clear();
         self.reply(GraphicsReply::Fatal(reason.to_owned()));
-        false
     }
 
     fn reply(&self, reply: GraphicsReply) {
@@ -190,13 +226,23 @@ impl Graphics {
             self.reply(match event {
                 DeviceEvent::Recovered(reason) => GraphicsReply::Recovered { reason, losses },
                 DeviceEvent::Paused(reason) => GraphicsReply::Paused { reason },
+                DeviceEvent::NeedsSurface(instance) => GraphicsReply::NeedsSurface(instance),
             });
         }
     }
 
-    fn gone(&mut self, error: &GraphicsError) -> bool {
+    fn gone(&mut self, reason: &str) {
         self.stage = None;
-        self.fail(&error.to_string())
+        self.fail(reason);
+    }
+
+    /// Draws into `surface` from now on, with a device that is created again for it.
+    fn set_surface(&mut self, stage: &mut RenderStage, surface: Result<WindowSurface, GraphicsError>) {
+        match caught(|| stage.set_surface(surface)) {
+            Ok(Ok(())) => self.tell_events(stage),
+            Ok(Err(error)) => self.gone(&error.to_string()),
+            Err(panic) => self.gone(&panic),
+        }
     }
 }
 
@@ -212,7 +258,9 @@ impl Receiver for Graphics {
 impl Graphics {
     fn handle(&mut self, message: GraphicsMessage, thread: &mut Context) {
         let Some(stage) = self.stage.clone() else {
-            if !self.failed {
+            if let GraphicsMessage::Surface(surface) = message {
+                self.initialize_window(*surface, thread);
+            } else if !self.failed {
                 if let GraphicsMessage::Show(_) = message {
                     // Only the newest view will be shown.
                     self.waiting.retain(|message| !matches!(message, GraphicsMessage::Show(_)));
@@ -258,6 +306,7 @@ impl Graphics {
                 stage.touch_scene();
             }
             GraphicsMessage::Resume => stage.resume(),
+            GraphicsMessage::Surface(surface) => self.set_surface(stage, *surface),
             GraphicsMessage::Capture(path) => {
                 self.captures.push(path);
                 stage.touch_window();
@@ -282,7 +331,10 @@ impl Worker for Graphics {
         if self.failed {
             return false;
         }
-        let Some(stage) = self.stage.clone() else { return self.initialize(thread) };
+        let Some(stage) = self.stage.clone() else {
+            self.initialize(thread);
+            return false;
+        };
         let stage = &mut *stage.borrow_mut();
         let now = thread.now();
         if self.faults.loses_device(stage.frames(), stage.moves(now)) {
@@ -317,7 +369,10 @@ impl Worker for Graphics {
                 }
                 false
             }
-            FrameOpening::Gone(error) => self.gone(&error),
+            FrameOpening::Gone(error) => {
+                self.gone(&error.to_string());
+                false
+            }
         }
     }
 }

@@ -206,7 +206,14 @@ impl BaseRuntime for EditorRuntime {
         let Some(running) = &mut self.running else { return };
         let mut interface = running.parts.interface.borrow_mut();
         match reply {
-            GraphicsReply::Ready { adapter, max_texture_side } => {
+            // The manager that called this has answered.
+            GraphicsReply::NeedsSurface(_) => return,
+            GraphicsReply::Ready { adapter, max_texture_side, smooth } => {
+                if !smooth {
+                    let text =
+                        format!("{adapter} has no multisampling: edges in the viewport are not smooth");
+                    interface.state.say(MessageSeverity::Info, text);
+                }
                 interface.set_max_texture_side(max_texture_side);
                 interface.state.window_mut().set_device(DeviceStatus::Ready { adapter });
             }

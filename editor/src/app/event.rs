@@ -6,6 +6,7 @@ pub(super) enum UserEvent {
     /// There are messages for the main thread.
     Wake,
     /// The system asks the program to end, by this signal.
+    #[cfg_attr(not(unix), expect(dead_code, reason = "other systems have no signals"))]
     Signal(i32),
     /// An event of the accessibility bridge.
     AccessKit(accesskit_winit::Event),

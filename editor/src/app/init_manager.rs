@@ -2,7 +2,7 @@
 
 use super::base_runtime::{BaseRuntime, Parts};
 use super::timeline::{Step, StepTrace};
-use dragonfly_picture::GraphicsReply;
+use dragonfly_picture::{GraphicsHandle, GraphicsReply, SurfaceSource};
 use dragonfly_runtime::{Context, Receiver, Worker};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -15,18 +15,30 @@ pub struct InitManager {
     prepared: Option<MakeRuntime>,
     runtime: Option<Box<dyn BaseRuntime>>,
     parts: Option<Parts>,
+    /// Makes the surfaces of the window, which only this thread can.
+    surfaces: SurfaceSource,
+    graphics: Option<GraphicsHandle>,
     timeline: Rc<RefCell<StepTrace>>,
     fatal: Option<String>,
 }
 
 impl InitManager {
     /// Creates a manager that will start the run-time that `prepared` creates.
-    pub fn new(prepared: MakeRuntime, timeline: Rc<RefCell<StepTrace>>) -> Self {
-        Self { prepared: Some(prepared), runtime: None, parts: None, timeline, fatal: None }
+    pub fn new(prepared: MakeRuntime, surfaces: SurfaceSource, timeline: Rc<RefCell<StepTrace>>) -> Self {
+        Self {
+            prepared: Some(prepared),
+            runtime: None,
+            parts: None,
+            surfaces,
+            graphics: None,
+            timeline,
+            fatal: None,
+        }
     }
 
     /// Sets the parts that the run-time will get.
     pub(super) fn set_parts(&mut self, parts: Parts) {
+        self.graphics = Some(parts.graphics.clone());
         self.parts = Some(parts);
     }
 
@@ -53,6 +65,14 @@ impl InitManager {
         reach(Step::RunTime);
     }
 
+    /// Makes a surface for the graphics thread, which cannot: a window gives its handle only to the thread that created it.
+    fn send_surface(&self, instance: &wgpu::Instance) {
+        if let Some(graphics) = &self.graphics {
+            tracing::info!("surface of the window made");
+            graphics.set_surface(self.surfaces.surface(instance));
+        }
+    }
+
     /// Carries out the effects of window input; see [`BaseRuntime::flush_effects`].
     pub(super) fn flush_effects(&mut self) {
         if let Some(runtime) = &mut self.runtime {
@@ -64,6 +84,7 @@ impl InitManager {
     pub(super) fn destroy(&mut self, main: &mut Context) {
         self.prepared = None;
         self.parts = None;
+        self.graphics = None;
         if let Some(mut runtime) = self.runtime.take() {
             runtime.destroy(main);
             drop(runtime);
@@ -79,6 +100,7 @@ impl Receiver for InitManager {
         match &reply {
             GraphicsReply::Ready { .. } => self.initialize(main),
             GraphicsReply::Fatal(reason) => self.fatal = Some(reason.clone()),
+            GraphicsReply::NeedsSurface(instance) => self.send_surface(instance),
             _ => {}
         }
         if let Some(runtime) = &mut self.runtime {

@@ -31,6 +31,11 @@ const FASTEST: Duration = Duration::from_millis(8);
 /// Window, egui, panels and their state.
 pub struct Interface {
     window: Arc<Window>,
+    /// Size of the window as it was reported last, physical pixels. Not asked for: winit panics when it asks an X server
+    /// for the size of a window that another program has destroyed.
+    size: [u32; 2],
+    /// Start of the time that egui counts.
+    started: Instant,
     egui: egui_winit::State,
     desk: Desk,
     /// State of the panels.
@@ -74,6 +79,8 @@ impl Interface {
         state.side_files().read_marks(&store.read(marks::FILE));
         Self {
             desktop_scale: window.scale_factor(),
+            size: window.inner_size().into(),
+            started: now,
             window,
             egui,
             desk,
@@ -137,8 +144,7 @@ impl Interface {
 
     /// Returns the size of the window, physical pixels.
     pub fn window_size(&self) -> [u32; 2] {
-        let size = self.window.inner_size();
-        if self.occluded { [0, 0] } else { [size.width, size.height] }
+        if self.occluded { [0, 0] } else { self.size }
     }
 
     /// Returns the number of physical pixels per point.
@@ -157,7 +163,7 @@ impl Interface {
     fn set_desktop_scale(&mut self, scale: f64, size: &InnerSizeWriter) {
         if self.desktop_scale == scale {
             // Fails only when the size is already set.
-            let _ = size.clone().request_inner_size(self.window.inner_size());
+            let _ = size.clone().request_inner_size(self.size.into());
         }
         self.desktop_scale = scale;
     }
@@ -218,6 +224,9 @@ impl Interface {
         let response = self.egui.on_window_event(&self.window, event);
         if let WindowEvent::ScaleFactorChanged { scale_factor, inner_size_writer } = event {
             self.set_desktop_scale(*scale_factor, inner_size_writer);
+        }
+        if let WindowEvent::Resized(size) = event {
+            self.size = (*size).into();
         }
         match event {
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
@@ -300,6 +309,20 @@ impl Interface {
         }
     }
 
+    /// Returns the input since the last frame, as `egui_winit` does, which however asks the window for its size.
+    fn take_input(&mut self, now: Instant) -> egui::RawInput {
+        let size = egui::vec2(self.size[0] as f32, self.size[1] as f32) / self.pixels_per_point();
+        let native = self.window.scale_factor() as f32;
+        let input = self.egui.egui_input_mut();
+        input.time = Some(now.saturating_duration_since(self.started).as_secs_f64());
+        // A minimized window may have no size; then the panels keep theirs.
+        input.screen_rect =
+            (size.min_elem() > 0.0).then(|| egui::Rect::from_min_size(egui::Pos2::ZERO, size));
+        input.viewport_id = egui::ViewportId::ROOT;
+        input.viewports.entry(egui::ViewportId::ROOT).or_default().native_pixels_per_point = Some(native);
+        input.take()
+    }
+
     fn draw(&mut self, now: Instant) {
         let context = self.egui.egui_ctx().clone();
         let zoom = self.zoom();
@@ -311,9 +334,7 @@ impl Interface {
             ThemeChoice::Dark => egui::ThemePreference::Dark,
             ThemeChoice::Light => egui::ThemePreference::Light,
         });
-        // Read before there are textures to deliver: the call panics when the window was destroyed elsewhere.
-        let size = self.window.inner_size();
-        let mut input = self.egui.take_egui_input(&self.window);
+        let mut input = self.take_input(now);
         let tells_more = self.state.prepend_events(&context, &mut input);
         let dropped: Vec<_> = input.dropped_files.iter().map(|file| file.path().to_owned()).collect();
         self.accessibility_trace.listen(&context);
@@ -349,7 +370,7 @@ impl Interface {
         // Sent before anything else can fail: egui aborts when textures are lost.
         let jobs = context.tessellate(output.shapes, output.pixels_per_point);
         let frame = PanelsFrame {
-            size: [size.width, size.height],
+            size: self.size,
             pixels_per_point: output.pixels_per_point,
             jobs,
             textures: output.textures_delta,

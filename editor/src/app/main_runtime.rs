@@ -75,7 +75,10 @@ impl MainRuntime {
             let _ = waker.send_event(UserEvent::Wake);
         });
         let interface = Rc::new(RefCell::new(Interface::new(Arc::clone(&window), egui, store)));
-        let init = Rc::new(RefCell::new(InitManager::new(custom, Rc::clone(&timeline))));
+        let connection = Connection::beside(Arc::new(event_loop.owned_display_handle()));
+        let target = WinitWindow(Arc::clone(&window));
+        let surfaces = SurfaceSource::new(Arc::new(target), connection.clone());
+        let init = Rc::new(RefCell::new(InitManager::new(custom, surfaces, Rc::clone(&timeline))));
         let (seen, kept) = (Rc::clone(&interface), Rc::clone(&init));
         let replies = main.handle().reserve_address();
         let hears = Rc::clone(&init);
@@ -85,9 +88,8 @@ impl MainRuntime {
         main.context().register_restartable_worker(move |_| Rc::clone(&kept));
         timeline.borrow_mut().reach(Step::MainRuntime);
 
-        let connection = Connection::beside(Arc::new(event_loop.owned_display_handle()));
-        let source = SurfaceSource { window: Arc::new(WinitWindow(Arc::clone(&window))), connection };
-        let parameters = DeviceParameters { source: Some(source), faults, ..DeviceParameters::default() };
+        let parameters =
+            DeviceParameters { connection: Some(connection), faults, ..DeviceParameters::default() };
         let size = window.inner_size();
         let graphics = Graphics::start(parameters, [size.width, size.height], replies)
             .map_err(|error| AppError::Thread(error.to_string()))?;

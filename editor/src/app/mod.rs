@@ -54,6 +54,11 @@ pub enum AppError {
     /// The display on which the window was shown is gone.
     #[error("the display is gone: {0}")]
     DisplayGone(String),
+    /// Another program destroyed the window.
+    #[error(
+        "the window was destroyed by another program\n  Your work is recorded and will be offered at the next start."
+    )]
+    WindowGone,
     /// The display refused to open a window.
     #[error("the window could not be opened: {0}")]
     Window(String),
@@ -149,7 +154,11 @@ impl ApplicationHandler<UserEvent> for Shell {
         let Some(runtime) = &mut self.runtime else { return };
         match event {
             WindowEvent::CloseRequested if runtime.may_ask_before_closing() => return,
-            WindowEvent::CloseRequested | WindowEvent::Destroyed => return event_loop.exit(),
+            WindowEvent::CloseRequested => return event_loop.exit(),
+            WindowEvent::Destroyed => {
+                self.error.get_or_insert(AppError::WindowGone);
+                return event_loop.exit();
+            }
             _ => {}
         }
         runtime.window_event(&event);

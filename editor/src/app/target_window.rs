@@ -1,11 +1,11 @@
-//! The window of the program as a target for the graphics thread's frames.
+//! The window of the program as a target for frames.
 
 use dragonfly_picture::TargetWindow;
 use std::sync::Arc;
 use winit::raw_window_handle::{DisplayHandle, HandleError, HasDisplayHandle, HasWindowHandle, WindowHandle};
 use winit::window::Window;
 
-/// A window of winit that the graphics thread presents frames in.
+/// A window of winit that frames are presented in. Its handles are asked for in the main thread only.
 pub(super) struct WinitWindow(pub(super) Arc<Window>);
 
 impl HasDisplayHandle for WinitWindow {

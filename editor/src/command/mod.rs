@@ -79,7 +79,8 @@ Examples:
   dragonfly --commands              list the commands of the editor with their shortcuts
 
 FILE can be `demo:` for the built-in model.
-Exit codes: 0 done, 1 the check or comparison found something, 2 wrong input, 3 system error.
+Exit codes: 0 done, 1 the check or comparison found something, 2 wrong input, 3 system error,
+also when the window or its display is gone.
 DRAGONFLY_LOG=info (or debug, trace) logs details to stderr.";
 
 /// The parsed command line.

@@ -4,7 +4,7 @@ use super::choice::{Color, File, Size, TakeChoice, clamp_time, finite};
 use super::run_command::RunCommand;
 use super::{Failure, output, quiet, tell};
 use dragonfly_document::LoadedModel;
-use dragonfly_picture::{GraphicsError, PictureSettings, render_picture};
+use dragonfly_picture::{GraphicsError, PictureSettings, Studio};
 use std::io::Cursor;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -99,15 +99,24 @@ pub(super) fn draw(
         grid: view.background.is_none(),
         ..PictureSettings::default()
     };
-    let picture = render_picture(&Arc::new(loaded), &settings).map_err(|error| match error {
-        GraphicsError::PictureSize { .. } => Failure::input("--size", error),
-        other => no_graphics(&other.to_string()),
-    })?;
+    let mut studio = Studio::new().map_err(refusal)?;
+    if !studio.is_smooth() {
+        let adapter = studio.stage().device().adapter_name();
+        tell(format_args!("{adapter} has no multisampling: edges are not smooth"));
+    }
+    let picture = studio.render(&Arc::new(loaded), &settings).map_err(refusal)?;
     let mut png = Vec::new();
     picture
         .write_to(&mut Cursor::new(&mut png), image::ImageFormat::Png)
         .map_err(|error| Failure::Machine(format!("the image cannot be encoded: {error}")))?;
     Ok(png)
+}
+
+fn refusal(error: GraphicsError) -> Failure {
+    match error {
+        GraphicsError::PictureSize { .. } => Failure::input("--size", error),
+        other => no_graphics(&other.to_string()),
+    }
 }
 
 /// Returns the failure of a system without graphics, with advice for the user.

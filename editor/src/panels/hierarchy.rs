@@ -10,6 +10,7 @@ use super::{Panel, PanelPlace, search_field, widgets};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::LoadedModel;
 use dragonfly_document::bones::Choice;
+use dragonfly_picture::between;
 use egui::{Rect, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -118,7 +119,7 @@ impl Hierarchy {
             if let Some(place) = place {
                 let middle = place as f32 * ROW - ui.available_height() / 2.0 + ROW / 2.0;
                 let tall = rows.len() as f32 * ROW - ui.available_height();
-                area = area.vertical_scroll_offset(middle.clamp(0.0, tall.max(0.0)));
+                area = area.vertical_scroll_offset(between(middle, 0.0, tall.max(0.0)));
             }
         }
         area.show_rows(ui, ROW, rows.len(), |ui, range| {

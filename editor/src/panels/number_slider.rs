@@ -4,6 +4,7 @@ use super::drag::{DragEvent, PanelDrag, PointerInput};
 use super::number_field::FieldEvent;
 use super::number_text::exact;
 use super::theme::Theme;
+use dragonfly_picture::between;
 use egui::accesskit::{Action, ActionData, Role};
 use egui::{
     Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Sense, Stroke, Ui, WidgetInfo, pos2,
@@ -187,9 +188,9 @@ impl NumberSlider<'_> {
         let [first, last] = self.scale.ends();
         match wanted {
             Some(ActionData::NumericValue(value)) if value.is_finite() => {
-                Some(FieldEvent::Typed(value.clamp(first, last)))
+                Some(FieldEvent::Typed(between(value, first, last)))
             }
-            _ => (steps != 0.0).then(|| FieldEvent::Typed((value + steps * self.snap).clamp(first, last))),
+            _ => (steps != 0.0).then(|| FieldEvent::Typed(between(value + steps * self.snap, first, last))),
         }
     }
 

@@ -8,6 +8,7 @@ use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;
 use dragonfly_document::edit::BonePose;
 use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
+use dragonfly_picture::between;
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::gizmo::{GizmoSettings, PosedSkeleton, Tool};
 use std::time::Instant;
@@ -168,7 +169,8 @@ impl ToolState {
 
     /// Changes the number of bones that follow.
     pub(super) fn lengthen_ik(&mut self, by: i64) {
-        self.ik.length = (i64::from(self.ik.length) + by).clamp(1, i64::from(LONGEST_CHAIN)) as u32;
+        self.ik.length =
+            between(i64::from(self.ik.length).saturating_add(by), 1, i64::from(LONGEST_CHAIN)) as u32;
     }
 
     /// Sets the bone towards which elbows and knees bend.

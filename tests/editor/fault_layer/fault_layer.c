@@ -3,12 +3,13 @@
 // A driver loses its device about once in a lifetime, and never while a test watches. With this layer between the
 // program and any driver, it happens on demand. Set by the environment:
 //
-//   FAULT_CALL    submit | wait | acquire | present | allocate
+//   FAULT_CALL    submit | wait | acquire | present | allocate | device (creating one)
 //   FAULT_RESULT  the VkResult to return, as a number: -4 device lost, -2 no device memory, -1000000000 surface lost …
 //   FAULT_AT      the n-th call fails, counted from 1
 //   FAULT_CLIMB   1: calls are counted for each device; the first device fails at call n, the next one that was
 //                 used at call n + 1, and so on: every n in one run
 //   FAULT_EVERY   k: after that every k-th call fails too; 0 (default): only one call fails
+//   FAULT_SPARES  m: of every m calls the first succeeds; 0 (default): none is spared
 //   FAULT_TIMES   maximum number of faults (default: 1, or no maximum where FAULT_EVERY is set)
 //   FAULT_LOG     a file; a line "call n result" is added for each fault
 //   FAULT_READS   milliseconds for which, after each frame, a thread reads (before any other thread) what comes over
@@ -27,11 +28,11 @@
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
-enum call { SUBMIT, WAIT, ACQUIRE, PRESENT, ALLOCATE, CALLS };
-static const char *const names[CALLS] = {"submit", "wait", "acquire", "present", "allocate"};
+enum call { SUBMIT, WAIT, ACQUIRE, PRESENT, ALLOCATE, DEVICE, CALLS };
+static const char *const names[CALLS] = {"submit", "wait", "acquire", "present", "allocate", "device"};
 
 static struct {
-    int call, result, at, climb, every, times, reads;
+    int call, result, at, climb, every, spares, times, reads;
     const char *log;
 } wanted;
 
@@ -78,6 +79,7 @@ static void read_wishes(void) {
     wanted.at = number("FAULT_AT", 1);
     wanted.climb = number("FAULT_CLIMB", 0);
     wanted.every = number("FAULT_EVERY", 0);
+    wanted.spares = number("FAULT_SPARES", 0);
     wanted.times = number("FAULT_TIMES", wanted.every ? 0x7fffffff : 1);
     wanted.log = getenv("FAULT_LOG");
     wanted.reads = number("FAULT_READS", 0);
@@ -92,20 +94,22 @@ static struct device *device_of(const void *handle) {
     abort();
 }
 
-// Counts a call. Returns the error to inject, or VK_SUCCESS if the call is not to fail.
+// Counts a call on a device, or one that creates a device (null). Returns the error to inject, or VK_SUCCESS if the call
+// is not to fail.
 static VkResult judge(struct device *device, int call) {
     VkResult verdict = VK_SUCCESS;
     pthread_mutex_lock(&lock);
-    if (device->lost) {
+    if (device && device->lost) {
         verdict = call == ALLOCATE ? VK_SUCCESS : VK_ERROR_DEVICE_LOST;
     } else if (call == wanted.call && faults < wanted.times) {
-        long count = wanted.climb ? ++device->calls : ++calls;
+        long count = wanted.climb && device ? ++device->calls : ++calls;
         long due = wanted.at + (wanted.climb ? faults : 0);
         int hit = count == due || (!wanted.climb && wanted.every && count > due && (count - due) % wanted.every == 0);
+        if (wanted.spares && (count - 1) % wanted.spares == 0) hit = 0;
         if (hit) {
             faults++;
             verdict = wanted.result;
-            device->lost = verdict == VK_ERROR_DEVICE_LOST;
+            if (device) device->lost = verdict == VK_ERROR_DEVICE_LOST;
             FILE *log = wanted.log ? fopen(wanted.log, "a") : NULL;
             if (log) {
                 fprintf(log, "%s %ld %d\n", names[call], count, verdict);
@@ -249,6 +253,8 @@ static VKAPI_ATTR void VKAPI_CALL fault_DestroyDevice(VkDevice handle, const VkA
 static VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL fault_GetDeviceProcAddr(VkDevice handle, const char *name);
 
 static VKAPI_ATTR VkResult VKAPI_CALL fault_CreateDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo *info, const VkAllocationCallbacks *allocator, VkDevice *made) {
+    VkResult verdict = judge(NULL, DEVICE);
+    if (verdict) return verdict;
     VkLayerDeviceCreateInfo *link = (VkLayerDeviceCreateInfo *)info->pNext;
     while (link && !(link->sType == VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO && link->function == VK_LAYER_LINK_INFO))
         link = (VkLayerDeviceCreateInfo *)link->pNext;

@@ -4,7 +4,7 @@
 use super::geometry::{GpuGeometry, VERTICES};
 use super::pipeline::ModelPipelines;
 use crate::ghosts::GhostSkins;
-use crate::gpu::{Gpu, scene_depth, scene_samples, scene_target};
+use crate::gpu::{Gpu, scene_depth, scene_target};
 use crate::shaders;
 use crate::uniform::{Affine, DrawUniform};
 use dragonfly_document::LoadedModel;
@@ -170,7 +170,7 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::PipelineLayout, front_face: wgpu::FrontFac
             ..Default::default()
         },
         depth_stencil: Some(scene_depth(false)),
-        multisample: scene_samples(false),
+        multisample: gpu.scene_samples(false),
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some("fs_ghost"),

@@ -1,7 +1,7 @@
 //! Pipelines for drawing surfaces.
 
 use super::geometry::VERTICES;
-use crate::gpu::{Gpu, scene_depth, scene_samples, scene_target};
+use crate::gpu::{Gpu, scene_depth, scene_target};
 use crate::shaders;
 use crate::uniform::{Affine, DrawUniform};
 use std::collections::HashMap;
@@ -138,11 +138,14 @@ fn pipeline(
             ..Default::default()
         },
         depth_stencil: Some(scene_depth(!kind.blend)),
-        multisample: scene_samples(kind.mask),
+        multisample: gpu.scene_samples(kind.mask),
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some("fs_model"),
-            compilation_options: Default::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &[("single_sample", f64::from(u8::from(gpu.samples == 1)))],
+                ..Default::default()
+            },
             targets: &scene_target(kind.blend),
         }),
         multiview_mask: None,

@@ -4,7 +4,7 @@
 use super::definition::{FrameCommands, Pass, PassLayer, Surroundings};
 use crate::device::DeviceListener;
 use crate::gizmo::{GizmoRole, GizmoVertex};
-use crate::gpu::{DEPTH_FORMAT, Gpu, scene_samples, scene_target, uniform_binding};
+use crate::gpu::{DEPTH_FORMAT, Gpu, scene_target, uniform_binding};
 use crate::message::Look;
 use crate::shaders;
 
@@ -167,7 +167,7 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::BindGroupLayout, shape: ControlPrimitive) 
             stencil: Default::default(),
             bias: Default::default(),
         }),
-        multisample: scene_samples(false),
+        multisample: gpu.scene_samples(false),
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some(if shape == ControlPrimitive::Line { "fs_line" } else { "fs_fill" }),

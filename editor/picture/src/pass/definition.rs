@@ -1,7 +1,7 @@
 //! A render pass, and what it may read and add in a frame.
 
 use crate::device::DeviceListener;
-use crate::gpu::{Gpu, scene_depth, scene_samples, scene_target};
+use crate::gpu::{Gpu, scene_depth, scene_target};
 use crate::scene::Scene;
 
 /// Target of a pass.
@@ -68,7 +68,7 @@ pub(super) fn scene_pipeline(
         },
         primitive,
         depth_stencil: Some(scene_depth(!blend)),
-        multisample: scene_samples(false),
+        multisample: gpu.scene_samples(false),
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some(fragment),

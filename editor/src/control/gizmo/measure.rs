@@ -13,6 +13,7 @@
 //! * *Scale*: the ratio of the distances from the center; along an axis the signed one, so that it can mirror. Too near to
 //!   the center to divide by the distance, right and up enlarge.
 
+use dragonfly_picture::between;
 use dragonfly_picture::gizmo::{AXIS_TO, GizmoAxis, GizmoLayout, Handle, RING, Tool};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -100,7 +101,7 @@ impl Measure {
                 let way = (pointer - *from).dot(*along);
                 let divisor = *a + way * *b;
                 let t = if divisor > 0.0 { way / divisor } else { f64::INFINITY * way.signum() };
-                DVec3::X * t.clamp(-*reach, *reach)
+                DVec3::X * between(t, -*reach, *reach)
             }
             MeasureKind::Up { unit } => DVec3::X * (-by.y * *unit),
             MeasureKind::Plane { normal, shift } => {

@@ -11,6 +11,7 @@ use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{Edit, TrimTake};
 use dragonfly_document::{Change, Then};
+use dragonfly_picture::between;
 
 /// Executes a request of a panel.
 pub(in crate::panels) fn execute(workspace: &mut Workspace, request: Request) -> Option<Effect> {
@@ -21,7 +22,7 @@ pub(in crate::panels) fn execute(workspace: &mut Workspace, request: Request) ->
     {
         // The play range becomes the whole take, which starts at another time; the playhead moves there, too.
         keys::set_range(workspace, None);
-        let time = workspace.player.time().clamp(from, to) - from + workspace.read().take_bounds().0;
+        let time = between(workspace.player.time(), from, to) - from + workspace.read().take_bounds().0;
         playback::seek(workspace, time);
     }
     if matches!(effect, Some(Effect::Change(_))) {

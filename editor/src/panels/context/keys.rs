@@ -3,6 +3,7 @@
 use super::PanelContext;
 use crate::panels::keys::{Drawn, Marker, channel};
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_picture::between;
 
 /// A key closer to the time shown than this counts as the key at that time, and is not the next or previous one;
 /// seconds.
@@ -34,7 +35,8 @@ impl<'a> PanelContext<'a> {
         let (start, length) = self.take_bounds();
         match self.keys.range() {
             Some([from, to]) => {
-                let (from, to) = (from.clamp(start, start + length), to.clamp(start, start + length));
+                let inside = |time| between(time, start, start + length);
+                let (from, to) = (inside(from), inside(to));
                 (from, to - from)
             }
             None => (start, length),

@@ -8,6 +8,7 @@ use crate::panels::drag::{DragEvent, PanelDrag, PointerInput};
 use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest, TimeScale};
 use crate::panels::request::Request;
 use crate::panels::theme::Theme;
+use dragonfly_picture::between;
 use egui::{
     Align2, CornerRadius, CursorIcon, FontId, Painter, PointerButton, Rect, Response, Sense, Stroke, Ui,
     WidgetInfo, pos2, vec2,
@@ -119,7 +120,7 @@ impl Scrub {
             // is shown whole.
             let window = scale.window;
             let time = f64::from(scale.time_at(pointer.x));
-            let time = time.clamp(window.start, window.start + window.length) as f32;
+            let time = between(time, window.start, window.start + window.length) as f32;
             let snap = context.keys.snap() != modifiers.command;
             requests.push(Request::Seek(if snap { to_key_or_frame(time, scale, context) } else { time }));
         }

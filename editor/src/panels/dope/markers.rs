@@ -8,6 +8,7 @@ use crate::panels::keys::{KeysRequest, MarkerAction, TimeScale};
 use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
+use dragonfly_picture::between;
 use egui::{
     Button, CornerRadius, CursorIcon, PointerButton, Rect, Sense, Shape, Stroke, TextEdit, TextStyle, Ui,
     WidgetInfo, pos2, vec2,
@@ -143,7 +144,7 @@ impl MarkerLane {
             self.renaming = None;
             return None;
         };
-        let left = scale.x_of(marker.time).clamp(lane.left(), (lane.right() - 120.0).max(lane.left()));
+        let left = between(scale.x_of(marker.time), lane.left(), lane.right() - 120.0);
         let rect = Rect::from_min_size(pos2(left, lane.top() - 3.0), vec2(120.0, lane.height() + 6.0));
         let id = egui::Id::unique("name of a marker");
         if *stage == MarkerNameStage::Asked && ui.memory(|memory| memory.has_focus(id)) {

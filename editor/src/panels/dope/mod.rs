@@ -19,6 +19,7 @@ use super::request::Request;
 use super::theme::Theme;
 use areas::DopeAreas;
 use drag::DopeDrag;
+use dragonfly_picture::between;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo};
 use marks::KeysMesh;
 use rows::DopeRows;
@@ -74,7 +75,7 @@ impl Dope {
         });
         let content = self.rows.list().len() as f32 * ROW;
         let scroll = self.scroll - scroll::pan(ui, &canvas, &scale, requests);
-        self.scroll = scroll.clamp(0.0, (content - areas.canvas.height()).max(0.0));
+        self.scroll = between(scroll, 0.0, content - areas.canvas.height());
         scroll::wheel(ui, &canvas, &scale, requests);
         let sheet = Sheet {
             areas: &areas,

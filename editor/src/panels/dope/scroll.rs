@@ -6,6 +6,7 @@ use crate::panels::keys::{KeysRequest, TimeScale};
 use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use dragonfly_anim::data::Take;
+use dragonfly_picture::between;
 use egui::{CornerRadius, PointerButton, Rect, Response, Sense, Ui, WidgetInfo, pos2};
 
 /// Handles the wheel over an area with a time axis: zooms about the pointer, pans with Shift, steps by frames with Alt.
@@ -72,11 +73,11 @@ pub(super) fn show(
         let track = Rect::from_min_max(pos2(canvas.right() - SCROLL, canvas.top()), canvas.max);
         let part = canvas.height() / content;
         let moved = bar(ui, track, true, *scroll / content, part, "Scroll through bones");
-        *scroll = (*scroll + moved * content).clamp(0.0, content - canvas.height());
+        *scroll = between(*scroll + moved * content, 0.0, content - canvas.height());
         let over = ui.rect_contains_pointer(areas.names);
         if over {
             *scroll -= ui.input(|input| input.smooth_scroll_delta().y);
-            *scroll = scroll.clamp(0.0, content - canvas.height());
+            *scroll = between(*scroll, 0.0, content - canvas.height());
         }
     }
     time_bar(ui, canvas, scale, take, requests);
@@ -114,9 +115,9 @@ pub(in crate::panels) fn time_bar(
 fn bar(ui: &Ui, track: Rect, vertical: bool, at: f32, part: f32, name: &'static str) -> f32 {
     let theme = Theme::of(ui);
     let length = if vertical { track.height() } else { track.width() };
-    let size = (part * length).clamp(16.0_f32.min(length), length);
+    let size = between(part * length, 16.0_f32.min(length), length);
     let start = at.clamp(0.0, 1.0) * (length - size) / (1.0 - part).max(1e-3);
-    let start = start.clamp(0.0, (length - size).max(0.0));
+    let start = between(start, 0.0, length - size);
     let handle = if vertical {
         Rect::from_min_max(
             pos2(track.left() + 2.0, track.top() + start),

@@ -30,6 +30,7 @@ use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::adapter::TakeVersions;
 use dragonfly_document::bones::{BoneSelection, Choice};
 use dragonfly_document::edit::SAME_TIME;
+use dragonfly_picture::between;
 use std::sync::Arc;
 
 /// Margin beyond the playhead when it is brought into sight, as a part of the window.
@@ -177,7 +178,7 @@ impl KeyEditing {
 
     /// Sets the part of `take` that plays, its ends in any order; a range without length is none.
     pub(super) fn set_range(&mut self, range: Option<[f32; 2]>, (start, length): (f32, f32)) {
-        let inside = |time: f32| time.clamp(start, start + length);
+        let inside = |time: f32| between(time, start, start + length);
         let ordered = range
             .filter(|ends| ends.iter().all(|time| time.is_finite()))
             .map(|[a, b]| [inside(a.min(b)), inside(a.max(b))]);

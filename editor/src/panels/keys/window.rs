@@ -1,6 +1,7 @@
 //! The part of time that the timeline and the curves show, and the position of each time.
 
 use crate::panels::ruler::Ruler;
+use dragonfly_picture::between;
 
 /// The part of time that is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +48,7 @@ impl TimeWindow {
     /// to what a short take may grow to.
     pub fn near(self, first: f64, last: f64) -> Self {
         let length = self.length.min(((last - first) * 3.0).max(GROWS)).max(SHORTEST);
-        let start = self.start.clamp(first - length * 0.9, (last - length * 0.1).max(first - length * 0.9));
+        let start = between(self.start, first - length * 0.9, last - length * 0.1);
         Self { start, length }.sanitized()
     }
 }

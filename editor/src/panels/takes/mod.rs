@@ -13,6 +13,7 @@ use super::theme::Theme;
 use super::{Panel, PanelPlace, command_button, menu, search_field, widgets};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{Edit, MoveTake, TakeRef};
+use dragonfly_picture::between;
 use egui::accesskit::Role;
 use egui::{
     Color32, CornerRadius, CursorIcon, PointerButton, Rect, Response, ScrollArea, Sense, Stroke, TextStyle,
@@ -238,7 +239,7 @@ impl Takes {
         let input = PointerInput::read(ui);
         let Some(pointer) = input.pointer else { return self.moving.spend() };
         // Rows below that of the rest pose.
-        let gap = (((pointer.y - top) / ROW).round() as isize - 1).clamp(0, count as isize) as usize;
+        let gap = between(((pointer.y - top) / ROW).round() as isize - 1, 0, count as isize) as usize;
         match self.moving.step(&input, true, |_| ()) {
             DragEvent::Moved(_) => {}
             DragEvent::Dropped(from) => {

@@ -28,8 +28,13 @@ impl DerefMut for CheckedStudio {
 
 /// Returns a studio on the adapter of the machine; skips the test where there is none.
 pub fn studio() -> Option<CheckedStudio> {
+    studio_with(DeviceParameters::default())
+}
+
+/// Does the same as [`studio`] with other parameters.
+pub fn studio_with(parameters: DeviceParameters) -> Option<CheckedStudio> {
     let watch = NoComplaints::expect();
-    match Studio::with(DeviceParameters::default()) {
+    match Studio::with(parameters) {
         Ok(studio) => Some(CheckedStudio { studio, _watch: watch }),
         Err(GraphicsError::NoAdapter(reason)) => {
             skip(TestNeed::Adapter, reason);
