@@ -1,6 +1,6 @@
 //! A skeleton in the layout of the fast path.
 
-use super::pose::{Pose, blocks_of};
+use super::pose::Pose;
 use super::tiny::{flushed, largest};
 use crate::data::{Skeleton, Transform};
 use crate::sample::rest_pose;
@@ -15,17 +15,26 @@ pub(super) const NARROW: usize = 256;
 #[derive(Clone, Debug)]
 pub struct Rig {
     pub(super) bones: usize,
-    /// One number per lane, the padding included: 0 for a root, else 1 + the parent, so that it is never above the
-    /// number of the lane itself.
-    pub(super) parents: Vec<[u32; 8]>,
+    /// One number per bone: 0 for a root, else 1 + the parent.
+    parents: Vec<u32>,
+    /// The bones that have a parent, those of one depth after the other: neighbors in this order do not wait for each
+    /// other.
+    pub(super) links: Vec<Link<u32>>,
     /// 1 + each bone without children: a number that is not finite reaches at least one of them.
     pub(super) leaves: Vec<u32>,
-    /// `parents` as bytes, and `leaves` below, if a byte can index all bones; otherwise empty.
-    pub(super) near_parents: Vec<[u8; 8]>,
+    /// `links` as bytes, and `leaves` below, if a byte can index all bones; otherwise empty.
+    pub(super) near_links: Vec<Link<u8>>,
     pub(super) near_leaves: Vec<u8>,
     /// Bones whose rest pose is a sheared matrix, in order.
     pub(super) sheared: Vec<Sheared>,
     rest: Pose,
+}
+
+/// 1 + a bone, and 1 + its parent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link<P> {
+    pub(super) own: P,
+    pub(super) parent: P,
 }
 
 /// A bone with a rest matrix that is no translation, rotation and scale.
@@ -41,12 +50,13 @@ impl Rig {
     /// Creates the rig of `skeleton`. A parent that does not come before its child is ignored.
     pub fn new(skeleton: &Skeleton) -> Self {
         let bones = skeleton.len();
-        let mut parents = vec![[0; 8]; blocks_of(bones)];
+        let (mut parents, mut depths) = (vec![0; bones], vec![0_u32; bones]);
         let mut is_leaf = vec![true; bones];
         for (index, bone) in skeleton.bones.iter().enumerate() {
             let parent = bone.parent.map(|parent| parent as usize).filter(|&parent| parent < index);
             if let Some(parent) = parent {
-                parents[index / 8][index % 8] = parent as u32 + 1;
+                parents[index] = parent as u32 + 1;
+                depths[index] = depths[parent] + 1;
                 is_leaf[parent] = false;
             }
         }
@@ -57,13 +67,25 @@ impl Rig {
         });
         let leaves: Vec<u32> =
             (0..bones as u32).filter(|&bone| is_leaf[bone as usize]).map(|bone| bone + 1).collect();
+        let mut links: Vec<Link<u32>> = (1..=bones as u32)
+            .zip(&parents)
+            .filter(|&(_, &parent)| parent > 0)
+            .map(|(own, &parent)| Link { own, parent })
+            .collect();
+        // Stable: bones of one depth keep their order.
+        links.sort_by_key(|link| depths[link.own as usize - 1]);
         let is_near = bones < NARROW;
         let near = |slot: u32| u8::try_from(slot).unwrap_or(0);
         Self {
             bones,
-            near_parents: parents.iter().filter(|_| is_near).map(|lanes| lanes.map(near)).collect(),
+            near_links: links
+                .iter()
+                .filter(|_| is_near)
+                .map(|link| Link { own: near(link.own), parent: near(link.parent) })
+                .collect(),
             near_leaves: leaves.iter().filter(|_| is_near).map(|&leaf| near(leaf)).collect(),
             parents,
+            links,
             leaves,
             sheared: sheared.collect(),
             rest: Pose::from_transforms(&rest),
@@ -82,7 +104,7 @@ impl Rig {
 
     /// Returns the parent of `bone`; `None` for a root and past the end.
     pub fn parent(&self, bone: usize) -> Option<usize> {
-        let parent = self.parents.get(bone / 8)?[bone % 8];
+        let parent = *self.parents.get(bone)?;
         parent.checked_sub(1).map(|parent| parent as usize)
     }
 }

@@ -5,8 +5,8 @@
 //! to_root_i   = to_root_parent * to_parent_i    one after the other, parents first, two rows in one register
 //! ```
 //!
-//! Two passes, one for each line: with both in one the matrices of eight bones would need more registers than there
-//! are, and that costs more than storing them and loading them again.
+//! Two passes, one for each line, both in the same memory. The second goes through the skeleton by depth: a product
+//! needs that of its parent, and bones of one depth do not wait for each other, as the bones of a limb would.
 //!
 //! With the unit quaternion (x y z w), the scale (a b c) and the translation t:
 //!
@@ -16,12 +16,11 @@
 //!             └ a (2xz - 2yw)       b (2yz + 2xw)       c (1 - 2x² - 2y²)  tz ┘
 //! ```
 
-use super::matrix::{IDENTITY, Matrix34, MatrixRows, mat4, matrix34};
+use super::matrix::{IDENTITY, Matrix34, MatrixRows, doubled, mat4, matrix34};
 use super::pose::PoseBlock;
-use super::rig::{NARROW, Rig};
+use super::rig::{Link, NARROW, Rig};
 use super::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
 use glam::Mat4;
-use std::cell::Cell;
 
 /// `to_root` of every bone of one character.
 #[derive(Clone, Debug)]
@@ -29,8 +28,6 @@ pub struct RootPoses {
     /// The identity, used as the parent of roots; then one per lane; padded to the number of matrices that a byte can
     /// index.
     pub(super) matrices: Vec<Matrix34>,
-    /// Results of the first pass, for the second.
-    local: Vec<LocalMatrices>,
     bones: usize,
     /// Instructions with which limbs are solved ([`super::two_bone()`]).
     pub(super) level: SimdLevel,
@@ -39,10 +36,9 @@ pub struct RootPoses {
 impl RootPoses {
     /// Allocates matrices for the bones of `rig`, all the identity.
     pub fn new(rig: &Rig) -> Self {
-        let blocks = rig.parents.len();
+        let blocks = rig.rest().blocks().len();
         Self {
             matrices: vec![IDENTITY; (1 + blocks * 8).max(NARROW)],
-            local: vec![[[[0.0; 8]; 4]; 3]; blocks],
             bones: rig.bones,
             level: SimdLevel::best(),
         }
@@ -87,46 +83,30 @@ impl Kernel for ToRoot<'_> {
 #[inline(always)]
 pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     fit(rig, out);
-    let RootPoses { matrices, local, .. } = out;
-    for (local, pose) in local.iter_mut().zip(pose) {
-        to_parent::<S>(pose, local);
+    let matrices = out.matrices.as_mut_slice();
+    let mut own = matrices.get_mut(1..).unwrap_or_default().as_chunks_mut::<8>().0.iter_mut();
+    let rest = rig.rest().blocks();
+    for (pose, own) in pose.iter().take(rest.len()).zip(&mut own) {
+        to_parent::<S>(pose, own);
     }
-    for (local, rest) in local.iter_mut().zip(rig.rest().blocks()).skip(pose.len()) {
-        to_parent::<S>(rest, local);
+    for (rest, own) in rest.iter().skip(pose.len()).zip(own) {
+        to_parent::<S>(rest, own);
     }
     if !rig.sheared.is_empty() {
-        put_sheared(rig, pose, local);
+        put_sheared(rig, pose, matrices);
     }
-    let is_finite = if rig.bones < NARROW {
-        chain::<S, u8>(rig.bones, &rig.near_parents, local, matrices);
-        leaves_are_finite::<S, u8>(&rig.near_leaves, matrices)
-    } else {
-        chain::<S, u32>(rig.bones, &rig.parents, local, matrices);
-        leaves_are_finite::<S, u32>(&rig.leaves, matrices)
+    let is_finite = match matrices.first_chunk_mut() {
+        Some(first) if rig.bones < NARROW => {
+            near_chain::<S>(&rig.near_links, first);
+            leaves_are_finite::<S>(rig.near_leaves.iter().map(|&leaf| usize::from(leaf)), first)
+        }
+        Some(_) | None => {
+            far_chain::<S>(&rig.links, matrices);
+            leaves_are_finite::<S>(rig.leaves.iter().map(|&leaf| leaf as usize), matrices)
+        }
     };
     if !is_finite {
         carefully(rig, pose, matrices);
-    }
-}
-
-/// The index of a matrix.
-trait MatrixIndex: Copy {
-    /// Returns the element of `all` with this index; `first` are the first elements of `all`.
-    fn of<'a, T>(self, first: &'a [T; NARROW], all: &'a [T]) -> Option<&'a T>;
-}
-
-impl MatrixIndex for u8 {
-    // Without a bounds check: a byte is always within `first`.
-    #[inline(always)]
-    fn of<'a, T>(self, first: &'a [T; NARROW], _: &'a [T]) -> Option<&'a T> {
-        Some(&first[usize::from(self)])
-    }
-}
-
-impl MatrixIndex for u32 {
-    #[inline(always)]
-    fn of<'a, T>(self, _: &'a [T; NARROW], all: &'a [T]) -> Option<&'a T> {
-        all.get(self as usize)
     }
 }
 
@@ -138,12 +118,9 @@ fn fit(rig: &Rig, out: &mut RootPoses) {
     }
 }
 
-/// `to_parent` of eight bones: rows of bone `k` in the low halves and of bone `k + 4` in the high halves of `[row][k]`.
-type LocalMatrices = [[[f32; 8]; 4]; 3];
-
 /// Computes `T · R · S` of eight bones.
 #[inline(always)]
-fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut LocalMatrices) {
+fn to_parent<S: Simd>(pose: &PoseBlock, out: &mut [Matrix34; 8]) {
     let [x, y, z, w] = S::F8::load_four(&pose.rotation);
     let [a, b, c] = S::F8::load_three(&pose.scale);
     let [tx, ty, tz] = S::F8::load_three(&pose.translation);
@@ -151,109 +128,62 @@ fn to_parent<S: Simd>(pose: &PoseBlock, local: &mut LocalMatrices) {
     let (xy, xz, yz) = (x * y2, x * z2, y * z2);
     let (not_x, not_y) = (x.neg_mul_add(x2, one), y.neg_mul_add(y2, one));
     let upper = [z.neg_mul_add(z2, not_y) * a, w.neg_mul_add(z2, xy) * b, w.mul_add(y2, xz) * c, tx];
+    store_rows::<S, 0>(upper, out);
     let middle = [w.mul_add(z2, xy) * a, z.neg_mul_add(z2, not_x) * b, w.neg_mul_add(x2, yz) * c, ty];
+    store_rows::<S, 1>(middle, out);
     let lower = [w.neg_mul_add(y2, xz) * a, w.mul_add(x2, yz) * b, y.neg_mul_add(y2, not_x) * c, tz];
-    S::F8::store_four(S::F8::transpose(upper), &mut local[0]);
-    S::F8::store_four(S::F8::transpose(middle), &mut local[1]);
-    S::F8::store_four(S::F8::transpose(lower), &mut local[2]);
+    store_rows::<S, 2>(lower, out);
 }
 
-/// Computes `to_root` of every bone, parents first.
+/// Stores row `ROW` of eight matrices, given by columns.
 #[inline(always)]
-fn chain<S: Simd, P: MatrixIndex>(
-    bones: usize,
-    parents: &[[P; 8]],
-    local: &[LocalMatrices],
-    out: &mut [Matrix34],
-) {
-    // Cells, because a block is written while its own first bones are read as parents of the others.
-    let out = Cell::from_mut(out).as_slice_of_cells();
-    let (Some(first), Some(own)) = (out.first_chunk(), out.get(1..)) else { return };
-    let mut left = bones;
-    for ((parents, local), block) in parents.iter().zip(local).zip(own.as_chunks::<8>().0) {
-        // Unrolled, so that every index is known at compile time.
-        let link = BlockLinks { parents, local, first, out, block };
-        if left < 8 {
-            link.some::<S>(left);
-            return;
-        }
-        link.bone::<S>(0);
-        link.bone::<S>(1);
-        link.bone::<S>(2);
-        link.bone::<S>(3);
-        link.bone::<S>(4);
-        link.bone::<S>(5);
-        link.bone::<S>(6);
-        link.bone::<S>(7);
-        left -= 8;
+fn store_rows<S: Simd, const ROW: usize>(columns: [S::F8; 4], out: &mut [Matrix34; 8]) {
+    let [ae, bf, cg, dh] = S::F8::transpose(columns);
+    let [a, b, c, d, e, f, g, h] = out;
+    ae.store_halves(row::<ROW>(a), row::<ROW>(e));
+    bf.store_halves(row::<ROW>(b), row::<ROW>(f));
+    cg.store_halves(row::<ROW>(c), row::<ROW>(g));
+    dh.store_halves(row::<ROW>(d), row::<ROW>(h));
+}
+
+/// Returns row `ROW`.
+#[inline(always)]
+fn row<const ROW: usize>(matrix: &mut Matrix34) -> &mut [f32; 4] {
+    &mut matrix.as_chunks_mut().0[ROW % 3]
+}
+
+/// Computes `to_root` of every bone in place, where its `to_parent` is, parents first.
+#[inline(always)]
+fn near_chain<S: Simd>(links: &[Link<u8>], matrices: &mut [Matrix34; NARROW]) {
+    for link in links {
+        // Without a bounds check: a byte is always within the array.
+        let parent = MatrixRows::<S>::load(&matrices[usize::from(link.parent)]);
+        let own = &mut matrices[usize::from(link.own)];
+        parent.times(doubled::<S>(own)).store(own);
     }
 }
 
-/// The data needed for a block of bones.
-struct BlockLinks<'a, P> {
-    parents: &'a [P; 8],
-    local: &'a LocalMatrices,
-    first: &'a [Cell<Matrix34>; NARROW],
-    out: &'a [Cell<Matrix34>],
-    block: &'a [Cell<Matrix34>; 8],
-}
-
-impl<P: MatrixIndex> BlockLinks<'_, P> {
-    /// Computes `to_root` of bone `at` of the block.
-    #[inline(always)]
-    fn bone<S: Simd>(&self, at: usize) {
-        let Some(parent) = self.parents[at % 8].of(self.first, self.out) else { return };
-        let [x, y, z] = [&self.local[0], &self.local[1], &self.local[2]];
-        let (two, half) = (at % 4, at / 4 % 2);
-        let rows = [
-            S::F8::twice(&x[two].as_chunks::<4>().0[half]),
-            S::F8::twice(&y[two].as_chunks::<4>().0[half]),
-            S::F8::twice(&z[two].as_chunks::<4>().0[half]),
-        ];
-        let mut product = IDENTITY;
-        MatrixRows::<S>::load(&parent.get()).times(rows).store(&mut product);
-        self.block[at % 8].set(product);
-    }
-
-    /// Computes `to_root` of the first `count` bones of the block, fewer than eight.
-    #[inline(always)]
-    fn some<S: Simd>(&self, count: usize) {
-        if count > 0 {
-            self.bone::<S>(0);
-        }
-        if count > 1 {
-            self.bone::<S>(1);
-        }
-        if count > 2 {
-            self.bone::<S>(2);
-        }
-        if count > 3 {
-            self.bone::<S>(3);
-        }
-        if count > 4 {
-            self.bone::<S>(4);
-        }
-        if count > 5 {
-            self.bone::<S>(5);
-        }
-        if count > 6 {
-            self.bone::<S>(6);
-        }
+/// As [`near_chain`], for any number of bones.
+#[inline(always)]
+fn far_chain<S: Simd>(links: &[Link<u32>], matrices: &mut [Matrix34]) {
+    for link in links {
+        let Some(parent) = matrices.get(link.parent as usize) else { return };
+        let parent = MatrixRows::<S>::load(parent);
+        let Some(own) = matrices.get_mut(link.own as usize) else { return };
+        parent.times(doubled::<S>(own)).store(own);
     }
 }
 
 /// Replaces the matrices of sheared bones in their rest pose by the exact rest matrices.
 #[cold]
-fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [LocalMatrices]) {
+fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [Matrix34]) {
     for sheared in &rig.sheared {
         let (block, at) = (sheared.bone / 8, sheared.bone % 8);
         let posed = pose.get(block).or(rig.rest().blocks().get(block));
         if posed.is_some_and(|posed| posed.get(at) == sheared.rest)
-            && let Some(local) = local.get_mut(block)
+            && let Some(own) = matrices.get_mut(1 + sheared.bone)
         {
-            for (row, from) in local.iter_mut().zip(matrix34(sheared.matrix).as_chunks::<4>().0) {
-                row[at % 4].as_chunks_mut::<4>().0[at / 4] = *from;
-            }
+            *own = matrix34(sheared.matrix);
         }
     }
 }
@@ -261,12 +191,11 @@ fn put_sheared(rig: &Rig, pose: &[PoseBlock], local: &mut [LocalMatrices]) {
 /// Returns whether all leaves are finite. A number that is not spreads along its row from parent to child, and so
 /// reaches the leaves.
 #[inline(always)]
-fn leaves_are_finite<S: Simd, P: MatrixIndex>(leaves: &[P], matrices: &[Matrix34]) -> bool {
-    let Some(first) = matrices.first_chunk() else { return false };
+fn leaves_are_finite<S: Simd>(leaves: impl Iterator<Item = usize>, matrices: &[Matrix34]) -> bool {
     let zero = S::F8::splat(0.0);
     let (mut upper, mut lower) = (zero, zero.low());
     for leaf in leaves {
-        if let Some(leaf) = leaf.of(first, matrices) {
+        if let Some(leaf) = matrices.get(leaf) {
             // Stays zero while everything is finite.
             upper = S::F8::load(super::matrix::upper(leaf)).mul_add(zero, upper);
             lower = S::F4::load(super::matrix::lower(leaf)).mul_add(zero.low(), lower);
