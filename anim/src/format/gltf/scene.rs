@@ -119,13 +119,19 @@ pub(super) fn stage(
         let morph_weights =
             fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
         let (bone, to_bone) = carriers[index];
-        document.context.charge(&Place::Pointer(path), 2 * size_of::<MeshInstance>() as u64)?;
+        let drawn = read.mesh.primitives.len() * PLACED_BYTES + 2 * size_of_val::<[f32]>(&morph_weights);
+        let bytes = 2 * size_of::<MeshInstance>() + drawn;
+        document.context.charge(&Place::Pointer(path), bytes as u64)?;
         let (mesh, node) = (mesh.value() as u32, Some(index as u32));
         instances.push(MeshInstance { mesh, node, skin, bone, to_bone, morph_weights });
     }
     let morph_targets = meshes.iter().map(|read| read.mesh.morph_weights.len()).collect();
     Ok(SceneLayout { skeleton, instances, bones, morph_targets })
 }
+
+/// Bytes that a program needs to draw one more primitive: charged here, because a file of some kilobytes can place a
+/// mesh of many primitives in many nodes.
+const PLACED_BYTES: usize = 256;
 
 /// Returns the skin of a node, if its mesh has joints; an error if a vertex refers to a joint that the skin lacks.
 fn skin_of(document: &GltfDocument<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
