@@ -96,8 +96,8 @@ pub(super) fn stage(
     skeleton: Skeleton,
     bones: Vec<Option<BoneIndex>>,
     meshes: &[ReadMesh],
+    is_shown: &[bool],
 ) -> Result<SceneLayout, ImportError> {
-    let is_shown = shown(document, graph)?;
     let carriers = carriers(document, graph, locals, &bones)?;
     let mut instances = Vec::new();
     for (index, node) in document.root.nodes.iter().enumerate() {
@@ -179,7 +179,7 @@ fn carriers(
 }
 
 /// Returns for each node whether it is in the scene that is shown.
-fn shown(document: &GltfDocument<'_>, graph: &Graph) -> Result<Vec<bool>, ImportError> {
+pub(super) fn shown(document: &GltfDocument<'_>, graph: &Graph) -> Result<Vec<bool>, ImportError> {
     let root = document.root;
     let place = Place::Pointer("/scenes".to_owned());
     let index = match root.scene {
@@ -218,6 +218,20 @@ fn shown(document: &GltfDocument<'_>, graph: &Graph) -> Result<Vec<bool>, Import
         }
     }
     Ok(is_shown)
+}
+
+/// Returns for each mesh whether a node in `is_shown` places it.
+pub(super) fn shown_meshes(document: &GltfDocument<'_>, is_shown: &[bool]) -> Result<Vec<bool>, ImportError> {
+    let root = document.root;
+    let place = Place::Pointer("/meshes".to_owned());
+    let mut shown = document.context.filled(&place, root.meshes.len(), false)?;
+    document.context.work(root.nodes.len())?;
+    for (node, _) in root.nodes.iter().zip(is_shown).filter(|(_, is_shown)| **is_shown) {
+        if let Some(shown) = node.mesh.and_then(|mesh| shown.get_mut(mesh.value())) {
+            *shown = true;
+        }
+    }
+    Ok(shown)
 }
 
 /// Checks the references of a node that no other module uses.
