@@ -4,7 +4,7 @@
 //! [`crate::sample`], [`crate::animation`] and [`crate::skin`], in order.
 
 use crate::animation::{Animation, final_poses};
-use crate::bounds::{Bounds, bounds_of_bones};
+use crate::bounds::{BoneBoxes, Bounds, bounds_of_bones};
 use crate::data::{MeshInstance, ModelData, Primitive, Transform};
 use crate::sample::sample_morph_weights;
 use crate::skin::{Movement, skin_normals, skin_positions};
@@ -135,11 +135,57 @@ impl Evaluator {
 
     /// Returns the box and sphere around every vertex in this pose; around the origins of the bones when there is no
     /// vertex.
+    ///
+    /// Exact for a model of usual size. A file of some kilobytes may place a mesh so often that computing every vertex
+    /// takes minutes and gigabytes: beyond [`MEASURED_STEPS`] the result is that of [`BoneBoxes`], never too small.
     pub fn bounds(&self) -> Bounds {
+        if !self.can_measure() {
+            return BoneBoxes::of(&self.model).bounds(self);
+        }
         let positions = self.all_positions();
         if positions.is_empty() { bounds_of_bones(self.to_root()) } else { Bounds::of_points(&positions) }
     }
+
+    /// Returns points around the model in this pose, for a camera that must show all of it: every vertex or, beyond
+    /// [`MEASURED_STEPS`], the corners of a box around each primitive; the origins of the bones when there is no
+    /// vertex.
+    pub fn outline(&self) -> Vec<Vec3> {
+        let mut points = if self.can_measure() { self.all_positions() } else { self.corners() };
+        if points.is_empty() {
+            points.extend(self.to_root().iter().map(|to_root| to_root.w_axis.truncate()));
+        }
+        points
+    }
+
+    /// Returns the corners of a box around each primitive of each instance.
+    fn corners(&self) -> Vec<Vec3> {
+        let boxes = BoneBoxes::of(&self.model);
+        let mut points = Vec::new();
+        for instance in 0..self.model.instances.len() {
+            for primitive in 0..self.primitives(instance).len() {
+                points.extend(boxes.of_primitive(self, instance, primitive).corners());
+            }
+        }
+        points
+    }
+
+    /// Returns whether computing every vertex takes at most [`MEASURED_STEPS`].
+    fn can_measure(&self) -> bool {
+        let steps = |primitive: &Primitive| {
+            let vertices = &primitive.vertices;
+            let each = 1 + vertices.influences_per_vertex + primitive.morph_targets.len();
+            (vertices.len() as u64).saturating_mul(each as u64)
+        };
+        let of_mesh = |primitives: &[Primitive]| primitives.iter().map(steps).fold(0, u64::saturating_add);
+        let meshes: Vec<u64> = self.model.meshes.iter().map(|mesh| of_mesh(&mesh.primitives)).collect();
+        let placed = self.model.instances.iter().filter_map(|instance| meshes.get(instance.mesh as usize));
+        placed.copied().fold(0, u64::saturating_add) <= MEASURED_STEPS
+    }
 }
+
+/// Largest cost of measuring a pose on its vertices: one step for each vertex of each instance, and one more for each
+/// of its influences and morph targets.
+pub const MEASURED_STEPS: u64 = 4 << 20;
 
 /// Returns the largest number of morph targets of any primitive of the instance's mesh.
 fn targets(model: &ModelData, instance: &MeshInstance) -> usize {

@@ -38,6 +38,7 @@ mod gaze;
 mod hits;
 mod hostile;
 mod ik;
+mod instances;
 mod joint_limits;
 mod levels;
 mod limited_chains;

@@ -1,6 +1,6 @@
 //! An axis-aligned box that can be empty, transformed, and widened for rounding.
 
-use glam::{Mat4, Vec3};
+use glam::{BVec3, Mat4, Vec3};
 
 /// Sixteen units in the last place: an upper bound, with a margin, of the rounding error of a matrix product and a sum
 /// of eight influences. Relative to the sizes of the terms, not to the size of the sum.
@@ -57,6 +57,15 @@ impl AxisBox {
     /// Returns half the size along each axis; zero when empty.
     pub fn half(&self) -> Vec3 {
         if self.is_empty() { Vec3::ZERO } else { self.max * 0.5 - self.min * 0.5 }
+    }
+
+    /// Returns the eight corners; none when empty.
+    pub fn corners(&self) -> impl Iterator<Item = Vec3> {
+        let Self { min, max } = *self;
+        let corner = move |number: u32| {
+            Vec3::select(BVec3::new(number & 1 != 0, number & 2 != 0, number & 4 != 0), max, min)
+        };
+        (0..if self.is_empty() { 0 } else { 8 }).map(corner)
     }
 
     /// Returns half the surface area, the usual measure of how likely a ray hits the box; zero when empty.

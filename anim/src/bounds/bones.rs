@@ -4,8 +4,9 @@ use super::axis_box::AxisBox;
 use super::reach::Reaches;
 use super::reach_builder::{ReachBuilder, moving_targets};
 use super::{Bounds, Sphere, bounds_of_bones};
-use crate::data::{MeshInstance, ModelData, Skin};
+use crate::data::{MeshInstance, ModelData, Primitive, Skin};
 use crate::evaluator::Evaluator;
+use std::collections::HashSet;
 
 /// A box for each joint of each mesh, around the vertices that it moves, before they are moved (thesis §2.1.7.1: a
 /// simple bounding volume for placing the model and for hit detection).
@@ -31,6 +32,8 @@ pub struct BoneBoxes {
     reaches: Reaches,
     /// Position of each mesh's first primitive among all primitives.
     first: Vec<u32>,
+    /// For each instance, whether an earlier one has its vertices in the same places in every pose.
+    repeated: Vec<bool>,
 }
 
 impl BoneBoxes {
@@ -52,7 +55,7 @@ impl BoneBoxes {
                 builder.add(primitive, true, skin.flatten(), &targets, vertices(skin.is_some()));
             }
         }
-        Self { reaches: builder.finish(), first }
+        Self { reaches: builder.finish(), first, repeated: repeated(model) }
     }
 
     /// Returns the box and sphere around every vertex in the pose of `evaluator`, which has to be of the same model;
@@ -94,6 +97,9 @@ impl BoneBoxes {
     ) -> T {
         let mut state = start;
         for instance in 0..evaluator.model().instances.len() {
+            if self.repeated.get(instance).copied().unwrap_or_default() {
+                continue;
+            }
             for primitive in 0..evaluator.primitives(instance).len() {
                 let Some(part) = self.part(evaluator, instance, primitive) else { continue };
                 let bounds = self.of_primitive(evaluator, instance, primitive);
@@ -126,4 +132,22 @@ fn uses(model: &ModelData) -> Vec<(bool, Option<Option<&Skin>>)> {
         }
     }
     uses
+}
+
+/// Returns for each instance whether an earlier one shows the same mesh by the same skin, without morph targets: a
+/// skinned mesh is where its skin is, however often the file places it.
+fn repeated(model: &ModelData) -> Vec<bool> {
+    let is_skinned: Vec<bool> =
+        model.meshes.iter().map(|mesh| mesh.primitives.iter().all(only_skin_moves)).collect();
+    let mut known = HashSet::new();
+    let repeats = |instance: &MeshInstance| {
+        let of_skin = is_skinned.get(instance.mesh as usize).copied().unwrap_or_default();
+        of_skin && instance.skin.is_some_and(|skin| !known.insert((instance.mesh, skin)))
+    };
+    model.instances.iter().map(repeats).collect()
+}
+
+/// Returns whether nothing but a skin moves the vertices of an instance of `primitive` that has a skin.
+fn only_skin_moves(primitive: &Primitive) -> bool {
+    primitive.vertices.influences_per_vertex > 0 && primitive.morph_targets.is_empty()
 }

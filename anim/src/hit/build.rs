@@ -3,6 +3,7 @@
 use super::tree::{HitLeaf, HitNode, HitTreeParts, is_valid};
 use crate::data::{MAX_INFLUENCES, MeshInstance, ModelData, Primitive};
 use crate::evaluator::Evaluator;
+use crate::skin::skin_position;
 use glam::Vec3;
 use std::ops::Range;
 use std::sync::Arc;
@@ -51,12 +52,24 @@ fn items(model: &ModelData) -> Vec<Item> {
     let (mut items, mut positions) = (Vec::new(), Vec::new());
     for (instance, of) in model.instances.iter().enumerate() {
         for (index, primitive) in evaluator.primitives(instance).iter().enumerate() {
-            positions.resize(primitive.vertices.len(), Vec3::ZERO);
-            evaluator.positions(instance, index, &mut positions);
+            // A mesh of many vertices and few triangles may be placed very often: only its corners are posed.
+            let is_sparse = primitive.indices.len() < primitive.vertices.len();
+            let movement = evaluator.movement(instance, index);
+            let weights = evaluator.morph_weights(instance);
+            if !is_sparse {
+                positions.resize(primitive.vertices.len(), Vec3::ZERO);
+                evaluator.positions(instance, index, &mut positions);
+            }
+            let position = |&corner: &u32| match movement {
+                Some(movement) if is_sparse => {
+                    skin_position(primitive, movement, weights, corner as usize).unwrap_or_default()
+                }
+                _ => positions[corner as usize],
+            };
             for triangle in (0..primitive.indices.len() / 3).filter(|&triangle| is_valid(primitive, triangle))
             {
                 let corners = &primitive.indices[triangle * 3..triangle * 3 + 3];
-                let center = corners.iter().map(|&corner| positions[corner as usize] / 3.0).sum();
+                let center = corners.iter().map(|corner| position(corner) / 3.0).sum();
                 let bone = greatest_bone(model, of, primitive, corners);
                 items.push(Item {
                     key: (bone, instance as u32, index as u32),

@@ -174,11 +174,7 @@ impl Studio {
             if posed {
                 evaluator.pose(playback.take, playback.time_at(playback.anchor));
             }
-            let mut points = evaluator.all_positions();
-            if points.is_empty() {
-                points.extend(evaluator.to_root().iter().map(|to_root| to_root.w_axis.truncate()));
-            }
-            camera.frame_points(&points, width / height);
+            camera.frame_points(&evaluator.outline(), width / height);
             // Leaves a margin, so that nothing touches the edge of the image.
             camera.dolly(1.12);
         }

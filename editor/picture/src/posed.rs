@@ -4,13 +4,14 @@ use super::message::Look;
 use super::shape::SkeletonShape;
 use super::uniform::{Affine, DrawUniform};
 use dragonfly_anim::animation::{Animation, final_poses};
-use dragonfly_anim::bounds::Bounds;
+use dragonfly_anim::bounds::{AxisBox, Bounds};
 use dragonfly_anim::data::{AlphaMode, AnimationData, BoneIndex, ModelData, Primitive, Take, Transform};
 use dragonfly_anim::sample::sample_morph_weights;
 use dragonfly_anim::skin::rigid;
 use dragonfly_document::adapter::TakeVersions;
 use dragonfly_document::{LoadedModel, View};
 use glam::{Mat4, Vec3};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// A primitive of a mesh, as part of an instance.
@@ -225,6 +226,8 @@ impl PosedModel {
     fn draw_items(&self) -> Vec<DrawItem> {
         let model = &self.loaded.model;
         let mut items = Vec::new();
+        // Found once for each primitive, however often it is placed.
+        let mut found: HashMap<(u32, usize), (Vec3, usize)> = HashMap::new();
         for (index, instance) in model.instances.iter().enumerate() {
             let own = self.rigid_start + index;
             let (weights, _) = self.weight_ranges[index];
@@ -232,10 +235,13 @@ impl PosedModel {
                 if primitive.vertices.is_empty() || primitive.indices.is_empty() {
                     continue;
                 }
+                let (center, joint) = *found
+                    .entry((instance.mesh, position))
+                    .or_insert_with(|| (center(&primitive.vertices.positions), main_joint(primitive)));
                 let skin = instance.skin.and_then(|skin| self.skin_starts.get(skin as usize).copied());
                 let influences = primitive.vertices.influences_per_vertex;
                 let (palette, influences, main) = match skin {
-                    Some(start) if influences > 0 => (start, influences, start + main_joint(primitive)),
+                    Some(start) if influences > 0 => (start, influences, start + joint),
                     _ => (own, 0, own),
                 };
                 let material = primitive.material.and_then(|material| model.materials.get(material as usize));
@@ -253,7 +259,7 @@ impl PosedModel {
                         tint: 0,
                         pad: [0; 2],
                     },
-                    center: Bounds::of_points(&primitive.vertices.positions).center(),
+                    center,
                     main_matrix: main.min(self.palettes.len() - 1) as u32,
                 });
             }
@@ -264,6 +270,13 @@ impl PosedModel {
 
 fn primitives(model: &ModelData, mesh: u32) -> &[Primitive] {
     model.meshes.get(mesh as usize).map_or(&[], |mesh| &mesh.primitives)
+}
+
+/// Returns the center of the box around `points`.
+fn center(points: &[Vec3]) -> Vec3 {
+    let mut around = AxisBox::EMPTY;
+    points.iter().for_each(|&point| around.add(point));
+    around.center()
 }
 
 /// Returns the joint with the largest weight in all vertices together.

@@ -43,6 +43,13 @@ impl RunCommand for PoseArguments {
         let model = Arc::new(loaded.model);
         let vertices = self.vertices.unwrap_or(if self.json { usize::MAX } else { 0 });
         let mut evaluator = Evaluator::new(Arc::clone(&model));
+        let positions = positions(&evaluator, vertices).saturating_mul(self.time.len());
+        if positions > MOST_POSITIONS {
+            let reason = format_args!(
+                "{positions} vertex positions are more than {MOST_POSITIONS}; print fewer with --vertices"
+            );
+            return Err(Failure::input(&loaded.title, reason));
+        }
         let mut poses = Vec::with_capacity(self.time.len());
         for &time in &self.time {
             let time = clamp_time(&model, take, time);
@@ -60,6 +67,18 @@ impl RunCommand for PoseArguments {
         let poses = Poses { file: loaded.title, take, poses };
         if self.json { print_json(&poses) } else { print(|out| poses.write(&model, out)) }
     }
+}
+
+/// Largest number of vertex positions of one command.
+const MOST_POSITIONS: usize = 20_000_000;
+
+/// Returns the number of positions in a pose with at most `vertices` per primitive.
+fn positions(evaluator: &Evaluator, vertices: usize) -> usize {
+    let of_instance = |index| {
+        let primitives = evaluator.primitives(index).iter();
+        primitives.map(|primitive| primitive.vertices.len().min(vertices)).sum::<usize>()
+    };
+    (0..evaluator.model().instances.len()).map(of_instance).sum()
 }
 
 #[derive(Serialize)]

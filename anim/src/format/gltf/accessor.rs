@@ -66,10 +66,8 @@ impl<'a> GltfDocument<'a> {
             .buffers
             .get(view.buffer.value())
             .ok_or_else(|| unresolved(&format!("{}/buffer", place()), view.buffer.value()))?;
-        if matches!(buffer, BufferData::Missing) {
-            let at = Place::Pointer(format!("/buffers/{}", view.buffer.value()));
-            let reason = "the buffer has no URI, and the file has no binary chunk for it".to_owned();
-            return Err(invalid(at, code::BUFFER_MISSING_GLB_DATA, reason));
+        if let BufferData::Missing(error) = buffer {
+            return Err(error.clone());
         }
         let buffer = buffer.bytes();
         let offset = view.byte_offset.unwrap_or_default().0;

@@ -1,7 +1,8 @@
 //! Bytes of a document's buffers: the binary chunk, data URIs, referenced files.
 
+use super::accessor::invalid;
 use super::check as code;
-use crate::format::context::external;
+use crate::format::context::{IO_ERROR, external};
 use crate::format::uri::{DataUri, UriError, relative_path};
 use crate::format::{ImportContext, ImportError, Place};
 use gltf::json;
@@ -48,8 +49,9 @@ fn decoded(
 /// Bytes of one buffer.
 #[derive(Clone)]
 pub(super) enum BufferData<'a> {
-    /// A buffer without a URI and without a binary chunk: an error as soon as an accessor needs it.
-    Missing,
+    /// A buffer without a URI and without a binary chunk, or whose file cannot be read: this error as soon as something
+    /// needs it.
+    Missing(ImportError),
     /// The binary chunk of the file.
     Chunk(&'a [u8]),
     /// Other bytes, and the length of the buffer in them.
@@ -59,7 +61,7 @@ pub(super) enum BufferData<'a> {
 impl BufferData<'_> {
     pub(super) fn bytes(&self) -> &[u8] {
         match self {
-            Self::Missing => &[],
+            Self::Missing(_) => &[],
             Self::Chunk(bytes) => bytes,
             Self::Fetched(bytes, length) => &bytes[..*length],
         }
@@ -80,14 +82,24 @@ pub(super) fn load<'a>(
         let loaded = match &buffer.uri {
             Some(uri) => {
                 let place = Place::Pointer(format!("/buffers/{index}/uri"));
-                BufferData::Fetched(fetch(uri, &place, context)?.bytes, 0)
+                match fetch(uri, &place, context) {
+                    Ok(fetched) => BufferData::Fetched(fetched.bytes, 0),
+                    Err(error) if is_missing(&error) => {
+                        let text = format!("{}; nothing that needs the file is shown", reason(&error));
+                        context.warn(place, error.code(), text);
+                        buffers.push(BufferData::Missing(error));
+                        continue;
+                    }
+                    Err(error) => return Err(error),
+                }
             }
             None => match bin.filter(|_| index == 0) {
                 Some(bytes) => BufferData::Chunk(bytes),
                 None => {
                     let text = "the buffer has no URI, and the file has no binary chunk for it";
+                    let error = invalid(place.clone(), code::BUFFER_MISSING_GLB_DATA, text.to_owned());
                     context.warn(place, code::BUFFER_MISSING_GLB_DATA, text);
-                    buffers.push(BufferData::Missing);
+                    buffers.push(BufferData::Missing(error));
                     continue;
                 }
             },
@@ -105,7 +117,7 @@ fn cut<'a>(
     context: &ImportContext<'_>,
 ) -> Result<BufferData<'a>, ImportError> {
     let present = match &buffer {
-        BufferData::Missing => 0,
+        BufferData::Missing(_) => 0,
         BufferData::Chunk(bytes) => bytes.len(),
         BufferData::Fetched(bytes, _) => bytes.len(),
     };
@@ -121,10 +133,23 @@ fn cut<'a>(
         context.warn(place.clone(), code::BUFFER_GLB_CHUNK_TOO_BIG, text);
     }
     Ok(match buffer {
-        BufferData::Missing => BufferData::Missing,
+        BufferData::Missing(error) => BufferData::Missing(error),
         BufferData::Chunk(bytes) => BufferData::Chunk(&bytes[..length]),
         BufferData::Fetched(bytes, _) => BufferData::Fetched(bytes, length),
     })
+}
+
+/// Returns whether the error is that of a buffer that is not there: one that only matters where something needs it.
+pub(super) fn is_missing(error: &ImportError) -> bool {
+    [IO_ERROR, code::BUFFER_MISSING_GLB_DATA].contains(&error.code())
+}
+
+/// Returns the name of the file that could not be read, and the reason.
+fn reason(error: &ImportError) -> String {
+    match error {
+        ImportError::External { uri, reason, .. } => format!("\"{uri}\": {reason}"),
+        other => other.to_string(),
+    }
 }
 
 fn not_followed(uri: &str, place: &Place, error: &UriError) -> ImportError {

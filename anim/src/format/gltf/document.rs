@@ -1,7 +1,7 @@
 //! Parses the JSON text into the document model; every error has a JSON pointer.
 
 use super::check as code;
-use super::survey::{Survey, survey};
+use super::survey::{Survey, SurveyPatch, survey};
 use super::walk::pointer_before;
 use crate::format::{ImportContext, ImportError, Place};
 use gltf::json;
@@ -50,34 +50,45 @@ fn text_of(bytes: &[u8], at: u64) -> Result<&str, ImportError> {
 
 /// Accepts only version 2.x, and only where 2.0 is sufficient.
 fn check_version(survey: &Survey) -> Result<(), ImportError> {
+    let is_later = |least: &str| least.strip_prefix("2.").is_none_or(|minor| minor.parse() != Ok(0_u32));
     let unsupported = |member: &str, version: &str| {
         let place = Place::Pointer(format!("/asset/{member}"));
         Err(ImportError::Unsupported { place, feature: format!("glTF version {version}") })
     };
     match (&survey.version, &survey.min_version) {
         (Some(version), _) if !version.starts_with("2.") => unsupported("version", version),
-        (_, Some(least)) if !least.starts_with("2.") => unsupported("minVersion", least),
+        (_, Some(least)) if is_later(least) => unsupported("minVersion", least),
         _ => Ok(()),
     }
 }
 
-/// Returns the text with the members added that the document model requires and the file lacks.
+/// Returns the text with the members added that the document model requires and the file lacks, and with whole numbers
+/// written as such.
 fn completed<'a>(
     text: &'a str,
     survey: &Survey,
     context: &ImportContext<'_>,
 ) -> Result<Cow<'a, str>, ImportError> {
-    if survey.missing.is_empty() {
+    if survey.patches.is_empty() {
         return Ok(Cow::Borrowed(text));
     }
-    let length = text.len() + survey.missing.iter().map(|(_, member)| member.len()).sum::<usize>();
+    let length = text.len() + survey.patches.iter().map(SurveyPatch::longest).sum::<usize>();
     context.charge(&Place::Pointer(String::new()), length as u64)?;
     let mut patched = String::with_capacity(length);
     let mut from = 0;
-    for &(at, member) in &survey.missing {
-        patched.push_str(&text[from..at]);
-        patched.push_str(member);
-        from = at;
+    for patch in &survey.patches {
+        match *patch {
+            SurveyPatch::Member { at, member } => {
+                patched.push_str(&text[from..at]);
+                patched.push_str(member);
+                from = at;
+            }
+            SurveyPatch::Whole { at, end, number } => {
+                patched.push_str(&text[from..at]);
+                patched.push_str(&number.to_string());
+                from = end;
+            }
+        }
     }
     patched.push_str(&text[from..]);
     Ok(Cow::Owned(patched))

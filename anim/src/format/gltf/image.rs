@@ -1,7 +1,7 @@
 //! Images: found, measured and copied as they are. Nothing is decoded here.
 
 use super::accessor::{GltfDocument, invalid};
-use super::buffer::{Fetched, fetch};
+use super::buffer::{Fetched, fetch, is_missing};
 use super::check as code;
 use crate::data::Image;
 use crate::format::{ImportContext, ImportError, Place};
@@ -59,9 +59,17 @@ fn read_image(document: &GltfDocument<'_>, image: &json::Image, path: &str) -> R
     let mut read = Image { name, mime: declared, ..Image::default() };
     if let Some(view) = image.buffer_view {
         let from = format!("{path}/bufferView");
-        let (bytes, _) = document.view(view, &from)?;
-        document.context.charge(&Place::Pointer(from), bytes.len() as u64)?;
-        read.bytes = bytes.into();
+        match document.view(view, &from) {
+            Ok((bytes, _)) => {
+                document.context.charge(&Place::Pointer(from), bytes.len() as u64)?;
+                read.bytes = bytes.into();
+            }
+            Err(error) if is_missing(&error) => {
+                let text = format!("{error}; the image is left empty");
+                document.context.warn(Place::Pointer(from), code::IMAGE_DATA_INVALID, text);
+            }
+            Err(other) => return Err(other),
+        }
     } else if let Some(uri) = &image.uri {
         let place = Place::Pointer(format!("{path}/uri"));
         match fetch(uri, &place, document.context) {

@@ -2,6 +2,7 @@
 
 use super::accessor::{ElementFormat, GltfDocument};
 use super::attribute::{ANY_VEC3, QUANTIZED, UNIT_VEC3, attribute, formats, unequal};
+use super::buffer::is_missing;
 use super::check as code;
 use super::influence::influences;
 use super::morph::{morph_targets, morph_weights};
@@ -31,14 +32,24 @@ const COLOR_4: &[ElementFormat] = &formats(Type::Vec4, [(F32, false), (U8, true)
 const COLOR: &[ElementFormat] = &[COLOR_3[0], COLOR_3[1], COLOR_3[2], COLOR_4[0], COLOR_4[1], COLOR_4[2]];
 const WRONG: &str = code::MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT;
 
-/// Returns all meshes.
-pub(super) fn meshes(document: &GltfDocument<'_>) -> Result<Vec<ReadMesh>, ImportError> {
+/// Returns all meshes. One that `is_shown` does not contain stays empty, with a warning, if its buffer is missing.
+pub(super) fn meshes(document: &GltfDocument<'_>, is_shown: &[bool]) -> Result<Vec<ReadMesh>, ImportError> {
     let context = document.context;
     let count = document.root.meshes.len();
     let mut meshes = context.vec(&Place::Pointer("/meshes".to_owned()), count)?;
     let mut vertices = 0;
     for (index, mesh) in document.root.meshes.iter().enumerate() {
-        meshes.push(read_mesh(document, mesh, index, &mut vertices)?);
+        let read = match read_mesh(document, mesh, index, &mut vertices) {
+            Err(error) if is_missing(&error) && !is_shown.get(index).copied().unwrap_or_default() => {
+                let place = Place::Pointer(format!("/meshes/{index}"));
+                let text = format!("the mesh is not shown and stays empty: {error}");
+                context.warn(place, error.code(), text);
+                let name = mesh.name.clone().unwrap_or_default();
+                ReadMesh { mesh: Mesh { name, ..Mesh::default() }, largest_joint: None }
+            }
+            read => read?,
+        };
+        meshes.push(read);
         context.progress(0.3 + 0.4 * (index + 1) as f32 / count as f32)?;
     }
     Ok(meshes)

@@ -30,6 +30,7 @@ mod skin;
 mod survey;
 mod triangles;
 mod walk;
+mod whole;
 
 pub use extension::SUPPORTED;
 pub use image::measure as measure_image;
@@ -103,8 +104,9 @@ fn read_document(
 
     let images = image::images(&document)?;
     let materials = material::materials(&root, &images.numbers, context)?;
-    let meshes = mesh::meshes(&document)?;
-    let stage = scene::stage(&document, &graph, &locals, skeleton, bones, &meshes)?;
+    let is_shown = scene::shown(&document, &graph)?;
+    let meshes = mesh::meshes(&document, &scene::shown_meshes(&document, &is_shown)?)?;
+    let stage = scene::stage(&document, &graph, &locals, skeleton, bones, &meshes, &is_shown)?;
     let takes = animation::takes(&document, &stage)?;
 
     let scene = root.scene.and_then(|scene| root.scenes.get(scene.value())).or(root.scenes.first());

@@ -96,8 +96,8 @@ pub(super) fn stage(
     skeleton: Skeleton,
     bones: Vec<Option<BoneIndex>>,
     meshes: &[ReadMesh],
+    is_shown: &[bool],
 ) -> Result<SceneLayout, ImportError> {
-    let is_shown = shown(document, graph)?;
     let carriers = carriers(document, graph, locals, &bones)?;
     let mut instances = Vec::new();
     for (index, node) in document.root.nodes.iter().enumerate() {
@@ -119,13 +119,19 @@ pub(super) fn stage(
         let morph_weights =
             fitted(weights, defaults.len(), defaults, place, code::NODE_WEIGHTS_INVALID, document)?;
         let (bone, to_bone) = carriers[index];
-        document.context.charge(&Place::Pointer(path), 2 * size_of::<MeshInstance>() as u64)?;
+        let drawn = read.mesh.primitives.len() * PLACED_BYTES + 2 * size_of_val::<[f32]>(&morph_weights);
+        let bytes = 2 * size_of::<MeshInstance>() + drawn;
+        document.context.charge(&Place::Pointer(path), bytes as u64)?;
         let (mesh, node) = (mesh.value() as u32, Some(index as u32));
         instances.push(MeshInstance { mesh, node, skin, bone, to_bone, morph_weights });
     }
     let morph_targets = meshes.iter().map(|read| read.mesh.morph_weights.len()).collect();
     Ok(SceneLayout { skeleton, instances, bones, morph_targets })
 }
+
+/// Bytes that a program needs to draw one more primitive: charged here, because a file of some kilobytes can place a
+/// mesh of many primitives in many nodes.
+const PLACED_BYTES: usize = 256;
 
 /// Returns the skin of a node, if its mesh has joints; an error if a vertex refers to a joint that the skin lacks.
 fn skin_of(document: &GltfDocument<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
@@ -173,7 +179,7 @@ fn carriers(
 }
 
 /// Returns for each node whether it is in the scene that is shown.
-fn shown(document: &GltfDocument<'_>, graph: &Graph) -> Result<Vec<bool>, ImportError> {
+pub(super) fn shown(document: &GltfDocument<'_>, graph: &Graph) -> Result<Vec<bool>, ImportError> {
     let root = document.root;
     let place = Place::Pointer("/scenes".to_owned());
     let index = match root.scene {
@@ -212,6 +218,20 @@ fn shown(document: &GltfDocument<'_>, graph: &Graph) -> Result<Vec<bool>, Import
         }
     }
     Ok(is_shown)
+}
+
+/// Returns for each mesh whether a node in `is_shown` places it.
+pub(super) fn shown_meshes(document: &GltfDocument<'_>, is_shown: &[bool]) -> Result<Vec<bool>, ImportError> {
+    let root = document.root;
+    let place = Place::Pointer("/meshes".to_owned());
+    let mut shown = document.context.filled(&place, root.meshes.len(), false)?;
+    document.context.work(root.nodes.len())?;
+    for (node, _) in root.nodes.iter().zip(is_shown).filter(|(_, is_shown)| **is_shown) {
+        if let Some(shown) = node.mesh.and_then(|mesh| shown.get_mut(mesh.value())) {
+            *shown = true;
+        }
+    }
+    Ok(shown)
 }
 
 /// Checks the references of a node that no other module uses.

@@ -5,6 +5,7 @@
 
 use super::check as code;
 use super::walk::{Walk, WalkStep};
+use super::whole::whole;
 use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{JSON_DEPTH, NODES};
 use gltf::json;
@@ -17,10 +18,31 @@ pub(super) struct Survey {
     /// `/asset/version` and `/asset/minVersion`, as in the file.
     pub(super) version: Option<String>,
     pub(super) min_version: Option<String>,
-    /// Members that the document model requires and the specification does not: where to insert them, and the text to
-    /// insert.
-    pub(super) missing: Vec<(usize, &'static str)>,
+    /// What the document model requires and the specification does not, in the order of the text.
+    pub(super) patches: Vec<SurveyPatch>,
 }
+
+/// A change of the text before it is parsed.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum SurveyPatch {
+    /// A missing member, to be inserted.
+    Member { at: usize, member: &'static str },
+    /// A whole number that is written with a fraction or an exponent, from `at` to `end`.
+    Whole { at: usize, end: usize, number: u64 },
+}
+
+impl SurveyPatch {
+    /// Returns the largest number of bytes that the patch adds.
+    pub(super) fn longest(&self) -> usize {
+        match self {
+            Self::Member { member, .. } => member.len(),
+            Self::Whole { .. } => LONGEST_NUMBER,
+        }
+    }
+}
+
+/// Number of digits of the largest whole number.
+const LONGEST_NUMBER: usize = 20;
 
 /// Surveys `text`.
 pub(super) fn survey(text: &[u8], context: &ImportContext<'_>) -> Result<Survey, ImportError> {
@@ -50,9 +72,13 @@ pub(super) fn survey(text: &[u8], context: &ImportContext<'_>) -> Result<Survey,
             }
             WalkStep::Open => survey.opened(&mut walk, depth)?,
             WalkStep::Close => survey.closed(&mut walk, depth),
-            WalkStep::Scalar(from, to) => survey.scalar(&mut walk, &text[from..to])?,
+            WalkStep::Scalar(from, to) => survey.scalar(&mut walk, &text[from..to], from)?,
         }
     }
+    // A member is found at the end of its object, after the numbers in it.
+    survey.patches.sort_by_key(|patch| match *patch {
+        SurveyPatch::Member { at, .. } | SurveyPatch::Whole { at, .. } => at,
+    });
     Ok(survey)
 }
 
@@ -85,11 +111,12 @@ impl Survey {
             && let Some(member) = asked_for(walk, depth)
         {
             self.memory += 64 + member.followed.len() as u64;
-            self.missing.push((frame.note, if frame.count == 0 { member.alone } else { member.followed }));
+            let text = if frame.count == 0 { member.alone } else { member.followed };
+            self.patches.push(SurveyPatch::Member { at: frame.note, member: text });
         }
     }
 
-    fn scalar(&mut self, walk: &mut Walk<'_>, text: &[u8]) -> Result<(), ImportError> {
+    fn scalar(&mut self, walk: &mut Walk<'_>, text: &[u8], at: usize) -> Result<(), ImportError> {
         let Some(last) = walk.frames().len().checked_sub(1) else { return Ok(()) };
         if walk.frames()[last].is_array {
             self.element(walk, last)?;
@@ -104,13 +131,20 @@ impl Survey {
                     _ => {}
                 }
             }
-        } else if text.len() > 9 && is_index(walk, last) && too_long(text) {
-            let reason = format!("{} does not fit 32 bits", String::from_utf8_lossy(text));
-            return Err(ImportError::Invalid {
-                place: Place::Pointer(walk.pointer(0)),
-                code: code::INVALID_INDEX,
-                reason,
-            });
+            return Ok(());
+        }
+        let is_index = (text.len() > 9 || is_fraction(text)) && is_index(walk, last);
+        if is_fraction(text)
+            && (is_index || is_size(walk, last))
+            && let Some(number) = std::str::from_utf8(text).ok().and_then(whole)
+        {
+            self.memory += 3 * size_of::<SurveyPatch>() as u64;
+            if is_index && u32::try_from(number).is_err() {
+                return Err(too_large_index(walk, text));
+            }
+            self.patches.push(SurveyPatch::Whole { at, end: at + text.len(), number });
+        } else if is_index && too_long(text) {
+            return Err(too_large_index(walk, text));
         }
         Ok(())
     }
@@ -184,6 +218,23 @@ fn element_bytes(key: &[u8], top: bool) -> usize {
         (b"extensionsUsed" | b"extensionsRequired", true) => size_of::<String>(),
         _ => 8,
     }
+}
+
+fn too_large_index(walk: &Walk<'_>, text: &[u8]) -> ImportError {
+    let reason = format!("{} does not fit 32 bits", String::from_utf8_lossy(text));
+    ImportError::Invalid { place: Place::Pointer(walk.pointer(0)), code: code::INVALID_INDEX, reason }
+}
+
+/// Returns whether a number is written with a fraction or an exponent.
+fn is_fraction(text: &[u8]) -> bool {
+    text.first().is_some_and(|first| *first == b'-' || first.is_ascii_digit())
+        && text.iter().any(|byte| matches!(byte, b'.' | b'e' | b'E'))
+}
+
+/// Returns whether the number here becomes a number of bytes or elements.
+fn is_size(walk: &Walk<'_>, last: usize) -> bool {
+    const NAMES: &[&[u8]] = &[b"byteLength", b"byteOffset", b"byteStride", b"count"];
+    NAMES.contains(&walk.key(last))
 }
 
 /// Returns whether the number here becomes a 32-bit index or enumerated value.

@@ -29,8 +29,8 @@ struct GhostBuffers {
     palettes: wgpu::Buffer,
     weights: wgpu::Buffer,
     stride: u32,
-    /// Bind groups, one per draw item.
-    groups: Vec<wgpu::BindGroup>,
+    /// Bind groups, by mesh and primitive.
+    groups: HashMap<(u32, u32), wgpu::BindGroup>,
 }
 
 impl Ghosts {
@@ -55,7 +55,9 @@ impl Ghosts {
         // No more ghosts than one buffer can contain.
         let limits = gpu.device.limits();
         let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) as usize;
-        let own = size_of_val::<[Affine]>(posed.palettes()).max(size_of_val::<[f32]>(posed.weights()));
+        let own = size_of_val::<[Affine]>(posed.palettes())
+            .max(size_of_val::<[f32]>(posed.weights()))
+            .max(stride(gpu) as usize * posed.items().len());
         let count = ghosts.len().min(largest / own.max(1));
         if count == 0 {
             return;
@@ -110,8 +112,10 @@ impl Ghosts {
         let first = ghosts.len().saturating_sub(self.count);
         for ghost in 0..self.count {
             for (index, item) in posed.items().iter().enumerate() {
-                let geometry = geometries.get(&(item.mesh, item.primitive));
-                let Some((geometry, group)) = geometry.zip(room.groups.get(index)) else { continue };
+                let part = (item.mesh, item.primitive);
+                let Some((geometry, group)) = geometries.get(&part).zip(room.groups.get(&part)) else {
+                    continue;
+                };
                 let place = (ghost * posed.items().len() + index) as u32;
                 pass.set_pipeline(&pipelines[usize::from(ghosts.is_mirrored(first + ghost, index))]);
                 pass.set_bind_group(1, group, &[place * room.stride]);
@@ -137,19 +141,23 @@ impl GhostBuffers {
         let palettes = buffer("ghosts", count * size_of_val::<[Affine]>(posed.palettes()), storage);
         let weights = buffer("ghosts' weights", count * size_of_val::<[f32]>(posed.weights()), storage);
         let nothing = buffer("no morph deltas", 36, storage);
-        let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
-        let stride = (size_of::<DrawUniform>() as u32).next_multiple_of(alignment);
+        let stride = stride(gpu);
         let size = stride as usize * posed.items().len() * count;
         let uniforms = buffer("ghosts' draws", size, wgpu::BufferUsages::UNIFORM);
-        let group = |item: &crate::posed::DrawItem| {
-            let geometry = geometries.get(&(item.mesh, item.primitive));
-            let deltas = geometry.and_then(|geometry| geometry.deltas.as_ref()).unwrap_or(&nothing);
-            pipelines.draw_group(gpu, &uniforms, &palettes, &weights, deltas)
+        let group = |(&part, geometry): (&(u32, u32), &GpuGeometry)| {
+            let deltas = geometry.deltas.as_ref().unwrap_or(&nothing);
+            (part, pipelines.draw_group(gpu, &uniforms, &palettes, &weights, deltas))
         };
-        let groups = posed.items().iter().map(group).collect();
+        let groups = geometries.iter().map(group).collect();
         let loaded = Arc::clone(posed.loaded());
         Some(Self { loaded, ghosts: count, groups, uniforms, palettes, weights, stride })
     }
+}
+
+/// Returns the distance between draw uniforms, bytes.
+pub(super) fn stride(gpu: &Gpu) -> u32 {
+    let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
+    (size_of::<DrawUniform>() as u32).next_multiple_of(alignment)
 }
 
 /// Surfaces in front of a ghost hide it; the ghost itself hides nothing.

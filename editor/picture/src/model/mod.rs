@@ -46,8 +46,8 @@ struct ModelContent {
     stride: u32,
     /// Geometry by mesh and primitive.
     geometries: HashMap<(u32, u32), GpuGeometry>,
-    /// Bind groups 1, one per draw item.
-    groups: Vec<wgpu::BindGroup>,
+    /// Bind groups 1, by mesh and primitive; the number of the item is their offset.
+    groups: HashMap<(u32, u32), wgpu::BindGroup>,
 }
 
 impl DeviceListener for GpuModel {
@@ -125,10 +125,13 @@ impl GpuModel {
     ) {
         let Some(resources) = &self.resources else { return };
         let Some(content) = &resources.content else { return };
-        let Some(geometry) = content.geometries.get(&(item.mesh, item.primitive)) else { return };
+        let part = (item.mesh, item.primitive);
+        let (Some(geometry), Some(group)) = (content.geometries.get(&part), content.groups.get(&part)) else {
+            return;
+        };
         let Some(material) = resources.materials.get(item.material) else { return };
         pass.set_bind_group(0, &gpu.frame_group, &[]);
-        pass.set_bind_group(1, &content.groups[index], &[index as u32 * content.stride]);
+        pass.set_bind_group(1, group, &[index as u32 * content.stride]);
         pass.set_bind_group(2, material, &[]);
         pass.set_vertex_buffer(0, geometry.vertices.slice(..));
         pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
@@ -152,21 +155,23 @@ impl ModelResources {
         let weights =
             buffer("morph weights", size_of_val::<[f32]>(posed.weights()), wgpu::BufferUsages::STORAGE);
         let nothing = buffer("no morph deltas", 36, wgpu::BufferUsages::STORAGE);
-        let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
-        let stride = (size_of::<DrawUniform>() as u32).next_multiple_of(alignment);
+        let stride = ghost::stride(gpu);
         let uniforms =
             buffer("draws", stride as usize * posed.items().len().max(1), wgpu::BufferUsages::UNIFORM);
-        let mut geometries = HashMap::new();
-        let mut groups = Vec::with_capacity(posed.items().len());
-        for (index, item) in posed.items().iter().enumerate() {
+        // Written at once: a write per item would stage each of them separately.
+        let mut bytes = vec![0; stride as usize * posed.items().len()];
+        let (mut geometries, mut groups) = (HashMap::new(), HashMap::new());
+        for (item, place) in posed.items().iter().zip(bytes.chunks_exact_mut(stride as usize)) {
+            place[..size_of::<DrawUniform>()].copy_from_slice(bytemuck::bytes_of(&item.uniform));
+            let part = (item.mesh, item.primitive);
             let geometry = geometries
-                .entry((item.mesh, item.primitive))
+                .entry(part)
                 .or_insert_with(|| GpuGeometry::new(&gpu.device, primitive(loaded, item)));
-            let offset = index as u64 * u64::from(stride);
-            gpu.queue.write_buffer(&uniforms, offset, bytemuck::bytes_of(&item.uniform));
             let deltas = geometry.deltas.as_ref().unwrap_or(&nothing);
-            groups.push(self.pipelines.draw_group(gpu, &uniforms, &palettes, &weights, deltas));
+            let group = || self.pipelines.draw_group(gpu, &uniforms, &palettes, &weights, deltas);
+            groups.entry(part).or_insert_with(group);
         }
+        gpu.queue.write_buffer(&uniforms, 0, &bytes);
         self.content =
             Some(ModelContent { loaded: Arc::clone(loaded), palettes, weights, stride, geometries, groups });
     }

@@ -14,6 +14,7 @@ use super::plan::fresh_view;
 use super::planned::Plan;
 use super::reuse::{Granted, SavedSlot, others_past, slots};
 use super::source::SourceFile;
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 /// Plans a file without what earlier saves appended and nothing uses any more: bytes of the buffer, accessors, buffer
@@ -117,7 +118,8 @@ fn cut(draw: &mut Draw<'_, '_>, name: &str, items: &[ValueId], keep: usize) -> R
 }
 
 /// Samplers that no channel uses and whose accessors earlier saves wrote. They are redirected to the accessors of
-/// another sampler of their animation, which makes their own accessors unused.
+/// another sampler of their animation with the same interpolation, which makes their own accessors unused. Where there
+/// is none whose accessors fit, they keep their own: a file must not become less valid.
 struct IdleSamplers {
     /// By animation and sampler: the sampler whose accessors it gets.
     instead: HashMap<(usize, usize), usize>,
@@ -130,14 +132,23 @@ impl IdleSamplers {
         for (index, animation) in document.animations.iter().enumerate() {
             let users: HashSet<usize> =
                 animation.channels.iter().filter_map(|channel| channel.sampler).collect();
-            let Some(&busy) = users.iter().min().filter(|&&busy| busy < animation.samplers.len()) else {
-                continue;
+            let mut busy: Vec<usize> = users.iter().copied().collect();
+            busy.sort_unstable();
+            let sound = |interpolation: &str| {
+                let sampler = |number: &usize| animation.samplers.get(*number).copied();
+                let fits = |sampler| is_sound(document, sampler, interpolation);
+                busy.iter().find(|number| sampler(number).is_some_and(fits)).copied()
             };
+            // Found once for each way of interpolation, however many samplers there are.
+            let sound: HashMap<&str, Option<usize>> =
+                [LINEAR, "STEP", SPLINE].into_iter().map(|way| (way, sound(way))).collect();
             for (number, &sampler) in animation.samplers.iter().enumerate() {
                 let is_ours =
                     |name| document.json.index_member(sampler, name).is_some_and(|a| ours.contains(&a));
+                let way = interpolation(document, sampler);
+                let busy = sound.get(&*way).copied().flatten();
                 if !users.contains(&number) && is_ours("input") && is_ours("output") {
-                    instead.insert((index, number), busy);
+                    instead.extend(busy.map(|busy| ((index, number), busy)));
                 }
             }
         }
@@ -161,6 +172,31 @@ impl IdleSamplers {
         }
         used
     }
+}
+
+const LINEAR: &str = "LINEAR";
+const SPLINE: &str = "CUBICSPLINE";
+
+/// Returns the interpolation of a sampler; linear if it has none.
+fn interpolation<'a>(document: &SourceDocument<'a>, sampler: ValueId) -> Cow<'a, str> {
+    document.json.string_member(sampler, "interpolation").unwrap_or(Cow::Borrowed(LINEAR))
+}
+
+/// Returns whether a sampler has the given interpolation and accessors that glTF allows for it: times with their range,
+/// at least two for a spline, and a value for each, for a spline with two tangents.
+fn is_sound(document: &SourceDocument<'_>, sampler: ValueId, wanted: &str) -> bool {
+    let json = document.json;
+    let accessor = |name| document.accessors.get(json.index_member(sampler, name)?).copied();
+    let (Some(input), Some(output)) = (accessor("input"), accessor("output")) else { return false };
+    let count = |id| json.whole_member(id, "count").unwrap_or(0);
+    let (least, values) = if wanted == SPLINE { (2, 3) } else { (1, 1) };
+    interpolation(document, sampler) == wanted
+        && json.whole_member(input, "componentType") == Some(5126)
+        && json.string_member(input, "type").as_deref() == Some("SCALAR")
+        && ["min", "max"].iter().all(|name| json.member(input, name).is_some())
+        && count(input) >= least
+        && count(output) > 0
+        && count(input).checked_mul(values).is_some_and(|values| count(output).is_multiple_of(values))
 }
 
 /// Writes the new numbers of accessors into the samplers.

@@ -4,6 +4,7 @@
 //! the list. Parsing uses no recursion.
 
 use super::token::{number_end, string_end, unquoted};
+use crate::format::gltf::whole::whole;
 use crate::limits::{JSON_DEPTH, MEMORY_MAX};
 use std::borrow::Cow;
 use std::ops::Range;
@@ -239,7 +240,7 @@ impl<'a> Json<'a> {
 
     /// Returns the value as a non-negative whole number.
     pub(in super::super) fn whole(self, id: ValueId) -> Option<u64> {
-        (self.kind(id) == JsonKind::Number).then(|| std::str::from_utf8(self.token(id)).ok()?.parse().ok())?
+        (self.kind(id) == JsonKind::Number).then(|| whole(std::str::from_utf8(self.token(id)).ok()?))?
     }
 
     /// Returns [`Self::whole`] of a member.
