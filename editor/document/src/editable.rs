@@ -11,7 +11,7 @@ use dragonfly_anim::format::{
 };
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_store::{
-    ExpectedFile, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file, save_document,
+    ExpectedFile, FileStamp, RealFiles, SaveOptions, Vfs, folder_of, save as save_file, save_document,
 };
 use std::collections::HashMap;
 use std::fmt;
@@ -125,6 +125,10 @@ impl Editable {
     pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<WrittenFile>, String> {
         let Some((main, beside)) = plan.files.split_last() else { return Ok(Vec::new()) };
         let folder = folder_of(output);
+        // A name that is mistyped must not make folders. Those of the files beside it are made.
+        if !folder.is_dir() {
+            return Err(format!("{}: its folder does not exist", output.display()));
+        }
         let mut files: Vec<WrittenFile> =
             beside.iter().map(|file| (folder.join(&file.name), file.bytes.clone())).collect();
         files.extend(self.taken_along(folder)?);
@@ -187,6 +191,11 @@ impl Editable {
         self.path.as_deref().is_some_and(|own| same_file(own, path))
     }
 
+    /// Returns the format of the file.
+    pub(super) fn format(&self) -> Format {
+        self.file.format()
+    }
+
     /// Returns the file extension.
     pub fn ending(&self) -> String {
         let ending = self.path.as_deref().and_then(|path| path.extension()?.to_str().map(str::to_owned));
@@ -229,7 +238,6 @@ impl Editable {
             save_file(&RealFiles, path, bytes, &options).map_err(SaveFailure::of)?;
             saved.files.push(path.clone());
         }
-        make_folder(&main)?;
         let expected = match (how.overwrite, &self.stamp) {
             (Overwrite::AsRead, Some(stamp)) => ExpectedFile::Stamp(stamp),
             (Overwrite::Nothing, _) => ExpectedFile::Nothing,
@@ -300,9 +308,12 @@ pub(super) fn same_file(a: &Path, b: &Path) -> bool {
     matches!((std::fs::canonicalize(a), std::fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Creates the folder of `path` if it does not exist.
+/// Creates the folder of `path` if it does not exist, and flushes its name to the disk.
 pub fn make_folder(path: &Path) -> Result<(), String> {
     let folder = folder_of(path);
-    std::fs::create_dir_all(folder)
-        .map_err(|error| format!("{}: the folder cannot be created: {error}", folder.display()))
+    let missing: Vec<&Path> =
+        folder.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()).collect();
+    let made = std::fs::create_dir_all(folder)
+        .and_then(|()| missing.iter().try_for_each(|made| RealFiles.sync_folder(folder_of(made))));
+    made.map_err(|error| format!("{}: the folder cannot be created: {error}", folder.display()))
 }

@@ -139,20 +139,24 @@ impl Open {
         let Ok(editable) = &mut self.editable else { return Err(NotSaved::NoFile) };
         let saved = editable.save_with(self.edited.adapter(), &plan, &output, how)?;
         if !copy {
-            self.edited.mark_saved();
-            if self.base.is_none() {
-                self.base = Some(self.loaded.model.animation.takes.clone().into());
-            }
-            if own {
-                self.journal_writer.file_is(Some(output.clone()), self.stamp());
-            } else {
+            self.was_saved();
+            if !own {
                 self.move_to(&output, autosave, now);
             }
-            self.look();
         }
         let beside = saved.files.len().saturating_sub(1);
         let (bytes, notices, then) = (saved.bytes, saved.notices, order.then.clone());
         Ok(SavedFile { path: output, bytes, beside, copy, notices, then })
+    }
+
+    /// Notes that the file has the present takes, and no longer those with which the history starts.
+    pub(super) fn was_saved(&mut self) {
+        self.edited.mark_saved();
+        if self.base.is_none() {
+            self.base = Some(self.loaded.model.animation.takes.clone().into());
+        }
+        self.journal_writer.file_is(self.file.path.clone(), self.stamp());
+        self.look();
     }
 
     /// Makes `path` the file of the document and of its journal.

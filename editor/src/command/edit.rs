@@ -182,7 +182,7 @@ fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Writt
     let mut written = Vec::new();
     let files = editable.files(plan, output).map_err(Failure::Input)?;
     for (at, (path, bytes)) in files.iter().enumerate() {
-        // The folder of the model, the last file, must exist; folders of the files that it refers to are created.
+        // The folder of the model, the last file, exists; folders of the files that it refers to are created.
         if at + 1 < files.len() {
             make_folder(path).map_err(Failure::Input)?;
         }
