@@ -187,7 +187,8 @@ impl Open {
     /// Returns how another program changed the file; `None` where it is unchanged or cannot be checked.
     pub(super) fn changed_on_disk(&self) -> Option<FileState> {
         let (path, stamp) = (self.file.path.as_deref()?, self.stamp()?);
-        stamp.state(&RealFiles, path).ok().filter(|state| *state != FileState::Same)
+        let state = stamp.state(&RealFiles, path).ok().filter(|state| *state != FileState::Same);
+        state.or_else(|| self.editable.as_ref().ok()?.changed_beside().map(|(_, state)| state))
     }
 }
 

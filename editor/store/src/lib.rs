@@ -46,5 +46,6 @@ pub use recovery::{Claim, Resumed};
 pub use save::{SaveOptions, SaveOutcome, replace, save};
 pub use stamp::{FileStamp, FileState, hash};
 pub use target::ExpectedFile;
+pub use temporary::remove_unfinished;
 pub use versions::{OldVersion, VersionLimits, Versions};
 pub use vfs::{Attribute, FileData, FileKind, Vfs, VfsFile, folder_of};
