@@ -5,11 +5,10 @@ use dragonfly_document::{
     Change, Decision, Document, DocumentHandle, DocumentMessage, DocumentReply, SaveOrder, Setup, View,
 };
 use dragonfly_kit::document::test_document::{
-    TestDocument, autosave_in, autosave_with, copy_after_kill, fox, rename, same_takes, turn,
+    TestDocument, autosave_in, copy_after_kill, fox, rename, same_takes, turn,
 };
 use dragonfly_kit::eventually;
 use dragonfly_kit::folder::Folder;
-use dragonfly_kit::store::faulty_files::{Fault, FaultyFiles};
 use dragonfly_runtime::{Context, Receiver, Stage, ThreadHandle};
 use std::cell::RefCell;
 use std::path::Path;
@@ -44,19 +43,22 @@ struct StagedDocument {
     replies: Replies,
     view: Option<View>,
     texts: Vec<String>,
+    /// Number of completed saves.
+    saves: usize,
 }
 
 impl StagedDocument {
-    /// Opens the file on a disk on which the calls `1..=broken` fail.
-    fn open(path: &Path, autosave: &Path, broken: u64) -> Self {
+    /// Opens the file while the folder of journals cannot be created, because there is a file of its name.
+    fn open(path: &Path, autosave: &Path) -> Self {
+        std::fs::write(autosave, "no folder").expect("a file");
         let (mut stage, replies) = (Stage::default(), Replies::default());
         let [main, thread] = ["main", "document"].map(|name| stage.start(name));
         let shown = stage.context(&main).register_receiver(NoPicture);
         let to_main = stage.context(&main).register_receiver(replies.clone());
-        let files = FaultyFiles::between(1, broken, Fault::Full);
-        let setup = Setup { autosave: Some(autosave_with(autosave, files)), ..Setup::default() };
+        let setup = Setup { autosave: Some(autosave_in(autosave)), ..Setup::default() };
         let document = Document::start_in(&thread, setup, to_main, shown);
-        let mut staged = Self { stage, main, thread, document, replies, view: None, texts: Vec::new() };
+        let mut staged =
+            Self { stage, main, thread, document, replies, view: None, texts: Vec::new(), saves: 0 };
         staged.document.open(dragonfly_document::Source::File(path.to_owned()));
         eventually(Duration::from_secs(60), || {
             staged.turn();
@@ -75,6 +77,7 @@ impl StagedDocument {
                 DocumentReply::View(view) => self.view = Some(view),
                 DocumentReply::Warning(text) | DocumentReply::Notice(text) => self.texts.push(text),
                 DocumentReply::NotSaved(_, reason) => panic!("{reason:?}"),
+                DocumentReply::Saved(_) => self.saves += 1,
                 _ => {}
             }
         }
@@ -84,6 +87,16 @@ impl StagedDocument {
         self.document.change(change);
         self.turn();
         self.view()
+    }
+
+    /// Saves, and waits for the end.
+    fn save(&mut self) {
+        self.document.send(DocumentMessage::Save(SaveOrder::own(None)));
+        let saves = self.saves;
+        eventually(Duration::from_secs(60), || {
+            self.turn();
+            self.saves > saves
+        });
     }
 
     fn view(&self) -> View {
@@ -114,12 +127,13 @@ const AGAIN: &str = "Unsaved work is recorded again";
 fn the_next_edit_creates_the_journal_that_could_not_be_created_with_all_steps_before_it() {
     let folder = Folder::new("journal-later-edit");
     let path = fox(&folder);
-    // Opening makes one call that fails, the first edit a second one; then there is room again.
-    let mut document = StagedDocument::open(&path, &folder.join("autosave"), 2);
+    let autosave = folder.join("autosave");
+    let mut document = StagedDocument::open(&path, &autosave);
     assert_eq!(document.has_said(NOT_RECORDED), 1, "{:?}", document.texts);
     assert!(document.view().is_unrecorded);
     let first = document.change(Change::Edit(turn(0.3), None));
-    assert!(first.is_unrecorded, "the disk is still full: {:?}", document.texts);
+    assert!(first.is_unrecorded, "the file is still there: {:?}", document.texts);
+    std::fs::remove_file(&autosave).expect("it is there");
     let second = document.change(Change::Edit(rename("Look around"), None));
     assert!(!second.is_unrecorded, "{:?}", document.texts);
     assert_eq!((document.has_said(NOT_RECORDED), document.has_said(AGAIN)), (1, 1), "{:?}", document.texts);
@@ -133,13 +147,15 @@ fn the_next_edit_creates_the_journal_that_could_not_be_created_with_all_steps_be
 fn a_journal_that_could_not_be_created_is_tried_again_after_a_while_without_an_edit() {
     let folder = Folder::new("journal-later-timer");
     let path = fox(&folder);
-    let mut document = StagedDocument::open(&path, &folder.join("autosave"), 3);
+    let autosave = folder.join("autosave");
+    let mut document = StagedDocument::open(&path, &autosave);
     let edited = document.change(Change::Edit(turn(0.3), None));
     assert!(edited.is_unrecorded && edited.history.done == 1);
     // The first attempt of the timer fails as well.
     document.stage.advance(Duration::from_secs(2));
     document.turn();
     assert!(document.view().is_unrecorded);
+    std::fs::remove_file(&autosave).expect("it is there");
     document.stage.advance(Duration::from_secs(1));
     document.turn();
     assert!(document.view().is_unrecorded, "not before its time");
@@ -154,10 +170,11 @@ fn a_journal_that_could_not_be_created_is_tried_again_after_a_while_without_an_e
 fn edits_after_a_save_are_recorded_too_where_the_journal_came_later_than_the_save() {
     let folder = Folder::new("journal-later-save");
     let path = fox(&folder);
-    let mut document = StagedDocument::open(&path, &folder.join("autosave"), 2);
+    let autosave = folder.join("autosave");
+    let mut document = StagedDocument::open(&path, &autosave);
     document.change(Change::Edit(turn(0.3), None));
-    document.document.send(DocumentMessage::Save(SaveOrder::own(None)));
-    document.turn();
+    document.save();
+    std::fs::remove_file(&autosave).expect("it is there");
     let edited = document.change(Change::Edit(turn(0.9), None));
     assert!(!edited.is_unrecorded, "{:?}", document.texts);
     assert!(!edited.history.saved);
@@ -169,8 +186,7 @@ fn a_drag_tries_to_create_the_journal_once() {
     let folder = Folder::new("journal-later-drag");
     let path = fox(&folder);
     let autosave = folder.join("autosave");
-    std::fs::write(&autosave, "no folder").expect("a file");
-    let mut document = StagedDocument::open(&path, &autosave, 0);
+    let mut document = StagedDocument::open(&path, &autosave);
     let gesture = Some(dragonfly_document::history::Gesture(1));
     for step in 1..20 {
         document.change(Change::Edit(turn(step as f32 * 0.01), gesture));

@@ -10,6 +10,8 @@ use std::time::Duration;
 
 /// A running `dragonfly --stdio` process.
 pub(crate) struct StdioSession {
+    /// The folder of its journal, if it has one of its own; deleted with it.
+    journals: Option<Folder>,
     child: Child,
     input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
@@ -17,12 +19,31 @@ pub(crate) struct StdioSession {
 
 impl StdioSession {
     pub(crate) fn about(file: &Path) -> Self {
-        let mut command = dragonfly([Path::new("--stdio"), file]);
+        let journals = Folder::new("stdio-journals");
+        let mut session = Self::recording(file, journals.path());
+        session.journals = Some(journals);
+        session
+    }
+
+    /// Starts a session with its journal in the folder `journals`.
+    pub(crate) fn recording(file: &Path, journals: &Path) -> Self {
+        let mut command = dragonfly([Path::new("--stdio"), file, Path::new("--journal"), journals]);
         let command = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::inherit());
         let mut child = command.spawn().expect("the program starts");
         let input = child.stdin.take();
         let output = BufReader::new(child.stdout.take().expect("piped"));
-        Self { child, input, output }
+        Self { journals: None, child, input, output }
+    }
+
+    /// Sends a line without waiting for its answer.
+    pub(crate) fn send(&mut self, line: &str) {
+        writeln!(self.input.as_mut().expect("open"), "{line}").expect("it listens");
+    }
+
+    /// Kills the process.
+    pub(crate) fn kill(&mut self) {
+        self.child.kill().expect("it runs");
+        self.child.wait().expect("it was killed");
     }
 
     pub(crate) fn say(&mut self, line: &str) -> Value {
@@ -243,4 +264,31 @@ fn an_invalid_request_is_answered_and_the_session_continues() {
     assert_eq!(talk.say(r#"{"query":"history","id":"seven"}"#)["id"], "seven");
     assert_eq!(talk.say(r#"{"do":"undo","id":[8]}"#)["id"], json!([8]));
     talk.end();
+}
+
+#[test]
+fn a_save_to_a_folder_that_does_not_exist_is_refused_and_makes_no_folder() {
+    let folder = Folder::new("stdio-no-folder");
+    let file = fox(&folder);
+    let mut talk = StdioSession::about(&file);
+    talk.ask(&turn(30.0));
+    let target = folder.join("missing").join("Fox.glb");
+    let answer = talk.say(&json!({"do": "save", "to": target}).to_string());
+    let error = answer["error"].as_str().expect("an error");
+    assert!(error.contains("its folder does not exist") && error.contains("missing"), "{error}");
+    assert!(!folder.join("missing").exists());
+    talk.end();
+    // The command line refuses it as well, also for a model of several files.
+    let simple = dragonfly_kit::folder::data("gltf/SimpleSkin2");
+    let model = std::fs::read_dir(&simple).expect("a folder").flatten().map(|entry| entry.path());
+    let model = model.into_iter().find(|path| path.extension().is_some_and(|end| end == "gltf"));
+    let edits = folder.join("edits.jsonl");
+    std::fs::write(&edits, "").expect("a file");
+    for model in [Some(file), model].into_iter().flatten() {
+        let output = folder.join("missing").join(model.file_name().expect("a name"));
+        let arguments = [Path::new("edit"), &model, Path::new("--edits"), &edits, Path::new("-o"), &output];
+        let refused = run(arguments).expect(2);
+        assert!(refused.stderr.contains("its folder does not exist"), "{}", refused.stderr);
+        assert!(!folder.join("missing").exists(), "{}", model.display());
+    }
 }

@@ -1,16 +1,22 @@
 //! A file that is edited: its data, and everything needed to save it without changing the rest.
 
 use super::adapter::{ModelAdapter, TakeId, TakeVersions};
+use super::beside::{BesideStamps, ReadOnce};
 use super::source::{LoadError, Source, file_name};
+use super::unused;
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use super::{Cancel, Folder, LoadedModel, import, read_file};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::{AnimationData, ModelData};
+use dragonfly_anim::format::gltf::save::buffer_of_save;
 use dragonfly_anim::format::{
     AssetFs, EditableFile, EditedTake, ExportError, Format, ImportError, NoFiles, ReadOptions, SavePlan,
 };
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_store::{ExpectedFile, FileStamp, RealFiles, SaveOptions, folder_of, save as save_file};
+use dragonfly_store::{
+    ExpectedFile, FileStamp, FileState, RealFiles, SaveOptions, Vfs, folder_of, remove_unfinished,
+    save as save_file,
+};
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -31,6 +37,8 @@ pub struct Editable {
     file: Arc<EditableFile>,
     /// State of the file when it was last read or saved.
     stamp: Option<FileStamp>,
+    /// State of its buffers in other files when they were last read or saved.
+    beside: BesideStamps,
     /// The model with the takes that are in the file now.
     on_disk: Arc<ModelData>,
     /// Index of each take among the animations of the file, once it was saved.
@@ -52,13 +60,14 @@ impl Editable {
         };
         let wrong = |reason: String| LoadError::Format { title: source.title(), reason };
         let door = match &path {
-            Some(path) => Some(Folder::of(path).map_err(|error| wrong(error.to_string()))?),
+            Some(path) => Some(ReadOnce::of(path).map_err(|error| wrong(error.to_string()))?),
             None => None,
         };
+        let read_once = &door;
         // Taken after the file was read. A change between the two is found below: the stamp is then not that of the
         // bytes.
         let stamp = path.as_deref().and_then(|path| FileStamp::take(&RealFiles, path).ok());
-        let door: &dyn AssetFs = door.as_ref().map_or(&NoFiles, |folder| folder);
+        let door: &dyn AssetFs = read_once.as_ref().map_or(&NoFiles, |folder| folder);
         let imported = import::read(&name, &bytes, door, &|_| {}, cancel)?;
         if stamp.as_ref().is_some_and(|stamp| !stamp.is_of(&bytes)) {
             return Err(wrong("the file changed while it was read; open it again".to_owned()));
@@ -67,20 +76,22 @@ impl Editable {
         let file = file.map_err(|error| wrong(error.to_string()))?;
         let (model, warnings) = (Arc::new(imported.model), imported.warnings);
         let on_disk = Arc::clone(&model);
+        let beside = read_once.as_ref().map(ReadOnce::stamps).unwrap_or_default();
         let file = Arc::new(file);
-        Ok(Self { title: source.title(), path, model, warnings, file, stamp, on_disk, places: None })
+        Ok(Self { title: source.title(), path, model, warnings, file, stamp, beside, on_disk, places: None })
     }
 
-    /// Returns the file of `loaded`, which was read from `bytes` while the file had this stamp.
+    /// Returns the file of `loaded`, which was read from `bytes` while the file had this stamp, and from the files behind `door`.
     pub(super) fn of(
         source: &Source,
         bytes: Vec<u8>,
         stamp: Option<FileStamp>,
         loaded: &LoadedModel,
+        door: Option<&ReadOnce>,
     ) -> Result<Self, String> {
         let format = loaded.format.ok_or("it was not read from a file")?;
         let name = loaded.path.as_deref().map_or_else(|| "dragonfly.glb".to_owned(), file_name);
-        let file = opened(format, &name, bytes, loaded.path.as_deref()).map_err(|error| error.to_string())?;
+        let file = opened(format, &name, bytes, door).map_err(|error| error.to_string())?;
         Ok(Self {
             title: source.title(),
             path: loaded.path.clone(),
@@ -88,6 +99,7 @@ impl Editable {
             warnings: loaded.warnings.clone(),
             file: Arc::new(file),
             stamp,
+            beside: door.map(ReadOnce::stamps).unwrap_or_default(),
             on_disk: Arc::clone(&loaded.model),
             places: None,
         })
@@ -125,6 +137,10 @@ impl Editable {
     pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<WrittenFile>, String> {
         let Some((main, beside)) = plan.files.split_last() else { return Ok(Vec::new()) };
         let folder = folder_of(output);
+        // A name that is mistyped must not make folders. Those of the files beside it are made.
+        if !folder.is_dir() {
+            return Err(format!("{}: its folder does not exist", output.display()));
+        }
         let mut files: Vec<WrittenFile> =
             beside.iter().map(|file| (folder.join(&file.name), file.bytes.clone())).collect();
         files.extend(self.taken_along(folder)?);
@@ -183,9 +199,24 @@ impl Editable {
         Ok(saved.files)
     }
 
+    /// Returns the first of its buffers in other files that another program changed, and how.
+    pub(super) fn changed_beside(&self) -> Option<(&Path, FileState)> {
+        self.beside.changed()
+    }
+
+    /// Removes the buffer files of earlier saves that nothing uses any more. Returns their paths.
+    pub fn remove_unused(&self) -> Vec<PathBuf> {
+        self.path.as_deref().map(|path| unused::remove(path, &self.file.neighbors())).unwrap_or_default()
+    }
+
     /// Returns whether this is the path of the opened file.
     pub(super) fn is_own(&self, path: &Path) -> bool {
         self.path.as_deref().is_some_and(|own| same_file(own, path))
+    }
+
+    /// Returns the format of the file.
+    pub(super) fn format(&self) -> Format {
+        self.file.format()
     }
 
     /// Returns the file extension.
@@ -222,14 +253,20 @@ impl Editable {
         how: Writing<'_>,
     ) -> Result<FilesSaved, SaveFailure> {
         let Some((main, bytes)) = files.pop() else { return Ok(FilesSaved::default()) };
+        if how.overwrite == Overwrite::AsRead
+            && let Some((path, _)) = self.changed_beside()
+        {
+            return Err(SaveFailure::Changed(path.to_path_buf()));
+        }
+        let mut beside = BesideStamps::default();
         let mut saved = FilesSaved::default();
         for (path, bytes) in &files {
             make_folder(path)?;
             let options = SaveOptions::default();
-            save_file(&RealFiles, path, bytes, &options).map_err(SaveFailure::of)?;
+            let done = save_file(&RealFiles, path, bytes, &options).map_err(SaveFailure::of)?;
+            beside.add(done.path, done.stamp);
             saved.files.push(path.clone());
         }
-        make_folder(&main)?;
         let expected = match (how.overwrite, &self.stamp) {
             (Overwrite::AsRead, Some(stamp)) => ExpectedFile::Stamp(stamp),
             (Overwrite::Nothing, _) => ExpectedFile::Nothing,
@@ -240,23 +277,32 @@ impl Editable {
         saved.files.push(main.clone());
         saved.notices = done.notices;
         saved.bytes = bytes.len();
+        let name = file_name(&main);
+        remove_unfinished(&RealFiles, folder_of(&main), &|other| buffer_of_save(other, &name).is_some());
         if how.becomes {
+            if !self.is_own(&main) {
+                self.beside = BesideStamps::default();
+            }
+            self.beside.extend(beside);
             self.stamp = Some(done.stamp);
             self.title = file_name(&main);
-            self.path = Some(main);
+            self.path = Some(main.clone());
             if let Err(reason) = self.begin_again(adapter, bytes) {
                 saved
                     .notices
                     .push(format!("the saved file cannot be edited further: {reason}; open it again"));
             }
+            saved.notices.extend(unused::notice(&main, &self.file.neighbors()));
         }
         Ok(saved)
     }
 
     /// Makes later saves relative to `bytes`, which contain the takes of `adapter`.
     fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
-        let file = opened(self.file.format(), &self.title, bytes, self.path.as_deref());
+        let door = self.path.as_deref().and_then(|path| ReadOnce::of(path).ok());
+        let file = opened(self.file.format(), &self.title, bytes, door.as_ref());
         self.file = Arc::new(file.map_err(|error| error.to_string())?);
+        self.beside.extend(door.map(|door| door.stamps()).unwrap_or_default());
         let skeleton = Arc::clone(&self.model.animation.skeleton);
         let animation = AnimationData { skeleton, takes: adapter.results().cloned().collect() };
         self.on_disk = Arc::new(ModelData { animation, ..ModelData::clone(&self.model) });
@@ -277,17 +323,16 @@ impl fmt::Debug for Editable {
     }
 }
 
-/// Opens `bytes`, the content of the file at `path`, for editing, with access to the files of its folder where there is
-/// one.
+/// Opens `bytes` for editing, with access to the files of its folder where there is one.
 fn opened(
     format: Format,
     name: &str,
     bytes: Vec<u8>,
-    path: Option<&Path>,
+    door: Option<&ReadOnce>,
 ) -> Result<EditableFile, ImportError> {
     let options = ReadOptions::default();
-    match path.and_then(|path| Folder::of(path).ok()) {
-        Some(folder) => format.edit(name, bytes, &folder, &options),
+    match door {
+        Some(door) => format.edit(name, bytes, door, &options),
         None => format.edit(name, bytes, &NoFiles, &options),
     }
 }
@@ -296,9 +341,12 @@ pub(super) fn same_file(a: &Path, b: &Path) -> bool {
     matches!((std::fs::canonicalize(a), std::fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Creates the folder of `path` if it does not exist.
+/// Creates the folder of `path` if it does not exist, and flushes its name to the disk.
 pub fn make_folder(path: &Path) -> Result<(), String> {
     let folder = folder_of(path);
-    std::fs::create_dir_all(folder)
-        .map_err(|error| format!("{}: the folder cannot be created: {error}", folder.display()))
+    let missing: Vec<&Path> =
+        folder.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()).collect();
+    let made = std::fs::create_dir_all(folder)
+        .and_then(|()| missing.iter().try_for_each(|made| RealFiles.sync_folder(folder_of(made))));
+    made.map_err(|error| format!("{}: the folder cannot be created: {error}", folder.display()))
 }

@@ -65,12 +65,17 @@ impl Folder {
         Ok(Self { root: folder.canonicalize()? })
     }
 
+    /// Returns the path of the existing file `name`, without links.
+    pub(super) fn path_of(&self, name: &str) -> Result<PathBuf, FileAccessError> {
+        let resolved = self.root.join(checked(name)?).canonicalize()?;
+        if resolved.starts_with(&self.root) { Ok(resolved) } else { Err(FileAccessError::Outside) }
+    }
+
     /// Returns the bytes of the file `name`: a relative path with `/` between its parts, percent-decoded.
     ///
     /// Links that stay inside the folder are followed.
     pub fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, FileAccessError> {
-        let relative = checked(name)?;
-        let resolved = self.root.join(relative).canonicalize()?;
+        let resolved = self.path_of(name)?;
         let inside = resolved.strip_prefix(&self.root).map_err(|_| FileAccessError::Outside)?;
         read_regular(system::open_below(&self.root, inside)?, limit)
     }

@@ -1,11 +1,10 @@
 //! Imports the bytes of a model with the importers of the library.
 
-use super::source::{LoadError, file_name};
-use super::{Cancel, Folder};
+use super::Cancel;
+use super::source::LoadError;
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{AssetFs, Format, Formats, ImportError, NoFiles, ReadOptions};
-use std::path::Path;
 
 /// Returns the file formats that the program knows: what it opens, saves, and lists in dialogs and help texts.
 pub fn formats() -> Formats {
@@ -25,19 +24,6 @@ pub(super) struct ImportedModel {
 /// Imports the built-in model.
 pub(super) fn built_in(progress: &dyn Fn(f32), cancel: &Cancel) -> Result<ImportedModel, LoadError> {
     read("dragonfly.glb", DRAGONFLY_GLB, &NoFiles, progress, cancel)
-}
-
-/// Imports the file at `path`. Files that it refers to are read from its folder.
-pub(super) fn file(
-    path: &Path,
-    bytes: &[u8],
-    progress: &dyn Fn(f32),
-    cancel: &Cancel,
-) -> Result<ImportedModel, LoadError> {
-    let title = file_name(path);
-    let folder = Folder::of(path)
-        .map_err(|error| LoadError::Format { title: title.clone(), reason: error.to_string() })?;
-    read(&title, bytes, &folder, progress, cancel)
 }
 
 /// Imports `bytes` of a file called `title`. Files that it refers to are read through `door`.

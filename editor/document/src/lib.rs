@@ -13,6 +13,7 @@ mod about;
 pub mod adapter;
 mod alike;
 mod base;
+mod beside;
 pub mod bones;
 mod cancel;
 pub mod demo;
@@ -43,6 +44,7 @@ mod saving;
 mod scan;
 mod source;
 pub mod text;
+mod unused;
 mod view;
 mod writing;
 

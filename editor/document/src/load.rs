@@ -1,8 +1,9 @@
 //! Opens a model for the window and for the command line: reads its bytes, imports its data, decodes its images.
 //! Loading reports its progress and can be cancelled.
 
+use super::beside::ReadOnce;
 use super::source::{LoadError, Source};
-use super::{Cancel, Editable, LoadStage, LoadedModel, Progress, read_file};
+use super::{Cancel, Editable, FileAccessError, LoadStage, LoadedModel, Progress, read_file};
 use super::{images, import};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::bounds::bounds_of_pose;
@@ -58,7 +59,7 @@ pub fn open_model(
     let read = Read::file(source)?;
     let loaded = read.load(progress, cancel)?;
     let stamp = read.stamp()?;
-    let editable = Editable::of(source, read.bytes, stamp, &loaded);
+    let editable = Editable::of(source, read.bytes, stamp, &loaded, read.door.as_ref());
     Ok(OpenedModel { loaded, editable })
 }
 
@@ -68,19 +69,26 @@ struct Read<'a> {
     bytes: Vec<u8>,
     /// State of the file before it was read.
     before: Option<FileData>,
+    /// The files next to it.
+    door: Option<ReadOnce>,
 }
 
 impl<'a> Read<'a> {
     fn file(source: &'a Source) -> Result<Self, LoadError> {
-        let (bytes, before) = match source {
-            Source::BuiltIn => (DRAGONFLY_GLB.to_vec(), None),
+        let (bytes, before, door) = match source {
+            Source::BuiltIn => (DRAGONFLY_GLB.to_vec(), None, None),
             Source::File(path) => {
                 let before = FileStamp::before(&RealFiles, path).ok();
                 let failed = |reason| LoadError::File { path: path.clone(), reason };
-                (read_file(path, FILE_BYTES).map_err(failed)?, before)
+                let bytes = read_file(path, FILE_BYTES).map_err(failed)?;
+                let wrong = |error: FileAccessError| LoadError::Format {
+                    title: source.title(),
+                    reason: error.to_string(),
+                };
+                (bytes, before, Some(ReadOnce::of(path).map_err(wrong)?))
             }
         };
-        Ok(Self { source, bytes, before })
+        Ok(Self { source, bytes, before, door })
     }
 
     /// Returns the state of the file now that it was read; `None` where there is no file.
@@ -107,9 +115,11 @@ impl<'a> Read<'a> {
                 let done = 0.1 + 0.4 * done.clamp(0.0, 1.0);
                 (progress.borrow_mut())(Progress { stage: LoadStage::Understanding, done });
             };
-            match self.source {
-                Source::BuiltIn => import::built_in(&understanding, cancel)?,
-                Source::File(path) => import::file(path, &self.bytes, &understanding, cancel)?,
+            match (&self.door, self.source) {
+                (Some(door), source) => {
+                    import::read(&source.title(), &self.bytes, door, &understanding, cancel)?
+                }
+                (None, _) => import::built_in(&understanding, cancel)?,
             }
         };
         check(cancel)?;

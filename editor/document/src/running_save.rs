@@ -93,7 +93,7 @@ impl RunningSave {
         order: SaveOrder,
         input: SaveInput,
     ) -> Result<Self, (SaveOrder, NotSaved)> {
-        let work = move || SaveStep::Prepared(prepare(input).map(Box::new));
+        let work = move || SaveStep::Prepared(prepare(input).map(Box::new).map_err(NotSaved::Failed));
         Self::start(document, ticket, order, |reason| SaveStep::Prepared(Err(reason)), work)
     }
 
@@ -103,7 +103,7 @@ impl RunningSave {
         order: SaveOrder,
         prepared: Box<PreparedSave>,
     ) -> Result<Self, (SaveOrder, NotSaved)> {
-        let work = move || SaveStep::Written(prepared.write().map(Box::new));
+        let work = move || SaveStep::Written(prepared.write().map(Box::new).map_err(NotSaved::from));
         Self::start(document, ticket, order, |reason| SaveStep::Written(Err(reason)), work)
     }
 }
@@ -183,7 +183,7 @@ impl Document {
                 // The document was lost, and with it the journal.
                 let Some(open) = &mut self.open else { return };
                 open.record_saving(&mut prepared, now);
-                prepared.write().map(Box::new)
+                prepared.write().map(Box::new).map_err(NotSaved::from)
             }
             Ok(SaveStep::Prepared(Err(reason))) => Err(reason),
             Ok(SaveStep::Written(written)) => written,

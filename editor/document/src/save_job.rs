@@ -9,9 +9,9 @@ use super::editable::{Editable, WrittenFile};
 use super::fault::{FaultInjection, FaultPoint};
 use super::history::Edited;
 use super::recorded::{EditsOrigin, Snapshot};
-use super::saving::NotSaved;
-use super::writing::{FilesSaved, Overwrite, Writing};
+use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
 use dragonfly_anim::data::Take;
+use dragonfly_anim::format::ChangeReport;
 use dragonfly_store::{Autosave, Journal, JournalError, Successor, SuccessorJournal};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -50,6 +50,7 @@ pub(super) struct PreparedSave {
     input: SaveInput,
     /// All files, the model last.
     files: Vec<WrittenFile>,
+    changes: Option<ChangeReport>,
     size_and_hash: (u64, u64),
     journal: Option<Result<SuccessorJournal, JournalError>>,
 }
@@ -70,11 +71,10 @@ pub(super) struct WrittenSave {
 ///
 /// # Errors
 /// The reason why it cannot be saved. Nothing was written.
-pub(super) fn prepare(mut input: SaveInput) -> Result<PreparedSave, NotSaved> {
+pub(super) fn prepare(mut input: SaveInput) -> Result<PreparedSave, String> {
     input.faults.reach(FaultPoint::PrepareSave);
-    let failed = |reason: String| NotSaved::Failed(reason);
-    let plan = input.editable.plan(input.edited.adapter()).map_err(|error| failed(error.to_string()))?;
-    let files = input.editable.files(&plan, &input.output).map_err(failed)?;
+    let plan = input.editable.plan(input.edited.adapter()).map_err(|error| error.to_string())?;
+    let files = input.editable.files(&plan, &input.output)?;
     let bytes = files.last().map_or(&[][..], |(_, bytes)| bytes);
     let size_and_hash = (bytes.len() as u64, dragonfly_store::hash(bytes));
     let journal = match input.successor.take() {
@@ -84,14 +84,14 @@ pub(super) fn prepare(mut input: SaveInput) -> Result<PreparedSave, NotSaved> {
         }
         None => None,
     };
-    Ok(PreparedSave { input, files, size_and_hash, journal })
+    Ok(PreparedSave { input, files, changes: plan.changes, size_and_hash, journal })
 }
 
 impl SaveInput {
     /// Returns the whole history as bytes for a journal.
-    fn snapshot(&self) -> Result<Vec<u8>, NotSaved> {
+    fn snapshot(&self) -> Result<Vec<u8>, String> {
         Snapshot::bytes(self.about.clone(), &self.edited, Some(&*self.base))
-            .map_err(|error| NotSaved::Failed(format!("the history cannot be written as JSON: {error}")))
+            .map_err(|error| format!("the history cannot be written as JSON: {error}"))
     }
 
     /// Begins the journal of a file that has just been written and becomes the file of the document.
@@ -114,6 +114,11 @@ impl PreparedSave {
         self.input.target
     }
 
+    /// Returns the changes of the file; `None` where the whole file is written.
+    pub(super) fn changes(&self) -> Option<&ChangeReport> {
+        self.changes.as_ref()
+    }
+
     /// Returns size and hash of the model's file.
     pub(super) fn size_and_hash(&self) -> (u64, u64) {
         self.size_and_hash
@@ -128,7 +133,7 @@ impl PreparedSave {
     ///
     /// # Errors
     /// The reason why nothing was saved.
-    pub(super) fn write(self) -> Result<WrittenSave, NotSaved> {
+    pub(super) fn write(self) -> Result<WrittenSave, SaveFailure> {
         let Self { mut input, files, .. } = self;
         input.faults.reach(FaultPoint::WriteSave);
         let target = input.target;

@@ -137,8 +137,25 @@ impl Open {
             _ if order.anyway => Overwrite::Anything,
             _ => Overwrite::Nothing,
         };
-        let editable = editable.clone();
-        let successor = if copy {
+        self.begin_saving(output, target, overwrite, autosave, faults, now).map_err(NotSaved::Failed)
+    }
+
+    /// Begins a save of the present state as `output`. Old versions of the file are kept in `autosave`.
+    ///
+    /// # Errors
+    ///
+    /// The reason why the model cannot be saved.
+    pub(super) fn begin_saving(
+        &mut self,
+        output: PathBuf,
+        target: SaveTarget,
+        overwrite: Overwrite,
+        autosave: Option<&Autosave>,
+        faults: FaultInjection,
+        now: Instant,
+    ) -> Result<SaveInput, String> {
+        let editable = self.editable.as_ref().map_err(|reason| self.unsavable(reason))?.clone();
+        let successor = if target == SaveTarget::Copy {
             None
         } else {
             self.edited.begin_save();
@@ -154,7 +171,7 @@ impl Open {
             target,
             autosave: autosave.cloned(),
             // The file will no longer have the takes with which the history starts.
-            successor: successor.filter(|_| own),
+            successor: successor.filter(|_| target == SaveTarget::Own),
             faults,
         })
     }
@@ -168,12 +185,12 @@ impl Open {
     }
 
     /// Ends a save: what was written is the file of the document, unless it is a copy.
-    pub(super) fn end_save(
+    pub(super) fn end_save<E>(
         &mut self,
-        written: Result<WrittenSave, NotSaved>,
+        written: Result<WrittenSave, E>,
         autosave: Option<&Autosave>,
         now: Instant,
-    ) -> Result<SavedFile, NotSaved> {
+    ) -> Result<SavedFile, E> {
         let copy = written.as_ref().is_ok_and(|written| written.target == SaveTarget::Copy);
         if !copy {
             self.edited.end_save(written.is_ok());
@@ -227,7 +244,8 @@ impl Open {
     /// Returns how another program changed the file; `None` where it is unchanged or cannot be checked.
     pub(super) fn changed_on_disk(&self) -> Option<FileState> {
         let (path, stamp) = (self.file.path.as_deref()?, self.stamp()?);
-        stamp.state(&RealFiles, path).ok().filter(|state| *state != FileState::Same)
+        let state = stamp.state(&RealFiles, path).ok().filter(|state| *state != FileState::Same);
+        state.or_else(|| self.editable.as_ref().ok()?.changed_beside().map(|(_, state)| state))
     }
 }
 

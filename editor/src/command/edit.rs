@@ -32,7 +32,7 @@ pub(super) struct EditArguments {
     /// Print the changes without writing them
     #[arg(long)]
     dry_run: bool,
-    /// Remove data that earlier saves appended and that is no longer used
+    /// Remove data that earlier saves appended, and buffer files that they wrote, where nothing uses them any more
     #[arg(long, conflicts_with = "edits")]
     compact: bool,
     /// Print one JSON document instead of text
@@ -73,13 +73,17 @@ impl RunCommand for EditArguments {
             Some(output) if !self.dry_run => save(&editable, &plan, output)?,
             _ => Vec::new(),
         };
+        let removed = match &self.output {
+            Some(output) if self.compact && !self.dry_run && output != Path::new("-") => unused_of(output)?,
+            _ => Vec::new(),
+        };
         let pending = adapter.pending_poses();
         if pending > 0 {
             tell(format_args!(
                 "{pending} pending poses are not keyed and were not written; the edit \"key_pending\" keys them"
             ));
         }
-        self.report(&editable.title, edits.len(), &plan, written)
+        self.report(&editable.title, edits.len(), &plan, written, removed)
     }
 }
 
@@ -97,18 +101,22 @@ impl EditArguments {
         edits: usize,
         plan: &SavePlan,
         written: Vec<Written>,
+        removed: Vec<String>,
     ) -> Result<(), Failure> {
         // If the model is written to stdout, nothing else is.
         let to_stdout = !self.dry_run && self.output.as_deref() == Some(Path::new("-"));
         if self.json && !to_stdout {
             let changes = plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.json).ok());
-            return print_json(&EditReport { file: title.to_owned(), edits, changes, written });
+            return print_json(&EditReport { file: title.to_owned(), edits, changes, written, removed });
         }
         if self.dry_run {
             return print(|out| write!(out, "{plan}"));
         }
         for file in written {
             tell(format_args!("wrote {} ({} bytes)", file.path, file.bytes));
+        }
+        for path in removed {
+            tell(format_args!("removed {path}"));
         }
         Ok(())
     }
@@ -121,6 +129,9 @@ struct EditReport {
     /// Null if the whole file is written.
     changes: Option<serde_json::Value>,
     written: Vec<Written>,
+    /// Buffer files of earlier saves that nothing used any more.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    removed: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -173,6 +184,12 @@ pub(super) fn read_edits(path: &Path) -> Result<Vec<(usize, Edit)>, Failure> {
     parse_lines(&text).map_err(|error| Failure::input(&name, error))
 }
 
+/// Removes the buffer files of earlier saves next to the written model that nothing uses any more. Returns their paths.
+fn unused_of(output: &Path) -> Result<Vec<String>, Failure> {
+    let written = Editable::open(&source(output), &Cancel::default())?;
+    Ok(written.remove_unused().iter().map(|path| path.display().to_string()).collect())
+}
+
 /// Writes the files of the plan. Returns their paths and sizes.
 fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, Failure> {
     if output == Path::new("-") && editable.needs_others(plan) {
@@ -182,7 +199,7 @@ fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Writt
     let mut written = Vec::new();
     let files = editable.files(plan, output).map_err(Failure::Input)?;
     for (at, (path, bytes)) in files.iter().enumerate() {
-        // The folder of the model, the last file, must exist; folders of the files that it refers to are created.
+        // The folder of the model, the last file, exists; folders of the files that it refers to are created.
         if at + 1 < files.len() {
             make_folder(path).map_err(Failure::Input)?;
         }

@@ -117,8 +117,8 @@ pub fn main_with(arguments: impl IntoIterator<Item = OsString>, options: Options
         Ok(Err(failure)) => failure.report(),
         Err(panic) => {
             tell(format_args!(
-                "internal error, a bug of the program: {}\n  Your files were not changed. \
-                 DRAGONFLY_LOG=debug shows what led to it.",
+                "internal error, a bug of the program: {}\n  Your files are whole: a file that was being saved \
+                 is as it was before or as it was to become. DRAGONFLY_LOG=debug shows what led to it.",
                 dragonfly_runtime::panic_text(&*panic)
             ));
             ExitCode::from(3)

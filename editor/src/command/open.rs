@@ -20,6 +20,9 @@ pub(super) struct OpenArguments {
     /// Run without a window: read one JSON edit or query per line from stdin, write one JSON answer per line to stdout
     #[arg(long)]
     stdio: bool,
+    /// Folder for the journal of --stdio, instead of the default one; `off` records nothing
+    #[arg(long, value_name = "FOLDER|off", requires = "stdio")]
+    journal: Option<PathBuf>,
     /// List the commands of the editor: id, title, tooltip, keys, and condition
     #[arg(long, conflicts_with = "stdio")]
     commands: bool,
@@ -38,7 +41,7 @@ impl OpenArguments {
             return super::command_list::print();
         }
         if self.stdio {
-            return super::stdio::talk(self.files.first());
+            return super::stdio::talk(self.files.first(), self.journal, self.autosave);
         }
         if !has_display() {
             quiet::about_wayland();

@@ -5,24 +5,44 @@ use super::{Failure, tell};
 use dragonfly_document::edit::LONGEST_LINE;
 use dragonfly_document::protocol::Session;
 use dragonfly_document::{Cancel, Editable};
-use std::io::{self, BufRead, Read, Write};
+use dragonfly_store::{Autosave, RealFiles};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-/// Answers each line of standard input with a line on standard output, until the input ends.
-pub(super) fn talk(file: Option<&PathBuf>) -> Result<(), Failure> {
+/// Value of `--journal` with which nothing is recorded.
+const OFF: &str = "off";
+
+/// Returns the folder of journals that the arguments name; `None` where nothing is recorded.
+fn journals(journal: Option<PathBuf>, autosave: Option<PathBuf>) -> Option<Autosave> {
+    match journal {
+        Some(off) if off == Path::new(OFF) => None,
+        folder => Autosave::new(Arc::new(RealFiles), folder.or(autosave)),
+    }
+}
+
+/// Answers each line of standard input with a line on standard output, until the input ends. Edits of a file are recorded in a
+/// journal before they are answered.
+pub(super) fn talk(
+    file: Option<&PathBuf>,
+    journal: Option<PathBuf>,
+    autosave: Option<PathBuf>,
+) -> Result<(), Failure> {
     let editable =
         Editable::open(&source(file.map_or(Path::new(BUILT_IN), PathBuf::as_path)), &Cancel::default())?;
     for warning in &editable.warnings {
         tell(warning);
     }
-    let mut session = Session::new(editable);
-    let (mut input, mut output) = (io::stdin().lock(), io::stdout().lock());
+    let mut session = Session::recorded(editable, journals(journal, autosave));
+    // The input has its own buffer, which shows whether further requests wait.
+    let (mut input, mut output) = (BufReader::new(io::stdin().lock()), io::stdout().lock());
     let mut line = Vec::new();
     loop {
+        session.trouble().iter().for_each(tell);
         line.clear();
         let read = (&mut input).take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut line);
         if read.map_err(|error| Failure::input("standard input", error))? == 0 {
-            return Ok(());
+            return session.end().map_err(Failure::Machine);
         }
         let answer = if line.len() > LONGEST_LINE {
             skip_line(&mut input).map_err(|error| Failure::input("standard input", error))?;
@@ -38,6 +58,7 @@ pub(super) fn talk(file: Option<&PathBuf>) -> Result<(), Failure> {
         match said {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Err(Failure::OutputClosed),
             Err(error) => return Err(Failure::Machine(format!("standard output: {error}"))),
+            Ok(()) if input.buffer().is_empty() => session.keep(),
             Ok(()) => {}
         }
     }

@@ -48,5 +48,6 @@ pub use save::{SaveOptions, SaveOutcome, replace, save};
 pub use stamp::{FileStamp, FileState, hash};
 pub use successor::{Successor, SuccessorJournal};
 pub use target::ExpectedFile;
+pub use temporary::remove_unfinished;
 pub use versions::{OldVersion, VersionLimits, Versions};
 pub use vfs::{Attribute, FileData, FileKind, Vfs, VfsFile, folder_of};

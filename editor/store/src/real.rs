@@ -67,7 +67,7 @@ impl Vfs for RealFiles {
     }
 
     fn list(&self, path: &Path) -> io::Result<Vec<OsString>> {
-        fs::read_dir(path)?.map(|entry| Ok(entry?.file_name())).collect()
+        system::list(path)
     }
 }
 
@@ -142,10 +142,12 @@ fn kind_of(metadata: &std::fs::Metadata) -> FileKind {
 #[cfg(unix)]
 mod system {
     use crate::vfs::FileData;
-    use rustix::fs::OFlags;
+    use rustix::fs::{Dir, OFlags};
     use rustix::io::Errno;
+    use std::ffi::{OsStr, OsString};
     use std::fs::{DirBuilder, File, Metadata, OpenOptions, Permissions};
     use std::io;
+    use std::os::unix::ffi::OsStrExt;
     use std::os::unix::fs::{DirBuilderExt, FileExt, MetadataExt, OpenOptionsExt, PermissionsExt, fchown};
     use std::path::Path;
 
@@ -180,6 +182,19 @@ mod system {
 
     pub(super) fn create_folder(path: &Path) -> io::Result<()> {
         DirBuilder::new().recursive(true).mode(0o700).create(path)
+    }
+
+    /// Lists a folder without `std::fs::read_dir`, which panics where the folder cannot be closed.
+    pub(super) fn list(path: &Path) -> io::Result<Vec<OsString>> {
+        let mut names = Vec::new();
+        for entry in Dir::read_from(File::open(path)?)? {
+            let entry = entry?;
+            let name = OsStr::from_bytes(entry.file_name().to_bytes());
+            if name != "." && name != ".." {
+                names.push(name.to_owned());
+            }
+        }
+        Ok(names)
     }
 
     pub(super) fn sync_folder(path: &Path) -> io::Result<()> {
@@ -217,6 +232,7 @@ mod system {
 #[cfg(not(unix))]
 mod system {
     use crate::vfs::FileData;
+    use std::ffi::OsString;
     use std::fs::{File, Metadata, OpenOptions};
     use std::io::{self, Read, Seek, SeekFrom, Write};
     use std::path::Path;
@@ -249,6 +265,10 @@ mod system {
 
     pub(super) fn create_folder(path: &Path) -> io::Result<()> {
         std::fs::create_dir_all(path)
+    }
+
+    pub(super) fn list(path: &Path) -> io::Result<Vec<OsString>> {
+        std::fs::read_dir(path)?.map(|entry| Ok(entry?.file_name())).collect()
     }
 
     /// Does nothing, because folders cannot be opened on this system, which journals file names itself.

@@ -61,6 +61,20 @@ pub(super) fn remove_leftovers(files: &dyn Vfs, target: &Path) {
     }
 }
 
+/// Removes what killed programs on this computer left of the files in `folder` that they were writing and whose name `is_ours`. Failing to
+/// remove one does no harm.
+pub fn remove_unfinished(files: &dyn Vfs, folder: &Path, is_ours: &dyn Fn(&str) -> bool) {
+    for name in retry(|| files.list(folder)).unwrap_or_default() {
+        let found = name.to_str().and_then(|name| {
+            let (name, rest) = name.strip_prefix('.')?.strip_suffix(UNFINISHED)?.rsplit_once('.')?;
+            (is_ours(name) && is_leftover(&format!("{rest}{UNFINISHED}"))).then_some(())
+        });
+        if found.is_some() {
+            let _ = retry(|| files.remove(&folder.join(&name)));
+        }
+    }
+}
+
 /// Returns whether `rest` is `host-process-number.part` of a process that no longer runs.
 fn is_leftover(rest: &str) -> bool {
     let mut parts = rest.strip_suffix(UNFINISHED).unwrap_or_default().split('-');

@@ -1,24 +1,76 @@
 //! A session: a document and its client.
 
 use super::{ProtocolCommand, ProtocolRequest};
-use crate::Editable;
-use crate::adapter::ModelAdapter;
-use crate::history::Edited;
-use dragonfly_anim::format::SavePlan;
+use crate::open::Open;
+use crate::save_job::{SaveTarget, prepare};
+use crate::writing::Overwrite;
+use crate::{Change, Editable, FaultInjection, LoadedModel, OpenedModel};
+use dragonfly_anim::bounds::Bounds;
+use dragonfly_anim::format::{ChangeReport, SavePlan};
+use dragonfly_store::Autosave;
 use serde_json::{Value, json};
 use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
 
 /// A document that a client edits.
 pub struct Session {
-    editable: Editable,
-    edited: Edited,
+    open: Open,
+    autosave: Option<Autosave>,
 }
 
 impl Session {
-    /// Starts with an opened file.
+    /// Starts with an opened file. Nothing is recorded.
     pub fn new(editable: Editable) -> Self {
-        let edited = Edited::new(ModelAdapter::new(&editable.model.animation));
-        Self { editable, edited }
+        Self::recorded(editable, None)
+    }
+
+    /// Starts with an opened file. Every edit is recorded in a journal in `autosave` before it is answered, if the model is a file.
+    pub fn recorded(editable: Editable, autosave: Option<Autosave>) -> Self {
+        let loaded = LoadedModel {
+            title: editable.title.clone(),
+            path: editable.path.clone(),
+            format: Some(editable.format()),
+            model: Arc::clone(&editable.model),
+            bounds: Bounds::of_points(&[]),
+            images: Vec::new(),
+            warnings: editable.warnings.clone(),
+        };
+        let autosave = autosave.filter(|_| loaded.path.is_some());
+        let mut open = Open::new(OpenedModel { loaded, editable: Ok(editable) }, autosave.clone());
+        if autosave.is_some() {
+            // Sessions that only read leave no journal.
+            open.journal_writer.begin_later(open.file.path.clone(), open.stamp());
+        }
+        Self { open, autosave }
+    }
+
+    /// Flushes what was recorded to the disk. To be called when no request waits.
+    pub fn keep(&mut self) {
+        self.open.keep(Instant::now());
+    }
+
+    /// Returns the warnings about the journal since the last call, one sentence each.
+    pub fn trouble(&mut self) -> Vec<String> {
+        self.open.journal_writer.trouble()
+    }
+
+    /// Ends the session. Unsaved edits stay in the journal; a journal without unsaved edits is discarded.
+    ///
+    /// # Errors
+    ///
+    /// The reason why the journal could not be closed.
+    pub fn end(mut self) -> Result<(), String> {
+        self.open.unwanted = false;
+        if self.open.edited.is_saved()
+            && let Some(autosave) = &self.autosave
+            && let Some(journal) = self.open.journal_writer.take()
+        {
+            let done =
+                if journal.is_empty() { journal.close() } else { autosave.discard_own(journal).map(drop) };
+            return done.map_err(|error| error.to_string());
+        }
+        self.open.close(self.autosave.as_ref())
     }
 
     /// Returns the answer to a line, without a line end; `None` for an empty line.
@@ -47,48 +99,59 @@ impl Session {
 
     fn carry_out(&mut self, request: &ProtocolRequest) -> Result<Value, String> {
         let command = match request {
-            ProtocolRequest::Query(query) => return query.answer(&self.edited),
+            ProtocolRequest::Query(query) => return query.answer(&self.open.edited),
             ProtocolRequest::Command(command) => command,
         };
-        let done = match command {
-            ProtocolCommand::Edit { edit, gesture } => {
-                self.edited.ask(edit.clone(), *gesture).map_err(|error| error.to_string())?;
-                true
-            }
-            ProtocolCommand::Cancel { gesture } => self.edited.cancel(*gesture),
-            ProtocolCommand::Undo => self.edited.undo(),
-            ProtocolCommand::Redo => self.edited.redo(),
-            ProtocolCommand::GoTo { steps } => self.edited.go_to(*steps),
-            ProtocolCommand::Plan => return Ok(changes(&self.plan()?)),
+        let change = match command {
+            ProtocolCommand::Edit { edit, gesture } => Change::Edit(edit.clone(), *gesture),
+            ProtocolCommand::Cancel { gesture } => Change::Cancel(*gesture),
+            ProtocolCommand::Undo => Change::Undo,
+            ProtocolCommand::Redo => Change::Redo,
+            ProtocolCommand::GoTo { steps } => Change::GoTo(*steps),
+            ProtocolCommand::Plan => return Ok(changes(self.plan()?.changes.as_ref())),
             ProtocolCommand::Save { to } => return self.save(to.as_deref()),
         };
+        // When this returns, the journal has the change.
+        let done = self.open.change(change, Instant::now()).map_err(|error| error.to_string())?;
         if !done {
             return Err("there is no such step".to_owned());
         }
-        debug_assert_eq!(self.edited.adapter().check(), Ok(()));
-        let (steps, done) = self.edited.steps();
+        let (steps, done) = self.open.edited.steps();
         Ok(json!({"steps": steps.len(), "done": done}))
     }
 
     fn plan(&self) -> Result<SavePlan, String> {
-        self.editable.plan(self.edited.adapter()).map_err(|error| error.to_string())
+        let editable = self.open.editable.as_ref().map_err(Clone::clone)?;
+        editable.plan(self.open.edited.adapter()).map_err(|error| error.to_string())
     }
 
     fn save(&mut self, to: Option<&Path>) -> Result<Value, String> {
-        let own = self.editable.path.clone();
+        let own = self.open.file.path.clone();
         let target = to
             .map(Path::to_path_buf)
             .or(own)
             .ok_or("the built-in model has no file; give a path in \"to\"")?;
-        let plan = self.plan()?;
-        let written = self.editable.save(self.edited.adapter(), &plan, &target)?;
         // A copy leaves the opened file as it was.
-        if to.is_none() {
-            self.edited.mark_saved();
-        }
-        let mut answer = json!({"written": written, "changes": changes(&plan)});
+        let own = self.open.editable.as_ref().is_ok_and(|editable| editable.is_own(&target));
+        let (role, overwrite) = match own {
+            true => (SaveTarget::Own, Overwrite::AsRead),
+            false => (SaveTarget::Copy, Overwrite::Anything),
+        };
+        let now = Instant::now();
+        let input = self.open.begin_saving(target, role, overwrite, None, FaultInjection::default(), now)?;
+        let mut report = (Value::Null, Vec::new());
+        let written = prepare(input).and_then(|mut prepared| {
+            self.open.record_saving(&mut prepared, now);
+            report.0 = changes(prepared.changes());
+            let written = prepared.write().map_err(|error| error.to_string())?;
+            report.1.clone_from(&written.saved.files);
+            Ok(written)
+        });
+        self.open.end_save(written, None, now)?;
+        let (changes, written) = report;
+        let mut answer = json!({"written": written, "changes": changes});
         // Pending poses are not lost, but they are not in the file.
-        let pending = self.edited.adapter().pending_poses();
+        let pending = self.open.edited.adapter().pending_poses();
         if let (1.., Some(answer)) = (pending, answer.as_object_mut()) {
             answer.insert("pending_not_saved".to_owned(), json!(pending));
         }
@@ -97,6 +160,6 @@ impl Session {
 }
 
 /// Returns the changes of a save; null where the whole file is written.
-fn changes(plan: &SavePlan) -> Value {
-    plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.json).ok()).unwrap_or(Value::Null)
+fn changes(changes: Option<&ChangeReport>) -> Value {
+    changes.and_then(|changes| serde_json::from_str(&changes.json).ok()).unwrap_or(Value::Null)
 }

@@ -153,19 +153,40 @@ fn percent(bytes: &[u8]) -> String {
 ///
 /// `taken` contains the paths that the file refers to.
 pub(super) fn beside(name: &str, content: &[u8], taken: &HashSet<String>) -> String {
-    let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let (stem, hash) = (plain_stem(name), fingerprint(content));
+    let mut names = (0_u32..).map(|number| named(&stem, hash, number));
+    names.find(|name| !taken.contains(name)).expect("the file refers to a finite number of names")
+}
+
+/// Returns the name of a model file without folder and extension, with only characters that every system and every URI accepts, and
+/// not too many.
+fn plain_stem(model: &str) -> String {
+    let file = model.rsplit(['/', '\\']).next().unwrap_or(model);
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-    // Only characters that every system and every URI accepts, and not too many.
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     let stem: String = stem.chars().map(|c| if plain(c) { c } else { '_' }).take(100).collect();
-    let stem =
-        if relative_path(&format!("{stem}.bin")).is_ok() && !stem.is_empty() { &stem } else { "model" };
-    let hash = fingerprint(content);
-    let mut names = (0_u32..).map(|number| match number {
+    if relative_path(&format!("{stem}.bin")).is_ok() && !stem.is_empty() { stem } else { "model".to_owned() }
+}
+
+fn named(stem: &str, hash: u64, number: u32) -> String {
+    match number {
         0 => format!("{stem}.dragonfly-{hash:016x}.bin"),
         _ => format!("{stem}.dragonfly-{hash:016x}-{number}.bin"),
-    });
-    names.find(|name| !taken.contains(name)).expect("the file refers to a finite number of names")
+    }
+}
+
+/// Returns the hash in the name of a buffer file, if a save of the model file called `model` may have given it that name: the hash of its
+/// content (FNV-1a, 64 bits).
+pub fn buffer_of_save(name: &str, model: &str) -> Option<u64> {
+    let rest = name.strip_suffix(".bin")?;
+    let (_, numbered) = rest.rsplit_once(".dragonfly-")?;
+    let (hash, number) = match numbered.split_once('-') {
+        Some((hash, number)) => (hash, Some(number.parse::<u32>().ok()?)),
+        None => (numbered, None),
+    };
+    let hash = u64::from_str_radix(hash, 16).ok()?;
+    // Compared as a whole, so that no other spelling of the number counts.
+    (name == named(&plain_stem(model), hash, number.unwrap_or(0))).then_some(hash)
 }
 
 /// Computes FNV-1a, 64 bits (Fowler, Noll and Vo).

@@ -91,6 +91,7 @@ mod reuse;
 mod source;
 mod surgical;
 
+pub use buffer::buffer_of_save;
 pub use changes::{ChangedChannel, ChangedToken, Changes, ChannelChange, TakeChange, WrittenAccessor};
 pub use compact::compact;
 pub use error::SaveError;

@@ -1,0 +1,96 @@
+//! The files next to a model that it refers to: each is read once, with a stamp, so that a change by another program is noticed before
+//! a save.
+
+use super::{FileAccessError, Folder};
+use dragonfly_anim::format::{AssetError, AssetFs};
+use dragonfly_store::{FileStamp, FileState, RealFiles};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The folder of a model, for one import. The bytes of buffers are kept until they are read a second time, by what saves the model.
+#[derive(Debug)]
+pub(super) struct ReadOnce {
+    folder: Folder,
+    read: RefCell<BTreeMap<String, BufferFile>>,
+}
+
+/// A file that was read.
+#[derive(Debug)]
+struct BufferFile {
+    path: PathBuf,
+    stamp: FileStamp,
+    bytes: Option<Vec<u8>>,
+}
+
+/// The stamps of the files that a save relies on.
+#[derive(Clone, Debug, Default)]
+pub(super) struct BesideStamps(BTreeMap<PathBuf, FileStamp>);
+
+impl ReadOnce {
+    /// Returns the folder of `file`.
+    pub(super) fn of(file: &Path) -> Result<Self, FileAccessError> {
+        Ok(Self { folder: Folder::of(file)?, read: RefCell::default() })
+    }
+
+    /// Returns the stamps of the buffers that were read.
+    pub(super) fn stamps(&self) -> BesideStamps {
+        BesideStamps(self.read.borrow().values().map(|file| (file.path.clone(), file.stamp)).collect())
+    }
+}
+
+impl AssetFs for ReadOnce {
+    fn read(&self, name: &str, limit: u64) -> Result<Vec<u8>, AssetError> {
+        let kept = self.read.borrow_mut().get_mut(name).and_then(|file| file.bytes.take());
+        if let Some(bytes) = kept.filter(|bytes| bytes.len() as u64 <= limit) {
+            return Ok(bytes);
+        }
+        let path = self.folder.path_of(name)?;
+        let before = FileStamp::before(&RealFiles, &path).ok();
+        let bytes = self.folder.read(name, limit)?;
+        if is_image(&bytes) {
+            return Ok(bytes);
+        }
+        match before.map(|before| FileStamp::of_read(&RealFiles, &path, &before, &bytes)) {
+            Some(Ok(stamp)) => {
+                let file = BufferFile { path, stamp, bytes: Some(bytes.clone()) };
+                self.read.borrow_mut().insert(name.to_owned(), file);
+            }
+            Some(Err(error)) if error.kind() == io::ErrorKind::WouldBlock => {
+                return Err(AssetError::Failed(
+                    "it changed while it was read; open the model again".to_owned(),
+                ));
+            }
+            // A change that cannot be detected now is not detected later either.
+            _ => {}
+        }
+        Ok(bytes)
+    }
+}
+
+/// Returns whether these are the bytes of an image, which no save reads.
+fn is_image(bytes: &[u8]) -> bool {
+    let beginnings: [&[u8]; 4] = [b"\x89PNG", b"\xff\xd8\xff", b"RIFF", b"\xabKTX"];
+    beginnings.iter().any(|beginning| bytes.starts_with(beginning))
+}
+
+impl BesideStamps {
+    /// Adds a file, or replaces its stamp.
+    pub(super) fn add(&mut self, path: PathBuf, stamp: FileStamp) {
+        self.0.insert(path, stamp);
+    }
+
+    /// Adds the files of `other`, and replaces their stamps.
+    pub(super) fn extend(&mut self, other: Self) {
+        self.0.extend(other.0);
+    }
+
+    /// Returns the first file that another program changed, and how.
+    pub(super) fn changed(&self) -> Option<(&Path, FileState)> {
+        self.0.iter().find_map(|(path, stamp)| {
+            let state = stamp.state(&RealFiles, path).ok()?;
+            (state != FileState::Same).then_some((path.as_path(), state))
+        })
+    }
+}
