@@ -40,6 +40,7 @@ mod hostile;
 mod ik;
 mod instances;
 mod joint_limits;
+mod lenient;
 mod levels;
 mod limited_chains;
 mod made;

@@ -5,17 +5,17 @@
 //! `DRAGONFLY_EVALUATORS`.
 
 use crate::doors::{MemoryFs, data};
-use crate::fixture::Fixture;
+use crate::fixture::{Fixture, accessor};
 use crate::made::rotation;
 use crate::save_edits::{moving_track, shift};
-use crate::save_support::{OpenedFile, take_mut};
+use crate::save_support::{OpenedFile, json_of, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, Track};
 use dragonfly_anim::evaluator::Evaluator;
-use dragonfly_anim::format::gltf::save::compact;
+use dragonfly_anim::format::gltf::save::{MARK, compact};
 use dragonfly_anim::format::{EditedTake, NoFiles, OutputFile};
 use dragonfly_kit::random::Random;
 use dragonfly_kit::skip;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::panic::catch_unwind;
 use std::path::{Path, PathBuf};
@@ -117,6 +117,106 @@ fn the_gltf_crate_accepts_a_saved_file_if_it_accepted_the_original() {
     }
     println!("{judged} files judged");
     assert!(judged > 10);
+}
+
+/// A rule of a sampler in a file: the rule, and whether a sampler of a document breaks it.
+type SamplerRule = (&'static str, fn(&Value, &Value) -> bool);
+
+const SAMPLER_RULES: &[SamplerRule] = &[
+    ("there are times and values", |sampler, json| {
+        ["input", "output"].iter().any(|name| accessor_of(sampler, json, name).is_null())
+    }),
+    ("times are float scalars", |sampler, json| {
+        let times = accessor_of(sampler, json, "input");
+        times["componentType"] != 5126 || times["type"] != "SCALAR"
+    }),
+    ("times have a range", |sampler, json| {
+        let times = accessor_of(sampler, json, "input");
+        times["min"].is_null() || times["max"].is_null()
+    }),
+    ("there is a time, and two for a spline", |sampler, json| {
+        let times = accessor_of(sampler, json, "input")["count"].as_u64().unwrap_or(0);
+        times < if is_spline(sampler) { 2 } else { 1 }
+    }),
+    ("there is a value for each time, and two tangents for a spline", |sampler, json| {
+        let [times, values] = ["input", "output"].map(|name| accessor_of(sampler, json, name));
+        let each = times["count"].as_u64().unwrap_or(0) * if is_spline(sampler) { 3 } else { 1 };
+        let values_present = values["count"].as_u64().unwrap_or(0);
+        let is_multiple = each > 0 && values_present > 0 && values_present.is_multiple_of(each);
+        !is_multiple || (values["type"] != "SCALAR" && values_present != each)
+    }),
+];
+
+fn is_spline(sampler: &Value) -> bool {
+    sampler["interpolation"] == "CUBICSPLINE"
+}
+
+fn accessor_of<'a>(sampler: &Value, json: &'a Value, name: &str) -> &'a Value {
+    &json["accessors"][sampler[name].as_u64().map_or(usize::MAX, |index| index as usize)]
+}
+
+/// Returns how many samplers of a file break each rule.
+fn unsound_samplers(bytes: &[u8]) -> BTreeMap<&'static str, usize> {
+    let json = json_of(bytes);
+    let list = |name: &str, of: &Value| of[name].as_array().cloned().unwrap_or_default();
+    let mut found = BTreeMap::new();
+    for sampler in list("animations", &json).iter().flat_map(|animation| list("samplers", animation)) {
+        for (rule, breaks) in SAMPLER_RULES {
+            *found.entry(*rule).or_default() += usize::from(breaks(&sampler, &json));
+        }
+    }
+    found
+}
+
+#[track_caller]
+fn no_more_unsound_samplers(before: &[u8], after: &[u8], name: &str) {
+    let (before, after) = (unsound_samplers(before), unsound_samplers(after));
+    for (rule, count) in &after {
+        assert!(count <= before.get(rule).unwrap_or(&0), "{name}: {rule}: {before:?} {after:?}");
+    }
+}
+
+#[test]
+fn a_saved_or_compacted_file_has_no_more_unsound_samplers() {
+    let mut planted = Fixture::new();
+    planted.set(&format!("/accessors/{}/type", accessor::TIMES), json!("VEC2"));
+    assert!(unsound_samplers(&planted.glb())["times are float scalars"] > 0);
+    let files = edited();
+    for (name, before, after) in &files {
+        no_more_unsound_samplers(before, after, name);
+    }
+    assert!(files.len() > 30);
+}
+
+#[test]
+fn compacting_gives_an_unused_sampler_only_accessors_that_fit_its_interpolation() {
+    let mut fixture = Fixture::new();
+    let mut ours = |shape: &str, numbers: &[f32], width: usize| {
+        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        let number = fixture.accessor(shape, 5126, numbers.len() / width, &bytes);
+        let view = fixture.json["accessors"][number]["bufferView"].as_u64().unwrap();
+        fixture.json["accessors"][number]["name"] = json!(MARK);
+        fixture.json["bufferViews"][view as usize]["name"] = json!(MARK);
+        if shape == "SCALAR" {
+            fixture.json["accessors"][number]["min"] = json!([numbers[0]]);
+            fixture.json["accessors"][number]["max"] = json!([numbers[numbers.len() - 1]]);
+        }
+        number
+    };
+    let (three, spline) = (ours("SCALAR", &[0.0, 1.0, 2.0], 1), ours("VEC3", &[0.0; 27], 3));
+    let (one, value) = (ours("SCALAR", &[0.0], 1), ours("VEC3", &[0.0; 3], 3));
+    let animation = json!({
+        "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+        "samplers": [
+            {"input": one, "output": value},
+            {"input": three, "output": spline, "interpolation": "CUBICSPLINE"},
+        ],
+    });
+    fixture.set("/animations", json!([animation]));
+    let before = fixture.glb();
+    let opened = OpenedFile::alone("a.glb", &before);
+    let after = compact(&opened.source).unwrap().write().remove(0).bytes;
+    no_more_unsound_samplers(&before, &after, "a.glb");
 }
 
 /// Returns a file with its buffer in a second file, and the files that a save of it writes.

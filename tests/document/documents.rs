@@ -89,7 +89,7 @@ fn crc(bytes: &[u8]) -> u32 {
 #[test]
 fn an_image_with_an_oversized_header_only_causes_a_warning() {
     for (width, height) in [(60_000, 60_000), (16_385, 1), (12_000, 12_000), (u32::MAX, 1), (0, 0)] {
-        let decoded = images::decode_all(&[claims(width, height)], &Cancel::default(), |_| {});
+        let decoded = images::decode_all(&[claims(width, height)], u64::MAX, &Cancel::default(), |_| {});
         assert_eq!(decoded.images, [None]);
         assert_eq!(decoded.warnings.len(), 1);
         assert!(
@@ -106,7 +106,7 @@ fn images_of_one_source_are_decoded_once() {
     let pixels = image::RgbaImage::from_pixel(3, 2, image::Rgba([1, 2, 3, 4]));
     pixels.write_to(&mut std::io::Cursor::new(&mut png), image::ImageFormat::Png).unwrap();
     let image = Image { bytes: png.into(), ..Image::default() };
-    let decoded = images::decode_all(&[image.clone(), image], &Cancel::default(), |_| {});
+    let decoded = images::decode_all(&[image.clone(), image], u64::MAX, &Cancel::default(), |_| {});
     let [Some(first), Some(second)] = &decoded.images[..] else { panic!("{decoded:?}") };
     assert!(std::sync::Arc::ptr_eq(first, second));
     assert_eq!((first.width, first.height, first.pixels.len()), (3, 2, 24));

@@ -19,6 +19,8 @@ pub(super) struct ImportedModel {
     pub(super) format: Format,
     /// Contents that are not shown or were sanitized.
     pub(super) warnings: Vec<String>,
+    /// Bytes of the memory budget that the import left.
+    pub(super) memory: u64,
 }
 
 /// Imports the built-in model.
@@ -40,6 +42,7 @@ pub(super) fn read(
             model: imported.model,
             format: imported.format,
             warnings: imported.warnings.iter().map(ToString::to_string).collect(),
+            memory: options.budget.remaining(),
         }),
         Err(ImportError::Cancelled) => Err(LoadError::Cancelled),
         Err(error) => Err(LoadError::Format { title: title.to_owned(), reason: error.to_string() }),

@@ -123,10 +123,14 @@ impl<'a> Read<'a> {
             }
         };
         check(cancel)?;
-        let import::ImportedModel { model, format, mut warnings } = imported;
+        let import::ImportedModel { model, format, mut warnings, memory } = imported;
         let count = model.images.len().max(1) as f32;
+        let model = Arc::new(model);
+        // Before the images, which need the same memory.
+        let first = model.animation.takes.first().map(|take| take.start);
+        let bounds = bounds_of_pose(&model, first.map(|_| 0), first.unwrap_or(0.0));
         progress(Progress { stage: LoadStage::Decoding, done: 0.5 });
-        let decoded = images::decode_all(&model.images, cancel, |done| {
+        let decoded = images::decode_all(&model.images, memory, cancel, |done| {
             progress(Progress { stage: LoadStage::Decoding, done: 0.5 + 0.5 * done as f32 / count });
         });
         check(cancel)?;
@@ -135,9 +139,6 @@ impl<'a> Read<'a> {
             Source::BuiltIn => None,
             Source::File(path) => Some(path.clone()),
         };
-        let model = Arc::new(model);
-        let first = model.animation.takes.first().map(|take| take.start);
-        let bounds = bounds_of_pose(&model, first.map(|_| 0), first.unwrap_or(0.0));
         let title = self.source.title();
         Ok(LoadedModel { title, path, format: Some(format), model, bounds, images: decoded.images, warnings })
     }

@@ -99,14 +99,15 @@ fn read_document(
     let locals = node::locals(&root, context)?;
     let globals = node::globals(&graph, &locals, context)?;
     let skins = skin::skins(&document, &bones)?;
-    let skeleton = scene::skeleton(&document, &graph, &locals, &globals, &bones, &skins)?;
+    let skeleton = scene::skeleton(&document, &graph, &locals, &globals, &bones, &skins.skins)?;
     context.progress(0.3)?;
 
     let images = image::images(&document)?;
     let materials = material::materials(&root, &images.numbers, context)?;
     let is_shown = scene::shown(&document, &graph)?;
     let meshes = mesh::meshes(&document, &scene::shown_meshes(&document, &is_shown)?)?;
-    let stage = scene::stage(&document, &graph, &locals, skeleton, bones, &meshes, &is_shown)?;
+    let parts = scene::SceneParts { meshes: &meshes, skins: &skins.numbers, is_shown: &is_shown };
+    let stage = scene::stage(&document, &graph, &locals, skeleton, bones, &parts)?;
     let takes = animation::takes(&document, &stage)?;
 
     let scene = root.scene.and_then(|scene| root.scenes.get(scene.value())).or(root.scenes.first());
@@ -114,7 +115,7 @@ fn read_document(
         name: scene.and_then(|scene| scene.name.clone()).unwrap_or_default(),
         meshes: meshes.into_iter().map(|read| read.mesh).collect(),
         instances: stage.instances,
-        skins,
+        skins: skins.skins,
         materials,
         images: images.images,
         animation: AnimationData {

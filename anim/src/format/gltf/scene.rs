@@ -88,6 +88,15 @@ pub(super) fn skeleton(
     Ok(Skeleton { bones: list })
 }
 
+/// What nodes place.
+pub(super) struct SceneParts<'a> {
+    pub(super) meshes: &'a [ReadMesh],
+    /// Number in the model for each skin of the file.
+    pub(super) skins: &'a [u32],
+    /// Whether each node is in the scene that is shown.
+    pub(super) is_shown: &'a [bool],
+}
+
 /// Places every mesh of the scene that is shown: the default scene, otherwise the first one, otherwise all nodes.
 pub(super) fn stage(
     document: &GltfDocument<'_>,
@@ -95,9 +104,9 @@ pub(super) fn stage(
     locals: &[LocalTransform],
     skeleton: Skeleton,
     bones: Vec<Option<BoneIndex>>,
-    meshes: &[ReadMesh],
-    is_shown: &[bool],
+    parts: &SceneParts<'_>,
 ) -> Result<SceneLayout, ImportError> {
+    let SceneParts { meshes, skins, is_shown } = *parts;
     let carriers = carriers(document, graph, locals, &bones)?;
     let mut instances = Vec::new();
     for (index, node) in document.root.nodes.iter().enumerate() {
@@ -107,7 +116,7 @@ pub(super) fn stage(
         let path = format!("/nodes/{index}");
         let read =
             meshes.get(mesh.value()).ok_or_else(|| unresolved(&format!("{path}/mesh"), mesh.value()))?;
-        let skin = skin_of(document, index, read)?;
+        let skin = skin_of(document, index, read, skins)?;
         if !is_shown[index] {
             let text = "the mesh is not in the scene that is shown";
             document.context.warn(Place::Pointer(path), code::NODE_NOT_IN_SCENE, text);
@@ -133,8 +142,13 @@ pub(super) fn stage(
 /// mesh of many primitives in many nodes.
 const PLACED_BYTES: usize = 256;
 
-/// Returns the skin of a node, if its mesh has joints; an error if a vertex refers to a joint that the skin lacks.
-fn skin_of(document: &GltfDocument<'_>, index: usize, read: &ReadMesh) -> Result<Option<u32>, ImportError> {
+/// Returns the skin of a node in the model, by its number in the file in `skins`, if its mesh has joints; an error if a vertex refers to a joint that the skin lacks.
+fn skin_of(
+    document: &GltfDocument<'_>,
+    index: usize,
+    read: &ReadMesh,
+    skins: &[u32],
+) -> Result<Option<u32>, ImportError> {
     let Some(skin) = document.root.nodes[index].skin else { return Ok(None) };
     let path = format!("/nodes/{index}/skin");
     let joints =
@@ -149,7 +163,7 @@ fn skin_of(document: &GltfDocument<'_>, index: usize, read: &ReadMesh) -> Result
             let reason = format!("a vertex refers to joint {largest}, the skin has {joints} joints");
             Err(invalid(Place::Pointer(path), code::ACCESSOR_JOINTS_INDEX_OOB, reason))
         }
-        Some(_) => Ok(Some(skin.value() as u32)),
+        Some(_) => Ok(skins.get(skin.value()).copied()),
     }
 }
 

@@ -9,6 +9,7 @@ use crate::limits::JOINTS_PER_SKIN;
 use glam::{Mat4, Vec4};
 use gltf::json;
 use gltf::json::accessor::{ComponentType, Type};
+use std::collections::HashMap;
 
 /// Checks the joints of every skin and sets `is_bone` for each of them.
 pub(super) fn mark_joints(document: &GltfDocument<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
@@ -40,15 +41,36 @@ pub(super) fn mark_joints(document: &GltfDocument<'_>, is_bone: &mut [bool]) -> 
     Ok(())
 }
 
-/// Returns all skins; `bones` contains the bone of each node.
-pub(super) fn skins(
-    document: &GltfDocument<'_>,
-    bones: &[Option<BoneIndex>],
-) -> Result<Vec<Skin>, ImportError> {
+/// The skins of a model, and the number in this list for each skin of the file.
+#[derive(Default)]
+pub(super) struct Skins {
+    pub(super) skins: Vec<Skin>,
+    pub(super) numbers: Vec<u32>,
+}
+
+/// Bytes that posing one more joint needs after the import: its matrix on both processors. Charged here, because a file
+/// lists a joint with two bytes.
+const POSED_BYTES: usize = size_of::<Mat4>() + 12 * size_of::<f32>();
+
+/// Returns all skins; `bones` contains the bone of each node. Skins of a file with the same name, joints and matrices
+/// become one.
+pub(super) fn skins(document: &GltfDocument<'_>, bones: &[Option<BoneIndex>]) -> Result<Skins, ImportError> {
     let context = document.context;
-    let mut skins = context.vec(&Place::Pointer("/skins".to_owned()), document.root.skins.len())?;
+    let place = Place::Pointer("/skins".to_owned());
+    let mut skins = Vec::new();
+    let mut numbers = context.vec(&place, document.root.skins.len())?;
+    let mut known = HashMap::new();
     for (index, skin) in document.root.skins.iter().enumerate() {
         let place = Place::Pointer(format!("/skins/{index}/joints"));
+        context.work(skin.joints.len())?;
+        let matrices = skin.inverse_bind_matrices.map(|accessor| accessor.value());
+        let next = skins.len() as u32;
+        let number = *known.entry((&skin.joints, matrices, &skin.name)).or_insert(next);
+        numbers.push(number);
+        if number != next {
+            continue;
+        }
+        context.charge(&place, (2 * size_of::<Skin>() + POSED_BYTES * skin.joints.len()) as u64)?;
         let mut joints = context.vec(&place, skin.joints.len())?;
         joints.extend(
             skin.joints.iter().map(|joint| bones[joint.value()].expect("every joint was marked as a bone")),
@@ -56,7 +78,7 @@ pub(super) fn skins(
         let name = skin.name.clone().unwrap_or_default();
         skins.push(Skin { name, bones: joints, offsets: offsets(document, skin, index)? });
     }
-    Ok(skins)
+    Ok(Skins { skins, numbers })
 }
 
 /// Returns the inverse bind matrices, one per joint; identities if the skin has none.
