@@ -1,5 +1,5 @@
-//! A journal that could not be created when a file was opened is created later, with all steps since then; the view says so as long as
-//! there is none. The clock is that of the test.
+//! A journal that could not be created when a file was opened is created later, with all steps since then; the view has a mark as long
+//! as there is none. The clock is that of the test.
 
 use dragonfly_document::{
     Change, Decision, Document, DocumentHandle, DocumentMessage, DocumentReply, SaveOrder, Setup, View,

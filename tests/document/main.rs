@@ -1,5 +1,6 @@
 //! Tests of the document crate, one module for each guarantee.
 
+mod beside;
 mod document_ended;
 mod document_writer;
 mod documents;

@@ -153,7 +153,7 @@ fn a_save_succeeds_only_if_every_call_up_to_the_last_sync_succeeds() {
         let last_sync = names.iter().rposition(|name| name.starts_with("sync_")).expect("it syncs");
         assert_eq!(names[last_sync], "sync_folder", "{}", case.name);
         synced += names.iter().filter(|name| name.starts_with("sync_")).count();
-        // What follows is cleaning up, and the stamp of the file.
+        // The rest is cleaning up, and the stamp of the file.
         let after = &names[last_sync + 1..];
         assert!(after.iter().all(|name| ["metadata", "list", "remove"].contains(name)), "{after:?}");
         for (at, name) in names[..=last_sync].iter().enumerate() {

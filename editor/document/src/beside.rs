@@ -94,3 +94,30 @@ impl BesideStamps {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_buffer_is_read_once_for_the_import_and_for_the_save_and_an_image_only_for_the_import() {
+        let folder = dragonfly_kit::folder::Folder::new("read-once");
+        let [model, buffer, image] = ["a.gltf", "a.bin", "a.png"].map(|name| folder.join(name));
+        std::fs::write(&buffer, b"numbers").expect("a file");
+        std::fs::write(&image, b"\x89PNG and more").expect("a file");
+        let door = ReadOnce::of(&model).expect("a folder");
+        assert_eq!(door.read("a.bin", 100), Ok(b"numbers".to_vec()));
+        assert!(door.read("a.png", 100).is_ok());
+        std::fs::remove_file(&buffer).expect("it is there");
+        std::fs::remove_file(&image).expect("it is there");
+        assert_eq!(door.read("a.bin", 100), Ok(b"numbers".to_vec()), "kept");
+        assert_eq!(door.read("a.png", 100), Err(AssetError::Missing));
+        assert_eq!(door.read("a.bin", 100), Err(AssetError::Missing), "kept for one import");
+        let stamps = door.stamps();
+        assert!(matches!(stamps.changed(), Some((_, FileState::Missing))));
+        std::fs::write(&buffer, b"numbers").expect("a file");
+        assert!(stamps.changed().is_none(), "the same bytes");
+        std::fs::write(&buffer, b"Numbers").expect("a file");
+        assert!(matches!(stamps.changed(), Some((_, FileState::Changed))));
+    }
+}

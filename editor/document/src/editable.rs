@@ -81,7 +81,7 @@ impl Editable {
         Ok(Self { title: source.title(), path, model, warnings, file, stamp, beside, on_disk, places: None })
     }
 
-    /// Returns the file of `loaded`, which was read from `bytes` while the file had this stamp, and from the files behind `door`.
+    /// Returns the file of `loaded`, which was read from `bytes` while the file had this stamp, and the files next to it through `door`.
     pub(super) fn of(
         source: &Source,
         bytes: Vec<u8>,
@@ -137,7 +137,7 @@ impl Editable {
     pub fn files(&self, plan: &SavePlan, output: &Path) -> Result<Vec<WrittenFile>, String> {
         let Some((main, beside)) = plan.files.split_last() else { return Ok(Vec::new()) };
         let folder = folder_of(output);
-        // A name that is mistyped must not make folders. Those of the files beside it are made.
+        // A mistyped name makes no folder. Only folders of the files next to the model are created.
         if !folder.is_dir() {
             return Err(format!("{}: its folder does not exist", output.display()));
         }

@@ -60,7 +60,7 @@ pub struct Document {
     pub(super) scan: Option<RecoveryScan>,
     /// Whether the user asked for the search.
     pub(super) searched: bool,
-    /// Whether the last view said that work is unrecorded.
+    /// Value of [`View::is_unrecorded`] in the last view.
     shown_unrecorded: bool,
     /// The change of the file by another program that was reported last.
     pub(super) noticed: Option<FileState>,

@@ -1,7 +1,7 @@
 //! Buffer files that earlier saves of a model wrote next to it, and that are not used any more.
 //!
 //! A save never overwrites or removes such a file: until the new model is on the disk, the old one needs it, and a copy of the model
-//! may go on needing it. They are removed on request only, each after a search for models that refer to it.
+//! may still need it. They are removed on request only, each after a search for models that refer to it.
 
 use super::read_file;
 use dragonfly_anim::format::gltf::save::buffer_of_save;

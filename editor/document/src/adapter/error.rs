@@ -1,6 +1,6 @@
 //! The reason why an edit cannot be applied.
 
-use super::limits::KEY_BYTES;
+use super::key_bytes::KEY_BYTES;
 use crate::edit::target::{BoneRef, Property, TakeRef};
 use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 use std::fmt;

@@ -201,6 +201,23 @@ mod tests {
     use super::*;
 
     #[test]
+    fn only_names_that_a_save_of_the_model_gives_are_those_of_its_buffers() {
+        let taken = HashSet::from([beside("a b.gltf", b"abc", &HashSet::new())]);
+        for name in [beside("a b.gltf", b"abc", &HashSet::new()), beside("a b.gltf", b"abc", &taken)] {
+            assert_eq!(buffer_of_save(&name, "a b.gltf"), Some(fingerprint(b"abc")), "{name}");
+            assert_eq!(buffer_of_save(&name, "a c.gltf"), None, "{name}");
+        }
+        for name in [
+            "a_b.bin",
+            "a_b.dragonfly-1.bin",
+            "a_b.dragonfly-0000000000000abC.bin",
+            "a_b.dragonfly-0123456789abcdef-01.bin",
+        ] {
+            assert_eq!(buffer_of_save(name, "a b.gltf"), None, "{name}");
+        }
+    }
+
+    #[test]
     fn encoded_base64_decodes_to_the_same_bytes() {
         let all: Vec<u8> = (0..=255).collect();
         for length in [0, 1, 2, 3, 4, 5, 255, 256] {

@@ -18,11 +18,12 @@ pub(crate) use super::slot::key_at;
 pub(crate) use arrange::KeyMove;
 pub(crate) use pose::PoseMode;
 
+use super::key_bytes::KEY_BYTES;
 use super::kind::{ChannelKind, ChannelValue};
 use super::op::{ChannelAddress, Op};
 use super::slot::{ChannelContent, TakeId, TakeVersions};
 use super::times::SharedTimes;
-use super::{EditError, KEY_BYTES, ModelAdapter};
+use super::{EditError, ModelAdapter};
 use crate::edit::target::{BoneRef, Property, TakeRef};
 use dragonfly_anim::data::{Bone, Channel, Skeleton};
 use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};

@@ -3,8 +3,8 @@
 mod channel;
 
 use super::change::{KeyChange, Triple, triple};
+use super::key_bytes::key_bytes;
 use super::kind::{AnyChannel, ChannelKind, ChannelNumbers, with_kind};
-use super::limits::key_bytes;
 use super::pending::{Pending, PendingAt, place_of};
 use super::times::SharedTimes;
 use crate::edit::target::{Property, SAME_TIME};
