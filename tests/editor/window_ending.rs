@@ -227,7 +227,9 @@ fn every_way_to_end_the_window_preserves_all_edits() {
         let expected = saved_by_asking(&visit, &asked);
         let (kept, done) = saved_by_keeping(&visit, life);
         assert!(kept == expected, "life {life}: another file than what was done makes");
-        assert!(done > steps, "life {life}: {done} steps, {steps} before it");
+        // A window that is gone has lost the focus, which cancels a drag.
+        let cancelled = end == End::Destroyed && matches!(activity, Activity::Gizmo | Activity::Field);
+        assert!(done > steps || cancelled, "life {life}: {done} steps, {steps} before it");
         steps = done;
     }
     assert!(fs::read(&visit.file).unwrap() == before, "the file was never saved");
