@@ -235,7 +235,9 @@ fn every_way_to_end_the_window_preserves_all_edits() {
         let recorded =
             recorded.unwrap_or_else(|| panic!("life {life}: another file than what was done makes"));
         asked.truncate(recorded);
-        assert!(done > steps, "life {life}: {done} steps, {steps} before it");
+        // A window that is gone has lost the focus, which cancels a drag.
+        let cancelled = end == End::Destroyed && matches!(activity, Activity::Gizmo | Activity::Field);
+        assert!(done > steps || cancelled, "life {life}: {done} steps, {steps} before it");
         steps = done;
     }
     assert!(fs::read(&visit.file).unwrap() == before, "the file was never saved");

@@ -133,7 +133,7 @@ fn random_inputs_in_a_narrow_window_cause_no_failure() {
             |random: &mut Random| (random.below(width as usize) as i16, random.below(height as usize) as i16);
         let (x, y) = place(&mut random);
         visit.screen.point(x, y);
-        // What asks for a drag shows a text next to the pointer until the drag.
+        // Box and lasso selection show a text next to the pointer until the drag.
         visit.screen.press_with(key::SHIFT, key::of(random.choice(&['b', 'l'])));
         pass(Duration::from_millis(30));
         for _ in 0..4 {

@@ -4,6 +4,7 @@
 use dragonfly_kit::eventually;
 use dragonfly_picture::{
     Connection, DeviceParameters, Graphics, GraphicsHandle, GraphicsReply, SurfaceSource, TargetWindow,
+    WindowSurface,
 };
 use dragonfly_runtime::{Context, Receiver, Thread};
 use std::cell::RefCell;
@@ -81,9 +82,11 @@ fn only_the_thread_of_the_window_asks_for_its_handle() {
     graphics.stop();
 }
 
-/// Whether a type may be sent to another thread: the constant of the trait, unless the type has the other one.
+/// Whether a type may be sent to another thread: the answer of this trait, unless the type has one of its own.
 trait StaysInItsThread {
-    const SENT: bool = false;
+    fn is_send() -> bool {
+        false
+    }
 }
 
 struct Probe<T>(PhantomData<T>);
@@ -91,12 +94,14 @@ struct Probe<T>(PhantomData<T>);
 impl<T> StaysInItsThread for Probe<T> {}
 
 impl<T: Send> Probe<T> {
-    const SENT: bool = true;
+    fn is_send() -> bool {
+        true
+    }
 }
 
 #[test]
 fn the_source_of_surfaces_cannot_be_sent_to_another_thread() {
-    assert!(Probe::<Connection>::SENT, "the graphics thread gets it");
-    assert!(Probe::<dragonfly_picture::WindowSurface>::SENT, "and a finished surface");
-    assert!(!Probe::<SurfaceSource>::SENT, "but not what asks for the handle");
+    assert!(Probe::<Connection>::is_send(), "the graphics thread gets it");
+    assert!(Probe::<WindowSurface>::is_send(), "and a finished surface");
+    assert!(!Probe::<SurfaceSource>::is_send(), "but not what asks for the handle");
 }

@@ -304,26 +304,45 @@ fn explain(error: GraphicsError, instance: &wgpu::Instance, backends: wgpu::Back
     }
 }
 
+/// Creates a device of the best adapter, or of another one if that fails: an API may be installed and not work.
 fn make(
     instance: &wgpu::Instance,
     parameters: &DeviceParameters,
     surface: Option<&WindowSurface>,
     reports: &DeviceReports,
 ) -> Result<(wgpu::Adapter, Gpu), GraphicsError> {
+    let surface = surface.map(WindowSurface::surface);
     let request = |force_fallback_adapter| {
         pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
-            compatible_surface: surface.map(WindowSurface::surface),
+            compatible_surface: surface,
             force_fallback_adapter,
             ..Default::default()
         }))
     };
-    let adapter = request(false).or_else(|error| request(true).map_err(|_| error)).map_err(|error| {
+    let best = request(false).or_else(|error| request(true).map_err(|_| error)).map_err(|error| {
         tracing::debug!(backends = ?parameters.backends, %error, "no adapter");
         GraphicsError::NoAdapter(first_line(&error.to_string()))
     })?;
-    let gpu = Gpu::new(&adapter, surface.map(WindowSurface::surface), parameters.most_samples, reports)?;
-    Ok((adapter, gpu))
+    let error = match Gpu::new(&best, surface, parameters.most_samples, reports) {
+        Ok(gpu) => return Ok((best, gpu)),
+        Err(error) => error,
+    };
+    let identity = |adapter: &wgpu::Adapter| {
+        let info = adapter.get_info();
+        (info.backend, info.vendor, info.device, info.name)
+    };
+    for other in pollster::block_on(instance.enumerate_adapters(parameters.backends)) {
+        let is_usable = surface.is_none_or(|surface| other.is_surface_supported(surface));
+        if is_usable
+            && identity(&other) != identity(&best)
+            && let Ok(gpu) = Gpu::new(&other, surface, parameters.most_samples, reports)
+        {
+            tracing::warn!(%error, "another graphics adapter is used");
+            return Ok((other, gpu));
+        }
+    }
+    Err(error)
 }
 
 fn first_line(text: &str) -> String {
