@@ -16,18 +16,18 @@ use glam::Mat4;
 /// A skin in the layout of the fast path: the bone of each joint, and its offset.
 #[derive(Clone, Debug)]
 pub struct SkinBinding {
-    joints: Vec<Joint>,
+    joints: Vec<BoundJoint>,
     /// Whether a byte can index every bone of the rig.
     is_near: bool,
 }
 
 /// A joint's bone and offset.
 #[derive(Clone, Copy, Debug)]
-struct Joint {
+pub(super) struct BoundJoint {
     /// 1 + the bone; 0, the identity, for a bone that the rig does not have.
-    slot: u32,
+    pub(super) slot: u32,
     /// Bind space → bone space.
-    offset: Matrix34,
+    pub(super) offset: Matrix34,
 }
 
 impl SkinBinding {
@@ -49,13 +49,19 @@ impl SkinBinding {
             }
         }
         let slot = |bone: u32| if (bone as usize) < rig.bones() { bone + 1 } else { 0 };
-        let joints = skin.bones.iter().zip(offsets).map(|(&bone, offset)| Joint { slot: slot(bone), offset });
+        let joints =
+            skin.bones.iter().zip(offsets).map(|(&bone, offset)| BoundJoint { slot: slot(bone), offset });
         Self { joints: joints.collect(), is_near: rig.bones() < NARROW }
     }
 
     /// Returns the number of joints.
     pub fn joints(&self) -> usize {
         self.joints.len()
+    }
+
+    /// Returns the joints.
+    pub(super) fn list(&self) -> &[BoundJoint] {
+        &self.joints
     }
 }
 

@@ -48,6 +48,12 @@ pub(super) fn lower(matrix: &Matrix34) -> &[f32; 4] {
     matrix.last_chunk().unwrap_or(&[0.0; 4])
 }
 
+/// Returns row `ROW`.
+#[inline(always)]
+pub(super) fn row<const ROW: usize>(matrix: &mut Matrix34) -> &mut [f32; 4] {
+    &mut matrix.as_chunks_mut().0[ROW % 3]
+}
+
 /// Rows of a matrix in registers: 0 and 1, and 2.
 #[derive(Clone, Copy)]
 pub(super) struct MatrixRows<S: Simd>(pub(super) S::F8, pub(super) S::F4);

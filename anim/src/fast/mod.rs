@@ -8,6 +8,7 @@
 
 mod additive;
 mod blend;
+mod eight;
 mod final_poses;
 mod key_table;
 mod keyed;

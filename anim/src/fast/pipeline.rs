@@ -1,20 +1,23 @@
 //! From takes to matrices for the GPU in one call: one character, or a whole crowd.
 //!
 //! ```text
-//! for each character:  sample each of its layers → blend → to_root → final_pose of every joint
+//! for each character:         sample each of its layers → blend
+//! for eight characters, or one: to_root → final_pose of every joint
 //! ```
 //!
-//! All steps of one character run before the next one's, so poses and to-root matrices stay in the nearest cache
-//! ([`Scratch`], shared by all); a character itself is only its takes, times and weights.
+//! All steps of eight characters run before the next ones', so poses and to-root matrices stay in the nearest cache
+//! ([`Scratch`], shared by all); a character itself is only its takes, times and weights. The characters that remain
+//! when a crowd is divided by eight are computed one by one; that gives the same bits.
 
 use super::blend::{PoseLayer, blend_with};
+use super::eight::{Eight, EightOuts};
 use super::final_poses::{SkinBinding, final_poses_with};
 use super::mask::{LaneMask, usable};
 use super::matrix::Matrix34;
 use super::playable::Playable;
 use super::pose::Pose;
 use super::rig::Rig;
-use super::simd::{Kernel, Simd, SimdLevel};
+use super::simd::{Kernel, LANES, Simd, SimdLevel};
 use super::to_root::{RootPoses, to_root_with};
 
 /// A take that a character plays, possibly with others.
@@ -57,6 +60,7 @@ pub struct Scratch {
     sampled: Vec<Pose>,
     blended: Pose,
     to_root: RootPoses,
+    eight: Eight,
 }
 
 /// Number of layers of one character that are blended within a [`Scratch`], without more memory. Further layers are
@@ -67,10 +71,15 @@ impl Scratch {
     /// Allocates memory for characters of `rig`.
     pub fn new(rig: &Rig) -> Self {
         let pose = rig.rest().clone();
-        Self { sampled: vec![pose.clone(); MAX_LAYERS], blended: pose, to_root: RootPoses::new(rig) }
+        Self {
+            sampled: vec![pose.clone(); MAX_LAYERS],
+            blended: pose,
+            to_root: RootPoses::new(rig),
+            eight: Eight::new(rig),
+        }
     }
 
-    /// Returns `to_root` of the most recently computed character.
+    /// Returns `to_root` of the character that [`pose_character`] computed most recently.
     pub fn to_root(&self) -> &RootPoses {
         &self.to_root
     }
@@ -89,7 +98,7 @@ pub fn pose_character<T: Playable>(
     scratch: &mut Scratch,
     out: &mut [Matrix34],
 ) {
-    level.run(Crowd { rig, binding, characters: std::iter::once(layers), scratch, out });
+    level.run(One { rig, binding, layers, scratch, out });
 }
 
 /// Computes the final poses of many characters of one rig: those of character `c` from `c * binding.joints()` on.
@@ -107,6 +116,24 @@ pub fn pose_crowd<'a, T: Playable + 'a>(
     level.run(Crowd { rig, binding, characters: characters.into_iter(), scratch, out });
 }
 
+struct One<'a, T> {
+    rig: &'a Rig,
+    binding: &'a SkinBinding,
+    layers: &'a [Playing<'a, T>],
+    scratch: &'a mut Scratch,
+    out: &'a mut [Matrix34],
+}
+
+impl<T: Playable> Kernel for One<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self) {
+        let Self { rig, binding, layers, scratch, out } = self;
+        character::<S, T>(rig, binding, layers, scratch, out);
+    }
+}
+
 struct Crowd<'a, I> {
     rig: &'a Rig,
     binding: &'a SkinBinding,
@@ -120,29 +147,71 @@ impl<'a, T: Playable + 'a, I: Iterator<Item = &'a [Playing<'a, T>]>> Kernel for 
 
     #[inline(always)]
     fn run<S: Simd>(self) {
-        let Self { rig, binding, characters, scratch, out } = self;
+        let Self { rig, binding, mut characters, scratch, out } = self;
         let joints = binding.joints().max(1);
-        for (layers, out) in characters.zip(out.chunks_mut(joints)) {
-            character::<S, T>(rig, layers, scratch);
-            final_poses_with::<S>(binding, &scratch.to_root, out);
+        // The exact matrices of a sheared rest pose are put in for one character at a time.
+        let by_eight = rig.sheared.is_empty();
+        for out in out.chunks_mut(LANES * joints) {
+            let mut group: [&[Playing<T>]; LANES] = [&[]; LANES];
+            let mut count = 0;
+            for (slot, layers) in group.iter_mut().zip(characters.by_ref().take(out.len().div_ceil(joints))) {
+                *slot = layers;
+                count += 1;
+            }
+            let is_full = count == LANES && out.len() == LANES * joints;
+            if by_eight && is_full && eight::<S, T>(rig, binding, &group, scratch, out) {
+                continue;
+            }
+            for (layers, out) in group.iter().take(count).zip(out.chunks_mut(joints)) {
+                character::<S, T>(rig, binding, layers, scratch, out);
+            }
         }
     }
 }
 
-/// Computes the to-root matrices of one character.
+/// Computes the final matrices of one character.
 #[inline(always)]
-fn character<S: Simd, T: Playable>(rig: &Rig, layers: &[Playing<T>], scratch: &mut Scratch) {
-    let Scratch { sampled, blended, to_root } = scratch;
-    if let [one] = layers
-        && one.is_all()
-        && let Some(pose) = sampled.first_mut()
-    {
-        one.take.sample_with::<S>(one.time, pose.blocks_mut());
-        to_root_with::<S>(rig, pose.blocks(), to_root);
-        return;
-    }
-    blend_layers::<S, T>(rig, layers, sampled, blended);
+fn character<S: Simd, T: Playable>(
+    rig: &Rig,
+    binding: &SkinBinding,
+    layers: &[Playing<T>],
+    scratch: &mut Scratch,
+    out: &mut [Matrix34],
+) {
+    let Scratch { sampled, blended, to_root, .. } = scratch;
+    pose::<S, T>(rig, layers, sampled, blended);
     to_root_with::<S>(rig, blended.blocks(), to_root);
+    final_poses_with::<S>(binding, to_root, out);
+}
+
+/// Computes the final matrices of eight characters, and returns whether all numbers are finite; otherwise the
+/// characters have to be computed one by one.
+#[inline(always)]
+fn eight<S: Simd, T: Playable>(
+    rig: &Rig,
+    binding: &SkinBinding,
+    group: &[&[Playing<T>]; LANES],
+    scratch: &mut Scratch,
+    out: &mut [Matrix34],
+) -> bool {
+    let Scratch { sampled, eight, .. } = scratch;
+    for (layers, to) in group.iter().zip(eight.poses()) {
+        pose::<S, T>(rig, layers, sampled, to);
+    }
+    let mut outs: EightOuts = Default::default();
+    for (to, out) in outs.iter_mut().zip(out.chunks_mut(binding.joints().max(1))) {
+        *to = out;
+    }
+    eight.finals::<S>(rig, binding, outs)
+}
+
+/// Computes the pose of one character.
+#[inline(always)]
+fn pose<S: Simd, T: Playable>(rig: &Rig, layers: &[Playing<T>], sampled: &mut [Pose], out: &mut Pose) {
+    match layers {
+        [one] if one.is_all() => one.take.sample_with::<S>(one.time, out.blocks_mut()),
+        _ => blend_layers::<S, T>(rig, layers, sampled, out),
+    }
 }
 
 /// Samples and blends `layers`.

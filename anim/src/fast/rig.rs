@@ -102,6 +102,11 @@ impl Rig {
         &self.rest
     }
 
+    /// Returns one number per bone: 0 for a root, else 1 + the parent.
+    pub(super) fn parents(&self) -> &[u32] {
+        &self.parents
+    }
+
     /// Returns the parent of `bone`; `None` for a root and past the end.
     pub fn parent(&self, bone: usize) -> Option<usize> {
         let parent = *self.parents.get(bone)?;

@@ -16,7 +16,7 @@
 //!             └ a (2xz - 2yw)       b (2yz + 2xw)       c (1 - 2x² - 2y²)  tz ┘
 //! ```
 
-use super::matrix::{IDENTITY, Matrix34, MatrixRows, doubled, mat4, matrix34};
+use super::matrix::{IDENTITY, Matrix34, MatrixRows, doubled, mat4, matrix34, row};
 use super::pose::PoseBlock;
 use super::rig::{Link, NARROW, Rig};
 use super::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
@@ -121,18 +121,29 @@ fn fit(rig: &Rig, out: &mut RootPoses) {
 /// Computes `T · R · S` of eight bones.
 #[inline(always)]
 fn to_parent<S: Simd>(pose: &PoseBlock, out: &mut [Matrix34; 8]) {
-    let [x, y, z, w] = S::F8::load_four(&pose.rotation);
-    let [a, b, c] = S::F8::load_three(&pose.scale);
-    let [tx, ty, tz] = S::F8::load_three(&pose.translation);
+    let rotation = S::F8::load_four(&pose.rotation);
+    let [upper, middle, lower] =
+        local_rows::<S>(rotation, S::F8::load_three(&pose.translation), S::F8::load_three(&pose.scale));
+    store_rows::<S, 0>(upper, out);
+    store_rows::<S, 1>(middle, out);
+    store_rows::<S, 2>(lower, out);
+}
+
+/// Returns the rows of `T · R · S` by columns.
+#[inline(always)]
+pub(super) fn local_rows<S: Simd>(
+    [x, y, z, w]: [S::F8; 4],
+    [tx, ty, tz]: [S::F8; 3],
+    [a, b, c]: [S::F8; 3],
+) -> [[S::F8; 4]; 3] {
     let (x2, y2, z2, one) = (x + x, y + y, z + z, S::F8::splat(1.0));
     let (xy, xz, yz) = (x * y2, x * z2, y * z2);
     let (not_x, not_y) = (x.neg_mul_add(x2, one), y.neg_mul_add(y2, one));
-    let upper = [z.neg_mul_add(z2, not_y) * a, w.neg_mul_add(z2, xy) * b, w.mul_add(y2, xz) * c, tx];
-    store_rows::<S, 0>(upper, out);
-    let middle = [w.mul_add(z2, xy) * a, z.neg_mul_add(z2, not_x) * b, w.neg_mul_add(x2, yz) * c, ty];
-    store_rows::<S, 1>(middle, out);
-    let lower = [w.neg_mul_add(y2, xz) * a, w.mul_add(x2, yz) * b, y.neg_mul_add(y2, not_x) * c, tz];
-    store_rows::<S, 2>(lower, out);
+    [
+        [z.neg_mul_add(z2, not_y) * a, w.neg_mul_add(z2, xy) * b, w.mul_add(y2, xz) * c, tx],
+        [w.mul_add(z2, xy) * a, z.neg_mul_add(z2, not_x) * b, w.neg_mul_add(x2, yz) * c, ty],
+        [w.neg_mul_add(y2, xz) * a, w.mul_add(x2, yz) * b, y.neg_mul_add(y2, not_x) * c, tz],
+    ]
 }
 
 /// Stores row `ROW` of eight matrices, given by columns.
@@ -144,12 +155,6 @@ fn store_rows<S: Simd, const ROW: usize>(columns: [S::F8; 4], out: &mut [Matrix3
     bf.store_halves(row::<ROW>(b), row::<ROW>(f));
     cg.store_halves(row::<ROW>(c), row::<ROW>(g));
     dh.store_halves(row::<ROW>(d), row::<ROW>(h));
-}
-
-/// Returns row `ROW`.
-#[inline(always)]
-fn row<const ROW: usize>(matrix: &mut Matrix34) -> &mut [f32; 4] {
-    &mut matrix.as_chunks_mut().0[ROW % 3]
 }
 
 /// Computes `to_root` of every bone in place, where its `to_parent` is, parents first.
