@@ -16,12 +16,12 @@ const LARGE: u64 = 8 << 20;
 pub(super) struct RunningSave {
     order: SaveOrder,
     ticket: u64,
-    steps: flume::Receiver<SaveStep>,
+    steps: flume::Receiver<SaveStage>,
     _job: Job,
 }
 
 /// The end of a step of a save.
-enum SaveStep {
+enum SaveStage {
     Prepared(Result<Box<PreparedSave>, NotSaved>),
     Written(Result<Box<WrittenSave>, NotSaved>),
 }
@@ -62,8 +62,8 @@ impl RunningSave {
         document: &Address<JobNews>,
         ticket: u64,
         order: SaveOrder,
-        failed: fn(NotSaved) -> SaveStep,
-        work: impl FnOnce() -> SaveStep + Send + 'static,
+        failed: fn(NotSaved) -> SaveStage,
+        work: impl FnOnce() -> SaveStage + Send + 'static,
     ) -> Result<Self, (SaveOrder, NotSaved)> {
         let (ended, steps) = flume::bounded(1);
         let panicked = ended.clone();
@@ -93,8 +93,8 @@ impl RunningSave {
         order: SaveOrder,
         input: SaveInput,
     ) -> Result<Self, (SaveOrder, NotSaved)> {
-        let work = move || SaveStep::Prepared(prepare(input).map(Box::new).map_err(NotSaved::Failed));
-        Self::start(document, ticket, order, |reason| SaveStep::Prepared(Err(reason)), work)
+        let work = move || SaveStage::Prepared(prepare(input).map(Box::new).map_err(NotSaved::Failed));
+        Self::start(document, ticket, order, |reason| SaveStage::Prepared(Err(reason)), work)
     }
 
     fn write(
@@ -103,8 +103,8 @@ impl RunningSave {
         order: SaveOrder,
         prepared: Box<PreparedSave>,
     ) -> Result<Self, (SaveOrder, NotSaved)> {
-        let work = move || SaveStep::Written(prepared.write().map(Box::new).map_err(NotSaved::from));
-        Self::start(document, ticket, order, |reason| SaveStep::Written(Err(reason)), work)
+        let work = move || SaveStage::Written(prepared.write().map(Box::new).map_err(NotSaved::from));
+        Self::start(document, ticket, order, |reason| SaveStage::Written(Err(reason)), work)
     }
 }
 
@@ -160,15 +160,15 @@ impl Document {
     pub(super) fn save_step(&mut self, ticket: u64, now: Instant) {
         let Some(save) = self.save.take_if(|save| save.ticket == ticket) else { return };
         match save.steps.recv() {
-            Ok(SaveStep::Prepared(Ok(mut prepared))) => {
+            Ok(SaveStage::Prepared(Ok(mut prepared))) => {
                 let Some(open) = &mut self.open else { return };
                 open.record_saving(&mut prepared, now);
                 let ticket = self.next_ticket();
                 let begun = RunningSave::write(&self.own, ticket, save.order, prepared);
                 self.go_on_saving(begun, now);
             }
-            Ok(SaveStep::Prepared(Err(reason))) => self.end_save(save.order, Err(reason), now),
-            Ok(SaveStep::Written(written)) => self.end_save(save.order, written, now),
+            Ok(SaveStage::Prepared(Err(reason))) => self.end_save(save.order, Err(reason), now),
+            Ok(SaveStage::Written(written)) => self.end_save(save.order, written, now),
             // Its sender is in the job, which sends before it ends.
             Err(flume::RecvError::Disconnected) => {}
         }
@@ -179,14 +179,14 @@ impl Document {
         let Some(save) = self.save.take() else { return };
         let now = Instant::now();
         let written = match save.steps.recv() {
-            Ok(SaveStep::Prepared(Ok(mut prepared))) => {
+            Ok(SaveStage::Prepared(Ok(mut prepared))) => {
                 // The document was lost, and with it the journal.
                 let Some(open) = &mut self.open else { return };
                 open.record_saving(&mut prepared, now);
                 prepared.write().map(Box::new).map_err(NotSaved::from)
             }
-            Ok(SaveStep::Prepared(Err(reason))) => Err(reason),
-            Ok(SaveStep::Written(written)) => written,
+            Ok(SaveStage::Prepared(Err(reason))) => Err(reason),
+            Ok(SaveStage::Written(written)) => written,
             Err(flume::RecvError::Disconnected) => return,
         };
         self.reply_saved(save.order, written, now);
