@@ -1,7 +1,7 @@
 //! Many saves leave a file no larger than one save, and unused remains can be removed.
 
 use crate::doors::{MemoryFs, data};
-use crate::fixture::Fixture;
+use crate::fixture::{Fixture, accessor};
 use crate::save_edits::shift;
 use crate::save_support::{OpenedFile, Over, bin_of, rest_stays, same_scene, same_takes, take_mut};
 use dragonfly_anim::data::Channel;
@@ -82,7 +82,11 @@ fn a_growing_channel_at_the_end_of_the_buffer_grows_in_place() {
 
 #[test]
 fn compacting_removes_only_unused_data() {
-    let fixture = Fixture::new();
+    let mut fixture = Fixture::new();
+    // A sampler without the range of its times is not one to take over accessors from.
+    for (name, time) in [("min", 0.0), ("max", 1.0)] {
+        fixture.set(&format!("/accessors/{}/{name}", accessor::TIMES), serde_json::json!([time]));
+    }
     let door = MemoryFs::with(&[("all.bin", &fixture.bin)]);
     for (name, bytes) in [
         ("a.glb", fox_bytes()),

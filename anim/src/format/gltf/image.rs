@@ -7,7 +7,8 @@ use crate::data::Image;
 use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{IMAGE_PIXELS, IMAGE_SIDE, IMAGES_PIXELS};
 use gltf::json;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 /// The images of a model, each source once, and the number in this list for each image of the file.
 #[derive(Default)]
@@ -28,6 +29,7 @@ enum ImageSource<'a> {
 pub(super) fn images(document: &GltfDocument<'_>) -> Result<Images, ImportError> {
     let mut read = Images::default();
     let mut known: HashMap<ImageSource<'_>, u32> = HashMap::new();
+    let mut contents: HashSet<Arc<[u8]>> = HashSet::new();
     let mut pixels = 0;
     for (index, image) in document.root.images.iter().enumerate() {
         document.context.work(1)?;
@@ -44,7 +46,15 @@ pub(super) fn images(document: &GltfDocument<'_>) -> Result<Images, ImportError>
         let number = *known.entry(key).or_insert(next);
         if number == next {
             let mut image = read_image(document, image, &path)?;
-            judge(&mut image, &mut pixels, &path, document.context);
+            // Equal bytes are shared, and decoded once: their pixels count once.
+            let known = contents.get(&image.bytes[..]).map(Arc::clone);
+            let before = pixels;
+            judge(&mut image, &mut pixels, known.is_none(), &path, document.context);
+            match known.filter(|_| !image.bytes.is_empty()) {
+                Some(known) => image.bytes = known,
+                None if pixels > before => _ = contents.insert(Arc::clone(&image.bytes)),
+                None => {}
+            }
             document.context.charge(&Place::Pointer(path), 4 * size_of::<Image>() as u64)?;
             read.images.push(image);
         }
@@ -89,8 +99,9 @@ fn read_image(document: &GltfDocument<'_>, image: &json::Image, path: &str) -> R
     Ok(read)
 }
 
-/// Checks the kind and size in the first bytes. An image that is too large is emptied before it is decoded.
-fn judge(image: &mut Image, pixels: &mut u64, path: &str, context: &ImportContext<'_>) {
+/// Checks the kind and size in the first bytes. An image that is too large is emptied before it is decoded. `is_new`:
+/// whether its pixels count.
+fn judge(image: &mut Image, pixels: &mut u64, is_new: bool, path: &str, context: &ImportContext<'_>) {
     if image.bytes.is_empty() {
         return;
     }
@@ -109,7 +120,7 @@ fn judge(image: &mut Image, pixels: &mut u64, path: &str, context: &ImportContex
     }
     image.mime = mime.to_owned();
     (image.width, image.height) = (width, height);
-    let size = u64::from(width) * u64::from(height);
+    let size = if is_new { u64::from(width) * u64::from(height) } else { 0 };
     *pixels += size;
     if width > IMAGE_SIDE || height > IMAGE_SIDE || size > IMAGE_PIXELS || *pixels > IMAGES_PIXELS {
         let text = format!("{width}x{height} pixels are too many; the image is left empty");
