@@ -258,3 +258,29 @@ fn a_node_that_loses_its_animation_is_reported_before_saving() {
     let report = run(["edit", &text(&file), "--edits", &edits(&folder, one), "-o", &saved, "--json"]);
     assert_eq!(report.expect(0).json()["changes"]["bonesLost"], serde_json::json!([]));
 }
+
+#[test]
+fn compacting_removes_the_buffer_files_of_earlier_saves_that_no_model_uses() {
+    let folder = Folder::new("edit-compact-files");
+    for name in ["AnimatedMorphCube.gltf", "AnimatedMorphCube.bin"] {
+        std::fs::copy(data("gltf/AnimatedMorphCube_Quantized").join(name), folder.join(name))
+            .expect("a copy");
+    }
+    let file = text(&folder.join("AnimatedMorphCube.gltf"));
+    for length in 1..=5 {
+        let lines = edits(&folder, &format!(r#"{{"edit":"retime_take","take":0,"length":{length}}}"#));
+        run(["edit", &file, "--edits", &lines, "-o", &file]).expect(0);
+    }
+    let buffers = || {
+        let names = std::fs::read_dir(folder.path()).expect("a folder").flatten();
+        names.filter(|entry| entry.path().extension().is_some_and(|end| end == "bin")).count()
+    };
+    assert_eq!(buffers(), 6);
+    run(["edit", &file, "--compact", "--dry-run"]).expect(0);
+    assert_eq!(buffers(), 6, "nothing is removed without a save");
+    let takes = run(["info", &file, "--json"]).expect(0).json()["takes"].clone();
+    let report = run(["edit", &file, "--compact", "-o", &file, "--json"]).expect(0).json();
+    assert_eq!(report["removed"].as_array().map(Vec::len), Some(4), "{report}");
+    assert_eq!(buffers(), 2, "that of the model and the newest");
+    assert_eq!(run(["info", &file, "--json"]).expect(0).json()["takes"], takes);
+}
