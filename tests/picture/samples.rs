@@ -7,6 +7,7 @@ use dragonfly_kit::picture::images::settings;
 use dragonfly_kit::picture::studio;
 use dragonfly_picture::gpu::{SAMPLES, samples};
 use dragonfly_picture::{DeviceParameters, PictureSettings};
+use glam::Vec4;
 use image::RgbaImage;
 use wgpu::TextureFormatFeatureFlags as Flags;
 
@@ -68,13 +69,20 @@ fn a_mask_discards_pixels_also_with_one_sample() {
     let alpha_mode = AlphaMode::Mask(0.5);
     let material =
         Material { base_color_texture: Some(texture), unlit: true, alpha_mode, ..Material::default() };
-    let loaded = made::loaded(made::standing(vec![made::sheet()], vec![material]), vec![image]);
+    let yellow = Material { base_color: Vec4::new(1.0, 1.0, 0.0, 1.0), unlit: true, ..Material::default() };
+    let mut behind = made::sheet();
+    behind.material = Some(1);
+    behind.vertices.positions.iter_mut().for_each(|position| position.z = -0.01);
+    let model = made::standing(vec![made::sheet(), behind], vec![material, yellow]);
+    let loaded = made::loaded(model, vec![image]);
     let settings = PictureSettings { pitch: 0.0, grid: false, background: Some([0; 4]), ..settings() };
     let picture = studio.render(&loaded, &settings).unwrap();
     let count = |color: [u8; 4]| picture.pixels().filter(|pixel| pixel.0 == color).count();
-    let [red, green, blue, white] =
-        [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255; 4]].map(count);
+    let colors = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255; 4], [255, 255, 0, 255]];
+    let [red, green, blue, white, yellow] = colors.map(count);
     assert!(red > 200 && white > 200, "{red} red, {white} white");
     assert_eq!((green, blue), (0, 0), "what is below the threshold");
-    assert_eq!(red + white + count([0; 4]), picture.pixels().len(), "every pixel is drawn or not");
+    assert!(yellow > 400, "{yellow} of the surface behind the holes");
+    let drawn = red + white + yellow;
+    assert_eq!(drawn + count([0; 4]), picture.pixels().len(), "a pixel is covered or not");
 }
