@@ -2,7 +2,8 @@
 //!
 //! Both are measured on the vertices as they are skinned in that pose, so they contain every vertex and nothing is
 //! estimated. A model without vertices is measured on the origins of its bones; a model with neither has a box and
-//! sphere of size zero at the origin.
+//! sphere of size zero at the origin. A model whose vertices are too many to be measured, such as a mesh in ten thousand
+//! nodes, gets the bounds of [`BoneBoxes`]: [`MEASURED_STEPS`](crate::evaluator::MEASURED_STEPS) is the limit.
 //!
 //! Measuring every vertex costs as much as skinning them. Where that is too much, [`BoneBoxes`] keeps one box per bone
 //! and computes bounds of a pose from those alone: never too small, slightly too large.

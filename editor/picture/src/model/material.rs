@@ -7,6 +7,7 @@ use dragonfly_anim::data::{AlphaMode, Filter, Material, TextureRef, Wrap};
 use dragonfly_document::{DecodedImage, LoadedModel};
 use glam::{Vec3, Vec4};
 use std::collections::HashMap;
+use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
 /// Bind groups 2 of the model's shader, one per material; the last is for surfaces without material.
@@ -47,7 +48,8 @@ impl GpuMaterials {
         Self { layout, groups: Vec::new() }
     }
 
-    /// Uploads the materials and images of `loaded`, each image once per way of reading it.
+    /// Uploads the materials and images of `loaded`, each image once per way of reading it, also where the model has it
+    /// several times.
     pub(super) fn load(&mut self, gpu: &Gpu, maker: &mut TextureMaker, loaded: &LoadedModel) {
         let mut views = HashMap::new();
         let mut samplers = HashMap::new();
@@ -65,7 +67,7 @@ impl GpuMaterials {
                 let view = use_of.and_then(|use_of| {
                     let image = loaded.images.get(use_of.image as usize)?.as_ref()?;
                     views
-                        .entry((use_of.image, encoded))
+                        .entry((Arc::as_ptr(image), encoded))
                         .or_insert_with(|| maker.texture(gpu, image, encoded))
                         .clone()
                 });

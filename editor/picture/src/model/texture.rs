@@ -12,6 +12,9 @@ pub(super) struct TextureMaker {
     pipelines: [Option<wgpu::RenderPipeline>; 2],
 }
 
+/// Number of bytes from which on an image is copied to the device before the next one is uploaded.
+const LARGE: u64 = 16 << 20;
+
 impl TextureMaker {
     /// Creates a maker on `gpu`.
     pub(super) fn new(gpu: &Gpu) -> Self {
@@ -79,6 +82,10 @@ impl TextureMaker {
             size,
         );
         self.fill_levels(gpu, &texture, levels, format, encoded);
+        if bytes >= LARGE {
+            // Until the device has copied it, the image exists once more. A lost device is reported by the next frame.
+            let _ = crate::guard::caught(|| drop(gpu.device.poll(wgpu::PollType::wait_indefinitely())));
+        }
         Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
     }
 
