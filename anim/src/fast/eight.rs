@@ -60,13 +60,13 @@ impl Eight {
     /// computed one by one.
     #[inline(always)]
     pub(super) fn finals<S: Simd>(&mut self, rig: &Rig, binding: &SkinBinding, outs: EightOuts) -> bool {
-        self.to_root::<S>(rig);
+        self.pose_bones::<S>(rig);
         finals::<S>(&self.matrices, binding, outs)
     }
 
     /// Computes `to_root` of every bone of each character.
     #[inline(always)]
-    fn to_root<S: Simd>(&mut self, rig: &Rig) {
+    fn pose_bones<S: Simd>(&mut self, rig: &Rig) {
         let Self { poses, matrices } = self;
         let blocks = from_fn(|at| poses[at].blocks());
         let mut bones = EightPoses::default();
