@@ -1,6 +1,8 @@
 //! Cost of opening and editing a model, and of a frame of the panels: `cargo bench -p dragonfly`.
 
 mod edits;
+mod frame;
+mod models;
 mod timeline;
 
 use dragonfly_document::{Cancel, Source, load_model};
@@ -15,4 +17,5 @@ fn main() {
         load_model(&Source::BuiltIn, &mut |_| {}, &Cancel::default()).expect("part of the program")
     });
     timeline::all();
+    frame::all();
 }
