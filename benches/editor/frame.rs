@@ -5,7 +5,6 @@
 //! computes the scene and records the frame. What the driver does with the frame is shown apart, because on a machine
 //! without a GPU it draws there.
 
-use super::models;
 use super::timeline::cpu;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Desk, Effect, Request, Settings, State, style};
@@ -14,6 +13,7 @@ use dragonfly_document::bones::Choice;
 use dragonfly_document::history::Edited;
 use dragonfly_document::{Change, LoadedModel, View};
 use dragonfly_kit::counting;
+use dragonfly_kit::document::large;
 use dragonfly_picture::pick::pick;
 use dragonfly_picture::stage::{FrameOpening, RenderStage};
 use dragonfly_picture::{DeviceParameters, Look};
@@ -55,10 +55,10 @@ const PARTS: [&str; 4] = ["main", "document", "graphics", "driver"];
 pub(crate) fn all() {
     let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     let made: [(&str, fn() -> Arc<LoadedModel>); 4] = [
-        ("200 bones", || models::tree(200)),
-        ("2,000 bones", || models::tree(2_000)),
-        ("20,000 bones", || models::tree(20_000)),
-        ("1,000 meshes", || models::meshes(1_000)),
+        ("200 bones", || large::tree(200)),
+        ("2,000 bones", || large::tree(2_000)),
+        ("20,000 bones", || large::tree(20_000)),
+        ("1,000 meshes", || large::meshes(1_000)),
     ];
     for (model, make) in made {
         for (action, doing) in ACTIONS {

@@ -2,7 +2,6 @@
 
 mod edits;
 mod frame;
-mod models;
 mod timeline;
 
 use dragonfly_document::{Cancel, Source, load_model};

@@ -3,6 +3,7 @@
 mod camera;
 mod complaints;
 mod device_loss;
+mod draws;
 mod ghost_skins;
 mod graphics_thread;
 mod no_allocation;

@@ -1,4 +1,4 @@
-//! Models for the frame's cost: trees of bones that move one surface, and many small meshes.
+//! Models of any size: trees of bones that move one surface, and many small meshes.
 
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
@@ -13,7 +13,7 @@ use std::sync::Arc;
 const KEYS: usize = 61;
 
 /// Returns a tree of bones with one skin: four vertices around each bone.
-pub(crate) fn tree(count: u32) -> Arc<LoadedModel> {
+pub fn tree(count: u32) -> Arc<LoadedModel> {
     let mut model = ModelData { animation: animation(count), ..ModelData::default() };
     let places = places(&model.animation.skeleton);
     let mut primitive = Primitive { material: Some(0), ..tetrahedra(&places) };
@@ -35,7 +35,7 @@ pub(crate) fn tree(count: u32) -> Arc<LoadedModel> {
 }
 
 /// Returns a tree of nodes, each with a mesh and a material of its own.
-pub(crate) fn meshes(count: u32) -> Arc<LoadedModel> {
+pub fn meshes(count: u32) -> Arc<LoadedModel> {
     let mut model = ModelData { animation: animation(count), ..ModelData::default() };
     for index in 0..count {
         let primitive = Primitive { material: Some(index), ..tetrahedra(&[Vec3::ZERO]) };
