@@ -51,10 +51,12 @@ const ACTIONS: [(Action, &str); 6] = [
 /// Parts of a frame that are measured apart.
 const PARTS: [&str; 4] = ["main", "document", "graphics", "driver"];
 
+type MakeModel = fn() -> Arc<LoadedModel>;
+
 /// Measures every case.
 pub(crate) fn all() {
     let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
-    let made: [(&str, fn() -> Arc<LoadedModel>); 4] = [
+    let made: [(&str, MakeModel); 4] = [
         ("200 bones", || large::tree(200)),
         ("2,000 bones", || large::tree(2_000)),
         ("20,000 bones", || large::tree(20_000)),
@@ -178,7 +180,7 @@ impl Program {
         }
         graphics.add(|| self.record());
         // Most frames are dropped when they are recorded: drawing without a GPU takes too long for every frame.
-        if self.frame % PRESENTED == 0 {
+        if self.frame.is_multiple_of(PRESENTED) {
             driver.add(|| assert!(self.stage.present(), "the frame is whole"));
         }
     }

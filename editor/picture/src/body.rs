@@ -132,7 +132,7 @@ fn ball() -> Vec<BodyVertex> {
     let at = |ring: usize, side: usize| {
         let (sin_ring, cos_ring) = (ring as f32 * TAU / 2.0 / (RINGS + 1) as f32).sin_cos();
         // All corners at a pole are the same one.
-        let sin_ring = if ring % (RINGS + 1) == 0 { 0.0 } else { sin_ring };
+        let sin_ring = if ring.is_multiple_of(RINGS + 1) { 0.0 } else { sin_ring };
         let (sin, cos) = ((side % ROUND) as f32 * TAU / ROUND as f32).sin_cos();
         let normal = [cos * sin_ring, cos_ring, sin * sin_ring];
         BodyVertex { place: [normal[0], 0.0, normal[2], normal[1]], normal, edges: [1.0; 3] }
