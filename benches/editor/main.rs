@@ -1,6 +1,7 @@
 //! Cost of opening and editing a model, and of a frame of the panels: `cargo bench -p dragonfly`.
 
 mod edits;
+mod frame;
 mod save;
 mod timeline;
 
@@ -17,4 +18,5 @@ fn main() {
     });
     timeline::all();
     save::all();
+    frame::all();
 }

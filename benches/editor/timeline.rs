@@ -226,14 +226,14 @@ impl PanelsWindow {
 
 /// Returns the CPU time of this thread.
 #[cfg(unix)]
-fn cpu() -> Duration {
+pub(crate) fn cpu() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     Duration::new(time.tv_sec as u64, time.tv_nsec as u32)
 }
 
 /// Returns the elapsed time, on systems without CPU times.
 #[cfg(not(unix))]
-fn cpu() -> Duration {
+pub(crate) fn cpu() -> Duration {
     static BEGIN: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
     BEGIN.get_or_init(Instant::now).elapsed()
 }

@@ -30,6 +30,7 @@ mod history_panel;
 mod hover;
 mod keeping_save;
 mod keymap;
+mod large_rigs;
 mod life;
 mod locks;
 mod manager;

@@ -4,6 +4,7 @@ mod between;
 mod camera;
 mod complaints;
 mod device_loss;
+mod draws;
 mod ghost_skins;
 mod graphics_thread;
 mod no_allocation;

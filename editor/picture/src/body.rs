@@ -45,6 +45,40 @@ pub fn triangles(body: Body) -> Vec<BodyVertex> {
     corners
 }
 
+/// A body as a device draws it: each vertex once, and the triangles as indices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodyMesh {
+    /// All vertices, each different.
+    pub vertices: Vec<BodyVertex>,
+    /// Three per triangle.
+    pub indices: Vec<u16>,
+}
+
+impl BodyMesh {
+    /// The mesh of `body`. A vertex that several triangles share is computed once for all of them.
+    pub fn of(body: Body) -> Self {
+        let mut mesh = Self::default();
+        for face in triangles(body).chunks_exact(3) {
+            let corners = [0, 1, 2].map(|corner| mesh.index_of(&face[corner]));
+            let [a, b, c] = corners;
+            // The triangles at the poles of a ball have two equal corners.
+            if a != b && b != c && c != a {
+                mesh.indices.extend(corners);
+            }
+        }
+        mesh
+    }
+
+    fn index_of(&mut self, vertex: &BodyVertex) -> u16 {
+        let known = self.vertices.iter().position(|other| other == vertex);
+        let index = known.unwrap_or_else(|| {
+            self.vertices.push(*vertex);
+            self.vertices.len() - 1
+        });
+        index as u16
+    }
+}
+
 /// Returns the position of a body's vertex for a bone, as the vertex shader computes it.
 pub fn placed(corner: &BodyVertex, bone: &BoneInstance) -> Vec3 {
     let along = bone.tail - bone.head;
@@ -84,7 +118,7 @@ fn face(corners: [Vec4; 3], normal: Vec3) -> [BodyVertex; 3] {
 
 fn stick() -> Vec<BodyVertex> {
     let at = |side: usize, along: f32| {
-        let (sin, cos) = (side as f32 * TAU / ROUND as f32).sin_cos();
+        let (sin, cos) = ((side % ROUND) as f32 * TAU / ROUND as f32).sin_cos();
         BodyVertex { place: [cos, along, sin, 0.0], normal: [cos, 0.0, sin], edges: [1.0; 3] }
     };
     let quad = |side| {
@@ -97,7 +131,9 @@ fn stick() -> Vec<BodyVertex> {
 fn ball() -> Vec<BodyVertex> {
     let at = |ring: usize, side: usize| {
         let (sin_ring, cos_ring) = (ring as f32 * TAU / 2.0 / (RINGS + 1) as f32).sin_cos();
-        let (sin, cos) = (side as f32 * TAU / ROUND as f32).sin_cos();
+        // All corners at a pole are the same one.
+        let sin_ring = if ring.is_multiple_of(RINGS + 1) { 0.0 } else { sin_ring };
+        let (sin, cos) = ((side % ROUND) as f32 * TAU / ROUND as f32).sin_cos();
         let normal = [cos * sin_ring, cos_ring, sin * sin_ring];
         BodyVertex { place: [normal[0], 0.0, normal[2], normal[1]], normal, edges: [1.0; 3] }
     };

@@ -126,6 +126,11 @@ impl RenderStage {
         &self.passes.panels
     }
 
+    /// Number of draw calls for surfaces in the last frame of the scene.
+    pub fn draw_calls(&self) -> usize {
+        self.passes.model.borrow().draws()
+    }
+
     /// Sets the size of the window, physical pixels; zero when it is minimized.
     pub fn resize(&mut self, size: [u32; 2]) {
         if self.window_size != size {

@@ -25,6 +25,19 @@ pub struct Hierarchy {
     followed: Option<BoneIndex>,
     /// The model that this state belongs to.
     of: Option<Arc<LoadedModel>>,
+    /// The rows that are shown, until the search or the collapsed bones change.
+    listed: Option<ListedRows>,
+}
+
+/// Rows of the tree, each with whether it matches the search.
+type ShownRows = Arc<[(HierarchyRow, bool)]>;
+
+/// The rows that a search leaves.
+#[derive(Debug)]
+struct ListedRows {
+    /// The search in lower case.
+    query: String,
+    rows: ShownRows,
 }
 
 impl Panel for Hierarchy {
@@ -75,23 +88,43 @@ impl Hierarchy {
 
     /// Returns the rows to show: during a search those that match and their ancestors, otherwise all without a
     /// collapsed ancestor. The flag is whether a row matches.
-    fn visible(&mut self, context: &PanelContext<'_>) -> Vec<(HierarchyRow, bool)> {
-        let rows = &context.digest.rows;
+    fn visible(&mut self, context: &PanelContext<'_>) -> ShownRows {
         let query = self.query.trim().to_lowercase();
-        if !query.is_empty() {
-            return matching(rows, |bone| context.bone_name(bone).to_lowercase().contains(&query));
+        if query.is_empty() {
+            self.expand_above_selected(context);
         }
-        // If a bone was selected elsewhere, its ancestors are expanded.
+        if let Some(listed) = self.listed.as_ref().filter(|listed| listed.query == query) {
+            return Arc::clone(&listed.rows);
+        }
+        let rows = &context.digest.rows;
+        let found = if query.is_empty() {
+            self.expanded(rows)
+        } else {
+            matching(rows, |bone| context.bone_name(bone).to_lowercase().contains(&query))
+        };
+        let rows = ShownRows::from(found);
+        self.listed = Some(ListedRows { query, rows: Arc::clone(&rows) });
+        rows
+    }
+
+    /// Expands the ancestors of a bone that was selected elsewhere.
+    fn expand_above_selected(&mut self, context: &PanelContext<'_>) {
         if context.selected() != self.followed
             && let (Some(selected), Some(loaded)) = (context.selected(), context.loaded())
         {
             let bones = &loaded.model.animation.skeleton.bones;
             let mut above = bones.get(selected as usize).and_then(|bone| bone.parent);
             while let Some(bone) = above {
-                self.collapsed.remove(&bone);
+                if self.collapsed.remove(&bone) {
+                    self.listed = None;
+                }
                 above = bones.get(bone as usize).and_then(|bone| bone.parent);
             }
         }
+    }
+
+    /// Returns the rows without a collapsed ancestor.
+    fn expanded(&self, rows: &[HierarchyRow]) -> Vec<(HierarchyRow, bool)> {
         let mut out = Vec::with_capacity(rows.len());
         let mut index = 0;
         while let Some(&row) = rows.get(index) {
@@ -188,6 +221,7 @@ impl Hierarchy {
 
     /// Folds or unfolds one bone; with `all`, everything below it too.
     fn fold(&mut self, row: HierarchyRow, context: &PanelContext<'_>, all: bool) {
+        self.listed = None;
         let fold = !self.collapsed.contains(&row.bone);
         let count = if all { row.below as usize } else { 0 };
         let start = context.digest.rows.iter().position(|other| other.bone == row.bone).unwrap_or(0);

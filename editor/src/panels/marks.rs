@@ -1,7 +1,7 @@
 //! Marks of bones, remembered for each file: which bones are muted, soloed, locked and pinned, and towards which bone elbows
 //! bend. They are stored with the program's settings and never in the model's file.
 
-use super::keys::channel::named;
+use super::keys::channel::BoneNames;
 use super::keys::{BoneFlag, BoneFlags};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_document::View;
@@ -177,14 +177,15 @@ impl Noted {
 impl FileMarks {
     /// Returns the marks of a model as they are stored.
     fn of(path: String, skeleton: &Skeleton, BoneMarks { flags, pins, pole }: BoneMarks<'_>) -> Self {
-        let list = |flag| flags.of(flag).map(|bone| named(skeleton, bone)).collect();
+        let names = BoneNames::of(skeleton);
+        let list = |flag| flags.of(flag).map(|bone| names.reference(bone)).collect();
         Self {
             path,
             mute: list(BoneFlag::Mute),
             solo: list(BoneFlag::Solo),
             lock: list(BoneFlag::Lock),
-            pins: pins.iter().map(|&bone| named(skeleton, bone)).collect(),
-            pole: pole.map(|bone| named(skeleton, bone)),
+            pins: pins.iter().map(|&bone| names.reference(bone)).collect(),
+            pole: pole.map(|bone| names.reference(bone)),
         }
     }
 }

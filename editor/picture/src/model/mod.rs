@@ -16,6 +16,7 @@ use dragonfly_document::LoadedModel;
 use geometry::GpuGeometry;
 use material::GpuMaterials;
 use pipeline::{Cull, ModelPipelines, PipelineKind};
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::sync::Arc;
 use texture::TextureMaker;
@@ -26,6 +27,8 @@ pub struct GpuModel {
     /// Kept for loading the model again on another device.
     loaded: Option<Arc<LoadedModel>>,
     resources: Option<ModelResources>,
+    /// Draw calls since the last [`Self::prepare`].
+    draws: Cell<usize>,
 }
 
 /// Device resources for any model.
@@ -67,6 +70,7 @@ impl DeviceListener for GpuModel {
 impl GpuModel {
     /// Writes this frame's pose to the device; a new model is loaded first.
     pub fn prepare(&mut self, gpu: &Gpu, posed: Option<&PosedModel>) {
+        self.draws.set(0);
         self.loaded = posed.map(|posed| Arc::clone(posed.loaded()));
         let (Some(resources), Some(posed)) = (&mut self.resources, posed) else { return };
         let known =
@@ -83,6 +87,11 @@ impl GpuModel {
                 resources.pipelines.make(gpu, kind(posed, item, *cull));
             }
         }
+    }
+
+    /// Number of draw calls for surfaces in this frame; all other passes together need a constant number.
+    pub fn draws(&self) -> usize {
+        self.draws.get()
     }
 
     /// Writes the poses of ghosts to the device, after [`Self::prepare`].
@@ -139,6 +148,7 @@ impl GpuModel {
             if let Some(pipeline) = resources.pipelines.get(kind(posed, item, *cull)) {
                 pass.set_pipeline(pipeline);
                 pass.draw_indexed(0..geometry.count, 0, 0..1);
+                self.draws.set(self.draws.get() + 1);
             }
         }
     }

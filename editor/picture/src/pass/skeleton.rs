@@ -1,7 +1,7 @@
 //! The bones in their pose, in front of the surface or hidden by it.
 
 use super::definition::{FrameCommands, Pass, PassLayer, Surroundings, scene_pipeline};
-use crate::body::{BodyVertex, triangles};
+use crate::body::{BodyMesh, BodyVertex};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::shaders;
@@ -21,10 +21,33 @@ struct SkeletonResources {
     outline: wgpu::RenderPipeline,
     solid: wgpu::RenderPipeline,
     line: wgpu::RenderPipeline,
-    /// Vertex buffer and number of vertices of each body, in the order of [`Body::ALL`].
-    bodies: [(wgpu::Buffer, u32); 4],
+    /// Mesh of each body, in the order of [`Body::ALL`].
+    bodies: [GpuBody; 4],
     /// Instance buffers, in the order of [`Body::ALL`]; they grow with the skeleton.
     instances: [Option<wgpu::Buffer>; 4],
+}
+
+/// A body on the device.
+struct GpuBody {
+    vertices: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    /// Number of indices.
+    count: u32,
+}
+
+impl GpuBody {
+    fn new(gpu: &Gpu, body: Body) -> Self {
+        let BodyMesh { vertices, indices } = BodyMesh::of(body);
+        let buffer = |label, contents, usage| {
+            let descriptor = wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage };
+            gpu.device.create_buffer_init(&descriptor)
+        };
+        Self {
+            vertices: buffer("body", bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
+            indices: buffer("body's triangles", bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
+            count: indices.len() as u32,
+        }
+    }
 }
 
 impl DeviceListener for SkeletonPass {
@@ -53,15 +76,7 @@ impl DeviceListener for SkeletonPass {
         let solid = scene_pipeline(gpu, &module, ["vs_bone", "fs_bone"], &buffers, outside, false);
         let line =
             scene_pipeline(gpu, &module, ["vs_line", "fs_line"], &[Some(bone)], Default::default(), true);
-        let bodies = Body::ALL.map(|body| {
-            let corners = triangles(body);
-            let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("body"),
-                contents: bytemuck::cast_slice(&corners),
-                usage: wgpu::BufferUsages::VERTEX,
-            });
-            (buffer, corners.len() as u32)
-        });
+        let bodies = Body::ALL.map(|body| GpuBody::new(gpu, body));
         self.resources =
             Some(SkeletonResources { outline, solid, line, bodies, instances: [const { None }; 4] });
     }
@@ -112,18 +127,19 @@ impl Pass for SkeletonPass {
         pass.set_bind_group(0, &around.gpu.frame_group, &[]);
         for (index, body) in Body::ALL.into_iter().enumerate() {
             let count = model.shape().instances(body).len() as u32;
-            let (corners, corner_count) = &resources.bodies[index];
+            let mesh = &resources.bodies[index];
             let Some(instances) = resources.instances[index].as_ref().filter(|_| count > 0) else { continue };
             if body == Body::Line {
                 pass.set_pipeline(&resources.line);
                 pass.set_vertex_buffer(0, instances.slice(..));
                 pass.draw(0..6, 0..count);
             } else {
-                pass.set_vertex_buffer(0, corners.slice(..));
+                pass.set_vertex_buffer(0, mesh.vertices.slice(..));
+                pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint16);
                 pass.set_vertex_buffer(1, instances.slice(..));
                 for pipeline in [&resources.outline, &resources.solid] {
                     pass.set_pipeline(pipeline);
-                    pass.draw(0..*corner_count, 0..count);
+                    pass.draw_indexed(0..mesh.count, 0, 0..count);
                 }
             }
         }

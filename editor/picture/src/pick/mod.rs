@@ -8,6 +8,7 @@ use crate::shape::{Body, BoneInstance, SkeletonShape};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::HiddenBones;
 use glam::{Mat4, Vec2, Vec3, Vec4Swizzles};
+use std::collections::HashSet;
 
 mod click;
 mod cycle;
@@ -60,11 +61,8 @@ pub fn pick_met(scene: &Scene, position: [f32; 2], hidden: &HiddenBones, out: &m
 fn in_order(mut hits: Vec<(f32, BoneIndex)>, out: &mut Vec<BoneIndex>) {
     // The sort is stable: of two equally near hits the first found comes first, as in `pick`.
     hits.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for (_, bone) in hits {
-        if !out.contains(&bone) {
-            out.push(bone);
-        }
-    }
+    let mut seen = HashSet::with_capacity(hits.len());
+    out.extend(hits.into_iter().map(|(_, bone)| bone).filter(|&bone| seen.insert(bone)));
 }
 
 /// Writes the bones in a region of the viewport, given in points from its top left, in the order of the skeleton.

@@ -2,7 +2,7 @@
 
 use super::{edit, locks};
 use crate::panels::count_text::count;
-use crate::panels::keys::channel::named;
+use crate::panels::keys::channel::BoneNames;
 use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
@@ -84,9 +84,9 @@ pub(in crate::panels) fn copy(workspace: &mut Workspace) -> Option<Effect> {
     let view = workspace.model.view()?;
     let (take, time) = (workspace.player.take(), workspace.player.time());
     let poses = workspace.posed.update(view, take, time).poses();
-    let skeleton = &view.loaded.model.animation.skeleton;
+    let names = BoneNames::of(&view.loaded.model.animation.skeleton);
     let pose = |&bone: &BoneIndex| {
-        Some(BonePose { bone: named(skeleton, bone), ..whole(bone, poses.get(bone as usize)?) })
+        Some(BonePose { bone: names.reference(bone), ..whole(bone, poses.get(bone as usize)?) })
     };
     let copied: Vec<BonePose> = bones.iter().filter_map(pose).collect();
     let bones = count(copied.len(), "bone", "bones");

@@ -60,8 +60,9 @@ impl<'a> PanelContext<'a> {
         let Some(take) = self.take() else { return Vec::new() };
         let only = self.lists_only_selected();
         let filter = self.keys.filter().to_lowercase();
+        let lists = self.keys.lists(self.selection);
         let listed = |&bone: &BoneIndex| {
-            (!only || self.keys.lists(bone, self.selection))
+            (!only || lists(bone))
                 && channel::channels(take, bone).next().is_some()
                 && (filter.is_empty() || self.bone_name(bone).to_lowercase().contains(&filter))
         };

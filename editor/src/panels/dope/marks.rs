@@ -7,6 +7,7 @@ use crate::panels::keys::intervals::Intervals;
 use crate::panels::keys::{Drawn, KeySelection, TimeScale, channel};
 use dragonfly_anim::data::Take;
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// The triangles of all visible keys.
@@ -17,6 +18,8 @@ pub(super) struct KeysMesh {
     plain: Columns,
     chosen: Columns,
     marks: Vec<Mark>,
+    /// Addresses of the columns of times that are marked in a row.
+    marked: HashSet<*const [f32]>,
     /// Number of selected keys, with the selection and the take that it was counted for.
     count: Option<(KeySelection, Arc<Take>, usize)>,
 }
@@ -98,10 +101,15 @@ impl KeysMesh {
         for (at, row) in rows.list().iter().enumerate().take(last).skip(first) {
             self.plain.reset(*scale, left, right, pixels_per_point);
             self.chosen.reset(*scale, left, right, pixels_per_point);
+            self.marked.clear();
             let none = Intervals::none();
             for &id in rows.of(row.kind) {
-                let times = channel::times(&drawn.take, id);
+                let Some(times) = channel::shared_times(&drawn.take, id) else { continue };
                 let selected = drawn.selection.of(id);
+                // In most files many channels share a column of times.
+                if selected.is_empty() && !self.marked.insert(Arc::as_ptr(times)) {
+                    continue;
+                }
                 self.plain.mark(times, selected, false);
                 self.chosen.mark(times, selected, true);
             }

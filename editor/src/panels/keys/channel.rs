@@ -2,6 +2,7 @@
 
 use dragonfly_anim::data::{BoneIndex, Interpolation, Skeleton, Take, Track};
 use dragonfly_document::edit::{BoneRef, Property};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// A channel: a bone and one of its properties.
@@ -53,12 +54,31 @@ pub fn nearest(take: &Take, channel: ChannelId, time: f32) -> Option<f32> {
     around.min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))
 }
 
-/// Returns a bone by its name, so that text means the same in another model; by its index if the name is not unique.
-pub fn named(skeleton: &Skeleton, bone: BoneIndex) -> BoneRef {
-    match skeleton.bones.get(bone as usize) {
-        Some(rules) if !rules.name.is_empty() && skeleton.find(&rules.name) == Some(bone) => {
-            BoneRef::Name(rules.name.clone())
+/// The names of a skeleton's bones, for texts that name many bones: text with names means the same in another model.
+#[derive(Debug)]
+pub struct BoneNames<'a> {
+    skeleton: &'a Skeleton,
+    /// The first bone of each name.
+    first: HashMap<&'a str, BoneIndex>,
+}
+
+impl<'a> BoneNames<'a> {
+    /// Returns the names of `skeleton`.
+    pub fn of(skeleton: &'a Skeleton) -> Self {
+        let mut first = HashMap::with_capacity(skeleton.len());
+        for (index, bone) in skeleton.bones.iter().enumerate() {
+            first.entry(bone.name.as_str()).or_insert(index as BoneIndex);
         }
-        Some(_) | None => BoneRef::Index(bone),
+        Self { skeleton, first }
+    }
+
+    /// Returns a bone by its name; by its index if the name is empty or an earlier bone has it too.
+    pub fn reference(&self, bone: BoneIndex) -> BoneRef {
+        match self.skeleton.bones.get(bone as usize) {
+            Some(rules) if !rules.name.is_empty() && self.first.get(rules.name.as_str()) == Some(&bone) => {
+                BoneRef::Name(rules.name.clone())
+            }
+            Some(_) | None => BoneRef::Index(bone),
+        }
     }
 }

@@ -4,7 +4,7 @@
 //! clipboard decides what a paste does; the command that copies takes keys or the pose, depending on what was used last, the
 //! timeline or the viewport.
 
-use super::channel::{self, ChannelId, named};
+use super::channel::{self, BoneNames, ChannelId};
 use super::selection::KeySelection;
 use dragonfly_anim::data::{BoneIndex, Channel, Interpolation, Skeleton, Take};
 use dragonfly_document::adapter::TakeVersions;
@@ -100,6 +100,7 @@ pub fn from_text(text: &str) -> Option<Vec<CopiedChannel>> {
 /// Returns the selected keys of a take, with their distances to the first.
 pub fn copied(take: &Take, selection: &KeySelection, skeleton: &Skeleton) -> Vec<CopiedChannel> {
     let first = selection.extent(take).map_or(0.0, |[first, _]| first);
+    let names = BoneNames::of(skeleton);
     let of = |((bone, property), keys): (ChannelId, &super::intervals::Intervals)| {
         let track = channel::track(take, bone)?;
         let keys = keys.keys(channel::times(take, (bone, property))).flatten();
@@ -108,7 +109,7 @@ pub fn copied(take: &Take, selection: &KeySelection, skeleton: &Skeleton) -> Vec
             Property::Rotation => column(&track.rotation, keys, first, |value| value.to_array().into()),
             Property::Scale => column(&track.scale, keys, first, |value| value.to_array().into()),
         };
-        let bone = named(skeleton, bone);
+        let bone = names.reference(bone);
         (!keys.is_empty()).then_some(CopiedChannel { bone, property, interpolation, keys })
     };
     selection.channels().filter_map(of).collect()

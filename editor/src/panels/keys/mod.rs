@@ -31,6 +31,7 @@ use dragonfly_document::adapter::TakeVersions;
 use dragonfly_document::bones::{BoneSelection, Choice};
 use dragonfly_document::edit::SAME_TIME;
 use dragonfly_picture::between;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// Margin beyond the playhead when it is brought into sight, as a part of the window.
@@ -46,7 +47,7 @@ pub struct KeyEditing {
     only_selected: bool,
     /// Bones that were listed when one of their rows was clicked, and the selection that this made: the other bones stay
     /// listed as long as that is selected.
-    kept: Option<(Vec<BoneIndex>, Vec<BoneIndex>)>,
+    kept: Option<(HashSet<BoneIndex>, Vec<BoneIndex>)>,
     /// Part of the names of the bones that are listed; empty for all.
     filter: String,
     flags: BoneFlags,
@@ -257,16 +258,19 @@ impl KeyEditing {
         self.has_focus = false;
     }
 
-    /// Returns whether a bone is listed where only the selected bones are, or those whose rows were there when one of them
-    /// was clicked.
-    pub(super) fn lists(&self, bone: BoneIndex, selected: &BoneSelection) -> bool {
+    /// Returns a function that returns whether a bone is listed where only the selected bones are, or those whose rows were
+    /// there when one of them was clicked.
+    pub(super) fn lists<'a>(&'a self, selected: &'a BoneSelection) -> impl Fn(BoneIndex) -> bool + 'a {
         let kept = self.kept.as_ref().filter(|(_, by)| by == selected.bones());
-        kept.map_or_else(|| selected.contains(bone), |(listed, _)| listed.contains(&bone))
+        move |bone| match kept {
+            Some((listed, _)) => listed.contains(&bone),
+            None => selected.contains(bone),
+        }
     }
 
     /// Keeps the rows that are listed as long as `selected` is the selection.
     pub(super) fn keep_rows(&mut self, listed: Vec<BoneIndex>, selected: &[BoneIndex]) {
-        self.kept = Some((listed, selected.to_vec()));
+        self.kept = Some((listed.into_iter().collect(), selected.to_vec()));
     }
 
     /// Deselects the keys of bones that are not listed any more: only visible keys are deleted or moved. `selected` are
@@ -274,14 +278,17 @@ impl KeyEditing {
     pub(super) fn deselect_unlisted(&mut self, selected: &BoneSelection) {
         if self.drag.is_none() && self.only_selected && selected.active().is_some() {
             let mut keys = std::mem::take(&mut self.selection);
-            keys.drop_bones(|bone| !self.lists(bone, selected));
+            let lists = self.lists(selected);
+            keys.drop_bones(|bone| !lists(bone));
+            drop(lists);
             self.selection = keys;
         }
     }
 
     /// Deselects the keys of all bones but these.
     pub(super) fn deselect_all_but(&mut self, bones: &[BoneIndex]) {
-        self.selection.drop_bones(|bone| !bones.contains(&bone));
+        let kept: HashSet<BoneIndex> = bones.iter().copied().collect();
+        self.selection.drop_bones(|bone| !kept.contains(&bone));
     }
 
     /// Deselects all keys.

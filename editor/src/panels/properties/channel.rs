@@ -155,7 +155,7 @@ impl ChannelTable<'_> {
         let columns = columns(rect.left(), rect.width());
         let Some(&(_, x)) = columns.iter().find(|(other, _)| *other == column) else { return false };
         let spot = Spot { property, column, form };
-        let shared = drag.shared(self.context, self.bone, &self.pair, spot, self.grain(property, form));
+        let shared = drag.shared(self.bone, &self.pair, spot, self.grain(property, form));
         let mut in_use = false;
         for (index, value) in shared.into_iter().enumerate().take(form.count()) {
             let place = Rect::from_x_y_ranges(x, rows.top(index)..=rows.top(index) + FIELD);
@@ -180,7 +180,7 @@ impl ChannelTable<'_> {
     ) -> bool {
         let ChannelRows { rect, property, form, .. } = *rows;
         let spot = Spot { property, column: Column::Change, form };
-        let shared = drag.shared(self.context, self.bone, &self.pair, spot, self.grain(property, form));
+        let shared = drag.shared(self.bone, &self.pair, spot, self.grain(property, form));
         let mut in_use = false;
         for (index, value) in shared.into_iter().enumerate().take(form.count()) {
             let top = rows.top(index) + FIELD;

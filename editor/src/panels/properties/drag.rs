@@ -33,6 +33,8 @@ pub(super) struct FieldDrag {
     held: Option<HeldNumber>,
     /// Typed angles of the active bone.
     typed: Vec<TypedAngles>,
+    /// The other selected bones in this frame; `None` for those without a pose.
+    others: Vec<Option<Pair>>,
 }
 
 /// A field that is dragged.
@@ -99,11 +101,14 @@ enum NewNumber {
 }
 
 impl FieldDrag {
-    /// Begins a frame. `in_use` is whether a field of the panel has the focus or is dragged.
+    /// Begins a frame: samples the selected bones once for all fields. `in_use` is whether a field of the panel has the focus or is dragged.
     pub(super) fn begin(&mut self, context: &PanelContext<'_>, in_use: bool) {
         let active = context.selected();
         self.typed
             .retain(|typed| Some(typed.bone) == active && (in_use || typed.form != NumberForm::Quaternion));
+        self.others.clear();
+        let others = context.selection.bones().iter().filter(|&&bone| Some(bone) != active);
+        self.others.extend(others.map(|&bone| pair_of(context, bone)));
     }
 
     /// Returns the numbers of a bone at `spot`.
@@ -121,22 +126,14 @@ impl FieldDrag {
 
     /// Returns the numbers that all selected bones share at `spot`; `None` if they differ. `pair` is the active
     /// bone.
-    pub(super) fn shared(
-        &self,
-        context: &PanelContext<'_>,
-        active: BoneIndex,
-        pair: &Pair,
-        spot: Spot,
-        grain: f64,
-    ) -> [Option<f64>; 4] {
+    pub(super) fn shared(&self, active: BoneIndex, pair: &Pair, spot: Spot, grain: f64) -> [Option<f64>; 4] {
         let first = self.numbers(active, pair, spot);
         let mut shared = first.map_or([None; 4], |numbers| numbers.map(Some));
-        for &bone in context.selection.bones().iter().filter(|&&bone| bone != active) {
+        for other in &self.others {
             if shared == [None; 4] {
                 break;
             }
-            let other =
-                pair_of(context, bone).and_then(|pair| numbers(&pair, spot.property, spot.column, spot.form));
+            let other = other.as_ref().and_then(|pair| numbers(pair, spot.property, spot.column, spot.form));
             for (index, number) in shared.iter_mut().enumerate() {
                 let same = number.zip(other).is_some_and(|(a, other)| (a - other[index]).abs() <= grain);
                 *number = number.filter(|_| same);

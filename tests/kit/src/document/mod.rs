@@ -2,6 +2,7 @@
 
 pub mod arm;
 pub mod fixture;
+pub mod large;
 pub mod made;
 pub mod made_take;
 pub mod received;
