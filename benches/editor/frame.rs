@@ -1,9 +1,9 @@
 //! A frame of the editor with models of growing size: milliseconds and allocations of each thread, and draw calls.
 //!
-//! The three threads are played by one, so that the time and the allocations of each can be told apart: the main
+//! One thread does the work of all three, so that the time and the allocations of each can be measured: the main
 //! thread builds and tessellates the panels, the document applies an edit and publishes a view, the graphics thread
-//! computes the scene and records the frame. What the driver does with the frame is shown apart, because on a machine
-//! without a GPU it draws there.
+//! computes the scene and records the frame. The time of the driver is measured separately, because without a GPU the
+//! driver draws.
 
 use super::timeline::cpu;
 use dragonfly::panels::commands::Id;

@@ -1,4 +1,4 @@
-//! What a device has to draw grows with what the file contains, and not faster: one draw for each surface, one for each
+//! The work of a device grows no faster than the file: one draw for each surface, one for each
 //! body of all bones together, and each corner of a body once.
 
 use dragonfly_kit::document::large;
