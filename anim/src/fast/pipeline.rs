@@ -98,7 +98,7 @@ pub fn pose_character<T: Playable>(
     scratch: &mut Scratch,
     out: &mut [Matrix34],
 ) {
-    level.run(One { rig, binding, layers, scratch, out });
+    level.run(OneCharacter { rig, binding, layers, scratch, out });
 }
 
 /// Computes the final poses of many characters of one rig: those of character `c` from `c * binding.joints()` on.
@@ -116,7 +116,7 @@ pub fn pose_crowd<'a, T: Playable + 'a>(
     level.run(Crowd { rig, binding, characters: characters.into_iter(), scratch, out });
 }
 
-struct One<'a, T> {
+struct OneCharacter<'a, T> {
     rig: &'a Rig,
     binding: &'a SkinBinding,
     layers: &'a [Playing<'a, T>],
@@ -124,7 +124,7 @@ struct One<'a, T> {
     out: &'a mut [Matrix34],
 }
 
-impl<T: Playable> Kernel for One<'_, T> {
+impl<T: Playable> Kernel for OneCharacter<'_, T> {
     type Output = ();
 
     #[inline(always)]
