@@ -17,18 +17,18 @@ use super::to_root::local_rows;
 use std::array::from_fn;
 
 /// One number of each character.
-type Lanes = [f32; LANES];
+type EightNumbers = [f32; LANES];
 
 /// A matrix of each character, number by number.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-struct EightMatrices([Lanes; 12]);
+struct EightMatrices([EightNumbers; 12]);
 
 /// The numbers of eight bones of the eight characters: x, y, z, w of the rotation, then the translation and the scale,
 /// each with one entry per bone.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(64))]
-struct EightPoses([[Lanes; LANES]; 10]);
+struct EightPoses([[EightNumbers; LANES]; 10]);
 
 /// Memory for eight characters.
 #[derive(Clone, Debug)]
@@ -112,7 +112,7 @@ fn turn<S: Simd>(poses: &[&[PoseBlock]; LANES], block: usize, out: &mut EightPos
 
 /// Transposes eight rows of eight numbers.
 #[inline(always)]
-fn turn_one<S: Simd>(rows: [&Lanes; LANES], out: &mut [Lanes; LANES]) {
+fn turn_one<S: Simd>(rows: [&EightNumbers; LANES], out: &mut [EightNumbers; LANES]) {
     let ([a, b, c, d, e, f, g, h], [i, j, k, l, m, n, o, p]) = (rows.map(low), rows.map(high));
     let (first, last) = out.split_at_mut(4);
     let first_rows = [
@@ -136,12 +136,12 @@ fn turn_one<S: Simd>(rows: [&Lanes; LANES], out: &mut [Lanes; LANES]) {
 }
 
 #[inline(always)]
-fn low(lanes: &Lanes) -> &[f32; 4] {
+fn low(lanes: &EightNumbers) -> &[f32; 4] {
     lanes.first_chunk().unwrap_or(&[0.0; 4])
 }
 
 #[inline(always)]
-fn high(lanes: &Lanes) -> &[f32; 4] {
+fn high(lanes: &EightNumbers) -> &[f32; 4] {
     lanes.last_chunk().unwrap_or(&[0.0; 4])
 }
 

@@ -98,7 +98,7 @@ pub fn pose_character<T: Playable>(
     scratch: &mut Scratch,
     out: &mut [Matrix34],
 ) {
-    level.run(One { rig, binding, layers, scratch, out });
+    level.run(OneCharacter { rig, binding, layers, scratch, out });
 }
 
 /// Computes the final poses of many characters of one rig: those of character `c` from `c * binding.joints()` on.
@@ -116,7 +116,7 @@ pub fn pose_crowd<'a, T: Playable + 'a>(
     level.run(Crowd { rig, binding, characters: characters.into_iter(), scratch, out });
 }
 
-struct One<'a, T> {
+struct OneCharacter<'a, T> {
     rig: &'a Rig,
     binding: &'a SkinBinding,
     layers: &'a [Playing<'a, T>],
@@ -124,7 +124,7 @@ struct One<'a, T> {
     out: &'a mut [Matrix34],
 }
 
-impl<T: Playable> Kernel for One<'_, T> {
+impl<T: Playable> Kernel for OneCharacter<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -149,8 +149,9 @@ impl<'a, T: Playable + 'a, I: Iterator<Item = &'a [Playing<'a, T>]>> Kernel for 
     fn run<S: Simd>(self) {
         let Self { rig, binding, mut characters, scratch, out } = self;
         let joints = binding.joints().max(1);
-        // The exact matrices of a sheared rest pose are put in for one character at a time.
-        let by_eight = rig.sheared.is_empty();
+        // The exact matrices of a sheared rest pose are put in for one character at a time. Where eight numbers need
+        // more than one register, there are too few of them.
+        let by_eight = S::IS_WIDE && rig.sheared.is_empty();
         for out in out.chunks_mut(LANES * joints) {
             let mut group: [&[Playing<T>]; LANES] = [&[]; LANES];
             let mut count = 0;
@@ -159,7 +160,7 @@ impl<'a, T: Playable + 'a, I: Iterator<Item = &'a [Playing<'a, T>]>> Kernel for 
                 count += 1;
             }
             let is_full = count == LANES && out.len() == LANES * joints;
-            if by_eight && is_full && eight::<S, T>(rig, binding, &group, scratch, out) {
+            if S::IS_WIDE && by_eight && is_full && eight::<S, T>(rig, binding, &group, scratch, out) {
                 continue;
             }
             for (layers, out) in group.iter().take(count).zip(out.chunks_mut(joints)) {

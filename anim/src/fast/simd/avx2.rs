@@ -41,6 +41,7 @@ fn run<K: Kernel>(kernel: K) -> K::Output {
 pub(super) struct Avx2;
 
 impl Simd for Avx2 {
+    const IS_WIDE: bool = true;
     type F8 = F8;
     type F4 = F4;
     type U8 = U8;

@@ -8,6 +8,7 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 pub struct Portable;
 
 impl Simd for Portable {
+    const IS_WIDE: bool = false;
     type F8 = Array8;
     type F4 = Array4;
     type U8 = Words8;

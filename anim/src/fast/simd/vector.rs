@@ -5,6 +5,8 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 /// The vectors of one set of instructions.
 pub trait Simd: Copy + Debug {
+    /// Whether eight numbers fit in one register.
+    const IS_WIDE: bool;
     /// Eight numbers.
     type F8: Float8<Word = Self::U8, Half = Self::F4>;
     /// Four numbers.
