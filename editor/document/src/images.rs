@@ -114,7 +114,7 @@ impl ImageSize {
         self.pixels() > SMALL
     }
 
-    /// Returns the bytes of the image when its size is halved so many times.
+    /// Returns the bytes of the image after `halvings` of its size.
     fn kept(&self, halvings: u32) -> u64 {
         let side = |side: u32| u64::from((side >> halvings).max(1));
         4 * side(self.width) * side(self.height)

@@ -18,7 +18,7 @@ pub(super) struct Survey {
     /// `/asset/version` and `/asset/minVersion`, as in the file.
     pub(super) version: Option<String>,
     pub(super) min_version: Option<String>,
-    /// What the document model requires and the specification does not, in the order of the text.
+    /// Requirements of the document model that the specification does not have, in the order of the text.
     pub(super) patches: Vec<SurveyPatch>,
 }
 
