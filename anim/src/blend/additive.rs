@@ -130,9 +130,10 @@ fn power(rotation: Quat, factor: f32) -> Quat {
     if sine == 0.0 {
         return Quat::IDENTITY;
     }
-    let half = sine.atan2(rotation.w) * factor;
-    let axis = rotation.xyz() * (half.sin() / sine);
-    Quat::from_xyzw(axis.x, axis.y, axis.z, half.cos())
+    // As in `sample::mix`: the same bits on Linux and Windows.
+    let half = libm::atan2f(sine, rotation.w) * factor;
+    let axis = rotation.xyz() * (libm::sinf(half) / sine);
+    Quat::from_xyzw(axis.x, axis.y, axis.z, libm::cosf(half))
 }
 
 #[cfg(test)]

@@ -1,6 +1,9 @@
 //! Interpolation between two keys (thesis §2.1.5.2: "0.5 * K1 + 0.5 * K2"; glTF 2.0 appendix C for the others).
 //!
 //! `mix` is always 0..1: 0 the first key, 1 the second.
+//!
+//! Sine and arc tangent are those of `libm`, so that a pose is the same to the bit on Linux and Windows, whose C libraries round
+//! some of them differently in the last place.
 
 use glam::Quat;
 use std::ops::{Add, Mul, Sub};
@@ -34,10 +37,10 @@ pub fn slerp(a: Quat, b: Quat, mix: f32) -> Quat {
         return nlerp(a, b, mix);
     }
     // The arc cosine is inexact for small angles; the two diagonals of the rhombus of a and b are not.
-    let angle = 2.0 * (a - b).length().atan2((a + b).length());
-    let from = ((1.0 - mix) * angle).sin();
-    let to = (mix * angle).sin();
-    ((a * from + b * to) / angle.sin()).normalize()
+    let angle = 2.0 * libm::atan2f((a - b).length(), (a + b).length());
+    let from = libm::sinf((1.0 - mix) * angle);
+    let to = libm::sinf(mix * angle);
+    ((a * from + b * to) / libm::sinf(angle)).normalize()
 }
 
 /// Interpolates two rotations of one hemisphere linearly, and normalizes the result.
@@ -88,6 +91,20 @@ mod tests {
 
     fn angle_between(a: Quat, b: Quat) -> f32 {
         2.0 * (a - b).length().min((a + b).length()).atan2((a + b).length().max((a - b).length())) * 2.0
+    }
+
+    // Processors of another kind add the four products of a length in another order.
+    #[cfg(target_arch = "x86_64")]
+    #[test]
+    fn slerp_gives_the_same_bits_on_linux_and_on_windows() {
+        // The bits of 1,000 rotations; the C library of Linux gives 5801780303964411495, that of Windows 5200982879927384937.
+        let mut sum = 0_u64;
+        for step in 0..1000_u16 {
+            let (a, b) = (Quat::from_xyzw(0.6, 0.0, 0.0, 0.8), Quat::from_xyzw(0.0, 0.28, 0.0, 0.96));
+            let turned = slerp(a, b, f32::from(step) / 1000.0).to_array();
+            sum = turned.iter().fold(sum, |sum, number| sum.rotate_left(5) ^ u64::from(number.to_bits()));
+        }
+        assert_eq!(sum, 15_946_459_963_397_958_561);
     }
 
     #[test]
