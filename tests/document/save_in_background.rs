@@ -51,6 +51,14 @@ impl HeldSave {
         self.change(|held| *held = Held { panics: held.panics, ..Held::default() });
     }
 
+    /// Starts a save and waits until it is held.
+    #[track_caller]
+    fn hold_save(&self, document: &TestDocument, to: SaveTo) {
+        self.hold();
+        document.send(order(to));
+        self.wait_until_reached();
+    }
+
     #[track_caller]
     fn wait_until_reached(&self) {
         let state = self.state.lock().unwrap();
@@ -78,6 +86,15 @@ const POINTS: [FaultPoint; 2] = [FaultPoint::PrepareSave, FaultPoint::WriteSave]
 fn document(autosave: &Path, held: &Arc<HeldSave>) -> TestDocument {
     let faults = FaultInjection::new(Arc::clone(held) as _);
     TestDocument::with(Setup { autosave: Some(autosave_in(autosave)), faults, ..Setup::default() })
+}
+
+/// Opens a copy of Fox in a folder of the test, whose saves can be held at `at`.
+fn opened(name: &str, at: FaultPoint) -> (Folder, PathBuf, Arc<HeldSave>, TestDocument) {
+    let folder = Folder::new(&format!("background-{name}-{at:?}"));
+    let (path, held) = (fox(&folder), HeldSave::at(at));
+    let mut document = document(&folder.join("autosave"), &held);
+    document.open(&path);
+    (folder, path, held, document)
 }
 
 fn order(to: SaveTo) -> DocumentMessage {
@@ -112,15 +129,10 @@ fn restored(autosave: &Path, path: &Path) -> (usize, View) {
 #[test]
 fn edits_made_during_a_save_are_answered_before_its_end_and_are_unsaved_after_it() {
     for at in POINTS {
-        let folder = Folder::new(&format!("background-edit-{at:?}"));
-        let (path, held) = (fox(&folder), HeldSave::at(at));
-        let mut document = document(&folder.join("autosave"), &held);
-        document.open(&path);
+        let (_folder, path, held, mut document) = opened("edit", at);
         document.edit(turn(0.5));
         let saved = document.view();
-        held.hold();
-        document.send(order(SaveTo::Own));
-        held.wait_until_reached();
+        held.hold_save(&document, SaveTo::Own);
         document.edit(rename("newer"));
         document.wait_for_view(|view| view.history.done == 2);
         held.release();
@@ -139,15 +151,10 @@ fn edits_made_during_a_save_are_answered_before_its_end_and_are_unsaved_after_it
 #[test]
 fn a_kill_at_any_point_of_a_save_loses_neither_the_saved_nor_the_newer_edits() {
     for at in POINTS {
-        let folder = Folder::new(&format!("background-kill-{at:?}"));
-        let (path, held) = (fox(&folder), HeldSave::at(at));
-        let mut document = document(&folder.join("autosave"), &held);
-        document.open(&path);
+        let (folder, path, held, mut document) = opened("kill", at);
         document.edit(turn(0.5));
         document.edit(rename("saved"));
-        held.hold();
-        document.send(order(SaveTo::Own));
-        held.wait_until_reached();
+        held.hold_save(&document, SaveTo::Own);
         document.edit(turn(0.7));
         document.change(Change::Edit(turn(0.8), Some(Gesture(1))));
         document.change(Change::Edit(turn(0.9), Some(Gesture(1))));
@@ -169,14 +176,9 @@ fn a_kill_at_any_point_of_a_save_loses_neither_the_saved_nor_the_newer_edits() {
 
 #[test]
 fn a_kill_between_the_write_of_a_file_and_its_record_is_noticed_at_the_next_start() {
-    let folder = Folder::new("background-unrecorded");
-    let (path, held) = (fox(&folder), HeldSave::at(FaultPoint::WriteSave));
-    let mut document = document(&folder.join("autosave"), &held);
-    document.open(&path);
+    let (folder, path, held, mut document) = opened("unrecorded", FaultPoint::WriteSave);
     document.edit(turn(0.5));
-    held.hold();
-    document.send(order(SaveTo::Own));
-    held.wait_until_reached();
+    held.hold_save(&document, SaveTo::Own);
     document.edit(turn(0.7));
     let before = document.view();
     copy_after_kill(&folder.join("autosave"), &folder.join("during"));
@@ -191,16 +193,11 @@ fn a_kill_between_the_write_of_a_file_and_its_record_is_noticed_at_the_next_star
 #[test]
 fn a_drag_that_goes_on_during_a_save_is_a_second_step() {
     for at in POINTS {
-        let folder = Folder::new(&format!("background-drag-{at:?}"));
-        let (path, held) = (fox(&folder), HeldSave::at(at));
-        let mut document = document(&folder.join("autosave"), &held);
-        document.open(&path);
+        let (folder, path, held, mut document) = opened("drag", at);
         document.change(Change::Edit(turn(0.1), Some(Gesture(7))));
         document.change(Change::Edit(turn(0.2), Some(Gesture(7))));
         let saved = document.view();
-        held.hold();
-        document.send(order(SaveTo::Own));
-        held.wait_until_reached();
+        held.hold_save(&document, SaveTo::Own);
         document.change(Change::Edit(turn(0.3), Some(Gesture(7))));
         document.change(Change::Edit(turn(0.4), Some(Gesture(7))));
         document.change(Change::Release(Gesture(7)));
@@ -218,15 +215,10 @@ fn a_drag_that_goes_on_during_a_save_is_a_second_step() {
 
 #[test]
 fn an_end_is_asked_for_only_after_the_save_and_counts_the_edits_made_during_it() {
-    let folder = Folder::new("background-quit");
-    let (path, held) = (fox(&folder), HeldSave::at(FaultPoint::WriteSave));
-    let mut document = document(&folder.join("autosave"), &held);
-    document.open(&path);
+    let (_folder, _path, held, mut document) = opened("quit", FaultPoint::WriteSave);
     for (round, edits) in [0, 1].into_iter().enumerate() {
         document.edit(turn(0.5 + round as f32));
-        held.hold();
-        document.send(order(SaveTo::Own));
-        held.wait_until_reached();
+        held.hold_save(&document, SaveTo::Own);
         (0..edits).for_each(|_| document.edit(rename("newer")));
         document.send(DocumentMessage::Quit);
         // A change after it waits, too: otherwise the question would be about a later state.
@@ -246,14 +238,9 @@ fn an_end_is_asked_for_only_after_the_save_and_counts_the_edits_made_during_it()
 
 #[test]
 fn a_second_save_and_a_revert_follow_the_one_that_is_running() {
-    let folder = Folder::new("background-twice");
-    let (path, held) = (fox(&folder), HeldSave::at(FaultPoint::PrepareSave));
-    let mut document = document(&folder.join("autosave"), &held);
-    document.open(&path);
+    let (_folder, path, held, mut document) = opened("twice", FaultPoint::PrepareSave);
     document.edit(turn(0.5));
-    held.hold();
-    document.send(order(SaveTo::Own));
-    held.wait_until_reached();
+    held.hold_save(&document, SaveTo::Own);
     document.edit(rename("second"));
     document.send(order(SaveTo::Own));
     // Does not wait for the second save.
@@ -296,15 +283,10 @@ fn a_save_that_panics_is_reported_and_the_next_one_succeeds() {
 #[test]
 fn a_document_that_ends_during_a_save_finishes_it_first() {
     for at in POINTS {
-        let folder = Folder::new(&format!("background-end-{at:?}"));
-        let (path, held) = (fox(&folder), HeldSave::at(at));
-        let mut document = document(&folder.join("autosave"), &held);
-        document.open(&path);
+        let (folder, path, held, mut document) = opened("end", at);
         document.edit(turn(0.5));
         let before = document.view();
-        held.hold();
-        document.send(order(SaveTo::Own));
-        held.wait_until_reached();
+        held.hold_save(&document, SaveTo::Own);
         document.stop();
         held.release();
         document.end();
@@ -323,9 +305,7 @@ fn edits_made_while_a_file_is_saved_under_another_name_go_to_the_journal_of_that
         document.open(&path);
         document.edit(turn(0.5));
         let saved = document.view();
-        held.hold();
-        document.send(order(SaveTo::As(other.clone())));
-        held.wait_until_reached();
+        held.hold_save(&document, SaveTo::As(other.clone()));
         document.edit(turn(0.7));
         let before = document.view();
         held.release();

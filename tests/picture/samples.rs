@@ -1,6 +1,7 @@
 //! An adapter without multisampling draws the same image with hard edges.
 
-use dragonfly_anim::data::{AlphaMode, Filter, Material, TextureRef, TextureTransform, Wrap};
+use crate::surfaces::texture;
+use dragonfly_anim::data::{AlphaMode, Material, TextureTransform};
 use dragonfly_document::DecodedImage;
 use dragonfly_kit::document::{arm, made};
 use dragonfly_kit::picture::images::settings;
@@ -57,15 +58,7 @@ fn a_mask_discards_pixels_also_with_one_sample() {
     let Some(mut studio) = studio::studio_with(hard()) else { return };
     let texels = [[255, 0, 0, 255], [0, 255, 0, 0], [0, 0, 255, 100], [255, 255, 255, 160_u8]];
     let image = DecodedImage { width: 2, height: 2, pixels: texels.concat() };
-    let texture = TextureRef {
-        image: 0,
-        set: 0,
-        wrap: [Wrap::Repeat; 2],
-        magnify: Filter::Nearest,
-        minify: Filter::Nearest,
-        mip: false,
-        transform: TextureTransform::IDENTITY,
-    };
+    let texture = texture(TextureTransform::IDENTITY);
     let alpha_mode = AlphaMode::Mask(0.5);
     let material =
         Material { base_color_texture: Some(texture), unlit: true, alpha_mode, ..Material::default() };

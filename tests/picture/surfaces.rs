@@ -33,7 +33,7 @@ fn four(texels: [[u8; 4]; 4]) -> DecodedImage {
     DecodedImage { width: 2, height: 2, pixels: texels.concat() }
 }
 
-fn texture(transform: TextureTransform) -> TextureRef {
+pub(crate) fn texture(transform: TextureTransform) -> TextureRef {
     TextureRef {
         image: 0,
         set: 0,

@@ -100,7 +100,7 @@ impl SaveInput {
         let stamp = self.editable.stamp().copied();
         self.edited.end_save(true);
         self.about = EditsOrigin::new(None);
-        let snapshot = self.snapshot().ok()?;
+        let snapshot = self.snapshot().inspect_err(|reason| tracing::error!("{reason}")).ok()?;
         let journal = autosave.begin_another(Some(&self.output), stamp.as_ref()).and_then(|mut journal| {
             journal.compact_as(&snapshot, true)?;
             Ok(journal)
