@@ -32,7 +32,7 @@ pub struct GpuModel {
     /// Kept for loading the model again on another device.
     loaded: Option<Arc<LoadedModel>>,
     resources: Option<ModelResources>,
-    /// What was recorded since the last [`Self::prepare`].
+    /// Number of commands recorded since the last [`Self::prepare`].
     counts: Cell<DrawCounts>,
 }
 
