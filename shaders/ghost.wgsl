@@ -13,7 +13,7 @@ fn vs_ghost(in: VertexIn, @builtin(vertex_index) index: u32) -> Ghost {
     let posed = posed_vertex(in, index);
     return Ghost(
         frame.clip_from_world * vec4f(posed.position, 1.0),
-        posed.position, posed.normal, unpack4x8unorm(draw.tint));
+        posed.position, posed.normal, unpack4x8unorm(in.draw1.y));
 }
 
 @fragment

@@ -7,7 +7,7 @@ struct Affine {
     z: vec4f,
 }
 
-// Rust twin: picture::uniform::DrawUniform
+// An instance of a draw. Rust twin: picture::uniform::DrawInstance
 struct Draw {
     // First matrix of this instance in `palettes`.
     palette: u32,
@@ -19,15 +19,12 @@ struct Draw {
     vertices: u32,
     // Tint of a ghost: four bytes, linear RGB and opacity.
     tint: u32,
-    pad1: u32,
-    pad2: u32,
 }
 
-@group(1) @binding(0) var<uniform> draw: Draw;
-@group(1) @binding(1) var<storage, read> palettes: array<Affine>;
-@group(1) @binding(2) var<storage, read> weights: array<f32>;
+@group(1) @binding(0) var<storage, read> palettes: array<Affine>;
+@group(1) @binding(1) var<storage, read> weights: array<f32>;
 // Nine values per vertex and target: position, normal, tangent; target after target.
-@group(1) @binding(3) var<storage, read> deltas: array<f32>;
+@group(1) @binding(2) var<storage, read> deltas: array<f32>;
 
 struct Posed {
     position: vec3f,
@@ -40,7 +37,7 @@ fn delta(at: u32) -> vec3f {
     return vec3f(deltas[at], deltas[at + 1u], deltas[at + 2u]);
 }
 
-fn morphed(start: Posed, vertex: u32) -> Posed {
+fn morphed(draw: Draw, start: Posed, vertex: u32) -> Posed {
     var posed = start;
     for (var target_index = 0u; target_index < draw.morph_targets; target_index++) {
         let weight = weights[draw.morph_weights + target_index];
@@ -54,25 +51,24 @@ fn morphed(start: Posed, vertex: u32) -> Posed {
     return posed;
 }
 
-fn add_share(sum: Affine, joint: u32, weight: f32) -> Affine {
-    let matrix = palettes[draw.palette + joint];
+fn add_share(sum: Affine, matrix: Affine, weight: f32) -> Affine {
     return Affine(sum.x + weight * matrix.x, sum.y + weight * matrix.y, sum.z + weight * matrix.z);
 }
 
-fn blended_matrix(joints0: vec4u, joints1: vec4u, weights0: vec4f, weights1: vec4f) -> Affine {
+fn blended_matrix(draw: Draw, joints0: vec4u, joints1: vec4u, weights0: vec4f, weights1: vec4f) -> Affine {
     if draw.influences == 0u {
         return palettes[draw.palette];
     }
     var sum = Affine(vec4f(0.0), vec4f(0.0), vec4f(0.0));
-    sum = add_share(sum, joints0.x, weights0.x);
-    sum = add_share(sum, joints0.y, weights0.y);
-    sum = add_share(sum, joints0.z, weights0.z);
-    sum = add_share(sum, joints0.w, weights0.w);
+    sum = add_share(sum, palettes[draw.palette + joints0.x], weights0.x);
+    sum = add_share(sum, palettes[draw.palette + joints0.y], weights0.y);
+    sum = add_share(sum, palettes[draw.palette + joints0.z], weights0.z);
+    sum = add_share(sum, palettes[draw.palette + joints0.w], weights0.w);
     if draw.influences > 4u {
-        sum = add_share(sum, joints1.x, weights1.x);
-        sum = add_share(sum, joints1.y, weights1.y);
-        sum = add_share(sum, joints1.z, weights1.z);
-        sum = add_share(sum, joints1.w, weights1.w);
+        sum = add_share(sum, palettes[draw.palette + joints1.x], weights1.x);
+        sum = add_share(sum, palettes[draw.palette + joints1.y], weights1.y);
+        sum = add_share(sum, palettes[draw.palette + joints1.z], weights1.z);
+        sum = add_share(sum, palettes[draw.palette + joints1.w], weights1.w);
     }
     return sum;
 }

@@ -11,9 +11,17 @@ struct VertexIn {
     @location(6) joints1: vec4u,
     @location(7) weights0: vec4f,
     @location(8) weights1: vec4f,
+    // Of the instance: palette, influences, morph_targets, morph_weights of its `Draw`, and then vertices, tint.
+    @location(9) draw0: vec4u,
+    @location(10) draw1: vec2u,
+}
+
+fn draw_of(in: VertexIn) -> Draw {
+    return Draw(in.draw0.x, in.draw0.y, in.draw0.z, in.draw0.w, in.draw1.x, in.draw1.y);
 }
 
 fn posed_vertex(in: VertexIn, index: u32) -> Posed {
-    let start = morphed(Posed(in.position, in.normal, in.tangent), index);
-    return moved(blended_matrix(in.joints0, in.joints1, in.weights0, in.weights1), start);
+    let draw = draw_of(in);
+    let start = morphed(draw, Posed(in.position, in.normal, in.tangent), index);
+    return moved(blended_matrix(draw, in.joints0, in.joints1, in.weights0, in.weights1), start);
 }

@@ -6,9 +6,10 @@ use dragonfly_kit::document::arm;
 use dragonfly_kit::folder::data;
 use dragonfly_kit::picture::images::difference;
 use dragonfly_kit::picture::studio;
+use dragonfly_picture::frustum::ViewFrustum;
 use dragonfly_picture::ghosts::GhostSkins;
 use dragonfly_picture::{GhostAppearance, PictureSettings};
-use glam::Vec3;
+use glam::{Mat4, Vec3, Vec4};
 use image::RgbaImage;
 use std::sync::Arc;
 
@@ -72,9 +73,12 @@ fn a_mesh_that_is_mirrored_at_one_time_is_mirrored_only_in_the_ghost_of_that_tim
     model.animation.takes = vec![Arc::new(take)];
     let view = View::opened(1, Arc::new(LoadedModel { model: Arc::new(model), ..loaded }));
     let mut ghosts = GhostSkins::default();
-    ghosts.pose(&view, &[], Some(0), &[(0.0, -1), (arm::LENGTH, 1)], [[0.0; 3]; 2]);
+    // All that is not infinitely large is inside.
+    let all = ViewFrustum::new(&Mat4::from_diagonal(Vec4::new(0.0, 0.0, 0.0, 1.0)));
+    ghosts.pose(&view, &[], Some(0), &[(0.0, -1), (arm::LENGTH, 1)], [[0.0; 3]; 2], &all);
     // The tube is bound to all bones; the pane is attached to the last one.
-    let inside = |ghost: usize| [ghosts.is_mirrored(ghost, 0), ghosts.is_mirrored(ghost, 1)];
-    assert_eq!(inside(0), [false, false]);
-    assert!(inside(1)[1], "the pane");
+    let inside: Vec<bool> = ghosts.batches_from(0).iter().map(|batch| batch.mirrored).collect();
+    assert_eq!(inside.len(), 4, "two surfaces of two ghosts");
+    assert_eq!(inside[..2], [false, false]);
+    assert!(inside[3], "the pane");
 }

@@ -1,8 +1,10 @@
 //! The poses of ghosts (the model at other times) that are drawn as skins: one after another in one list for the
 //! device.
 
+use super::batch::DrawBatch;
+use super::frustum::ViewFrustum;
 use super::posed::PosedModel;
-use super::uniform::Affine;
+use super::uniform::{Affine, DrawInstance};
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::View;
 use std::sync::Arc;
@@ -18,9 +20,11 @@ pub struct GhostSkins {
     order: Vec<(f32, i32)>,
     palettes: Vec<Affine>,
     weights: Vec<f32>,
-    tints: Vec<u32>,
-    /// Whether each draw item is mirrored by the pose, ghost after ghost.
-    mirrored: Vec<bool>,
+    /// Draw calls and instances, ghost after ghost.
+    batches: Vec<DrawBatch>,
+    instances: Vec<DrawInstance>,
+    /// First draw call of each ghost.
+    starts: Vec<usize>,
 }
 
 impl GhostSkins {
@@ -28,12 +32,13 @@ impl GhostSkins {
     pub fn clear(&mut self) {
         self.palettes.clear();
         self.weights.clear();
-        self.tints.clear();
-        self.mirrored.clear();
+        self.batches.clear();
+        self.instances.clear();
+        self.starts.clear();
     }
 
     /// Poses `view` at each of `times` (seconds, and distance from the present) of a take. `colors` are those of past
-    /// and future.
+    /// and future. What is outside of `frustum` is left out.
     pub fn pose(
         &mut self,
         view: &View,
@@ -41,6 +46,7 @@ impl GhostSkins {
         take: Option<usize>,
         times: &[(f32, i32)],
         colors: [[f32; 3]; 2],
+        frustum: &ViewFrustum,
     ) {
         self.clear();
         if times.is_empty() {
@@ -62,22 +68,35 @@ impl GhostSkins {
         self.order.sort_unstable_by_key(|&(_, place)| (std::cmp::Reverse(place.unsigned_abs()), place));
         for &(time, place) in &self.order {
             posed.pose(take, time, true);
-            self.mirrored.extend(posed.items().iter().map(|item| posed.is_mirrored(item)));
+            posed.batch_alike(frustum);
+            let opacity = 0.75 - 0.55 * (place.unsigned_abs() as f32 - 1.0) / most;
+            let tint = tint(colors[usize::from(place > 0)], opacity);
+            let (matrices, weights) = (self.palettes.len() as u32, self.weights.len() as u32);
+            let before = self.instances.len() as u32;
+            self.instances.extend(posed.batches().instances().iter().map(|instance| DrawInstance {
+                palette: instance.palette + matrices,
+                morph_weights: instance.morph_weights + weights,
+                tint,
+                ..*instance
+            }));
+            self.starts.push(self.batches.len());
+            self.batches.extend(posed.batches().solid().iter().map(|batch| DrawBatch {
+                instances: batch.instances.start + before..batch.instances.end + before,
+                ..*batch
+            }));
             self.palettes.extend_from_slice(posed.palettes());
             self.weights.extend_from_slice(posed.weights());
-            let opacity = 0.75 - 0.55 * (place.unsigned_abs() as f32 - 1.0) / most;
-            self.tints.push(tint(colors[usize::from(place > 0)], opacity));
         }
     }
 
     /// Number of ghosts.
     pub fn len(&self) -> usize {
-        self.tints.len()
+        self.starts.len()
     }
 
     /// Returns whether there are no ghosts.
     pub fn is_empty(&self) -> bool {
-        self.tints.is_empty()
+        self.starts.is_empty()
     }
 
     /// Matrices, ghost after ghost.
@@ -90,15 +109,14 @@ impl GhostSkins {
         &self.weights
     }
 
-    /// Tint of each ghost.
-    pub fn tints(&self) -> &[u32] {
-        &self.tints
+    /// Instances of all draw calls, ghost after ghost.
+    pub fn instances(&self) -> &[DrawInstance] {
+        &self.instances
     }
 
-    /// Returns whether the pose of a ghost mirrors a draw item, so that its front faces wind the other way.
-    pub fn is_mirrored(&self, ghost: usize, item: usize) -> bool {
-        let items = self.posed.as_ref().map_or(0, |posed| posed.items().len());
-        self.mirrored.get(ghost * items + item).copied().unwrap_or_default()
+    /// Draw calls of ghost number `ghost` and of those after it.
+    pub fn batches_from(&self, ghost: usize) -> &[DrawBatch] {
+        self.starts.get(ghost).map_or(&[], |&start| &self.batches[start..])
     }
 
     /// The model, in the pose of the last ghost.

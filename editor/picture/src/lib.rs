@@ -14,6 +14,7 @@
 
 mod appearance;
 mod appearance_sender;
+pub mod batch;
 mod between;
 pub mod body;
 pub mod camera;
@@ -21,6 +22,7 @@ pub mod connection;
 pub mod control;
 pub mod device;
 mod error;
+pub mod frustum;
 pub mod ghosts;
 pub mod gizmo;
 pub mod gpu;

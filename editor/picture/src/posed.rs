@@ -1,8 +1,10 @@
 //! A model in a pose, laid out for the device: one list of matrices, one of morph weights, one of items to draw.
 
+use super::batch::DrawBatches;
+use super::frustum::ViewFrustum;
 use super::message::Look;
 use super::shape::SkeletonShape;
-use super::uniform::{Affine, DrawUniform};
+use super::uniform::{Affine, DrawInstance};
 use dragonfly_anim::animation::{Animation, final_poses};
 use dragonfly_anim::bounds::{AxisBox, Bounds};
 use dragonfly_anim::data::{AlphaMode, AnimationData, BoneIndex, ModelData, Primitive, Take, Transform};
@@ -25,12 +27,18 @@ pub struct DrawItem {
     pub material: Option<u32>,
     /// Whether it blends with what is behind it.
     pub blend: bool,
-    /// The uniform for the shader.
-    pub uniform: DrawUniform,
+    /// Whether alpha discards samples.
+    pub mask: bool,
+    /// Whether back faces are drawn too.
+    pub double_sided: bool,
+    /// The instance for the shader.
+    pub instance: DrawInstance,
     /// Center of its vertices, mesh space.
     center: Vec3,
+    /// The box around its vertices, mesh space; `None` where more than one matrix or morph targets move them.
+    pub(super) rigid_box: Option<AxisBox>,
     /// Index of the matrix that represents the whole item: that of the joint with the largest total weight.
-    main_matrix: u32,
+    pub(super) main_matrix: u32,
 }
 
 /// A model in a pose.
@@ -53,6 +61,7 @@ pub struct PosedModel {
     items: Vec<DrawItem>,
     /// Distances and indices of the blended items, farthest first.
     back_to_front: Vec<(f32, u32)>,
+    batches: DrawBatches,
     shape: SkeletonShape,
     at: (Option<usize>, f32),
 }
@@ -89,11 +98,13 @@ impl PosedModel {
             weight_ranges,
             items: Vec::new(),
             back_to_front: Vec::new(),
+            batches: DrawBatches::default(),
             shape: SkeletonShape::new(model),
             at: (None, 0.0),
             loaded: Arc::clone(&loaded),
         };
         posed.items = posed.draw_items();
+        posed.batches = DrawBatches::new(&posed.items);
         posed.back_to_front.reserve(posed.items.iter().filter(|item| item.blend).count());
         posed.pose(None, 0.0, false);
         posed
@@ -140,9 +151,9 @@ impl PosedModel {
         &self.items
     }
 
-    /// Indices of the blended items in [`Self::items`], farthest first.
-    pub fn back_to_front(&self) -> impl Iterator<Item = usize> + '_ {
-        self.back_to_front.iter().map(|&(_, item)| item as usize)
+    /// The draw calls that [`Self::batch`] collected last.
+    pub fn batches(&self) -> &DrawBatches {
+        &self.batches
     }
 
     /// Matrices bone space → scene space of every bone in this pose.
@@ -168,12 +179,6 @@ impl PosedModel {
     /// The skeleton's bodies in this pose.
     pub fn shape(&self) -> &SkeletonShape {
         &self.shape
-    }
-
-    /// Returns whether this pose mirrors `item`, so that its front faces wind the other way.
-    pub fn is_mirrored(&self, item: &DrawItem) -> bool {
-        let Affine { x, y, z } = self.palettes[item.main_matrix as usize];
-        x.truncate().dot(y.truncate().cross(z.truncate())) < 0.0
     }
 
     /// Poses the model at `time` of `take`. With `standing` it includes pending poses; during playback only keys are
@@ -218,6 +223,16 @@ impl PosedModel {
         self.back_to_front.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     }
 
+    /// Collects the draw calls of what is inside `frustum`, after [`Self::sort`]. Allocates nothing.
+    pub fn batch(&mut self, frustum: &ViewFrustum) {
+        self.batches.collect(&self.items, &self.palettes, Some(&self.back_to_front), frustum);
+    }
+
+    /// Collects the draw calls of what is inside `frustum` for drawing all surfaces alike. Allocates nothing.
+    pub fn batch_alike(&mut self, frustum: &ViewFrustum) {
+        self.batches.collect(&self.items, &self.palettes, None, frustum);
+    }
+
     /// Places the skeleton's bodies. Allocates nothing.
     pub fn place_bones(&mut self, look: &Look) {
         self.shape.place(self.animation.to_root(), look);
@@ -227,7 +242,7 @@ impl PosedModel {
         let model = &self.loaded.model;
         let mut items = Vec::new();
         // Found once for each primitive, however often it is placed.
-        let mut found: HashMap<(u32, usize), (Vec3, usize)> = HashMap::new();
+        let mut found: HashMap<(u32, usize), (AxisBox, usize)> = HashMap::new();
         for (index, instance) in model.instances.iter().enumerate() {
             let own = self.rigid_start + index;
             let (weights, _) = self.weight_ranges[index];
@@ -235,9 +250,9 @@ impl PosedModel {
                 if primitive.vertices.is_empty() || primitive.indices.is_empty() {
                     continue;
                 }
-                let (center, joint) = *found
+                let (around, joint) = *found
                     .entry((instance.mesh, position))
-                    .or_insert_with(|| (center(&primitive.vertices.positions), main_joint(primitive)));
+                    .or_insert_with(|| (around(&primitive.vertices.positions), main_joint(primitive)));
                 let skin = instance.skin.and_then(|skin| self.skin_starts.get(skin as usize).copied());
                 let influences = primitive.vertices.influences_per_vertex;
                 let (palette, influences, main) = match skin {
@@ -250,16 +265,18 @@ impl PosedModel {
                     primitive: position as u32,
                     material: primitive.material,
                     blend: material.is_some_and(|material| material.alpha_mode == AlphaMode::Blend),
-                    uniform: DrawUniform {
+                    mask: material.is_some_and(|material| matches!(material.alpha_mode, AlphaMode::Mask(_))),
+                    double_sided: material.is_some_and(|material| material.double_sided),
+                    instance: DrawInstance {
                         palette: palette as u32,
                         influences: influences as u32,
                         morph_targets: primitive.morph_targets.len() as u32,
                         morph_weights: weights as u32,
                         vertices: primitive.vertices.len() as u32,
                         tint: 0,
-                        pad: [0; 2],
                     },
-                    center,
+                    center: around.center(),
+                    rigid_box: (influences == 0 && primitive.morph_targets.is_empty()).then_some(around),
                     main_matrix: main.min(self.palettes.len() - 1) as u32,
                 });
             }
@@ -272,11 +289,11 @@ fn primitives(model: &ModelData, mesh: u32) -> &[Primitive] {
     model.meshes.get(mesh as usize).map_or(&[], |mesh| &mesh.primitives)
 }
 
-/// Returns the center of the box around `points`.
-fn center(points: &[Vec3]) -> Vec3 {
+/// Returns the box around `points`.
+fn around(points: &[Vec3]) -> AxisBox {
     let mut around = AxisBox::EMPTY;
     points.iter().for_each(|&point| around.add(point));
-    around.center()
+    around
 }
 
 /// Returns the joint with the largest weight in all vertices together.

@@ -4,6 +4,7 @@
 
 use super::appearance::Appearances;
 use super::control::{ControlFrame, SceneControls};
+use super::frustum::ViewFrustum;
 use super::message::{Look, Shading};
 use super::posed::PosedModel;
 use super::skin::SkinPicker;
@@ -124,6 +125,15 @@ impl Scene {
             self.controls.present(&ControlFrame { model, camera, look, appearances });
         }
         self.uniform = self.frame_uniform(&bounds);
+        let frustum = self.frustum();
+        if let Some(model) = &mut self.model {
+            model.batch(&frustum);
+        }
+    }
+
+    /// The part of the scene that this frame shows, as prepared last.
+    pub fn frustum(&self) -> ViewFrustum {
+        ViewFrustum::new(&self.uniform.clip_from_world)
     }
 
     /// Transforms scene space to clip space for the present camera and viewport.

@@ -126,9 +126,14 @@ impl RenderStage {
         &self.passes.panels
     }
 
-    /// Number of draw calls for surfaces in the last frame of the scene.
+    /// Number of draw calls for surfaces and ghosts in the last frame of the scene.
     pub fn draw_calls(&self) -> usize {
         self.passes.model.borrow().draws()
+    }
+
+    /// Number of pipelines and bind groups that were set for these draw calls.
+    pub fn state_changes(&self) -> usize {
+        self.passes.model.borrow().state_changes()
     }
 
     /// Sets the size of the window, physical pixels; zero when it is minimized.

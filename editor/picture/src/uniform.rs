@@ -50,10 +50,16 @@ impl From<Mat4> for Affine {
     }
 }
 
-/// Uniform of a draw. WGSL twin: `Draw` in `shaders/common/pose.wgsl`.
+impl From<Affine> for Mat4 {
+    fn from(matrix: Affine) -> Self {
+        Self::from_cols(matrix.x, matrix.y, matrix.z, Vec4::W).transpose()
+    }
+}
+
+/// An instance of a draw, in a vertex buffer. WGSL twin: `Draw` in `shaders/common/pose.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct DrawUniform {
+pub struct DrawInstance {
     /// Index of the first matrix of the instance.
     pub palette: u32,
     /// Number of influences per vertex: 0, 4 or 8.
@@ -66,8 +72,6 @@ pub struct DrawUniform {
     pub vertices: u32,
     /// Tint of a ghost: four bytes, linear RGB and opacity.
     pub tint: u32,
-    /// Padding to a multiple of 16 bytes.
-    pub pad: [u32; 2],
 }
 
 /// Use of a texture by a material. WGSL twin: `TextureUse` in `shaders/model.wgsl`.

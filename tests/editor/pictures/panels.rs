@@ -1,13 +1,13 @@
 //! Every panel alone at its usual size, the menu bar and the status line.
 
 use super::series::{self, Crop, PictureCase};
-use super::states::Fullness::{self, Empty, Typical};
+use super::states::Fullness::{self, Crowded, Empty, Typical};
 use crate::workbench::{Window, Workbench, type_into};
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::open_model::Loading;
 use dragonfly::panels::window_status::DeviceStatus;
 use dragonfly::panels::{self, Request, style};
-use dragonfly_document::{LoadStage, Progress};
+use dragonfly_document::{LoadStage, Progress, View};
 use egui::{Key, vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -134,7 +134,23 @@ fn bars() -> Vec<PictureCase> {
         act: Box::new(|_| {}),
         twice: true,
     };
-    bars.into_iter().flat_map(|bar| Fullness::ALL.map(|fullness| case(bar, fullness))).collect()
+    let mut cases: Vec<PictureCase> =
+        bars.into_iter().flat_map(|bar| Fullness::ALL.map(|fullness| case(bar, fullness))).collect();
+    // No journal could be made, for whatever is open.
+    for (fullness, name) in
+        [(Typical, "status-line-not-recorded"), (Crowded, "status-line-crowded-not-recorded")]
+    {
+        let unrecorded = move || {
+            let mut bench = fullness.bench();
+            let view = bench.state.read().view.cloned().expect("a model is open");
+            let generation = view.generation + 1;
+            bench.state.show(View { is_unrecorded: true, generation, ..view });
+            bench
+        };
+        let line = case(("status-line", Crop::Line), fullness);
+        cases.push(PictureCase { name: format!("panels/{name}"), bench: Box::new(unrecorded), ..line });
+    }
+    cases
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The bones that an edit changes.
 
+use super::target::BoneFinder;
 use super::{BoneRef, KeySet};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use std::collections::BTreeSet;
@@ -19,7 +20,8 @@ pub enum EditedBones {
 impl EditedBones {
     /// Returns the named bones.
     pub(crate) fn named<'a>(bones: impl IntoIterator<Item = &'a BoneRef>, skeleton: &Skeleton) -> Self {
-        Self::Named(bones.into_iter().filter_map(|bone| bone.find_in(skeleton)).collect())
+        let mut finder = BoneFinder::new(skeleton);
+        Self::Named(bones.into_iter().filter_map(|bone| finder.find(bone)).collect())
     }
 
     /// Returns the bones of a list in which none means all.

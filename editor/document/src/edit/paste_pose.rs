@@ -1,6 +1,7 @@
 //! Pastes a copied pose.
 
 use super::kind::EditKind;
+use super::target::BoneFinder;
 use super::{Arbitrary, BonePose, BoneRef, EditedBones, Example, SetPending, SetPose, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use crate::adapter::plan::{
@@ -56,7 +57,8 @@ impl EditKind for PastePose {
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
         let pairs = self.mirrored.then(|| MirrorPairs::of(skeleton));
-        let given = self.poses.iter().filter_map(|pose| pose.bone.find_in(skeleton));
+        let mut finder = BoneFinder::new(skeleton);
+        let given = self.poses.iter().filter_map(|pose| finder.find(&pose.bone));
         let target = |bone| pairs.as_ref().map_or(Some(bone), |pairs| pairs.mirror_of(bone));
         EditedBones::Named(given.filter_map(target).collect())
     }
@@ -71,9 +73,11 @@ impl EditKind for PastePose {
         let mut found = false;
         let mut poses = Vec::new();
         let mirror = self.mirrored.then(|| Mirror::of(work.skeleton()));
-        for pose in &self.poses {
+        let mut finder = BoneFinder::new(work.skeleton());
+        let bones: Vec<_> = self.poses.iter().map(|pose| finder.find(&pose.bone)).collect();
+        for (pose, bone) in self.poses.iter().zip(bones) {
             // The pose may come from a model that has other bones.
-            let Ok(bone) = work.bone(&pose.bone) else { continue };
+            let Some(bone) = bone else { continue };
             found = true;
             let translation = pose.translation.map(|given| vector("a translation", given)).transpose()?;
             let turn = pose.rotation.map(rotation).transpose()?;

@@ -3,6 +3,7 @@
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 
 /// A take, by its index in the list or by its name. A name that several takes share means the first of them.
 ///
@@ -35,6 +36,30 @@ impl BoneRef {
             Self::Index(index) => Some(*index).filter(|&index| (index as usize) < skeleton.len()),
             Self::Name(name) => skeleton.find(name),
         }
+    }
+}
+
+/// Finds bones of a skeleton. Names are looked up in a map, which is made for the first of them.
+pub(crate) struct BoneFinder<'a> {
+    skeleton: &'a Skeleton,
+    names: Option<HashMap<&'a str, BoneIndex>>,
+}
+
+impl<'a> BoneFinder<'a> {
+    /// Finds bones of `skeleton`.
+    pub(crate) fn new(skeleton: &'a Skeleton) -> Self {
+        Self { skeleton, names: None }
+    }
+
+    /// Returns what [`BoneRef::find_in`] returns.
+    pub(crate) fn find(&mut self, bone: &BoneRef) -> Option<BoneIndex> {
+        let BoneRef::Name(name) = bone else { return bone.find_in(self.skeleton) };
+        let names = self.names.get_or_insert_with(|| {
+            // From the last to the first, because the first of several bones of a name is meant.
+            let bones = self.skeleton.bones.iter().enumerate().rev();
+            bones.map(|(index, bone)| (bone.name.as_str(), index as BoneIndex)).collect()
+        });
+        names.get(name.as_str()).copied()
     }
 }
 
@@ -98,3 +123,35 @@ impl KeySet {
 /// Seconds: keys nearer to each other than this are at the same time. Half of a tenth of a millisecond, so that a time typed with four
 /// digits finds its key, and 10,000 keys a second are still distinct.
 pub const SAME_TIME: f32 = 5e-5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dragonfly_anim::data::{Bone, Transform};
+    use glam::Mat4;
+
+    #[test]
+    fn a_finder_finds_the_same_bones_as_a_search_also_where_names_are_shared() {
+        let bone = |name: &str| Bone {
+            name: name.to_owned(),
+            parent: None,
+            rest: Transform::IDENTITY,
+            rest_matrix: None,
+            offset: Mat4::IDENTITY,
+            node: None,
+        };
+        let skeleton = Skeleton { bones: ["Hip", "Hand", "Hand", ""].map(bone).into() };
+        let mut finder = BoneFinder::new(&skeleton);
+        let name = |name: &str| BoneRef::Name(name.to_owned());
+        for (given, expected) in [
+            (name("Hand"), Some(1)),
+            (name(""), Some(3)),
+            (name("Foot"), None),
+            (BoneRef::Index(2), Some(2)),
+            (BoneRef::Index(4), None),
+        ] {
+            assert_eq!(finder.find(&given), expected, "{given:?}");
+            assert_eq!(given.find_in(&skeleton), expected, "{given:?}");
+        }
+    }
+}

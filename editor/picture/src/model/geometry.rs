@@ -1,5 +1,6 @@
 //! Vertices and triangles on the device.
 
+use crate::uniform::DrawInstance;
 use bytemuck::{Pod, Zeroable};
 use dragonfly_anim::data::{Influence, Primitive};
 use glam::{Vec3, Vec4};
@@ -32,12 +33,23 @@ const ATTRIBUTES: [wgpu::VertexAttribute; 9] = wgpu::vertex_attr_array![
     8 => Float32x4,
 ];
 
-/// Layout of vertices in their buffer.
-pub(super) const VERTICES: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
-    array_stride: size_of::<GpuVertex>() as u64,
-    step_mode: wgpu::VertexStepMode::Vertex,
-    attributes: &ATTRIBUTES,
-};
+/// Attributes of [`DrawInstance`], by shader location.
+const INSTANCE_ATTRIBUTES: [wgpu::VertexAttribute; 2] =
+    wgpu::vertex_attr_array![9 => Uint32x4, 10 => Uint32x2];
+
+/// Layouts of vertices and of instances in their buffers.
+pub(super) const VERTICES: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [
+    Some(wgpu::VertexBufferLayout {
+        array_stride: size_of::<GpuVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &ATTRIBUTES,
+    }),
+    Some(wgpu::VertexBufferLayout {
+        array_stride: size_of::<DrawInstance>() as u64,
+        step_mode: wgpu::VertexStepMode::Instance,
+        attributes: &INSTANCE_ATTRIBUTES,
+    }),
+];
 
 /// Buffers of one primitive.
 pub(super) struct GpuGeometry {

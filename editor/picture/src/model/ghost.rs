@@ -2,11 +2,13 @@
 //! color.
 
 use super::geometry::{GpuGeometry, VERTICES};
+use super::groups::DrawGroups;
 use super::pipeline::ModelPipelines;
+use super::recorder::DrawRecorder;
 use crate::ghosts::GhostSkins;
 use crate::gpu::{Gpu, scene_depth, scene_target};
 use crate::shaders;
-use crate::uniform::{Affine, DrawUniform};
+use crate::uniform::{Affine, DrawInstance};
 use dragonfly_document::LoadedModel;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -19,18 +21,18 @@ pub(super) struct Ghosts {
     room: Option<GhostBuffers>,
     /// Number of ghosts drawn.
     count: usize,
+    /// Their instances, with indices into the buffers of the device.
+    instances: Vec<DrawInstance>,
 }
 
 /// Buffers for a number of ghosts of one model.
 struct GhostBuffers {
     loaded: Arc<LoadedModel>,
     ghosts: usize,
-    uniforms: wgpu::Buffer,
+    instances: wgpu::Buffer,
     palettes: wgpu::Buffer,
     weights: wgpu::Buffer,
-    stride: u32,
-    /// Bind groups, by mesh and primitive.
-    groups: HashMap<(u32, u32), wgpu::BindGroup>,
+    groups: DrawGroups,
 }
 
 impl Ghosts {
@@ -57,7 +59,7 @@ impl Ghosts {
         let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size) as usize;
         let own = size_of_val::<[Affine]>(posed.palettes())
             .max(size_of_val::<[f32]>(posed.weights()))
-            .max(stride(gpu) as usize * posed.items().len());
+            .max(size_of::<DrawInstance>() * posed.items().len());
         let count = ghosts.len().min(largest / own.max(1));
         if count == 0 {
             return;
@@ -81,50 +83,44 @@ impl Ghosts {
             bytemuck::cast_slice(&ghosts.palettes()[first * matrices..]),
         );
         gpu.queue.write_buffer(&room.weights, 0, bytemuck::cast_slice(&ghosts.weights()[first * weights..]));
-        let items = posed.items().len();
-        for (ghost, &tint) in ghosts.tints()[first..].iter().enumerate() {
-            for (index, item) in posed.items().iter().enumerate() {
-                let uniform = DrawUniform {
-                    palette: item.uniform.palette + (ghost * matrices) as u32,
-                    morph_weights: item.uniform.morph_weights + (ghost * weights) as u32,
-                    tint,
-                    ..item.uniform
-                };
-                let offset = (ghost * items + index) as u64 * u64::from(room.stride);
-                gpu.queue.write_buffer(&room.uniforms, offset, bytemuck::bytes_of(&uniform));
-            }
-        }
+        let begin = first_instance(ghosts, first);
+        self.instances.clear();
+        self.instances.extend(ghosts.instances()[begin..].iter().map(|instance| DrawInstance {
+            palette: instance.palette - (first * matrices) as u32,
+            morph_weights: instance.morph_weights - (first * weights) as u32,
+            ..*instance
+        }));
+        gpu.queue.write_buffer(&room.instances, 0, bytemuck::cast_slice(&self.instances));
         self.count = count;
     }
 
     /// Draws the ghosts.
-    pub(super) fn draw(
-        &self,
-        gpu: &Gpu,
+    pub(super) fn draw<'a>(
+        &'a self,
         ghosts: &GhostSkins,
-        geometries: &HashMap<(u32, u32), GpuGeometry>,
-        pass: &mut wgpu::RenderPass<'_>,
+        geometries: &'a HashMap<(u32, u32), GpuGeometry>,
+        recorder: &mut DrawRecorder<'a, '_>,
     ) {
         let (Some(room), Some(pipelines), Some(posed)) = (&self.room, &self.pipelines, ghosts.posed()) else {
             return;
         };
-        pass.set_bind_group(0, &gpu.frame_group, &[]);
         let first = ghosts.len().saturating_sub(self.count);
-        for ghost in 0..self.count {
-            for (index, item) in posed.items().iter().enumerate() {
-                let part = (item.mesh, item.primitive);
-                let Some((geometry, group)) = geometries.get(&part).zip(room.groups.get(&part)) else {
-                    continue;
-                };
-                let place = (ghost * posed.items().len() + index) as u32;
-                pass.set_pipeline(&pipelines[usize::from(ghosts.is_mirrored(first + ghost, index))]);
-                pass.set_bind_group(1, group, &[place * room.stride]);
-                pass.set_vertex_buffer(0, geometry.vertices.slice(..));
-                pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-                pass.draw_indexed(0..geometry.count, 0, 0..1);
-            }
+        let begin = first_instance(ghosts, first) as u32;
+        recorder.instances(&room.instances);
+        for batch in ghosts.batches_from(first) {
+            let part = posed.items()[batch.item].part();
+            let Some(geometry) = geometries.get(&part) else { continue };
+            recorder.group(1, room.groups.get(part));
+            let instances = batch.instances.start - begin..batch.instances.end - begin;
+            recorder.draw(&pipelines[usize::from(batch.mirrored)], geometry, instances);
         }
     }
+}
+
+/// Returns the first instance of ghost number `ghost` and of those after it.
+fn first_instance(ghosts: &GhostSkins, ghost: usize) -> usize {
+    let batch = ghosts.batches_from(ghost).first();
+    batch.map_or(ghosts.instances().len(), |batch| batch.instances.start as usize)
 }
 
 impl GhostBuffers {
@@ -140,24 +136,12 @@ impl GhostBuffers {
         let storage = wgpu::BufferUsages::STORAGE;
         let palettes = buffer("ghosts", count * size_of_val::<[Affine]>(posed.palettes()), storage);
         let weights = buffer("ghosts' weights", count * size_of_val::<[f32]>(posed.weights()), storage);
-        let nothing = buffer("no morph deltas", 36, storage);
-        let stride = stride(gpu);
-        let size = stride as usize * posed.items().len() * count;
-        let uniforms = buffer("ghosts' draws", size, wgpu::BufferUsages::UNIFORM);
-        let group = |(&part, geometry): (&(u32, u32), &GpuGeometry)| {
-            let deltas = geometry.deltas.as_ref().unwrap_or(&nothing);
-            (part, pipelines.draw_group(gpu, &uniforms, &palettes, &weights, deltas))
-        };
-        let groups = geometries.iter().map(group).collect();
+        let size = size_of::<DrawInstance>() * posed.items().len() * count;
+        let instances = buffer("ghosts' instances", size, wgpu::BufferUsages::VERTEX);
+        let groups = DrawGroups::new(gpu, pipelines, &palettes, &weights, geometries);
         let loaded = Arc::clone(posed.loaded());
-        Some(Self { loaded, ghosts: count, groups, uniforms, palettes, weights, stride })
+        Some(Self { loaded, ghosts: count, groups, instances, palettes, weights })
     }
-}
-
-/// Returns the distance between draw uniforms, bytes.
-pub(super) fn stride(gpu: &Gpu) -> u32 {
-    let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
-    (size_of::<DrawUniform>() as u32).next_multiple_of(alignment)
 }
 
 /// Surfaces in front of a ghost hide it; the ghost itself hides nothing.
@@ -170,7 +154,7 @@ fn pipeline(gpu: &Gpu, layout: &wgpu::PipelineLayout, front_face: wgpu::FrontFac
             module: &module,
             entry_point: Some("vs_ghost"),
             compilation_options: Default::default(),
-            buffers: &[Some(VERTICES)],
+            buffers: &VERTICES,
         },
         primitive: wgpu::PrimitiveState {
             front_face,

@@ -2,20 +2,25 @@
 
 mod geometry;
 mod ghost;
+mod groups;
 mod material;
 mod pipeline;
+mod recorder;
 mod texture;
 
+use super::batch::DrawBatch;
 use super::device::DeviceListener;
 use super::ghosts::GhostSkins;
 use super::gpu::Gpu;
 use super::posed::{DrawItem, PosedModel};
-use super::uniform::{Affine, DrawUniform};
-use dragonfly_anim::data::{AlphaMode, Primitive};
+use super::uniform::{Affine, DrawInstance};
+use dragonfly_anim::data::Primitive;
 use dragonfly_document::LoadedModel;
 use geometry::GpuGeometry;
+use groups::DrawGroups;
 use material::GpuMaterials;
 use pipeline::{Cull, ModelPipelines, PipelineKind};
+use recorder::{DrawCounts, DrawRecorder};
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -27,8 +32,8 @@ pub struct GpuModel {
     /// Kept for loading the model again on another device.
     loaded: Option<Arc<LoadedModel>>,
     resources: Option<ModelResources>,
-    /// Draw calls since the last [`Self::prepare`].
-    draws: Cell<usize>,
+    /// Number of commands recorded since the last [`Self::prepare`].
+    counts: Cell<DrawCounts>,
 }
 
 /// Device resources for any model.
@@ -45,12 +50,11 @@ struct ModelContent {
     loaded: Arc<LoadedModel>,
     palettes: wgpu::Buffer,
     weights: wgpu::Buffer,
-    /// Distance between draw uniforms, bytes.
-    stride: u32,
+    /// The instances of all draw calls of a frame.
+    instances: wgpu::Buffer,
     /// Geometry by mesh and primitive.
     geometries: HashMap<(u32, u32), GpuGeometry>,
-    /// Bind groups 1, by mesh and primitive; the number of the item is their offset.
-    groups: HashMap<(u32, u32), wgpu::BindGroup>,
+    groups: DrawGroups,
 }
 
 impl DeviceListener for GpuModel {
@@ -70,7 +74,7 @@ impl DeviceListener for GpuModel {
 impl GpuModel {
     /// Writes this frame's pose to the device; a new model is loaded first.
     pub fn prepare(&mut self, gpu: &Gpu, posed: Option<&PosedModel>) {
-        self.draws.set(0);
+        self.counts.set(DrawCounts::default());
         self.loaded = posed.map(|posed| Arc::clone(posed.loaded()));
         let (Some(resources), Some(posed)) = (&mut self.resources, posed) else { return };
         let known =
@@ -81,17 +85,22 @@ impl GpuModel {
         if let Some(content) = &resources.content {
             gpu.queue.write_buffer(&content.palettes, 0, bytemuck::cast_slice(posed.palettes()));
             gpu.queue.write_buffer(&content.weights, 0, bytemuck::cast_slice(posed.weights()));
+            let instances = posed.batches().instances();
+            gpu.queue.write_buffer(&content.instances, 0, bytemuck::cast_slice(instances));
         }
-        for item in posed.items() {
-            for cull in culls(posed, item) {
-                resources.pipelines.make(gpu, kind(posed, item, *cull));
-            }
+        for batch in posed.batches().solid().iter().chain(posed.batches().blended()) {
+            resources.make_pipelines(gpu, &posed.items()[batch.item], batch.mirrored);
         }
     }
 
-    /// Number of draw calls for surfaces in this frame; all other passes together need a constant number.
+    /// Number of draw calls for surfaces and ghosts in this frame; all other passes together need a constant number.
     pub fn draws(&self) -> usize {
-        self.draws.get()
+        self.counts.get().draws
+    }
+
+    /// Number of pipelines and bind groups that were set for these draw calls.
+    pub fn state_changes(&self) -> usize {
+        self.counts.get().state_changes
     }
 
     /// Writes the poses of ghosts to the device, after [`Self::prepare`].
@@ -106,51 +115,43 @@ impl GpuModel {
     /// Draws the ghosts.
     pub fn draw_ghosts(&self, ghosts: &GhostSkins, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
         if let Some(ModelResources { content: Some(content), ghosts: own, .. }) = &self.resources {
-            own.draw(gpu, ghosts, &content.geometries, pass);
+            let mut recorder = DrawRecorder::new(pass, &gpu.frame_group);
+            own.draw(ghosts, &content.geometries, &mut recorder);
+            self.counts.set(self.counts.get() + recorder.counts());
         }
     }
 
     /// Draws the solid surfaces.
     pub fn draw_solid(&self, posed: &PosedModel, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
-        for (index, item) in posed.items().iter().enumerate().filter(|(_, item)| !item.blend) {
-            self.draw(posed, index, item, gpu, pass);
-        }
+        self.draw(posed, posed.batches().solid(), gpu, pass);
     }
 
     /// Draws the blended surfaces, from back to front.
     pub fn draw_blended(&self, posed: &PosedModel, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
-        for index in posed.back_to_front() {
-            self.draw(posed, index, &posed.items()[index], gpu, pass);
-        }
+        self.draw(posed, posed.batches().blended(), gpu, pass);
     }
 
-    fn draw(
-        &self,
-        posed: &PosedModel,
-        index: usize,
-        item: &DrawItem,
-        gpu: &Gpu,
-        pass: &mut wgpu::RenderPass<'_>,
-    ) {
-        let Some(resources) = &self.resources else { return };
-        let Some(content) = &resources.content else { return };
-        let part = (item.mesh, item.primitive);
-        let (Some(geometry), Some(group)) = (content.geometries.get(&part), content.groups.get(&part)) else {
+    fn draw(&self, posed: &PosedModel, batches: &[DrawBatch], gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>) {
+        let Some(ModelResources { pipelines, materials, content: Some(content), .. }) = &self.resources
+        else {
             return;
         };
-        let Some(material) = resources.materials.get(item.material) else { return };
-        pass.set_bind_group(0, &gpu.frame_group, &[]);
-        pass.set_bind_group(1, group, &[index as u32 * content.stride]);
-        pass.set_bind_group(2, material, &[]);
-        pass.set_vertex_buffer(0, geometry.vertices.slice(..));
-        pass.set_index_buffer(geometry.indices.slice(..), wgpu::IndexFormat::Uint32);
-        for cull in culls(posed, item) {
-            if let Some(pipeline) = resources.pipelines.get(kind(posed, item, *cull)) {
-                pass.set_pipeline(pipeline);
-                pass.draw_indexed(0..geometry.count, 0, 0..1);
-                self.draws.set(self.draws.get() + 1);
+        let mut recorder = DrawRecorder::new(pass, &gpu.frame_group);
+        recorder.instances(&content.instances);
+        for batch in batches {
+            let item = &posed.items()[batch.item];
+            let part = item.part();
+            let Some(geometry) = content.geometries.get(&part) else { continue };
+            let Some(material) = materials.get(item.material) else { continue };
+            recorder.group(1, content.groups.get(part));
+            recorder.group(2, material);
+            for cull in culls(item) {
+                if let Some(pipeline) = pipelines.get(kind(item, batch.mirrored, *cull)) {
+                    recorder.draw(pipeline, geometry, batch.instances.clone());
+                }
             }
         }
+        self.counts.set(self.counts.get() + recorder.counts());
     }
 }
 
@@ -164,26 +165,25 @@ impl ModelResources {
             buffer("palettes", size_of_val::<[Affine]>(posed.palettes()), wgpu::BufferUsages::STORAGE);
         let weights =
             buffer("morph weights", size_of_val::<[f32]>(posed.weights()), wgpu::BufferUsages::STORAGE);
-        let nothing = buffer("no morph deltas", 36, wgpu::BufferUsages::STORAGE);
-        let stride = ghost::stride(gpu);
-        let uniforms =
-            buffer("draws", stride as usize * posed.items().len().max(1), wgpu::BufferUsages::UNIFORM);
-        // Written at once: a write per item would stage each of them separately.
-        let mut bytes = vec![0; stride as usize * posed.items().len()];
-        let (mut geometries, mut groups) = (HashMap::new(), HashMap::new());
-        for (item, place) in posed.items().iter().zip(bytes.chunks_exact_mut(stride as usize)) {
-            place[..size_of::<DrawUniform>()].copy_from_slice(bytemuck::bytes_of(&item.uniform));
-            let part = (item.mesh, item.primitive);
-            let geometry = geometries
-                .entry(part)
-                .or_insert_with(|| GpuGeometry::new(&gpu.device, primitive(loaded, item)));
-            let deltas = geometry.deltas.as_ref().unwrap_or(&nothing);
-            let group = || self.pipelines.draw_group(gpu, &uniforms, &palettes, &weights, deltas);
-            groups.entry(part).or_insert_with(group);
+        let size = size_of::<DrawInstance>() * posed.items().len().max(1);
+        let instances = buffer("instances", size, wgpu::BufferUsages::VERTEX);
+        let mut geometries = HashMap::new();
+        for item in posed.items() {
+            geometries.entry(item.part()).or_insert_with(|| {
+                self.make_pipelines(gpu, item, false);
+                GpuGeometry::new(&gpu.device, primitive(loaded, item))
+            });
         }
-        gpu.queue.write_buffer(&uniforms, 0, &bytes);
-        self.content =
-            Some(ModelContent { loaded: Arc::clone(loaded), palettes, weights, stride, geometries, groups });
+        let groups = DrawGroups::new(gpu, &self.pipelines, &palettes, &weights, &geometries);
+        let loaded = Arc::clone(loaded);
+        self.content = Some(ModelContent { loaded, palettes, weights, instances, geometries, groups });
+    }
+
+    /// Creates the pipelines of `item`, unless they exist.
+    fn make_pipelines(&mut self, gpu: &Gpu, item: &DrawItem, mirrored: bool) {
+        for cull in culls(item) {
+            self.pipelines.make(gpu, kind(item, mirrored, *cull));
+        }
     }
 }
 
@@ -192,19 +192,14 @@ fn primitive<'a>(loaded: &'a LoadedModel, item: &DrawItem) -> &'a Primitive {
 }
 
 /// Face culling of each drawing of an item: of a blended, double-sided surface the far side is drawn first.
-fn culls(posed: &PosedModel, item: &DrawItem) -> &'static [Cull] {
-    let materials = &posed.loaded().model.materials;
-    let material = item.material.and_then(|material| materials.get(material as usize));
-    match (item.blend, material.is_some_and(|material| material.double_sided)) {
+fn culls(item: &DrawItem) -> &'static [Cull] {
+    match (item.blend, item.double_sided) {
         (_, false) => &[Cull::Back],
         (false, true) => &[Cull::Nothing],
         (true, true) => &[Cull::Front, Cull::Back],
     }
 }
 
-fn kind(posed: &PosedModel, item: &DrawItem, cull: Cull) -> PipelineKind {
-    let materials = &posed.loaded().model.materials;
-    let material = item.material.and_then(|material| materials.get(material as usize));
-    let mask = material.is_some_and(|material| matches!(material.alpha_mode, AlphaMode::Mask(_)));
-    PipelineKind { mask, blend: item.blend, cull, mirrored: posed.is_mirrored(item) }
+fn kind(item: &DrawItem, mirrored: bool, cull: Cull) -> PipelineKind {
+    PipelineKind { mask: item.mask, blend: item.blend, cull, mirrored }
 }

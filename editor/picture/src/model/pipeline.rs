@@ -3,7 +3,7 @@
 use super::geometry::VERTICES;
 use crate::gpu::{Gpu, scene_depth, scene_target};
 use crate::shaders;
-use crate::uniform::{Affine, DrawUniform};
+use crate::uniform::Affine;
 use std::collections::HashMap;
 
 /// Faces that are culled.
@@ -67,49 +67,36 @@ impl ModelPipelines {
     pub(super) fn draw_group(
         &self,
         gpu: &Gpu,
-        uniforms: &wgpu::Buffer,
         palettes: &wgpu::Buffer,
         weights: &wgpu::Buffer,
         deltas: &wgpu::Buffer,
     ) -> wgpu::BindGroup {
-        let one = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: uniforms,
-            offset: 0,
-            size: wgpu::BufferSize::new(size_of::<DrawUniform>() as u64),
-        });
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("draw"),
             layout: &self.draw_layout,
             entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: one },
-                wgpu::BindGroupEntry { binding: 1, resource: palettes.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 2, resource: weights.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 3, resource: deltas.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 0, resource: palettes.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: weights.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 2, resource: deltas.as_entire_binding() },
             ],
         })
     }
 }
 
 fn draw_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let entry = |binding, ty, has_dynamic_offset, size: usize| wgpu::BindGroupLayoutEntry {
+    let entry = |binding, size: usize| wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::VERTEX,
         ty: wgpu::BindingType::Buffer {
-            ty,
-            has_dynamic_offset,
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
             min_binding_size: wgpu::BufferSize::new(size as u64),
         },
         count: None,
     };
-    let storage = wgpu::BufferBindingType::Storage { read_only: true };
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("draw"),
-        entries: &[
-            entry(0, wgpu::BufferBindingType::Uniform, true, size_of::<DrawUniform>()),
-            entry(1, storage, false, size_of::<Affine>()),
-            entry(2, storage, false, size_of::<f32>()),
-            entry(3, storage, false, size_of::<f32>()),
-        ],
+        entries: &[entry(0, size_of::<Affine>()), entry(1, size_of::<f32>()), entry(2, size_of::<f32>())],
     })
 }
 
@@ -126,7 +113,7 @@ fn pipeline(
             module,
             entry_point: Some("vs_model"),
             compilation_options: Default::default(),
-            buffers: &[Some(VERTICES)],
+            buffers: &VERTICES,
         },
         primitive: wgpu::PrimitiveState {
             front_face: if kind.mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },

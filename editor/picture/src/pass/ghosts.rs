@@ -45,7 +45,8 @@ impl Pass for GhostsPass {
         match (ghosts, scene.view()) {
             (Some(ghosts), Some(view)) if !ghosts.times.is_empty() => {
                 let colors = [GizmoRole::Past, GizmoRole::Future].map(|role| scene.look.handles.get(role));
-                self.skins.pose(view, scene.still(), scene.playback.take, &ghosts.times, colors);
+                let (take, frustum) = (scene.playback.take, scene.frustum());
+                self.skins.pose(view, scene.still(), take, &ghosts.times, colors, &frustum);
             }
             _ => self.skins.clear(),
         }

@@ -9,7 +9,7 @@ use crate::panels::keys::intervals::{Intervals, keys_between};
 use crate::panels::keys::{Drawn, TimeScale};
 use crate::panels::theme::Theme;
 use dragonfly_anim::data::Interpolation;
-use egui::epaint::{TessellationOptions, Tessellator};
+use egui::epaint::{PathShape, TessellationOptions, Tessellator};
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, pos2};
 use std::sync::Arc;
 
@@ -18,6 +18,8 @@ use std::sync::Arc;
 pub(super) struct CurveMesh {
     made_of: Option<CurveMeshKey>,
     mesh: Arc<Mesh>,
+    /// Memory for the samples of a curve, by component.
+    points: [Vec<Pos2>; 4],
     /// The curves as they are drawn.
     pub(super) drawn: Vec<Arc<Curve>>,
 }
@@ -91,10 +93,13 @@ impl CurveMesh {
         let mut canvas = Canvas {
             time,
             value,
-            mesh: Mesh::default(),
+            // Overwritten in its memory, unless the last frame is still drawn.
+            mesh: Arc::try_unwrap(std::mem::take(&mut self.mesh)).unwrap_or_default(),
             tessellator: Tessellator::new(pixels_per_point, options, [1, 1], Vec::new()),
-            points: Default::default(),
+            points: std::mem::take(&mut self.points),
         };
+        canvas.mesh.indices.clear();
+        canvas.mesh.vertices.clear();
         let count = shown.curves().count();
         for curve in shown.curves() {
             let chosen = drawn.selection.of(curve.id);
@@ -103,7 +108,7 @@ impl CurveMesh {
             canvas.dots(curve, components, chosen, theme, 1.0 / pixels_per_point);
             self.drawn.push(Arc::clone(curve));
         }
-        self.mesh = Arc::new(canvas.mesh);
+        (self.mesh, self.points) = (Arc::new(canvas.mesh), canvas.points);
     }
 }
 
@@ -146,8 +151,9 @@ impl Canvas<'_> {
         for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
             let color = color(theme, at).gamma_multiply(strength);
             let points = std::mem::take(&mut self.points[at]);
-            let line = Shape::line(points, Stroke::new(1.4, color));
-            self.tessellator.tessellate_shape(line, &mut self.mesh);
+            let line = PathShape::line(points, Stroke::new(1.4, color));
+            self.tessellator.tessellate_path(&line, &mut self.mesh);
+            self.points[at] = line.points;
         }
     }
 

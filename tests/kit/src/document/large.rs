@@ -1,4 +1,4 @@
-//! Models of any size: trees of bones that move one surface, and many small meshes.
+//! Models of any size: trees of bones that move one surface, many small meshes, and many instances of one.
 
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
@@ -45,6 +45,18 @@ pub fn meshes(count: u32) -> Arc<LoadedModel> {
         model.instances.push(MeshInstance { bone: Some(index), ..instance(index) });
     }
     loaded(model)
+}
+
+/// Returns a tree of nodes that all place the same mesh.
+pub fn instances(count: u32) -> Arc<LoadedModel> {
+    let primitive = Primitive { material: Some(0), ..tetrahedra(&[Vec3::ZERO]) };
+    loaded(ModelData {
+        animation: animation(count),
+        meshes: vec![Mesh { primitives: vec![primitive], ..Mesh::default() }],
+        materials: vec![Material::default()],
+        instances: (0..count).map(|index| MeshInstance { bone: Some(index), ..instance(0) }).collect(),
+        ..ModelData::default()
+    })
 }
 
 fn instance(mesh: u32) -> MeshInstance {
