@@ -99,13 +99,18 @@ pub(crate) fn edited_twice(opened: &OpenedFile, door: &dyn AssetFs) -> [Reopened
         if let Some(track) = take.tracks.first_mut() {
             let turns = [0.0, 0.1, 0.0, 0.2, 0.3, 0.1].map(glam::Quat::from_rotation_x);
             track.rotation = Channel::new([0.0, 1.0], turns, Interpolation::CubicSpline);
+            if !track.translation.is_empty() {
+                let places = [glam::Vec3::X, glam::Vec3::Z];
+                track.translation = Channel::new([0.05, 0.95], places, Interpolation::Linear);
+            }
+            track.scale = Channel::new([0.1, 0.9], [glam::Vec3::ONE; 2], Interpolation::Linear);
         }
     }
     let saved = opened.saved(&takes, door);
-    // Some of the edits are removed again.
+    // Some of the edits are removed again, also key times that precede others.
     let mut takes = saved.opened.takes();
     if let Some(track) = takes.last_mut().and_then(|take| Arc::make_mut(&mut take.take).tracks.first_mut()) {
-        track.scale = Channel::default();
+        track.translation = Channel::default();
     }
     let twice = saved.opened.saved(&takes, &Over::new(&saved.files, door));
     [saved, twice]
