@@ -196,7 +196,7 @@ impl Points<'_> {
             angle += if back { -step } else { step };
             outlier &= !back;
             self.joints[index + 1] =
-                base + towards * (radius * f64::sin(angle)) + side * (radius * (1.0 - f64::cos(angle)));
+                base + towards * (radius * libm::sin(angle)) + side * (radius * (1.0 - libm::cos(angle)));
         }
     }
 }
