@@ -2,7 +2,7 @@
 
 use super::patch::TextPatch;
 use super::style::{JsonSpot, JsonStyle, gap, lead};
-use super::tree::{Json, ValueId};
+use super::tree::{Json, JsonKind, ValueId};
 
 /// An edit of an array or object.
 #[derive(Clone, Debug, Default)]
@@ -52,8 +52,9 @@ pub(in super::super) fn edit(
         _ => style.comma().to_owned(),
     });
     let first = items.iter().zip(&stays).find(|(_, stays)| **stays).map(|(item, _)| *item);
-    // Items that follow the same one become one patch.
-    for new in edit.inserted.chunk_by(|a, b| a.0 == b.0) {
+    // Elements that follow the same one become one patch. Each member of an object has its own, by which users see its name.
+    let is_array = json.kind(list) == JsonKind::Array;
+    for new in edit.inserted.chunk_by(|a, b| is_array && a.0 == b.0) {
         let at = match (new[0].0, first) {
             (None, Some(first)) => json.item_span(first).start,
             (Some(item), _) => json.item_span(item).end,
