@@ -70,6 +70,7 @@
 //! | validate a model; measure the difference between two takes | [`check`], [`compare`] |
 //! | show every intermediate value of a bone or a vertex | [`explain`] |
 //! | the limits for imported files | [`limits`] |
+//! | rotations with the same bits on every system | [`trig`] |
 //!
 //! # Conventions
 //!
@@ -120,6 +121,8 @@ pub mod retarget;
 pub mod sample;
 #[doc(alias("skinning"))]
 pub mod skin;
+#[doc(alias("trigonometry", "axis-angle"))]
+pub mod trig;
 pub mod tutorial;
 
 /// Compiles and runs the example of `README.md`.

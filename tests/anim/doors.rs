@@ -60,8 +60,12 @@ pub(crate) fn model_folders() -> [PathBuf; 3] {
 
 /// Returns every glTF file in the folders with models, sorted.
 pub(crate) fn model_files() -> Vec<PathBuf> {
+    gltf_files(Vec::from(model_folders()))
+}
+
+/// Returns every glTF file in `folders` and the folders in them, sorted.
+pub(crate) fn gltf_files(mut folders: Vec<PathBuf>) -> Vec<PathBuf> {
     let mut found = Vec::new();
-    let mut folders = Vec::from(model_folders());
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).expect("a folder of test data") {
             let path = entry.expect("an entry").path();

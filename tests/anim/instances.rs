@@ -111,6 +111,33 @@ fn many_meshes_in_many_nodes_that_no_machine_could_draw_are_refused() {
     assert!(memory < (256 << 20) + 32 * bytes.len() as u64, "{memory} bytes");
 }
 
+/// Returns the model with more vertices in every primitive, which no triangle uses.
+fn with_unused_vertices(model: &ModelData, more: usize) -> ModelData {
+    let mut model = model.clone();
+    for primitive in model.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
+        let vertices = &mut primitive.vertices;
+        assert!(primitive.morph_targets.is_empty());
+        let influences = vertices.influences_per_vertex * more;
+        vertices.positions.resize(vertices.positions.len() + more, Vec3::splat(1e3));
+        vertices.influences.resize(vertices.influences.len() + influences, Default::default());
+    }
+    model
+}
+
+#[test]
+fn vertices_that_no_triangle_uses_change_nothing_in_a_hit_tree_and_need_no_memory() {
+    let fox = crate::made::fox();
+    let tree = HitTree::of(&fox).unwrap();
+    let more = with_unused_vertices(&fox, 20_000);
+    assert_eq!(HitTree::of(&more).unwrap().parts(), tree.parts());
+    let memory = |model: &ModelData| {
+        let (copy, _) = peak(|| model.clone());
+        peak(|| HitTree::of(model).map(|_| ())).0 - copy
+    };
+    let (few, many) = (memory(&fox), memory(&with_unused_vertices(&fox, 1_000_000)));
+    assert!(many < few + 1_000_000, "{few} {many}");
+}
+
 #[test]
 fn a_hit_tree_over_few_triangles_does_not_pose_the_other_vertices() {
     let mut bytes: Value = serde_json::from_slice(&empty_mesh(65_536, 3_000, 1)).unwrap();

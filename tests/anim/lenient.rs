@@ -86,6 +86,27 @@ fn a_buffer_that_nothing_shown_needs_may_be_missing() {
         assert_eq!(of_mesh.model.meshes.last().unwrap().name, "unused");
         assert_eq!(of_mesh.warnings.len(), 2, "{:?}", of_mesh.warnings);
 
+        let mut of_skin = fixture.clone();
+        let accessors = of_skin.json["accessors"].as_array_mut().unwrap();
+        accessors.push(json!({"bufferView": view, "componentType": 5126, "type": "MAT4", "count": 1}));
+        let matrices = accessors.len() - 1;
+        let joint = of_skin.json["skins"][0]["joints"][0].clone();
+        let skin = json!({"name": "unused", "joints": [joint], "inverseBindMatrices": matrices});
+        of_skin.json["skins"].as_array_mut().unwrap().push(skin);
+        let read = imported(&of_skin.glb()).unwrap();
+        assert_eq!(read.warnings.len(), 2, "{:?}", read.warnings);
+        let unused = read.model.skins.last().unwrap();
+        assert_eq!((unused.name.as_str(), unused.offsets.len()), ("unused", 1));
+        let evaluator = Evaluator::new(Arc::new(read.model.clone()));
+        let at_rest = evaluator.to_root()[unused.bones[0] as usize] * unused.offsets[0];
+        assert!(at_rest.abs_diff_eq(glam::Mat4::IDENTITY, 1e-5), "it deforms nothing at rest: {at_rest}");
+        // The bones keep the matrices of the skin that is shown.
+        assert_eq!(read.model.animation.skeleton, unneeded.model.animation.skeleton);
+        let nodes = of_skin.json["nodes"].as_array_mut().unwrap();
+        nodes.iter_mut().find(|node| node["skin"] == json!(0)).unwrap()["skin"] = json!(1);
+        let error = imported(&of_skin.glb()).err().unwrap();
+        assert!(error.to_string().contains(buffer["uri"].as_str().unwrap_or("/buffers/1")), "{error}");
+
         let mut needed = fixture.clone();
         needed.set(&format!("/accessors/{}/bufferView", accessor::POSITION), json!(view));
         let error = imported(&needed.glb()).err().unwrap();
@@ -137,7 +158,7 @@ fn thousands_of_skins_stay_within_the_memory_of_their_file() {
                 false => json!({"joints": joints}),
             }
         };
-        let skins: Vec<Value> = (0..1_500).map(skin).collect();
+        let skins: Vec<Value> = (0..2_500).map(skin).collect();
         fixture.json["skins"].as_array_mut().unwrap().extend(skins);
         let bytes = fixture.glb();
         let promise = (256 << 20) + 32 * bytes.len() as u64;

@@ -51,6 +51,7 @@ mod reduce;
 mod retarget;
 mod rules;
 mod sampling;
+mod save_compact;
 mod save_edits;
 mod save_errors;
 mod save_judges;

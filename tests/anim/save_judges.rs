@@ -8,11 +8,11 @@ use crate::doors::{MemoryFs, data};
 use crate::fixture::{Fixture, accessor};
 use crate::made::rotation;
 use crate::save_edits::{moving_track, shift};
-use crate::save_support::{OpenedFile, json_of, take_mut};
+use crate::save_support::{OpenedFile, Over, ReopenedFile, json_of, take_mut};
 use dragonfly_anim::data::{Channel, Interpolation, Track};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::gltf::save::{MARK, compact};
-use dragonfly_anim::format::{EditedTake, NoFiles, OutputFile};
+use dragonfly_anim::format::{AssetFs, EditedTake, NoFiles, OutputFile};
 use dragonfly_kit::random::Random;
 use dragonfly_kit::skip;
 use serde_json::{Value, json};
@@ -64,48 +64,56 @@ fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
     }
     let mut files = Vec::new();
     for (name, bytes) in sources {
-        let opened = OpenedFile::alone(&name, &bytes);
-        let bones = opened.model.animation.skeleton.len();
-        let mut takes = opened.takes();
-        if !takes.is_empty() && takes[0].take.tracks.iter().any(|track| !track.translation.is_empty()) {
-            shift(&mut takes, 0);
-        }
-        if bones > 0 {
-            // The node of a skinned mesh is not supposed to be animated.
-            let nodes = &opened.model.animation.skeleton.bones;
-            let skinned = |bone: u32| {
-                let mut skinned = opened.model.instances.iter().filter(|instance| instance.skin.is_some());
-                skinned.any(|instance| instance.node == nodes[bone as usize].node)
-            };
-            let track = |bone| match skinned(bone) {
-                true => Track { bone, ..Track::default() },
-                false => Track { bone, ..moving_track() },
-            };
-            let tracks = (0..bones as u32).map(track).collect();
-            takes.push(EditedTake { origin: None, take: Arc::new(crate::support::take(tracks)) });
-        }
-        for take in &mut takes {
-            let take = Arc::make_mut(&mut take.take);
-            if let Some(track) = take.tracks.first_mut() {
-                let turns = [0.0, 0.1, 0.0, 0.2, 0.3, 0.1].map(glam::Quat::from_rotation_x);
-                track.rotation = Channel::new([0.0, 1.0], turns, Interpolation::CubicSpline);
-            }
-        }
-        let saved = opened.saved(&takes, &NoFiles);
-        // Some of the edits are removed again.
-        let mut takes = saved.opened.takes();
-        if let Some(track) =
-            takes.last_mut().and_then(|take| Arc::make_mut(&mut take.take).tracks.first_mut())
-        {
-            track.scale = Channel::default();
-        }
-        let twice = saved.opened.saved(&takes, &NoFiles);
+        let [saved, twice] = edited_twice(&OpenedFile::alone(&name, &bytes), &NoFiles);
         let compacted = compact(&twice.opened.source).unwrap().write().remove(0).bytes;
         files.push((format!("once-{name}"), bytes.clone(), saved.bytes().to_vec()));
         files.push((format!("twice-{name}"), bytes.clone(), twice.bytes().to_vec()));
         files.push((format!("compacted-{name}"), bytes, compacted));
     }
     files
+}
+
+/// Saves edits of a file, and again after some of them were removed.
+pub(crate) fn edited_twice(opened: &OpenedFile, door: &dyn AssetFs) -> [ReopenedFile; 2] {
+    let bones = opened.model.animation.skeleton.len();
+    let mut takes = opened.takes();
+    if !takes.is_empty() && takes[0].take.tracks.iter().any(|track| !track.translation.is_empty()) {
+        shift(&mut takes, 0);
+    }
+    if bones > 0 {
+        // The node of a skinned mesh is not supposed to be animated.
+        let nodes = &opened.model.animation.skeleton.bones;
+        let skinned = |bone: u32| {
+            let mut skinned = opened.model.instances.iter().filter(|instance| instance.skin.is_some());
+            skinned.any(|instance| instance.node == nodes[bone as usize].node)
+        };
+        let track = |bone| match skinned(bone) {
+            true => Track { bone, ..Track::default() },
+            false => Track { bone, ..moving_track() },
+        };
+        let tracks = (0..bones as u32).map(track).collect();
+        takes.push(EditedTake { origin: None, take: Arc::new(crate::support::take(tracks)) });
+    }
+    for take in &mut takes {
+        let take = Arc::make_mut(&mut take.take);
+        if let Some(track) = take.tracks.first_mut() {
+            let turns = [0.0, 0.1, 0.0, 0.2, 0.3, 0.1].map(glam::Quat::from_rotation_x);
+            track.rotation = Channel::new([0.0, 1.0], turns, Interpolation::CubicSpline);
+            if !track.translation.is_empty() {
+                let places = [glam::Vec3::X, glam::Vec3::Z];
+                track.translation = Channel::new([0.05, 0.95], places, Interpolation::Linear);
+            }
+            track.scale = Channel::new([0.1, 0.9], [glam::Vec3::ONE; 2], Interpolation::Linear);
+        }
+    }
+    let saved = opened.saved(&takes, door);
+    // Some of the edits are removed again, also key times that precede others.
+    let mut takes = saved.opened.takes();
+    if let Some(track) = takes.last_mut().and_then(|take| Arc::make_mut(&mut take.take).tracks.first_mut()) {
+        track.translation = Channel::default();
+    }
+    let twice = saved.opened.saved(&takes, &Over::new(&saved.files, door));
+    [saved, twice]
 }
 
 #[test]
@@ -233,7 +241,7 @@ fn edited_with_buffer_file() -> (Vec<u8>, Vec<OutputFile>) {
 }
 
 /// Returns the number of errors and warnings of the validator, by code, for each of the files.
-fn issues(evaluators: &Path, files: &[PathBuf]) -> Vec<BTreeMap<String, usize>> {
+pub(crate) fn issues(evaluators: &Path, files: &[PathBuf]) -> Vec<BTreeMap<String, usize>> {
     let output =
         Command::new("node").arg(evaluators.join("validate.mjs")).arg("--json").args(files).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();

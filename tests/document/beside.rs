@@ -2,6 +2,7 @@
 //! nothing that another model needs is ever removed.
 
 use crate::save_and_open::open;
+use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
 use dragonfly_document::history::Edited;
@@ -147,6 +148,11 @@ fn a_buffer_file_that_another_model_needs_or_another_program_wrote_is_never_remo
     fs::write(&other, b"").expect("a file");
     let all = buffers(&place);
     assert_eq!(all.len(), 6, "{all:?}");
+    // A model too large to be read may refer to any of them.
+    let large = fs::File::create(place.join("large.glb")).expect("a file");
+    large.set_len(FILE_BYTES + 1).expect("a file with a hole");
+    assert!(open(&model).remove_unused().is_empty());
+    fs::remove_file(place.join("large.glb")).expect("it is there");
     let removed = open(&model).remove_unused();
     assert_eq!(removed.len(), 1, "only the third buffer: {removed:?}");
     for kept in [&first, &second, &foreign, &other] {

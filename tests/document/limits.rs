@@ -4,6 +4,7 @@ use crate::save_and_open::open;
 use dragonfly_document::adapter::{EditError, KEY_BYTES, ModelAdapter};
 use dragonfly_document::edit::{DuplicateKeys, Edit, KeySet, TakeRef};
 use dragonfly_document::history::Edited;
+use dragonfly_kit::counting::peak;
 use dragonfly_kit::folder::data;
 
 #[test]
@@ -15,9 +16,12 @@ fn keys_that_are_doubled_again_and_again_are_refused_at_a_limit_that_is_named() 
         let keys = vec![KeySet::default()];
         let edit = Edit::DuplicateKeys(DuplicateKeys { take: TakeRef::Index(0), keys, by });
         let before = edited.adapter().slots()[0].original.keys();
-        match edited.ask(edit, None) {
+        let (memory, done) = peak(|| edited.ask(edit, None));
+        match done {
             Ok(()) => by *= 2.1,
             Err(error) => {
+                // Nothing is allocated for the keys themselves.
+                assert!(memory < KEY_BYTES / 2, "{memory} bytes before it is refused");
                 assert_eq!(edited.adapter().slots()[0].original.keys(), before);
                 let limits = ["at most 16000000 can be saved", &format!("at most {} MiB", KEY_BYTES >> 20)];
                 assert!(limits.iter().any(|limit| error.to_string().contains(limit)), "{error}");

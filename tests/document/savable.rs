@@ -166,6 +166,27 @@ fn a_copy_of_a_take_that_begins_below_zero_is_saved_and_opened_with_a_warning() 
     write_with_times(&data("gltf/Fox.glb"), &below, |time, _| time - 0.5);
     let copy = r#"{"edit":"create_take","name":"copy","copy":0}"#;
     assert!(saved_after(&below, &folder.join("saved.glb"), &[copy], "below zero"));
+    // The take may be edited, too.
+    let turn = r#"{"edit":"set","take":0,"time":0.3,"poses":[{"bone":3,"rotation":[0,0,0,1]}]}"#;
+    assert!(saved_after(&below, &folder.join("turned.glb"), &[turn], "below zero"));
+}
+
+#[test]
+fn keys_before_zero_are_refused_in_every_way_to_make_them() {
+    let editable = open(&data("gltf/Fox.glb"));
+    for line in [
+        r#"{"edit":"add_keys","take":0,"time":-1,"bones":[3]}"#,
+        r#"{"edit":"set","take":0,"time":-0.5,"poses":[{"bone":3,"rotation":[0,0,0,1]}]}"#,
+        r#"{"edit":"move_keys","take":0,"keys":[{}],"by":-0.25}"#,
+        r#"{"edit":"duplicate_keys","take":0,"keys":[{}],"by":-0.013}"#,
+        r#"{"edit":"scale_keys","take":0,"keys":[{}],"about":1,"factor":2}"#,
+        r#"{"edit":"ripple","take":0,"from":0,"by":-0.25}"#,
+        r#"{"edit":"retime_take","take":0,"start":-1}"#,
+    ] {
+        let mut adapter = ModelAdapter::new(&editable.model.animation);
+        let error = adapter.apply(&serde_json::from_str(line).expect(line)).expect_err(line);
+        assert!(error.to_string().contains("before 0 s cannot be saved"), "{line}: {error}");
+    }
 }
 
 #[test]

@@ -14,4 +14,5 @@ mod planted;
 mod skips;
 mod tokens;
 mod tree;
+mod trigonometry;
 mod words;

@@ -132,7 +132,7 @@ fn angle_between(one: &Mat4, other: &Mat4) -> f32 {
     let rotation = |matrix: &Mat4| -> Quat { matrix.to_scale_rotation_translation().1 };
     let between = rotation(one).conjugate() * rotation(other);
     // Computed with the sine of half the angle: the cosine of a small angle is 1 within rounding.
-    2.0 * between.xyz().length().atan2(between.w.abs())
+    2.0 * libm::atan2f(between.xyz().length(), between.w.abs())
 }
 
 /// Morph weights of both takes at one time.

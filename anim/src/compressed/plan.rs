@@ -135,7 +135,7 @@ fn still(
 /// Returns the bits for rotations exact to `turn` radians, and for translations to `step` up to `farthest`.
 fn grid(turn: f32, step: f32, farthest: f32) -> RoundingGrid {
     let bits = |numbers: f32| {
-        let bits = numbers.log2().ceil();
+        let bits = libm::log2f(numbers).ceil();
         if bits <= MOST_BITS as f32 { (bits as u32).max(4) } else { FLOATS }
     };
     let translation_bits = if farthest > 0.0 { bits(2.0 * farthest / step + 4.0) } else { 4 };

@@ -2,6 +2,7 @@
 
 use super::frames::SampledFrames;
 use super::settings::Exactness;
+use crate::trig::rotation_of_vector;
 use glam::{Affine3A, Mat3, Quat, Vec3};
 
 /// A point rigidly attached to a bone.
@@ -67,7 +68,7 @@ pub(super) fn aimed(rotation: Quat, arms: impl Iterator<Item = (Vec3, Vec3, f32)
     let turn = matrix.inverse() * sum;
     // A large turn indicates a pose that no rotation can reach.
     if matrix.determinant() > 0.0 && turn.is_finite() && turn.length() < LARGEST_TURN {
-        (Quat::from_scaled_axis(turn) * rotation).normalize()
+        (rotation_of_vector(turn.as_dvec3()).as_quat() * rotation).normalize()
     } else {
         rotation
     }

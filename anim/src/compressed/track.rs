@@ -197,7 +197,7 @@ fn first_bits(span: (f32, f32), step: f32) -> u8 {
     let least = if span.1 - span.0 > step { 1.0 } else { 0.0 };
     // The number of steps itself is not rounded up: rounding to a step is off by half a step in either direction
     // anyway.
-    (numbers + 1.0).log2().ceil().max(least).min(MAX_BITS as f32) as u8
+    libm::log2f(numbers + 1.0).ceil().max(least).min(MAX_BITS as f32) as u8
 }
 
 /// Returns the position of `span` in `range`: the smallest extent, and the largest start, that contain it.

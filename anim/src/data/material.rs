@@ -76,7 +76,7 @@ impl TextureTransform {
 
     /// Returns the 3×3 matrix `translation · rotation · scale` as specified by the extension.
     pub fn to_matrix(self) -> Mat3 {
-        let (sin, cos) = self.rotation.sin_cos();
+        let (sin, cos) = libm::sincosf(self.rotation);
         let rotation =
             Mat3::from_cols(Vec3::new(cos, -sin, 0.0), Vec3::new(sin, cos, 0.0), Vec3::new(0.0, 0.0, 1.0));
         Mat3::from_translation(self.offset) * rotation * Mat3::from_scale(self.scale)

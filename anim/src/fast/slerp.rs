@@ -91,7 +91,7 @@ pub(super) fn steps(a: Quat, b: Quat) -> usize {
     if x(cosine) <= WIDEST {
         return 1;
     }
-    let half_angle = |x: f32| x.sqrt().asin();
+    let half_angle = |x: f32| libm::asinf(x.sqrt());
     (half_angle(x(cosine)) / half_angle(WIDEST)).ceil().clamp(1.0, 6.0) as usize
 }
 

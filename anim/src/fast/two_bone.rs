@@ -206,7 +206,7 @@ fn softened(distance: f32, length: f32, softness: f32) -> f32 {
         let soft = softness.min(1.0) * length;
         let hard = length - soft;
         if soft > 0.0 && distance > hard {
-            return hard + soft * (1.0 - (-(distance - hard) / soft).exp());
+            return hard + soft * (1.0 - libm::expf(-(distance - hard) / soft));
         }
     }
     distance

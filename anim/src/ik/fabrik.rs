@@ -94,7 +94,7 @@ impl Points<'_> {
         let mut distance = 0.0;
         for (joint, length) in self.joints.iter_mut().skip(1).zip(self.lengths) {
             distance += length;
-            *joint += bow * (0.3 * total * (std::f64::consts::PI * distance / total).sin());
+            *joint += bow * (0.3 * total * libm::sin(std::f64::consts::PI * distance / total));
         }
     }
 
@@ -165,7 +165,7 @@ impl Points<'_> {
         let side = side.fold(DVec3::ZERO, |a, b| if b.length() > a.length() { b } else { a });
         let side = side.try_normalize().unwrap_or_else(|| towards.any_orthonormal_vector());
         let longest = self.lengths.iter().copied().fold(wanted, f64::max);
-        let half = |chord: f64, radius: f64| (0.5 * chord / radius).clamp(0.0, 1.0).asin();
+        let half = |chord: f64, radius: f64| libm::asin((0.5 * chord / radius).clamp(0.0, 1.0));
         let rest = |radius: f64| {
             let all: f64 = self.lengths.iter().map(|&length| half(length, radius)).sum();
             all + half(wanted, radius) - half(longest, radius)
@@ -196,7 +196,7 @@ impl Points<'_> {
             angle += if back { -step } else { step };
             outlier &= !back;
             self.joints[index + 1] =
-                base + towards * (radius * f64::sin(angle)) + side * (radius * (1.0 - f64::cos(angle)));
+                base + towards * (radius * libm::sin(angle)) + side * (radius * (1.0 - libm::cos(angle)));
         }
     }
 }

@@ -20,6 +20,7 @@ use super::two_bone::{EndOrientation, Pole, TwoBone, inverse, two_bone_below};
 use super::{IkError, Reach};
 use crate::animation::to_parent;
 use crate::data::{BoneIndex, Skeleton, Transform};
+use crate::trig::rotation_about;
 use glam::{Mat3, Mat4, Quat, Vec3};
 
 /// The ground below one foot: a plane, to-root space.
@@ -137,10 +138,11 @@ fn foot_target(feet: &Feet<'_>, leg: &Leg, ground: Option<Ground>, ankle: Vec3, 
     let lift = (ankle.dot(up) - feet.floor - leg.ankle_height).max(0.0);
     let target = ankle + up * (leg.ankle_height / slope + lift - above);
     let full = arc(up, ground.normal);
-    let angle = 2.0 * full.xyz().length().atan2(full.w);
+    let angle = 2.0 * libm::atan2f(full.xyz().length(), full.w);
     let tilt = if feet.tilt >= 0.0 { feet.tilt } else { 0.0 };
     let axis = full.xyz().try_normalize();
-    let turn = axis.map_or(Quat::IDENTITY, |axis| Quat::from_axis_angle(axis, angle.min(tilt)));
+    let turn = axis
+        .map_or(Quat::IDENTITY, |axis| rotation_about(axis.as_dvec3(), f64::from(angle.min(tilt))).as_quat());
     if target.is_finite() { FootTarget { ankle: target, turn } } else { posed }
 }
 

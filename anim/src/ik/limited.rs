@@ -26,6 +26,7 @@ use super::chain::{ChainScratch, Limit};
 use crate::data::BoneIndex;
 use crate::joint::rotation_vector;
 use crate::sample::Value;
+use crate::trig::rotation_of_vector;
 use glam::{DMat3, DQuat, DVec3};
 
 /// Number of poses from which the search starts, including the one of the sweeps.
@@ -88,7 +89,7 @@ impl ChainScratch {
         let most = [0.8, 1.6, 2.4, 3.1][start as usize % 4];
         for (index, link) in self.links.iter_mut().enumerate() {
             let turn = scattered(start, index as u32) * most;
-            link.rotation = (DQuat::from_scaled_axis(turn) * link.posed.rotation.as_dquat()).normalize();
+            link.rotation = (rotation_of_vector(turn) * link.posed.rotation.as_dquat()).normalize();
         }
     }
 
@@ -149,7 +150,7 @@ impl ChainScratch {
             let free = &mut self.freedoms[index];
             for (turn, moved) in free.turns.iter_mut().zip(&mut free.moves) {
                 let direction = if moved.dot(pull) < 0.0 { -*turn } else { *turn };
-                let wanted = (DQuat::from_scaled_axis(direction * PROBE) * link.rotation).normalize();
+                let wanted = (rotation_of_vector(direction * PROBE) * link.rotation).normalize();
                 let got = limited(limit, link.bone, wanted) * link.rotation.conjugate();
                 *turn = rotation_vector(got) / PROBE;
                 *moved = linear * turn.cross(arm);
@@ -191,7 +192,7 @@ impl ChainScratch {
         self.links.iter_mut().for_each(|link| link.previous = link.rotation);
         for _ in 0..=HALVINGS {
             for (link, free) in self.links[..turning].iter_mut().zip(&self.freedoms) {
-                let wanted = (DQuat::from_scaled_axis(free.turn() * size) * link.previous).normalize();
+                let wanted = (rotation_of_vector(free.turn() * size) * link.previous).normalize();
                 link.rotation = limited(limit, link.bone, wanted);
             }
             self.update_joints();

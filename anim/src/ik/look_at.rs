@@ -21,6 +21,7 @@ use super::two_bone::{inverse, soft_distance};
 use super::{IkError, Reach};
 use crate::animation::to_parent;
 use crate::data::{BoneIndex, Skeleton, Transform};
+use crate::trig::rotation_about;
 use glam::{Mat3, Mat4, Quat, Vec3};
 use std::f32::consts::PI;
 
@@ -154,7 +155,7 @@ fn aim(parent: &Mat4, pose: Transform, one: &Gaze, gaze: &LookAt<'_>, target: Ve
     let limit = if one.limit >= 0.0 { one.limit.min(PI) } else { 0.0 };
     let allowed = if limit >= PI { 0.0 } else { gaze.softness };
     let angle = soft_distance(angle * share(one.share) * share(gaze.weight), limit, allowed);
-    let rotation = (Quat::from_axis_angle(axis, angle) * pose.rotation).normalize();
+    let rotation = (rotation_about(axis.as_dvec3(), f64::from(angle)).as_quat() * pose.rotation).normalize();
     if rotation.is_finite() { Ok(rotation) } else { Err(IkError::NotFinite { bone: one.bone }) }
 }
 
@@ -178,7 +179,7 @@ fn shortest(turn: Quat) -> (Vec3, f32) {
     let turn = if turn.w < 0.0 { -turn } else { turn };
     let sine = turn.xyz().length();
     let axis = if sine > 0.0 { turn.xyz() / sine } else { Vec3::X };
-    (axis, 2.0 * sine.atan2(turn.w))
+    (axis, 2.0 * libm::atan2f(sine, turn.w))
 }
 
 /// Returns the angle in radians from the bone's forward axis to the target, in the space of its parent.
@@ -187,7 +188,7 @@ fn angle_to(parent: &Mat4, pose: Transform, one: &Gaze, target: Vec3) -> f32 {
     let wanted = linear * (target - parent.w_axis.truncate()) - pose.translation;
     let forward = pose.rotation * sight(pose.scale * one.forward, pose.scale * one.eye, wanted.length());
     match (forward.try_normalize(), wanted.try_normalize()) {
-        (Some(from), Some(to)) => 2.0 * (from - to).length().atan2((from + to).length()),
+        (Some(from), Some(to)) => 2.0 * libm::atan2f((from - to).length(), (from + to).length()),
         _ => 0.0,
     }
 }

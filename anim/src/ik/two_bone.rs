@@ -105,7 +105,7 @@ pub fn soft_distance(distance: f32, length: f32, softness: f32) -> f32 {
     let soft = share(softness) * length;
     let hard = length - soft;
     if soft > 0.0 && distance > hard {
-        hard + soft * (1.0 - (-(distance - hard) / soft).exp())
+        hard + soft * (1.0 - libm::expf(-(distance - hard) / soft))
     } else {
         distance.min(length)
     }

@@ -3,6 +3,7 @@
 use super::AngleRange;
 use super::axis::{direction, mirrored_axis};
 use super::ellipse::nearest_in_ellipse;
+use crate::trig::{rotation_about, rotation_of_vector};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
 /// Largest swing in radians: 175°. Exactly backwards, twist and direction could not be separated.
@@ -59,9 +60,9 @@ impl Ball {
         let swing = DVec2::new(swing.dot(side), swing.dot(up));
         let halves = DVec2::new(half(self.swing_side), half(self.swing_up));
         let swing = nearest_in_ellipse(swing, halves);
-        let swing = DQuat::from_scaled_axis(side * swing.x + up * swing.y);
+        let swing = rotation_of_vector(side * swing.x + up * swing.y);
 
-        swing * DQuat::from_axis_angle(axis, self.twist.clamp(twist))
+        swing * rotation_about(axis, self.twist.clamp(twist))
     }
 
     pub(super) fn mirrored(&self, normal: usize) -> Self {
@@ -77,8 +78,8 @@ fn half(angle: f32) -> f64 {
 /// Returns the swing, and the angle of the twist about `axis` (radians, −π..=π), with `turn = swing * twist`.
 fn swing_twist(turn: DQuat, axis: DVec3) -> (DQuat, f64) {
     let along = turn.xyz().dot(axis);
-    let angle = 2.0 * along.atan2(turn.w);
-    let twist = DQuat::from_axis_angle(axis, angle);
+    let angle = 2.0 * libm::atan2(along, turn.w);
+    let twist = rotation_about(axis, angle);
     (turn * twist.conjugate(), angle)
 }
 
@@ -86,7 +87,7 @@ fn swing_twist(turn: DQuat, axis: DVec3) -> (DQuat, f64) {
 pub(crate) fn rotation_vector(rotation: DQuat) -> DVec3 {
     let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
     let sine = rotation.xyz().length();
-    if sine == 0.0 { DVec3::ZERO } else { rotation.xyz() * (2.0 * sine.atan2(rotation.w) / sine) }
+    if sine == 0.0 { DVec3::ZERO } else { rotation.xyz() * (2.0 * libm::atan2(sine, rotation.w) / sine) }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::AngleRange;
 use super::axis::{direction, mirrored_axis};
+use crate::trig::rotation_about;
 use glam::{DQuat, Vec3};
 
 /// A joint that turns about one axis, from one angle to another: an elbow, a knee.
@@ -24,8 +25,8 @@ pub struct Hinge {
 impl Hinge {
     pub(super) fn allowed(&self, turn: DQuat) -> DQuat {
         let Some(axis) = direction(self.axis) else { return turn };
-        let angle = 2.0 * turn.xyz().dot(axis).atan2(turn.w);
-        DQuat::from_axis_angle(axis, self.range.clamp(angle))
+        let angle = 2.0 * libm::atan2(turn.xyz().dot(axis), turn.w);
+        rotation_about(axis, self.range.clamp(angle))
     }
 
     pub(super) fn mirrored(&self, normal: usize) -> Self {

@@ -114,5 +114,5 @@ impl JointLimit {
 /// Returns the smallest angle between two rotations, radians: 0..=π.
 fn angle_between(a: DQuat, b: DQuat) -> f64 {
     let (near, far) = ((a - b).length(), (a + b).length());
-    4.0 * near.min(far).atan2(near.max(far))
+    4.0 * libm::atan2(near.min(far), near.max(far))
 }

@@ -18,7 +18,7 @@ pub struct Screen {
 impl Screen {
     /// Returns the size in pixels of a length of 1 at a distance of 1: `height / (2 tan(fov / 2))`.
     fn focal(&self) -> f32 {
-        self.height / (2.0 * (self.vertical_fov * 0.5).tan())
+        self.height / (2.0 * libm::tanf(self.vertical_fov * 0.5))
     }
 }
 

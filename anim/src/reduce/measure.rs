@@ -134,8 +134,8 @@ fn largest_eigenvalue(matrix: DMat3) -> f64 {
     if spread <= 0.0 {
         return mean.max(0.0);
     }
-    let third = ((centered * (1.0 / spread)).determinant() / 2.0).clamp(-1.0, 1.0).acos() / 3.0;
-    mean + 2.0 * spread * third.cos()
+    let third = libm::acos(((centered * (1.0 / spread)).determinant() / 2.0).clamp(-1.0, 1.0)) / 3.0;
+    mean + 2.0 * spread * libm::cos(third)
 }
 
 #[cfg(test)]

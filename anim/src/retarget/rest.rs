@@ -99,9 +99,13 @@ fn common_turn(pairs: &[(DVec3, DVec3)]) -> Option<DQuat> {
     let off_axis = |pair: &&(DVec3, DVec3)| first.cross(pair.0).length();
     let second = pairs.iter().max_by(|a, b| off_axis(a).total_cmp(&off_axis(b)))?;
     let turn = frame(first_wanted, second.1)? * frame(first, second.0)?.conjugate();
-    let fits =
-        |(direction, wanted): &(DVec3, DVec3)| (turn * *direction).angle_between(*wanted) <= SAME_SHAPE;
+    let fits = |(direction, wanted): &(DVec3, DVec3)| angle_between(turn * *direction, *wanted) <= SAME_SHAPE;
     pairs.iter().all(fits).then(|| turn.normalize())
+}
+
+/// Returns the angle between two directions, radians.
+fn angle_between(one: DVec3, other: DVec3) -> f64 {
+    libm::atan2(one.cross(other).length(), one.dot(other))
 }
 
 /// Returns axes from two directions; `None` where they are parallel.

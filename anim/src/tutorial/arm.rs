@@ -7,7 +7,8 @@ use crate::data::{
     Bone, Channel, Influence, Interpolation, Primitive, Skeleton, Skin, Take, Track, Transform, Vertices,
 };
 use crate::sample::sample_take;
-use glam::{Mat4, Quat, Vec3};
+use crate::trig::rotation_about;
+use glam::{DVec3, Mat4, Quat, Vec3};
 
 /// Returns the skeleton after step 1.
 pub fn without_offsets() -> Skeleton {
@@ -57,7 +58,7 @@ pub fn skin() -> Skin {
 
 /// Returns the take of step 5.
 pub fn bend() -> Take {
-    let turns = [Quat::IDENTITY, Quat::from_rotation_z(std::f32::consts::FRAC_PI_2)];
+    let turns = [Quat::IDENTITY, rotation_about(DVec3::Z, std::f64::consts::FRAC_PI_2).as_quat()];
     let rotation = Channel::new([0.0, 1.0], turns, Interpolation::Linear);
     Take {
         name: "bend".to_owned(),

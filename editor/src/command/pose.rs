@@ -8,7 +8,8 @@ use super::run_command::RunCommand;
 use super::table::{Side, Table};
 use dragonfly_anim::data::{ModelData, Transform};
 use dragonfly_anim::evaluator::Evaluator;
-use glam::{EulerRot, Mat4, Vec3};
+use dragonfly_anim::joint::EulerOrder;
+use glam::{Mat4, Vec3};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -189,9 +190,10 @@ impl PoseRow {
         ]);
         for bone in &self.bones {
             let pose = Transform::from_matrix(Mat4::from_cols_array(&bone.to_root));
-            let (x, y, z) = pose.rotation.to_euler(EulerRot::XYZ);
             let numbers = pose.translation.to_array().map(|length| fixed(length, 4));
-            let angles = [x, y, z].map(|angle| fixed(angle.to_degrees(), 2) + "°");
+            let angles = EulerOrder::Xyz
+                .angles(pose.rotation.as_dquat())
+                .map(|angle| fixed(angle.to_degrees() as f32, 2) + "°");
             let scales = pose.scale.to_array().map(|factor| fixed(factor, 3));
             table.row(std::iter::once(named(&bone.name)).chain(numbers).chain(angles).chain(scales));
         }

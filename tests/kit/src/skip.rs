@@ -19,6 +19,8 @@ pub enum TestNeed {
     Adapter,
     /// node, with the packages of the glTF validator and three.js.
     Evaluators,
+    /// A folder with more models than the repository has.
+    Models,
     /// Something of the file system or the kernel: loop devices, attributes, immutable files.
     FileSystem,
     /// A program: python3.
@@ -34,6 +36,7 @@ impl TestNeed {
             Self::Root => "root",
             Self::Adapter => "adapter",
             Self::Evaluators => "evaluators",
+            Self::Models => "models",
             Self::FileSystem => "file-system",
             Self::Program => "program",
             Self::Signal => "signal",
@@ -68,6 +71,19 @@ pub fn evaluators() -> Option<PathBuf> {
     }
     if Command::new("node").arg("--version").output().is_err() {
         skip(TestNeed::Evaluators, "there is no node");
+        return None;
+    }
+    Some(folder)
+}
+
+/// Returns the folder of models that are not part of the repository: that named by `DRAGONFLY_MODELS`, or `shared/assets`
+/// next to the repository. Skips if there is none.
+pub fn models() -> Option<PathBuf> {
+    let named = env::var_os("DRAGONFLY_MODELS").map(PathBuf::from);
+    let near = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets");
+    let folder = named.unwrap_or(near);
+    if !folder.is_dir() {
+        skip(TestNeed::Models, "DRAGONFLY_MODELS names no folder with models");
         return None;
     }
     Some(folder)

@@ -157,8 +157,8 @@ pub(crate) const PLANTS: &[Plant] = &[
     Plant {
         thing: "function in number fields",
         list: "editor/src/control/expression/name.rs",
-        place: ["const FUNCTIONS: &[Function] = &[", "    function!(\"pow\", Plain, f64::powf, 2),"],
-        entry: "    function!(\"hypot\", Plain, f64::hypot, 2),",
+        place: ["const FUNCTIONS: &[Function] = &[", "    function!(\"pow\", Plain, libm::pow, 2),"],
+        entry: "    function!(\"hypot\", Plain, libm::hypot, 2),",
         ..NOTHING
     },
     Plant {

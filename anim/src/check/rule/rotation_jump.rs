@@ -37,5 +37,5 @@ pub(crate) fn check(of: &TakeContext<'_>, findings: &mut Findings) {
 /// Returns the angle in radians, the short way; NaN where a rotation is invalid.
 fn turn_between(from: Quat, to: Quat) -> f32 {
     let (from, to) = (from.normalize(), to.normalize());
-    2.0 * from.dot(to).abs().min(1.0).acos()
+    2.0 * libm::acosf(from.dot(to).abs().min(1.0))
 }

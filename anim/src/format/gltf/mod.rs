@@ -98,13 +98,15 @@ fn read_document(
 
     let locals = node::locals(&root, context)?;
     let globals = node::globals(&graph, &locals, context)?;
-    let skins = skin::skins(&document, &bones)?;
+    let is_shown = scene::shown(&document, &graph)?;
+    let shown_skins = scene::shown_skins(&document, &is_shown)?;
+    let nodes = skin::SkinNodes { bones: &bones, globals: &globals, is_shown: &shown_skins };
+    let skins = skin::skins(&document, &nodes)?;
     let skeleton = scene::skeleton(&document, &graph, &locals, &globals, &bones, &skins.skins)?;
     context.progress(0.3)?;
 
     let images = image::images(&document)?;
     let materials = material::materials(&root, &images.numbers, context)?;
-    let is_shown = scene::shown(&document, &graph)?;
     let meshes = mesh::meshes(&document, &scene::shown_meshes(&document, &is_shown)?)?;
     let parts = scene::SceneParts { meshes: &meshes, skins: &skins.numbers, is_shown: &is_shown };
     let stage = scene::stage(&document, &graph, &locals, skeleton, bones, &parts)?;

@@ -248,6 +248,21 @@ pub(super) fn shown_meshes(document: &GltfDocument<'_>, is_shown: &[bool]) -> Re
     Ok(shown)
 }
 
+/// Returns for each skin whether a node in `is_shown` places a mesh with it.
+pub(super) fn shown_skins(document: &GltfDocument<'_>, is_shown: &[bool]) -> Result<Vec<bool>, ImportError> {
+    let root = document.root;
+    let place = Place::Pointer("/skins".to_owned());
+    let mut shown = document.context.filled(&place, root.skins.len(), false)?;
+    document.context.work(root.nodes.len())?;
+    for (node, _) in root.nodes.iter().zip(is_shown).filter(|(_, is_shown)| **is_shown) {
+        let skin = node.skin.filter(|_| node.mesh.is_some());
+        if let Some(shown) = skin.and_then(|skin| shown.get_mut(skin.value())) {
+            *shown = true;
+        }
+    }
+    Ok(shown)
+}
+
 /// Checks the references of a node that no other module uses.
 fn check_references(document: &GltfDocument<'_>, index: usize) -> Result<(), ImportError> {
     let node = &document.root.nodes[index];

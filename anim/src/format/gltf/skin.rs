@@ -1,6 +1,7 @@
 //! Skins: the joints, and the transforms from bind space to them.
 
 use super::accessor::{GltfDocument, invalid, unresolved};
+use super::buffer::is_missing;
 use super::check as code;
 use super::node::{inverse, set_last_row};
 use crate::data::{BoneIndex, Skin};
@@ -9,7 +10,7 @@ use crate::limits::JOINTS_PER_SKIN;
 use glam::{Mat4, Vec4};
 use gltf::json;
 use gltf::json::accessor::{ComponentType, Type};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Checks the joints of every skin and sets `is_bone` for each of them.
 pub(super) fn mark_joints(document: &GltfDocument<'_>, is_bone: &mut [bool]) -> Result<(), ImportError> {
@@ -52,20 +53,32 @@ pub(super) struct Skins {
 /// lists a joint with two bytes.
 const POSED_BYTES: usize = size_of::<Mat4>() + 12 * size_of::<f32>();
 
-/// Returns all skins; `bones` contains the bone of each node. Skins of a file with the same name, joints and matrices
-/// become one.
-pub(super) fn skins(document: &GltfDocument<'_>, bones: &[Option<BoneIndex>]) -> Result<Skins, ImportError> {
+/// The nodes and the scene, as far as skins need them.
+pub(super) struct SkinNodes<'a> {
+    /// Bone of each node.
+    pub(super) bones: &'a [Option<BoneIndex>],
+    /// Transform of each node to the scene, at rest.
+    pub(super) globals: &'a [Mat4],
+    /// Whether each skin of the file is shown.
+    pub(super) is_shown: &'a [bool],
+}
+
+/// Returns all skins. Skins of a file with the same name, joints and matrices become one. One that is not shown gets
+/// matrices that deform nothing at rest, with a warning, if its buffer is missing.
+pub(super) fn skins(document: &GltfDocument<'_>, nodes: &SkinNodes<'_>) -> Result<Skins, ImportError> {
     let context = document.context;
     let place = Place::Pointer("/skins".to_owned());
     let mut skins = Vec::new();
     let mut numbers = context.vec(&place, document.root.skins.len())?;
+    let key = |skin: &'_ json::Skin| skin.inverse_bind_matrices.map(|accessor| accessor.value());
+    let shown = document.root.skins.iter().zip(nodes.is_shown).filter(|(_, is_shown)| **is_shown);
+    let shown: HashSet<_> = shown.map(|(skin, _)| (&skin.joints, key(skin), &skin.name)).collect();
     let mut known = HashMap::new();
     for (index, skin) in document.root.skins.iter().enumerate() {
         let place = Place::Pointer(format!("/skins/{index}/joints"));
         context.work(skin.joints.len())?;
-        let matrices = skin.inverse_bind_matrices.map(|accessor| accessor.value());
         let next = skins.len() as u32;
-        let number = *known.entry((&skin.joints, matrices, &skin.name)).or_insert(next);
+        let number = *known.entry((&skin.joints, key(skin), &skin.name)).or_insert(next);
         numbers.push(number);
         if number != next {
             continue;
@@ -73,10 +86,23 @@ pub(super) fn skins(document: &GltfDocument<'_>, bones: &[Option<BoneIndex>]) ->
         context.charge(&place, (2 * size_of::<Skin>() + POSED_BYTES * skin.joints.len()) as u64)?;
         let mut joints = context.vec(&place, skin.joints.len())?;
         joints.extend(
-            skin.joints.iter().map(|joint| bones[joint.value()].expect("every joint was marked as a bone")),
+            skin.joints
+                .iter()
+                .map(|joint| nodes.bones[joint.value()].expect("every joint was marked as a bone")),
         );
         let name = skin.name.clone().unwrap_or_default();
-        skins.push(Skin { name, bones: joints, offsets: offsets(document, skin, index)? });
+        let offsets = match offsets(document, skin, index) {
+            Err(error) if is_missing(&error) && !shown.contains(&(&skin.joints, key(skin), &skin.name)) => {
+                let text = format!("the skin is not shown and deforms nothing at rest: {error}");
+                context.warn(place.clone(), error.code(), text);
+                let mut resting = context.vec(&place, skin.joints.len())?;
+                let to_scene = skin.joints.iter().map(|joint| nodes.globals[joint.value()]);
+                resting.extend(to_scene.map(|matrix| inverse(matrix).unwrap_or(Mat4::IDENTITY)));
+                resting
+            }
+            offsets => offsets?,
+        };
+        skins.push(Skin { name, bones: joints, offsets });
     }
     Ok(Skins { skins, numbers })
 }

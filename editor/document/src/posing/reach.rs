@@ -4,6 +4,7 @@ use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{BoneIndex, Skeleton, Transform};
 use dragonfly_anim::ik::{Chain, ChainScratch, EndOrientation, Pole, TwoBone, chain, two_bone};
 use dragonfly_anim::joint::JointLimits;
+use dragonfly_anim::trig::rotation_about;
 use glam::{Mat4, Quat, Vec3};
 use std::collections::BTreeMap;
 
@@ -116,9 +117,9 @@ impl ChainSolver<'_> {
         };
         let towards = aside(pole);
         let (Some(bend), Some(towards)) = (bend.try_normalize(), towards.try_normalize()) else { return };
-        let angle = axis.dot(bend.cross(towards)).atan2(bend.dot(towards));
+        let angle = libm::atan2f(axis.dot(bend.cross(towards)), bend.dot(towards));
         let (_, now, _) = self.to_root[root as usize].to_scale_rotation_translation();
-        self.turn_to(root, Quat::from_axis_angle(axis, angle) * now);
+        self.turn_to(root, rotation_about(axis.as_dvec3(), f64::from(angle)).as_quat() * now);
     }
 
     /// Gives a bone this rotation in scene space.

@@ -95,7 +95,7 @@ impl<'a> Parser<'a> {
         self.next()?;
         let exponent = self.sign()?;
         self.depth -= 1;
-        finite(value.powf(exponent), at)
+        finite(libm::pow(value, exponent), at)
     }
 
     fn with_unit(&mut self) -> ParseResult {

@@ -11,8 +11,9 @@
 //! world can be reached, and the joint stays.
 
 use dragonfly_anim::data::Transform;
+use dragonfly_anim::trig::rotation_about;
 use dragonfly_picture::gizmo::{GizmoAxes, GizmoDelta, GizmoTarget, unit};
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 
 /// Returns the new pose of a bone relative to its parent. `pivot` is the point in the scene that it rotates and scales
 /// about; `None` for its own joint. A delta that changes nothing, and one whose result would not be finite, give the
@@ -32,7 +33,7 @@ pub(super) fn apply(
     match *delta {
         GizmoDelta::Move(by) => pose.translation = moved(target, axes * by),
         GizmoDelta::Rotate { axis, angle } => {
-            let turn = DQuat::from_axis_angle((axes * axis).normalize_or(DVec3::Y), frame.sign * angle);
+            let turn = rotation_about((axes * axis).normalize_or(DVec3::Y), frame.sign * angle);
             let parent = target.parent_frame().rotation();
             let own = unit(start.rotation.as_dquat());
             pose.rotation = unit(parent.conjugate() * turn * parent * own).as_quat().normalize();

@@ -114,7 +114,7 @@ impl Measure {
             MeasureKind::Ring { normal, sign, zero, last, total } => {
                 let from = view.on_plane(pointer, pivot, *normal) - pivot;
                 if from.length() > NO_ANGLE * unit {
-                    let angle = from.dot(normal.cross(*zero)).atan2(from.dot(*zero));
+                    let angle = libm::atan2(from.dot(normal.cross(*zero)), from.dot(*zero));
                     let turned = angle - last.unwrap_or(angle);
                     // Of the two directions of rotation, the shorter one counts.
                     *total += turned - TAU * (turned / TAU).round();

@@ -2,7 +2,7 @@
 
 use crate::panels::properties::turn;
 use dragonfly_anim::joint::EulerOrder;
-use glam::{DQuat, EulerRot, Quat};
+use glam::{DQuat, Quat};
 
 /// The form in which rotations are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,9 +34,9 @@ impl RotationForm {
     }
 
     /// Returns the order and the axis of each of its angles; `None` for quaternions.
-    fn order(self) -> Option<(EulerRot, [usize; 3])> {
+    fn order(self) -> Option<(EulerOrder, [usize; 3])> {
         match self {
-            Self::Euler(order) => Some((order.of_glam(), order.axes())),
+            Self::Euler(order) => Some((order, order.axes())),
             Self::Quaternion => None,
         }
     }
@@ -54,7 +54,7 @@ impl RotationForm {
             return near;
         }
         let near = near.map(f64::from);
-        let (a, b, c) = unit.to_euler(order);
+        let [a, b, c] = order.angles(unit);
         // The other set of angles for the same rotation, whose middle angle is beyond a right angle.
         let half = std::f64::consts::PI;
         let sets = [[a, b, c], [a + half, half - b, c + half]];
@@ -78,10 +78,7 @@ impl RotationForm {
 
     fn exact(self, numbers: [f64; 4]) -> DQuat {
         match self.order() {
-            Some((order, axes)) => {
-                let [a, b, c] = axes.map(|axis| numbers[axis].to_radians());
-                DQuat::from_euler(order, a, b, c)
-            }
+            Some((order, axes)) => order.rotation(axes.map(|axis| numbers[axis].to_radians())),
             None => {
                 let raw = DQuat::from_array(numbers);
                 if raw.length_squared() > 1e-12 { raw.normalize() } else { DQuat::IDENTITY }

@@ -2,11 +2,6 @@
 
 use dragonfly_anim::joint::EulerOrder;
 use glam::DQuat;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-/// Distance from 90° below which the first and the third rotation are about the same line, radians. A thousand times
-/// the rounding error of single precision.
-const LOCKED: f64 = 1e-6;
 
 /// Returns the usual name: `XYZ`.
 pub fn name(order: EulerOrder) -> &'static str {
@@ -27,41 +22,17 @@ pub fn order(text: &str) -> Option<EulerOrder> {
 
 /// Returns the rotation of three angles in degrees: those about x, y, z, whatever the order.
 pub fn rotation(order: EulerOrder, degrees: [f64; 3]) -> DQuat {
-    let [a, b, c] = order.axes().map(|axis| (degrees[axis] % 360.0).to_radians());
-    DQuat::from_euler(order.of_glam(), a, b, c)
+    order.rotation(order.axes().map(|axis| (degrees[axis] % 360.0).to_radians()))
 }
 
 /// Returns three angles in degrees, those about x, y, z: between −180 and 180, the second one of the order between −90
 /// and 90. If that one is 90 or −90, the last one of the order is 0.
-///
-/// After Bernardes and Viollet (PLOS ONE 17(11), 2022), because it is as exact near 90° as elsewhere; the conversion by
-/// a matrix loses half of the digits there.
 pub fn degrees(order: EulerOrder, rotation: DQuat) -> [f64; 3] {
-    let [first, middle, last] = order.axes();
-    // The method names the axes of an extrinsic rotation, which is applied in the opposite order.
-    let (i, j, k) = (last, middle, first);
-    let sign = if (i + 1) % 3 == j { 1.0 } else { -1.0 };
-    let q = rotation.normalize().to_array();
-    let (a, b) = (q[3] - q[j], q[i] + q[k] * sign);
-    let (c, d) = (q[j] + q[3], q[k] * sign - q[i]);
-    let second = 2.0 * c.hypot(d).atan2(a.hypot(b));
-    let (sum, difference) = (b.atan2(a), d.atan2(c));
-    let (of_first, of_last) = if second <= LOCKED {
-        (2.0 * sum * sign, 0.0)
-    } else if second >= PI - LOCKED {
-        (2.0 * difference * sign, 0.0)
-    } else {
-        ((sum + difference) * sign, sum - difference)
-    };
     let mut out = [0.0; 3];
-    for (axis, angle) in [(first, of_first), (middle, second - FRAC_PI_2), (last, of_last)] {
-        out[axis] = wrapped(angle).to_degrees();
+    for (axis, angle) in order.axes().into_iter().zip(order.angles(rotation)) {
+        out[axis] = angle.to_degrees();
     }
     out
-}
-
-fn wrapped(angle: f64) -> f64 {
-    if (-PI..=PI).contains(&angle) { angle } else { angle - (angle / TAU).round() * TAU }
 }
 
 /// Serializes the order by its name.

@@ -219,26 +219,30 @@ impl Draft {
     }
 
     /// Returns the JSON value of a new animation.
-    pub(super) fn fresh(&self, accessors: &[usize]) -> Fresh {
+    pub(super) fn fresh<'f>(&'f self, accessors: &'f [usize]) -> Fresh<'f> {
         let mut members = Vec::new();
         if let Some(name) = self.name.as_ref().filter(|name| !name.is_empty()) {
             members.push(("name", Fresh::string(name)));
         }
-        let channels = self.channels.iter().filter_map(|channel| match channel {
-            ChannelDraft::New(target, sampler) => Some(fresh_channel(*target, *sampler)),
+        let new = self.channels.iter().filter_map(|channel| match channel {
+            ChannelDraft::New(target, sampler) => Some((*target, *sampler)),
             ChannelDraft::Moved(..) => None,
         });
-        members.push(("channels", Fresh::Array(channels.collect())));
-        let samplers = self.samplers.iter().map(|sampler| {
+        let new: Vec<(ChannelTarget, usize)> = new.collect();
+        let count = new.len();
+        let channel = move |number: usize| fresh_channel(new[number].0, new[number].1);
+        members.push(("channels", Fresh::Items(count, Box::new(channel))));
+        let sampler = move |number: usize| {
+            let sampler = &self.samplers[number];
             let (input, output) = sampler.accessors(accessors);
             sampler.fresh(input, output)
-        });
-        members.push(("samplers", Fresh::Array(samplers.collect())));
+        };
+        members.push(("samplers", Fresh::Items(self.samplers.len(), Box::new(sampler))));
         Fresh::Object(members)
     }
 }
 
-fn fresh_channel((node, path): ChannelTarget, sampler: usize) -> Fresh {
+fn fresh_channel<'f>((node, path): ChannelTarget, sampler: usize) -> Fresh<'f> {
     let target = vec![("node", Fresh::whole(node as usize)), ("path", Fresh::string(path.name()))];
     Fresh::Object(vec![("sampler", Fresh::whole(sampler)), ("target", Fresh::Object(target))])
 }
@@ -249,7 +253,7 @@ impl SamplerDraft {
         (self.input.accessor(accessors), self.output.accessor(accessors))
     }
 
-    fn fresh(&self, input: usize, output: usize) -> Fresh {
+    fn fresh<'f>(&self, input: usize, output: usize) -> Fresh<'f> {
         let mut members = vec![("input", Fresh::whole(input)), ("output", Fresh::whole(output))];
         if self.interpolation != "LINEAR" {
             members.insert(1, ("interpolation", Fresh::string(self.interpolation)));

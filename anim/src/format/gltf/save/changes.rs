@@ -1,7 +1,7 @@
 //! Description of what a save will change.
 
 use crate::format::one_line;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -147,40 +147,39 @@ impl Changes {
 
     /// Returns the changes as one line of JSON text.
     pub fn to_json(&self) -> String {
-        let takes: Vec<_> =
-            self.takes.iter().map(|(name, c)| json!({"name": name, "change": word(c)})).collect();
-        let channels: Vec<_> = self
-            .channels
-            .iter()
-            .map(|c| {
-                json!({"take": c.take, "node": c.node, "bone": c.bone, "path": c.path, "change": word(&c.change)})
-            })
-            .collect();
-        let accessors: Vec<_> = self
-            .accessors
-            .iter()
-            .map(|a| {
-                json!({"accessor": a.accessor, "bufferView": a.view, "type": a.shape, "count": a.count,
-                       "bytes": a.bytes, "reused": a.is_reused})
-            })
-            .collect();
-        let tokens: Vec<_> = self
-            .tokens
-            .iter()
-            .map(|t| {
-                json!({"pointer": t.pointer, "offset": t.offset, "length": t.length, "old": t.old, "new": t.new,
-                       "newLength": t.new_length})
-            })
-            .collect();
-        let lost: Vec<_> =
-            self.bones_lost.iter().map(|(node, name)| json!({"node": node, "bone": name})).collect();
-        json!({
-            "bonesLost": lost, "takes": takes, "channels": channels, "nodes": self.nodes, "accessors": accessors, "tokens": tokens,
-            "bytesAppended": self.bytes_appended, "bytesReused": self.bytes_reused,
-            "bytesRemoved": self.bytes_removed, "files": self.files, "filesLeft": self.files_left,
-        })
-        .to_string()
+        let mut out = String::from("{");
+        list(&mut out, "accessors", &self.accessors, |a| {
+            json!({"accessor": a.accessor, "bufferView": a.view, "type": a.shape, "count": a.count,
+                   "bytes": a.bytes, "reused": a.is_reused})
+        });
+        list(&mut out, "bonesLost", &self.bones_lost, |(node, name)| json!({"node": node, "bone": name}));
+        list(
+            &mut out,
+            "channels",
+            &self.channels,
+            |c| json!({"take": c.take, "node": c.node, "bone": c.bone, "path": c.path, "change": word(&c.change)}),
+        );
+        list(&mut out, "files", &self.files, |name| json!(name));
+        list(&mut out, "filesLeft", &self.files_left, |name| json!(name));
+        list(&mut out, "nodes", &self.nodes, |node| json!(node));
+        list(&mut out, "takes", &self.takes, |(name, c)| json!({"name": name, "change": word(c)}));
+        list(&mut out, "tokens", &self.tokens, |t| {
+            json!({"pointer": t.pointer, "offset": t.offset, "length": t.length, "old": t.old, "new": t.new,
+                   "newLength": t.new_length})
+        });
+        let (more, reused, fewer) = (self.bytes_appended, self.bytes_reused, self.bytes_removed);
+        out + &format!("\"bytesAppended\":{more},\"bytesRemoved\":{fewer},\"bytesReused\":{reused}}}")
     }
+}
+
+/// Appends a list as a member, and a comma. Each element is text before the next one is made.
+fn list<T>(out: &mut String, name: &str, items: &[T], json: impl Fn(&T) -> Value) {
+    *out += &format!("\"{name}\":[");
+    for (number, item) in items.iter().enumerate() {
+        *out += if number > 0 { "," } else { "" };
+        *out += &json(item).to_string();
+    }
+    *out += "],";
 }
 
 /// Returns a number with its noun: `1 channel`, `2 channels`.

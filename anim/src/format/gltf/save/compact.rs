@@ -86,7 +86,7 @@ fn needed(document: &SourceDocument<'_>, slot: &SavedSlot) -> usize {
 }
 
 /// Returns the accessor with another view.
-fn moved_accessor(document: &SourceDocument<'_>, accessor: usize, view: usize) -> Fresh {
+fn moved_accessor(document: &SourceDocument<'_>, accessor: usize, view: usize) -> Fresh<'static> {
     let (json, id) = (document.json, document.accessors[accessor]);
     let mut members = vec![("name", Fresh::string(MARK)), ("bufferView", Fresh::whole(view))];
     for name in ["componentType", "count", "type", "min", "max"] {
@@ -98,7 +98,7 @@ fn moved_accessor(document: &SourceDocument<'_>, accessor: usize, view: usize) -
 }
 
 /// Copies a token, or a list of tokens.
-fn copied(document: &SourceDocument<'_>, id: ValueId) -> Fresh {
+fn copied(document: &SourceDocument<'_>, id: ValueId) -> Fresh<'static> {
     let json = document.json;
     let raw = |id| Fresh::Raw(String::from_utf8_lossy(json.token(id)).into_owned());
     match json.items(id).next() {

@@ -60,34 +60,44 @@ impl<'d, 'a> Draw<'d, 'a> {
         }
     }
 
-    /// Appends elements to a list of the root, which is created if needed.
-    pub(super) fn append(&mut self, name: &'static str, items: Vec<Fresh>) -> Result<(), SaveError> {
-        if items.is_empty() {
+    /// Appends `count` elements to a list of the root, which is created if needed.
+    pub(super) fn append<'f>(
+        &mut self,
+        name: &'static str,
+        count: usize,
+        item: impl Fn(usize) -> Fresh<'f> + 'f,
+    ) -> Result<(), SaveError> {
+        if count == 0 {
             return Ok(());
         }
         let json = self.document.json;
         let Some(list) = self.list(name)? else {
-            self.new_list(name, items);
+            self.new_list(name, count, item);
             return Ok(());
         };
         let spot = self.spot(name);
         let last = json.items(list).last();
-        let inserted = items.iter().map(|item| (last, self.style.write(item, &spot))).collect();
+        let inserted = (0..count).map(|number| (last, self.style.write(&item(number), &spot))).collect();
         let change = ListEdit { removed: Vec::new(), inserted };
         self.patches.extend(edit(json, list, &change, &self.style, &spot, &format!("/{name}")));
         Ok(())
     }
 
-    /// Adds a list to the root.
-    pub(super) fn new_list(&mut self, name: &'static str, items: Vec<Fresh>) {
+    /// Adds a list of `count` elements to the root.
+    pub(super) fn new_list<'f>(
+        &mut self,
+        name: &'static str,
+        count: usize,
+        item: impl Fn(usize) -> Fresh<'f> + 'f,
+    ) {
         let json = self.document.json;
         let spot = self.style.spot(json, Some(0), 1).with_lines(&self.style);
         let last = json.items(0).filter(|item| !self.root.removed.contains(item)).last();
-        self.root.inserted.push((last, self.style.member(name, &Fresh::Array(items), &spot)));
+        self.root.inserted.push((last, self.style.member(name, &Fresh::Items(count, Box::new(item)), &spot)));
     }
 
     /// Replaces an element by `fresh`, unless it has this text already.
-    pub(super) fn replace(&mut self, id: ValueId, list: &'static str, number: usize, fresh: &Fresh) {
+    pub(super) fn replace(&mut self, id: ValueId, list: &'static str, number: usize, fresh: &Fresh<'_>) {
         let json = self.document.json;
         let spot = self.spot(list);
         let text = self.style.write(fresh, &spot);
@@ -113,7 +123,7 @@ impl<'d, 'a> Draw<'d, 'a> {
         self.changes.bytes_removed = old.len().saturating_sub(end);
         let within = |write: &(usize, Vec<u8>)| write.1.len().min(old.len().saturating_sub(write.0));
         self.changes.bytes_reused = writes.iter().map(within).sum();
-        let mut members = vec![("name", Fresh::string(MARK)), ("byteLength", Fresh::whole(end))];
+        let mut members = vec![("name", quoted(MARK)), ("byteLength", end.to_string())];
         let uri = match target.home {
             BufferHome::Chunk => None,
             BufferHome::DataUri => None,
@@ -123,8 +133,11 @@ impl<'d, 'a> Draw<'d, 'a> {
             BufferHome::OurFile | BufferHome::NewFile => Some(self.neighbor_file(target, old, &tail)),
         };
         if target.is_new(document) {
-            members.extend(uri.map(|uri| ("uri", Fresh::Raw(quoted(&uri)))));
-            self.append("buffers", vec![Fresh::Object(members)])?;
+            members.extend(uri.map(|uri| ("uri", quoted(&uri))));
+            self.append("buffers", 1, move |_| {
+                let member = |(name, token): &(&'static str, String)| (*name, Fresh::Raw(token.clone()));
+                Fresh::Object(members.iter().map(member).collect())
+            })?;
         } else {
             self.adjust(target, end, old, &tail, uri)?;
         }

@@ -51,7 +51,7 @@ pub(super) fn without_matrix<'t>(
     Ok(())
 }
 
-fn parts(bone: &Bone) -> [(&'static str, Fresh); 3] {
+fn parts(bone: &Bone) -> [(&'static str, Fresh<'static>); 3] {
     let array =
         |numbers: &[f32]| Fresh::Array(numbers.iter().map(|&value| Fresh::Raw(number(value))).collect());
     [

@@ -4,7 +4,6 @@ use super::draw::Draw;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};
 use super::json::patch::{TextPatch, patched, sort};
-use super::json::style::Fresh;
 use super::planned::TakeDraft;
 use std::collections::HashSet;
 
@@ -19,9 +18,8 @@ pub(super) fn write_animations(
     let json = document.json;
     let list = draw.list("animations")?;
     let Some(list) = list else {
-        let fresh: Vec<Fresh> = takes.iter().map(|take| take.draft.fresh(accessors)).collect();
-        if !fresh.is_empty() {
-            draw.new_list("animations", fresh);
+        if !takes.is_empty() {
+            draw.new_list("animations", takes.len(), |take| takes[take].draft.fresh(accessors));
         }
         return Ok(());
     };

@@ -156,28 +156,22 @@ fn write_numbers(
     }
     let mut end = target.present.next_multiple_of(4);
     let granted = grant(&requests, free, &mut end);
-    let (mut new_accessors, mut new_views, mut writes) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut added, mut writes) = (Vec::new(), Vec::new());
     for (need, granted) in open.into_iter().zip(granted) {
         let (accessor, view) = match granted.slot {
             Some(slot) => (slot.accessor, slot.view),
             None => {
-                let number = new_accessors.len();
+                let number = added.len();
+                added.push((need, granted));
                 (document.accessors.len() + number, document.views.len() + number)
             }
         };
         accessors[need] = Some(accessor);
         let need = &needs.list[need];
-        let (fresh_accessor, fresh_view) = (fresh_accessor(need, view), fresh_view(target.index, &granted));
-        match granted.slot {
-            Some(slot) => {
-                draw.replace(document.accessors[accessor], "accessors", accessor, &fresh_accessor);
-                if slot.room != granted.room {
-                    draw.replace(document.views[view], "bufferViews", view, &fresh_view);
-                }
-            }
-            None => {
-                new_accessors.push(fresh_accessor);
-                new_views.push(fresh_view);
+        if let Some(slot) = granted.slot {
+            draw.replace(document.accessors[accessor], "accessors", accessor, &fresh_accessor(need, view));
+            if slot.room != granted.room {
+                draw.replace(document.views[view], "bufferViews", view, &fresh_view(target.index, &granted));
             }
         }
         // Content that is already there, byte for byte, is not written again.
@@ -193,8 +187,10 @@ fn write_numbers(
             is_reused: granted.slot.is_some(),
         });
     }
-    draw.append("accessors", new_accessors)?;
-    draw.append("bufferViews", new_views)?;
+    let accessor =
+        |number: usize| fresh_accessor(&needs.list[added[number].0], document.views.len() + number);
+    draw.append("accessors", added.len(), accessor)?;
+    draw.append("bufferViews", added.len(), |number| fresh_view(target.index, &added[number].1))?;
     let end = if end == target.present.next_multiple_of(4) { target.present } else { end };
     draw.buffer(target, &writes, end)?;
     Ok(accessors.into_iter().flatten().collect())
@@ -229,7 +225,7 @@ fn input_bytes<'b>(document: &SourceDocument<'_>, slot: &SavedSlot, bytes: &'b [
     bytes.get(slot.offset..slot.offset + size).filter(|_| is_input)
 }
 
-pub(super) fn fresh_accessor(need: &Need, view: usize) -> Fresh {
+pub(super) fn fresh_accessor<'f>(need: &Need, view: usize) -> Fresh<'f> {
     debug_assert_eq!(need.bytes.len(), need.count * shape_width(need.shape) * 4);
     let mut members = vec![
         ("name", Fresh::string(MARK)),
@@ -245,7 +241,7 @@ pub(super) fn fresh_accessor(need: &Need, view: usize) -> Fresh {
     Fresh::Object(members)
 }
 
-pub(super) fn fresh_view(buffer: usize, granted: &Granted) -> Fresh {
+pub(super) fn fresh_view<'f>(buffer: usize, granted: &Granted) -> Fresh<'f> {
     Fresh::Object(vec![
         ("name", Fresh::string(MARK)),
         ("buffer", Fresh::whole(buffer)),

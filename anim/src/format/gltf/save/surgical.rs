@@ -20,11 +20,11 @@ pub(in super::super) fn open(
 
 impl SurgicalFile for SourceFile {
     fn plan(&self, opened: &ModelData, takes: &[EditedTake]) -> Result<SavePlan, ExportError> {
-        Ok(SavePlan::from(&plan(self, opened, takes)?))
+        Ok(SavePlan::from(plan(self, opened, takes)?))
     }
 
     fn compact(&self) -> Result<SavePlan, ExportError> {
-        Ok(SavePlan::from(&compact(self)?))
+        Ok(SavePlan::from(compact(self)?))
     }
 
     fn neighbors(&self) -> Vec<String> {
@@ -49,11 +49,13 @@ impl SourceFile {
     }
 }
 
-impl From<&Plan<'_>> for SavePlan {
-    fn from(plan: &Plan<'_>) -> Self {
-        let changes = plan.changes();
+impl From<Plan<'_>> for SavePlan {
+    fn from(plan: Plan<'_>) -> Self {
+        let files = plan.write();
+        // The texts of the patches are in the files now.
+        let Plan { changes, .. } = plan;
         let report = ChangeReport { text: changes.to_string(), json: changes.to_json() };
-        Self { files: plan.write(), lost: Vec::new(), changes: Some(report) }
+        Self { files, lost: Vec::new(), changes: Some(report) }
     }
 }
 

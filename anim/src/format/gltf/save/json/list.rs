@@ -2,7 +2,7 @@
 
 use super::patch::TextPatch;
 use super::style::{JsonSpot, JsonStyle, gap, lead};
-use super::tree::{Json, ValueId};
+use super::tree::{Json, JsonKind, ValueId};
 
 /// An edit of an array or object.
 #[derive(Clone, Debug, Default)]
@@ -52,19 +52,24 @@ pub(in super::super) fn edit(
         _ => style.comma().to_owned(),
     });
     let first = items.iter().zip(&stays).find(|(_, stays)| **stays).map(|(item, _)| *item);
-    for (after, text) in &edit.inserted {
-        let patch = match (after, first) {
-            (None, Some(first)) => {
-                let at = json.item_span(first).start;
-                TextPatch::new(at..at, format!("{text},{between}"), pointer)
-            }
-            (Some(item), _) => {
-                let at = json.item_span(*item).end;
-                TextPatch::new(at..at, format!(",{between}{text}"), pointer)
-            }
+    // Elements that follow the same one become one patch. Each member of an object has its own, by which users see its name.
+    let is_array = json.kind(list) == JsonKind::Array;
+    for new in edit.inserted.chunk_by(|a, b| is_array && a.0 == b.0) {
+        let at = match (new[0].0, first) {
+            (None, Some(first)) => json.item_span(first).start,
+            (Some(item), _) => json.item_span(item).end,
             (None, None) => continue,
         };
-        patches.push(patch);
+        let length = new.iter().map(|(_, text)| text.len() + between.len() + 1).sum();
+        let mut text = String::with_capacity(length);
+        for (after, item) in new {
+            let parts = match after {
+                Some(_) => [",", &between, item],
+                None => [item, ",", &between],
+            };
+            text.extend(parts);
+        }
+        patches.push(TextPatch::new(at..at, text, pointer));
     }
     patches
 }

@@ -6,15 +6,16 @@
 use super::tree::{Json, JsonKind, ValueId};
 
 /// A value to be written.
-#[derive(Clone, Debug)]
-pub(in super::super) enum Fresh {
+pub(in super::super) enum Fresh<'a> {
     /// A token as it is.
     Raw(String),
-    Object(Vec<(&'static str, Fresh)>),
-    Array(Vec<Fresh>),
+    Object(Vec<(&'static str, Fresh<'a>)>),
+    Array(Vec<Fresh<'a>>),
+    /// An array of that many objects or arrays. Each is made when it is written, so that hundreds of thousands need no memory.
+    Items(usize, Box<dyn Fn(usize) -> Fresh<'a> + 'a>),
 }
 
-impl Fresh {
+impl Fresh<'_> {
     /// Returns a whole number.
     pub(in super::super) fn whole(number: usize) -> Self {
         Self::Raw(number.to_string())
@@ -105,14 +106,14 @@ impl JsonStyle {
     }
 
     /// Returns the text of a value at a position.
-    pub(in super::super) fn write(&self, value: &Fresh, spot: &JsonSpot) -> String {
+    pub(in super::super) fn write(&self, value: &Fresh<'_>, spot: &JsonSpot) -> String {
         let mut out = String::new();
         self.put(value, &spot.indent, spot.several_lines, spot.inner_lines, &mut out);
         out
     }
 
     /// Returns the text of a member at a position.
-    pub(in super::super) fn member(&self, name: &str, value: &Fresh, spot: &JsonSpot) -> String {
+    pub(in super::super) fn member(&self, name: &str, value: &Fresh<'_>, spot: &JsonSpot) -> String {
         format!("\"{name}\"{}{}", self.colon, self.write(value, spot))
     }
 
@@ -133,11 +134,12 @@ impl JsonStyle {
         &self.comma
     }
 
-    fn put(&self, value: &Fresh, indent: &str, several: bool, inner: bool, out: &mut String) {
+    fn put(&self, value: &Fresh<'_>, indent: &str, several: bool, inner: bool, out: &mut String) {
         let (brackets, count) = match value {
             Fresh::Raw(token) => return out.push_str(token),
             Fresh::Object(members) => (['{', '}'], members.len()),
             Fresh::Array(items) => (['[', ']'], items.len()),
+            Fresh::Items(count, _) => (['[', ']'], *count),
         };
         let is_numbers =
             matches!(value, Fresh::Array(items) if items.iter().all(|i| matches!(i, Fresh::Raw(_))));
@@ -160,6 +162,7 @@ impl JsonStyle {
                     self.put(value, &deeper, inner, inner, out);
                 }
                 Fresh::Array(items) => self.put(&items[number], &deeper, inner, inner, out),
+                Fresh::Items(_, item) => self.put(&item(number), &deeper, inner, inner, out),
                 Fresh::Raw(_) => {}
             }
         }
