@@ -1,7 +1,8 @@
 //! Skinning on the CPU: positions and normals moved by bones, eight vertices at once (thesis §2.1.4).
 //!
 //! ```text
-//! M        = Σ weight_i * final[joint_i]                    one vertex after the other, two rows in one register
+//! M        = Σ weight_i * final[joint_i]                    one or two influences: two vertices at once;
+//!                                                           more: one after the other, two rows in one register
 //! morphed  = stored + Σ weight_t * difference_t             from here on eight vertices at once
 //! position = M * position
 //! normal   = normalize(sign(determinant) * cofactors(M) * normal)
@@ -9,7 +10,7 @@
 //!
 //! The sum of matrices and the sum of moved positions are the same; the matrix is used for the normal too. Its
 //! cofactors, the transposed inverse but for its length, keep normals at right angles to the surface under any scale;
-//! see [`crate::skin`].
+//! see [`crate::skin`]. [`skin_vertices_by_matrix`] leaves that out.
 
 use super::matrix::{IDENTITY, Matrix34, lower, mat4, upper};
 use super::morph::{Differences, ShapeBlock};
@@ -135,7 +136,27 @@ pub fn skin_vertices(
 ) -> usize {
     let count = vertices.count.min(positions.len()).min(normals.len());
     let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
-    level.run(SkinKernel::<false> { vertices, morph_weights: &[], finals, positions, normals });
+    let wanted = count.div_ceil(LANES);
+    level.run(SkinKernel::<true> { wanted, vertices, morph_weights: &[], finals, positions, normals });
+    count
+}
+
+/// As [`skin_vertices`], but normals are moved by the matrix itself and not normalized, which costs less.
+///
+/// Right where matrices rotate, and also scale by one factor for all axes; the normals of several influences, and of
+/// scaled bones, are then not of unit length, so a shader has to normalize them. A normal that is not finite is left as
+/// stored. Allocates nothing.
+pub fn skin_vertices_by_matrix(
+    level: SimdLevel,
+    vertices: &SkinnedVertices,
+    finals: &[Matrix34],
+    positions: &mut [[f32; 3]],
+    normals: &mut [[f32; 3]],
+) -> usize {
+    let count = vertices.count.min(positions.len()).min(normals.len());
+    let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
+    let wanted = count.div_ceil(LANES);
+    level.run(SkinKernel::<false> { wanted, vertices, morph_weights: &[], finals, positions, normals });
     count
 }
 
@@ -154,15 +175,15 @@ pub fn skin_morphed_vertices(
 ) -> usize {
     let count = vertices.count.min(positions.len()).min(normals.len());
     let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
-    if vertices.differences.are_added(morph_weights) {
-        level.run(SkinKernel::<true> { vertices, morph_weights, finals, positions, normals });
-    } else {
-        level.run(SkinKernel::<false> { vertices, morph_weights, finals, positions, normals });
-    }
+    let wanted = count.div_ceil(LANES);
+    level.run(SkinKernel::<true> { wanted, vertices, morph_weights, finals, positions, normals });
     count
 }
 
-struct SkinKernel<'a, const MORPHED: bool> {
+/// `EXACT`: whether normals are exact and of unit length.
+struct SkinKernel<'a, const EXACT: bool> {
+    /// Number of blocks to be moved, the last one possibly in part.
+    wanted: usize,
     vertices: &'a SkinnedVertices,
     morph_weights: &'a [f32],
     finals: &'a [Matrix34],
@@ -170,7 +191,7 @@ struct SkinKernel<'a, const MORPHED: bool> {
     normals: &'a mut [[f32; 3]],
 }
 
-impl<const MORPHED: bool> Kernel for SkinKernel<'_, MORPHED> {
+impl<const EXACT: bool> Kernel for SkinKernel<'_, EXACT> {
     type Output = ();
 
     #[inline(always)]
@@ -193,35 +214,40 @@ impl<const MORPHED: bool> Kernel for SkinKernel<'_, MORPHED> {
 /// Eight points, one after the other.
 type PointBlock = [f32; 3 * LANES];
 
-impl<const MORPHED: bool> SkinKernel<'_, MORPHED> {
+impl<const EXACT: bool> SkinKernel<'_, EXACT> {
     #[inline(always)]
     fn with<S: Simd>(self, finals: &(impl Finals + ?Sized)) {
         let Self { vertices, morph_weights, positions, normals, .. } = self;
+        let is_morphed = vertices.differences.are_added(morph_weights);
         let (points, last_points) = positions.as_flattened_mut().as_chunks_mut();
         let (directions, last_directions) = normals.as_flattened_mut().as_chunks_mut();
-        let mut blocks = vertices.blocks.iter().enumerate();
-        let mut matrices = [PADDED_IDENTITY; LANES];
-        for ((moved, turned), (at, block)) in points.iter_mut().zip(directions).zip(&mut blocks) {
-            weigh_block::<S>(vertices.influences_of(block), finals, &mut matrices);
-            if MORPHED {
-                let shape = vertices.differences.added::<S>(at, &block.shape, morph_weights);
-                move_block::<S>(&shape, &block.shape, &matrices, moved, turned);
+        let (mut points, mut directions) = (points.iter_mut(), directions.iter_mut());
+        // For the last block, of which fewer than eight vertices are wanted.
+        let (mut moved, mut turned) = ([0.0; 3 * LANES], [0.0; 3 * LANES]);
+        let wanted = vertices.blocks.iter().take(self.wanted);
+        for (at, block) in wanted.enumerate() {
+            let influences = vertices.influences_of(block);
+            let (moved, turned) = match (points.next(), directions.next()) {
+                (Some(points), Some(directions)) => (points, directions),
+                (None, _) | (_, None) => (&mut moved, &mut turned),
+            };
+            let morphed;
+            let shape = if is_morphed {
+                morphed = vertices.differences.added::<S>(at, &block.shape, morph_weights);
+                &morphed
             } else {
-                move_block::<S>(&block.shape, &block.shape, &matrices, moved, turned);
+                &block.shape
+            };
+            if !move_block::<S, EXACT>(influences, shape, finals, moved, turned) {
+                let matrices = weigh_carefully(influences, self.finals);
+                carefully(EXACT, shape, &block.shape, &matrices, moved, turned);
             }
         }
-        // Fewer than eight are left.
-        if let Some((at, block)) = blocks.next().filter(|_| !last_points.is_empty()) {
-            let (mut moved, mut turned) = ([0.0; 3 * LANES], [0.0; 3 * LANES]);
-            weigh_block::<S>(vertices.influences_of(block), finals, &mut matrices);
-            let shape = vertices.differences.added::<S>(at, &block.shape, morph_weights);
-            move_block::<S>(&shape, &block.shape, &matrices, &mut moved, &mut turned);
-            for (to, from) in last_points.iter_mut().zip(&moved) {
-                *to = *from;
-            }
-            for (to, from) in last_directions.iter_mut().zip(&turned) {
-                *to = *from;
-            }
+        for (to, from) in last_points.iter_mut().zip(&moved) {
+            *to = *from;
+        }
+        for (to, from) in last_directions.iter_mut().zip(&turned) {
+            *to = *from;
         }
     }
 }
@@ -232,6 +258,8 @@ trait Finals {
     fn upper<S: Simd>(&self, joint: u16) -> S::F8;
     /// Returns row 2, and four meaningless numbers.
     fn lower<S: Simd>(&self, joint: u16) -> S::F8;
+    /// Returns row `row`.
+    fn row(&self, joint: u16, row: usize) -> &[f32; 4];
 }
 
 impl Finals for [Matrix34] {
@@ -243,6 +271,11 @@ impl Finals for [Matrix34] {
     #[inline(always)]
     fn lower<S: Simd>(&self, joint: u16) -> S::F8 {
         S::F8::twice(lower(self.get(usize::from(joint)).unwrap_or(&IDENTITY)))
+    }
+
+    #[inline(always)]
+    fn row(&self, joint: u16, row: usize) -> &[f32; 4] {
+        &self.get(usize::from(joint)).unwrap_or(&IDENTITY).as_chunks().0[row % 3]
     }
 }
 
@@ -256,6 +289,87 @@ impl Finals for MatrixTable {
     fn lower<S: Simd>(&self, joint: u16) -> S::F8 {
         S::F8::load(&self[usize::from(joint as u8)].0.as_chunks().0[1])
     }
+
+    #[inline(always)]
+    fn row(&self, joint: u16, row: usize) -> &[f32; 4] {
+        &self[usize::from(joint as u8)].0.as_chunks().0[row % 3]
+    }
+}
+
+/// The weighted sums of the matrices of eight vertices: the columns of each row.
+type Sums<S> = [[<S as Simd>::F8; 4]; 3];
+
+/// Moves eight vertices; `shape` are their values after morphing. Returns false if a result is not finite or a normal
+/// has no direction.
+#[inline(always)]
+fn move_block<S: Simd, const EXACT: bool>(
+    influences: &[InfluenceBlock],
+    shape: &ShapeBlock,
+    finals: &(impl Finals + ?Sized),
+    moved: &mut PointBlock,
+    turned: &mut PointBlock,
+) -> bool {
+    // Written out, so that the sums of one and two influences stay in registers.
+    match influences {
+        [a] if S::IS_WIDE => move_by::<S, EXACT>(&few::<S, 1>([a], finals), shape, moved, turned),
+        [a, b] if S::IS_WIDE => move_by::<S, EXACT>(&few::<S, 2>([a, b], finals), shape, moved, turned),
+        more => {
+            let mut matrices = [PADDED_IDENTITY; LANES];
+            weigh_block::<S>(more, finals, &mut matrices);
+            let sums = [columns::<S>(&matrices, 0), columns::<S>(&matrices, 1), columns::<S>(&matrices, 2)];
+            move_by::<S, EXACT>(&sums, shape, moved, turned)
+        }
+    }
+}
+
+/// Computes the sums of one or two influences, two vertices at once.
+#[inline(always)]
+fn few<S: Simd, const N: usize>(
+    influences: [&InfluenceBlock; N],
+    finals: &(impl Finals + ?Sized),
+) -> Sums<S> {
+    [
+        few_columns::<S, N, 0>(influences, finals),
+        few_columns::<S, N, 1>(influences, finals),
+        few_columns::<S, N, 2>(influences, finals),
+    ]
+}
+
+#[inline(always)]
+fn few_columns<S: Simd, const N: usize, const ROW: usize>(
+    influences: [&InfluenceBlock; N],
+    finals: &(impl Finals + ?Sized),
+) -> [S::F8; 4] {
+    S::F8::transpose([
+        few_row::<S, N, ROW, 0>(influences, finals),
+        few_row::<S, N, ROW, 1>(influences, finals),
+        few_row::<S, N, ROW, 2>(influences, finals),
+        few_row::<S, N, ROW, 3>(influences, finals),
+    ])
+}
+
+/// Computes row `ROW` of vertex `LANE` (0..=3) in the low half, and of vertex `LANE + 4` in the high half.
+#[inline(always)]
+fn few_row<S: Simd, const N: usize, const ROW: usize, const LANE: usize>(
+    influences: [&InfluenceBlock; N],
+    finals: &(impl Finals + ?Sized),
+) -> S::F8 {
+    let mut sum = two_rows::<S, ROW, LANE>(influences[0], finals)
+        * S::F8::load(&influences[0].weights).spread::<LANE>();
+    for influence in &influences[1..] {
+        let weight = S::F8::load(&influence.weights).spread::<LANE>();
+        sum = two_rows::<S, ROW, LANE>(influence, finals).mul_add(weight, sum);
+    }
+    sum
+}
+
+#[inline(always)]
+fn two_rows<S: Simd, const ROW: usize, const LANE: usize>(
+    influence: &InfluenceBlock,
+    finals: &(impl Finals + ?Sized),
+) -> S::F8 {
+    let [low, high] = [influence.joints[LANE % 4], influence.joints[LANE % 4 + 4]];
+    S::F8::from_halves(finals.row(low, ROW), finals.row(high, ROW))
 }
 
 /// Computes the weighted sum of the matrices of each of eight vertices, for the block's number of influences.
@@ -329,29 +443,35 @@ fn columns<S: Simd>(matrices: &[PaddedMatrix; LANES], row: usize) -> [S::F8; 4] 
     ])
 }
 
-/// Moves eight vertices; `stored` are their values before morphing.
+/// Moves eight vertices by `sums`. Returns false if a result is not finite or a normal has no direction.
 #[inline(always)]
-fn move_block<S: Simd>(
+fn move_by<S: Simd, const EXACT: bool>(
+    &[[ax, bx, cx, tx], [ay, by, cy, ty], [az, bz, cz, tz]]: &Sums<S>,
     shape: &ShapeBlock,
-    stored: &ShapeBlock,
-    matrices: &[PaddedMatrix; LANES],
     moved: &mut PointBlock,
     turned: &mut PointBlock,
-) {
-    let ([ax, bx, cx, tx], [ay, by, cy, ty]) = (columns::<S>(matrices, 0), columns::<S>(matrices, 1));
-    let [az, bz, cz, tz] = columns::<S>(matrices, 2);
+) -> bool {
     let [x, y, z] = S::F8::load_three(&shape.positions);
     let px = ax.mul_add(x, bx.mul_add(y, cx.mul_add(z, tx)));
     let py = ay.mul_add(x, by.mul_add(y, cy.mul_add(z, ty)));
     let pz = az.mul_add(x, bz.mul_add(y, cz.mul_add(z, tz)));
     S::F8::store_points([px, py, pz], moved);
+    let zero = S::F8::splat(0.0);
+    let [x, y, z] = S::F8::load_three(&shape.normals);
+    if !EXACT {
+        let nx = ax.mul_add(x, bx.mul_add(y, cx * z));
+        let ny = ay.mul_add(x, by.mul_add(y, cy * z));
+        let nz = az.mul_add(x, bz.mul_add(y, cz * z));
+        S::F8::store_points([nx, ny, nz], turned);
+        // Stays zero while everything is finite.
+        let check = (px + py + pz).mul_add(zero, (nx + ny + nz) * zero);
+        return check.less(S::F8::splat(1.0)).all();
+    }
     // The columns of the cofactors: b×c, c×a, a×b.
     let [fx, fy, fz] = cross::<S>([bx, by, bz], [cx, cy, cz]);
     let [gx, gy, gz] = cross::<S>([cx, cy, cz], [ax, ay, az]);
     let [hx, hy, hz] = cross::<S>([ax, ay, az], [bx, by, bz]);
-    let zero = S::F8::splat(0.0);
     let determinant = ax.mul_add(fx, ay.mul_add(fy, az.mul_add(fz, zero)));
-    let [x, y, z] = S::F8::load_three(&shape.normals);
     let nx = fx.mul_add(x, gx.mul_add(y, hx * z));
     let ny = fy.mul_add(x, gy.mul_add(y, hy * z));
     let nz = fz.mul_add(x, gz.mul_add(y, hz * z));
@@ -361,9 +481,7 @@ fn move_block<S: Simd>(
     // A position that is not finite makes it NaN, which fails every comparison.
     let square = (px + py + pz).mul_add(zero, square);
     let enough = S::F8::splat(1e-24).less(square);
-    if !enough.select(square.less(S::F8::splat(1e24)), zero).all() {
-        carefully(shape, stored, matrices, moved, turned);
-    }
+    enough.select(square.less(S::F8::splat(1e24)), zero).all()
 }
 
 #[inline(always)]
@@ -371,9 +489,25 @@ fn cross<S: Simd>([ax, ay, az]: [S::F8; 3], [bx, by, bz]: [S::F8; 3]) -> [S::F8;
     [az.neg_mul_add(by, ay * bz), ax.neg_mul_add(bz, az * bx), ay.neg_mul_add(bx, ax * by)]
 }
 
+/// Computes the weighted sum of the matrices of each of eight vertices, one number at a time.
+#[cold]
+fn weigh_carefully(influences: &[InfluenceBlock], finals: &[Matrix34]) -> [PaddedMatrix; LANES] {
+    let mut out = [PaddedMatrix([0.0; 16]); LANES];
+    for influence in influences {
+        for (lane, sum) in out.iter_mut().enumerate() {
+            let matrix = finals.get(usize::from(influence.joints[lane])).unwrap_or(&IDENTITY);
+            for (sum, number) in sum.0.iter_mut().zip(matrix) {
+                *sum += number * influence.weights[lane];
+            }
+        }
+    }
+    out
+}
+
 /// Computes as the open path does, one vertex at a time.
 #[cold]
 fn carefully(
+    is_exact: bool,
     shape: &ShapeBlock,
     stored: &ShapeBlock,
     matrices: &[PaddedMatrix; LANES],
@@ -385,8 +519,13 @@ fn carefully(
         let ((position, normal), (old_position, old_normal)) = (shape.get(lane), stored.get(lane));
         let candidates = [matrix.transform_point3(position), old_position];
         let point = candidates.into_iter().find(|point| point.is_finite()).unwrap_or(Vec3::ZERO);
-        let upright = near_one(Mat3::from_mat4(matrix)) * normal;
-        let direction = first_direction([normal_matrix(matrix) * normal, upright, normal, old_normal]);
+        let direction = if is_exact {
+            let upright = near_one(Mat3::from_mat4(matrix)) * normal;
+            first_direction([normal_matrix(matrix) * normal, upright, normal, old_normal])
+        } else {
+            let candidates = [matrix.transform_vector3(normal), old_normal];
+            candidates.into_iter().find(|normal| normal.is_finite()).unwrap_or(Vec3::ZERO)
+        };
         for at in 0..3 {
             (moved[lane * 3 + at], turned[lane * 3 + at]) = (point[at], direction[at]);
         }
