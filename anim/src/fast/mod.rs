@@ -25,6 +25,7 @@ mod tiny;
 mod to_root;
 mod two_bone;
 mod vertices;
+mod weigh;
 
 pub use additive::{add, difference};
 pub use blend::{PoseLayer, blend, blend_normalized};
