@@ -22,6 +22,7 @@
 //! | `blend`, `additive` | a bone of 2 or 4 layers, whole or with masks; of an added difference, with weight 1 or less |
 //! | `two_bone` | one solve |
 //! | `skin` | a vertex's position and normal, with 1, 2 or 4 influences |
+//! | `skin_by_matrix` | the same with normals moved by the matrix and not normalized, as ozz does |
 //! | `pipeline` | a character, from takes to final matrices: one, one that plays two takes, crowds of mixed takes and times |
 //! | `hit` | a ray, point, sphere or pose |
 //!

@@ -5,7 +5,7 @@ use crate::ik::{started, vector};
 use dragonfly_anim::data::{Influence, MorphTarget, Primitive, Vertices};
 use dragonfly_anim::fast::matrix::{Matrix34, matrix34};
 use dragonfly_anim::fast::simd::SimdLevel;
-use dragonfly_anim::fast::{SkinnedVertices, skin_morphed_vertices, skin_vertices};
+use dragonfly_anim::fast::{SkinnedVertices, skin_morphed_vertices, skin_vertices, skin_vertices_by_matrix};
 use dragonfly_anim::skin::{Movement, skin_normals, skin_positions};
 use dragonfly_kit::counting::count;
 use dragonfly_kit::random::Random;
@@ -237,5 +237,77 @@ fn the_shorter_output_limits_the_number_of_written_vertices() {
         assert_eq!(skin_vertices(level, &vertices, &finals, &mut some, &mut others), room);
         assert_eq!((&some[..], &others[..room]), (&points[..room], &directions[..room]));
         assert!(others[room..].iter().all(|normal| *normal == [0.0; 3]), "{room}");
+    }
+}
+
+/// Moves `primitive` by the matrix itself and compares positions with the open path, normals with the formula.
+#[track_caller]
+fn compare_by_matrix(primitive: &Primitive, finals: &[Mat4], place: &str) {
+    let number = primitive.vertices.len();
+    let mut positions = vec![Vec3::NAN; number];
+    skin_positions(primitive, Movement::Skin(finals), &[], &mut positions);
+    let normal = |at: usize| {
+        let stored = primitive.vertices.normals[at];
+        let add = |sum: Vec3, influence: &Influence| {
+            let matrix = finals.get(usize::from(influence.joint)).copied().unwrap_or(Mat4::IDENTITY);
+            sum + matrix.transform_vector3(stored) * influence.weight
+        };
+        let used = primitive.vertices.influences_of(at).iter().filter(|influence| influence.weight != 0.0);
+        let moved = used.fold(Vec3::ZERO, add);
+        [moved, stored].into_iter().find(|normal| normal.is_finite()).unwrap_or(Vec3::ZERO)
+    };
+    let size = positions.iter().map(|point| point.abs().max_element()).fold(1.0, f32::max);
+    let vertices = SkinnedVertices::new(primitive);
+    let rows: Vec<Matrix34> = finals.iter().copied().map(matrix34).collect();
+    for level in SimdLevel::all() {
+        let (mut points, mut directions) = (vec![[f32::NAN; 3]; number], vec![[f32::NAN; 3]; number]);
+        let (asked, written) =
+            count(|| skin_vertices_by_matrix(level, &vertices, &rows, &mut points, &mut directions));
+        assert_eq!((asked.allocations, written), (0, number), "{place}");
+        for at in 0..number {
+            let place = format!("{place} {} vertex {at}", level.name());
+            let off = Vec3::from_array(points[at]).distance(positions[at]);
+            assert!(off <= RELATIVE * size, "{place}: {:?} {}", points[at], positions[at]);
+            let (got, expected) = (Vec3::from_array(directions[at]), normal(at));
+            assert!(
+                got.distance(expected) <= 2.0 * RELATIVE * expected.length().max(1.0),
+                "{place}: {got} {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn normals_moved_by_the_matrix_keep_its_scale() {
+    let mut random = started(89);
+    for count in [0, 1, 7, 8, 9, 31, 127, 128, 129, 400] {
+        for (joints, most) in [(1, 1), (5, 2), (60, 4), (256, 4), (257, 2), (300, 8)] {
+            let primitive = primitive(&mut random, count, joints, most);
+            // Fewer poses than joints: the others count as the identity.
+            let have = joints - joints / 3;
+            let place = format!("{count} vertices, {joints} joints, {most} influences");
+            compare_by_matrix(&primitive, &poses(&mut random, have), &place);
+        }
+    }
+    let mut loose = primitive(&mut random, 20, 4, 4);
+    loose.vertices.influences.iter_mut().for_each(|influence| influence.weight = 0.0);
+    compare_by_matrix(&loose, &poses(&mut random, 4), "no weight at all");
+}
+
+#[test]
+fn a_normal_that_the_matrix_makes_infinite_is_left_as_stored() {
+    let mut random = started(90);
+    for round in 0..60 {
+        let count = [20, 150][round % 2];
+        let most = [1, 2, 4][round % 3];
+        let mut primitive = primitive(&mut random, count, 40, most);
+        let mut finals = poses(&mut random, 40);
+        let wrong = random.choice(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
+        match random.below(3) {
+            0 => finals[random.below(40)].as_mut()[random.below(4) * 4 + random.below(3)] = wrong,
+            1 => primitive.vertices.positions[random.below(count)][random.below(3)] = wrong,
+            _ => primitive.vertices.normals[random.below(count)][random.below(3)] = wrong,
+        }
+        compare_by_matrix(&primitive, &finals, &format!("{round}"));
     }
 }

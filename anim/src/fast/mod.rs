@@ -25,6 +25,7 @@ mod tiny;
 mod to_root;
 mod two_bone;
 mod vertices;
+mod weigh;
 
 pub use additive::{add, difference};
 pub use blend::{PoseLayer, blend, blend_normalized};
@@ -38,4 +39,4 @@ pub use pose::{Pose, PoseBlock};
 pub use rig::Rig;
 pub use to_root::{RootPoses, to_root};
 pub use two_bone::{FastTwoBone, distance_left, two_bone};
-pub use vertices::{SkinnedVertices, skin_morphed_vertices, skin_vertices};
+pub use vertices::{SkinnedVertices, skin_morphed_vertices, skin_vertices, skin_vertices_by_matrix};

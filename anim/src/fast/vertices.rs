@@ -1,7 +1,8 @@
 //! Skinning on the CPU: positions and normals moved by bones, eight vertices at once (thesis §2.1.4).
 //!
 //! ```text
-//! M        = Σ weight_i * final[joint_i]                    one vertex after the other, two rows in one register
+//! M        = Σ weight_i * final[joint_i]                    one or two influences: two vertices at once;
+//!                                                           more: one after the other, two rows in one register
 //! morphed  = stored + Σ weight_t * difference_t             from here on eight vertices at once
 //! position = M * position
 //! normal   = normalize(sign(determinant) * cofactors(M) * normal)
@@ -9,11 +10,15 @@
 //!
 //! The sum of matrices and the sum of moved positions are the same; the matrix is used for the normal too. Its
 //! cofactors, the transposed inverse but for its length, keep normals at right angles to the surface under any scale;
-//! see [`crate::skin`].
+//! see [`crate::skin`]. [`skin_vertices_by_matrix`] leaves that out.
 
-use super::matrix::{IDENTITY, Matrix34, lower, mat4, upper};
+use super::matrix::{Matrix34, mat4};
 use super::morph::{Differences, ShapeBlock};
 use super::simd::{Float8, Kernel, LANES, Simd, SimdLevel};
+use super::weigh::{
+    Finals, InfluenceBlock, NARROW, PADDED_IDENTITY, PaddedMatrix, Sums, columns, few, weigh_block,
+    weigh_carefully,
+};
 use crate::data::{Primitive, Vertices};
 use crate::skin::{first_direction, near_one, normal_matrix};
 use glam::{Mat3, Mat4, Vec3};
@@ -30,23 +35,8 @@ pub struct SkinnedVertices {
     is_narrow: bool,
 }
 
-/// Number of joints that a byte can index.
-const NARROW: usize = 256;
-
 /// Number of vertices from which a table pays off; building it costs about as much as skinning forty of them.
 const TABLE_THRESHOLD: usize = 128;
-
-/// A matrix aligned to its size, so that a shifted index is its offset.
-#[derive(Clone, Copy)]
-#[repr(C, align(64))]
-struct PaddedMatrix([f32; 16]);
-
-/// A matrix for each value of a byte, so that no index has to be checked.
-type MatrixTable = [PaddedMatrix; NARROW];
-
-/// The identity, and padding.
-const PADDED_IDENTITY: PaddedMatrix =
-    PaddedMatrix([1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0.]);
 
 /// Eight vertices; those past the end repeat the first of the eight.
 #[derive(Clone, Copy, Debug)]
@@ -56,14 +46,6 @@ struct VertexBlock {
     /// First of its influences, and number of influences of each of its vertices: 1, 2, 4 or 8.
     first: u32,
     each: u32,
-}
-
-/// The `k`-th influence of eight vertices.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
-struct InfluenceBlock {
-    joints: [u16; LANES],
-    weights: [f32; LANES],
 }
 
 impl SkinnedVertices {
@@ -135,7 +117,27 @@ pub fn skin_vertices(
 ) -> usize {
     let count = vertices.count.min(positions.len()).min(normals.len());
     let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
-    level.run(SkinKernel::<false> { vertices, morph_weights: &[], finals, positions, normals });
+    let wanted = count.div_ceil(LANES);
+    level.run(SkinKernel::<true> { wanted, vertices, morph_weights: &[], finals, positions, normals });
+    count
+}
+
+/// As [`skin_vertices`], but normals are moved by the matrix itself and not normalized, which costs less.
+///
+/// Right where matrices rotate, and also scale by one factor for all axes; the normals of several influences, and of
+/// scaled bones, are then not of unit length, so a shader has to normalize them. A normal that is not finite is left as
+/// stored. Allocates nothing.
+pub fn skin_vertices_by_matrix(
+    level: SimdLevel,
+    vertices: &SkinnedVertices,
+    finals: &[Matrix34],
+    positions: &mut [[f32; 3]],
+    normals: &mut [[f32; 3]],
+) -> usize {
+    let count = vertices.count.min(positions.len()).min(normals.len());
+    let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
+    let wanted = count.div_ceil(LANES);
+    level.run(SkinKernel::<false> { wanted, vertices, morph_weights: &[], finals, positions, normals });
     count
 }
 
@@ -154,15 +156,15 @@ pub fn skin_morphed_vertices(
 ) -> usize {
     let count = vertices.count.min(positions.len()).min(normals.len());
     let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
-    if vertices.differences.are_added(morph_weights) {
-        level.run(SkinKernel::<true> { vertices, morph_weights, finals, positions, normals });
-    } else {
-        level.run(SkinKernel::<false> { vertices, morph_weights, finals, positions, normals });
-    }
+    let wanted = count.div_ceil(LANES);
+    level.run(SkinKernel::<true> { wanted, vertices, morph_weights, finals, positions, normals });
     count
 }
 
-struct SkinKernel<'a, const MORPHED: bool> {
+/// `EXACT`: whether normals are exact and of unit length.
+struct SkinKernel<'a, const EXACT: bool> {
+    /// Number of blocks to be moved, the last one possibly in part.
+    wanted: usize,
     vertices: &'a SkinnedVertices,
     morph_weights: &'a [f32],
     finals: &'a [Matrix34],
@@ -170,7 +172,7 @@ struct SkinKernel<'a, const MORPHED: bool> {
     normals: &'a mut [[f32; 3]],
 }
 
-impl<const MORPHED: bool> Kernel for SkinKernel<'_, MORPHED> {
+impl<const EXACT: bool> Kernel for SkinKernel<'_, EXACT> {
     type Output = ();
 
     #[inline(always)]
@@ -193,165 +195,96 @@ impl<const MORPHED: bool> Kernel for SkinKernel<'_, MORPHED> {
 /// Eight points, one after the other.
 type PointBlock = [f32; 3 * LANES];
 
-impl<const MORPHED: bool> SkinKernel<'_, MORPHED> {
+impl<const EXACT: bool> SkinKernel<'_, EXACT> {
     #[inline(always)]
     fn with<S: Simd>(self, finals: &(impl Finals + ?Sized)) {
         let Self { vertices, morph_weights, positions, normals, .. } = self;
+        let is_morphed = vertices.differences.are_added(morph_weights);
         let (points, last_points) = positions.as_flattened_mut().as_chunks_mut();
         let (directions, last_directions) = normals.as_flattened_mut().as_chunks_mut();
-        let mut blocks = vertices.blocks.iter().enumerate();
-        let mut matrices = [PADDED_IDENTITY; LANES];
-        for ((moved, turned), (at, block)) in points.iter_mut().zip(directions).zip(&mut blocks) {
-            weigh_block::<S>(vertices.influences_of(block), finals, &mut matrices);
-            if MORPHED {
-                let shape = vertices.differences.added::<S>(at, &block.shape, morph_weights);
-                move_block::<S>(&shape, &block.shape, &matrices, moved, turned);
+        let (mut points, mut directions) = (points.iter_mut(), directions.iter_mut());
+        // For the last block, of which fewer than eight vertices are wanted.
+        let (mut moved, mut turned) = ([0.0; 3 * LANES], [0.0; 3 * LANES]);
+        let wanted = vertices.blocks.iter().take(self.wanted);
+        for (at, block) in wanted.enumerate() {
+            let influences = vertices.influences_of(block);
+            let (moved, turned) = match (points.next(), directions.next()) {
+                (Some(points), Some(directions)) => (points, directions),
+                (None, _) | (_, None) => (&mut moved, &mut turned),
+            };
+            let morphed;
+            let shape = if is_morphed {
+                morphed = vertices.differences.added::<S>(at, &block.shape, morph_weights);
+                &morphed
             } else {
-                move_block::<S>(&block.shape, &block.shape, &matrices, moved, turned);
+                &block.shape
+            };
+            if !move_block::<S, EXACT>(influences, shape, finals, moved, turned) {
+                let matrices = weigh_carefully(influences, self.finals);
+                carefully(EXACT, shape, &block.shape, &matrices, moved, turned);
             }
         }
-        // Fewer than eight are left.
-        if let Some((at, block)) = blocks.next().filter(|_| !last_points.is_empty()) {
-            let (mut moved, mut turned) = ([0.0; 3 * LANES], [0.0; 3 * LANES]);
-            weigh_block::<S>(vertices.influences_of(block), finals, &mut matrices);
-            let shape = vertices.differences.added::<S>(at, &block.shape, morph_weights);
-            move_block::<S>(&shape, &block.shape, &matrices, &mut moved, &mut turned);
-            for (to, from) in last_points.iter_mut().zip(&moved) {
-                *to = *from;
-            }
-            for (to, from) in last_directions.iter_mut().zip(&turned) {
-                *to = *from;
-            }
+        for (to, from) in last_points.iter_mut().zip(&moved) {
+            *to = *from;
+        }
+        for (to, from) in last_directions.iter_mut().zip(&turned) {
+            *to = *from;
         }
     }
 }
 
-/// A list of final poses.
-trait Finals {
-    /// Returns rows 0 and 1.
-    fn upper<S: Simd>(&self, joint: u16) -> S::F8;
-    /// Returns row 2, and four meaningless numbers.
-    fn lower<S: Simd>(&self, joint: u16) -> S::F8;
-}
-
-impl Finals for [Matrix34] {
-    #[inline(always)]
-    fn upper<S: Simd>(&self, joint: u16) -> S::F8 {
-        S::F8::load(upper(self.get(usize::from(joint)).unwrap_or(&IDENTITY)))
-    }
-
-    #[inline(always)]
-    fn lower<S: Simd>(&self, joint: u16) -> S::F8 {
-        S::F8::twice(lower(self.get(usize::from(joint)).unwrap_or(&IDENTITY)))
-    }
-}
-
-impl Finals for MatrixTable {
-    #[inline(always)]
-    fn upper<S: Simd>(&self, joint: u16) -> S::F8 {
-        S::F8::load(&self[usize::from(joint as u8)].0.as_chunks().0[0])
-    }
-
-    #[inline(always)]
-    fn lower<S: Simd>(&self, joint: u16) -> S::F8 {
-        S::F8::load(&self[usize::from(joint as u8)].0.as_chunks().0[1])
-    }
-}
-
-/// Computes the weighted sum of the matrices of each of eight vertices, for the block's number of influences.
+/// Moves eight vertices; `shape` are their values after morphing. Returns false if a result is not finite or a normal
+/// has no direction.
 #[inline(always)]
-fn weigh_block<S: Simd>(
+fn move_block<S: Simd, const EXACT: bool>(
     influences: &[InfluenceBlock],
-    finals: &(impl Finals + ?Sized),
-    out: &mut [PaddedMatrix; LANES],
-) {
-    match influences {
-        [a] => weigh::<S, 1>([a], finals, out),
-        [a, b] => weigh::<S, 2>([a, b], finals, out),
-        [a, b, c, d] => weigh::<S, 4>([a, b, c, d], finals, out),
-        [a, b, c, d, e, f, g, h] => weigh::<S, 8>([a, b, c, d, e, f, g, h], finals, out),
-        _ => {}
-    }
-}
-
-/// Computes the sums with the number of influences known at compile time.
-#[inline(always)]
-fn weigh<S: Simd, const N: usize>(
-    influences: [&InfluenceBlock; N],
-    finals: &(impl Finals + ?Sized),
-    out: &mut [PaddedMatrix; LANES],
-) {
-    // Unrolled, so that every index is known at compile time.
-    weigh_one::<S, N>(influences, finals, out, 0);
-    weigh_one::<S, N>(influences, finals, out, 1);
-    weigh_one::<S, N>(influences, finals, out, 2);
-    weigh_one::<S, N>(influences, finals, out, 3);
-    weigh_one::<S, N>(influences, finals, out, 4);
-    weigh_one::<S, N>(influences, finals, out, 5);
-    weigh_one::<S, N>(influences, finals, out, 6);
-    weigh_one::<S, N>(influences, finals, out, 7);
-}
-
-#[inline(always)]
-fn weigh_one<S: Simd, const N: usize>(
-    influences: [&InfluenceBlock; N],
-    finals: &(impl Finals + ?Sized),
-    out: &mut [PaddedMatrix; LANES],
-    lane: usize,
-) {
-    let joint = influences[0].joints[lane];
-    let weight = S::F8::splat(influences[0].weights[lane]);
-    // Row 2 has only four numbers, but is computed in a register of eight too, because a register of four would need
-    // the weight broadcast once more.
-    let (mut two, mut one) = (finals.upper::<S>(joint) * weight, finals.lower::<S>(joint) * weight);
-    for influence in &influences[1..] {
-        let (joint, weight) = (influence.joints[lane], S::F8::splat(influence.weights[lane]));
-        two = finals.upper::<S>(joint).mul_add(weight, two);
-        one = finals.lower::<S>(joint).mul_add(weight, one);
-    }
-    if let [upper, lower] = out[lane].0.as_chunks_mut().0 {
-        two.store(upper);
-        one.store(lower);
-    }
-}
-
-/// Returns row `row` of eight matrices: four vectors, one per column.
-#[inline(always)]
-fn columns<S: Simd>(matrices: &[PaddedMatrix; LANES], row: usize) -> [S::F8; 4] {
-    let [a, b, c, d, e, f, g, h] = matrices;
-    let [a, b, c, d] = [a, b, c, d].map(|matrix| &matrix.0.as_chunks::<4>().0[row]);
-    let [e, f, g, h] = [e, f, g, h].map(|matrix| &matrix.0.as_chunks::<4>().0[row]);
-    S::F8::transpose([
-        S::F8::from_halves(a, e),
-        S::F8::from_halves(b, f),
-        S::F8::from_halves(c, g),
-        S::F8::from_halves(d, h),
-    ])
-}
-
-/// Moves eight vertices; `stored` are their values before morphing.
-#[inline(always)]
-fn move_block<S: Simd>(
     shape: &ShapeBlock,
-    stored: &ShapeBlock,
-    matrices: &[PaddedMatrix; LANES],
+    finals: &(impl Finals + ?Sized),
     moved: &mut PointBlock,
     turned: &mut PointBlock,
-) {
-    let ([ax, bx, cx, tx], [ay, by, cy, ty]) = (columns::<S>(matrices, 0), columns::<S>(matrices, 1));
-    let [az, bz, cz, tz] = columns::<S>(matrices, 2);
+) -> bool {
+    // Written out, so that the sums of one and two influences stay in registers.
+    match influences {
+        [a] if S::IS_WIDE => move_by::<S, EXACT>(&few::<S, 1>([a], finals), shape, moved, turned),
+        [a, b] if S::IS_WIDE => move_by::<S, EXACT>(&few::<S, 2>([a, b], finals), shape, moved, turned),
+        more => {
+            let mut matrices = [PADDED_IDENTITY; LANES];
+            weigh_block::<S>(more, finals, &mut matrices);
+            let sums = [columns::<S>(&matrices, 0), columns::<S>(&matrices, 1), columns::<S>(&matrices, 2)];
+            move_by::<S, EXACT>(&sums, shape, moved, turned)
+        }
+    }
+}
+
+/// Moves eight vertices by `sums`. Returns false if a result is not finite or a normal has no direction.
+#[inline(always)]
+fn move_by<S: Simd, const EXACT: bool>(
+    &[[ax, bx, cx, tx], [ay, by, cy, ty], [az, bz, cz, tz]]: &Sums<S>,
+    shape: &ShapeBlock,
+    moved: &mut PointBlock,
+    turned: &mut PointBlock,
+) -> bool {
     let [x, y, z] = S::F8::load_three(&shape.positions);
     let px = ax.mul_add(x, bx.mul_add(y, cx.mul_add(z, tx)));
     let py = ay.mul_add(x, by.mul_add(y, cy.mul_add(z, ty)));
     let pz = az.mul_add(x, bz.mul_add(y, cz.mul_add(z, tz)));
     S::F8::store_points([px, py, pz], moved);
+    let zero = S::F8::splat(0.0);
+    let [x, y, z] = S::F8::load_three(&shape.normals);
+    if !EXACT {
+        let nx = ax.mul_add(x, bx.mul_add(y, cx * z));
+        let ny = ay.mul_add(x, by.mul_add(y, cy * z));
+        let nz = az.mul_add(x, bz.mul_add(y, cz * z));
+        S::F8::store_points([nx, ny, nz], turned);
+        // Stays zero while everything is finite.
+        let check = (px + py + pz).mul_add(zero, (nx + ny + nz) * zero);
+        return check.less(S::F8::splat(1.0)).all();
+    }
     // The columns of the cofactors: b×c, c×a, a×b.
     let [fx, fy, fz] = cross::<S>([bx, by, bz], [cx, cy, cz]);
     let [gx, gy, gz] = cross::<S>([cx, cy, cz], [ax, ay, az]);
     let [hx, hy, hz] = cross::<S>([ax, ay, az], [bx, by, bz]);
-    let zero = S::F8::splat(0.0);
     let determinant = ax.mul_add(fx, ay.mul_add(fy, az.mul_add(fz, zero)));
-    let [x, y, z] = S::F8::load_three(&shape.normals);
     let nx = fx.mul_add(x, gx.mul_add(y, hx * z));
     let ny = fy.mul_add(x, gy.mul_add(y, hy * z));
     let nz = fz.mul_add(x, gz.mul_add(y, hz * z));
@@ -361,9 +294,7 @@ fn move_block<S: Simd>(
     // A position that is not finite makes it NaN, which fails every comparison.
     let square = (px + py + pz).mul_add(zero, square);
     let enough = S::F8::splat(1e-24).less(square);
-    if !enough.select(square.less(S::F8::splat(1e24)), zero).all() {
-        carefully(shape, stored, matrices, moved, turned);
-    }
+    enough.select(square.less(S::F8::splat(1e24)), zero).all()
 }
 
 #[inline(always)]
@@ -374,6 +305,7 @@ fn cross<S: Simd>([ax, ay, az]: [S::F8; 3], [bx, by, bz]: [S::F8; 3]) -> [S::F8;
 /// Computes as the open path does, one vertex at a time.
 #[cold]
 fn carefully(
+    is_exact: bool,
     shape: &ShapeBlock,
     stored: &ShapeBlock,
     matrices: &[PaddedMatrix; LANES],
@@ -385,8 +317,13 @@ fn carefully(
         let ((position, normal), (old_position, old_normal)) = (shape.get(lane), stored.get(lane));
         let candidates = [matrix.transform_point3(position), old_position];
         let point = candidates.into_iter().find(|point| point.is_finite()).unwrap_or(Vec3::ZERO);
-        let upright = near_one(Mat3::from_mat4(matrix)) * normal;
-        let direction = first_direction([normal_matrix(matrix) * normal, upright, normal, old_normal]);
+        let direction = if is_exact {
+            let upright = near_one(Mat3::from_mat4(matrix)) * normal;
+            first_direction([normal_matrix(matrix) * normal, upright, normal, old_normal])
+        } else {
+            let candidates = [matrix.transform_vector3(normal), old_normal];
+            candidates.into_iter().find(|normal| normal.is_finite()).unwrap_or(Vec3::ZERO)
+        };
         for at in 0..3 {
             (moved[lane * 3 + at], turned[lane * 3 + at]) = (point[at], direction[at]);
         }

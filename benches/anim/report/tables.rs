@@ -4,7 +4,7 @@ use super::RecordedResults;
 use super::results::{GOAL, Results};
 
 /// Tasks on the bench rig, in words, in the order of the tables; the unit is that of one row of the results.
-const TASKS: [(&str, &str); 25] = [
+const TASKS: [(&str, &str); 28] = [
     ("sample/pab/walk/forward", "sample the short take, forward"),
     ("sample/pab/walk/random", "sample the short take, random times"),
     ("sample/pab/atlas/forward", "sample the long take, forward"),
@@ -22,6 +22,9 @@ const TASKS: [(&str, &str); 25] = [
     ("skin/pab/1", "skin vertices, 1 influence"),
     ("skin/pab/2", "skin vertices, 2 influences"),
     ("skin/pab/4", "skin vertices, 4 influences"),
+    ("skin_by_matrix/pab/1", "skin vertices by the matrix, 1 influence"),
+    ("skin_by_matrix/pab/2", "skin vertices by the matrix, 2 influences"),
+    ("skin_by_matrix/pab/4", "skin vertices by the matrix, 4 influences"),
     ("pipeline/pab/1", "one character"),
     ("pipeline/pab/1_of_2_takes", "one character, two takes"),
     ("pipeline/pab/100", "crowd of 100"),

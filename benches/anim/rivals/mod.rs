@@ -19,7 +19,7 @@ pub(crate) const FOLDER: &str = "DRAGONFLY_RIVALS";
 ///
 /// `ozz` plays takes whose keys were reduced with an error of 1 mm at 10 cm, `ozz/every_key` takes with every key, `ACL`
 /// takes compressed to 0.1 mm at 3 cm.
-const CASES: [(&str, &str, &str); 30] = [
+const CASES: [(&str, &str, &str); 33] = [
     ("ozz", "sample/pab/walk/forward", "sample_fwd60/walk.opt"),
     ("ozz", "sample/pab/walk/random", "sample_rand/walk.opt"),
     ("ozz", "sample/pab/atlas/forward", "sample_fwd60/atlas.opt"),
@@ -38,6 +38,9 @@ const CASES: [(&str, &str, &str); 30] = [
     ("ozz", "skin/pab/1", "skin_PN_1inf(per vertex)"),
     ("ozz", "skin/pab/2", "skin_PN_2inf(per vertex)"),
     ("ozz", "skin/pab/4", "skin_PN_4inf(per vertex)"),
+    ("ozz", "skin_by_matrix/pab/1", "skin_PN_1inf(per vertex)"),
+    ("ozz", "skin_by_matrix/pab/2", "skin_PN_2inf(per vertex)"),
+    ("ozz", "skin_by_matrix/pab/4", "skin_PN_4inf(per vertex)"),
     ("ozz", "pipeline/pab/1", "pipeline1(per char)/walk.opt"),
     ("ozz/every_key", "pipeline/pab/1", "pipeline1(per char)/walk.full"),
     ("ozz", "pipeline/pab/100", "crowd100(per char)/opt"),
@@ -165,7 +168,7 @@ fn unit_of(task: &str) -> &'static str {
     match task.split('/').next() {
         Some("final") => "joint",
         Some("two_bone") => "solve",
-        Some("skin") => "vertex",
+        Some("skin" | "skin_by_matrix") => "vertex",
         Some("pipeline") => "character",
         Some(_) | None => "bone",
     }
