@@ -4,9 +4,9 @@
 //! final_j = to_root_bone(j) * offset_j      for column vectors; two rows in one register
 //! ```
 
-use super::matrix::{Matrix34, MatrixRows, doubled, mat4, matrix34};
+use super::matrix::{IDENTITY, Matrix34, mat4, matrix34};
 use super::rig::{NARROW, Rig};
-use super::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
+use super::simd::{Kernel, LANES, Rows, Simd, SimdLevel};
 use super::tiny::{flushed, largest};
 use super::to_root::RootPoses;
 use crate::animation::final_pose;
@@ -19,6 +19,8 @@ pub struct SkinBinding {
     joints: Vec<BoundJoint>,
     /// Whether a byte can index every bone of the rig.
     is_near: bool,
+    /// A bit for each bone of each eight: whether it is the bone of a joint, or above one.
+    needed: Vec<u8>,
 }
 
 /// A joint's bone and offset.
@@ -27,7 +29,7 @@ pub(super) struct BoundJoint {
     /// 1 + the bone; 0, the identity, for a bone that the rig does not have.
     pub(super) slot: u32,
     /// Bind space → bone space.
-    pub(super) offset: Matrix34,
+    pub(super) offset: [[f32; 4]; 3],
 }
 
 impl SkinBinding {
@@ -49,9 +51,12 @@ impl SkinBinding {
             }
         }
         let slot = |bone: u32| if (bone as usize) < rig.bones() { bone + 1 } else { 0 };
-        let joints =
-            skin.bones.iter().zip(offsets).map(|(&bone, offset)| BoundJoint { slot: slot(bone), offset });
-        Self { joints: joints.collect(), is_near: rig.bones() < NARROW }
+        let joints = skin.bones.iter().zip(offsets).map(|(&bone, offset)| {
+            let [i, j, k] = [0, 4, 8].map(|row| [0, 1, 2, 3].map(|column| offset[row + column]));
+            BoundJoint { slot: slot(bone), offset: [i, j, k] }
+        });
+        let needed = needed(rig, skin.bones.iter().map(|&bone| bone as usize));
+        Self { joints: joints.collect(), is_near: rig.bones() < NARROW, needed }
     }
 
     /// Returns the number of joints.
@@ -59,10 +64,33 @@ impl SkinBinding {
         self.joints.len()
     }
 
+    /// Returns a bit for each bone of each eight: whether it is the bone of a joint, or above one.
+    pub(super) fn needed(&self) -> &[u8] {
+        &self.needed
+    }
+
     /// Returns the joints.
     pub(super) fn list(&self) -> &[BoundJoint] {
         &self.joints
     }
+}
+
+/// Returns a bit for each bone of each eight: whether it is one of `bones`, or above one.
+fn needed(rig: &Rig, bones: impl Iterator<Item = usize>) -> Vec<u8> {
+    let mut needed = vec![0; rig.bones().div_ceil(LANES)];
+    for bone in bones.filter(|&bone| bone < rig.bones()) {
+        let mut above = Some(bone);
+        while let Some(bone) = above {
+            let bit = 1 << (bone % LANES);
+            if needed[bone / LANES] & bit != 0 {
+                // So are those above it.
+                break;
+            }
+            needed[bone / LANES] |= bit;
+            above = rig.parent(bone);
+        }
+    }
+    needed
 }
 
 /// Computes `final_pose` of every joint of `binding`, in the skin's order, up to the length of `out`.
@@ -109,8 +137,7 @@ fn products<S: Simd, const NEAR: bool>(
     to_root: &RootPoses,
     out: &mut [Matrix34],
 ) -> bool {
-    let zero = S::F8::splat(0.0);
-    let (mut upper, mut lower) = (zero, zero.low());
+    let mut sum = S::Rows::zero();
     let Some(first) = to_root.matrices.first_chunk::<NARROW>() else { return false };
     for (joint, out) in binding.joints.iter().zip(out) {
         let to_root = if NEAR {
@@ -118,23 +145,18 @@ fn products<S: Simd, const NEAR: bool>(
         } else {
             to_root.matrices.get(joint.slot as usize).unwrap_or(&first[0])
         };
-        let product = MatrixRows::<S>::load(to_root).times(doubled::<S>(&joint.offset));
-        // Stays zero while everything is finite.
-        upper = product.0.mul_add(zero, upper);
-        lower = product.1.mul_add(zero.low(), lower);
-        product.store(out);
+        let product = S::Rows::load(&to_root.rows).times(&joint.offset);
+        sum = product.checked(sum);
+        product.store_packed(out);
     }
-    let mut four = [0.0; 4];
-    lower.store(&mut four);
-    // NaN is not less than anything.
-    (upper + S::F8::twice(&four)).less(S::F8::splat(1.0)).all()
+    sum.is_number()
 }
 
 /// Computes as the open path does, for products that leave the range of f32.
 #[cold]
 fn carefully(binding: &SkinBinding, to_root: &RootPoses, out: &mut [Matrix34]) {
     for (joint, out) in binding.joints.iter().zip(out) {
-        let to_root = to_root.matrices.get(joint.slot as usize).map_or(Mat4::IDENTITY, mat4);
-        *out = matrix34(final_pose(to_root, mat4(&joint.offset)));
+        let to_root = to_root.matrices.get(joint.slot as usize).map_or(Mat4::IDENTITY, |matrix| mat4(matrix.packed()));
+        *out = matrix34(final_pose(to_root, mat4(joint.offset.as_flattened().first_chunk().unwrap_or(&IDENTITY))));
     }
 }

@@ -8,10 +8,11 @@
 
 mod additive;
 mod blend;
-mod eight;
+mod crowd;
 mod final_poses;
 mod key_table;
 mod keyed;
+mod local;
 mod mask;
 pub mod matrix;
 mod morph;
