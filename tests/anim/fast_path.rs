@@ -133,7 +133,7 @@ fn compare_model(animation: &AnimationData, skins: &[Skin]) -> Worst {
                 final_poses(level, binding, &roots, &mut finals);
                 // The error of a product is proportional to its factors.
                 let size = size * largest(skin.offsets.iter().flat_map(|matrix| matrix.as_ref())).max(1.0);
-                compare_matrices(&finals, &expected, size, &mut worst, &place);
+                compare_matrices(finals.iter(), &expected, size, &mut worst, &place);
             }
         }
     }

@@ -10,7 +10,7 @@
 //! as much as one of a single character. Bones that no joint needs are left out. Each number is the result of the same
 //! operations as for a single character, in the same order.
 
-use super::final_poses::SkinBinding;
+use super::binding::{BoneUse, BoundJoint, SkinBinding};
 use super::local::local_rows;
 use super::matrix::Matrix34;
 use super::pose::{Pose, PoseBlock};
@@ -65,37 +65,45 @@ impl Crowd {
             M::all(1.0).put(&mut first[5]);
             M::all(1.0).put(&mut first[10]);
         }
-        pose_bones::<M>(rig, binding, poses, matrices);
-        finals::<M>(matrices, binding, out)
+        pose_bones::<M>(rig, binding, poses, matrices, out).is_some_and(M::is_number)
     }
 }
 
-/// Computes `to_root` of every bone that a joint needs, of each character.
+/// Computes `to_root` of every bone that a joint needs, and the final matrices, of each character. Returns NaN in some
+/// places if not all are finite; `None` if not all could be computed.
 #[inline(always)]
 fn pose_bones<M: Many>(
     rig: &Rig,
     binding: &SkinBinding,
     poses: &[Pose; MOST_LANES],
     matrices: &mut [CrowdMatrix<M>],
-) {
+    out: &mut [Matrix34],
+) -> Option<M> {
+    let mut sum = M::all(0.0);
     let blocks: [&[PoseBlock]; MOST_LANES] = from_fn(|at| poses[at].blocks());
     let mut bones = CrowdPoses::<M>([[M::ZEROS; LANES]; 10]);
-    for (block, (parents, needed)) in rig.parents().chunks(LANES).zip(binding.needed()).enumerate() {
-        if *needed == 0 {
+    for (block, (parents, uses)) in rig.parents().chunks(LANES).zip(binding.uses().chunks(LANES)).enumerate() {
+        if uses.iter().all(|used| *used == BoneUse::NotNeeded) {
             continue;
         }
         turn::<M>(&blocks, block, &mut bones);
-        for (lane, &parent) in parents.iter().enumerate() {
-            if needed >> lane & 1 == 0 {
+        for (lane, (&parent, &used)) in parents.iter().zip(uses).enumerate() {
+            if used == BoneUse::NotNeeded {
                 continue;
             }
-            let own = 1 + block * LANES + lane;
             // A parent comes before its children.
-            let Some((before, [own, ..])) = matrices.split_at_mut_checked(own) else { return };
-            let Some(parent) = before.get(parent as usize) else { return };
+            let (before, own) = matrices.split_at_mut_checked(1 + block * LANES + lane)?;
+            let (parent, own) = (before.get(parent as usize)?, own.first_mut()?);
             bone::<M>(&bones, lane, parent, own);
+            if let BoneUse::Joint(joint) = used {
+                sum = finals::<M>(own, binding, joint as usize, out, sum)?;
+            }
         }
     }
+    for (joint, bound) in binding.further() {
+        sum = finals::<M>(matrices.get(bound.slot as usize)?, binding, joint, out, sum)?;
+    }
+    Some(sum)
 }
 
 /// Turns the poses of eight bones of each character, so that those of one bone are in one register.
@@ -149,23 +157,24 @@ fn product_row<M: Many, const ROW: usize>(
     c.times_plus(*l23, b.times_plus(*l13, a.times_plus(*l03, d))).put(&mut out[at + 3]);
 }
 
-/// Computes `final_pose` of every joint of each character, and returns whether all are finite.
+/// Computes `final_pose` of a joint of each character. Returns `sum`, with NaN where one is not finite; `None` if `out`
+/// is too short.
 #[inline(always)]
-fn finals<M: Many>(matrices: &[CrowdMatrix<M>], binding: &SkinBinding, out: &mut [Matrix34]) -> bool {
-    let mut check = M::all(0.0);
-    for (at, joint) in binding.list().iter().enumerate() {
-        let Some(to_root) = matrices.get(joint.slot as usize) else { return false };
-        let rows = [
-            final_row::<M, 0>(to_root, &joint.offset),
-            final_row::<M, 1>(to_root, &joint.offset),
-            final_row::<M, 2>(to_root, &joint.offset),
-        ];
-        check = checked::<M>(&rows, check);
-        if !M::store_matrices(&rows, out, at, binding.joints()) {
-            return false;
-        }
-    }
-    check.is_number()
+fn finals<M: Many>(
+    to_root: &CrowdMatrix<M>,
+    binding: &SkinBinding,
+    joint: usize,
+    out: &mut [Matrix34],
+    sum: M,
+) -> Option<M> {
+    let BoundJoint { offset, .. } = binding.list().get(joint)?;
+    let rows = [
+        final_row::<M, 0>(to_root, offset),
+        final_row::<M, 1>(to_root, offset),
+        final_row::<M, 2>(to_root, offset),
+    ];
+    M::store_matrices(&rows, out, joint, binding.joints()).then(|| ())?;
+    Some(checked::<M>(&rows, sum))
 }
 
 /// Computes row `ROW` of `to_root * offset`.

@@ -7,6 +7,7 @@
 //! Nothing here allocates after set-up, and no character has a cache: any time of a take costs the same.
 
 mod additive;
+mod binding;
 mod blend;
 mod crowd;
 mod final_poses;
@@ -16,6 +17,7 @@ mod local;
 mod mask;
 pub mod matrix;
 mod morph;
+mod one_character;
 mod pipeline;
 mod playable;
 mod pose;
@@ -29,7 +31,8 @@ mod vertices;
 
 pub use additive::{add, difference};
 pub use blend::{PoseLayer, blend, blend_normalized};
-pub use final_poses::{SkinBinding, final_poses};
+pub use binding::SkinBinding;
+pub use final_poses::final_poses;
 pub use keyed::KeyedTake;
 pub use mask::LaneMask;
 pub use matrix::Matrix34;

@@ -11,14 +11,15 @@
 
 use super::blend::{PoseLayer, blend_with};
 use super::crowd::Crowd;
-use super::final_poses::{SkinBinding, final_poses_with};
+use super::binding::SkinBinding;
+use super::one_character::one_character;
 use super::mask::{LaneMask, usable};
 use super::matrix::Matrix34;
 use super::playable::Playable;
 use super::pose::Pose;
 use super::rig::Rig;
 use super::simd::{Kernel, MOST_LANES, Many, Simd, SimdLevel};
-use super::to_root::{RootPoses, to_root_with};
+use super::to_root::RootPoses;
 
 /// A take that a character plays, possibly with others.
 #[derive(Debug)]
@@ -182,8 +183,7 @@ fn character<S: Simd, T: Playable>(
 ) {
     let Scratch { sampled, blended, to_root, .. } = scratch;
     pose::<S, T>(rig, layers, sampled, blended);
-    to_root_with::<S>(rig, blended.blocks(), to_root);
-    final_poses_with::<S>(binding, to_root, out);
+    one_character::<S>(rig, binding, blended.blocks(), to_root, out);
 }
 
 /// Computes the final matrices of a full register of characters, and returns whether all numbers are finite; otherwise

@@ -86,6 +86,20 @@ impl Kernel for ToRoot<'_> {
 /// As [`to_root`], as part of a larger kernel.
 #[inline(always)]
 pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
+    to_parents::<S>(rig, pose, out);
+    let matrices = out.matrices.as_mut_slice();
+    match matrices.first_chunk_mut() {
+        Some(first) if rig.bones < NARROW => near_chain::<S>(&rig.near_links, first),
+        Some(_) | None => far_chain::<S>(&rig.links, matrices),
+    }
+    if !leaves_are_finite::<S>(rig, matrices) {
+        carefully(rig, pose, matrices);
+    }
+}
+
+/// Computes `to_parent` of every bone in the memory for `to_root`.
+#[inline(always)]
+pub(super) fn to_parents<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     fit(rig, out);
     let matrices = out.matrices.as_mut_slice();
     let mut own = matrices.get_mut(1..).unwrap_or_default().as_chunks_mut::<8>().0.iter_mut();
@@ -98,19 +112,6 @@ pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut Roo
     }
     if !rig.sheared.is_empty() {
         put_sheared(rig, pose, matrices);
-    }
-    let is_finite = match matrices.first_chunk_mut() {
-        Some(first) if rig.bones < NARROW => {
-            near_chain::<S>(&rig.near_links, first);
-            leaves_are_finite::<S>(rig.near_leaves.iter().map(|&leaf| usize::from(leaf)), first)
-        }
-        Some(_) | None => {
-            far_chain::<S>(&rig.links, matrices);
-            leaves_are_finite::<S>(rig.leaves.iter().map(|&leaf| leaf as usize), matrices)
-        }
-    };
-    if !is_finite {
-        carefully(rig, pose, matrices);
     }
 }
 
@@ -176,11 +177,18 @@ fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [PaddedMatrix]) {
 /// Returns whether all leaves are finite. A number that is not spreads along its row from parent to child, and so
 /// reaches the leaves.
 #[inline(always)]
-fn leaves_are_finite<S: Simd>(leaves: impl Iterator<Item = usize>, matrices: &[PaddedMatrix]) -> bool {
+pub(super) fn leaves_are_finite<S: Simd>(rig: &Rig, matrices: &[PaddedMatrix]) -> bool {
     let mut sum = S::Rows::zero();
-    for leaf in leaves {
-        if let Some(leaf) = matrices.get(leaf) {
-            sum = S::Rows::load(&leaf.rows).checked(sum);
+    match matrices.first_chunk::<NARROW>() {
+        Some(first) if rig.bones < NARROW => {
+            for &leaf in &rig.near_leaves {
+                sum = S::Rows::load(&first[usize::from(leaf)].rows).checked(sum);
+            }
+        }
+        Some(_) | None => {
+            for leaf in rig.leaves.iter().filter_map(|&leaf| matrices.get(leaf as usize)) {
+                sum = S::Rows::load(&leaf.rows).checked(sum);
+            }
         }
     }
     sum.is_number()
