@@ -14,6 +14,8 @@ pub struct SkinBinding {
     is_near: bool,
     /// Every bone, limb after limb.
     steps: Vec<BoneStep>,
+    /// The bones that no joint needs.
+    rest: Vec<Link<u32>>,
     /// What is to be done for each bone, in bone order.
     uses: Vec<BoneUse>,
     /// The joints that `steps` and `uses` do not have: of a bone that has another joint, or of no bone.
@@ -94,13 +96,15 @@ impl SkinBinding {
                 above = rig.parent(bone);
             }
         }
-        let steps = rig.by_limb().into_iter().map(|Link { own, parent }| match uses[own as usize - 1] {
+        let (needed, rest): (Vec<_>, Vec<_>) =
+            rig.by_depth().partition(|link| uses[link.own as usize - 1] != BoneUse::NotNeeded);
+        let steps = needed.into_iter().map(|Link { own, parent }| match uses[own as usize - 1] {
             BoneUse::Joint(joint) => {
                 BoneStep { own, parent, joint, offset: joints[joint as usize].offset }
             }
             BoneUse::Parent | BoneUse::NotNeeded => BoneStep { own, parent, joint: NO_JOINT, offset: NO_OFFSET },
         });
-        Self { is_near: rig.bones() < NARROW, steps: steps.collect(), uses, further, joints }
+        Self { is_near: rig.bones() < NARROW, steps: steps.collect(), rest, uses, further, joints }
     }
 
     /// Returns the number of joints.
@@ -118,6 +122,12 @@ impl SkinBinding {
     #[inline(always)]
     pub(super) fn steps(&self) -> &[BoneStep] {
         &self.steps
+    }
+
+    /// Returns the bones that no joint needs, parents first.
+    #[inline(always)]
+    pub(super) fn rest(&self) -> &[Link<u32>] {
+        &self.rest
     }
 
     /// Returns what is to be done for each bone, in bone order.

@@ -12,7 +12,7 @@ use super::binding::{BoneStep, SkinBinding};
 use super::final_poses::final_poses_with;
 use super::matrix::{Matrix34, PaddedMatrix};
 use super::pose::PoseBlock;
-use super::rig::{NARROW, Rig};
+use super::rig::{Link, NARROW, Rig};
 use super::simd::{Rows, Simd};
 use super::to_root::{RootPoses, leaves_are_finite, to_parents, to_root_with};
 
@@ -28,7 +28,7 @@ pub(super) fn one_character<S: Simd>(
     to_parents::<S>(rig, pose, to_root);
     let matrices = to_root.matrices.as_mut_slice();
     let sum = match matrices.first_chunk_mut::<NARROW>() {
-        Some(first) if binding.is_near() => near_steps::<S>(binding.steps(), first, out),
+        Some(first) if binding.is_near() => near_steps::<S>(binding.steps(), binding.rest(), first, out),
         Some(_) | None => far_steps::<S>(binding.steps(), matrices, out),
     };
     let sum = further::<S>(binding, matrices, out, sum);
@@ -42,21 +42,23 @@ pub(super) fn one_character<S: Simd>(
 #[inline(always)]
 fn near_steps<S: Simd>(
     steps: &[BoneStep],
+    rest: &[Link<u32>],
     matrices: &mut [PaddedMatrix; NARROW],
     out: &mut [Matrix34],
 ) -> S::Rows {
-    let (mut sum, mut last, mut before) = (S::Rows::zero(), S::Rows::zero(), u32::MAX);
+    let mut sum = S::Rows::zero();
     for step in steps {
         // Without a bounds check: a byte is always within the array.
-        let own = &matrices[usize::from(step.own as u8)];
-        last = if step.parent == before {
-            last.times(own.three_rows())
-        } else {
-            S::Rows::load(&matrices[usize::from(step.parent as u8)].rows).times(own.three_rows())
-        };
-        before = step.own;
-        last.store(&mut matrices[usize::from(step.own as u8)].rows);
-        sum = last_joint::<S>(step, last, out, sum);
+        let parent = S::Rows::load(&matrices[usize::from(step.parent as u8)].rows);
+        let own = &mut matrices[usize::from(step.own as u8)];
+        let to_root = parent.times(own.three_rows());
+        to_root.store(&mut own.rows);
+        sum = last_joint::<S>(step, to_root, out, sum);
+    }
+    for link in rest {
+        let parent = S::Rows::load(&matrices[usize::from(link.parent as u8)].rows);
+        let own = &mut matrices[usize::from(link.own as u8)];
+        parent.times(own.three_rows()).store(&mut own.rows);
     }
     sum
 }

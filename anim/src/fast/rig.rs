@@ -107,6 +107,12 @@ impl Rig {
         &self.parents
     }
 
+    /// Returns every bone, those of one depth after the other; the parent of a root is 0.
+    pub(super) fn by_depth(&self) -> impl Iterator<Item = Link<u32>> {
+        let roots = (1..).zip(&self.parents).filter(|&(_, &parent)| parent == 0);
+        roots.map(|(own, _)| Link { own, parent: 0 }).chain(self.links.iter().copied())
+    }
+
     /// Returns every bone with its parent (0 for a root), limb after limb: a bone is followed by its children's limbs.
     pub(super) fn by_limb(&self) -> Vec<Link<u32>> {
         let mut children = vec![Vec::new(); self.bones + 1];
