@@ -12,10 +12,8 @@ pub struct SkinBinding {
     joints: Vec<BoundJoint>,
     /// Whether a byte can index every bone of the rig.
     is_near: bool,
-    /// Every bone, limb after limb.
+    /// Every bone that a joint needs, those of one depth after the other.
     steps: Vec<BoneStep>,
-    /// The bones that no joint needs.
-    rest: Vec<Link<u32>>,
     /// What is to be done for each bone, in bone order.
     uses: Vec<BoneUse>,
     /// The joints that `steps` and `uses` do not have: of a bone that has another joint, or of no bone.
@@ -96,15 +94,15 @@ impl SkinBinding {
                 above = rig.parent(bone);
             }
         }
-        let (needed, rest): (Vec<_>, Vec<_>) =
-            rig.by_depth().partition(|link| uses[link.own as usize - 1] != BoneUse::NotNeeded);
-        let steps = needed.into_iter().map(|Link { own, parent }| match uses[own as usize - 1] {
-            BoneUse::Joint(joint) => {
-                BoneStep { own, parent, joint, offset: joints[joint as usize].offset }
-            }
-            BoneUse::Parent | BoneUse::NotNeeded => BoneStep { own, parent, joint: NO_JOINT, offset: NO_OFFSET },
+        let steps = rig.by_depth().filter_map(|Link { own, parent }| {
+            let (joint, offset) = match uses[own as usize - 1] {
+                BoneUse::Joint(joint) => (joint, joints[joint as usize].offset),
+                BoneUse::Parent => (NO_JOINT, NO_OFFSET),
+                BoneUse::NotNeeded => return None,
+            };
+            Some(BoneStep { offset, own, parent, joint })
         });
-        Self { is_near: rig.bones() < NARROW, steps: steps.collect(), rest, uses, further, joints }
+        Self { is_near: rig.bones() < NARROW, steps: steps.collect(), uses, further, joints }
     }
 
     /// Returns the number of joints.
@@ -118,16 +116,10 @@ impl SkinBinding {
         self.is_near
     }
 
-    /// Returns every bone of the rig, limb after limb: most bones come directly after their parent.
+    /// Returns every bone that a joint needs, those of one depth after the other.
     #[inline(always)]
     pub(super) fn steps(&self) -> &[BoneStep] {
         &self.steps
-    }
-
-    /// Returns the bones that no joint needs, parents first.
-    #[inline(always)]
-    pub(super) fn rest(&self) -> &[Link<u32>] {
-        &self.rest
     }
 
     /// Returns what is to be done for each bone, in bone order.

@@ -5,44 +5,43 @@
 //! to_root, final_pose          bone after bone, those of one depth after the other
 //! ```
 //!
-//! A product of the chain waits for that of the parent. The final matrix of the bone is computed while it does, from the
-//! same registers.
+//! A product of the chain waits for that of the parent. The final matrix of the bone is computed meanwhile, from the
+//! same registers. Bones that no joint needs are left out.
 
 use super::binding::{BoneStep, SkinBinding};
 use super::final_poses::final_poses_with;
 use super::matrix::{Matrix34, PaddedMatrix};
 use super::pose::PoseBlock;
-use super::rig::{Link, NARROW, Rig};
+use super::rig::{NARROW, Rig};
 use super::simd::{Rows, Simd};
-use super::to_root::{RootPoses, leaves_are_finite, to_parents, to_root_with};
+use super::to_root::{RootPoses, to_parents, to_root_with};
 
-/// Computes the final matrices of `pose`, and `to_root` of every bone.
+/// Computes the final matrices of `pose`. `memory` is for `to_root` of the bones that a joint needs.
 #[inline(always)]
 pub(super) fn one_character<S: Simd>(
     rig: &Rig,
     binding: &SkinBinding,
     pose: &[PoseBlock],
-    to_root: &mut RootPoses,
+    memory: &mut RootPoses,
     out: &mut [Matrix34],
 ) {
-    to_parents::<S>(rig, pose, to_root);
-    let matrices = to_root.matrices.as_mut_slice();
+    to_parents::<S>(rig, pose, memory);
+    let matrices = memory.matrices.as_mut_slice();
     let sum = match matrices.first_chunk_mut::<NARROW>() {
-        Some(first) if binding.is_near() => near_steps::<S>(binding.steps(), binding.rest(), first, out),
+        Some(first) if binding.is_near() => near_steps::<S>(binding.steps(), first, out),
         Some(_) | None => far_steps::<S>(binding.steps(), matrices, out),
     };
     let sum = further::<S>(binding, matrices, out, sum);
-    if !sum.is_number() || !leaves_are_finite::<S>(rig, matrices) {
-        again::<S>(rig, binding, pose, to_root, out);
+    if !sum.is_number() {
+        again::<S>(rig, binding, pose, memory, out);
     }
 }
 
-/// Computes `to_root` of every bone in place, where its `to_parent` is, and the final matrix of its joint. Returns NaN
+/// Computes `to_root` of the bones in place, where their `to_parent` is, and the final matrices of their joints. Returns NaN
 /// in some places if not all are finite.
 #[inline(always)]
 fn near_steps<S: Simd>(
     steps: &[BoneStep],
-    rest: &[Link<u32>],
     matrices: &mut [PaddedMatrix; NARROW],
     out: &mut [Matrix34],
 ) -> S::Rows {
@@ -53,12 +52,7 @@ fn near_steps<S: Simd>(
         let own = &mut matrices[usize::from(step.own as u8)];
         let to_root = parent.times(own.three_rows());
         to_root.store(&mut own.rows);
-        sum = last_joint::<S>(step, to_root, out, sum);
-    }
-    for link in rest {
-        let parent = S::Rows::load(&matrices[usize::from(link.parent as u8)].rows);
-        let own = &mut matrices[usize::from(link.own as u8)];
-        parent.times(own.three_rows()).store(&mut own.rows);
+        sum = joint_of::<S>(step, to_root, out, sum);
     }
     sum
 }
@@ -66,24 +60,21 @@ fn near_steps<S: Simd>(
 /// As [`near_steps`], for any number of bones.
 #[inline(always)]
 fn far_steps<S: Simd>(steps: &[BoneStep], matrices: &mut [PaddedMatrix], out: &mut [Matrix34]) -> S::Rows {
-    let (mut sum, mut last, mut before) = (S::Rows::zero(), S::Rows::zero(), u32::MAX);
+    let mut sum = S::Rows::zero();
     for step in steps {
-        if step.parent != before {
-            let Some(parent) = matrices.get(step.parent as usize) else { continue };
-            last = S::Rows::load(&parent.rows);
-        }
+        let Some(parent) = matrices.get(step.parent as usize) else { continue };
+        let parent = S::Rows::load(&parent.rows);
         let Some(own) = matrices.get_mut(step.own as usize) else { continue };
-        last = last.times(own.three_rows());
-        before = step.own;
-        last.store(&mut own.rows);
-        sum = last_joint::<S>(step, last, out, sum);
+        let to_root = parent.times(own.three_rows());
+        to_root.store(&mut own.rows);
+        sum = joint_of::<S>(step, to_root, out, sum);
     }
     sum
 }
 
 /// Computes the final matrix of the joint of a step, if it has one.
 #[inline(always)]
-fn last_joint<S: Simd>(step: &BoneStep, to_root: S::Rows, out: &mut [Matrix34], sum: S::Rows) -> S::Rows {
+fn joint_of<S: Simd>(step: &BoneStep, to_root: S::Rows, out: &mut [Matrix34], sum: S::Rows) -> S::Rows {
     // No skin has as many joints as the number that stands for none.
     match out.get_mut(step.joint as usize) {
         Some(out) => {

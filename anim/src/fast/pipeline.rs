@@ -80,9 +80,10 @@ impl Scratch {
         }
     }
 
-    /// Returns `to_root` of the character that [`pose_character`] computed most recently.
-    pub fn to_root(&self) -> &RootPoses {
-        &self.to_root
+    /// Returns the pose of the character that [`pose_character`] computed most recently, relative to the parents: for
+    /// [`super::to_root()`] of bones to which something is attached.
+    pub fn pose(&self) -> &Pose {
+        &self.blended
     }
 }
 

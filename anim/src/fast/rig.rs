@@ -113,22 +113,6 @@ impl Rig {
         roots.map(|(own, _)| Link { own, parent: 0 }).chain(self.links.iter().copied())
     }
 
-    /// Returns every bone with its parent (0 for a root), limb after limb: a bone is followed by its children's limbs.
-    pub(super) fn by_limb(&self) -> Vec<Link<u32>> {
-        let mut children = vec![Vec::new(); self.bones + 1];
-        for (own, &parent) in (1..).zip(&self.parents) {
-            children[parent as usize].push(Link { own, parent });
-        }
-        children.iter_mut().for_each(|children| children.reverse());
-        let mut open = std::mem::take(&mut children[0]);
-        let mut order = Vec::with_capacity(self.bones);
-        while let Some(link) = open.pop() {
-            order.push(link);
-            open.append(&mut children[link.own as usize]);
-        }
-        order
-    }
-
     /// Returns the parent of `bone`; `None` for a root and past the end.
     pub fn parent(&self, bone: usize) -> Option<usize> {
         let parent = *self.parents.get(bone)?;

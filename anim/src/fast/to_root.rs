@@ -177,7 +177,7 @@ fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [PaddedMatrix]) {
 /// Returns whether all leaves are finite. A number that is not spreads along its row from parent to child, and so
 /// reaches the leaves.
 #[inline(always)]
-pub(super) fn leaves_are_finite<S: Simd>(rig: &Rig, matrices: &[PaddedMatrix]) -> bool {
+fn leaves_are_finite<S: Simd>(rig: &Rig, matrices: &[PaddedMatrix]) -> bool {
     let mut sum = S::Rows::zero();
     match matrices.first_chunk::<NARROW>() {
         Some(first) if rig.bones < NARROW => {
