@@ -82,7 +82,8 @@ fn pose_bones<M: Many>(
     let mut sum = M::all(0.0);
     let blocks: [&[PoseBlock]; MOST_LANES] = from_fn(|at| poses[at].blocks());
     let mut bones = CrowdPoses::<M>([[M::ZEROS; LANES]; 10]);
-    for (block, (parents, uses)) in rig.parents().chunks(LANES).zip(binding.uses().chunks(LANES)).enumerate() {
+    for (block, (parents, uses)) in rig.parents().chunks(LANES).zip(binding.uses().chunks(LANES)).enumerate()
+    {
         if uses.iter().all(|used| *used == BoneUse::NotNeeded) {
             continue;
         }

@@ -75,7 +75,11 @@ fn products<S: Simd, const NEAR: bool>(
 #[cold]
 fn carefully(binding: &SkinBinding, to_root: &RootPoses, out: &mut [Matrix34]) {
     for (joint, out) in binding.list().iter().zip(out) {
-        let to_root = to_root.matrices.get(joint.slot as usize).map_or(Mat4::IDENTITY, |matrix| mat4(matrix.packed()));
-        *out = matrix34(final_pose(to_root, mat4(joint.offset.as_flattened().first_chunk().unwrap_or(&IDENTITY))));
+        let to_root =
+            to_root.matrices.get(joint.slot as usize).map_or(Mat4::IDENTITY, |matrix| mat4(matrix.packed()));
+        *out = matrix34(final_pose(
+            to_root,
+            mat4(joint.offset.as_flattened().first_chunk().unwrap_or(&IDENTITY)),
+        ));
     }
 }

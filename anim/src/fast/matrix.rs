@@ -57,9 +57,8 @@ pub struct PaddedMatrix {
 
 impl PaddedMatrix {
     /// The identity.
-    pub(super) const IDENTITY: Self = Self {
-        rows: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0; 4]],
-    };
+    pub(super) const IDENTITY: Self =
+        Self { rows: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0; 4]] };
 
     /// Returns the three rows.
     pub fn packed(&self) -> &Matrix34 {

@@ -9,6 +9,7 @@
 mod additive;
 mod binding;
 mod blend;
+mod blend_masks;
 mod crowd;
 mod final_poses;
 mod key_table;
@@ -30,8 +31,8 @@ mod two_bone;
 mod vertices;
 
 pub use additive::{add, difference};
-pub use blend::{PoseLayer, blend, blend_normalized};
 pub use binding::SkinBinding;
+pub use blend::{PoseLayer, blend, blend_normalized};
 pub use final_poses::final_poses;
 pub use keyed::KeyedTake;
 pub use mask::LaneMask;

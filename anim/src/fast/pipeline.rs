@@ -9,12 +9,12 @@
 //! ([`Scratch`], shared by all); a character itself is only its takes, times and weights. The characters that remain
 //! when a crowd is divided by that number are computed one by one; that gives the same bits.
 
+use super::binding::SkinBinding;
 use super::blend::{PoseLayer, blend_with};
 use super::crowd::Crowd;
-use super::binding::SkinBinding;
-use super::one_character::one_character;
 use super::mask::{LaneMask, usable};
 use super::matrix::Matrix34;
+use super::one_character::one_character;
 use super::playable::Playable;
 use super::pose::Pose;
 use super::rig::Rig;

@@ -133,7 +133,14 @@ fn to_parent<S: Simd>(pose: &PoseBlock, out: &mut [PaddedMatrix; 8]) {
     );
     let [a, b, c, d, e, f, g, h] = out;
     let out = [
-        &mut a.rows, &mut b.rows, &mut c.rows, &mut d.rows, &mut e.rows, &mut f.rows, &mut g.rows, &mut h.rows,
+        &mut a.rows,
+        &mut b.rows,
+        &mut c.rows,
+        &mut d.rows,
+        &mut e.rows,
+        &mut f.rows,
+        &mut g.rows,
+        &mut h.rows,
     ];
     S::Rows::store_eight(columns, out);
 }

@@ -145,10 +145,7 @@ impl Rows for OneRegister {
     }
 
     #[inline(always)]
-    fn store_eight(
-        [upper, middle, lower]: [[F8; 4]; 3],
-        [a, b, c, d, e, f, g, h]: [&mut [[f32; 4]; 4]; 8],
-    ) {
+    fn store_eight([upper, middle, lower]: [[F8; 4]; 3], [a, b, c, d, e, f, g, h]: [&mut [[f32; 4]; 4]; 8]) {
         // In each quarter the same number of four matrices: row 0 of the first four and of the others, then row 1.
         let [x, y, z, w] = transposed([
             two(upper[0], middle[0]),
@@ -321,24 +318,33 @@ fn quarters([a, b, c, d]: [&[f32; 4]; 4]) -> __m512 {
 #[inline(always)]
 fn store_four(rows: [__m512; 3], [a, b, c, d]: [&mut [f32; 12]; 4]) {
     let [x, y, z] = rows;
-    store_quarters(x, [
-        super::many::row::<0>(a),
-        super::many::row::<0>(b),
-        super::many::row::<0>(c),
-        super::many::row::<0>(d),
-    ]);
-    store_quarters(y, [
-        super::many::row::<1>(a),
-        super::many::row::<1>(b),
-        super::many::row::<1>(c),
-        super::many::row::<1>(d),
-    ]);
-    store_quarters(z, [
-        super::many::row::<2>(a),
-        super::many::row::<2>(b),
-        super::many::row::<2>(c),
-        super::many::row::<2>(d),
-    ]);
+    store_quarters(
+        x,
+        [
+            super::many::row::<0>(a),
+            super::many::row::<0>(b),
+            super::many::row::<0>(c),
+            super::many::row::<0>(d),
+        ],
+    );
+    store_quarters(
+        y,
+        [
+            super::many::row::<1>(a),
+            super::many::row::<1>(b),
+            super::many::row::<1>(c),
+            super::many::row::<1>(d),
+        ],
+    );
+    store_quarters(
+        z,
+        [
+            super::many::row::<2>(a),
+            super::many::row::<2>(b),
+            super::many::row::<2>(c),
+            super::many::row::<2>(d),
+        ],
+    );
 }
 
 /// Stores each quarter to its own place.

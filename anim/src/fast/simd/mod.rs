@@ -45,14 +45,14 @@
 //! module, and `apart.rs`, a function. The types of the first two cannot be named outside; a kernel is only given them
 //! inside [`SimdLevel::run`], after the processor's features were detected.
 
+#[allow(unsafe_code, reason = "one check in place of one for each of sixteen items")]
+mod apart;
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code, reason = "instructions beyond the target's own can be had in no other way")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code, reason = "as for avx2")]
 mod avx512;
-#[allow(unsafe_code, reason = "one check in place of one for each of sixteen items")]
-mod apart;
 mod many;
 mod portable;
 mod rows;
