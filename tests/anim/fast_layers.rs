@@ -305,7 +305,7 @@ fn overflowing_numbers_have_the_same_result_as_on_the_open_path() {
     for level in SimdLevel::all() {
         let mut roots = RootPoses::new(&rig);
         to_root(level, &rig, &[], &mut roots);
-        for (bone, (fast, open)) in roots.matrices().iter().zip(&open).enumerate() {
+        for (bone, (fast, open)) in roots.matrices().zip(&open).enumerate() {
             assert!(fast.iter().all(|number| number.is_finite()), "{bone}");
             let fast = matrix::mat4(fast);
             for (fast, open) in fast.to_cols_array().into_iter().zip(open.to_cols_array()) {

@@ -79,9 +79,15 @@ pub(crate) fn compare_poses(got: &Pose, expected: &[Transform], worst: &mut Wors
     }
 }
 
-fn compare_matrices(got: &[[f32; 12]], expected: &[Mat4], largest: f32, worst: &mut Worst, place: &str) {
+fn compare_matrices<'a>(
+    got: impl ExactSizeIterator<Item = &'a [f32; 12]>,
+    expected: &[Mat4],
+    largest: f32,
+    worst: &mut Worst,
+    place: &str,
+) {
     assert_eq!(got.len(), expected.len());
-    for (at, (got, expected)) in got.iter().zip(expected).enumerate() {
+    for (at, (got, expected)) in got.zip(expected).enumerate() {
         worst.compare(&mat4(got).to_cols_array(), &expected.to_cols_array(), largest, || {
             format!("{place} matrix {at}")
         });
@@ -127,7 +133,7 @@ fn compare_model(animation: &AnimationData, skins: &[Skin]) -> Worst {
                 final_poses(level, binding, &roots, &mut finals);
                 // The error of a product is proportional to its factors.
                 let size = size * largest(skin.offsets.iter().flat_map(|matrix| matrix.as_ref())).max(1.0);
-                compare_matrices(&finals, &expected, size, &mut worst, &place);
+                compare_matrices(finals.iter(), &expected, size, &mut worst, &place);
             }
         }
     }

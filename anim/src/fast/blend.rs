@@ -14,13 +14,14 @@
 //! `q` and `-q` are the same rotation: each rotation is moved to the hemisphere of the one with the largest share. Of
 //! equal shares the first counts, and the base comes before all layers. So the sum cannot vanish.
 
+use super::blend_masks::with_masks;
 use super::mask::{LaneMask, usable};
 use super::pose::PoseBlock;
 use super::simd::{Float8, Kernel, Simd, SimdLevel};
 use super::slerp::{dot, unit};
 
 /// Sum of weights from which a bone counts as fully weighted: the remainder is rounding.
-const WHOLE: f32 = 1.0 - 1e-6;
+pub(super) const WHOLE: f32 = 1.0 - 1e-6;
 
 /// One of several poses to blend.
 #[derive(Clone, Copy, Debug)]
@@ -86,8 +87,9 @@ pub(super) fn blend_with<S: Simd>(
 ) {
     let blocks = base.len().min(out.len());
     let (base, out) = (&base[..blocks], &mut out[..blocks]);
-    if !evenly::<S>(base, layers, out, normalized) {
-        by_lane::<S>(base, layers, out, normalized);
+    let has_masks = layers.iter().any(|layer| layer.mask.is_some());
+    if has_masks || !evenly::<S>(base, layers, out, normalized) {
+        with_masks::<S>(base, layers, out, normalized);
     }
 }
 
@@ -154,8 +156,8 @@ fn evenly<S: Simd>(
 /// A pose and its share.
 type WeightedPose<'a> = (&'a [PoseBlock], f32);
 
-/// Above this number, layers are blended lane by lane.
-const MOST: usize = 4;
+/// Above this number, layers are blended one after the other.
+pub(super) const MOST: usize = 4;
 
 /// Computes the sums of the formulas above, with the same shares for all bones; the first pose leads.
 #[inline(always)]
@@ -188,92 +190,5 @@ fn mix<S: Simd, const N: usize>(parts: [WeightedPose; N], out: &mut [PoseBlock])
         }
         S::F8::store_three([a, b, c], &mut out.translation);
         S::F8::store_three([d, e, f], &mut out.scale);
-    }
-}
-
-/// Blends with masks: every bone has its own shares, and its own leading layer.
-#[inline(always)]
-fn by_lane<S: Simd>(base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock], normalized: bool) {
-    let (zero, one) = (S::F8::splat(0.0), S::F8::splat(1.0));
-    for (block, (out, base)) in out.iter_mut().zip(base).enumerate() {
-        let mut sum = zero;
-        for layer in layers {
-            sum = sum + weights::<S>(layer, block);
-        }
-        let (short, missing) = if normalized {
-            (sum.less(S::F8::splat(f32::MIN_POSITIVE)), one)
-        } else {
-            (sum.less(S::F8::splat(WHOLE)), one - sum)
-        };
-        let base_weight = short.select(missing, zero);
-        let total = one / (base_weight + sum);
-        let mut leader = S::F8::load_four(&base.rotation);
-        let mut most = base_weight;
-        for layer in layers {
-            let Some(pose) = layer.pose.get(block) else { continue };
-            let weight = weights::<S>(layer, block);
-            let leads = most.less(weight);
-            let [x, y, z, w] = S::F8::load_four(&pose.rotation);
-            let [a, b, c, d] = leader;
-            leader = [leads.select(x, a), leads.select(y, b), leads.select(z, c), leads.select(w, d)];
-            most = weight.max(most);
-        }
-        let mut mix = Sum::<S> { leader, ..Sum::none(base) };
-        if short.any() {
-            mix.add(base, base_weight * total);
-        }
-        for layer in layers {
-            if let Some(pose) = layer.pose.get(block) {
-                mix.add(pose, weights::<S>(layer, block) * total);
-            }
-        }
-        mix.write(out);
-    }
-}
-
-/// Returns the weights of `layer` in a block; 0 where it has none.
-#[inline(always)]
-fn weights<S: Simd>(layer: &PoseLayer, block: usize) -> S::F8 {
-    let weight = if block < layer.pose.len() { usable(layer.weight) } else { 0.0 };
-    match layer.mask {
-        Some(mask) => S::F8::load(mask.block(block)) * S::F8::splat(weight),
-        None => S::F8::splat(weight),
-    }
-}
-
-/// The sums of the formulas above, for eight bones.
-struct Sum<S: Simd> {
-    leader: [S::F8; 4],
-    rotation: [S::F8; 4],
-    translation: [S::F8; 3],
-    scale: [S::F8; 3],
-}
-
-impl<S: Simd> Sum<S> {
-    #[inline(always)]
-    fn none(leader: &PoseBlock) -> Self {
-        let zero = S::F8::splat(0.0);
-        let leader = S::F8::load_four(&leader.rotation);
-        Self { leader, rotation: [zero; 4], translation: [zero; 3], scale: [zero; 3] }
-    }
-
-    #[inline(always)]
-    fn add(&mut self, pose: &PoseBlock, share: S::F8) {
-        let [x, y, z, w] = S::F8::load_four(&pose.rotation);
-        let turned = share.flipped_by(dot::<S>([x, y, z, w], self.leader).sign());
-        let [a, b, c, d] = self.rotation;
-        self.rotation =
-            [x.mul_add(turned, a), y.mul_add(turned, b), z.mul_add(turned, c), w.mul_add(turned, d)];
-        let ([x, y, z], [a, b, c]) = (S::F8::load_three(&pose.translation), self.translation);
-        self.translation = [x.mul_add(share, a), y.mul_add(share, b), z.mul_add(share, c)];
-        let ([x, y, z], [a, b, c]) = (S::F8::load_three(&pose.scale), self.scale);
-        self.scale = [x.mul_add(share, a), y.mul_add(share, b), z.mul_add(share, c)];
-    }
-
-    #[inline(always)]
-    fn write(self, out: &mut PoseBlock) {
-        S::F8::store_four(unit::<S>(self.rotation), &mut out.rotation);
-        S::F8::store_three(self.translation, &mut out.translation);
-        S::F8::store_three(self.scale, &mut out.scale);
     }
 }

@@ -6,24 +6,45 @@ use super::simd::LANES;
 /// Weights of bones, 0..=1 each, in the layout of poses. Bones past the end have weight 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LaneMask {
-    lanes: Vec<[f32; LANES]>,
+    blocks: Vec<MaskBlock>,
+}
+
+/// Weights of eight bones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub(super) struct MaskBlock {
+    pub(super) lanes: [f32; LANES],
+    /// Whether all are 0, so that the layer can be skipped.
+    pub(super) is_zero: bool,
+}
+
+impl MaskBlock {
+    pub(super) const ZERO: Self = Self { lanes: [0.0; LANES], is_zero: true };
 }
 
 impl LaneMask {
     /// Creates a mask from one weight per bone, in bone order; below zero and NaN count as 0, above one as 1.
     pub fn new(weights: impl IntoIterator<Item = f32>) -> Self {
         let weights: Vec<f32> = weights.into_iter().map(usable).map(|weight| weight.min(1.0)).collect();
-        let mut lanes = vec![[0.0; LANES]; blocks_of(weights.len())];
+        let mut blocks = vec![MaskBlock::ZERO; blocks_of(weights.len())];
         for (bone, weight) in weights.into_iter().enumerate() {
-            lanes[bone / LANES][bone % LANES] = weight;
+            let block = &mut blocks[bone / LANES];
+            block.lanes[bone % LANES] = weight;
+            block.is_zero &= weight == 0.0;
         }
-        Self { lanes }
+        Self { blocks }
     }
 
     /// Returns the weights of block `block`; all 0 past the end.
     #[inline(always)]
     pub(super) fn block(&self, block: usize) -> &[f32; LANES] {
-        self.lanes.get(block).unwrap_or(&[0.0; LANES])
+        self.blocks.get(block).map_or(&[0.0; LANES], |block| &block.lanes)
+    }
+
+    /// Returns the weights of all blocks.
+    #[inline(always)]
+    pub(super) fn blocks(&self) -> &[MaskBlock] {
+        &self.blocks
     }
 }
 

@@ -9,7 +9,6 @@
 //! 48 bytes where a [`Mat4`] has 64, and correspondingly fewer operations. A list of them is a list of floats for the
 //! GPU without a copy: `matrices.as_flattened()`; in a shader three rows per matrix, `position' = row · (position, 1)`.
 
-use super::simd::{Float4, Float8, Simd};
 use glam::{Mat4, Vec3};
 
 /// Three rows of four numbers, for column vectors.
@@ -48,51 +47,34 @@ pub(super) fn lower(matrix: &Matrix34) -> &[f32; 4] {
     matrix.last_chunk().unwrap_or(&[0.0; 4])
 }
 
-/// Returns row `ROW`.
-#[inline(always)]
-pub(super) fn row<const ROW: usize>(matrix: &mut Matrix34) -> &mut [f32; 4] {
-    &mut matrix.as_chunks_mut().0[ROW % 3]
+/// A [`Matrix34`] in memory of 64 bytes: the width of a cache line, and of the widest registers.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct PaddedMatrix {
+    /// Three rows, and four numbers without a meaning.
+    pub(super) rows: [[f32; 4]; 4],
 }
 
-/// Rows of a matrix in registers: 0 and 1, and 2.
-#[derive(Clone, Copy)]
-pub(super) struct MatrixRows<S: Simd>(pub(super) S::F8, pub(super) S::F4);
+impl PaddedMatrix {
+    /// The identity.
+    pub(super) const IDENTITY: Self =
+        Self { rows: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0; 4]] };
 
-impl<S: Simd> MatrixRows<S> {
-    #[inline(always)]
-    pub(super) fn load(matrix: &Matrix34) -> Self {
-        Self(S::F8::load(upper(matrix)), S::F4::load(lower(matrix)))
+    /// Returns the three rows.
+    pub fn packed(&self) -> &Matrix34 {
+        self.rows.as_flattened().first_chunk().unwrap_or(&IDENTITY)
     }
 
+    /// Returns the three rows one by one.
     #[inline(always)]
-    pub(super) fn store(self, matrix: &mut Matrix34) {
-        if let Some(upper) = matrix.first_chunk_mut() {
-            self.0.store(upper);
+    pub(super) fn three_rows(&self) -> &[[f32; 4]; 3] {
+        self.rows.first_chunk().unwrap_or(&[[0.0; 4]; 3])
+    }
+
+    /// Sets the three rows.
+    pub(super) fn set(&mut self, matrix: &Matrix34) {
+        for (row, from) in self.rows.iter_mut().zip(matrix.as_chunks().0) {
+            *row = *from;
         }
-        if let Some(lower) = matrix.last_chunk_mut() {
-            self.1.store(lower);
-        }
     }
-
-    /// Returns `self * other`, with each row of `other` in both halves of its register:
-    ///
-    /// ```text
-    /// row_i = self_i0 * other_0 + self_i1 * other_1 + self_i2 * other_2 + (0 0 0 self_i3)
-    /// ```
-    #[inline(always)]
-    pub(super) fn times(self, [x, y, z]: [S::F8; 3]) -> Self {
-        let Self(two, one) = self;
-        let upper = two.spread::<0>().mul_add(x, two.keep_last());
-        let lower = one.spread::<0>().mul_add(x.low(), one.keep_last());
-        let upper = two.spread::<1>().mul_add(y, upper);
-        let lower = one.spread::<1>().mul_add(y.low(), lower);
-        Self(two.spread::<2>().mul_add(z, upper), one.spread::<2>().mul_add(z.low(), lower))
-    }
-}
-
-/// Returns the rows of a matrix, each in both halves of a register.
-#[inline(always)]
-pub(super) fn doubled<S: Simd>(matrix: &Matrix34) -> [S::F8; 3] {
-    let rows = matrix.as_chunks::<4>().0;
-    [S::F8::twice(&rows[0]), S::F8::twice(&rows[1]), S::F8::twice(&rows[2])]
 }

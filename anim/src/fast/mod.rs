@@ -7,14 +7,18 @@
 //! Nothing here allocates after set-up, and no character has a cache: any time of a take costs the same.
 
 mod additive;
+mod binding;
 mod blend;
-mod eight;
+mod blend_masks;
+mod crowd;
 mod final_poses;
 mod key_table;
 mod keyed;
+mod local;
 mod mask;
 pub mod matrix;
 mod morph;
+mod one_character;
 mod pipeline;
 mod playable;
 mod pose;
@@ -28,8 +32,9 @@ mod vertices;
 mod weigh;
 
 pub use additive::{add, difference};
+pub use binding::SkinBinding;
 pub use blend::{PoseLayer, blend, blend_normalized};
-pub use final_poses::{SkinBinding, final_poses};
+pub use final_poses::final_poses;
 pub use keyed::KeyedTake;
 pub use mask::LaneMask;
 pub use matrix::Matrix34;

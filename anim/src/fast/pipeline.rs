@@ -2,23 +2,24 @@
 //!
 //! ```text
 //! for each character:         sample each of its layers → blend
-//! for eight characters, or one: to_root → final_pose of every joint
+//! for a register of them, or one: to_root → final_pose of every joint
 //! ```
 //!
-//! All steps of eight characters run before the next ones', so poses and to-root matrices stay in the nearest cache
+//! All steps of eight or sixteen characters run before the next ones', so poses and to-root matrices stay in the nearest cache
 //! ([`Scratch`], shared by all); a character itself is only its takes, times and weights. The characters that remain
-//! when a crowd is divided by eight are computed one by one; that gives the same bits.
+//! when a crowd is divided by that number are computed one by one; that gives the same bits.
 
+use super::binding::SkinBinding;
 use super::blend::{PoseLayer, blend_with};
-use super::eight::{Eight, EightOuts};
-use super::final_poses::{SkinBinding, final_poses_with};
+use super::crowd::Crowd;
 use super::mask::{LaneMask, usable};
 use super::matrix::Matrix34;
+use super::one_character::one_character;
 use super::playable::Playable;
 use super::pose::Pose;
 use super::rig::Rig;
-use super::simd::{Kernel, LANES, Simd, SimdLevel};
-use super::to_root::{RootPoses, to_root_with};
+use super::simd::{Kernel, MOST_LANES, Many, Simd, SimdLevel};
+use super::to_root::RootPoses;
 
 /// A take that a character plays, possibly with others.
 #[derive(Debug)]
@@ -60,7 +61,7 @@ pub struct Scratch {
     sampled: Vec<Pose>,
     blended: Pose,
     to_root: RootPoses,
-    eight: Eight,
+    crowd: Crowd,
 }
 
 /// Number of layers of one character that are blended within a [`Scratch`], without more memory. Further layers are
@@ -75,13 +76,14 @@ impl Scratch {
             sampled: vec![pose.clone(); MAX_LAYERS],
             blended: pose,
             to_root: RootPoses::new(rig),
-            eight: Eight::new(rig),
+            crowd: Crowd::new(rig),
         }
     }
 
-    /// Returns `to_root` of the character that [`pose_character`] computed most recently.
-    pub fn to_root(&self) -> &RootPoses {
-        &self.to_root
+    /// Returns the pose of the character that [`pose_character`] computed most recently, relative to the parents: for
+    /// [`super::to_root()`] of bones to which something is attached.
+    pub fn pose(&self) -> &Pose {
+        &self.blended
     }
 }
 
@@ -113,7 +115,7 @@ pub fn pose_crowd<'a, T: Playable + 'a>(
     scratch: &mut Scratch,
     out: &mut [Matrix34],
 ) {
-    level.run(Crowd { rig, binding, characters: characters.into_iter(), scratch, out });
+    level.run(ManyCharacters { rig, binding, characters: characters.into_iter(), scratch, out });
 }
 
 struct OneCharacter<'a, T> {
@@ -134,7 +136,7 @@ impl<T: Playable> Kernel for OneCharacter<'_, T> {
     }
 }
 
-struct Crowd<'a, I> {
+struct ManyCharacters<'a, I> {
     rig: &'a Rig,
     binding: &'a SkinBinding,
     characters: I,
@@ -142,7 +144,7 @@ struct Crowd<'a, I> {
     out: &'a mut [Matrix34],
 }
 
-impl<'a, T: Playable + 'a, I: Iterator<Item = &'a [Playing<'a, T>]>> Kernel for Crowd<'_, I> {
+impl<'a, T: Playable + 'a, I: Iterator<Item = &'a [Playing<'a, T>]>> Kernel for ManyCharacters<'_, I> {
     type Output = ();
 
     #[inline(always)]
@@ -151,16 +153,17 @@ impl<'a, T: Playable + 'a, I: Iterator<Item = &'a [Playing<'a, T>]>> Kernel for 
         let joints = binding.joints().max(1);
         // The exact matrices of a sheared rest pose are put in for one character at a time. Where eight numbers need
         // more than one register, there are too few of them.
-        let by_eight = S::IS_WIDE && rig.sheared.is_empty();
-        for out in out.chunks_mut(LANES * joints) {
-            let mut group: [&[Playing<T>]; LANES] = [&[]; LANES];
+        let together = S::IS_WIDE && rig.sheared.is_empty();
+        let most = S::Many::COUNT;
+        for out in out.chunks_mut(most * joints) {
+            let mut group: [&[Playing<T>]; MOST_LANES] = [&[]; MOST_LANES];
             let mut count = 0;
             for (slot, layers) in group.iter_mut().zip(characters.by_ref().take(out.len().div_ceil(joints))) {
                 *slot = layers;
                 count += 1;
             }
-            let is_full = count == LANES && out.len() == LANES * joints;
-            if S::IS_WIDE && by_eight && is_full && eight::<S, T>(rig, binding, &group, scratch, out) {
+            let is_full = count == most && out.len() == most * joints;
+            if S::IS_WIDE && together && is_full && at_once::<S, T>(rig, binding, &group, scratch, out) {
                 continue;
             }
             for (layers, out) in group.iter().take(count).zip(out.chunks_mut(joints)) {
@@ -181,29 +184,24 @@ fn character<S: Simd, T: Playable>(
 ) {
     let Scratch { sampled, blended, to_root, .. } = scratch;
     pose::<S, T>(rig, layers, sampled, blended);
-    to_root_with::<S>(rig, blended.blocks(), to_root);
-    final_poses_with::<S>(binding, to_root, out);
+    one_character::<S>(rig, binding, blended.blocks(), to_root, out);
 }
 
-/// Computes the final matrices of eight characters, and returns whether all numbers are finite; otherwise the
-/// characters have to be computed one by one.
+/// Computes the final matrices of a full register of characters, and returns whether all numbers are finite; otherwise
+/// the characters have to be computed one by one.
 #[inline(always)]
-fn eight<S: Simd, T: Playable>(
+fn at_once<S: Simd, T: Playable>(
     rig: &Rig,
     binding: &SkinBinding,
-    group: &[&[Playing<T>]; LANES],
+    group: &[&[Playing<T>]; MOST_LANES],
     scratch: &mut Scratch,
     out: &mut [Matrix34],
 ) -> bool {
-    let Scratch { sampled, eight, .. } = scratch;
-    for (layers, to) in group.iter().zip(eight.poses()) {
+    let Scratch { sampled, crowd, .. } = scratch;
+    for (layers, to) in group.iter().zip(crowd.poses()).take(S::Many::COUNT) {
         pose::<S, T>(rig, layers, sampled, to);
     }
-    let mut outs: EightOuts = Default::default();
-    for (to, out) in outs.iter_mut().zip(out.chunks_mut(binding.joints().max(1))) {
-        *to = out;
-    }
-    eight.finals::<S>(rig, binding, outs)
+    crowd.finals::<S::Many>(rig, binding, out)
 }
 
 /// Computes the pose of one character.

@@ -107,6 +107,12 @@ impl Rig {
         &self.parents
     }
 
+    /// Returns every bone, those of one depth after the other; the parent of a root is 0.
+    pub(super) fn by_depth(&self) -> impl Iterator<Item = Link<u32>> {
+        let roots = (1..).zip(&self.parents).filter(|&(_, &parent)| parent == 0);
+        roots.map(|(own, _)| Link { own, parent: 0 }).chain(self.links.iter().copied())
+    }
+
     /// Returns the parent of `bone`; `None` for a root and past the end.
     pub fn parent(&self, bone: usize) -> Option<usize> {
         let parent = *self.parents.get(bone)?;

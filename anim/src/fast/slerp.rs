@@ -70,10 +70,8 @@ impl<S: Simd> FastSlerp<S> {
 /// Returns the dot products of eight pairs.
 #[inline(always)]
 pub(super) fn dot<S: Simd>(a: [S::F8; 4], b: [S::F8; 4]) -> S::F8 {
-    let sum = a[0] * b[0];
-    let sum = a[1].mul_add(b[1], sum);
-    let sum = a[2].mul_add(b[2], sum);
-    a[3].mul_add(b[3], sum)
+    // Two sums that do not wait for each other.
+    a[1].mul_add(b[1], a[0] * b[0]) + a[3].mul_add(b[3], a[2] * b[2])
 }
 
 /// Normalizes rotations whose length is not zero.

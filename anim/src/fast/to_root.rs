@@ -8,18 +8,13 @@
 //! Two passes, one for each line, both in the same memory. The second goes through the skeleton by depth: a product
 //! needs that of its parent, and bones of one depth do not wait for each other, as the bones of a limb would.
 //!
-//! With the unit quaternion (x y z w), the scale (a b c) and the translation t:
-//!
-//! ```text
-//!             ┌ a (1 - 2y² - 2z²)   b (2xy - 2zw)       c (2xz + 2yw)      tx ┐
-//! to_parent = │ a (2xy + 2zw)       b (1 - 2x² - 2z²)   c (2yz - 2xw)      ty │
-//!             └ a (2xz - 2yw)       b (2yz + 2xw)       c (1 - 2x² - 2y²)  tz ┘
-//! ```
+//! What `to_parent` is in detail: `local.rs`.
 
-use super::matrix::{IDENTITY, Matrix34, MatrixRows, doubled, mat4, matrix34, row};
+use super::local::local_rows;
+use super::matrix::{Matrix34, PaddedMatrix, mat4, matrix34};
 use super::pose::PoseBlock;
 use super::rig::{Link, NARROW, Rig};
-use super::simd::{Float4, Float8, Kernel, Simd, SimdLevel};
+use super::simd::{Float8, Kernel, Rows, Simd, SimdLevel};
 use glam::Mat4;
 
 /// `to_root` of every bone of one character.
@@ -27,7 +22,7 @@ use glam::Mat4;
 pub struct RootPoses {
     /// The identity, used as the parent of roots; then one per lane; padded to the number of matrices that a byte can
     /// index.
-    pub(super) matrices: Vec<Matrix34>,
+    pub(super) matrices: Vec<PaddedMatrix>,
     bones: usize,
     /// Instructions with which limbs are solved ([`super::two_bone()`]).
     pub(super) level: SimdLevel,
@@ -38,20 +33,29 @@ impl RootPoses {
     pub fn new(rig: &Rig) -> Self {
         let blocks = rig.rest().blocks().len();
         Self {
-            matrices: vec![IDENTITY; (1 + blocks * 8).max(NARROW)],
+            matrices: vec![PaddedMatrix::IDENTITY; (1 + blocks * 8).max(NARROW)],
             bones: rig.bones,
             level: SimdLevel::best(),
         }
     }
 
     /// Returns one matrix per bone: bone space → scene space.
-    pub fn matrices(&self) -> &[Matrix34] {
-        &self.matrices[1..=self.bones]
+    pub fn matrices(&self) -> impl ExactSizeIterator<Item = &Matrix34> {
+        self.bones().iter().map(PaddedMatrix::packed)
     }
 
     /// Returns the matrix of `bone`; the identity past the end.
     pub fn get(&self, bone: usize) -> &Matrix34 {
-        self.matrices().get(bone).unwrap_or(&IDENTITY)
+        self.bones().get(bone).unwrap_or(&PaddedMatrix::IDENTITY).packed()
+    }
+
+    /// Returns the matrix of `bone`; `None` past the end.
+    pub(super) fn bone(&self, bone: u32) -> Option<&Matrix34> {
+        self.bones().get(bone as usize).map(PaddedMatrix::packed)
+    }
+
+    fn bones(&self) -> &[PaddedMatrix] {
+        &self.matrices[1..=self.bones]
     }
 }
 
@@ -82,6 +86,20 @@ impl Kernel for ToRoot<'_> {
 /// As [`to_root`], as part of a larger kernel.
 #[inline(always)]
 pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
+    to_parents::<S>(rig, pose, out);
+    let matrices = out.matrices.as_mut_slice();
+    match matrices.first_chunk_mut() {
+        Some(first) if rig.bones < NARROW => near_chain::<S>(&rig.near_links, first),
+        Some(_) | None => far_chain::<S>(&rig.links, matrices),
+    }
+    if !leaves_are_finite::<S>(rig, matrices) {
+        carefully(rig, pose, matrices);
+    }
+}
+
+/// Computes `to_parent` of every bone in the memory for `to_root`.
+#[inline(always)]
+pub(super) fn to_parents<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootPoses) {
     fit(rig, out);
     let matrices = out.matrices.as_mut_slice();
     let mut own = matrices.get_mut(1..).unwrap_or_default().as_chunks_mut::<8>().0.iter_mut();
@@ -95,19 +113,6 @@ pub(super) fn to_root_with<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut Roo
     if !rig.sheared.is_empty() {
         put_sheared(rig, pose, matrices);
     }
-    let is_finite = match matrices.first_chunk_mut() {
-        Some(first) if rig.bones < NARROW => {
-            near_chain::<S>(&rig.near_links, first);
-            leaves_are_finite::<S>(rig.near_leaves.iter().map(|&leaf| usize::from(leaf)), first)
-        }
-        Some(_) | None => {
-            far_chain::<S>(&rig.links, matrices);
-            leaves_are_finite::<S>(rig.leaves.iter().map(|&leaf| leaf as usize), matrices)
-        }
-    };
-    if !is_finite {
-        carefully(rig, pose, matrices);
-    }
 }
 
 /// Resizes `out`, if it was made for another rig.
@@ -120,75 +125,58 @@ fn fit(rig: &Rig, out: &mut RootPoses) {
 
 /// Computes `T · R · S` of eight bones.
 #[inline(always)]
-fn to_parent<S: Simd>(pose: &PoseBlock, out: &mut [Matrix34; 8]) {
-    let rotation = S::F8::load_four(&pose.rotation);
-    let [upper, middle, lower] =
-        local_rows::<S>(rotation, S::F8::load_three(&pose.translation), S::F8::load_three(&pose.scale));
-    store_rows::<S, 0>(upper, out);
-    store_rows::<S, 1>(middle, out);
-    store_rows::<S, 2>(lower, out);
-}
-
-/// Returns the rows of `T · R · S` by columns.
-#[inline(always)]
-pub(super) fn local_rows<S: Simd>(
-    [x, y, z, w]: [S::F8; 4],
-    [tx, ty, tz]: [S::F8; 3],
-    [a, b, c]: [S::F8; 3],
-) -> [[S::F8; 4]; 3] {
-    let (x2, y2, z2, one) = (x + x, y + y, z + z, S::F8::splat(1.0));
-    let (xy, xz, yz) = (x * y2, x * z2, y * z2);
-    let (not_x, not_y) = (x.neg_mul_add(x2, one), y.neg_mul_add(y2, one));
-    [
-        [z.neg_mul_add(z2, not_y) * a, w.neg_mul_add(z2, xy) * b, w.mul_add(y2, xz) * c, tx],
-        [w.mul_add(z2, xy) * a, z.neg_mul_add(z2, not_x) * b, w.neg_mul_add(x2, yz) * c, ty],
-        [w.neg_mul_add(y2, xz) * a, w.mul_add(x2, yz) * b, y.neg_mul_add(y2, not_x) * c, tz],
-    ]
-}
-
-/// Stores row `ROW` of eight matrices, given by columns.
-#[inline(always)]
-fn store_rows<S: Simd, const ROW: usize>(columns: [S::F8; 4], out: &mut [Matrix34; 8]) {
-    let [ae, bf, cg, dh] = S::F8::transpose(columns);
+fn to_parent<S: Simd>(pose: &PoseBlock, out: &mut [PaddedMatrix; 8]) {
+    let columns = local_rows::<S::F8>(
+        S::F8::load_four(&pose.rotation),
+        S::F8::load_three(&pose.translation),
+        S::F8::load_three(&pose.scale),
+    );
     let [a, b, c, d, e, f, g, h] = out;
-    ae.store_halves(row::<ROW>(a), row::<ROW>(e));
-    bf.store_halves(row::<ROW>(b), row::<ROW>(f));
-    cg.store_halves(row::<ROW>(c), row::<ROW>(g));
-    dh.store_halves(row::<ROW>(d), row::<ROW>(h));
+    let out = [
+        &mut a.rows,
+        &mut b.rows,
+        &mut c.rows,
+        &mut d.rows,
+        &mut e.rows,
+        &mut f.rows,
+        &mut g.rows,
+        &mut h.rows,
+    ];
+    S::Rows::store_eight(columns, out);
 }
 
 /// Computes `to_root` of every bone in place, where its `to_parent` is, parents first.
 #[inline(always)]
-fn near_chain<S: Simd>(links: &[Link<u8>], matrices: &mut [Matrix34; NARROW]) {
+fn near_chain<S: Simd>(links: &[Link<u8>], matrices: &mut [PaddedMatrix; NARROW]) {
     for link in links {
         // Without a bounds check: a byte is always within the array.
-        let parent = MatrixRows::<S>::load(&matrices[usize::from(link.parent)]);
+        let parent = S::Rows::load(&matrices[usize::from(link.parent)].rows);
         let own = &mut matrices[usize::from(link.own)];
-        parent.times(doubled::<S>(own)).store(own);
+        parent.times(own.three_rows()).store(&mut own.rows);
     }
 }
 
 /// As [`near_chain`], for any number of bones.
 #[inline(always)]
-fn far_chain<S: Simd>(links: &[Link<u32>], matrices: &mut [Matrix34]) {
+fn far_chain<S: Simd>(links: &[Link<u32>], matrices: &mut [PaddedMatrix]) {
     for link in links {
         let Some(parent) = matrices.get(link.parent as usize) else { return };
-        let parent = MatrixRows::<S>::load(parent);
+        let parent = S::Rows::load(&parent.rows);
         let Some(own) = matrices.get_mut(link.own as usize) else { return };
-        parent.times(doubled::<S>(own)).store(own);
+        parent.times(own.three_rows()).store(&mut own.rows);
     }
 }
 
 /// Replaces the matrices of sheared bones in their rest pose by the exact rest matrices.
 #[cold]
-fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [Matrix34]) {
+fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [PaddedMatrix]) {
     for sheared in &rig.sheared {
         let (block, at) = (sheared.bone / 8, sheared.bone % 8);
         let posed = pose.get(block).or(rig.rest().blocks().get(block));
         if posed.is_some_and(|posed| posed.get(at) == sheared.rest)
             && let Some(own) = matrices.get_mut(1 + sheared.bone)
         {
-            *own = matrix34(sheared.matrix);
+            own.set(&matrix34(sheared.matrix));
         }
     }
 }
@@ -196,32 +184,33 @@ fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [Matrix34]) {
 /// Returns whether all leaves are finite. A number that is not spreads along its row from parent to child, and so
 /// reaches the leaves.
 #[inline(always)]
-fn leaves_are_finite<S: Simd>(leaves: impl Iterator<Item = usize>, matrices: &[Matrix34]) -> bool {
-    let zero = S::F8::splat(0.0);
-    let (mut upper, mut lower) = (zero, zero.low());
-    for leaf in leaves {
-        if let Some(leaf) = matrices.get(leaf) {
-            // Stays zero while everything is finite.
-            upper = S::F8::load(super::matrix::upper(leaf)).mul_add(zero, upper);
-            lower = S::F4::load(super::matrix::lower(leaf)).mul_add(zero.low(), lower);
+fn leaves_are_finite<S: Simd>(rig: &Rig, matrices: &[PaddedMatrix]) -> bool {
+    let mut sum = S::Rows::zero();
+    match matrices.first_chunk::<NARROW>() {
+        Some(first) if rig.bones < NARROW => {
+            for &leaf in &rig.near_leaves {
+                sum = S::Rows::load(&first[usize::from(leaf)].rows).checked(sum);
+            }
+        }
+        Some(_) | None => {
+            for leaf in rig.leaves.iter().filter_map(|&leaf| matrices.get(leaf as usize)) {
+                sum = S::Rows::load(&leaf.rows).checked(sum);
+            }
         }
     }
-    // NaN is not less than anything.
-    let mut four = [0.0; 4];
-    lower.store(&mut four);
-    (upper + S::F8::twice(&four)).less(S::F8::splat(1.0)).all()
+    sum.is_number()
 }
 
 /// Computes as the open path does, for poses whose products leave the range of f32.
 #[cold]
-fn carefully(rig: &Rig, pose: &[PoseBlock], out: &mut [Matrix34]) {
+fn carefully(rig: &Rig, pose: &[PoseBlock], out: &mut [PaddedMatrix]) {
     for bone in 0..rig.bones {
         let block = pose.get(bone / 8).or(rig.rest().blocks().get(bone / 8));
         let transform = block.map_or_else(Default::default, |block| block.get(bone));
         let sheared = rig.sheared.iter().find(|sheared| sheared.bone == bone && sheared.rest == transform);
         let to_parent = sheared.map_or_else(|| transform.to_matrix(), |sheared| sheared.matrix);
-        let parent = rig.parent(bone).map_or(Mat4::IDENTITY, |parent| mat4(&out[1 + parent]));
+        let parent = rig.parent(bone).map_or(Mat4::IDENTITY, |parent| mat4(out[1 + parent].packed()));
         let product = parent * to_parent;
-        out[1 + bone] = matrix34(if product.is_finite() { product } else { parent });
+        out[1 + bone].set(&matrix34(if product.is_finite() { product } else { parent }));
     }
 }

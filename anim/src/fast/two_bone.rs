@@ -81,10 +81,10 @@ impl Kernel for Solve<'_> {
     #[inline(always)]
     fn run<S: Simd>(self) -> bool {
         let Self { limb, target, to_root, pose } = self;
-        let (matrices, blocks) = (to_root.matrices(), pose.blocks_mut());
-        let Some(root) = matrices.get(limb.root as usize) else { return false };
-        let Some(middle) = matrices.get(limb.middle as usize) else { return false };
-        let Some(end) = matrices.get(limb.end as usize) else { return false };
+        let blocks = pose.blocks_mut();
+        let Some(root) = to_root.bone(limb.root) else { return false };
+        let Some(middle) = to_root.bone(limb.middle) else { return false };
+        let Some(end) = to_root.bone(limb.end) else { return false };
         let mut turns = solve(limb, target.into(), [root, middle, end]);
         // NaN fails the comparison, and so does not count as full weight.
         let is_whole = limb.weight >= 1.0;

@@ -8,6 +8,7 @@
 //! * an unaligned load or store through a reference to an array of exactly as many bytes;
 //! * the gather and [`Word8::near`], which keep their offsets within the slice.
 
+use super::rows::TwoVectors;
 use super::{Float4, Float8, Kernel, Simd, Word8};
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
@@ -45,22 +46,24 @@ impl Simd for Avx2 {
     type F8 = F8;
     type F4 = F4;
     type U8 = U8;
+    type Rows = TwoVectors<F8>;
+    type Many = F8;
 }
 
 /// Eight numbers in one register.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
-pub(super) struct F8(__m256);
+pub(super) struct F8(pub(super) __m256);
 
 /// Four numbers in one register.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
-pub(super) struct F4(__m128);
+pub(super) struct F4(pub(super) __m128);
 
 /// Eight words in one register.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
-pub(super) struct U8(__m256i);
+pub(super) struct U8(pub(super) __m256i);
 
 /// An instruction of AVX2 or FMA, on registers and constants only.
 macro_rules! instruction {

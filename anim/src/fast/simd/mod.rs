@@ -31,6 +31,7 @@
 //!
 //! | level | available | a vector of eight is |
 //! |---|---|---|
+//! | `avx512` | x86-64 with AVX-512 (F, VL, BW, DQ) | half a register: matrices and crowds use all of it |
 //! | `avx2` | x86-64 with AVX2 and FMA | one register |
 //! | `portable` | everywhere | an array, in loops that compilers vectorize for the target |
 //!
@@ -40,17 +41,26 @@
 //!
 //! # Safety
 //!
-//! The only file of the crate with `unsafe` code is `avx2.rs`, called through the safe traits of this module. Its types
-//! cannot be named outside; a kernel is only given them inside [`SimdLevel::run`], after the processor's features were
-//! detected.
+//! The only files of the crate with `unsafe` code are `avx2.rs` and `avx512.rs`, called through the safe traits of this
+//! module, and `apart.rs`, a function. The types of the first two cannot be named outside; a kernel is only given them
+//! inside [`SimdLevel::run`], after the processor's features were detected.
 
+#[allow(unsafe_code, reason = "one check in place of one for each of sixteen items")]
+mod apart;
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code, reason = "instructions beyond the target's own can be had in no other way")]
 mod avx2;
+#[cfg(target_arch = "x86_64")]
+#[allow(unsafe_code, reason = "as for avx2")]
+mod avx512;
+mod many;
 mod portable;
+mod rows;
 mod vector;
 
+pub use many::{MOST_LANES, Many};
 pub use portable::Portable;
+pub use rows::{Rows, TwoVectors};
 pub use vector::{Float4, Float8, Simd, Word8};
 
 /// Number of lanes of the wide vectors.
@@ -70,9 +80,9 @@ pub trait Kernel {
     fn run<S: Simd>(self) -> Self::Output;
 }
 
-/// A set of instructions of the current machine (AVX2, or the portable fallback).
+/// A set of instructions of the current machine (AVX-512, AVX2, or the portable fallback).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[doc(alias("AVX2", "instruction set"))]
+#[doc(alias("AVX2", "AVX-512", "instruction set"))]
 pub struct SimdLevel(Instructions);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -80,6 +90,8 @@ enum Instructions {
     Portable,
     #[cfg(target_arch = "x86_64")]
     Avx2(avx2::CpuSupport),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(avx512::WideSupport),
 }
 
 impl SimdLevel {
@@ -89,15 +101,25 @@ impl SimdLevel {
     /// Returns the fastest level of this machine. Cheap, but call it once, at set-up.
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
-        if let Some(support) = avx2::CpuSupport::detect() {
-            return Self(Instructions::Avx2(support));
+        if let Some(support) = avx512::WideSupport::detect() {
+            return Self(Instructions::Avx512(support));
         }
-        Self::PORTABLE
+        Self::avx2().unwrap_or(Self::PORTABLE)
+    }
+
+    /// Returns the level with vectors of eight and no wider ones, if the machine has it.
+    fn avx2() -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(support) = avx2::CpuSupport::detect() {
+            return Some(Self(Instructions::Avx2(support)));
+        }
+        None
     }
 
     /// Returns every level of this machine, the fastest first; the last is [`Self::PORTABLE`].
     pub fn all() -> Vec<Self> {
-        let mut levels = vec![Self::best(), Self::PORTABLE];
+        let mut levels: Vec<Self> =
+            [Some(Self::best()), Self::avx2(), Some(Self::PORTABLE)].into_iter().flatten().collect();
         levels.dedup();
         levels
     }
@@ -108,6 +130,8 @@ impl SimdLevel {
             Instructions::Portable => "portable",
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2(_) => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512(_) => "avx512",
         }
     }
 
@@ -118,6 +142,8 @@ impl SimdLevel {
             Instructions::Portable => portable::run(kernel),
             #[cfg(target_arch = "x86_64")]
             Instructions::Avx2(support) => support.run(kernel),
+            #[cfg(target_arch = "x86_64")]
+            Instructions::Avx512(support) => support.run(kernel),
         }
     }
 }

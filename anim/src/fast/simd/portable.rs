@@ -1,5 +1,6 @@
 //! The vectors of every machine: arrays, and loops short enough for a compiler to vectorize.
 
+use super::rows::TwoVectors;
 use super::{Float4, Float8, Kernel, Simd, Word8};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
@@ -12,6 +13,8 @@ impl Simd for Portable {
     type F8 = Array8;
     type F4 = Array4;
     type U8 = Words8;
+    type Rows = TwoVectors<Array8>;
+    type Many = Array8;
 }
 
 /// Runs `kernel` with these vectors. A separate function, so that callers at another level do not save the registers

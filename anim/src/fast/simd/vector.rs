@@ -1,5 +1,6 @@
 //! The operations that a set of instructions must have: on vectors of eight and of four numbers.
 
+use super::{Many, Rows};
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
@@ -13,6 +14,10 @@ pub trait Simd: Copy + Debug {
     type F4: Float4;
     /// Eight words of 32 bits.
     type U8: Word8<Float = Self::F8>;
+    /// A matrix of three rows.
+    type Rows: Rows<Column = Self::F8>;
+    /// As many numbers as the widest register has.
+    type Many: Many;
 }
 
 /// Eight `f32`. Halves are lanes 0..4 and lanes 4..8.
