@@ -13,8 +13,8 @@ pub struct SkinBinding {
     /// Whether a byte can index every bone of the rig.
     is_near: bool,
     /// Every bone that a joint needs, those of one depth after the other.
-    steps: Vec<BoneStep>,
-    /// What is to be done for each bone, in bone order.
+    steps: Vec<ChainStep>,
+    /// The use of each bone, in bone order.
     uses: Vec<BoneUse>,
     /// The joints that `steps` and `uses` do not have: of a bone that has another joint, or of no bone.
     further: Vec<u32>,
@@ -29,7 +29,7 @@ pub(super) struct BoundJoint {
     pub(super) offset: [[f32; 4]; 3],
 }
 
-/// What the joints of a skin need of a bone.
+/// Use of a bone for the joints of a skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum BoneUse {
     /// Nothing, also of those below it.
@@ -43,7 +43,7 @@ pub(super) enum BoneUse {
 /// A bone and its joint, in memory as wide as a cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub(super) struct BoneStep {
+pub(super) struct ChainStep {
     /// Bind space → bone space.
     pub(super) offset: [[f32; 4]; 3],
     /// 1 + the bone.
@@ -100,7 +100,7 @@ impl SkinBinding {
                 BoneUse::Parent => (NO_JOINT, NO_OFFSET),
                 BoneUse::NotNeeded => return None,
             };
-            Some(BoneStep { offset, own, parent, joint })
+            Some(ChainStep { offset, own, parent, joint })
         });
         Self { is_near: rig.bones() < NARROW, steps: steps.collect(), uses, further, joints }
     }
@@ -118,11 +118,11 @@ impl SkinBinding {
 
     /// Returns every bone that a joint needs, those of one depth after the other.
     #[inline(always)]
-    pub(super) fn steps(&self) -> &[BoneStep] {
+    pub(super) fn steps(&self) -> &[ChainStep] {
         &self.steps
     }
 
-    /// Returns what is to be done for each bone, in bone order.
+    /// Returns the use of each bone, in bone order.
     #[inline(always)]
     pub(super) fn uses(&self) -> &[BoneUse] {
         &self.uses

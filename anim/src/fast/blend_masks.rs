@@ -134,9 +134,9 @@ fn straight<S: Simd>(vectors: &[[f32; LANES]; 3], share: S::F8, [a, b, c]: [S::F
     [x.mul_add(share, a), y.mul_add(share, b), z.mul_add(share, c)]
 }
 
-/// What the base gets when the layers' weights do not reach 1.
+/// Weight of the base, if the layers' weights do not reach 1.
 struct BaseShare<S: Simd> {
-    /// Where it gets anything, as a mask.
+    /// Mask of the bones at which it is not 0.
     short: S::F8,
     weight: S::F8,
 }

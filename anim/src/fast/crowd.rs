@@ -1,4 +1,4 @@
-//! Several characters of one rig at once, as many as the widest register has numbers: from their poses to their final
+//! Several characters of one rig at once, one for each number of the widest register: from their poses to their final
 //! matrices, one character in each lane.
 //!
 //! ```text
@@ -18,7 +18,7 @@ use super::rig::Rig;
 use super::simd::{LANES, MOST_LANES, Many};
 use std::array::from_fn;
 
-/// Memory for as many characters as a register has lanes.
+/// Memory for one character in each lane.
 #[derive(Clone, Debug)]
 pub(super) struct Crowd {
     poses: [Pose; MOST_LANES],
@@ -174,8 +174,8 @@ fn finals<M: Many>(
         final_row::<M, 1>(to_root, offset),
         final_row::<M, 2>(to_root, offset),
     ];
-    M::store_matrices(&rows, out, joint, binding.joints()).then(|| ())?;
-    Some(checked::<M>(&rows, sum))
+    let sum = checked::<M>(&rows, sum);
+    M::store_matrices(&rows, out, joint, binding.joints()).then_some(sum)
 }
 
 /// Computes row `ROW` of `to_root * offset`.

@@ -50,12 +50,12 @@ pub(super) fn lower(matrix: &Matrix34) -> &[f32; 4] {
 /// A [`Matrix34`] in memory of 64 bytes: the width of a cache line, and of the widest registers.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct PaddedMatrix {
+pub struct RootMatrix {
     /// Three rows, and four numbers without a meaning.
     pub(super) rows: [[f32; 4]; 4],
 }
 
-impl PaddedMatrix {
+impl RootMatrix {
     /// The identity.
     pub(super) const IDENTITY: Self =
         Self { rows: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0; 4]] };

@@ -8,9 +8,9 @@
 //! A product of the chain waits for that of the parent. The final matrix of the bone is computed meanwhile, from the
 //! same registers. Bones that no joint needs are left out.
 
-use super::binding::{BoneStep, SkinBinding};
+use super::binding::{ChainStep, SkinBinding};
 use super::final_poses::final_poses_with;
-use super::matrix::{Matrix34, PaddedMatrix};
+use super::matrix::{Matrix34, RootMatrix};
 use super::pose::PoseBlock;
 use super::rig::{NARROW, Rig};
 use super::simd::{Rows, Simd};
@@ -41,8 +41,8 @@ pub(super) fn one_character<S: Simd>(
 /// in some places if not all are finite.
 #[inline(always)]
 fn near_steps<S: Simd>(
-    steps: &[BoneStep],
-    matrices: &mut [PaddedMatrix; NARROW],
+    steps: &[ChainStep],
+    matrices: &mut [RootMatrix; NARROW],
     out: &mut [Matrix34],
 ) -> S::Rows {
     let mut sum = S::Rows::zero();
@@ -59,7 +59,7 @@ fn near_steps<S: Simd>(
 
 /// As [`near_steps`], for any number of bones.
 #[inline(always)]
-fn far_steps<S: Simd>(steps: &[BoneStep], matrices: &mut [PaddedMatrix], out: &mut [Matrix34]) -> S::Rows {
+fn far_steps<S: Simd>(steps: &[ChainStep], matrices: &mut [RootMatrix], out: &mut [Matrix34]) -> S::Rows {
     let mut sum = S::Rows::zero();
     for step in steps {
         let Some(parent) = matrices.get(step.parent as usize) else { continue };
@@ -74,8 +74,8 @@ fn far_steps<S: Simd>(steps: &[BoneStep], matrices: &mut [PaddedMatrix], out: &m
 
 /// Computes the final matrix of the joint of a step, if it has one.
 #[inline(always)]
-fn joint_of<S: Simd>(step: &BoneStep, to_root: S::Rows, out: &mut [Matrix34], sum: S::Rows) -> S::Rows {
-    // No skin has as many joints as the number that stands for none.
+fn joint_of<S: Simd>(step: &ChainStep, to_root: S::Rows, out: &mut [Matrix34], sum: S::Rows) -> S::Rows {
+    // The number of no joint is larger than that of any.
     match out.get_mut(step.joint as usize) {
         Some(out) => {
             let product = to_root.times(&step.offset);
@@ -90,12 +90,12 @@ fn joint_of<S: Simd>(step: &BoneStep, to_root: S::Rows, out: &mut [Matrix34], su
 #[inline(always)]
 fn further<S: Simd>(
     binding: &SkinBinding,
-    matrices: &[PaddedMatrix],
+    matrices: &[RootMatrix],
     out: &mut [Matrix34],
     mut sum: S::Rows,
 ) -> S::Rows {
     for (joint, bound) in binding.further() {
-        let to_root = matrices.get(bound.slot as usize).unwrap_or(&PaddedMatrix::IDENTITY);
+        let to_root = matrices.get(bound.slot as usize).unwrap_or(&RootMatrix::IDENTITY);
         if let Some(out) = out.get_mut(joint) {
             let product = S::Rows::load(&to_root.rows).times(&bound.offset);
             product.store_packed(out);

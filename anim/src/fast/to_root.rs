@@ -11,7 +11,7 @@
 //! What `to_parent` is in detail: `local.rs`.
 
 use super::local::local_rows;
-use super::matrix::{Matrix34, PaddedMatrix, mat4, matrix34};
+use super::matrix::{Matrix34, RootMatrix, mat4, matrix34};
 use super::pose::PoseBlock;
 use super::rig::{Link, NARROW, Rig};
 use super::simd::{Float8, Kernel, Rows, Simd, SimdLevel};
@@ -22,7 +22,7 @@ use glam::Mat4;
 pub struct RootPoses {
     /// The identity, used as the parent of roots; then one per lane; padded to the number of matrices that a byte can
     /// index.
-    pub(super) matrices: Vec<PaddedMatrix>,
+    pub(super) matrices: Vec<RootMatrix>,
     bones: usize,
     /// Instructions with which limbs are solved ([`super::two_bone()`]).
     pub(super) level: SimdLevel,
@@ -33,7 +33,7 @@ impl RootPoses {
     pub fn new(rig: &Rig) -> Self {
         let blocks = rig.rest().blocks().len();
         Self {
-            matrices: vec![PaddedMatrix::IDENTITY; (1 + blocks * 8).max(NARROW)],
+            matrices: vec![RootMatrix::IDENTITY; (1 + blocks * 8).max(NARROW)],
             bones: rig.bones,
             level: SimdLevel::best(),
         }
@@ -41,20 +41,20 @@ impl RootPoses {
 
     /// Returns one matrix per bone: bone space → scene space.
     pub fn matrices(&self) -> impl ExactSizeIterator<Item = &Matrix34> {
-        self.bones().iter().map(PaddedMatrix::packed)
+        self.bones().iter().map(RootMatrix::packed)
     }
 
     /// Returns the matrix of `bone`; the identity past the end.
     pub fn get(&self, bone: usize) -> &Matrix34 {
-        self.bones().get(bone).unwrap_or(&PaddedMatrix::IDENTITY).packed()
+        self.bones().get(bone).unwrap_or(&RootMatrix::IDENTITY).packed()
     }
 
     /// Returns the matrix of `bone`; `None` past the end.
     pub(super) fn bone(&self, bone: u32) -> Option<&Matrix34> {
-        self.bones().get(bone as usize).map(PaddedMatrix::packed)
+        self.bones().get(bone as usize).map(RootMatrix::packed)
     }
 
-    fn bones(&self) -> &[PaddedMatrix] {
+    fn bones(&self) -> &[RootMatrix] {
         &self.matrices[1..=self.bones]
     }
 }
@@ -125,7 +125,7 @@ fn fit(rig: &Rig, out: &mut RootPoses) {
 
 /// Computes `T · R · S` of eight bones.
 #[inline(always)]
-fn to_parent<S: Simd>(pose: &PoseBlock, out: &mut [PaddedMatrix; 8]) {
+fn to_parent<S: Simd>(pose: &PoseBlock, out: &mut [RootMatrix; 8]) {
     let columns = local_rows::<S::F8>(
         S::F8::load_four(&pose.rotation),
         S::F8::load_three(&pose.translation),
@@ -147,7 +147,7 @@ fn to_parent<S: Simd>(pose: &PoseBlock, out: &mut [PaddedMatrix; 8]) {
 
 /// Computes `to_root` of every bone in place, where its `to_parent` is, parents first.
 #[inline(always)]
-fn near_chain<S: Simd>(links: &[Link<u8>], matrices: &mut [PaddedMatrix; NARROW]) {
+fn near_chain<S: Simd>(links: &[Link<u8>], matrices: &mut [RootMatrix; NARROW]) {
     for link in links {
         // Without a bounds check: a byte is always within the array.
         let parent = S::Rows::load(&matrices[usize::from(link.parent)].rows);
@@ -158,7 +158,7 @@ fn near_chain<S: Simd>(links: &[Link<u8>], matrices: &mut [PaddedMatrix; NARROW]
 
 /// As [`near_chain`], for any number of bones.
 #[inline(always)]
-fn far_chain<S: Simd>(links: &[Link<u32>], matrices: &mut [PaddedMatrix]) {
+fn far_chain<S: Simd>(links: &[Link<u32>], matrices: &mut [RootMatrix]) {
     for link in links {
         let Some(parent) = matrices.get(link.parent as usize) else { return };
         let parent = S::Rows::load(&parent.rows);
@@ -169,7 +169,7 @@ fn far_chain<S: Simd>(links: &[Link<u32>], matrices: &mut [PaddedMatrix]) {
 
 /// Replaces the matrices of sheared bones in their rest pose by the exact rest matrices.
 #[cold]
-fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [PaddedMatrix]) {
+fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [RootMatrix]) {
     for sheared in &rig.sheared {
         let (block, at) = (sheared.bone / 8, sheared.bone % 8);
         let posed = pose.get(block).or(rig.rest().blocks().get(block));
@@ -184,7 +184,7 @@ fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [PaddedMatrix]) {
 /// Returns whether all leaves are finite. A number that is not spreads along its row from parent to child, and so
 /// reaches the leaves.
 #[inline(always)]
-fn leaves_are_finite<S: Simd>(rig: &Rig, matrices: &[PaddedMatrix]) -> bool {
+fn leaves_are_finite<S: Simd>(rig: &Rig, matrices: &[RootMatrix]) -> bool {
     let mut sum = S::Rows::zero();
     match matrices.first_chunk::<NARROW>() {
         Some(first) if rig.bones < NARROW => {
@@ -203,7 +203,7 @@ fn leaves_are_finite<S: Simd>(rig: &Rig, matrices: &[PaddedMatrix]) -> bool {
 
 /// Computes as the open path does, for poses whose products leave the range of f32.
 #[cold]
-fn carefully(rig: &Rig, pose: &[PoseBlock], out: &mut [PaddedMatrix]) {
+fn carefully(rig: &Rig, pose: &[PoseBlock], out: &mut [RootMatrix]) {
     for bone in 0..rig.bones {
         let block = pose.get(bone / 8).or(rig.rest().blocks().get(bone / 8));
         let transform = block.map_or_else(Default::default, |block| block.get(bone));

@@ -8,8 +8,9 @@
 //! * an unaligned load or store through a reference to an array of exactly as many bytes;
 //! * the gather and [`Word8::near`], which keep their offsets within the slice.
 
+use super::kernel::{Kernel, Simd};
 use super::rows::TwoVectors;
-use super::{Float4, Float8, Kernel, Simd, Word8};
+use super::vector::{Float4, Float8, Word8};
 use std::arch::x86_64::*;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 

@@ -1,4 +1,4 @@
-//! The vectors of x86-64 processors with AVX-512: those of AVX2 with twice as many registers, and registers of sixteen
+//! The vectors of x86-64 processors with AVX-512: those of AVX2 with 32 registers instead of 16, and registers of sixteen
 //! numbers for matrices and crowds.
 //!
 //! Each use of `unsafe` is one of two:
@@ -9,9 +9,10 @@
 //! * a load or store through a reference to an array of exactly as many bytes as the instruction touches.
 
 use super::avx2::{F4, F8, U8};
-use super::many::{Many, high, low};
+use super::kernel::{Kernel, Simd};
+use super::many::{MOST_LANES, Many, high, low};
 use super::rows::Rows;
-use super::{Float4, Float8, Kernel, LANES, MOST_LANES, Simd};
+use super::vector::{Float4, Float8, LANES};
 use std::arch::x86_64::*;
 use std::ops::{Add, Mul};
 

@@ -1,13 +1,13 @@
 //! The widest vectors of a level: one number of each of several characters.
 
-use super::{Float8, LANES};
+use super::vector::{Float8, LANES};
 use std::fmt::Debug;
 use std::ops::{Add, Mul};
 
 /// The largest number of lanes of [`Many`].
 pub const MOST_LANES: usize = 16;
 
-/// As many `f32` as the widest register has.
+/// The `f32` of the widest register.
 pub trait Many: Copy + Debug + Add<Output = Self> + Mul<Output = Self> {
     /// The same numbers in memory.
     type Numbers: Copy + Debug;
@@ -38,7 +38,7 @@ pub trait Many: Copy + Debug + Add<Output = Self> + Mul<Output = Self> {
     fn store_matrices(columns: &[[Self; 4]; 3], to: &mut [[f32; 12]], at: usize, stride: usize) -> bool;
 }
 
-/// Where vectors of eight are the widest.
+/// Levels without wider registers use vectors of eight.
 impl<V: Float8> Many for V {
     type Numbers = [f32; LANES];
     const COUNT: usize = LANES;

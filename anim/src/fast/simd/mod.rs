@@ -53,32 +53,17 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code, reason = "as for avx2")]
 mod avx512;
+mod kernel;
 mod many;
 mod portable;
 mod rows;
 mod vector;
 
+pub use kernel::{Kernel, Simd};
 pub use many::{MOST_LANES, Many};
 pub use portable::Portable;
 pub use rows::{Rows, TwoVectors};
-pub use vector::{Float4, Float8, Simd, Word8};
-
-/// Number of lanes of the wide vectors.
-pub const LANES: usize = 8;
-
-/// Work written for any set of instructions.
-///
-/// Mark `run`, and every function that it calls with vectors, `#[inline(always)]`: only code that becomes part of the
-/// function that [`SimdLevel::run`] compiles for a level uses that level's instructions. Closures cannot be marked, so
-/// no vector may pass through one, nor through `map` and iterators over vectors: each operation in them would be a
-/// call, several times slower. Iterators over memory are fine.
-pub trait Kernel {
-    /// Result of the work.
-    type Output;
-
-    /// Runs the kernel with the vectors of `S`.
-    fn run<S: Simd>(self) -> Self::Output;
-}
+pub use vector::{Float4, Float8, LANES, Word8};
 
 /// A set of instructions of the current machine (AVX-512, AVX2, or the portable fallback).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,7 +1,8 @@
 //! The vectors of every machine: arrays, and loops short enough for a compiler to vectorize.
 
+use super::kernel::{Kernel, Simd};
 use super::rows::TwoVectors;
-use super::{Float4, Float8, Kernel, Simd, Word8};
+use super::vector::{Float4, Float8, Word8};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 /// Instructions that every machine has.

@@ -1,6 +1,6 @@
 //! Matrices of three rows in registers: affine transforms without their last row, which is always 0 0 0 1.
 
-use super::{Float4, Float8};
+use super::vector::{Float4, Float8};
 use std::fmt::Debug;
 
 /// Three rows of four numbers. In memory they may be followed by four numbers without a meaning, so that a matrix is as

@@ -1,24 +1,10 @@
 //! The operations that a set of instructions must have: on vectors of eight and of four numbers.
 
-use super::{Many, Rows};
 use std::fmt::Debug;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
-/// The vectors of one set of instructions.
-pub trait Simd: Copy + Debug {
-    /// Whether eight numbers fit in one register.
-    const IS_WIDE: bool;
-    /// Eight numbers.
-    type F8: Float8<Word = Self::U8, Half = Self::F4>;
-    /// Four numbers.
-    type F4: Float4;
-    /// Eight words of 32 bits.
-    type U8: Word8<Float = Self::F8>;
-    /// A matrix of three rows.
-    type Rows: Rows<Column = Self::F8>;
-    /// As many numbers as the widest register has.
-    type Many: Many;
-}
+/// Number of lanes of the wide vectors.
+pub const LANES: usize = 8;
 
 /// Eight `f32`. Halves are lanes 0..4 and lanes 4..8.
 ///
