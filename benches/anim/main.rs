@@ -8,7 +8,7 @@
 //! | variant | code |
 //! |---|---|
 //! | `open` | the formulas, one bone at a time |
-//! | `avx2`, `portable` | the fast path at each SIMD level of the machine, takes with every key |
+//! | `avx512`, `avx2`, `portable` | the fast path at each SIMD level of the machine, takes with every key |
 //! | `avx2/compressed`, … | the same with takes compressed to 0.1 mm at 3 cm |
 //! | `sketch` | the method of a prototype, which does less; see [`sketch`] |
 //! | `lockstep` | its other method for crowds, eight characters at once |

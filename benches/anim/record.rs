@@ -69,7 +69,13 @@ pub(crate) fn write_instructions(folder: &Path, rivals: Option<&Rivals>) -> Resu
         }
     }
     let mut run = run(rivals);
-    run[0].1 = format!("{}=FOLDER benches/anim/instructions --record", rivals::FOLDER);
+    for (name, value) in &mut run {
+        match name.as_str() {
+            "command" => *value = format!("{}=FOLDER benches/anim/instructions --record", rivals::FOLDER),
+            "level" => goals::counted_level().clone_into(value),
+            _ => {}
+        }
+    }
     let path = report::file("instructions");
     fs::write(&path, Results { run, rows }.text()).map_err(|error| format!("{}: {error}", path.display()))?;
     report::update()

@@ -100,7 +100,12 @@ fn run(recorded: &RecordedResults) -> String {
     }
     text += &format!("- Machine: {}, {}.\n", times.about("machine"), times.about("system"));
     text += &format!("- Background load: up to {} cores.\n", digits(times.others()));
-    text += &format!("- This library: {}; SIMD level {}.\n", times.about("rust"), times.about("level"));
+    text += &format!(
+        "- This library: {}; SIMD level {}, instructions counted at level {}.\n",
+        times.about("rust"),
+        times.about("level"),
+        instructions.about("level"),
+    );
     text += &format!("- Rivals: {}; {}.\n", times.about("rivals"), times.about("rivals built with"));
     text
 }
