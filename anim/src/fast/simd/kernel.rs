@@ -1,4 +1,4 @@
-//! What every set of instructions has, and work that can be done with any of them.
+//! Sets of instructions, and work that can be done with any of them.
 
 use super::many::Many;
 use super::rows::Rows;
