@@ -26,6 +26,7 @@ mod examples;
 mod explain;
 mod explain_damage;
 mod fades;
+mod fast_characters;
 mod fast_layers;
 mod fast_limbs;
 mod fast_path;
