@@ -171,10 +171,19 @@ fn a_copy_of_a_take_that_begins_below_zero_is_saved_and_opened_with_a_warning() 
     assert!(saved_after(&below, &folder.join("turned.glb"), &[turn], "below zero"));
 }
 
+/// Checks that the fox refuses each edit of `lines`, with `words` in the message.
+fn refused(lines: &[&str], words: &str) {
+    let editable = open(&data("gltf/Fox.glb"));
+    for line in lines {
+        let mut adapter = ModelAdapter::new(&editable.model.animation);
+        let error = adapter.apply(&serde_json::from_str(line).expect(line)).expect_err(line);
+        assert!(error.to_string().contains(words), "{line}: {error}");
+    }
+}
+
 #[test]
 fn keys_before_zero_are_refused_in_every_way_to_make_them() {
-    let editable = open(&data("gltf/Fox.glb"));
-    for line in [
+    let lines = [
         r#"{"edit":"add_keys","take":0,"time":-1,"bones":[3]}"#,
         r#"{"edit":"set","take":0,"time":-0.5,"poses":[{"bone":3,"rotation":[0,0,0,1]}]}"#,
         r#"{"edit":"move_keys","take":0,"keys":[{}],"by":-0.25}"#,
@@ -182,11 +191,8 @@ fn keys_before_zero_are_refused_in_every_way_to_make_them() {
         r#"{"edit":"scale_keys","take":0,"keys":[{}],"about":1,"factor":2}"#,
         r#"{"edit":"ripple","take":0,"from":0,"by":-0.25}"#,
         r#"{"edit":"retime_take","take":0,"start":-1}"#,
-    ] {
-        let mut adapter = ModelAdapter::new(&editable.model.animation);
-        let error = adapter.apply(&serde_json::from_str(line).expect(line)).expect_err(line);
-        assert!(error.to_string().contains("before 0 s cannot be saved"), "{line}: {error}");
-    }
+    ];
+    refused(&lines, "before 0 s cannot be saved");
 }
 
 #[test]
@@ -198,8 +204,7 @@ fn a_take_with_morph_weights_that_is_trimmed_to_one_instant_is_saved() {
 
 #[test]
 fn keys_after_twenty_four_hours_are_refused_in_every_way_to_make_them() {
-    let editable = open(&data("gltf/Fox.glb"));
-    for line in [
+    let lines = [
         r#"{"edit":"add_keys","take":0,"time":86401,"bones":[3]}"#,
         r#"{"edit":"set","take":0,"time":90000,"poses":[{"bone":3,"rotation":[0,0,0,1]}]}"#,
         r#"{"edit":"pend","take":0,"time":90000,"poses":[{"bone":3,"rotation":[0,0,0,1]}]}"#,
@@ -209,9 +214,6 @@ fn keys_after_twenty_four_hours_are_refused_in_every_way_to_make_them() {
         r#"{"edit":"ripple","take":0,"from":0,"by":86400}"#,
         r#"{"edit":"retime_take","take":0,"length":86401}"#,
         r#"{"edit":"retime_take","take":0,"start":86400}"#,
-    ] {
-        let mut adapter = ModelAdapter::new(&editable.model.animation);
-        let error = adapter.apply(&serde_json::from_str(line).expect(line)).expect_err(line);
-        assert!(error.to_string().contains("after 86400 s cannot be saved"), "{line}: {error}");
-    }
+    ];
+    refused(&lines, "after 86400 s cannot be saved");
 }

@@ -20,26 +20,24 @@ pub(super) fn with_masks<S: Simd>(
     out: &mut [PoseBlock],
     normalized: bool,
 ) {
-    let mut parts = [MaskedPose { pose: base, mask: &[], weight: 0.0 }; MOST];
+    let mut parts = [MaskedPose { pose: base, mask: None, weight: 0.0 }; MOST];
     let mut count = 0;
     for layer in layers {
         // NaN fails the comparison.
         if layer.weight > 0.0 {
-            let mask = layer.mask.map_or(&[][..], LaneMask::blocks);
-            let is_long = layer.pose.len() >= base.len() && mask.len() >= base.len();
-            let Some(part) = parts.get_mut(count).filter(|_| is_long) else {
+            let Some(part) = parts.get_mut(count) else {
                 return one_by_one::<S>(base, layers, out, normalized);
             };
+            let mask = layer.mask.map(LaneMask::blocks);
             *part = MaskedPose { pose: layer.pose, mask, weight: usable(layer.weight) };
             count += 1;
         }
     }
-    let blocks = parts[..count].iter().map(|part| part.pose.len().min(part.mask.len()));
-    let blocks = blocks.fold(base.len().min(out.len()), usize::min);
-    for (block, (out, base)) in out[..blocks].iter_mut().zip(&base[..blocks]).enumerate() {
+    for (block, (out, base)) in out.iter_mut().zip(base).enumerate() {
         let (mut here, mut count_here) = ([(base, &MaskBlock::ZERO, 0.0); MOST], 0);
         for part in &parts[..count] {
-            if let (Some(pose), Some(mask)) = (part.pose.get(block), part.mask.get(block))
+            let mask = part.mask.map_or(Some(&MaskBlock::WHOLE), |mask| mask.get(block));
+            if let (Some(pose), Some(mask)) = (part.pose.get(block), mask)
                 && !mask.is_zero
                 && let Some(to) = here.get_mut(count_here)
             {
@@ -58,11 +56,11 @@ pub(super) fn with_masks<S: Simd>(
     }
 }
 
-/// A layer whose weight is not 0, with a pose and a mask as long as the base.
+/// A layer whose weight is not 0.
 #[derive(Clone, Copy)]
 struct MaskedPose<'a> {
     pose: &'a [PoseBlock],
-    mask: &'a [MaskBlock],
+    mask: Option<&'a [MaskBlock]>,
     weight: f32,
 }
 
@@ -152,7 +150,7 @@ fn base_share<S: Simd>(sum: S::F8, normalized: bool) -> BaseShare<S> {
     BaseShare { short, weight: short.select(missing, zero) }
 }
 
-/// Blends any number of layers of any length.
+/// Blends any number of layers.
 #[inline(always)]
 fn one_by_one<S: Simd>(base: &[PoseBlock], layers: &[PoseLayer], out: &mut [PoseBlock], normalized: bool) {
     let zero = S::F8::splat(0.0);

@@ -20,6 +20,7 @@ pub(super) struct MaskBlock {
 
 impl MaskBlock {
     pub(super) const ZERO: Self = Self { lanes: [0.0; LANES], is_zero: true };
+    pub(super) const WHOLE: Self = Self { lanes: [1.0; LANES], is_zero: false };
 }
 
 impl LaneMask {

@@ -115,11 +115,7 @@ pub fn skin_vertices(
     positions: &mut [[f32; 3]],
     normals: &mut [[f32; 3]],
 ) -> usize {
-    let count = vertices.count.min(positions.len()).min(normals.len());
-    let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
-    let wanted = count.div_ceil(LANES);
-    level.run(SkinKernel::<true> { wanted, vertices, morph_weights: &[], finals, positions, normals });
-    count
+    skin::<true>(level, vertices, &[], finals, positions, normals)
 }
 
 /// As [`skin_vertices`], but normals are moved by the matrix itself and not normalized, which costs less.
@@ -134,11 +130,7 @@ pub fn skin_vertices_by_matrix(
     positions: &mut [[f32; 3]],
     normals: &mut [[f32; 3]],
 ) -> usize {
-    let count = vertices.count.min(positions.len()).min(normals.len());
-    let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
-    let wanted = count.div_ceil(LANES);
-    level.run(SkinKernel::<false> { wanted, vertices, morph_weights: &[], finals, positions, normals });
-    count
+    skin::<false>(level, vertices, &[], finals, positions, normals)
 }
 
 /// As [`skin_vertices`], with morph targets: first their differences are added to each vertex, each times its weight.
@@ -154,14 +146,26 @@ pub fn skin_morphed_vertices(
     positions: &mut [[f32; 3]],
     normals: &mut [[f32; 3]],
 ) -> usize {
+    skin::<true>(level, vertices, morph_weights, finals, positions, normals)
+}
+
+/// Moves vertices up to the length of the shorter output. `EXACT`: whether normals are exact and of unit length.
+fn skin<const EXACT: bool>(
+    level: SimdLevel,
+    vertices: &SkinnedVertices,
+    morph_weights: &[f32],
+    finals: &[Matrix34],
+    positions: &mut [[f32; 3]],
+    normals: &mut [[f32; 3]],
+) -> usize {
     let count = vertices.count.min(positions.len()).min(normals.len());
     let (positions, normals) = (&mut positions[..count], &mut normals[..count]);
     let wanted = count.div_ceil(LANES);
-    level.run(SkinKernel::<true> { wanted, vertices, morph_weights, finals, positions, normals });
+    level.run(SkinKernel::<EXACT> { wanted, vertices, morph_weights, finals, positions, normals });
     count
 }
 
-/// `EXACT`: whether normals are exact and of unit length.
+/// `EXACT`: as for [`skin`].
 struct SkinKernel<'a, const EXACT: bool> {
     /// Number of blocks to be moved, the last one possibly in part.
     wanted: usize,

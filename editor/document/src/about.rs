@@ -40,13 +40,14 @@ pub(crate) fn shortened(name: &str) -> String {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::edit::{BonePose, BoneRef, EDITS, PastePose, TakeRef};
     use dragonfly_anim::data::{AnimationData, Bone, Skeleton, Take, Transform};
     use glam::Mat4;
 
-    fn bone(name: &str) -> Bone {
+    /// Creates a root bone.
+    pub(crate) fn bone(name: &str) -> Bone {
         Bone {
             name: name.to_owned(),
             parent: None,

@@ -66,10 +66,11 @@ pub(super) struct F4(pub(super) __m128);
 #[repr(transparent)]
 pub(super) struct U8(pub(super) __m256i);
 
-/// An instruction of AVX2 or FMA, on registers and constants only.
+/// An instruction on registers and constants only.
 macro_rules! instruction {
     ($instruction:expr) => {
-        // SAFETY: these types can only be used where the processor has both features, see the top of this file.
+        // SAFETY: the types of this file, and of `avx512.rs`, can only be used where the processor has the features, see
+        // the top of both.
         unsafe { $instruction }
     };
 }
@@ -82,6 +83,8 @@ macro_rules! memory {
         unsafe { $instruction }
     };
 }
+
+pub(super) use {instruction, memory};
 
 /// An operator as one instruction.
 macro_rules! operator {

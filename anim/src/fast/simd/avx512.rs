@@ -8,7 +8,7 @@
 //!   processor has the instructions;
 //! * a load or store through a reference to an array of exactly as many bytes as the instruction touches.
 
-use super::avx2::{F4, F8, U8};
+use super::avx2::{CpuSupport, F4, F8, U8, instruction, memory};
 use super::kernel::{Kernel, Simd};
 use super::many::{MOST_LANES, Many, high, low};
 use super::rows::Rows;
@@ -23,8 +23,7 @@ pub(super) struct WideSupport(());
 impl WideSupport {
     /// Detects the features of the processor.
     pub(super) fn detect() -> Option<Self> {
-        let has_all = is_x86_feature_detected!("avx2")
-            && is_x86_feature_detected!("fma")
+        let has_all = CpuSupport::detect().is_some()
             && is_x86_feature_detected!("avx512f")
             && is_x86_feature_detected!("avx512vl")
             && is_x86_feature_detected!("avx512bw")
@@ -68,23 +67,6 @@ pub(super) struct OneRegister(__m512);
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
 pub(super) struct F16(__m512);
-
-/// An instruction of AVX-512, on registers and constants only.
-macro_rules! instruction {
-    ($instruction:expr) => {
-        // SAFETY: these types can only be used where the processor has the features, see the top of this file.
-        unsafe { $instruction }
-    };
-}
-
-/// An instruction that reads or writes memory through a reference to an array.
-macro_rules! memory {
-    ($instruction:expr) => {
-        // SAFETY: as for `instruction`; and the array of the reference has exactly the bytes that an unaligned
-        // access of this width touches.
-        unsafe { $instruction }
-    };
-}
 
 /// The lanes of the last numbers of the three rows.
 const LAST: __mmask16 = 0x0888;

@@ -236,27 +236,29 @@ pub(super) fn shown(document: &GltfDocument<'_>, graph: &Graph) -> Result<Vec<bo
 
 /// Returns for each mesh whether a node in `is_shown` places it.
 pub(super) fn shown_meshes(document: &GltfDocument<'_>, is_shown: &[bool]) -> Result<Vec<bool>, ImportError> {
-    let root = document.root;
-    let place = Place::Pointer("/meshes".to_owned());
-    let mut shown = document.context.filled(&place, root.meshes.len(), false)?;
-    document.context.work(root.nodes.len())?;
-    for (node, _) in root.nodes.iter().zip(is_shown).filter(|(_, is_shown)| **is_shown) {
-        if let Some(shown) = node.mesh.and_then(|mesh| shown.get_mut(mesh.value())) {
-            *shown = true;
-        }
-    }
-    Ok(shown)
+    let count = document.root.meshes.len();
+    shown_items(document, is_shown, "/meshes", count, |node| node.mesh.map(|mesh| mesh.value()))
 }
 
 /// Returns for each skin whether a node in `is_shown` places a mesh with it.
 pub(super) fn shown_skins(document: &GltfDocument<'_>, is_shown: &[bool]) -> Result<Vec<bool>, ImportError> {
+    let skin = |node: &gltf::json::Node| node.skin.filter(|_| node.mesh.is_some()).map(|skin| skin.value());
+    shown_items(document, is_shown, "/skins", document.root.skins.len(), skin)
+}
+
+/// Returns for each of `count` items of a list whether a node in `is_shown` uses it; `used` returns its number.
+fn shown_items(
+    document: &GltfDocument<'_>,
+    is_shown: &[bool],
+    list: &str,
+    count: usize,
+    used: impl Fn(&gltf::json::Node) -> Option<usize>,
+) -> Result<Vec<bool>, ImportError> {
     let root = document.root;
-    let place = Place::Pointer("/skins".to_owned());
-    let mut shown = document.context.filled(&place, root.skins.len(), false)?;
+    let mut shown = document.context.filled(&Place::Pointer(list.to_owned()), count, false)?;
     document.context.work(root.nodes.len())?;
     for (node, _) in root.nodes.iter().zip(is_shown).filter(|(_, is_shown)| **is_shown) {
-        let skin = node.skin.filter(|_| node.mesh.is_some());
-        if let Some(shown) = skin.and_then(|skin| shown.get_mut(skin.value())) {
+        if let Some(shown) = used(node).and_then(|number| shown.get_mut(number)) {
             *shown = true;
         }
     }

@@ -127,19 +127,10 @@ pub const SAME_TIME: f32 = 5e-5;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use dragonfly_anim::data::{Bone, Transform};
-    use glam::Mat4;
+    use crate::about::tests::bone;
 
     #[test]
     fn a_finder_finds_the_same_bones_as_a_search_also_where_names_are_shared() {
-        let bone = |name: &str| Bone {
-            name: name.to_owned(),
-            parent: None,
-            rest: Transform::IDENTITY,
-            rest_matrix: None,
-            offset: Mat4::IDENTITY,
-            node: None,
-        };
         let skeleton = Skeleton { bones: ["Hip", "Hand", "Hand", ""].map(bone).into() };
         let mut finder = BoneFinder::new(&skeleton);
         let name = |name: &str| BoneRef::Name(name.to_owned());
