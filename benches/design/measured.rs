@@ -20,7 +20,8 @@ fn both_editors_are_complete_without_the_feature() {
     assert_eq!(panel.borrow().rows(), ["hip 0.00", "knee 0.50"]);
 
     let (seen, pictures) = std::sync::mpsc::channel();
-    let mut editor = locks::open(bones(), move |lines| _ = seen.send(lines.len())).unwrap();
+    let mut editor =
+        locks::open(bones(), move |lines| _ = seen.send(lines.len())).expect("threads that start");
     editor.panel.drag_angle(1, 0.5);
     assert_eq!(editor.panel.rows(), ["hip 0.00", "knee 0.50"]);
     assert_eq!(pictures.recv_timeout(std::time::Duration::from_secs(10)), Ok(2));

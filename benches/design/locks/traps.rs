@@ -45,7 +45,10 @@ fn deadlock_by_two_locks_taken_in_two_orders() {
             both_have_tried.wait();
             got
         });
-        (panel.join().unwrap(), viewport.join().unwrap())
+        (
+            panel.join().expect("a panel that does not panic"),
+            viewport.join().expect("a viewport that does not panic"),
+        )
     });
     assert!(!panel && !viewport, "each waits for what the other holds");
 }
@@ -68,7 +71,7 @@ fn deadlock_by_waiting_for_an_answer_under_the_lock() {
         ask.send(0).expect("it runs");
         assert_eq!(answers.recv().expect("an answer"), None, "it cannot have the lock while this waits");
         drop(document);
-        viewport.join().unwrap();
+        viewport.join().expect("a viewport that does not panic");
     });
 }
 

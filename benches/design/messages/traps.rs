@@ -59,8 +59,8 @@ fn deadlock_by_waiting_for_an_answer_in_the_middle_of_a_message() {
         let (stations, found) = (Arc::clone(&stations), found.clone());
         thread.handle().register_receiver(move |_| Asker { stations, found })
     });
-    addresses[0].send(AnswerRequest::Begin { other: addresses[1].clone() }).unwrap();
-    addresses[1].send(AnswerRequest::Begin { other: addresses[0].clone() }).unwrap();
+    addresses[0].send(AnswerRequest::Begin { other: addresses[1].clone() }).expect("a running thread");
+    addresses[1].send(AnswerRequest::Begin { other: addresses[0].clone() }).expect("a running thread");
     let result = || results.recv_timeout(Duration::from_secs(10)).expect("both come back");
     assert_eq!([result(), result()], [false, false], "each waits for the other");
 }
@@ -92,7 +92,7 @@ fn endless_activity_by_messages_in_a_circle() {
         |_| Echo { to }
     });
     assert!(stage.settle(10));
-    to_left.send(0).unwrap();
+    to_left.send(0).expect("a running thread");
     assert!(!stage.settle(1_000), "it never comes to rest");
 }
 
@@ -101,7 +101,8 @@ fn race_by_reading_a_view_and_sending_a_value_computed_from_it() {
     let (mut stage, _, panel) = editor();
     let turn = || {
         let row = panel.borrow().rows()[0].clone();
-        let angle: f32 = row.split(' ').nth(1).unwrap().parse().unwrap();
+        let angle: f32 =
+            row.split(' ').nth(1).and_then(|angle| angle.parse().ok()).expect("a row with an angle");
         panel.borrow().drag_angle(0, angle + 1.0);
     };
     // Called twice before the new view arrives.
@@ -154,7 +155,7 @@ fn flood_by_a_sender_without_back_pressure() {
     let (_stage, [_, document, _], _) = editor();
     let newest = document.reserve_address::<Edit>().latest();
     for step in 0..100_000 {
-        newest.send(Edit::SetAngle { bone: 0, angle: step as f32 }).unwrap();
+        newest.send(Edit::SetAngle { bone: 0, angle: step as f32 }).expect("a running thread");
     }
     assert_eq!((newest.waiting(), document.queue_len()), (1, 1));
 }
