@@ -9,7 +9,6 @@
 //! Vectors are then interpolated; rotations get their w restored and are slerped with the weights of [`Slerp`].
 
 use super::head::{HeadBlock, WideBlock};
-use super::lane_groups::LaneGroup;
 use super::slerp::Slerp;
 use super::table::{Tables, Turning};
 use crate::fast::PoseBlock;
@@ -65,7 +64,7 @@ fn around(tables: &Tables, time: f32) -> (u32, f32) {
     let (clock, last) = (&tables.clock, tables.clock.frames - 1);
     let at = |key: u32| clock.time(key, tables.interval);
     // The conversion turns NaN and negative numbers into zero.
-    let guess = ((f64::from(time) - f64::from(clock.start)) / tables.interval) as u32;
+    let guess = ((f64::from(time) - f64::from(clock.start)) * tables.keys_per_second) as u32;
     if guess < last {
         let (before, after) = (at(guess), at(guess + 1));
         if time >= before && time < after {
@@ -120,9 +119,12 @@ impl<'a> KeyPair<'a> {
                 }
                 continue;
             }
-            let mut lanes = [[0.0; LANES]; 4];
-            S::F8::store_four(rotation, &mut lanes);
-            scatter(group, &lanes, out, |block| &mut block.rotation);
+            for shared in &group.shared {
+                if let Some(out) = out.get_mut(shared.block as usize) {
+                    let picked = picked::<S, 4>(rotation, &shared.lanes, S::F8::load_four(&out.rotation));
+                    S::F8::store_four(picked, &mut out.rotation);
+                }
+            }
         }
         let (from, to) = (S::F8::splat(1.0 - self.mix), S::F8::splat(self.mix));
         for (part, groups) in tables.moving.iter().enumerate() {
@@ -135,9 +137,13 @@ impl<'a> KeyPair<'a> {
                     }
                     continue;
                 }
-                let mut lanes = [[0.0; LANES]; 3];
-                S::F8::store_three(vector, &mut lanes);
-                scatter(group, &lanes, out, |block| vectors(block, part));
+                for shared in &group.shared {
+                    if let Some(out) = out.get_mut(shared.block as usize) {
+                        let rows = vectors(out, part);
+                        let picked = picked::<S, 3>(vector, &shared.lanes, S::F8::load_three(rows));
+                        S::F8::store_three(picked, rows);
+                    }
+                }
             }
         }
     }
@@ -193,22 +199,17 @@ fn vectors(block: &mut PoseBlock, part: usize) -> &mut [[f32; LANES]; 3] {
     if part == 0 { &mut block.translation } else { &mut block.scale }
 }
 
-/// Copies each lane that has a track to its bone.
+/// Returns `rows` of a block with the lanes that it has in a group.
 #[inline(always)]
-fn scatter<const ROWS: usize>(
-    group: &LaneGroup,
-    lanes: &[[f32; LANES]; ROWS],
-    out: &mut [PoseBlock],
-    rows: impl Fn(&mut PoseBlock) -> &mut [[f32; LANES]; ROWS],
-) {
-    for (lane, bone) in group.bones.iter().enumerate() {
-        // A lane without a bone is in no block.
-        let (block, place) = (*bone as usize / LANES, *bone as usize % LANES);
-        if let Some(out) = out.get_mut(block) {
-            let rows = rows(out);
-            (0..ROWS).for_each(|row| rows[row][place] = lanes[row][lane]);
-        }
+fn picked<S: Simd, const ROWS: usize>(
+    group: [S::F8; ROWS],
+    lanes: &[u32; LANES],
+    mut rows: [S::F8; ROWS],
+) -> [S::F8; ROWS] {
+    for (row, group) in rows.iter_mut().zip(group) {
+        *row = group.picked(lanes, *row);
     }
+    rows
 }
 
 impl Kernel for Decode<'_> {

@@ -18,6 +18,36 @@ pub(super) struct LaneGroup {
     pub(super) bones: [u32; LANES],
     /// Block of the pose whose lanes these are; `None` where they are from several.
     pub(super) block: Option<u32>,
+    /// The blocks that share the group; none where the group is a block.
+    pub(super) shared: Vec<SharedBlock>,
+}
+
+/// A block of the pose of which some lanes are in a group with lanes of other blocks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct SharedBlock {
+    pub(super) block: u32,
+    /// For each lane of the block: [`PICKED`] and the lane of the group; 0 for a lane that is not in it.
+    pub(super) lanes: [u32; LANES],
+}
+
+/// Marks a lane that is in the group.
+const PICKED: u32 = 1 << 31;
+
+impl SharedBlock {
+    /// Returns the blocks of `bones`.
+    fn all(bones: &[u32; LANES]) -> Vec<Self> {
+        let mut all: Vec<Self> = Vec::new();
+        for (lane, bone) in (0..).zip(bones).filter(|&(_, &bone)| bone != NONE) {
+            let (block, place) = (bone / LANES as u32, *bone as usize % LANES);
+            if all.last().is_none_or(|last| last.block != block) {
+                all.push(Self { block, lanes: [0; LANES] });
+            }
+            if let Some(last) = all.last_mut() {
+                last.lanes[place] = PICKED | lane;
+            }
+        }
+        all
+    }
 }
 
 /// Marks a lane without a bone.
@@ -58,7 +88,7 @@ fn arranged(bones: impl Iterator<Item = usize>, (group, lane): (usize, usize)) -
     for bone in bones {
         let block = Some((bone / LANES) as u32);
         if blocks.last().is_none_or(|last| last.block != block) {
-            blocks.push(LaneGroup { bones: [NONE; LANES], block });
+            blocks.push(LaneGroup { bones: [NONE; LANES], block, shared: Vec::new() });
         }
         if let Some(last) = blocks.last_mut() {
             last.bones[bone % LANES] = bone as u32;
@@ -84,9 +114,9 @@ fn arranged(bones: impl Iterator<Item = usize>, (group, lane): (usize, usize)) -
         .collect();
     let mut groups: Vec<LaneGroup> =
         blocks.into_iter().zip(shares).filter(|(_, shared)| !shared).map(|(block, _)| block).collect();
-    groups.extend(shared.chunks(LANES).map(|bones| LaneGroup {
-        bones: std::array::from_fn(|lane| bones.get(lane).copied().unwrap_or(NONE)),
-        block: None,
+    groups.extend(shared.chunks(LANES).map(|bones| {
+        let bones = std::array::from_fn(|lane| bones.get(lane).copied().unwrap_or(NONE));
+        LaneGroup { bones, block: None, shared: SharedBlock::all(&bones) }
     }));
     groups
 }

@@ -18,6 +18,7 @@ pub(super) struct Tables {
     pub(super) clock: FrameClock,
     /// Seconds between two keys.
     pub(super) interval: f64,
+    pub(super) keys_per_second: f64,
     pub(super) shift: u32,
     pub(super) bones: usize,
     /// Constant translations of every block.
@@ -82,6 +83,7 @@ impl Tables {
         Self {
             name,
             interval: clock.interval(),
+            keys_per_second: 1.0 / clock.interval(),
             clock,
             shift,
             bones: poses.len(),

@@ -1,7 +1,9 @@
 //! A skin in the layout of the fast path.
 
 use super::matrix::{Matrix34, matrix34};
-use super::rig::{Link, NARROW, Rig};
+use super::pose::blocks_of;
+use super::rig::{NARROW, Rig};
+use super::simd::LANES;
 use super::tiny::{flushed, largest};
 use crate::data::Skin;
 use glam::Mat4;
@@ -14,6 +16,10 @@ pub struct SkinBinding {
     is_near: bool,
     /// Every bone that a joint needs, those of one depth after the other.
     steps: Vec<ChainStep>,
+    /// 1 + each child that a joint needs, in the order of the steps of their parents.
+    children: Vec<u32>,
+    /// The blocks of the pose in which there are such bones, in the order of the steps that prepare them.
+    blocks: Vec<u32>,
     /// The use of each bone, in bone order.
     uses: Vec<BoneUse>,
     /// The joints that `steps` and `uses` do not have: of a bone that has another joint, or of no bone.
@@ -40,7 +46,7 @@ pub(super) enum BoneUse {
     Joint(u32),
 }
 
-/// A bone and its joint, in memory as wide as a cache line.
+/// A bone, its joint and its children, in memory as wide as a cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct ChainStep {
@@ -48,14 +54,19 @@ pub(super) struct ChainStep {
     pub(super) offset: [[f32; 4]; 3],
     /// 1 + the bone.
     pub(super) own: u32,
-    /// 1 + the parent; 0 for a root.
-    pub(super) parent: u32,
+    /// Number of children that a joint needs.
+    pub(super) children: u32,
     /// Number of the joint; [`NO_JOINT`].
     pub(super) joint: u32,
+    /// Number of blocks of the pose whose `to_parent` is computed before this step.
+    pub(super) blocks: u32,
 }
 
 /// Stands for no joint: a number that no skin reaches.
 const NO_JOINT: u32 = u32::MAX;
+/// Steps from one block to the next, unless it is needed earlier: the bones near the root leave time, as they wait for
+/// their parents.
+const STEPS_A_BLOCK: usize = 2;
 const NO_OFFSET: [[f32; 4]; 3] = [[0.0; 4]; 3];
 
 impl SkinBinding {
@@ -94,15 +105,23 @@ impl SkinBinding {
                 above = rig.parent(bone);
             }
         }
-        let steps = rig.by_depth().filter_map(|Link { own, parent }| {
+        let is_needed = |slot: u32| uses[slot as usize - 1] != BoneUse::NotNeeded;
+        let mut children = vec![Vec::new(); 1 + rig.bones()];
+        for link in rig.links.iter().filter(|link| is_needed(link.own)) {
+            children[link.parent as usize].push(link.own);
+        }
+        let order: Vec<u32> = rig.by_depth().map(|link| link.own).filter(|&own| is_needed(own)).collect();
+        let (blocks, counts) = blocks_of_steps(&order, &children);
+        let steps = order.iter().zip(counts).map(|(&own, blocks)| {
             let (joint, offset) = match uses[own as usize - 1] {
                 BoneUse::Joint(joint) => (joint, joints[joint as usize].offset),
-                BoneUse::Parent => (NO_JOINT, NO_OFFSET),
-                BoneUse::NotNeeded => return None,
+                BoneUse::Parent | BoneUse::NotNeeded => (NO_JOINT, NO_OFFSET),
             };
-            Some(ChainStep { offset, own, parent, joint })
+            ChainStep { offset, own, children: children[own as usize].len() as u32, joint, blocks }
         });
-        Self { is_near: rig.bones() < NARROW, steps: steps.collect(), uses, further, joints }
+        let steps = steps.collect();
+        let children = order.iter().flat_map(|&own| &children[own as usize]).copied().collect();
+        Self { is_near: rig.bones() < NARROW, steps, children, blocks, uses, further, joints }
     }
 
     /// Returns the number of joints.
@@ -122,6 +141,18 @@ impl SkinBinding {
         &self.steps
     }
 
+    /// Returns 1 + each child that a joint needs, in the order of the steps of their parents.
+    #[inline(always)]
+    pub(super) fn children(&self) -> &[u32] {
+        &self.children
+    }
+
+    /// Returns the blocks of the pose that the steps prepare, in their order.
+    #[inline(always)]
+    pub(super) fn blocks(&self) -> &[u32] {
+        &self.blocks
+    }
+
     /// Returns the use of each bone, in bone order.
     #[inline(always)]
     pub(super) fn uses(&self) -> &[BoneUse] {
@@ -138,4 +169,21 @@ impl SkinBinding {
     pub(super) fn list(&self) -> &[BoundJoint] {
         &self.joints
     }
+}
+
+/// Returns the blocks of the pose that the steps of the bones of `order` need, and how many are to be prepared before
+/// each step: those of its bone and of its children, if no step before has prepared them, and blocks of later steps.
+fn blocks_of_steps(order: &[u32], children: &[Vec<u32>]) -> (Vec<u32>, Vec<u32>) {
+    let (mut blocks, mut counts) = (Vec::new(), vec![0; order.len()]);
+    let mut is_known = vec![false; blocks_of(children.len())];
+    for (step, own) in order.iter().enumerate() {
+        for &slot in std::iter::once(own).chain(&children[*own as usize]) {
+            let block = (slot as usize - 1) / LANES;
+            if !std::mem::replace(&mut is_known[block], true) {
+                counts[step.min(blocks.len() * STEPS_A_BLOCK)] += 1;
+                blocks.push(block as u32);
+            }
+        }
+    }
+    (blocks, counts)
 }

@@ -1,20 +1,21 @@
 //! From a pose to the final matrices of one character.
 //!
 //! ```text
-//! to_parent                    eight bones at once
-//! to_root, final_pose          bone after bone, those of one depth after the other
+//! to_parent                    eight bones at once, shortly before they are needed
+//! final_pose, children         bone after bone, those of one depth after the other
 //! ```
 //!
-//! A product of the chain waits for that of the parent. The final matrix of the bone is computed meanwhile, from the
-//! same registers. Bones that no joint needs are left out.
+//! Near the root there are few bones of one depth, and each waits for its parent: `to_parent` of other bones is computed
+//! meanwhile. A step takes the `to_root` of a bone from memory once, for its final matrix and for `to_root` of its
+//! children. Bones that no joint needs are left out.
 
-use super::binding::{ChainStep, SkinBinding};
+use super::binding::SkinBinding;
 use super::final_poses::final_poses_with;
 use super::matrix::{Matrix34, RootMatrix};
 use super::pose::PoseBlock;
 use super::rig::{NARROW, Rig};
 use super::simd::{Rows, Simd};
-use super::to_root::{RootPoses, to_parents, to_root_with};
+use super::to_root::{RootPoses, fit, to_parent, to_parents, to_root_with};
 
 /// Computes the final matrices of `pose`. `memory` is for `to_root` of the bones that a joint needs.
 #[inline(always)]
@@ -25,11 +26,18 @@ pub(super) fn one_character<S: Simd>(
     memory: &mut RootPoses,
     out: &mut [Matrix34],
 ) {
-    to_parents::<S>(rig, pose, memory);
+    // With few registers, two things at once are slower than one after the other.
+    let are_ready = !S::Rows::IS_ONE_REGISTER || !rig.sheared.is_empty();
+    if are_ready {
+        to_parents::<S>(rig, pose, memory);
+    } else {
+        fit(rig, memory);
+    }
+    let blocks = Blocks { pose, rest: rig.rest().blocks(), are_ready };
     let matrices = memory.matrices.as_mut_slice();
     let sum = match matrices.first_chunk_mut::<NARROW>() {
-        Some(first) if binding.is_near() => near_steps::<S>(binding.steps(), first, out),
-        Some(_) | None => far_steps::<S>(binding.steps(), matrices, out),
+        Some(first) if binding.is_near() => steps::<S>(binding, &blocks, first, out),
+        Some(_) | None => steps::<S>(binding, &blocks, matrices, out),
     };
     let sum = further::<S>(binding, matrices, out, sum);
     if !sum.is_number() {
@@ -37,52 +45,98 @@ pub(super) fn one_character<S: Simd>(
     }
 }
 
-/// Computes `to_root` of the bones in place, where their `to_parent` is, and the final matrices of their joints. Returns NaN
-/// in some places if not all are finite.
+/// The pose of a character, and the rest pose for the blocks that it lacks.
+struct Blocks<'a> {
+    pose: &'a [PoseBlock],
+    rest: &'a [PoseBlock],
+    /// Whether all `to_parent` are there.
+    are_ready: bool,
+}
+
+/// `to_root` of bones, or `to_parent` as long as it is not computed, by slot: 1 + the bone.
+trait Slots {
+    fn slot(&self, slot: u32) -> Option<&RootMatrix>;
+    fn slot_mut(&mut self, slot: u32) -> Option<&mut RootMatrix>;
+    /// Returns the matrices of the bones of a block.
+    fn block(&mut self, block: u32) -> Option<&mut [RootMatrix; 8]>;
+}
+
+/// Slots that a byte can index: a byte is always within the array, so that nothing is checked.
+impl Slots for [RootMatrix; NARROW] {
+    #[inline(always)]
+    fn slot(&self, slot: u32) -> Option<&RootMatrix> {
+        Some(&self[usize::from(slot as u8)])
+    }
+
+    #[inline(always)]
+    fn slot_mut(&mut self, slot: u32) -> Option<&mut RootMatrix> {
+        Some(&mut self[usize::from(slot as u8)])
+    }
+
+    #[inline(always)]
+    fn block(&mut self, block: u32) -> Option<&mut [RootMatrix; 8]> {
+        self.get_mut(1..)?.as_chunks_mut().0.get_mut(block as usize)
+    }
+}
+
+impl Slots for [RootMatrix] {
+    #[inline(always)]
+    fn slot(&self, slot: u32) -> Option<&RootMatrix> {
+        self.get(slot as usize)
+    }
+
+    #[inline(always)]
+    fn slot_mut(&mut self, slot: u32) -> Option<&mut RootMatrix> {
+        self.get_mut(slot as usize)
+    }
+
+    #[inline(always)]
+    fn block(&mut self, block: u32) -> Option<&mut [RootMatrix; 8]> {
+        self.get_mut(1..)?.as_chunks_mut().0.get_mut(block as usize)
+    }
+}
+
+/// Computes `to_root` of the bones in place, where their `to_parent` is, and the final matrices of their joints. Returns
+/// NaN in some places if not all are finite.
 #[inline(always)]
-fn near_steps<S: Simd>(
-    steps: &[ChainStep],
-    matrices: &mut [RootMatrix; NARROW],
+fn steps<S: Simd>(
+    binding: &SkinBinding,
+    blocks: &Blocks,
+    matrices: &mut (impl Slots + ?Sized),
     out: &mut [Matrix34],
 ) -> S::Rows {
     let mut sum = S::Rows::zero();
-    for step in steps {
-        // Without a bounds check: a byte is always within the array.
-        let parent = S::Rows::load(&matrices[usize::from(step.parent as u8)].rows);
-        let own = &mut matrices[usize::from(step.own as u8)];
-        let to_root = parent.times(own.three_rows());
-        to_root.store(&mut own.rows);
-        sum = joint_of::<S>(step, to_root, out, sum);
-    }
-    sum
-}
-
-/// As [`near_steps`], for any number of bones.
-#[inline(always)]
-fn far_steps<S: Simd>(steps: &[ChainStep], matrices: &mut [RootMatrix], out: &mut [Matrix34]) -> S::Rows {
-    let mut sum = S::Rows::zero();
-    for step in steps {
-        let Some(parent) = matrices.get(step.parent as usize) else { continue };
-        let parent = S::Rows::load(&parent.rows);
-        let Some(own) = matrices.get_mut(step.own as usize) else { continue };
-        let to_root = parent.times(own.three_rows());
-        to_root.store(&mut own.rows);
-        sum = joint_of::<S>(step, to_root, out, sum);
-    }
-    sum
-}
-
-/// Computes the final matrix of the joint of a step, if it has one.
-#[inline(always)]
-fn joint_of<S: Simd>(step: &ChainStep, to_root: S::Rows, out: &mut [Matrix34], sum: S::Rows) -> S::Rows {
-    // The number of no joint is larger than that of any.
-    match out.get_mut(step.joint as usize) {
-        Some(out) => {
-            let product = to_root.times(&step.offset);
-            product.store_packed(out);
-            product.checked(sum)
+    let (mut children, mut to_prepare) = (binding.children().iter(), binding.blocks().iter());
+    for step in binding.steps() {
+        for &block in to_prepare.by_ref().take(step.blocks as usize) {
+            prepare::<S>(blocks, block, matrices);
         }
-        None => sum,
+        let Some(to_root) = matrices.slot(step.own) else { continue };
+        let columns = S::Rows::load(&to_root.rows).columns();
+        for &child in children.by_ref().take(step.children as usize) {
+            if let Some(own) = matrices.slot_mut(child) {
+                S::Rows::product(columns, own.three_rows()).store(&mut own.rows);
+            }
+        }
+        // The number of no joint is larger than that of any.
+        if let Some(out) = out.get_mut(step.joint as usize) {
+            let product = S::Rows::product(columns, &step.offset);
+            product.store_packed(out);
+            sum = product.checked(sum);
+        }
+    }
+    sum
+}
+
+/// Computes the `to_parent` of a block, unless they are there.
+#[inline(always)]
+fn prepare<S: Simd>(blocks: &Blocks, block: u32, matrices: &mut (impl Slots + ?Sized)) {
+    let at = block as usize;
+    if !blocks.are_ready
+        && let Some(pose) = blocks.pose.get(at).or(blocks.rest.get(at))
+        && let Some(own) = matrices.block(block)
+    {
+        to_parent::<S>(pose, own);
     }
 }
 

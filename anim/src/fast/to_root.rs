@@ -117,7 +117,7 @@ pub(super) fn to_parents<S: Simd>(rig: &Rig, pose: &[PoseBlock], out: &mut RootP
 
 /// Resizes `out`, if it was made for another rig.
 #[inline(always)]
-fn fit(rig: &Rig, out: &mut RootPoses) {
+pub(super) fn fit(rig: &Rig, out: &mut RootPoses) {
     if out.bones != rig.bones {
         *out = RootPoses::new(rig);
     }
@@ -125,7 +125,7 @@ fn fit(rig: &Rig, out: &mut RootPoses) {
 
 /// Computes `T · R · S` of eight bones.
 #[inline(always)]
-fn to_parent<S: Simd>(pose: &PoseBlock, out: &mut [RootMatrix; 8]) {
+pub(super) fn to_parent<S: Simd>(pose: &PoseBlock, out: &mut [RootMatrix; 8]) {
     let columns = local_rows::<S::F8>(
         S::F8::load_four(&pose.rotation),
         S::F8::load_three(&pose.translation),

@@ -211,6 +211,13 @@ impl Float8 for F8 {
     }
 
     #[inline(always)]
+    fn picked(self, lanes: &[u32; 8], others: Self) -> Self {
+        let lanes = U8::load(lanes);
+        let picked = Self(instruction!(_mm256_permutevar8x32_ps(self.0, lanes.0)));
+        lanes.as_float().select(picked, others)
+    }
+
+    #[inline(always)]
     fn any(self) -> bool {
         instruction!(_mm256_movemask_ps(self.0)) != 0
     }

@@ -80,7 +80,10 @@ fn four_times(from: &[f32; 4]) -> __m512 {
 }
 
 impl Rows for OneRegister {
+    const IS_ONE_REGISTER: bool = true;
     type Column = F8;
+    /// Each number of a column four times; the last column at its place, and zeros elsewhere.
+    type Columns = [Self; 4];
 
     #[inline(always)]
     fn zero() -> Self {
@@ -109,12 +112,20 @@ impl Rows for OneRegister {
     }
 
     #[inline(always)]
-    fn times(self, [x, y, z]: &[[f32; 4]; 3]) -> Self {
-        let (x, y, z) = (four_times(x), four_times(y), four_times(z));
-        let sum = instruction!(_mm512_maskz_mov_ps(LAST, self.0));
-        let sum = instruction!(_mm512_fmadd_ps(_mm512_permute_ps::<0x00>(self.0), x, sum));
-        let sum = instruction!(_mm512_fmadd_ps(_mm512_permute_ps::<0x55>(self.0), y, sum));
-        Self(instruction!(_mm512_fmadd_ps(_mm512_permute_ps::<0xAA>(self.0), z, sum)))
+    fn columns(self) -> [Self; 4] {
+        [
+            Self(instruction!(_mm512_permute_ps::<0x00>(self.0))),
+            Self(instruction!(_mm512_permute_ps::<0x55>(self.0))),
+            Self(instruction!(_mm512_permute_ps::<0xAA>(self.0))),
+            Self(instruction!(_mm512_maskz_mov_ps(LAST, self.0))),
+        ]
+    }
+
+    #[inline(always)]
+    fn product([x, y, z, last]: [Self; 4], [a, b, c]: &[[f32; 4]; 3]) -> Self {
+        let sum = instruction!(_mm512_fmadd_ps(x.0, four_times(a), last.0));
+        let sum = instruction!(_mm512_fmadd_ps(y.0, four_times(b), sum));
+        Self(instruction!(_mm512_fmadd_ps(z.0, four_times(c), sum)))
     }
 
     #[inline(always)]

@@ -192,6 +192,11 @@ impl Float8 for Array8 {
     }
 
     #[inline(always)]
+    fn picked(self, lanes: &[u32; 8], others: Self) -> Self {
+        lanes!(Self, [0.0; 8], at => if lanes[at] & SIGN != 0 { self.0[lanes[at] as usize % 8] } else { others.0[at] })
+    }
+
+    #[inline(always)]
     fn any(self) -> bool {
         let mut bits = 0;
         for lane in self.0 {

@@ -6,8 +6,12 @@ use std::fmt::Debug;
 /// Three rows of four numbers. In memory they may be followed by four numbers without a meaning, so that a matrix is as
 /// wide as the widest register.
 pub trait Rows: Copy + Debug {
+    /// Whether a matrix is one register, so that many are left.
+    const IS_ONE_REGISTER: bool;
     /// One number of each of eight matrices.
     type Column: Float8;
+    /// The left matrix of a product.
+    type Columns: Copy + Debug;
 
     /// Returns zeros.
     fn zero() -> Self;
@@ -17,12 +21,19 @@ pub trait Rows: Copy + Debug {
     fn store(self, to: &mut [[f32; 4]; 4]);
     /// Stores only the three rows.
     fn store_packed(self, to: &mut [f32; 12]);
-    /// Returns `self * other`:
+    /// Returns `self * other`: see [`Self::product`].
+    #[inline(always)]
+    fn times(self, other: &[[f32; 4]; 3]) -> Self {
+        Self::product(self.columns(), other)
+    }
+    /// Returns the matrix as [`Self::product`] needs it, for several products.
+    fn columns(self) -> Self::Columns;
+    /// Returns `matrix * other`:
     ///
     /// ```text
-    /// row_i = self_i0 * other_0 + self_i1 * other_1 + self_i2 * other_2 + (0 0 0 self_i3)
+    /// row_i = matrix_i0 * other_0 + matrix_i1 * other_1 + matrix_i2 * other_2 + (0 0 0 matrix_i3)
     /// ```
-    fn times(self, other: &[[f32; 4]; 3]) -> Self;
+    fn product(matrix: Self::Columns, other: &[[f32; 4]; 3]) -> Self;
     /// Returns `sum` if all numbers are finite, and NaN in some places otherwise.
     fn checked(self, sum: Self) -> Self;
     /// Returns whether no number is NaN.
@@ -36,7 +47,10 @@ pub trait Rows: Copy + Debug {
 pub struct TwoVectors<V: Float8>(V, V::Half);
 
 impl<V: Float8> Rows for TwoVectors<V> {
+    const IS_ONE_REGISTER: bool = false;
     type Column = V;
+    /// There are too few registers to keep the columns one by one.
+    type Columns = Self;
 
     #[inline(always)]
     fn zero() -> Self {
@@ -68,8 +82,12 @@ impl<V: Float8> Rows for TwoVectors<V> {
     }
 
     #[inline(always)]
-    fn times(self, [x, y, z]: &[[f32; 4]; 3]) -> Self {
-        let Self(two, one) = self;
+    fn columns(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn product(Self(two, one): Self, [x, y, z]: &[[f32; 4]; 3]) -> Self {
         // Each row of the other matrix in both halves of a vector.
         let [x, y, z] = [V::twice(x), V::twice(y), V::twice(z)];
         let upper = two.spread::<0>().mul_add(x, two.keep_last());

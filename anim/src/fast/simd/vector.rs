@@ -80,6 +80,9 @@ pub trait Float8:
     fn less(self, other: Self) -> Self;
     /// Returns `yes` where the mask `self` is set, and `no` elsewhere.
     fn select(self, yes: Self, no: Self) -> Self;
+    /// Returns in each lane the number of lane `lanes[lane] % 8` of `self`, where the highest bit of `lanes[lane]` is
+    /// set, and that of `others` elsewhere.
+    fn picked(self, lanes: &[u32; 8], others: Self) -> Self;
     /// Returns whether any lane of the mask `self` is set.
     fn any(self) -> bool;
     /// Returns whether every lane of the mask `self` is set.
