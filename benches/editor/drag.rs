@@ -11,6 +11,7 @@ use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
     AnimationData, Bone, Channel, Interpolation, ModelData, Skeleton, Take, Track, Transform,
 };
+use dragonfly_document::images::ImageSurvey;
 use dragonfly_document::{
     Cancel, Document, DocumentReply, LoadError, LoadedModel, OpenedModel, Progress, Setup, Source, View,
     open_model,
@@ -88,7 +89,7 @@ fn thousand(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<Opene
         path: None,
         format: None,
         model,
-        images: Vec::new(),
+        images: ImageSurvey::default(),
         warnings: Vec::new(),
     }
     .into())

@@ -13,6 +13,7 @@ use dragonfly_anim::data::{
 };
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::history::Edited;
+use dragonfly_document::images::ImageSurvey;
 use dragonfly_document::{Change, LoadedModel, View};
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
@@ -289,7 +290,7 @@ fn view() -> View {
         format: Some(dragonfly_anim::format::gltf::GLB),
         bounds: Bounds { min: -Vec3::ONE, max: Vec3::ONE, ..Bounds::default() },
         model,
-        images: Vec::new(),
+        images: ImageSurvey::default(),
         warnings: Vec::new(),
     };
     View::opened(1, Arc::new(loaded))

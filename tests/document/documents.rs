@@ -2,9 +2,10 @@
 
 use dragonfly_anim::data::Image;
 use dragonfly_document::edit::{Edit, RenameTake, TakeRef};
+use dragonfly_document::images::{ImageSurvey, SurveyedImage};
 use dragonfly_document::{
     Cancel, Change, Document, DocumentHandle, DocumentReply, LoadError, LoadedModel, OpenedModel, Progress,
-    Setup, Source, View, images, load_model,
+    Setup, Source, View, load_model,
 };
 use dragonfly_kit::document::arm;
 use dragonfly_kit::document::received::Received;
@@ -21,8 +22,8 @@ fn the_built_in_model_opens_and_reports_progress() {
     assert_eq!(loaded.title, "Dragonfly");
     assert!(loaded.path.is_none());
     assert!(loaded.model.animation.takes.len() >= 3);
-    assert_eq!(loaded.images.len(), loaded.model.images.len());
-    assert!(loaded.images.iter().all(Option::is_some), "{:?}", loaded.warnings);
+    assert!((0..loaded.model.images.len() as u32).all(|index| loaded.images.get(index).is_some()));
+    assert_eq!(loaded.warnings, [""; 0]);
     assert!(loaded.bounds.sphere.radius > 0.0);
     assert!(steps.windows(2).all(|pair| pair[0] <= pair[1]), "{steps:?}");
     assert_eq!(steps.last(), Some(&1.0));
@@ -89,27 +90,27 @@ fn crc(bytes: &[u8]) -> u32 {
 #[test]
 fn an_image_with_an_oversized_header_only_causes_a_warning() {
     for (width, height) in [(60_000, 60_000), (16_385, 1), (12_000, 12_000), (u32::MAX, 1), (0, 0)] {
-        let decoded = images::decode_all(&[claims(width, height)], u64::MAX, &Cancel::default(), |_| {});
-        assert_eq!(decoded.images, [None]);
-        assert_eq!(decoded.warnings.len(), 1);
-        assert!(
-            decoded.warnings[0].starts_with("image 0 \"huge\" is not shown: "),
-            "{}",
-            decoded.warnings[0]
-        );
+        let images = [claims(width, height)];
+        let (survey, warnings) = ImageSurvey::new(&images, u64::MAX, &Cancel::default());
+        assert_eq!(survey.get(0), None);
+        assert!(survey.decode(&images, 0, 0).is_err());
+        assert_eq!(warnings.len(), 1);
+        assert!(warnings[0].starts_with("image 0 \"huge\" is not shown: "), "{}", warnings[0]);
     }
 }
 
 #[test]
-fn images_of_one_source_are_decoded_once() {
+fn images_of_one_source_are_one_image() {
     let mut png = Vec::new();
     let pixels = image::RgbaImage::from_pixel(3, 2, image::Rgba([1, 2, 3, 4]));
     pixels.write_to(&mut std::io::Cursor::new(&mut png), image::ImageFormat::Png).unwrap();
     let image = Image { bytes: png.into(), ..Image::default() };
-    let decoded = images::decode_all(&[image.clone(), image], u64::MAX, &Cancel::default(), |_| {});
-    let [Some(first), Some(second)] = &decoded.images[..] else { panic!("{decoded:?}") };
-    assert!(std::sync::Arc::ptr_eq(first, second));
-    assert_eq!((first.width, first.height, first.pixels.len()), (3, 2, 24));
+    let images = [image.clone(), image];
+    let (survey, _) = ImageSurvey::new(&images, u64::MAX, &Cancel::default());
+    assert_eq!(survey.get(0), survey.get(1));
+    assert_eq!(survey.get(1).map(SurveyedImage::source), Some(0));
+    let decoded = survey.decode(&images, 1, 0).unwrap();
+    assert_eq!((decoded.width, decoded.height, decoded.pixels.len()), (3, 2, 24));
 }
 
 /// Importer that panics in one of three ways on every file, and opens the built-in model.

@@ -1,69 +1,93 @@
-//! The images of a model fit into the memory that its file may use: equal ones are decoded once, and where large ones
-//! are too many, they are shown smaller.
+//! The images of a model take no memory until they are drawn, and then only one of them at a time.
 
 use dragonfly_anim::data::Image;
-use dragonfly_document::Cancel;
-use dragonfly_document::images::{Decoded, decode_all};
+use dragonfly_document::images::ImageSurvey;
+use dragonfly_document::{Cancel, DecodedImage};
 use dragonfly_kit::counting::peak;
 use image::{GrayImage, ImageFormat, Luma, Rgba, RgbaImage};
 use std::io::Cursor;
-use std::sync::Arc;
 
-/// An image of `side` by `side` pixels of one shade, without transparency.
-fn shade(side: u32, shade: u8) -> Image {
+fn encoded(write: impl FnOnce(&mut Cursor<Vec<u8>>)) -> Image {
     let mut png = Cursor::new(Vec::new());
-    GrayImage::from_pixel(side, side, Luma([shade])).write_to(&mut png, ImageFormat::Png).unwrap();
+    write(&mut png);
     Image { bytes: png.into_inner().into(), ..Image::default() }
 }
 
-fn decoded(images: &[Image], memory: u64) -> (u64, Decoded) {
-    peak(|| decode_all(images, memory, &Cancel::default(), |_| {}))
+/// An image of `side` by `side` pixels of one shade, without transparency.
+fn shade(side: u32, shade: u8) -> Image {
+    let pixels = GrayImage::from_pixel(side, side, Luma([shade]));
+    encoded(|png| pixels.write_to(png, ImageFormat::Png).unwrap())
+}
+
+fn survey(images: &[Image], memory: u64) -> (ImageSurvey, Vec<String>) {
+    ImageSurvey::new(images, memory, &Cancel::default())
 }
 
 #[test]
-fn equal_images_in_different_places_are_decoded_once() {
-    let images: Vec<Image> = (0..40).map(|_| shade(1_024, 7)).collect();
-    let (memory, decoded) = decoded(&images, u64::MAX);
-    assert!(memory < 3 * (4 << 20), "{memory}");
-    let [Some(first), .., Some(last)] = &decoded.images[..] else { panic!("{:?}", decoded.warnings) };
-    assert!(Arc::ptr_eq(first, last));
+fn a_survey_of_many_images_takes_little_memory() {
+    let images: Vec<Image> = (0..20).map(|number| shade(2_048, number)).collect();
+    let (memory, (survey, warnings)) = peak(|| survey(&images, u64::MAX));
+    // A decoder of PNG keeps some rows, and its tables.
+    assert!(memory < 1 << 20, "{memory}");
+    assert_eq!(warnings, [""; 0]);
+    assert!((0..20).all(|index| survey.get(index).is_some_and(|image| image.size() == [2_048; 2])));
 }
 
 #[test]
-fn large_images_are_kept_smaller_where_all_of_them_do_not_fit() {
-    let images: Vec<Image> = (0..20).map(|number| shade(2_048, number)).chain([shade(64, 99)]).collect();
-    let budget = 64 << 20;
-    let (memory, decoded) = decoded(&images, budget);
+fn images_are_decoded_one_at_a_time_and_none_is_kept() {
+    let images: Vec<Image> = (0..20).map(|number| shade(1_024, number)).collect();
+    let (survey, _) = survey(&images, u64::MAX);
+    let one = survey.get(0).unwrap().peak(0);
+    assert_eq!(one, 5 << 20, "gray, and the same as colors");
+    let (memory, warnings) = peak(|| survey.damage(&images));
+    assert_eq!(warnings, [""; 0]);
+    assert!(memory <= one, "{memory} of {one}");
+}
+
+#[test]
+fn a_halved_image_takes_the_memory_of_its_size() {
+    let images = [shade(2_048, 7)];
+    let (survey, _) = survey(&images, u64::MAX);
+    let most = survey.get(0).unwrap().peak(2);
+    let (memory, decoded) = peak(|| survey.decode(&images, 0, 2).unwrap());
     // Not counted: the rows and tables of the decoder.
-    assert!(memory <= budget + (1 << 20), "{memory} of {budget}");
-    for (number, image) in decoded.images[..20].iter().enumerate() {
-        let image = image.as_ref().unwrap_or_else(|| panic!("{number}: {:?}", decoded.warnings));
-        assert_eq!((image.width, image.height), (512, 512));
-        assert_eq!(image.pixels[..4], [number as u8, number as u8, number as u8, 255]);
-    }
-    assert_eq!(decoded.images[20].as_ref().unwrap().width, 64, "a small image stays as it is");
-    assert_eq!(decoded.warnings.len(), 20);
-    assert!(decoded.warnings[0].contains("512 × 512 instead of 2048 × 2048"), "{}", decoded.warnings[0]);
+    assert!(memory <= most + (1 << 20), "{memory} of {most}");
+    assert_eq!((decoded.width, decoded.height), (512, 512));
+    assert_eq!(decoded.pixels[..4], [7, 7, 7, 255]);
 }
 
 #[test]
 fn an_image_that_does_not_fit_alone_is_left_out_and_the_others_stay() {
     let images = [shade(8_000, 1), shade(1_024, 2)];
-    let (memory, decoded) = decoded(&images, 20 << 20);
-    assert!(memory <= 21 << 20, "{memory}");
-    assert!(decoded.images[0].is_none());
-    assert_eq!(decoded.images[1].as_ref().unwrap().width, 1_024);
-    assert_eq!(decoded.warnings.len(), 1);
-    assert!(decoded.warnings[0].contains("MB of memory"), "{}", decoded.warnings[0]);
+    let (survey, warnings) = survey(&images, 20 << 20);
+    assert_eq!(survey.get(0), None);
+    assert_eq!(survey.decode(&images, 1, 0).unwrap().width, 1_024);
+    assert_eq!(warnings.len(), 1);
+    assert!(warnings[0].contains("MB of memory"), "{}", warnings[0]);
 }
 
 #[test]
-fn images_that_fit_are_decoded_as_they_are() {
+fn an_image_that_fits_is_decoded_as_it_is() {
     let pixels = RgbaImage::from_fn(700, 600, |x, y| Rgba([x as u8, y as u8, 3, 200]));
-    let mut png = Cursor::new(Vec::new());
-    pixels.write_to(&mut png, ImageFormat::Png).unwrap();
-    let image = Image { bytes: png.into_inner().into(), ..Image::default() };
-    let (_, decoded) = decoded(&[image], 8 << 20);
-    assert_eq!(decoded.warnings, Vec::<String>::new());
-    assert_eq!(decoded.images[0].as_ref().unwrap().pixels, pixels.into_raw());
+    let images = [encoded(|png| pixels.write_to(png, ImageFormat::Png).unwrap())];
+    let (survey, warnings) = survey(&images, 8 << 20);
+    assert_eq!(warnings, [""; 0]);
+    let DecodedImage { pixels: decoded, .. } = survey.decode(&images, 0, 0).unwrap();
+    assert_eq!(decoded, pixels.into_raw());
+}
+
+#[test]
+fn damaged_pixels_are_found_by_decoding_and_not_by_the_survey() {
+    let whole = shade(64, 3);
+    let cut = Image {
+        bytes: whole.bytes[..whole.bytes.len() - 30].into(),
+        name: "cut".to_owned(),
+        ..Image::default()
+    };
+    let images = [whole, cut.clone(), cut];
+    let (survey, warnings) = survey(&images, u64::MAX);
+    assert_eq!(warnings, [""; 0]);
+    let damage = survey.damage(&images);
+    assert_eq!(damage.len(), 1, "once for each content: {damage:?}");
+    assert!(damage[0].starts_with("image 1 \"cut\" is not shown: "), "{}", damage[0]);
 }

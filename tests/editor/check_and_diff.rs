@@ -49,6 +49,31 @@ fn warnings_fail_a_check_only_where_they_are_denied() {
 }
 
 #[test]
+fn a_damaged_image_is_a_warning_of_check_info_and_render() {
+    let folder = Folder::new("check-image");
+    let whole = image::RgbaImage::from_fn(64, 64, |x, y| image::Rgba([x as u8, y as u8, 7, 255]));
+    let mut png = std::io::Cursor::new(Vec::new());
+    whole.write_to(&mut png, image::ImageFormat::Png).expect("encoded");
+    let png = png.into_inner();
+    std::fs::write(folder.join("skin.png"), &png[..png.len() / 2]).expect("written");
+    let material = r#"{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}"#;
+    let file = format!(
+        r#"{{"asset":{{"version":"2.0"}},"images":[{{"uri":"skin.png"}}],"textures":[{{"source":0}}],"materials":[{material}]}}"#
+    );
+    let path = folder.join("model.gltf");
+    std::fs::write(&path, file).expect("written");
+    let warning = "image 0 \"skin.png\" is not shown: ";
+    for command in ["check", "info"] {
+        let outcome = run([command, text(&path)]).expect(0);
+        assert_eq!(outcome.text().matches(warning).count(), 1, "{command}: {}", outcome.text());
+    }
+    if dragonfly_kit::picture::studio::studio().is_some() {
+        let outcome = run(["render", text(&path), "-o", text(&folder.join("model.png"))]).expect(0);
+        assert_eq!(outcome.stderr.matches(warning).count(), 1, "{}", outcome.stderr);
+    }
+}
+
+#[test]
 fn a_file_that_cannot_be_read_does_not_hide_the_findings_of_the_others() {
     let outcome = run(["check", "nowhere.glb", "demo:"]).expect(2);
     assert!(outcome.stderr.contains("nowhere.glb"), "{}", outcome.stderr);

@@ -51,6 +51,9 @@ mod properties;
 mod properties_formula;
 mod questions;
 mod remembered;
+// The memory of another process can be read there only.
+#[cfg(target_os = "linux")]
+mod render_memory;
 mod ruler;
 mod screen;
 mod settings;

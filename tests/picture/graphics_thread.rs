@@ -1,6 +1,7 @@
 //! The graphics thread, with iterations run by the test: it draws when something changed, answers requests, and is
 //! idle otherwise.
 
+use crate::image_loading::{damaged, plain, sheets};
 use dragonfly_anim::data::{ModelData, Take};
 use dragonfly_document::{Document, DocumentReply, FaultInjection, FaultPlan, Source, View};
 use dragonfly_kit::document::arm;
@@ -190,6 +191,24 @@ fn a_minimized_window_draws_nothing() {
     bench.settle();
     bench.graphics.resize(SIZE);
     assert_ne!(bench.turn(), Next::OnMessage, "it goes on where the window comes back");
+}
+
+#[test]
+fn a_damaged_image_is_reported_once_with_the_title_of_its_model() {
+    let Some(mut bench) = GraphicsBench::new() else { return };
+    let view = View::opened(1, damaged(&sheets(1, vec![plain(64, [255; 4])]), 0));
+    bench.graphics.show(view.clone());
+    bench.graphics.set_look(Look { viewport: [20, 10, 280, 180], ..Look::default() });
+    bench.settle();
+    bench.graphics.show(View { generation: 2, ..view });
+    bench.settle();
+    let images = bench.take().into_iter().filter_map(|reply| match reply {
+        GraphicsReply::Images { title, warnings } => Some((title, warnings)),
+        _ => None,
+    });
+    let [(title, warnings)] = &images.collect::<Vec<_>>()[..] else { panic!("one report") };
+    assert_eq!((title.as_str(), warnings.len()), ("Made", 1));
+    assert!(warnings[0].starts_with("image 0 is not shown: "), "{}", warnings[0]);
 }
 
 #[test]

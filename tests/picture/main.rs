@@ -7,6 +7,7 @@ mod device_loss;
 mod draws;
 mod ghost_skins;
 mod graphics_thread;
+mod image_loading;
 mod instances;
 mod no_allocation;
 mod passes;

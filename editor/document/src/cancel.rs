@@ -10,7 +10,7 @@ pub enum LoadStage {
     Reading,
     /// Parsing the bytes.
     Understanding,
-    /// Decoding textures.
+    /// Reading the headers of the textures, which are decoded when the model is drawn.
     Decoding,
 }
 

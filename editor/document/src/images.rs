@@ -1,11 +1,11 @@
-//! Decodes textures within limits: a file of one kilobyte must not allocate all memory.
+//! The images of a model: surveyed when it is opened, and decoded one at a time by what draws it, within limits: a file of
+//! one kilobyte must not allocate all memory.
 
-use super::{Cancel, DecodedImage};
+use super::Cancel;
 use dragonfly_anim::data::Image;
 use image::{ImageDecoder, ImageReader, Limits};
 use std::collections::HashMap;
 use std::io::Cursor;
-use std::sync::Arc;
 
 /// Maximum width and height of an image; the limit of current GPUs.
 pub const MAX_SIDE: u32 = 16_384;
@@ -14,83 +14,134 @@ pub const MAX_PIXELS: u64 = 64 << 20;
 /// Maximum number of pixels of all images of a model.
 pub const MAX_PIXELS_TOTAL: u64 = 256 << 20;
 
-/// The decoded images of a model.
-#[derive(Debug, Default)]
-pub struct Decoded {
-    /// One per image; `None` where it failed.
-    pub images: Vec<Option<Arc<DecodedImage>>>,
-    /// The reasons, one sentence per failure.
-    pub warnings: Vec<String>,
+/// An image ready for the GPU. It exists only on the way there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DecodedImage {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// RGBA, 8 bits each, rows from the top, `width * height * 4` bytes.
+    pub pixels: Vec<u8>,
 }
 
-/// Decodes every image once per content, in order, with at most `memory` bytes in all. Calls `progress` with the number
-/// of decoded images after each.
-///
-/// Where there is not enough memory for all of them, the large ones are kept at a half, a quarter, … of their size. That,
-/// and an image that fails, is a warning. Stops early, with `None` for the rest, when `cancel` is raised.
-pub fn decode_all(images: &[Image], memory: u64, cancel: &Cancel, mut done: impl FnMut(usize)) -> Decoded {
-    let mut decoded = Decoded::default();
-    let mut known: HashMap<&[u8], usize> = HashMap::new();
-    let twins: Vec<usize> = images
-        .iter()
-        .enumerate()
-        // Images without data are not alike: each has its own warning.
-        .map(|(index, image)| match image.bytes.is_empty() {
-            true => index,
-            false => *known.entry(&image.bytes[..]).or_insert(index),
-        })
-        .collect();
-    let sizes: Vec<Result<ImageSize, String>> = images
-        .iter()
-        .zip(&twins)
-        .enumerate()
-        .map(|(index, (image, &twin))| if twin == index { size_of_image(image) } else { Err(String::new()) })
-        .collect();
-    let halvings = halvings(&sizes, memory);
-    let (mut pixels, mut left) = (MAX_PIXELS_TOTAL, memory);
-    for (index, image) in images.iter().enumerate() {
-        let result = if cancel.is_cancelled() {
-            None
-        } else if twins[index] != index {
-            decoded.images[twins[index]].clone()
-        } else {
-            let result = sizes[index].clone().and_then(|size| {
-                let halvings = if size.is_large() { halvings } else { 0 };
-                size.check(pixels, left, halvings)?;
-                let image = decode_guarded(image, size, halvings)?;
-                Ok((size, halvings, image))
-            });
-            match result {
-                Ok((size, halvings, image)) => {
-                    pixels -= size.pixels();
-                    left -= (image.pixels.len() as u64).min(left);
-                    if halvings > 0 {
-                        decoded.warnings.push(format!(
-                            "image {} is shown with {} × {} instead of {} × {} pixels: \
-                             the images of this model are too many for its size",
-                            label(index, &images[index]),
-                            image.width,
-                            image.height,
-                            size.width,
-                            size.height
-                        ));
-                    }
-                    Some(Arc::new(image))
-                }
-                Err(reason) => {
-                    decoded.warnings.push(format!("image {} is not shown: {reason}", label(index, image)));
-                    None
-                }
-            }
-        };
-        decoded.images.push(result);
-        done(index + 1);
+/// The images of a model that can be decoded, as their headers describe them. It keeps no pixels.
+#[derive(Clone, Debug, Default)]
+pub struct ImageSurvey {
+    images: Vec<Option<SurveyedImage>>,
+    memory: u64,
+}
+
+/// An image that can be decoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SurveyedImage {
+    source: u32,
+    size: ImageSize,
+}
+
+impl SurveyedImage {
+    /// Returns the index of the first image of the model with the same content.
+    pub fn source(&self) -> u32 {
+        self.source
     }
-    decoded
+
+    /// Returns its width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        [self.size.width, self.size.height]
+    }
+
+    /// Returns the most memory in bytes that decoding needs, with the decoded pixels, if the result is halved this many
+    /// times.
+    pub fn peak(&self, halvings: u32) -> u64 {
+        self.size.peak(halvings)
+    }
+}
+
+impl ImageSurvey {
+    /// Reads the header of every image. Decoding one of them may take `memory` bytes.
+    ///
+    /// Also returns a warning for each image that cannot be shown. Stops early, without the rest, when `cancel` is raised.
+    pub fn new(images: &[Image], memory: u64, cancel: &Cancel) -> (Self, Vec<String>) {
+        let mut survey = Self { images: Vec::with_capacity(images.len()), memory };
+        let mut warnings = Vec::new();
+        let mut known: HashMap<&[u8], usize> = HashMap::new();
+        let mut pixels = MAX_PIXELS_TOTAL;
+        for (index, image) in images.iter().enumerate() {
+            if cancel.is_cancelled() {
+                break;
+            }
+            // Images without data are not alike: each has its own warning.
+            let source =
+                if image.bytes.is_empty() { index } else { *known.entry(&image.bytes[..]).or_insert(index) };
+            let surveyed = if source != index {
+                survey.images[source]
+            } else {
+                let size = size_of_image(image).and_then(|size| {
+                    // The smallest result, because what draws it decides how small it has to be.
+                    size.check(pixels, memory, MAX_HALVINGS).map(|()| size)
+                });
+                match size {
+                    Ok(size) => {
+                        pixels -= size.pixels();
+                        Some(SurveyedImage { source: index as u32, size })
+                    }
+                    Err(reason) => {
+                        warnings.push(not_shown(images, index as u32, &reason));
+                        None
+                    }
+                }
+            };
+            survey.images.push(surveyed);
+        }
+        (survey, warnings)
+    }
+
+    /// Returns image number `index`; `None` if it cannot be decoded.
+    pub fn get(&self, index: u32) -> Option<&SurveyedImage> {
+        self.images.get(index as usize)?.as_ref()
+    }
+
+    /// Returns the memory in bytes that the images may use: the promise of the import, without what the rest of the model needs.
+    pub fn memory(&self) -> u64 {
+        self.memory
+    }
+
+    /// Decodes image number `index` of `images`, which were surveyed, with its sides halved `halvings` times.
+    ///
+    /// # Errors
+    /// A warning for the user. A decoder that panics loses only its image, like one that fails.
+    pub fn decode(&self, images: &[Image], index: u32, halvings: u32) -> Result<DecodedImage, String> {
+        let image = self.get(index).and_then(|surveyed| Some((surveyed, images.get(index as usize)?)));
+        let Some((surveyed, image)) = image else { return Err(format!("image {index} is not shown")) };
+        std::panic::catch_unwind(|| decode_smaller(image, surveyed.size, halvings))
+            .unwrap_or_else(|_| Err("the decoder failed".to_owned()))
+            .map_err(|reason| not_shown(images, index, &reason))
+    }
+
+    /// Decodes every image once per content, one at a time, and keeps none. Returns a warning for each that fails.
+    pub fn damage(&self, images: &[Image]) -> Vec<String> {
+        let sources = (0..)
+            .zip(&self.images)
+            .filter(|(index, image)| image.is_some_and(|image| image.source == *index));
+        // Halved, because only then it was checked that decoding has enough memory.
+        sources.filter_map(|(index, _)| self.decode(images, index, MAX_HALVINGS).err()).collect()
+    }
+}
+
+/// Returns the warning about an image that cannot be shown.
+fn not_shown(images: &[Image], index: u32, reason: &str) -> String {
+    format!("image {} is not shown: {reason}", label(images, index))
+}
+
+/// Returns the index and the name of an image for messages, as in `2 "wings.png"`.
+pub fn label(images: &[Image], index: u32) -> String {
+    let name =
+        images.get(index as usize).map_or("", |image| image.file_name.as_deref().unwrap_or(&image.name));
+    if name.is_empty() { format!("{index}") } else { format!("{index} \"{name}\"") }
 }
 
 /// Size of an image, from its header.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct ImageSize {
     width: u32,
     height: u32,
@@ -100,18 +151,12 @@ struct ImageSize {
     is_rgba: bool,
 }
 
-/// Largest number of times that the size of an image is halved.
+/// Number of halvings after which the memory of the result hardly counts.
 const MAX_HALVINGS: u32 = 4;
-/// Number of pixels up to which an image is small enough to be kept as it is.
-const SMALL: u64 = 512 * 512;
 
 impl ImageSize {
     fn pixels(&self) -> u64 {
         u64::from(self.width) * u64::from(self.height)
-    }
-
-    fn is_large(&self) -> bool {
-        self.pixels() > SMALL
     }
 
     /// Returns the bytes of the image after `halvings` of its size.
@@ -151,26 +196,6 @@ impl ImageSize {
         }
         Ok(())
     }
-}
-
-/// Returns how many times the sizes of the large images are halved, so that all of them fit into `memory` bytes.
-fn halvings(sizes: &[Result<ImageSize, String>], memory: u64) -> u32 {
-    // One that does not even fit alone is left out.
-    let sizes =
-        || sizes.iter().flatten().filter(|size| size.check(MAX_PIXELS_TOTAL, memory, MAX_HALVINGS).is_ok());
-    let fits = |halvings: &u32| {
-        let of = |size: &ImageSize| if size.is_large() { *halvings } else { 0 };
-        let kept: u64 = sizes().map(|size| size.kept(of(size))).sum();
-        let more = sizes().map(|size| size.peak(of(size)) - size.kept(of(size)).min(size.peak(of(size))));
-        kept + more.max().unwrap_or(0) <= memory
-    };
-    (0..MAX_HALVINGS).find(fits).unwrap_or(MAX_HALVINGS)
-}
-
-/// Decodes an image. A decoder that panics loses only its image, like one that fails.
-fn decode_guarded(image: &Image, size: ImageSize, halvings: u32) -> Result<DecodedImage, String> {
-    std::panic::catch_unwind(|| decode_smaller(image, size, halvings))
-        .unwrap_or_else(|_| Err("the decoder failed".to_owned()))
 }
 
 /// Decodes one image of at most `budget` pixels to RGBA.
@@ -224,10 +249,4 @@ fn decode_smaller(image: &Image, size: ImageSize, halvings: u32) -> Result<Decod
     }
     let rgba = decoded.into_rgba8();
     Ok(DecodedImage { width: rgba.width(), height: rgba.height(), pixels: rgba.into_raw() })
-}
-
-/// Returns the index and the name of an image for messages, as in `2 "wings.png"`.
-fn label(index: usize, image: &Image) -> String {
-    let name = image.file_name.as_deref().unwrap_or(&image.name);
-    if name.is_empty() { format!("{index}") } else { format!("{index} \"{name}\"") }
 }

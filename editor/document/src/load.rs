@@ -1,10 +1,11 @@
-//! Opens a model for the window and for the command line: reads its bytes, imports its data, decodes its images.
+//! Opens a model for the window and for the command line: reads its bytes, imports its data, surveys its images.
 //! Loading reports its progress and can be cancelled.
 
 use super::beside::ReadOnce;
+use super::images::ImageSurvey;
+use super::import;
 use super::source::{LoadError, Source};
 use super::{Cancel, Editable, FileAccessError, LoadStage, LoadedModel, Progress, read_file};
-use super::{images, import};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::limits::FILE_BYTES;
@@ -124,23 +125,20 @@ impl<'a> Read<'a> {
         };
         check(cancel)?;
         let import::ImportedModel { model, format, mut warnings, memory } = imported;
-        let count = model.images.len().max(1) as f32;
         let model = Arc::new(model);
-        // Before the images, which need the same memory.
         let first = model.animation.takes.first().map(|take| take.start);
         let bounds = bounds_of_pose(&model, first.map(|_| 0), first.unwrap_or(0.0));
         progress(Progress { stage: LoadStage::Decoding, done: 0.5 });
-        let decoded = images::decode_all(&model.images, memory, cancel, |done| {
-            progress(Progress { stage: LoadStage::Decoding, done: 0.5 + 0.5 * done as f32 / count });
-        });
+        let (images, of_images) = ImageSurvey::new(&model.images, memory, cancel);
         check(cancel)?;
-        warnings.extend(decoded.warnings);
+        progress(Progress { stage: LoadStage::Decoding, done: 1.0 });
+        warnings.extend(of_images);
         let path = match self.source {
             Source::BuiltIn => None,
             Source::File(path) => Some(path.clone()),
         };
         let title = self.source.title();
-        Ok(LoadedModel { title, path, format: Some(format), model, bounds, images: decoded.images, warnings })
+        Ok(LoadedModel { title, path, format: Some(format), model, bounds, images, warnings })
     }
 }
 

@@ -2,22 +2,12 @@
 
 use super::adapter::{ModelAdapter, PendingAt, TakeVersions};
 use super::history::Edited;
+use super::images::ImageSurvey;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Take, Track};
 use dragonfly_anim::format::Format;
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// An image ready for the GPU, decoded once by the job that loaded the model.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DecodedImage {
-    /// Width in pixels.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// RGBA, 8 bits each, rows from the top, `width * height * 4` bytes.
-    pub pixels: Vec<u8>,
-}
 
 /// A model as loaded, with everything that drawing needs.
 #[derive(Debug)]
@@ -32,9 +22,8 @@ pub struct LoadedModel {
     pub model: Arc<ModelData>,
     /// Its bounds at the start of its first take, or in the rest pose where it has none.
     pub bounds: Bounds,
-    /// One per image of the model; `None` where it could not be decoded, with a warning. Shared, because several images of a file may have
-    /// the same source.
-    pub images: Vec<Option<Arc<DecodedImage>>>,
+    /// The images of the model that can be decoded; the others have a warning. What draws the model decodes them.
+    pub images: ImageSurvey,
     /// Contents that are not shown or were sanitized, one sentence each.
     pub warnings: Vec<String>,
 }

@@ -2,6 +2,7 @@
 
 use super::error::GraphicsError;
 use super::losses::DeviceReports;
+use super::texture_memory::TextureMemory;
 use super::uniform::FrameUniform;
 
 /// Format of the scene: drawn in linear light and stored sRGB-encoded, so that 8 bits suffice where the eye
@@ -28,6 +29,8 @@ pub struct Gpu {
     pub samples: u32,
     /// Samples of an image that a pixel may take along a surface seen at a flat angle; 1 is no anisotropic filtering.
     pub anisotropy: u16,
+    /// Memory for the textures of a model.
+    pub(crate) texture_memory: TextureMemory,
     /// Layout of bind group 0 of all passes of the scene.
     pub frame_layout: wgpu::BindGroupLayout,
     /// Bind group 0 of all passes of the scene.
@@ -59,7 +62,8 @@ impl Gpu {
             None => OFFSCREEN_FORMAT,
         };
         let max_side = device.limits().max_texture_dimension_2d;
-        let anisotropy = anisotropy(adapter.get_info().device_type);
+        let device_type = adapter.get_info().device_type;
+        let (anisotropy, texture_memory) = (anisotropy(device_type), TextureMemory::of(device_type));
         let (frame_layout, frame_group, frame_buffer) = uniform_binding::<FrameUniform>(&device, "frame");
         Ok(Self {
             device,
@@ -68,6 +72,7 @@ impl Gpu {
             max_side,
             samples,
             anisotropy,
+            texture_memory,
             frame_layout,
             frame_group,
             frame_buffer,

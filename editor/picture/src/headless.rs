@@ -78,12 +78,19 @@ impl Studio {
 
     /// Creates a device with `parameters`.
     pub fn with(parameters: DeviceParameters) -> Result<Self, GraphicsError> {
-        Ok(Self { stage: RenderStage::new(parameters, Instant::now())?, shown: None })
+        let mut stage = RenderStage::new(parameters, Instant::now())?;
+        stage.load_at_once(true);
+        Ok(Self { stage, shown: None })
     }
 
     /// Returns whether the edges of surfaces are smooth; not on an adapter without multisampling.
     pub fn is_smooth(&mut self) -> bool {
         self.stage.device().gpu().samples > 1
+    }
+
+    /// Returns the warnings about images of the models rendered since the last call.
+    pub fn take_warnings(&mut self) -> Vec<String> {
+        self.stage.take_warnings()
     }
 
     /// The stage, for tests that manipulate it.

@@ -45,6 +45,7 @@ pub mod stage;
 pub mod surface;
 mod surface_source;
 pub mod target;
+mod texture_memory;
 pub mod uniform;
 mod worker;
 #[cfg(all(unix, not(target_vendor = "apple")))]

@@ -216,6 +216,13 @@ pub enum GraphicsReply {
         /// Message of the driver.
         reason: String,
     },
+    /// Images of the model that is shown are smaller than in its file, or cannot be decoded.
+    Images {
+        /// Title of the model.
+        title: String,
+        /// One sentence for each reason.
+        warnings: Vec<String>,
+    },
     /// A frame was written, or could not be, for this reason.
     Captured(Result<PathBuf, String>),
     /// Nothing can be drawn; sent once.

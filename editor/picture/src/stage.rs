@@ -172,6 +172,16 @@ impl RenderStage {
         self.mode == DrawMode::All && self.scene.playback.moves(now) && self.scene.model().is_some()
     }
 
+    /// Sets whether all images of a model are loaded before its first frame, and not some with every frame.
+    pub fn load_at_once(&mut self, at_once: bool) {
+        self.passes.model.borrow_mut().load_at_once(at_once);
+    }
+
+    /// Returns the warnings about the images of the model that is shown, since the last call.
+    pub fn take_warnings(&mut self) -> Vec<String> {
+        self.passes.model.borrow_mut().take_warnings()
+    }
+
     /// Number of frames presented so far.
     pub fn frames(&self) -> u64 {
         self.frames
@@ -250,7 +260,9 @@ impl RenderStage {
         if done {
             self.frames += 1;
             self.window_changed = false;
-            self.scene_changed &= !draws_scene;
+            // While images are loaded, every frame shows more of them.
+            self.scene_changed =
+                self.scene_changed && !draws_scene || self.passes.model.borrow().is_loading();
         }
         done
     }
@@ -291,7 +303,9 @@ impl RenderStage {
         let texture = caught(|| self.make_stand_in(size))?;
         self.stand_in = Some(texture.clone());
         self.window_changed = true;
+        self.load_at_once(true);
         let opened = self.whole_frame(now);
+        self.load_at_once(false);
         self.stand_in = None;
         self.window_changed = true;
         match opened {

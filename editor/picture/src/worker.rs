@@ -423,6 +423,14 @@ impl Worker for Present {
             return false;
         }
         let now = thread.now();
+        let warnings = stage.take_warnings();
+        if !warnings.is_empty() {
+            let title = stage.scene.model().map(|model| model.loaded().title.clone()).unwrap_or_default();
+            let _ = self.replies.send(GraphicsReply::Images { title, warnings });
+        }
+        if stage.wants_frame(now) {
+            thread.iterate_again();
+        }
         let mut statistics = self.statistics.borrow_mut();
         let is_due =
             statistics.reported.is_none_or(|reported| now.saturating_duration_since(reported) >= STATISTICS);

@@ -244,6 +244,11 @@ impl BaseRuntime for EditorRuntime {
                 interface.state.say(MessageSeverity::Warning, format!("The viewport is paused: {reason}"));
                 interface.state.window_mut().set_device(DeviceStatus::Paused { reason });
             }
+            GraphicsReply::Images { title, warnings } => {
+                for warning in warnings {
+                    interface.state.say(MessageSeverity::Warning, format!("{title}: {warning}"));
+                }
+            }
             GraphicsReply::Captured(Ok(path)) => {
                 interface.state.say(MessageSeverity::Info, format!("Wrote {}", path.display()));
             }

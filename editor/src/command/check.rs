@@ -1,7 +1,7 @@
 //! `dragonfly check FILE…`: lists all problems of models, with their paths in the file.
 
 use super::Failure;
-use super::choice::{load, models_help, plain, source};
+use super::choice::{load_checked, models_help, plain, source};
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
 use super::table::count;
@@ -105,7 +105,7 @@ struct FindingRow {
 
 impl CheckReport {
     fn of(file: &std::path::Path, deny: Deny) -> Result<Self, Failure> {
-        let loaded = load(&source(file))?;
+        let loaded = load_checked(&source(file))?;
         let mut report =
             Self { file: loaded.title, errors: 0, warnings: 0, notes: 0, denied: 0, findings: Vec::new() };
         let imported = loaded.warnings.into_iter();

@@ -31,6 +31,11 @@ impl File {
     pub(super) fn load(&self) -> Result<LoadedModel, Failure> {
         load(&source(&self.path))
     }
+
+    /// Does the same as [`Self::load`], with warnings about images that cannot be decoded.
+    pub(super) fn load_checked(&self) -> Result<LoadedModel, Failure> {
+        load_checked(&source(&self.path))
+    }
 }
 
 /// Returns the source that `path` names.
@@ -42,6 +47,14 @@ pub(super) fn source(path: &std::path::Path) -> Source {
 pub(super) fn load(source: &Source) -> Result<LoadedModel, Failure> {
     let mut teller = Teller::new(source.title());
     Ok(load_model(source, &mut |progress| teller.tell(progress), &Cancel::default())?)
+}
+
+/// Does the same as [`load`], with warnings about images that cannot be decoded, which otherwise are found when the model is
+/// drawn.
+pub(super) fn load_checked(source: &Source) -> Result<LoadedModel, Failure> {
+    let mut loaded = load(source)?;
+    loaded.warnings.extend(loaded.images.damage(&loaded.model.images));
+    Ok(loaded)
 }
 
 /// The take argument.

@@ -30,7 +30,7 @@ pub(super) struct InfoArguments {
 
 impl RunCommand for InfoArguments {
     fn run(self) -> Result<(), Failure> {
-        let info = Info::of(self.file.load()?);
+        let info = Info::of(self.file.load_checked()?);
         if self.json { print_json(&info) } else { print(|out| info.write(out)) }
     }
 }

@@ -66,9 +66,7 @@ impl RunCommand for RenderArguments {
     fn run(self) -> Result<(), Failure> {
         quiet::about_wayland();
         let loaded = self.file.load()?;
-        for warning in &loaded.warnings {
-            tell(format_args!("{}: warning: {}", loaded.title, super::choice::plain(warning)));
-        }
+        tell_warnings(&loaded.title, &loaded.warnings);
         let take = self.take.index(&loaded.title, &loaded.model)?;
         let time = clamp_time(&loaded.model, take, self.time.unwrap_or(f32::MIN));
         let picture = draw(loaded, take, time, &self.view)?;
@@ -104,12 +102,20 @@ pub(super) fn draw(
         let adapter = studio.stage().device().adapter_name();
         tell(format_args!("{adapter} has no multisampling: edges are not smooth"));
     }
-    let picture = studio.render(&Arc::new(loaded), &settings).map_err(refusal)?;
+    let loaded = Arc::new(loaded);
+    let picture = studio.render(&loaded, &settings).map_err(refusal)?;
+    tell_warnings(&loaded.title, &studio.take_warnings());
     let mut png = Vec::new();
     picture
         .write_to(&mut Cursor::new(&mut png), image::ImageFormat::Png)
         .map_err(|error| Failure::Machine(format!("the image cannot be encoded: {error}")))?;
     Ok(png)
+}
+
+fn tell_warnings(title: &str, warnings: &[String]) {
+    for warning in warnings {
+        tell(format_args!("{title}: warning: {}", super::choice::plain(warning)));
+    }
 }
 
 fn refusal(error: GraphicsError) -> Failure {

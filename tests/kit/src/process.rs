@@ -40,6 +40,15 @@ pub fn resident_bytes() -> usize {
     kibibytes.unwrap_or(0) * 1024
 }
 
+/// Returns the most resident memory that process `id` had so far, in bytes (on Linux; 0 elsewhere, and for a process that
+/// has ended).
+pub fn peak_bytes(id: u32) -> u64 {
+    let status = std::fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kibibytes = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+    kibibytes.unwrap_or(0) * 1024
+}
+
 /// An OS thread of this process.
 #[derive(Clone, Debug)]
 pub struct OsThread {

@@ -1,6 +1,7 @@
 //! A session: a document and its client.
 
 use super::{ProtocolCommand, ProtocolRequest};
+use crate::images::ImageSurvey;
 use crate::open::Open;
 use crate::save_job::{SaveTarget, prepare};
 use crate::writing::Overwrite;
@@ -33,7 +34,7 @@ impl Session {
             format: Some(editable.format()),
             model: Arc::clone(&editable.model),
             bounds: Bounds::of_points(&[]),
-            images: Vec::new(),
+            images: ImageSurvey::default(),
             warnings: editable.warnings.clone(),
         };
         let autosave = autosave.filter(|_| loaded.path.is_some());

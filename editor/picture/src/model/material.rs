@@ -1,20 +1,20 @@
 //! Materials on the device: values, five textures, five samplers.
 
-use super::texture::TextureMaker;
+use super::image_plan::textures;
+use super::images::ModelImages;
 use crate::gpu::Gpu;
 use crate::uniform::{MaterialUniform, TextureUse};
 use dragonfly_anim::data::{AlphaMode, Filter, Material, TextureRef, Wrap};
-use dragonfly_document::{DecodedImage, LoadedModel};
+use dragonfly_document::LoadedModel;
 use glam::{Vec3, Vec4};
 use std::collections::HashMap;
-use std::sync::Arc;
 use wgpu::util::DeviceExt;
 
 /// Bind groups 2 of the model's shader, one per material; the last is for surfaces without material.
 pub(super) struct GpuMaterials {
     /// Layout of the bind groups.
     pub(super) layout: wgpu::BindGroupLayout,
-    /// Bind groups created by the last [`Self::load`].
+    /// Bind groups created by the last [`Self::bind`].
     groups: Vec<wgpu::BindGroup>,
 }
 
@@ -48,13 +48,15 @@ impl GpuMaterials {
         Self { layout, groups: Vec::new() }
     }
 
-    /// Uploads the materials and images of `loaded`, each image once per way of reading it, also where the model has it
-    /// several times.
-    pub(super) fn load(&mut self, gpu: &Gpu, maker: &mut TextureMaker, loaded: &LoadedModel) {
-        let mut views = HashMap::new();
+    /// Drops the bind groups, and with them the textures that nothing else keeps.
+    pub(super) fn forget(&mut self) {
+        self.groups = Vec::new();
+    }
+
+    /// Creates the bind groups of the materials of `loaded` with those of its `images` that are on the device.
+    pub(super) fn bind(&mut self, gpu: &Gpu, loaded: &LoadedModel, images: &ModelImages) {
+        let Some(white) = images.white() else { return };
         let mut samplers = HashMap::new();
-        let white = DecodedImage { width: 1, height: 1, pixels: vec![255; 4] };
-        let Some(white) = maker.texture(gpu, &white, false) else { return };
         let without = Material {
             metallic: dragonfly_anim::data::Metallic { metallic: 0.0, roughness: 0.8 },
             base_color: Vec4::new(0.7, 0.7, 0.7, 1.0),
@@ -63,26 +65,12 @@ impl GpuMaterials {
         let materials = loaded.model.materials.iter().chain([&without]);
         let mut groups = Vec::with_capacity(loaded.model.materials.len() + 1);
         for material in materials {
-            let mut bind = |use_of: Option<&TextureRef>, encoded: bool| -> (Bound, bool) {
-                let view = use_of.and_then(|use_of| {
-                    let image = loaded.images.get(use_of.image as usize)?.as_ref()?;
-                    views
-                        .entry((Arc::as_ptr(image), encoded))
-                        .or_insert_with(|| maker.texture(gpu, image, encoded))
-                        .clone()
-                });
+            let bound: [(Bound, bool); 5] = textures(material).map(|(use_of, encoded)| {
+                let view = use_of.and_then(|use_of| images.view(loaded, use_of.image, encoded));
                 let key = use_of.map(sampler_key).unwrap_or_default();
                 let sampler = samplers.entry(key).or_insert_with(|| sampler(gpu, key)).clone();
-                let there = view.is_some();
-                ((view.unwrap_or_else(|| white.clone()), sampler), there)
-            };
-            let bound = [
-                bind(material.base_color_texture.as_ref(), true),
-                bind(material.metallic_roughness_texture.as_ref(), false),
-                bind(material.normal_texture.as_ref(), false),
-                bind(material.occlusion_texture.as_ref(), false),
-                bind(material.emissive_texture.as_ref(), true),
-            ];
+                ((view.unwrap_or(white).clone(), sampler), view.is_some())
+            });
             let uniform = uniform(material, bound.each_ref().map(|(_, there)| *there));
             groups.push(self.group(gpu, &uniform, &bound.map(|(bound, _)| bound)));
         }
@@ -120,15 +108,8 @@ impl GpuMaterials {
 
 /// The uniform of a material; `there` is which textures could be created.
 fn uniform(material: &Material, there: [bool; 5]) -> MaterialUniform {
-    let uses = [
-        &material.base_color_texture,
-        &material.metallic_roughness_texture,
-        &material.normal_texture,
-        &material.occlusion_texture,
-        &material.emissive_texture,
-    ];
     let mut rows = [TextureUse::default(); 5];
-    for ((row, use_of), there) in rows.iter_mut().zip(uses).zip(there) {
+    for ((row, (use_of, _)), there) in rows.iter_mut().zip(textures(material)).zip(there) {
         if let Some(use_of) = use_of {
             let matrix = use_of.transform.to_matrix();
             row.u = matrix.row(0).extend(use_of.set as f32);

@@ -3,6 +3,8 @@
 mod geometry;
 mod ghost;
 mod groups;
+mod image_plan;
+mod images;
 mod material;
 mod pipeline;
 mod recorder;
@@ -18,11 +20,12 @@ use dragonfly_anim::data::Primitive;
 use dragonfly_document::LoadedModel;
 use geometry::GpuGeometry;
 use groups::DrawGroups;
+use images::ModelImages;
 use material::GpuMaterials;
 use pipeline::{Cull, ModelPipelines, PipelineKind};
 use recorder::{DrawCounts, DrawRecorder};
 use std::cell::Cell;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 use texture::TextureMaker;
 
@@ -32,6 +35,12 @@ pub struct GpuModel {
     /// Kept for loading the model again on another device.
     loaded: Option<Arc<LoadedModel>>,
     resources: Option<ModelResources>,
+    /// Whether all images are uploaded before the first frame, and not some with every frame.
+    loads_at_once: bool,
+    /// Warnings about the images of this model.
+    warnings: BTreeSet<String>,
+    /// Those of them that [`Self::take_warnings`] has not returned yet.
+    new_warnings: Vec<String>,
     /// Number of commands recorded since the last [`Self::prepare`].
     counts: Cell<DrawCounts>,
 }
@@ -48,6 +57,7 @@ struct ModelResources {
 /// Device resources of this model.
 struct ModelContent {
     loaded: Arc<LoadedModel>,
+    images: ModelImages,
     palettes: wgpu::Buffer,
     weights: wgpu::Buffer,
     /// The instances of all draw calls of a frame.
@@ -56,6 +66,9 @@ struct ModelContent {
     geometries: HashMap<(u32, u32), GpuGeometry>,
     groups: DrawGroups,
 }
+
+/// Number of pixels that are decoded in one frame: a large image, or many small ones.
+const PIXELS_PER_FRAME: u64 = 4 << 20;
 
 impl DeviceListener for GpuModel {
     fn on_lost(&mut self) {
@@ -75,13 +88,22 @@ impl GpuModel {
     /// Writes this frame's pose to the device; a new model is loaded first.
     pub fn prepare(&mut self, gpu: &Gpu, posed: Option<&PosedModel>) {
         self.counts.set(DrawCounts::default());
-        self.loaded = posed.map(|posed| Arc::clone(posed.loaded()));
+        let loaded = posed.map(|posed| Arc::clone(posed.loaded()));
+        if self.loaded.as_ref().map(Arc::as_ptr) != loaded.as_ref().map(Arc::as_ptr) {
+            self.warnings.clear();
+        }
+        self.loaded = loaded;
         let (Some(resources), Some(posed)) = (&mut self.resources, posed) else { return };
         let known =
             resources.content.as_ref().is_some_and(|content| Arc::ptr_eq(&content.loaded, posed.loaded()));
+        let mut warnings = Vec::new();
         if !known {
-            resources.load(gpu, posed);
+            resources.load(gpu, posed, &mut warnings);
         }
+        resources.upload(gpu, if self.loads_at_once { u64::MAX } else { PIXELS_PER_FRAME }, &mut warnings);
+        // A model that is loaded again on another device has the same warnings.
+        self.new_warnings
+            .extend(warnings.into_iter().filter(|warning| self.warnings.insert(warning.clone())));
         if let Some(content) = &resources.content {
             gpu.queue.write_buffer(&content.palettes, 0, bytemuck::cast_slice(posed.palettes()));
             gpu.queue.write_buffer(&content.weights, 0, bytemuck::cast_slice(posed.weights()));
@@ -91,6 +113,22 @@ impl GpuModel {
         for batch in posed.batches().solid().iter().chain(posed.batches().blended()) {
             resources.make_pipelines(gpu, &posed.items()[batch.item], batch.mirrored);
         }
+    }
+
+    /// Sets whether all images are uploaded before the first frame of a model, and not some with every frame.
+    pub fn load_at_once(&mut self, at_once: bool) {
+        self.loads_at_once = at_once;
+    }
+
+    /// Returns whether images of the model wait for the next frame.
+    pub fn is_loading(&self) -> bool {
+        let content = self.resources.as_ref().and_then(|resources| resources.content.as_ref());
+        content.is_some_and(|content| content.images.is_loading())
+    }
+
+    /// Returns the warnings about the images of the model since the last call, each once also if the device was lost.
+    pub fn take_warnings(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.new_warnings)
     }
 
     /// Number of draw calls for surfaces and ghosts in this frame; all other passes together need a constant number.
@@ -156,9 +194,14 @@ impl GpuModel {
 }
 
 impl ModelResources {
-    fn load(&mut self, gpu: &Gpu, posed: &PosedModel) {
+    fn load(&mut self, gpu: &Gpu, posed: &PosedModel, warnings: &mut Vec<String>) {
         let loaded = posed.loaded();
-        self.materials.load(gpu, &mut self.maker, loaded);
+        // The textures of the model before are dropped first.
+        self.content = None;
+        self.materials.forget();
+        let (images, smaller) = ModelImages::new(gpu, &mut self.maker, loaded);
+        warnings.extend(smaller);
+        self.materials.bind(gpu, loaded, &images);
         self.ghosts.forget();
         let buffer = |label, size, usage| gpu.buffer(label, size, usage);
         let palettes =
@@ -176,7 +219,18 @@ impl ModelResources {
         }
         let groups = DrawGroups::new(gpu, &self.pipelines, &palettes, &weights, &geometries);
         let loaded = Arc::clone(loaded);
-        self.content = Some(ModelContent { loaded, palettes, weights, instances, geometries, groups });
+        self.content =
+            Some(ModelContent { loaded, images, palettes, weights, instances, geometries, groups });
+    }
+
+    /// Uploads the next images of the model.
+    fn upload(&mut self, gpu: &Gpu, pixels: u64, warnings: &mut Vec<String>) {
+        if let Some(ModelContent { loaded, images, .. }) = &mut self.content
+            && images.is_loading()
+        {
+            warnings.extend(images.upload(gpu, &mut self.maker, loaded, pixels));
+            self.materials.bind(gpu, loaded, images);
+        }
     }
 
     /// Creates the pipelines of `item`, unless they exist.

@@ -2,6 +2,7 @@
 
 use crate::gpu::Gpu;
 use crate::shaders;
+use crate::texture_memory::STAGING;
 use dragonfly_document::DecodedImage;
 
 /// Creates textures, and keeps the pipeline that makes mip levels.
@@ -10,10 +11,9 @@ pub(super) struct TextureMaker {
     module: wgpu::ShaderModule,
     sampler: wgpu::Sampler,
     pipelines: [Option<wgpu::RenderPipeline>; 2],
+    /// Bytes that the device may not have copied yet.
+    staged: u64,
 }
-
-/// Number of bytes from which on an image is copied to the device before the next one is uploaded.
-const LARGE: u64 = 16 << 20;
 
 impl TextureMaker {
     /// Creates a maker on `gpu`.
@@ -43,7 +43,7 @@ impl TextureMaker {
             min_filter: wgpu::FilterMode::Linear,
             ..Default::default()
         });
-        Self { layout, module: shaders::MIP.module(&gpu.device), sampler, pipelines: [None, None] }
+        Self { layout, module: shaders::MIP.module(&gpu.device), sampler, pipelines: [None, None], staged: 0 }
     }
 
     /// Uploads `image` as a texture; `encoded` for sRGB colors. `None` for an image that is empty, truncated or
@@ -75,18 +75,33 @@ impl TextureMaker {
                 | wgpu::TextureUsages::RENDER_ATTACHMENT,
             view_formats: &[],
         });
-        gpu.queue.write_texture(
-            texture.as_image_copy(),
-            &image.pixels,
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * 4), rows_per_image: None },
-            size,
-        );
+        self.write(gpu, &texture, image);
         self.fill_levels(gpu, &texture, levels, format, encoded);
-        if bytes >= LARGE {
-            // Until the device has copied it, the image exists once more. A lost device is reported by the next frame.
-            let _ = crate::guard::caught(|| drop(gpu.device.poll(wgpu::PollType::wait_indefinitely())));
-        }
         Some(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+    }
+
+    /// Writes the largest level, a part after the other: until the device has copied a part, its pixels exist once more.
+    fn write(&mut self, gpu: &Gpu, texture: &wgpu::Texture, image: &DecodedImage) {
+        let row = image.width * 4;
+        let rows = (STAGING / u64::from(row)).max(1) as u32;
+        let parts = image.pixels.chunks((rows * row) as usize);
+        for (first, part) in (0..image.height).step_by(rows as usize).zip(parts) {
+            let height = rows.min(image.height - first);
+            if self.staged + part.len() as u64 > STAGING {
+                gpu.queue.submit([]);
+                // A lost device is reported by the next frame.
+                let _ = crate::guard::caught(|| drop(gpu.device.poll(wgpu::PollType::wait_indefinitely())));
+                self.staged = 0;
+            }
+            self.staged += part.len() as u64;
+            let origin = wgpu::Origin3d { y: first, ..wgpu::Origin3d::ZERO };
+            gpu.queue.write_texture(
+                wgpu::TexelCopyTextureInfo { origin, ..texture.as_image_copy() },
+                part,
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
+                wgpu::Extent3d { width: image.width, height, depth_or_array_layers: 1 },
+            );
+        }
     }
 
     /// Computes every mip level from the one above it. The device filters in linear light, whatever the format.

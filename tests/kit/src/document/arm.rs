@@ -3,6 +3,7 @@
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::*;
 use dragonfly_document::LoadedModel;
+use dragonfly_document::images::ImageSurvey;
 use glam::{Mat4, Quat, Vec3, Vec4};
 use std::sync::Arc;
 
@@ -20,7 +21,7 @@ pub fn loaded() -> Arc<LoadedModel> {
         path: None,
         format: None,
         model,
-        images: Vec::new(),
+        images: ImageSurvey::default(),
         warnings: Vec::new(),
     })
 }

@@ -4,6 +4,7 @@ use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
     AnimationData, Bone, Channel, Interpolation, Material, ModelData, Skeleton, Take, Track, Transform,
 };
+use dragonfly_document::images::ImageSurvey;
 use dragonfly_document::{LoadedModel, View};
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
@@ -87,7 +88,7 @@ pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> Vi
         format: Some(dragonfly_anim::format::gltf::GLB),
         model,
         bounds,
-        images: Vec::new(),
+        images: ImageSurvey::default(),
         warnings: vec!["material 0 uses KHR_materials_clearcoat, which is not shown".to_owned()],
     };
     View::opened(1, Arc::new(loaded))

@@ -6,6 +6,7 @@ use dragonfly_anim::data::{
     Primitive, Skeleton, Skin, Take, Track, Transform, Vertices,
 };
 use dragonfly_document::LoadedModel;
+use dragonfly_document::images::ImageSurvey;
 use glam::{Mat4, Quat, Vec3, Vec4};
 use std::sync::Arc;
 
@@ -72,7 +73,7 @@ fn loaded(model: ModelData) -> Arc<LoadedModel> {
         format: Some(dragonfly_anim::format::gltf::GLB),
         bounds: bounds_of_pose(&model, None, 0.0),
         model,
-        images: Vec::new(),
+        images: ImageSurvey::default(),
         warnings: Vec::new(),
     })
 }

@@ -2,13 +2,18 @@
 
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::*;
-use dragonfly_document::{DecodedImage, LoadedModel};
+use dragonfly_document::images::ImageSurvey;
+use dragonfly_document::{Cancel, DecodedImage, LoadedModel};
 use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
+use image::{ImageFormat, RgbaImage};
 use std::f32::consts::{PI, TAU};
+use std::io::Cursor;
 use std::sync::Arc;
 
-/// Returns `model` as if it had been loaded, with the pixels of its images.
-pub fn loaded(model: ModelData, images: Vec<DecodedImage>) -> Arc<LoadedModel> {
+/// Returns `model` as if it had been loaded, with images of these pixels.
+pub fn loaded(mut model: ModelData, images: Vec<DecodedImage>) -> Arc<LoadedModel> {
+    model.images = images.into_iter().map(encoded).collect();
+    let (images, warnings) = ImageSurvey::new(&model.images, u64::MAX, &Cancel::default());
     let model = Arc::new(model);
     Arc::new(LoadedModel {
         bounds: bounds_of_pose(&model, None, 0.0),
@@ -16,9 +21,17 @@ pub fn loaded(model: ModelData, images: Vec<DecodedImage>) -> Arc<LoadedModel> {
         path: None,
         format: None,
         model,
-        images: images.into_iter().map(|image| Some(Arc::new(image))).collect(),
-        warnings: Vec::new(),
+        images,
+        warnings,
     })
+}
+
+/// Returns an image as a file has it.
+fn encoded(image: DecodedImage) -> Image {
+    let pixels = RgbaImage::from_raw(image.width, image.height, image.pixels).expect("all of its pixels");
+    let mut png = Cursor::new(Vec::new());
+    pixels.write_to(&mut png, ImageFormat::Png).expect("an image that can be encoded");
+    Image { bytes: png.into_inner().into(), ..Image::default() }
 }
 
 /// Returns each primitive as a mesh that does not move.
