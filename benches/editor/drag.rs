@@ -20,7 +20,7 @@ use dragonfly_document::{
 use dragonfly_kit::figures::FigureBench;
 use dragonfly_picture::Look;
 use dragonfly_picture::scene::Scene;
-use dragonfly_runtime::{Address, Context, Receiver, Thread, TraceEvent, TraceRecord, TraceSnapshot};
+use dragonfly_runtime::{Address, Context, Next, Receiver, Thread, TraceEvent, TraceRecord, TraceSnapshot};
 use dragonfly_store::{Autosave, RealFiles};
 use glam::{Mat4, Quat, Vec3};
 use std::cell::RefCell;
@@ -189,7 +189,7 @@ fn measure(load: LoadFn, bone: &str) -> Vec<f64> {
     state.execute(Request::Viewport(rect));
     document.open(Source::BuiltIn);
     let mut turn = |state: &mut State| {
-        main.iterate();
+        while main.iterate() == Next::Now {}
         let mut came = 0;
         for reply in heard.0.take() {
             match reply {
