@@ -29,7 +29,7 @@ fn a_figure_that_was_not_measured_disappears_when_the_tables_are_made_again() {
 
 #[test]
 fn no_measured_figure_of_the_editor_is_typed_outside_the_tables() {
-    assert_eq!(typed_figure(&format!("{} at most 6.1 ms.", page())), Some("6.1 ms".to_owned()));
+    assert_eq!(typed_figure(&format!("{} at most 6.1 ms.", page())), Some("6.1 ms.".to_owned()));
     assert_eq!(typed_figure(&page()), None);
 }
 
