@@ -1,9 +1,9 @@
 //! Bytes, error, and time to make of compressed takes, next to those of the rivals.
 
 use crate::model::BenchModel;
-use crate::report::results::Figure;
 use crate::rivals::RivalSize;
 use dragonfly_anim::compressed::{CompressionSettings, Exactness, compress};
+use dragonfly_kit::figures::Figure;
 use std::time::Instant;
 
 /// Exactness that all codecs are given, in meters, with its name in the results.

@@ -5,8 +5,8 @@
 //! about a fifth more. A goal in instructions is absolute; the script `instructions` checks it.
 
 use crate::measure::CaseTimes;
-use crate::report::results::{Figure, GOAL};
 use dragonfly_anim::fast::simd::SimdLevel;
+use dragonfly_kit::figures::{Figure, GOAL};
 
 /// Tasks with takes, both with every key and compressed, and the largest ratio to the sketch.
 const WITH_TAKES: [(&str, f64); 4] = [

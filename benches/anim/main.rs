@@ -123,7 +123,7 @@ fn run(arguments: &BenchArguments) -> Result<(), String> {
         BenchMode::Count => case::count(wanted(sections)),
         BenchMode::List => wanted(sections).iter().for_each(|case| println!("{}", case.name())),
         BenchMode::Goals => goals::print_instructions(),
-        BenchMode::Report | BenchMode::Instructions => return report::update(),
+        BenchMode::Report | BenchMode::Instructions => return report::PAGE.update(),
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use crate::case::{BenchCase, RunCase, baseline_of};
 use crate::rivals;
+use dragonfly_kit::figures::percentile;
 use dragonfly_kit::load::CpuLoad;
 
 /// Number of rounds in which each case of a group is timed once: enough for a 99th percentile.
@@ -54,13 +55,6 @@ impl CaseTimes {
         let ratios: Vec<f64> = self.rounds.iter().zip(&other.rounds).map(|(a, b)| a / b).collect();
         percentile(&ratios, 50)
     }
-}
-
-/// Returns the percentile: `percent` of `numbers` are below it.
-fn percentile(numbers: &[f64], percent: usize) -> f64 {
-    let mut sorted = numbers.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() * percent / 100).copied().unwrap_or(f64::NAN)
 }
 
 /// A case that is set up, and the number of its calls in a batch.

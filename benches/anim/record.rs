@@ -2,13 +2,12 @@
 
 use crate::goals::{self, CheckedGoal};
 use crate::measure::CaseTimes;
-use crate::report;
-use crate::report::results::{Figure, GOAL, Results};
+use crate::report::PAGE;
 use crate::rivals::{self, Rivals};
 use dragonfly_anim::fast::simd::SimdLevel;
+use dragonfly_kit::figures::{Figure, GOAL, Results, description};
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 /// Writes times and sizes. A recorded run goes to `benches/anim/results` and into the tables of `anim/README.md`, any
 /// other to the target folder.
@@ -27,12 +26,12 @@ pub(crate) fn write(
             continue;
         }
         let path =
-            if is_recorded { report::file(name) } else { rivals::target()?.join(format!("anim-{name}.csv")) };
+            if is_recorded { PAGE.file(name) } else { rivals::target()?.join(format!("anim-{name}.csv")) };
         let text = Results { run: run.clone(), rows }.text();
         fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
         println!("# {name}: {}", path.display());
     }
-    if is_recorded { report::update() } else { Ok(()) }
+    if is_recorded { PAGE.update() } else { Ok(()) }
 }
 
 /// Writes the instructions that the script `instructions` counted, and the tables of `anim/README.md`.
@@ -76,9 +75,9 @@ pub(crate) fn write_instructions(folder: &Path, rivals: Option<&Rivals>) -> Resu
             _ => {}
         }
     }
-    let path = report::file("instructions");
+    let path = PAGE.file("instructions");
     fs::write(&path, Results { run, rows }.text()).map_err(|error| format!("{}: {error}", path.display()))?;
-    report::update()
+    PAGE.update()
 }
 
 /// Splits the name of a case into variant and task.
@@ -120,34 +119,9 @@ fn ours_of<'a>(one: &CaseTimes, all: &'a [CaseTimes]) -> Option<&'a CaseTimes> {
 
 /// Returns names and values of what the results depend on.
 fn run(rivals: Option<&Rivals>) -> Vec<(String, String)> {
-    let cpu = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let processor = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    let processor = processor.map_or("unknown processor", |(_, name)| name);
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let kernel = fs::read_to_string("/proc/sys/kernel/osrelease").unwrap_or_default();
-    let kernel = kernel.split('-').next().unwrap_or_default().trim();
-    // Recorded results of earlier runs do not affect the measurement.
-    let sources = [".", ":!benches/anim/results", ":!anim/README.md"];
-    let changes = output("git", &[&["status", "--porcelain", "--"], &sources[..]].concat());
-    let changed = if changes.is_empty() { "" } else { " with changes" };
-    let flags = std::env::var("RUSTFLAGS").unwrap_or_default();
-    let flags = if flags.is_empty() { "no further flags".to_owned() } else { flags };
-    let mut run: Vec<(String, String)> = [
-        ("command", format!("{}=FOLDER cargo bench -p dragonfly-anim -- --record", rivals::FOLDER)),
-        ("commit", format!("{}{changed}", output("git", &["rev-parse", "--short=10", "HEAD"]))),
-        ("machine", format!("{processor}, {cores} cores")),
-        ("system", format!("Linux {kernel}")),
-        ("rust", format!("{}, profile bench (thin LTO), {flags}", output("rustc", &["--version"]))),
-        ("level", SimdLevel::best().name().to_owned()),
-    ]
-    .map(|(name, value)| (name.to_owned(), value))
-    .into();
+    let command = format!("{}=FOLDER cargo bench -p dragonfly-anim -- --record", rivals::FOLDER);
+    let mut run = description(&command, &PAGE);
+    run.push(("level".to_owned(), SimdLevel::best().name().to_owned()));
     run.extend(rivals.map(Rivals::versions).unwrap_or_default());
     run
-}
-
-/// Returns what a program prints; nothing if it cannot be run.
-fn output(program: &str, arguments: &[&str]) -> String {
-    let output = Command::new(program).args(arguments).current_dir(Path::new(&report::root())).output();
-    output.map_or(String::new(), |output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }

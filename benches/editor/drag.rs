@@ -3,7 +3,9 @@
 //! The three threads are those of the program and do the same work: the main thread handles the event of the window,
 //! computes the pose and makes an edit of it; the document applies the edit and publishes its state; the scene receives
 //! the state and is computed for it. Drawing would follow. The end time comes from the runtime's trace of the graphics
-//! thread.
+//! thread. `-- --record` writes `results/drag.csv` and the tables of `README.md`.
+
+mod report;
 
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::{Effect, Request, Settings, State};
@@ -16,9 +18,10 @@ use dragonfly_document::{
     Cancel, Document, DocumentReply, LoadError, LoadedModel, OpenedModel, Progress, Setup, Source, View,
     open_model,
 };
+use dragonfly_kit::figures::FigureBench;
 use dragonfly_picture::Look;
 use dragonfly_picture::scene::Scene;
-use dragonfly_runtime::{Address, Context, Receiver, Thread, TraceEvent, TraceRecord, TraceSnapshot};
+use dragonfly_runtime::{Address, Context, Next, Receiver, Thread, TraceEvent, TraceRecord, TraceSnapshot};
 use dragonfly_store::{Autosave, RealFiles};
 use glam::{Mat4, Quat, Vec3};
 use std::cell::RefCell;
@@ -37,16 +40,22 @@ const LIMIT: Duration = Duration::from_millis(4);
 
 /// Fails if the 99th percentile of a model is above [`LIMIT`].
 fn main() -> ExitCode {
-    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
     let cases: [(&str, LoadFn, &str); 2] =
-        [("editor/drag/fox", fox, "b_Head_05"), ("editor/drag/thousand_bones", thousand, "bone 500")];
-    let mut late = false;
-    for (name, load, bone) in cases {
-        if wanted.as_deref().is_none_or(|part| name.contains(part)) {
-            late |= measure(name, load, bone) > LIMIT;
-        }
-    }
-    if late { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+        [("fox", fox, "b_Head_05"), ("thousand_bones", thousand, "bone 500")];
+    FigureBench::run(&report::PAGE, "editor", "cargo bench -p dragonfly --bench drag", |bench| {
+        bench.file("drag", |bench| {
+            for (name, load, bone) in cases {
+                if bench.wants(name) {
+                    bench.times(name, "move", &measure(load, bone));
+                    bench.goal(name, "move", "p99", "ms", milliseconds(LIMIT));
+                }
+            }
+        });
+    })
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
 }
 
 type LoadFn = fn(&Source, &mut dyn FnMut(Progress), &Cancel) -> Result<OpenedModel, LoadError>;
@@ -148,8 +157,8 @@ impl Receiver for Traces {
     }
 }
 
-/// Measures a drag. Returns the 99th percentile.
-fn measure(name: &str, load: LoadFn, bone: &str) -> Duration {
+/// Drags a bone. Returns the milliseconds of each move.
+fn measure(load: LoadFn, bone: &str) -> Vec<f64> {
     let heard = ReplyLog::default();
     let traced = Rc::new(RefCell::new(None));
     // As in the window, the main thread sleeps until it is woken, so it does not use a CPU core.
@@ -181,7 +190,7 @@ fn measure(name: &str, load: LoadFn, bone: &str) -> Duration {
     state.execute(Request::Viewport(rect));
     document.open(Source::BuiltIn);
     let mut turn = |state: &mut State| {
-        main.iterate();
+        while main.iterate() == Next::Now {}
         let mut came = 0;
         for reply in heard.0.take() {
             match reply {
@@ -243,20 +252,11 @@ fn measure(name: &str, load: LoadFn, bone: &str) -> Duration {
     let ends: Vec<Instant> = trace.records.iter().filter_map(arrived).collect();
     assert!(ends.len() >= MOVES, "{} views came for {MOVES} moves", ends.len());
     let ways = moved.iter().zip(&ends[ends.len() - MOVES..]);
-    let mut took: Vec<Duration> = ways.map(|(from, to)| to.saturating_duration_since(*from)).collect();
-    took.sort_unstable();
-    let at = |share: usize| took[(took.len() * share / 100).min(took.len() - 1)];
-    let show = |time: Duration| time.as_secs_f64() * 1000.0;
-    println!(
-        "{name:<32} median {:.3} ms   p99 {:.3} ms   worst {:.3} ms   of {MOVES} moves",
-        show(at(50)),
-        show(at(99)),
-        show(at(100)),
-    );
+    let took = ways.map(|(from, to)| milliseconds(to.saturating_duration_since(*from))).collect();
     document.stop();
     // The files are not needed any more; an error leaves them in a temporary folder.
     let _ = std::fs::remove_dir_all(folder);
-    at(99)
+    took
 }
 
 /// Returns the time at which a view was received and the scene was computed for it.

@@ -7,7 +7,9 @@ use dragonfly_document::edit::{
     TakeRef,
 };
 use dragonfly_document::history::{Edited, Gesture};
+use dragonfly_document::{Cancel, Source, load_model};
 use dragonfly_kit::counting;
+use dragonfly_kit::figures::FigureBench;
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 use std::time::Instant;
@@ -16,10 +18,9 @@ const BONES: u32 = 200;
 const RATE: usize = 120;
 const SECONDS: usize = 600;
 
-/// Runs `work` a few times. Prints the median, and the allocations of its last run.
-fn measure(name: &str, times: usize, mut work: impl FnMut(usize)) {
-    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
-    if wanted.is_some_and(|part| !name.contains(&part)) {
+/// Runs `work` a few times. Keeps the times, and the allocations of the last run.
+fn measure(bench: &mut FigureBench, task: &str, variant: &str, times: usize, mut work: impl FnMut(usize)) {
+    if !bench.wants(task) {
         return;
     }
     let mut milliseconds = Vec::new();
@@ -29,12 +30,9 @@ fn measure(name: &str, times: usize, mut work: impl FnMut(usize)) {
         (last, ()) = counting::count(|| work(run));
         milliseconds.push(begin.elapsed().as_secs_f64() * 1e3);
     }
-    milliseconds.sort_by(f64::total_cmp);
-    let (median, worst) = (milliseconds[times / 2], milliseconds[times - 1]);
-    println!(
-        "{name:<56} median {median:>9.3} ms   worst {worst:>9.3} ms   {:>9} allocations {:>12} bytes",
-        last.allocations, last.bytes
-    );
+    bench.times(task, variant, &milliseconds);
+    bench.value(task, variant, "allocations", "count", last.allocations as f64);
+    bench.value(task, variant, "allocated", "bytes", last.bytes as f64);
 }
 
 fn model(shared: bool) -> AnimationData {
@@ -98,17 +96,19 @@ fn one_by_one() -> Vec<KeySet> {
     chosen().into_iter().flat_map(alone).collect()
 }
 
+/// Number of bones and of keys of each channel: rigs whose keys are all dragged.
+const RIGS: [(u32, usize); 3] = [(67, 100), (67, 300), (167, 200)];
+
 /// Measures drags of all keys of a rig: the limit up to which the panels show an edit before the document answers follows from
 /// these.
-fn of_a_rig() {
-    for (bones, keys) in [(67, 100), (67, 300), (167, 200)] {
+fn of_a_rig(bench: &mut FigureBench) {
+    for (bones, keys) in RIGS {
         let data = model_of(bones, keys, true);
-        let title =
-            |what: &str| format!("editor/edits/{what}_{}_keys_of_{bones}_bones", bones as usize * 3 * keys);
+        let task = format!("rig/{} keys of {bones} bones", bones as usize * 3 * keys);
         let all = || vec![KeySet::default()];
-        let drag = |what: &str, edit: &dyn Fn(f32) -> Edit| {
+        let mut drag = |what: &str, edit: &dyn Fn(f32) -> Edit| {
             let mut edited = Edited::new(ModelAdapter::new(&data));
-            measure(&title(what), 15, |run| {
+            measure(bench, &task, what, 15, |run| {
                 edited.apply(edit(run as f32), Some(Gesture(1))).expect("all keys can be moved");
             });
         };
@@ -125,35 +125,38 @@ fn of_a_rig() {
     }
 }
 
-pub(crate) fn run() {
+/// Measures every case.
+pub(crate) fn run(bench: &mut FigureBench) {
     let (same, apart) = (model(true), model(false));
     for (name, data) in [("one column of times", &same), ("a column of times each", &apart)] {
         let mut edited = Edited::new(ModelAdapter::new(data));
         let keys = chosen();
-        measure(&format!("editor/edits/drag_100_000_keys, {name}"), 9, |run| {
+        measure(bench, "drag_100_000_keys", name, 9, |run| {
             let by = 0.01 + run as f32 * 0.25;
             let edit = Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by });
             edited.apply(edit, Some(Gesture(1))).expect("keys at the end move freely");
         });
         let mut edited = Edited::new(ModelAdapter::new(data));
-        measure(&format!("editor/edits/move_100_000_keys_among_others, {name}"), 5, |run| {
+        measure(bench, "move_100_000_keys_among_others", name, 5, |run| {
             let by = -10.0 - run as f32;
             let edit = Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by });
             edited.apply(edit, Some(Gesture(1))).expect("keys move among others");
         });
     }
-    of_a_rig();
+    of_a_rig(bench);
     let mut edited = Edited::new(ModelAdapter::new(&same));
     let keys = one_by_one();
-    measure("editor/edits/drag_100_000_keys_named_one_by_one", 5, |run| {
+    measure(bench, "drag_100_000_keys", "named one by one", 5, |run| {
         let edit =
             Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by: 0.01 + run as f32 * 0.25 });
         edited.apply(edit, Some(Gesture(1))).expect("keys at the end move freely");
     });
-    for (name, time) in [("a_key", 300.0), ("no_key", 300.004)] {
-        let mut edited = Edited::new(ModelAdapter::new(&same));
+    // The whole take is larger than what can be saved, so that a new key would be refused.
+    let half = model_of(BONES, RATE * SECONDS / 2, true);
+    for (name, time) in [("at a key", 200.0), ("between keys", 200.004)] {
+        let mut edited = Edited::new(ModelAdapter::new(&half));
         let mut shown = Vec::new();
-        measure(&format!("editor/edits/drag_a_pose_where_there_is_{name}"), 200, |run| {
+        measure(bench, "drag_a_pose", name, 200, |run| {
             let rotation = Some(Quat::from_rotation_x(run as f32 * 0.01).to_array());
             let pose = BonePose { bone: BoneRef::Index(7), translation: None, rotation, scale: None };
             let edit = Edit::SetPose(SetPose { take: take(), time, poses: vec![pose], unstep: false });
@@ -165,5 +168,11 @@ pub(crate) fn run() {
             shown.push(edited.adapter().slots()[0].clone());
         });
     }
-    measure("editor/edits/open", 9, |_| drop(Edited::new(ModelAdapter::new(&same))));
+    measure(bench, "start_the_history", "one column of times", 9, |_| {
+        drop(Edited::new(ModelAdapter::new(&same)));
+    });
+    measure(bench, "open", "the built-in model", 400, |_| {
+        let model = load_model(&Source::BuiltIn, &mut |_| {}, &Cancel::default());
+        drop(model.expect("part of the program"));
+    });
 }

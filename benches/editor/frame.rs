@@ -14,6 +14,7 @@ use dragonfly_document::history::Edited;
 use dragonfly_document::{Change, LoadedModel, View};
 use dragonfly_kit::counting;
 use dragonfly_kit::document::large;
+use dragonfly_kit::figures::{FigureBench, percentile};
 use dragonfly_picture::pick::pick;
 use dragonfly_picture::stage::{FrameOpening, RenderStage};
 use dragonfly_picture::{DeviceParameters, Look};
@@ -54,19 +55,18 @@ const PARTS: [&str; 4] = ["main", "document", "graphics", "driver"];
 type MakeModel = fn() -> Arc<LoadedModel>;
 
 /// Measures every case.
-pub(crate) fn all() {
-    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+pub(crate) fn all(bench: &mut FigureBench) {
     let made: [(&str, MakeModel); 4] = [
         ("200 bones", || large::tree(200)),
-        ("2,000 bones", || large::tree(2_000)),
-        ("20,000 bones", || large::tree(20_000)),
-        ("1,000 meshes", || large::meshes(1_000)),
+        ("2000 bones", || large::tree(2_000)),
+        ("20000 bones", || large::tree(20_000)),
+        ("1000 meshes", || large::meshes(1_000)),
     ];
     for (model, make) in made {
         for (action, doing) in ACTIONS {
-            let name = format!("editor/frame/{model}, {doing}");
-            if wanted.as_deref().is_none_or(|part| name.contains(part)) {
-                measure(&name, make(), action);
+            let task = format!("{model}/{doing}");
+            if bench.wants(&task) {
+                measure(bench, &task, make(), action);
             }
         }
     }
@@ -76,8 +76,8 @@ pub(crate) fn all() {
 #[derive(Default)]
 struct Costs {
     milliseconds: Vec<f64>,
-    allocations: Vec<u64>,
-    bytes: Vec<u64>,
+    allocations: Vec<f64>,
+    bytes: Vec<f64>,
 }
 
 impl Costs {
@@ -85,15 +85,15 @@ impl Costs {
         let begin = cpu();
         let (count, result) = counting::count(work);
         self.milliseconds.push((cpu() - begin).as_secs_f64() * 1e3);
-        self.allocations.push(count.allocations);
-        self.bytes.push(count.bytes);
+        self.allocations.push(count.allocations as f64);
+        self.bytes.push(count.bytes as f64);
         result
     }
 }
 
-fn measure(name: &str, loaded: Arc<LoadedModel>, action: Action) {
+fn measure(bench: &mut FigureBench, task: &str, loaded: Arc<LoadedModel>, action: Action) {
     let Some(mut program) = Program::new(loaded, action) else {
-        println!("{name}: no graphics adapter");
+        eprintln!("{task}: no graphics adapter");
         return;
     };
     for _ in 0..20 {
@@ -103,20 +103,14 @@ fn measure(name: &str, loaded: Arc<LoadedModel>, action: Action) {
     for _ in 0..FRAMES {
         program.frame(&mut parts);
     }
-    println!("{name}: {} draw calls", program.stage.draw_calls());
-    for (part, costs) in PARTS.into_iter().zip(&mut parts) {
-        costs.milliseconds.sort_by(f64::total_cmp);
-        costs.allocations.sort_unstable();
-        costs.bytes.sort_unstable();
-        let Some(last) = costs.milliseconds.len().checked_sub(1) else { continue };
-        println!(
-            "    {part:<10} median {:>9.3} ms   p99 {:>9.3} ms   {:>7} allocations {:>10} bytes",
-            costs.milliseconds[last / 2],
-            costs.milliseconds[last * 99 / 100],
-            costs.allocations[last / 2],
-            costs.bytes[last / 2],
-        );
+    for (part, costs) in PARTS.into_iter().zip(&parts) {
+        if !costs.milliseconds.is_empty() {
+            bench.times(task, part, &costs.milliseconds);
+            bench.value(task, part, "allocations", "count", percentile(&costs.allocations, 50));
+            bench.value(task, part, "allocated", "bytes", percentile(&costs.bytes, 50));
+        }
     }
+    bench.value(task, "driver", "draws", "count", program.stage.draw_calls() as f64);
 }
 
 /// The parts of the program, without a window.
@@ -313,7 +307,7 @@ impl Program {
 
 /// Adds the last measurement to the one before it.
 fn merge(costs: &mut Costs) {
-    fn join<T: Copy + std::ops::AddAssign>(list: &mut Vec<T>) {
+    fn join(list: &mut Vec<f64>) {
         if let Some(last) = list.pop()
             && let Some(before) = list.last_mut()
         {

@@ -1,8 +1,9 @@
-//! Time until an edit is answered while a file of 170 MB is saved.
+//! Time until an edit is answered while a large file is saved.
 
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, SetPose, TakeRef};
 use dragonfly_document::{DocumentMessage, DocumentReply, SaveOrder};
 use dragonfly_kit::document::test_document::TestDocument;
+use dragonfly_kit::figures::FigureBench;
 use dragonfly_kit::folder::Folder;
 use serde_json::{Value, json};
 use std::fs;
@@ -86,36 +87,25 @@ fn pose(angle: f32) -> Edit {
     Edit::SetPose(SetPose { take: TakeRef::Index(0), time: 0.5, poses: vec![pose], unstep: false })
 }
 
-/// Sends one edit and returns the time until its view has arrived.
-fn answered(document: &mut TestDocument, steps: usize) -> Duration {
+/// Sends one edit and returns the milliseconds until its view has arrived.
+fn answered(document: &mut TestDocument, steps: usize) -> f64 {
     let begin = Instant::now();
     document.edit(pose(steps as f32 * 0.001));
     document.wait_for_view(|view| view.history.done == steps);
-    begin.elapsed()
+    milliseconds(begin.elapsed())
 }
 
-fn print(what: &str, mut times: Vec<Duration>) {
-    times.sort();
-    let at = |share: usize| times[(times.len() - 1) * share / 100].as_secs_f64() * 1e3;
-    println!(
-        "editor/save/{what:<44} median {:>8.2} ms   p99 {:>8.2} ms   worst {:>8.2} ms   {} edits",
-        at(50),
-        at(99),
-        at(100),
-        times.len()
-    );
+fn milliseconds(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
 }
 
 /// Measures edits without a save, and during a save of the model.
-pub(crate) fn all() {
-    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
-    if wanted.is_some_and(|part| !"editor/save".contains(&part)) {
-        return;
-    }
+pub(crate) fn all(bench: &mut FigureBench) {
     let folder = Folder::new("bench-save");
     let path = folder.join("long.glb");
     write_model(&path);
-    let size = fs::metadata(&path).map_or(0, |file| file.len()) as f64 / 1e6;
+    let size = fs::metadata(&path).map_or(0, |file| file.len()) as f64;
+    bench.value("file", "", "size", "bytes", size);
     let mut document = TestDocument::new(&folder.join("autosave"));
     document.open(&path);
     let mut steps = 0;
@@ -123,9 +113,9 @@ pub(crate) fn all() {
         steps += 1;
         answered(document, steps)
     };
-    let quiet = (0..200).map(|_| next(&mut document)).collect();
-    print("edit_without_a_save", quiet);
-    for round in ["first", "second"] {
+    let quiet: Vec<f64> = (0..200).map(|_| next(&mut document)).collect();
+    bench.times("edit", "without a save", &quiet);
+    for variant in ["first save", "second save"] {
         let begin = Instant::now();
         document.send(DocumentMessage::Save(SaveOrder::own(None)));
         let mut during = Vec::new();
@@ -135,7 +125,7 @@ pub(crate) fn all() {
         }) {
             during.push(next(&mut document));
         }
-        println!("editor/save/{round}_save_of_{size:.0}_MB {:>32.0} ms", begin.elapsed().as_secs_f64() * 1e3);
-        print(&format!("edit_during_the_{round}_save"), during);
+        bench.value("save", variant, "time", "ms", milliseconds(begin.elapsed()));
+        bench.times("edit", variant, &during);
     }
 }

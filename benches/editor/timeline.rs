@@ -15,6 +15,7 @@ use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::history::Edited;
 use dragonfly_document::images::ImageSurvey;
 use dragonfly_document::{Change, LoadedModel, View};
+use dragonfly_kit::figures::FigureBench;
 use glam::{Mat4, Quat, Vec3};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -24,16 +25,18 @@ const BONES: u32 = 200;
 const RATE: f32 = 120.0;
 const SECONDS: f32 = 600.0;
 const FRAMES: usize = 400;
+/// Part of the ten minutes in which keys are dragged.
+const DRAGGED_PART: f32 = 0.2;
+/// Number of views that are received while keys are dragged.
+const VIEWS: usize = 20;
+/// Largest number of frames of a drag.
+const MOST_FRAMES: usize = 20_000;
 
 /// Measures every case.
-pub(crate) fn all() {
-    let wanted = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
-    if wanted.is_some_and(|part| !"editor/timeline".contains(&part)) {
-        return;
-    }
-    let view = view();
+pub(crate) fn all(bench: &mut FigureBench) {
+    let view = view(1.0);
     let keys: usize = view.takes.iter().map(|take| take.keys()).sum();
-    println!("editor/timeline: {keys} keys, {BONES} bones, panels of 1920 × 1080 points");
+    bench.value("take", "", "keys", "count", keys as f64);
     let length = f64::from(view.takes[0].length);
     let whole = TimeWindow { start: 0.0, length };
     let middle = TimeWindow { start: length * 0.4, length: length / 60.0 };
@@ -41,35 +44,43 @@ pub(crate) fn all() {
         [("nothing selected", vec![]), ("one bone", vec![7]), ("eight bones", (3..11).collect())]
     {
         let mut window = PanelsWindow::new(&view, &bones);
-        window.measure(&format!("whole zoom, {name}"), |_, _| {});
-        window.measure(&format!("zooming, {name}"), |at, state| {
+        window.measure(bench, "whole take", name, |_, _| {});
+        window.measure(bench, "zooming", name, |at, state| {
             let part = 1.0 - 0.5 * (at as f64 / FRAMES as f64);
             show(state, TimeWindow { start: 0.0, length: whole.length * part });
         });
-        window.measure(&format!("middle zoom, panning, {name}"), |at, state| {
+        window.measure(bench, "panning", name, |at, state| {
             show(state, middle.panned(at as f64 * 0.01));
         });
         show(&mut window.state, whole);
         window.state.execute(Request::Command(Id::PlayPause));
-        window.measure(&format!("playing, {name}"), |_, _| {});
+        window.measure(bench, "playing", name, |_, _| {});
         window.state.execute(Request::Command(Id::PlayPause));
     }
-    drag(&view, whole, "whole zoom");
-    drag(&view, middle, "middle zoom");
+    drop(view);
+    // The document answers an edit of the whole take after more frames than are measured.
+    let view = self::view(DRAGGED_PART);
+    let length = f64::from(view.takes[0].length);
+    for (name, start, length) in
+        [("the take", 0.0, length), ("a sixtieth of the take", length * 0.4, length / 60.0)]
+    {
+        drag(bench, &view, TimeWindow { start, length }, name);
+    }
 }
 
 /// Drags 100,000 selected keys, while the document answers from a thread of its own.
-fn drag(view: &View, zoom: TimeWindow, name: &str) {
+fn drag(bench: &mut FigureBench, view: &View, zoom: TimeWindow, name: &str) {
     let (ask, asked) = channel::<(u64, Change)>();
     let (answer, answers) = channel::<View>();
     let first = view.clone();
     std::thread::scope(|scope| {
         scope.spawn(move || document(first, &asked, &answer));
-        drag_keys(view, zoom, name, ask, &answers);
+        drag_keys(bench, view, zoom, name, ask, &answers);
     });
 }
 
 fn drag_keys(
+    bench: &mut FigureBench,
     view: &View,
     zoom: TimeWindow,
     name: &str,
@@ -93,12 +104,12 @@ fn drag_keys(
     window.state.execute(Request::Timeline(KeysRequest::Select { channels, stretch, choice }));
     let selected = window.state.read().keys.selection().count(&take);
     let mut shown = Vec::new();
-    let mut edits = 0;
-    let label = format!("dragging {selected} keys, {name}");
-    window.measure_with(&label, |at, state, effects| {
+    let mut edits = 0_u32;
+    let (mut times, mut effects) = (Vec::new(), Vec::new());
+    while times.len() < FRAMES || shown.len() < VIEWS && times.len() < MOST_FRAMES {
         for effect in effects.drain(..) {
             let mut passed = Vec::new();
-            state.let_through(effect, &mut |effect| passed.push(effect));
+            window.state.let_through(effect, &mut |effect| passed.push(effect));
             for effect in passed {
                 let Effect::Send(number, change) = effect else { continue };
                 edits += 1;
@@ -108,15 +119,19 @@ fn drag_keys(
         }
         if let Some(view) = newest(answers) {
             let begin = cpu();
-            state.show(view);
+            window.state.show(view);
             shown.push((cpu() - begin).as_secs_f64() * 1e3);
         }
-        let by = (at as f32 * 0.05).sin() * (zoom.length as f32 * 0.1) + at as f32 * 0.01;
-        Some(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(by))))
-    });
+        let at = times.len() as f32;
+        let by = (at * 0.05).sin() * (zoom.length as f32 * 0.1) + at * 0.01;
+        let request = Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(by)));
+        times.push(window.timed_frame(Some(request), &mut effects));
+    }
     drop(ask);
-    let worst = shown.iter().copied().fold(0.0, f64::max);
-    println!("    {edits} edits sent, {} views shown, at most {worst:.2} ms each", shown.len());
+    bench.times("dragging", name, &times);
+    bench.times("receiving a view", name, &shown);
+    bench.value("dragging", name, "keys", "count", selected as f64);
+    bench.value("dragging", name, "edits", "count", f64::from(edits));
 }
 
 fn newest(answers: &Receiver<View>) -> Option<View> {
@@ -198,30 +213,29 @@ impl PanelsWindow {
         requests.into_iter().filter_map(|request| self.state.execute(request)).collect()
     }
 
-    fn measure(&mut self, name: &str, mut before: impl FnMut(usize, &mut State)) {
-        self.measure_with(name, |at, state, _| {
-            before(at, state);
-            None
-        });
+    fn measure(
+        &mut self,
+        bench: &mut FigureBench,
+        task: &str,
+        variant: &str,
+        mut before: impl FnMut(usize, &mut State),
+    ) {
+        if !bench.wants(task) {
+            return;
+        }
+        let mut times = Vec::with_capacity(FRAMES);
+        for at in 0..FRAMES {
+            before(at, &mut self.state);
+            times.push(self.timed_frame(None, &mut Vec::new()));
+        }
+        bench.times(task, variant, &times);
     }
 
-    /// Measures frames; `before` runs before each frame and returns the request of the next one.
-    fn measure_with(
-        &mut self,
-        name: &str,
-        mut before: impl FnMut(usize, &mut State, &mut Vec<Effect>) -> Option<Request>,
-    ) {
-        let mut times = Vec::with_capacity(FRAMES);
-        let mut effects = Vec::new();
-        for at in 0..FRAMES {
-            let request = before(at, &mut self.state, &mut effects);
-            let begin = cpu();
-            effects.extend(self.frame(request));
-            times.push((cpu() - begin).as_secs_f64() * 1e3);
-        }
-        times.sort_by(f64::total_cmp);
-        let at = |part: usize| times[FRAMES * part / 100];
-        println!("editor/timeline/{name:<44} median {:>7.3} ms   p99 {:>7.3} ms", at(50), at(99));
+    /// Runs one frame and adds its effects. Returns its milliseconds.
+    fn timed_frame(&mut self, request: Option<Request>, effects: &mut Vec<Effect>) -> f64 {
+        let begin = cpu();
+        effects.extend(self.frame(request));
+        (cpu() - begin).as_secs_f64() * 1e3
     }
 }
 
@@ -239,10 +253,10 @@ pub(crate) fn cpu() -> Duration {
     BEGIN.get_or_init(Instant::now).elapsed()
 }
 
-/// Returns bones in a chain, with a column of times for every channel.
-fn view() -> View {
+/// Returns bones in a chain, with a column of times for every channel; `length` is a part of the ten minutes.
+fn view(length: f32) -> View {
     let part = std::env::var("DRAGONFLY_BENCH_KEYS").ok().and_then(|part| part.parse::<f32>().ok());
-    let keys = (SECONDS * RATE * part.unwrap_or(1.0).clamp(0.001, 1.0)) as usize;
+    let keys = (SECONDS * RATE * length * part.unwrap_or(1.0).clamp(0.001, 1.0)) as usize;
     let bones = (0..BONES).map(|index| Bone {
         name: format!("bone_{index:03}"),
         parent: index.checked_sub(1),

@@ -1,7 +1,6 @@
 //! Compressed takes are small, within the requested tolerance, and safe to read from any bytes.
 
 use crate::doors::{TestFolder, data};
-use crate::figures::report::results::Results;
 use crate::support::{about_z, along_x, bone, take};
 use dragonfly_anim::animation::Animation;
 use dragonfly_anim::compressed::{
@@ -15,6 +14,7 @@ use dragonfly_anim::fast::{Playing, Pose, Rig, Scratch, SkinBinding, matrix, pos
 use dragonfly_anim::format::{ReadOptions, read};
 use dragonfly_anim::sample::sample_take;
 use dragonfly_kit::counting::count;
+use dragonfly_kit::figures::Results;
 use dragonfly_kit::mutate::Mutator;
 use dragonfly_kit::random::{Random, seed};
 use glam::{Mat4, Quat, Vec3};

@@ -3,18 +3,18 @@
 #[path = "../../benches/anim/report/mod.rs"]
 pub(crate) mod report;
 
-use report::RecordedResults;
-use report::results::{Figure, Results};
+use dragonfly_kit::figures::{Figure, Results, typed_figure};
+use report::PAGE;
 use std::fs;
 
 fn page() -> String {
-    fs::read_to_string(report::page()).unwrap()
+    fs::read_to_string(PAGE.path()).unwrap()
 }
 
 #[test]
 fn every_table_of_the_readme_is_made_from_the_recorded_results() {
     let page = page();
-    let made = report::render(&RecordedResults::read().unwrap(), &page).unwrap();
+    let made = PAGE.render(&PAGE.read().unwrap(), &page).unwrap();
     assert!(made == page, "run `cargo bench -p dragonfly-anim -- --report`");
 }
 
@@ -24,29 +24,15 @@ fn a_figure_that_was_not_measured_disappears_when_the_tables_are_made_again() {
     let marker = "<!-- table: sampling -->\n";
     let invented = page.replace(marker, &format!("{marker}| invented | 0.01 · 0.02 |\n"));
     assert_ne!(invented, page);
-    assert_eq!(report::render(&RecordedResults::read().unwrap(), &invented).unwrap(), page);
+    assert_eq!(PAGE.render(&PAGE.read().unwrap(), &invented).unwrap(), page);
 }
 
 #[test]
 fn no_measured_figure_is_typed_outside_the_tables() {
-    let typed = |text: &str| {
-        let words: Vec<&str> = text.split_whitespace().collect();
-        let is_number = |word: &str| word.starts_with(|first: char| first.is_ascii_digit());
-        let is_unit = |word: &str| {
-            let word = word.trim_end_matches(|last: char| !last.is_alphanumeric() && last != '×');
-            ["ns", "µs", "ms", "s", "×", "bytes", "KB", "instructions", "%"].contains(&word)
-        };
-        let pair = |pair: &[&str]| (is_number(pair[0]) && is_unit(pair[1])).then(|| pair.join(" "));
-        words.windows(2).find_map(pair)
-    };
-    assert_eq!(typed("about 8.4 ns instead"), Some("8.4 ns".to_owned()));
-    let page = page();
-    for part in page.split("<!-- end -->") {
-        let outside = part.split("<!-- table: ").next().unwrap_or_default();
-        // The size of raw takes is a definition.
-        let outside = outside.replace("Raw is 40 bytes", "");
-        assert_eq!(typed(&outside), None);
-    }
+    assert_eq!(typed_figure("about 8.4 ns instead"), Some("8.4 ns".to_owned()));
+    // The size of raw takes is a definition.
+    let page = page().replace("Raw is 40 bytes", "");
+    assert_eq!(typed_figure(&page), None);
 }
 
 #[test]

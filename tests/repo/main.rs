@@ -7,6 +7,7 @@ mod circles;
 mod clamps;
 mod crates;
 mod direction;
+mod figures;
 mod imports;
 mod layout;
 mod licenses;

@@ -1,7 +1,6 @@
 //! The tables, one for each subject.
 
-use super::RecordedResults;
-use super::results::{GOAL, Results};
+use dragonfly_kit::figures::{GOAL, RecordedResults, Results, digits, filled, grouped, header, line};
 
 /// Tasks on the bench rig, in words, in the order of the tables; the unit is that of one row of the results.
 const TASKS: [(&str, &str); 28] = [
@@ -42,7 +41,7 @@ fn in_words(task: &str) -> &str {
 
 /// Returns all tables with their names, in no order.
 pub(super) fn all(recorded: &RecordedResults) -> Result<Vec<(&'static str, String)>, String> {
-    let RecordedResults { times, sizes, instructions } = recorded;
+    let [times, sizes, instructions] = ["times", "sizes", "instructions"].map(|name| recorded.of(name));
     Ok(vec![
         ("run", run(recorded)),
         ("sampling", compared(times, "/compressed", ["ozz", "ACL"], "sample/")?),
@@ -58,42 +57,9 @@ pub(super) fn all(recorded: &RecordedResults) -> Result<Vec<(&'static str, Strin
     ])
 }
 
-/// Formats a number with three significant digits: `0.08`, `1.33`, `12.9`, `5,532`.
-fn digits(value: f64) -> String {
-    match value.abs() {
-        size if size < 0.995 => format!("{value:.2}"),
-        size if size < 9.995 => format!("{value:.2}"),
-        size if size < 99.95 => format!("{value:.1}"),
-        _ => grouped(value),
-    }
-}
-
-/// Formats a whole number with commas: `92,773`.
-fn grouped(value: f64) -> String {
-    let whole = format!("{value:.0}");
-    let groups: Vec<&str> =
-        whole.as_bytes().rchunks(3).rev().map(|group| std::str::from_utf8(group).unwrap_or("")).collect();
-    groups.join(",")
-}
-
-fn header(columns: &[&str]) -> String {
-    let lines: Vec<&str> =
-        columns.iter().enumerate().map(|(at, _)| if at == 0 { "---" } else { "--:" }).collect();
-    format!("| {} |\n|{}|\n", columns.join(" | "), lines.join("|"))
-}
-
-fn line(cells: &[String]) -> String {
-    format!("| {} |\n", cells.join(" | "))
-}
-
-/// Returns an error if a table has no row: then its results were not recorded.
-fn filled(name: &str, table: String) -> Result<String, String> {
-    if table.lines().count() > 2 { Ok(table) } else { Err(format!("the table {name} has no rows")) }
-}
-
 /// Returns what the results depend on, as a list.
 fn run(recorded: &RecordedResults) -> String {
-    let RecordedResults { times, sizes, instructions } = recorded;
+    let [times, sizes, instructions] = ["times", "sizes", "instructions"].map(|name| recorded.of(name));
     let mut text = String::new();
     for (what, results) in [("Times", times), ("Sizes", sizes), ("Instructions", instructions)] {
         text += &format!("- {what}: `{}`, commit {}.\n", results.about("command"), results.about("commit"));

@@ -3,9 +3,9 @@
 //! The features `store`, `document` and `picture` add the helpers that need those crates, so that the tests of a
 //! crate build without the crates above it.
 
-pub mod bench;
 pub mod counting;
 mod eventually;
+pub mod figures;
 pub mod folder;
 pub mod load;
 #[cfg(unix)]

@@ -4,28 +4,30 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// Prefix of the metrics that are goals, not measurements.
-pub(crate) const GOAL: &str = "goal: ";
+pub const GOAL: &str = "goal: ";
 
 const HEADER: &str = "task,variant,metric,unit,value,others";
 
 /// One measured number.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Figure {
+pub struct Figure {
     /// Task: `sample/pab/walk/forward`.
-    pub(crate) task: String,
+    pub task: String,
     /// Code that does the task: `avx2/compressed`, `sketch`, `ozz`.
-    pub(crate) variant: String,
+    pub variant: String,
     /// Measured quantity: `median`, `p99`, `bytes`.
-    pub(crate) metric: String,
+    pub metric: String,
     /// Unit of the value: `ns/bone`, `bytes`, `mm`.
-    pub(crate) unit: String,
-    pub(crate) value: f64,
+    pub unit: String,
+    /// The measured number, or a goal.
+    pub value: f64,
     /// Number of cores that other programs kept busy during the measurement, on average.
-    pub(crate) others: f64,
+    pub others: f64,
 }
 
 impl Figure {
-    pub(crate) fn new(task: &str, variant: &str, metric: &str, unit: &str, value: f64) -> Self {
+    /// Creates a figure that was measured without other programs.
+    pub fn new(task: &str, variant: &str, metric: &str, unit: &str, value: f64) -> Self {
         let [task, variant, metric, unit] = [task, variant, metric, unit].map(str::to_owned);
         Self { task, variant, metric, unit, value, others: 0.0 }
     }
@@ -33,15 +35,16 @@ impl Figure {
 
 /// The content of one file: names and values that describe the run, and a row for each number.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Results {
+pub struct Results {
     /// Machine, versions, flags, commit, command; written as `# name: value`.
-    pub(crate) run: Vec<(String, String)>,
-    pub(crate) rows: Vec<Figure>,
+    pub run: Vec<(String, String)>,
+    /// The figures, in the order in which they were measured.
+    pub rows: Vec<Figure>,
 }
 
 impl Results {
-    /// Reads what [`text`](Self::text) returns.
-    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+    /// Reads what [`text`](Self::text) returns. Fails at the first line that is no figure.
+    pub fn parse(text: &str) -> Result<Self, String> {
         let mut results = Self::default();
         for line in text.lines().filter(|line| *line != HEADER) {
             if let Some(line) = line.strip_prefix("# ") {
@@ -60,13 +63,13 @@ impl Results {
     }
 
     /// Reads a file. An error contains its path.
-    pub(crate) fn read(path: &Path) -> Result<Self, String> {
+    pub fn read(path: &Path) -> Result<Self, String> {
         let text = std::fs::read_to_string(path).map_err(|error| error.to_string());
         text.and_then(|text| Self::parse(&text)).map_err(|error| format!("{}: {error}", path.display()))
     }
 
     /// Returns the text of the file.
-    pub(crate) fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let mut text = String::new();
         for (name, value) in &self.run {
             let _ = writeln!(text, "# {name}: {}", value.replace('\n', " "));
@@ -74,26 +77,43 @@ impl Results {
         text += HEADER;
         text.push('\n');
         for Figure { task, variant, metric, unit, value, others } in &self.rows {
-            // Further digits would not be significant.
-            let value = (value * 1e4).round() / 1e4;
+            let value = rounded(*value);
             let _ = writeln!(text, "{task},{variant},{metric},{unit},{value},{others:.2}");
         }
         text
     }
 
     /// Returns the value of this task, variant and metric, if it was recorded.
-    pub(crate) fn value(&self, task: &str, variant: &str, metric: &str) -> Option<f64> {
+    pub fn value(&self, task: &str, variant: &str, metric: &str) -> Option<f64> {
         let wanted = |row: &&Figure| row.task == task && row.variant == variant && row.metric == metric;
         self.rows.iter().find(wanted).map(|row| row.value)
     }
 
+    /// Returns the variants of a task, in the order of the rows.
+    pub fn variants(&self, task: &str) -> Vec<&str> {
+        let mut variants: Vec<&str> = Vec::new();
+        for row in self.rows.iter().filter(|row| row.task == task) {
+            if !variants.contains(&row.variant.as_str()) {
+                variants.push(&row.variant);
+            }
+        }
+        variants
+    }
+
     /// Returns the value of `name` in the description of the run: `machine`, `commit`.
-    pub(crate) fn about(&self, name: &str) -> &str {
+    pub fn about(&self, name: &str) -> &str {
         self.run.iter().find(|(other, _)| other == name).map_or("unknown", |(_, value)| value)
     }
 
     /// Returns the largest load by other programs during any row.
-    pub(crate) fn others(&self) -> f64 {
+    pub fn others(&self) -> f64 {
         self.rows.iter().map(|row| row.others).fold(0.0, f64::max)
     }
+}
+
+/// Returns the value with the digits that are significant: four decimals, or four digits of a value below 1.
+fn rounded(value: f64) -> f64 {
+    let decimals = (4.0 - value.abs().log10().ceil()).clamp(4.0, 12.0);
+    let scale = 10_f64.powf(decimals);
+    (value * scale).round() / scale
 }
