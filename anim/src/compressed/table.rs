@@ -18,6 +18,7 @@ pub(super) struct Tables {
     pub(super) clock: FrameClock,
     /// Seconds between two keys.
     pub(super) interval: f64,
+    /// Its reciprocal.
     pub(super) keys_per_second: f64,
     pub(super) shift: u32,
     pub(super) bones: usize,
@@ -173,6 +174,10 @@ impl Tables {
         std::array::from_fn(|lane| LaneLayout { start: rows.map(|row| row[lane]), ..LaneLayout::default() })
     }
 
+    fn groups(&self) -> impl Iterator<Item = &LaneGroup> {
+        self.turning.iter().map(|turning| &turning.group).chain(self.moving.iter().flatten())
+    }
+
     /// Returns the size of the tables in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.still.as_slice())
@@ -181,6 +186,7 @@ impl Tables {
             + size_of_val(self.turning.as_slice())
             + size_of_val(self.moving[0].as_slice())
             + size_of_val(self.moving[1].as_slice())
+            + self.groups().map(|group| size_of_val(group.shared.as_slice())).sum::<usize>()
             + size_of_val(self.heads.as_slice())
             + size_of_val(self.segments.as_slice())
             + size_of_val(self.wide.as_slice())
