@@ -68,6 +68,7 @@ mod unplugged;
 mod viewport_control;
 mod viewport_tools;
 mod viewport_tools_fuzz;
+mod undo_selection;
 mod viewport_tools_ik;
 mod viewport_tools_path;
 mod viewport_tools_rig;

@@ -11,11 +11,13 @@ use super::posed::PoseCache;
 use super::prompts::Prompts;
 use super::selected_bones::SelectedBones;
 use super::settings::Settings;
+use super::selection_steps::{SelectionState, SelectionSteps};
 use super::status::{MessageSeverity, Status};
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
 use std::time::Instant;
+use dragonfly_document::bones::Choice;
 
 /// The owners of the state. A command gets all of them and calls the methods of those that it concerns.
 pub(super) struct Workspace {
@@ -30,6 +32,10 @@ pub(super) struct Workspace {
     /// Selection and drag of keys, flags, markers, the play range.
     pub(super) keys: KeyEditing,
     /// The list of takes.
+    /// The selections around the steps of the history.
+    pub(super) selections: SelectionSteps,
+    /// The angles that were given to rotation keys.
+    pub(super) given: GivenAngles,
     pub(super) takes: TakeListState,
     /// The tools of the viewport.
     pub(super) tools: ToolState,
@@ -59,6 +65,8 @@ impl Workspace {
             bones: SelectedBones::default(),
             keys: KeyEditing::of(settings.timeline),
             takes: TakeListState::default(),
+            selections: SelectionSteps::default(),
+            given: GivenAngles::default(),
             tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
             camera: CameraState::default(),
             dragging: Dragging::default(),
@@ -103,6 +111,20 @@ impl Workspace {
 
     /// Adds a message to the status line.
     pub(super) fn say(&mut self, level: MessageSeverity, text: impl Into<String>) {
+    /// Returns the selected bones and keys.
+    pub(super) fn selection_state(&self) -> SelectionState {
+        let take = self.read().slot().map(|slot| slot.id);
+        SelectionState { bones: self.bones.bones().to_vec(), keys: self.keys.selection().clone(), take }
+    }
+
+    /// Selects the bones and keys that were selected before; the keys only if their take is shown.
+    pub(super) fn restore_selection(&mut self, selection: &SelectionState) {
+        self.bones.choose(&selection.bones, Choice::Replace);
+        if selection.take.is_some() && selection.take == self.read().slot().map(|slot| slot.id) {
+            self.keys.restore(&selection.keys);
+        }
+    }
+
         self.status.say(level, text);
     }
 }

@@ -67,7 +67,14 @@ fn pass_change(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(
 
 /// Assigns a number to a change, shows its result before the document answers if possible, and passes it on.
 fn send(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)) {
+    // Movements of a drag are not noted, and allocate nothing.
+    let selection = workspace.selections.notes(&change).then(|| workspace.selection_state());
     let number = workspace.model.send(&change, &mut workspace.dragging.echo);
+    if let Some(selection) = selection {
+        workspace.selections.send(number, &change, selection);
+    } else if let Change::Cancel(gesture) = &change {
+        workspace.selections.cancel(*gesture);
+    }
     if let Change::Edit(_, Some(gesture)) | Change::Cancel(gesture) = change {
         workspace.keys.sent(gesture, number);
         let take = workspace.read().shared_take().cloned();

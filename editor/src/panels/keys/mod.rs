@@ -291,6 +291,13 @@ impl KeyEditing {
         self.selection.drop_bones(|bone| !kept.contains(&bone));
     }
 
+    /// Selects the keys that were selected before, unless keys are being dragged.
+    pub(super) fn restore(&mut self, selection: &KeySelection) {
+        if self.drag.is_none() {
+            self.selection = selection.clone();
+        }
+    }
+
     /// Deselects all keys.
     pub(super) fn deselect(&mut self) {
         self.selection = KeySelection::default();
