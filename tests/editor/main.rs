@@ -53,6 +53,7 @@ mod questions;
 mod remembered;
 mod ruler;
 mod screen;
+mod quick_clicks;
 mod settings;
 mod stdio;
 mod stdio_journal;

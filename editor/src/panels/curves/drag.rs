@@ -80,7 +80,8 @@ impl CurveDrag {
         {
             canvas.hover(ui, pointer, &input, requests);
         }
-        match self.machine.step(&input, response.is_pointer_button_down_on(), |at| canvas.target_at(at)) {
+        let held = response.is_pointer_button_down_on() || response.clicked();
+        match self.machine.step(&input, held, |at| canvas.target_at(at)) {
             DragEvent::Nothing | DragEvent::Cancelled(CurveDragged::Box(_)) => {}
             DragEvent::Pressed => {
                 if let Some(Press { on: CurveTarget::Key(key), .. }) = self.machine.pressed() {
@@ -96,7 +97,12 @@ impl CurveDrag {
                 }
             }
             DragEvent::Moved(at) => self.advance(ui, position(at), canvas, &input, requests),
-            DragEvent::Clicked(press) => click(&press, requests),
+            DragEvent::Clicked(press) => {
+                if let CurveTarget::Key(key) = &press.on {
+                    self.component = key.component;
+                }
+                click(&press, requests);
+            }
             DragEvent::Dropped(CurveDragged::Box(drawn)) => {
                 if let Some(pointer) = pointer.or(input.pointer) {
                     let to = [canvas.time.time_at(pointer.x), canvas.value.value_at(pointer.y)];

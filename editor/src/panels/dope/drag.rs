@@ -87,7 +87,8 @@ impl DopeDrag {
         {
             requests.push(sheet.select(on.row, [on.time; 2], Choice::Replace));
         }
-        match self.machine.step(&input, canvas.is_pointer_button_down_on(), |at| sheet.key_at(at)) {
+        let held = canvas.is_pointer_button_down_on() || canvas.clicked();
+        match self.machine.step(&input, held, |at| sheet.key_at(at)) {
             DragEvent::Nothing | DragEvent::Pressed | DragEvent::Cancelled(DopeDragged::Box(_)) => {}
             DragEvent::Started(press) => {
                 self.machine.begin(start(&press, sheet, &input, requests));
