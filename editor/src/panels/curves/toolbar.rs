@@ -5,7 +5,8 @@ use super::curve::Curve;
 use super::form::RotationForm;
 use super::paint::color;
 use super::shown::bit;
-use crate::panels::commands::{self, Id};
+use crate::panels::command_button::command_button;
+use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
 use crate::panels::request::Request;
@@ -144,13 +145,7 @@ fn between(ui: &mut Ui, curves: &[Arc<Curve>], context: &PanelContext<'_>, reque
     ] {
         let on = !curves.is_empty() && curves.iter().all(|curve| curve.interpolation() == kind);
         ui.add_enabled_ui(able, |ui| {
-            let reason = commands::get(id).when.reason();
-            let button = icon_button(ui, icon, commands::get(id).title, on)
-                .on_hover_text(commands::tooltip(ui.ctx(), id))
-                .on_disabled_hover_text(reason);
-            if button.clicked() {
-                requests.push(Request::Command(id));
-            }
+            command_button(ui, icon, id, on, requests);
         });
     }
 }
