@@ -131,7 +131,10 @@ impl Fields {
         let number = key.numbers[component];
         let field = NumberField {
             name: &format!("Value {letter}"),
-            value: Some(f64::from(number + self.by(KeyNumber::Value(component)))),
+        let shown = number + self.by(KeyNumber::Value(component));
+        // Below a millionth of the numbers that are shown, a value is a rounding error.
+        let dust = f64::from(shown.abs()) < about.window.span * 1e-6;
+            value: Some(if dust { 0.0 } else { f64::from(shown) }),
             quantity: if angle { Quantity::Angle } else { Quantity::Number },
             unit: if angle { "°" } else { "" },
             // About as far as the curve moves on the screen.
