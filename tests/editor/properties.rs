@@ -339,7 +339,9 @@ fn typed_angles_stay_as_they_were_typed() {
     window.run_steps(2);
     window.state_mut().state.execute(Request::Select(Some(3)));
     window.run_steps(3);
-    assert!(value(&window, "Rotation result Y").unwrap() <= 90.0, "later it is the usual form");
+    let later = ["X", "Y", "Z"].map(|axis| value(&window, &format!("Rotation result {axis}")).unwrap());
+    let same = later.iter().zip(shown).all(|(later, shown)| (later - shown).abs() < 1e-3);
+    assert!(same, "later they are as the curves show them: {later:?}");
 }
 
 #[test]

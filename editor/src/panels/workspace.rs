@@ -2,6 +2,7 @@
 
 use super::camera_state::CameraState;
 use super::context::PanelContext;
+use super::curves::given::GivenAngles;
 use super::dragging::Dragging;
 use super::keys::KeyEditing;
 use super::marks::Marks;
@@ -10,14 +11,14 @@ use super::player::Player;
 use super::posed::PoseCache;
 use super::prompts::Prompts;
 use super::selected_bones::SelectedBones;
-use super::settings::Settings;
 use super::selection_steps::{SelectionState, SelectionSteps};
+use super::settings::Settings;
 use super::status::{MessageSeverity, Status};
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
-use std::time::Instant;
 use dragonfly_document::bones::Choice;
+use std::time::Instant;
 
 /// The owners of the state. A command gets all of them and calls the methods of those that it concerns.
 pub(super) struct Workspace {
@@ -31,11 +32,11 @@ pub(super) struct Workspace {
     pub(super) bones: SelectedBones,
     /// Selection and drag of keys, flags, markers, the play range.
     pub(super) keys: KeyEditing,
-    /// The list of takes.
     /// The selections around the steps of the history.
     pub(super) selections: SelectionSteps,
     /// The angles that were given to rotation keys.
     pub(super) given: GivenAngles,
+    /// The list of takes.
     pub(super) takes: TakeListState,
     /// The tools of the viewport.
     pub(super) tools: ToolState,
@@ -64,9 +65,9 @@ impl Workspace {
             player: Player::new(settings.speed, settings.repeat, now),
             bones: SelectedBones::default(),
             keys: KeyEditing::of(settings.timeline),
-            takes: TakeListState::default(),
             selections: SelectionSteps::default(),
             given: GivenAngles::default(),
+            takes: TakeListState::default(),
             tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
             camera: CameraState::default(),
             dragging: Dragging::default(),
@@ -95,6 +96,7 @@ impl Workspace {
             playback: self.player.playback(),
             now: self.player.now(),
             keys: &self.keys,
+            given: &self.given,
             takes: &self.takes,
             camera: *self.camera.camera(),
             viewport: self.camera.viewport(),
@@ -109,8 +111,6 @@ impl Workspace {
         }
     }
 
-    /// Adds a message to the status line.
-    pub(super) fn say(&mut self, level: MessageSeverity, text: impl Into<String>) {
     /// Returns the selected bones and keys.
     pub(super) fn selection_state(&self) -> SelectionState {
         let take = self.read().slot().map(|slot| slot.id);
@@ -125,6 +125,8 @@ impl Workspace {
         }
     }
 
+    /// Adds a message to the status line.
+    pub(super) fn say(&mut self, level: MessageSeverity, text: impl Into<String>) {
         self.status.say(level, text);
     }
 }

@@ -45,6 +45,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
             workspace.bones.choose(&bones, choice);
         }
         Request::Hide { bones, hide } => workspace.bones.hide(&bones, hide),
+        Request::Angles(given) => workspace.given.give(given),
         Request::Timeline(request) => return keys_request(workspace, request),
         Request::Change(change) => return Some(Effect::Change(change)),
         Request::PastePose { text, mirrored } => return clipboard::paste(workspace, &text, mirrored),

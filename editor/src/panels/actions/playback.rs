@@ -10,6 +10,7 @@ use dragonfly_picture::playback::Repeat;
 /// Shows a take from its start; playback keeps running or stays paused.
 pub(in crate::panels) fn show_take(workspace: &mut Workspace, index: Option<usize>) {
     workspace.keys.before_take_change();
+    workspace.given.forget();
     let take = index.and_then(|index| workspace.model.takes().get(index));
     let bounds = take.map(|take| (take.start, take.length));
     workspace.player.show(index, bounds);

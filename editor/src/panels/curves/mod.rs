@@ -2,12 +2,13 @@
 
 mod axis;
 mod canvas;
-mod curve;
+pub(super) mod curve;
 mod drag;
 mod fields;
-mod form;
+pub(super) mod form;
+pub mod given;
 mod paint;
-mod shown;
+pub(super) mod shown;
 mod tangents;
 mod toolbar;
 mod values;
@@ -25,6 +26,7 @@ use egui::{
     Align2, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2,
 };
 use fields::{Fields, FieldsContext};
+use form::RotationForm;
 use paint::{CurveLook, CurveMesh};
 use shown::ShownCurves;
 use tangents::Tangents;
@@ -76,6 +78,10 @@ impl Panel for Curves {
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.spacing_mut().item_spacing.y = 0.0;
+        // The order of the angles is one setting, so that the properties show the same numbers.
+        if self.chosen.form != RotationForm::Quaternion {
+            self.chosen.form = RotationForm::Euler(context.settings.properties.euler);
+        }
         let drawn = context.drawn_keys();
         if let Some(drawn) = &drawn {
             self.follow(ui, context, drawn);
@@ -110,7 +116,7 @@ impl Curves {
     /// Updates the numbers, and fits the range of values when other curves are shown.
     fn follow(&mut self, ui: &Ui, context: &PanelContext<'_>, drawn: &Drawn) {
         let ids = shown::wanted(context, drawn, self.chosen.properties);
-        let more = self.shown.update(&drawn.take, &ids, self.chosen.form);
+        let more = self.shown.update(&drawn.take, &ids, self.chosen.form, context.given);
         if more {
             ui.ctx().request_repaint();
         }

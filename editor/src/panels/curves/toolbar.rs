@@ -9,6 +9,7 @@ use crate::panels::command_button::command_button;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
+use crate::panels::properties::PropertiesLook;
 use crate::panels::request::Request;
 use crate::panels::style::{CONTROL, GRID, RADIUS};
 use crate::panels::theme::Theme;
@@ -88,7 +89,7 @@ pub(super) fn show(
             }
         }
         divider(ui);
-        form(ui, chosen);
+        form(ui, chosen, context, requests);
         divider(ui);
         between(ui, curves, context, requests);
         if icon_button(ui, Icon::Fit, "Fit the curves", false)
@@ -122,7 +123,7 @@ fn letter_button(ui: &mut Ui, letter: &str, name: &str, on: bool, tone: Option<C
     response
 }
 
-fn form(ui: &mut Ui, chosen: &mut Chosen) {
+fn form(ui: &mut Ui, chosen: &mut Chosen, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let text = RichText::new(chosen.form.name()).small().color(Theme::of(ui).weak);
     let button = ui.add(Button::new(text).frame(false)).on_hover_text("How rotations are shown");
     egui::Popup::menu(&button).show(|ui| {
@@ -130,6 +131,10 @@ fn form(ui: &mut Ui, chosen: &mut Chosen) {
         for form in RotationForm::all() {
             if ui.add(Button::selectable(form == chosen.form, form.name())).clicked() {
                 chosen.form = form;
+                if let RotationForm::Euler(euler) = form {
+                    let look = PropertiesLook { euler, ..context.settings.properties };
+                    requests.push(Request::PropertiesLook(look));
+                }
             }
         }
     });
