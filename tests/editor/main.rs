@@ -22,6 +22,7 @@ mod fixture_layer;
 mod folder;
 mod framing;
 mod gizmo_control;
+mod gestures_listed;
 mod gizmo_drag;
 mod gizmo_handles;
 mod gizmo_keys;

@@ -93,7 +93,10 @@ pub(super) fn show(
         divider(ui);
         between(ui, curves, context, requests);
         if icon_button(ui, Icon::Fit, "Fit the curves", false)
-            .on_hover_text("Fit the curves\nShows all values, and the selected keys or the whole take")
+            .on_hover_text(
+                "Fit the curves\nShows all values, and the selected keys or the whole take\n\
+                 Wheel zooms the time, Shift + wheel pans, Ctrl + wheel zooms the values",
+            )
             .clicked()
         {
             fit = true;
