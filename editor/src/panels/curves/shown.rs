@@ -9,8 +9,8 @@ use dragonfly_anim::data::Take;
 use dragonfly_document::edit::Property;
 use std::sync::Arc;
 
-/// Largest number of channels: more cannot be distinguished.
-pub(in crate::panels) const MOST: usize = 24;
+/// Largest number of channels: more cannot be distinguished. The label counts the bones that are shown.
+pub(in crate::panels) const MOST: usize = 64;
 /// Number of keys that are computed per frame.
 const BUDGET: usize = 24_000;
 
