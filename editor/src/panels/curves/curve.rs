@@ -48,7 +48,7 @@ const BLOCK: usize = 16;
 impl Extent {
     pub(super) const NONE: Self = Self { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] };
 
-    fn with(mut self, other: &Self) -> Self {
+    pub(super) fn with(mut self, other: &Self) -> Self {
         for at in 0..4 {
             self.low[at] = self.low[at].min(other.low[at]);
             self.high[at] = self.high[at].max(other.high[at]);
@@ -208,6 +208,25 @@ impl Curve {
             }
             (from, to) = (from / BLOCK, to / BLOCK);
             below = Some(&self.levels[level]);
+        }
+        found
+    }
+
+    /// Returns the extent of the curve between its keys, where it may go beyond them.
+    pub(super) fn extent_between_keys(&self) -> Extent {
+        /// Number of samples between two keys.
+        const STEPS: u8 = 8;
+        let mut found = Extent::NONE;
+        let steps = matches!(self.interpolation(), Interpolation::Step | Interpolation::Closest);
+        if steps || self.is_straight() {
+            return found;
+        }
+        for (key, times) in self.times().windows(2).enumerate() {
+            let mut near = self.key(key);
+            for step in 1..STEPS {
+                near = self.at(times[0] + (times[1] - times[0]) * (f32::from(step) / f32::from(STEPS)), near);
+                found = found.with(&Extent::of(&near));
+            }
         }
         found
     }

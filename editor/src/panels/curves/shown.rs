@@ -98,15 +98,18 @@ impl ShownCurves {
         self.entries.iter().filter_map(|entry| entry.curve.as_ref())
     }
 
-    /// Returns the least and the greatest number of the shown components.
-    pub(super) fn extent(&self, components: u8, times: Option<[f32; 2]>) -> Option<[f32; 2]> {
+    /// Returns the least and the greatest number of the shown components, at keys and between them.
+    pub(super) fn extent(&self, components: u8) -> Option<[f32; 2]> {
+        /// Number of keys, of all curves, above which only keys are looked at.
+        const LOOKED_AT: usize = 1000;
         let mut all = [f32::INFINITY, f32::NEG_INFINITY];
+        let keys: usize = self.curves().map(|curve| curve.times().len()).sum();
         for curve in self.curves() {
-            let keys = match times {
-                Some(times) => crate::panels::keys::intervals::keys_between(curve.times(), times),
-                None => 0..curve.times().len(),
-            };
-            let Extent { low, high } = curve.extent(keys);
+            let mut extent = curve.extent(0..curve.times().len());
+            if keys <= LOOKED_AT {
+                extent = extent.with(&curve.extent_between_keys());
+            }
+            let Extent { low, high } = extent;
             for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
                 all = [all[0].min(low[at]), all[1].max(high[at])];
             }
