@@ -58,6 +58,7 @@ mod remembered;
 mod ruler;
 mod screen;
 mod settings;
+mod shape_keys;
 mod stdio;
 mod stdio_journal;
 mod store_full;

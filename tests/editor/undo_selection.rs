@@ -52,6 +52,7 @@ fn undo_of_scaled_keys_selects_the_keys_that_were_selected() {
     animator.drag(grip, end);
     animator.release(end);
     assert_eq!(animator.edited.steps().1, 1);
+    assert_ne!(selected(&animator), [3, 4, 5]);
     animator.request(Request::Command(Id::Undo));
     assert_eq!(selected(&animator), [3, 4, 5]);
 }

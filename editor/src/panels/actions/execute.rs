@@ -76,8 +76,8 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
 
 fn keys_request(workspace: &mut Workspace, request: KeysRequest) -> Option<Effect> {
     match request {
-        KeysRequest::Select { channels, stretch, choice } => {
-            keys::select(workspace, &channels, stretch, choice)
+        KeysRequest::Select { channels, shapes, stretch, choice } => {
+            keys::select(workspace, &channels, shapes, stretch, choice)
         }
         KeysRequest::SelectKeys { parts, choice } => {
             let take = workspace.read().shared_take().cloned();

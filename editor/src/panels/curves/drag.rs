@@ -325,5 +325,10 @@ impl CurveCanvas<'_> {
 
 fn select(on: &CurveKey, choice: Choice) -> Request {
     let stretch = [on.time(); 2];
-    Request::Timeline(KeysRequest::Select { channels: Arc::new([on.curve.id]), stretch, choice })
+    Request::Timeline(KeysRequest::Select {
+        channels: Arc::new([on.curve.id]),
+        shapes: false,
+        stretch,
+        choice,
+    })
 }
