@@ -246,7 +246,8 @@ fn moved_keys_overwrite_keys_at_the_same_time() {
 #[test]
 fn the_last_key_of_a_take_and_the_last_take_cannot_be_deleted() {
     let mut model = model(9);
-    let all = Edit::DeleteKeys(DeleteKeys { take: walk(), keys: vec![KeySet::default()] });
+    let all =
+        Edit::DeleteKeys(DeleteKeys { take: walk(), keys: vec![KeySet::default()], shapes: Vec::new() });
     assert_eq!(model.apply(&all).unwrap_err(), EditError::LastKey);
     for name in ["walk", "stand"] {
         model.apply(&Edit::DeleteTake(DeleteTake { take: TakeRef::Name(name.to_owned()) })).unwrap();

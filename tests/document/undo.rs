@@ -216,3 +216,51 @@ fn undo_back_to_the_saved_state_marks_the_document_as_saved() {
     assert!(!edited.is_saved());
     assert_eq!(edited.labels(), [Some("Rename take"), None]);
 }
+
+#[test]
+fn a_cancelled_gesture_changes_nothing_and_can_be_followed_by_redo() {
+    let mut edited = Edited::new(model(1));
+    let rename = |name: &str| Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() });
+    for name in ["a", "b", "c"] {
+        edited.apply(rename(name), None).unwrap();
+    }
+    edited.mark_saved();
+    let whole = edited.adapter().clone();
+    edited.undo();
+    edited.undo();
+    let before = edited.adapter().clone();
+    let steps = |edited: &Edited| (edited.steps().0.len(), edited.steps().1, edited.saved());
+    for name in ["d", "e"] {
+        edited.apply(rename(name), Some(Gesture(7))).unwrap();
+    }
+    assert_eq!(steps(&edited), (2, 2, None), "until it is cancelled, it replaces what was undone");
+    assert!(edited.cancel(Gesture(7)));
+    assert_eq!(steps(&edited), (3, 1, Some(3)));
+    assert!(same(edited.adapter(), &before));
+    // Again with the same gesture, as a drag that comes back to where it began.
+    edited.apply(rename("f"), Some(Gesture(7))).unwrap();
+    assert!(edited.cancel(Gesture(7)));
+    assert!(edited.redo() && edited.redo() && !edited.redo());
+    assert!(same(edited.adapter(), &whole) && edited.is_saved());
+}
+
+#[test]
+fn a_gesture_that_is_kept_removes_the_undone_steps() {
+    let mut edited = Edited::new(model(1));
+    let rename = |name: &str| Edit::RenameTake(RenameTake { take: TakeRef::Index(0), name: name.to_owned() });
+    for end in [0, 1, 2] {
+        edited.apply(rename("a"), None).unwrap();
+        edited.apply(rename("b"), None).unwrap();
+        edited.undo();
+        let done = edited.steps().1;
+        edited.apply(rename("c"), Some(Gesture(end))).unwrap();
+        match end {
+            0 => edited.end_gesture(),
+            1 => edited.apply(rename("d"), None).unwrap(),
+            _ => assert!(edited.undo() && edited.redo()),
+        }
+        edited.cancel(Gesture(end));
+        assert!(!edited.redo(), "{end}");
+        assert!(edited.steps().1 >= done, "{end}");
+    }
+}

@@ -121,6 +121,7 @@ fn the_status_line_counts_overwritten_keys() {
         let channels = std::sync::Arc::new([(3, Property::Rotation)]);
         let stretch = [animator.key(first), animator.key(last)];
         animator.request(Request::Timeline(KeysRequest::Select {
+            shapes: false,
             channels,
             stretch,
             choice: Choice::Replace,

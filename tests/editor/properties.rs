@@ -339,7 +339,9 @@ fn typed_angles_stay_as_they_were_typed() {
     window.run_steps(2);
     window.state_mut().state.execute(Request::Select(Some(3)));
     window.run_steps(3);
-    assert!(value(&window, "Rotation result Y").unwrap() <= 90.0, "later it is the usual form");
+    let later = ["X", "Y", "Z"].map(|axis| value(&window, &format!("Rotation result {axis}")).unwrap());
+    let same = later.iter().zip(shown).all(|(later, shown)| (later - shown).abs() < 1e-3);
+    assert!(same, "later they are as the curves show them: {later:?}");
 }
 
 #[test]
@@ -508,4 +510,38 @@ fn the_order_of_the_angles_is_chosen_and_remembered() {
     assert_eq!(read.properties, window.state().state.read().settings.properties);
     let unknown = dragonfly::panels::Settings::parse(&text.replace("ZXY", "ABC"));
     assert_eq!(unknown.properties.euler, Default::default());
+}
+
+#[test]
+fn rounding_errors_of_a_translation_are_shown_as_zero() {
+    let mut window = window();
+    let before = window.state().pose(3).translation;
+    let x = before.x + 4e-7;
+    type_into(&mut window, "Translation result X", &format!("{x:e}"), Key::Enter);
+    assert_ne!(window.state().pose(3).translation.x.to_bits(), before.x.to_bits());
+    assert_eq!(value(&window, "Translation change X"), Some(0.0));
+    type_into(&mut window, "Translation result Y", "-4.8e-8", Key::Enter);
+    assert_eq!(window.state().pose(3).translation.y, -4.8e-8);
+    assert_eq!(value(&window, "Translation result Y"), Some(0.0));
+    type_into(&mut window, "Translation result Y", "0.001", Key::Enter);
+    assert_eq!(value(&window, "Translation result Y"), Some(f64::from(0.001_f32)));
+}
+
+#[test]
+fn the_tooltip_of_a_disabled_button_names_the_button_and_the_reason() {
+    let mut window = window();
+    window.get_by_label("History").click();
+    window.run_steps(2);
+    for (button, reason) in
+        [("Linear interpolation", "No key is selected"), ("Undo", "There is nothing to undo")]
+    {
+        let at = window.get_by_label(button).rect().center();
+        window.event(egui::Event::PointerMoved(at));
+        window.run_steps(60);
+        let says = |text: &str| window.query_all_by_label_contains(text).count();
+        assert!(says(reason) > 0, "{button}: the reason");
+        let named = window.query_all_by_label_contains(&format!("{button}\n")).count();
+        let shortcut = window.query_all_by_label_contains(&format!("{button} (")).count();
+        assert!(named + shortcut > 0, "{button}: its name");
+    }
 }

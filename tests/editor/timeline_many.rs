@@ -32,7 +32,7 @@ impl SlowDocument {
         let only = KeysRequest::OnlySelected(false);
         state.execute(Request::Timeline(only));
         let choice = Choice::Replace;
-        state.execute(Request::Timeline(KeysRequest::Select { channels, stretch, choice }));
+        state.execute(Request::Timeline(KeysRequest::Select { channels, shapes: false, stretch, choice }));
         Self { state, edited: view.edited(), view, waiting: Vec::new() }
     }
 

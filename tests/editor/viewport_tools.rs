@@ -214,6 +214,21 @@ fn starting_a_gizmo_drag_pauses_playback() {
 }
 
 #[test]
+fn a_gizmo_grabbed_during_playback_is_dragged_at_a_whole_frame_as_after_a_pause() {
+    for (snaps, whole) in [(true, true), (false, false)] {
+        let mut viewport = arm();
+        viewport.state.execute(Request::Timeline(KeysRequest::Snap(snaps)));
+        viewport.state.execute(Request::Seek(0.345));
+        viewport.command(Id::PlayPause);
+        viewport.press(viewport.handle(Handle::Axis(GizmoAxis::X)));
+        assert!(!viewport.state.read().playback.playing);
+        let state = viewport.state.read();
+        let frames = state.time() * state.settings.frame_rate as f32;
+        assert_eq!((frames - frames.round()).abs() < 1e-3, whole, "frame {frames}, snapping: {snaps}");
+    }
+}
+
+#[test]
 fn clicks_boxes_and_lassos_select_bones_with_the_held_modifiers() {
     let mut viewport = arm();
     viewport.command(Id::ToolSelect);

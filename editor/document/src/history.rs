@@ -30,6 +30,14 @@ pub struct HistoryStep {
     bytes: usize,
 }
 
+/// Undone steps that a gesture removed, and the saved states as they were then.
+#[derive(Clone, Debug)]
+struct RemovedSteps {
+    steps: Vec<HistoryStep>,
+    saved: Option<usize>,
+    saving: Option<usize>,
+}
+
 /// A model's takes with their history.
 #[derive(Clone, Debug)]
 pub struct Edited {
@@ -45,6 +53,8 @@ pub struct Edited {
     bytes: usize,
     /// Whether the oldest steps were removed because there were too many.
     cut: bool,
+    /// The undone steps that the gesture in progress removed; they come back if it is cancelled.
+    removed: Option<RemovedSteps>,
     /// State of the drag, where the last step is a pose that is being dragged.
     drag: Option<ValueDrag>,
 }
@@ -53,7 +63,7 @@ impl Edited {
     /// Creates an empty history.
     pub fn new(adapter: ModelAdapter) -> Self {
         let (steps, saved) = (VecDeque::new(), Some(0));
-        Self { adapter, steps, done: 0, saved, saving: None, bytes: 0, cut: false, drag: None }
+        Self { adapter, steps, done: 0, saved, saving: None, bytes: 0, cut: false, removed: None, drag: None }
     }
 
     /// Returns the takes as they are now.
@@ -79,7 +89,7 @@ impl Edited {
     /// Applies an edit as a step. All edits of one gesture are one step: each replaces the previous one, and
     /// applies to the document as it was when the gesture started.
     ///
-    /// Undone steps are removed.
+    /// Undone steps are removed; those that a gesture removes come back if it is cancelled.
     ///
     /// # Errors
     ///
@@ -112,7 +122,13 @@ impl Edited {
         };
         let inverse = adapter.apply(&edit)?;
         self.adapter = adapter;
-        self.forget_after(if goes_on { self.done - 1 } else { self.done });
+        if goes_on {
+            self.forget_after(self.done - 1);
+        } else {
+            let (saved, saving) = (self.saved, self.saving);
+            let steps = self.forget_after(self.done);
+            self.removed = gesture.map(|_| RemovedSteps { steps, saved, saving });
+        }
         let kept = self.steps.len();
         self.lose_saves(|saved| saved > kept);
         self.drag = gesture.and_then(|_| ValueDrag::of(&self.adapter, &edit, &inverse));
@@ -129,8 +145,14 @@ impl Edited {
         let is_last = self.done == self.steps.len();
         let its_step = self.steps.back().is_some_and(|step| step.gesture == Some(gesture));
         if is_last && its_step {
+            let removed = self.removed.take();
             self.undo();
             self.forget_after(self.done);
+            if let Some(RemovedSteps { steps, saved, saving }) = removed {
+                self.bytes += steps.iter().map(|step| step.bytes).sum::<usize>();
+                self.steps.extend(steps);
+                (self.saved, self.saving) = (saved, saving);
+            }
         }
         is_last && its_step
     }
@@ -150,7 +172,7 @@ impl Edited {
         if done > self.steps.len() {
             return false;
         }
-        self.drag = None;
+        (self.drag, self.removed) = (None, None);
         while self.done != done {
             let at = if done < self.done { self.done - 1 } else { self.done };
             let step = &mut self.steps[at];
@@ -168,6 +190,7 @@ impl Edited {
 
     /// Marks the present state as saved.
     pub fn mark_saved(&mut self) {
+        self.removed = None;
         self.saved = Some(self.done);
     }
 
@@ -182,6 +205,12 @@ impl Edited {
         let saving = self.saving.take();
         if succeeded {
             self.saved = saving;
+        }
+        if let Some(removed) = &mut self.removed {
+            let saving = removed.saving.take();
+            if succeeded {
+                removed.saved = saving;
+            }
         }
     }
 
@@ -220,13 +249,17 @@ impl Edited {
 
     /// Ends the last gesture: later edits are separate steps.
     pub fn end_gesture(&mut self) {
+        self.removed = None;
         if let Some(step) = self.steps.back_mut() {
             step.gesture = None;
         }
     }
 
-    fn forget_after(&mut self, kept: usize) {
-        self.bytes -= self.steps.drain(kept..).map(|step| step.bytes).sum::<usize>();
+    /// Removes the steps after the first `kept`. Returns them.
+    fn forget_after(&mut self, kept: usize) -> Vec<HistoryStep> {
+        let steps: Vec<_> = self.steps.drain(kept..).collect();
+        self.bytes -= steps.iter().map(|step| step.bytes).sum::<usize>();
+        steps
     }
 
     fn forget_oldest(&mut self) {
@@ -235,7 +268,9 @@ impl Edited {
             self.bytes -= self.steps.pop_front().map_or(0, |step| step.bytes);
             self.done -= 1;
             self.cut = true;
-            for saved in [&mut self.saved, &mut self.saving] {
+            let removed =
+                self.removed.iter_mut().flat_map(|removed| [&mut removed.saved, &mut removed.saving]);
+            for saved in [&mut self.saved, &mut self.saving].into_iter().chain(removed) {
                 *saved = saved.and_then(|saved| saved.checked_sub(1));
             }
         }

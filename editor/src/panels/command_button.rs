@@ -6,7 +6,8 @@ use super::request::Request;
 use super::widgets::{hint_beside, icon_button};
 use egui::{Response, Ui};
 
-/// Draws a square button with an icon that runs a command; highlighted when `on`. Its tooltip contains the shortcut.
+/// Draws a square button with an icon that runs a command; highlighted when `on`. Its tooltip contains the
+/// shortcut, and where the button is disabled the reason.
 pub(super) fn command_button(
     ui: &mut Ui,
     icon: Icon,
@@ -15,7 +16,8 @@ pub(super) fn command_button(
     requests: &mut Vec<Request>,
 ) -> Response {
     let hint = commands::tooltip(ui.ctx(), id);
-    command(ui, icon, id, on, requests).on_hover_text(hint)
+    let why = format!("{hint}\n{}", commands::get(id).when.reason());
+    command(ui, icon, id, on, requests).on_hover_text(hint).on_disabled_hover_text(why)
 }
 
 /// Draws [`command_button`] in a column of buttons: the tooltip is at the right and does not cover the next one.

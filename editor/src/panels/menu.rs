@@ -63,7 +63,8 @@ pub(super) fn item(ui: &mut Ui, context: &PanelContext<'_>, id: Id, on: bool, re
     });
     let button = Button::new(title).shortcut_text(shortcut).frame_when_inactive(false);
     let response = ui.add_enabled(command.when.holds(context), button);
-    if response.on_hover_text(command.help).on_disabled_hover_text(command.when.reason()).clicked() {
+    let why = format!("{}\n{}", command.help, command.when.reason());
+    if response.on_hover_text(command.help).on_disabled_hover_text(why).clicked() {
         requests.push(Request::Command(id));
         ui.close();
     }

@@ -50,6 +50,7 @@ pub mod request;
 pub mod ruler;
 mod search_field;
 mod selected_bones;
+mod selection_steps;
 pub mod settings;
 mod shortcuts;
 pub mod side_files;

@@ -1,7 +1,8 @@
-//! The command palette: finds every command and every take by typed text.
+//! The command palette: finds every command, every take and every gesture of the mouse by typed text.
 
-use super::commands::{self, Command, Id};
+use super::commands::{self, Command, Id, MOUSE};
 use super::context::PanelContext;
+use super::overlay::Overlay;
 use super::request::Request;
 use super::style::{self, ROW};
 use super::theme::Theme;
@@ -9,6 +10,7 @@ use super::widgets;
 use egui::{
     Align2, FontId, Key, Margin, Modifiers, Rect, RichText, ScrollArea, TextEdit, TextStyle, Ui, pos2,
 };
+use std::borrow::Cow;
 
 /// Largest number of takes that are listed: more are found by typing on.
 const TAKES: usize = 50;
@@ -26,6 +28,8 @@ enum PaletteEntry<'a> {
     Command(&'static Command),
     /// Index of the take, and its name.
     Take(usize, &'a str),
+    /// A gesture of the mouse, and its action.
+    Gesture(&'static str, &'static str),
 }
 
 impl Palette {
@@ -102,10 +106,13 @@ fn search<'a>(query: &str, context: &'a PanelContext<'a>) -> Vec<PaletteEntry<'a
     let takes = if words.is_empty() { &[][..] } else { &context.digest.takes };
     let takes = takes.iter().enumerate().map(|(index, take)| PaletteEntry::Take(index, &take.name));
     let takes = takes.filter(|entry| has(&entry.about())).take(TAKES);
+    let gestures = if words.is_empty() { &[][..] } else { MOUSE };
+    let gestures = gestures.iter().map(|(gesture, action)| PaletteEntry::Gesture(gesture, action));
+    let gestures = gestures.filter(|entry| has(&entry.about()));
     let mut found: Vec<PaletteEntry<'_>> =
-        commands.filter(|entry| has(&entry.about())).chain(takes).collect();
-    // Matches in the title come first, and commands that are not available now come last, with the reason.
-    found.sort_by_key(|entry| (!has(entry.title()), !entry.is_able(context)));
+        commands.filter(|entry| has(&entry.about())).chain(takes).chain(gestures).collect();
+    // Matches in the title come first, then commands that are not available now, with the reason, and gestures last.
+    found.sort_by_key(|entry| (entry.is_gesture(), !has(entry.title()), !entry.is_able(context)));
     found
 }
 
@@ -114,7 +121,12 @@ impl<'a> PaletteEntry<'a> {
         match self {
             Self::Command(command) => command.title,
             Self::Take(_, name) => name,
+            Self::Gesture(_, action) => action,
         }
+    }
+
+    fn is_gesture(self) -> bool {
+        matches!(self, Self::Gesture(..))
     }
 
     /// Returns the category that is shown next to the title.
@@ -122,19 +134,24 @@ impl<'a> PaletteEntry<'a> {
         match self {
             Self::Command(command) => commands::category_of(command.id).title(),
             Self::Take(..) => "Show take",
+            Self::Gesture(..) => "Mouse",
         }
     }
 
     /// Returns the text that is searched.
     fn about(self) -> String {
-        let help = if let Self::Command(command) = self { command.help } else { "" };
+        let help = match self {
+            Self::Command(command) => command.help,
+            Self::Take(..) => "",
+            Self::Gesture(gesture, _) => gesture,
+        };
         format!("{} {} {help}", self.category(), self.title())
     }
 
     fn is_able(self, context: &PanelContext<'_>) -> bool {
         match self {
             Self::Command(command) => command.when.holds(context),
-            Self::Take(..) => true,
+            Self::Take(..) | Self::Gesture(..) => true,
         }
     }
 
@@ -142,12 +159,18 @@ impl<'a> PaletteEntry<'a> {
         match self {
             Self::Command(command) => Request::Command(command.id),
             Self::Take(index, _) => Request::ShowTake(Some(index)),
+            // The sheet lists all gestures.
+            Self::Gesture(..) => Request::Overlay(Some(Overlay::Shortcuts)),
         }
     }
 
     fn row(self, ui: &mut Ui, context: &PanelContext<'_>, chosen: bool) -> egui::Response {
         let theme = Theme::of(ui);
-        let (rect, response) = widgets::row(ui, self.title(), chosen, false);
+        let name = match self {
+            Self::Gesture(gesture, action) => Cow::Owned(format!("{action}: {gesture}")),
+            Self::Command(_) | Self::Take(..) => Cow::Borrowed(self.title()),
+        };
+        let (rect, response) = widgets::row(ui, &name, chosen, false);
         let able = self.is_able(context);
         let color = match (able, chosen) {
             (false, _) => theme.faint,
@@ -166,6 +189,7 @@ impl<'a> PaletteEntry<'a> {
             }
             Self::Command(command) => (commands::shortcut_text(ui.ctx(), command.id), self.category()),
             Self::Take(..) => (String::new(), self.category()),
+            Self::Gesture(gesture, _) => (gesture.to_owned(), self.category()),
         };
         let at = pos2(rect.right() - 12.0, rect.center().y);
         let keys = ui.painter().text(at, Align2::RIGHT_CENTER, shortcut, font.clone(), theme.weak);

@@ -2,6 +2,7 @@
 
 use super::commands::id::Id;
 use super::commands::key_settings::KeySettings;
+use super::curves::given::GivenCurve;
 use super::keys::request::KeysRequest;
 use super::overlay::Overlay;
 use super::properties::look::PropertiesLook;
@@ -11,6 +12,7 @@ use dragonfly_document::bones::Choice;
 use dragonfly_document::{Change, DocumentMessage, Offer, Source, Then};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::OwnedRegion;
+use std::sync::Arc;
 
 /// A request of a panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +34,8 @@ pub enum Request {
     },
     /// A request about keys.
     Timeline(KeysRequest),
+    /// Shows these angles of rotation keys, of all that describe the same rotations.
+    Angles(Arc<GivenCurve>),
     /// Pastes the poses or the keys in a text from the clipboard.
     PastePose {
         /// The text of the clipboard.

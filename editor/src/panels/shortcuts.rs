@@ -44,9 +44,7 @@ impl ShortcutSheet {
                     before += commands::of(*category).len();
                     self.sheet(&mut columns[column], *category, &context.settings.keys, requests);
                 }
-                if self.query.is_empty() {
-                    mouse(&mut columns[0]);
-                }
+                mouse(&mut columns[0], &self.query);
             });
         });
         let hint = if self.note.is_empty() { "Click a shortcut to change it" } else { &self.note };
@@ -220,9 +218,19 @@ fn cap(ui: &mut Ui, title: &str, text: &str, asked: bool) -> egui::Response {
     response
 }
 
-fn mouse(ui: &mut Ui) {
+/// Draws the gestures of the mouse that contain every word of `query`.
+fn mouse(ui: &mut Ui, query: &str) {
+    let query = query.to_lowercase();
+    let finds = |(gesture, action): &&(&str, &str)| {
+        let text = format!("{gesture} {action}").to_lowercase();
+        query.split_whitespace().all(|word| text.contains(word))
+    };
+    let found: Vec<_> = MOUSE.iter().filter(finds).collect();
+    if found.is_empty() {
+        return;
+    }
     heading(ui, "Mouse");
-    for (gesture, action) in MOUSE {
+    for (gesture, action) in found {
         line(ui, action, |ui| {
             ui.label(RichText::new(*gesture).small().color(Theme::of(ui).weak));
         });

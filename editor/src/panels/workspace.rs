@@ -2,6 +2,7 @@
 
 use super::camera_state::CameraState;
 use super::context::PanelContext;
+use super::curves::given::GivenAngles;
 use super::dragging::Dragging;
 use super::keys::KeyEditing;
 use super::marks::Marks;
@@ -10,11 +11,13 @@ use super::player::Player;
 use super::posed::PoseCache;
 use super::prompts::Prompts;
 use super::selected_bones::SelectedBones;
+use super::selection_steps::{SelectionState, SelectionSteps};
 use super::settings::Settings;
 use super::status::{MessageSeverity, Status};
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
+use dragonfly_document::bones::Choice;
 use std::time::Instant;
 
 /// The owners of the state. A command gets all of them and calls the methods of those that it concerns.
@@ -29,6 +32,10 @@ pub(super) struct Workspace {
     pub(super) bones: SelectedBones,
     /// Selection and drag of keys, flags, markers, the play range.
     pub(super) keys: KeyEditing,
+    /// The selections around the steps of the history.
+    pub(super) selections: SelectionSteps,
+    /// The angles that were given to rotation keys.
+    pub(super) given: GivenAngles,
     /// The list of takes.
     pub(super) takes: TakeListState,
     /// The tools of the viewport.
@@ -58,6 +65,8 @@ impl Workspace {
             player: Player::new(settings.speed, settings.repeat, now),
             bones: SelectedBones::default(),
             keys: KeyEditing::of(settings.timeline),
+            selections: SelectionSteps::default(),
+            given: GivenAngles::default(),
             takes: TakeListState::default(),
             tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
             camera: CameraState::default(),
@@ -87,6 +96,7 @@ impl Workspace {
             playback: self.player.playback(),
             now: self.player.now(),
             keys: &self.keys,
+            given: &self.given,
             takes: &self.takes,
             camera: *self.camera.camera(),
             viewport: self.camera.viewport(),
@@ -98,6 +108,20 @@ impl Workspace {
             overlay: self.prompts.overlay(),
             find: self.prompts.finds(),
             window: &self.window,
+        }
+    }
+
+    /// Returns the selected bones and keys.
+    pub(super) fn selection_state(&self) -> SelectionState {
+        let take = self.read().slot().map(|slot| slot.id);
+        SelectionState { bones: self.bones.bones().to_vec(), keys: self.keys.selection().clone(), take }
+    }
+
+    /// Selects the bones and keys that were selected before; the keys only if their take is shown.
+    pub(super) fn restore_selection(&mut self, selection: &SelectionState) {
+        self.bones.choose(&selection.bones, Choice::Replace);
+        if selection.take.is_some() && selection.take == self.read().slot().map(|slot| slot.id) {
+            self.keys.restore(&selection.keys);
         }
     }
 

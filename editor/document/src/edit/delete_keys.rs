@@ -1,10 +1,10 @@
 //! Deletes keys (thesis §2.2.2.4).
 
 use super::kind::EditKind;
-use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef};
-use crate::adapter::EditError;
+use super::{Arbitrary, EditedBones, Example, KeySet, SAME_TIME, TakeRef};
 use crate::adapter::op::Op;
-use crate::adapter::plan::Transaction;
+use crate::adapter::plan::{Transaction, finite, morph};
+use crate::adapter::{EditError, TakeId};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,8 +15,12 @@ use serde::{Deserialize, Serialize};
 pub struct DeleteKeys {
     /// The take.
     pub take: TakeRef,
-    /// The keys.
+    /// The keys of bones.
     pub keys: Vec<KeySet>,
+    /// Stretches of time, start and end in seconds, in which keys of morph targets are deleted. Each of their tracks keeps
+    /// one key.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shapes: Vec<[f32; 2]>,
 }
 
 impl EditKind for DeleteKeys {
@@ -43,6 +47,10 @@ impl EditKind for DeleteKeys {
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let take = work.take(&self.take)?;
+        if self.keys.is_empty() && !self.shapes.is_empty() {
+            let deletes = self.delete_shapes(work, take)?;
+            return if deletes { Ok(()) } else { Err(EditError::Nothing("no key is selected")) };
+        }
         let found = work.keys(take, &self.keys)?;
         let deleted: usize = found.iter().map(|(_, keys)| keys.len()).sum();
         // Keys of morph targets do not count: they belong to no bone.
@@ -53,10 +61,36 @@ impl EditKind for DeleteKeys {
         for (address, keys) in found {
             work.perform(Op::Splice(address, keys, Vec::new()));
         }
-        Ok(())
+        self.delete_shapes(work, take).map(drop)
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        Self { take: from.take(), keys: from.keys() }
+        let (take, keys) = (from.take(), from.keys());
+        let time = from.time();
+        let shapes = if from.flag() { vec![[time - 0.2, time + 0.3]] } else { Vec::new() };
+        Self { take, keys, shapes }
+    }
+}
+
+impl DeleteKeys {
+    /// Deletes keys of morph targets. Returns whether there were any.
+    fn delete_shapes(&self, work: &mut Transaction, take: TakeId) -> Result<bool, EditError> {
+        for time in self.shapes.iter().flatten() {
+            finite("the time", *time)?;
+        }
+        let gone = |time: f32| {
+            self.shapes.iter().any(|[from, to]| time >= from - SAME_TIME && time <= to + SAME_TIME)
+        };
+        let tracks = &work.slot(take).original.morphs;
+        if !tracks.iter().any(|track| track.times.iter().any(|&time| gone(time))) {
+            return Ok(false);
+        }
+        if tracks.iter().any(|track| !track.times.is_empty() && track.times.iter().all(|&time| gone(time))) {
+            return Err(EditError::LastKey);
+        }
+        let kept = |time: f32| (!gone(time)).then_some(time);
+        let tracks = tracks.iter().map(|track| morph::mapped(track, kept, 1.0)).collect();
+        work.perform(Op::Morphs(take, tracks));
+        Ok(true)
     }
 }

@@ -5,6 +5,7 @@ use crate::panels::dragging::Admission;
 use crate::panels::keys::drag::KeyDrag;
 use crate::panels::keys::{ChannelId, KeyDragOp, KeySelection, channel};
 use crate::panels::request::Effect;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::Take;
 use dragonfly_document::Change;
@@ -67,7 +68,14 @@ fn pass_change(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(
 
 /// Assigns a number to a change, shows its result before the document answers if possible, and passes it on.
 fn send(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(Effect)) {
+    // Movements of a drag are not noted, and allocate nothing.
+    let selection = workspace.selections.notes(&change).then(|| workspace.selection_state());
     let number = workspace.model.send(&change, &mut workspace.dragging.echo);
+    if let Some(selection) = selection {
+        workspace.selections.send(number, &change, selection);
+    } else if let Change::Cancel(gesture) = &change {
+        workspace.selections.cancel(*gesture);
+    }
     if let Change::Edit(_, Some(gesture)) | Change::Cancel(gesture) = change {
         workspace.keys.sent(gesture, number);
         let take = workspace.read().shared_take().cloned();
@@ -123,7 +131,11 @@ pub(in crate::panels) fn drag_keys(workspace: &mut Workspace, op: KeyDragOp) -> 
             | KeyDragOp::Snap(_)
             | KeyDragOp::Edit(_) => panels.keys.selection().clone(),
         };
-        if moving.is_empty() && !matches!(op, KeyDragOp::Edit(_)) {
+        if moving.channels().next().is_none() && !matches!(op, KeyDragOp::Edit(_)) {
+            if !moving.is_empty() {
+                let text = "Keys of shapes can be deleted, but not moved or copied";
+                workspace.say(MessageSeverity::Info, text);
+            }
             return None;
         }
         let gesture = workspace.dragging.new_gesture();

@@ -45,6 +45,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
             workspace.bones.choose(&bones, choice);
         }
         Request::Hide { bones, hide } => workspace.bones.hide(&bones, hide),
+        Request::Angles(given) => workspace.given.give(given),
         Request::Timeline(request) => return keys_request(workspace, request),
         Request::Change(change) => return Some(Effect::Change(change)),
         Request::PastePose { text, mirrored } => return clipboard::paste(workspace, &text, mirrored),
@@ -75,8 +76,8 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
 
 fn keys_request(workspace: &mut Workspace, request: KeysRequest) -> Option<Effect> {
     match request {
-        KeysRequest::Select { channels, stretch, choice } => {
-            keys::select(workspace, &channels, stretch, choice)
+        KeysRequest::Select { channels, shapes, stretch, choice } => {
+            keys::select(workspace, &channels, shapes, stretch, choice)
         }
         KeysRequest::SelectKeys { parts, choice } => {
             let take = workspace.read().shared_take().cloned();

@@ -16,9 +16,15 @@ use dragonfly_document::{Change, View};
 use std::collections::BTreeMap;
 
 /// Selects the keys of channels between two times, except those of locked bones.
-pub(super) fn select(workspace: &mut Workspace, channels: &[ChannelId], stretch: [f32; 2], choice: Choice) {
+pub(super) fn select(
+    workspace: &mut Workspace,
+    channels: &[ChannelId],
+    shapes: bool,
+    stretch: [f32; 2],
+    choice: Choice,
+) {
     let Some(take) = workspace.read().shared_take().cloned() else { return workspace.keys.gain_focus() };
-    if let Some(locked) = workspace.keys.select(&take, channels, stretch, choice) {
+    if let Some(locked) = workspace.keys.select(&take, channels, shapes, stretch, choice) {
         locks::say_locked(workspace, locked);
     }
 }
@@ -28,7 +34,7 @@ pub(in crate::panels) fn select_all(workspace: &mut Workspace) {
     let Some(take) = workspace.read().shared_take().cloned() else { return };
     let bones = workspace.read().listed_bones();
     let channels: Vec<ChannelId> = bones.iter().flat_map(|&bone| channel::channels(&take, bone)).collect();
-    select(workspace, &channels, WHOLE, Choice::Replace);
+    select(workspace, &channels, false, WHOLE, Choice::Replace);
 }
 
 /// Cancels a drag of keys, or closes the overlay, or deselects bones and keys.
@@ -47,8 +53,9 @@ pub(in crate::panels) fn cancel_or_deselect(workspace: &mut Workspace) -> Option
 /// Deletes the selected keys.
 pub(in crate::panels) fn delete(workspace: &mut Workspace) -> Option<Effect> {
     let panels = workspace.read();
-    let keys = panels.keys.selection().key_sets(panels.take()?);
-    Some(edit(Edit::DeleteKeys(DeleteKeys { take: panels.take_ref()?, keys })))
+    let (selection, shown) = (panels.keys.selection(), panels.take()?);
+    let (keys, shapes) = (selection.key_sets(shown), selection.shapes().stretches().to_vec());
+    Some(edit(Edit::DeleteKeys(DeleteKeys { take: panels.take_ref()?, keys, shapes })))
 }
 
 /// Applies an operation to the selected keys, as a drag that ends at once.

@@ -10,6 +10,7 @@ use dragonfly_picture::playback::Repeat;
 /// Shows a take from its start; playback keeps running or stays paused.
 pub(in crate::panels) fn show_take(workspace: &mut Workspace, index: Option<usize>) {
     workspace.keys.before_take_change();
+    workspace.given.forget();
     let take = index.and_then(|index| workspace.model.takes().get(index));
     let bounds = take.map(|take| (take.start, take.length));
     workspace.player.show(index, bounds);
@@ -61,10 +62,7 @@ pub(in crate::panels) fn bound_playback(workspace: &mut Workspace) {
 pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
     let speed = workspace.settings.speed * direction;
     if workspace.player.is_playing() && workspace.player.playback().speed == speed {
-        let (time, rate) = (workspace.player.time(), workspace.settings.frame_rate);
-        // New keys are added at the time where playback stops, and with snapping on keys are at whole frames.
-        let frame = ruler::time_of(ruler::frame_of(time, rate), rate);
-        return stop_at(workspace, if workspace.keys.snap() { frame } else { time });
+        return pause(workspace);
     }
     let bounds = workspace.read().play_bounds();
     if bounds.1 <= 0.0 {
@@ -73,11 +71,13 @@ pub(in crate::panels) fn play(workspace: &mut Workspace, direction: f32) {
     workspace.player.play(bounds, speed);
 }
 
-/// Pauses playback at the time shown, if it is running.
+/// Pauses playback at the time shown, if it is running; with snapping on at the nearest whole frame.
 pub(in crate::panels) fn pause(workspace: &mut Workspace) {
     if workspace.player.is_playing() {
-        let time = workspace.player.time();
-        stop_at(workspace, time);
+        let (time, rate) = (workspace.player.time(), workspace.settings.frame_rate);
+        // New keys are added at the time where playback stops, and with snapping on keys are at whole frames.
+        let frame = ruler::time_of(ruler::frame_of(time, rate), rate);
+        stop_at(workspace, if workspace.keys.snap() { frame } else { time });
     }
 }
 

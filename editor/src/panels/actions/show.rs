@@ -34,10 +34,12 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
 
 /// Shows a newer view of the document. If it is of another model, plays the first take that moves from its start.
 pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
+    let (answered, done) = (view.answered, view.history.done);
     let view = workspace.model.receive(view, &mut workspace.dragging.echo);
     if workspace.model.is_replaced_by(&view) {
         note_marks(workspace);
         workspace.model.replace(view);
+        workspace.selections.open(done);
         return show_model(workspace);
     }
     let before = workspace.model.replace(view);
@@ -50,6 +52,9 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     }
     drags::settle_keys(workspace);
     playback::keep_take(workspace);
+    if let Some(selection) = workspace.selections.receive(answered, done) {
+        workspace.restore_selection(&selection);
+    }
 }
 
 /// Shows a model that was just opened.

@@ -45,7 +45,7 @@ pub fn of(category: Category) -> &'static [Command] {
     TABLE.iter().find(|(other, _)| *other == category).map_or(&[], |(_, commands)| commands)
 }
 
-/// The actions of the mouse in the viewport, for the shortcut sheet.
+/// The actions of the mouse in the viewport, the timeline and the curves, for the shortcut sheet and the palette.
 pub const MOUSE: &[(&str, &str)] = &[
     ("Middle drag, Alt + left drag", "Orbit"),
     ("Shift + middle drag, Alt + middle drag", "Pan"),
@@ -60,6 +60,15 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Enter, Esc while dragging", "Confirm, cancel (also: right button)"),
     ("Drag the axes", "Orbit"),
     ("Alt + wheel over the timeline", "Step frame by frame"),
+    ("Wheel over the timeline or the curves", "Zoom the time"),
+    ("Shift + wheel over the timeline or the curves", "Pan in time"),
+    ("Ctrl + wheel over the curves", "Zoom the values"),
+    ("Middle drag over the timeline or the curves", "Pan (also: Alt + Shift + drag)"),
+    ("2 + drag keys", "Ripple: move all later keys as well"),
+    ("Alt + drag keys, Shift + drag selected keys", "Duplicate keys"),
+    ("Ctrl while dragging keys", "Invert snapping"),
+    ("Alt + click a key", "Select the keys of all listed bones at that time"),
+    ("Alt + drag a tangent", "Break the tangent: change one side alone"),
 ];
 
 /// Returns the row of `id`.

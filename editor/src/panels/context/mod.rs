@@ -4,6 +4,7 @@ mod ik;
 mod keys;
 mod pose;
 
+use super::curves::given::GivenAngles;
 use super::digest::Digest;
 use super::dragging::Dragging;
 use super::keys::KeyEditing;
@@ -58,6 +59,8 @@ pub struct PanelContext<'a> {
     pub now: Instant,
     /// Selection and drag of keys, flags, markers, the play range.
     pub keys: &'a KeyEditing,
+    /// The angles that were given to rotation keys.
+    pub given: &'a GivenAngles,
     /// The list of takes.
     pub takes: &'a TakeListState,
     /// The camera.

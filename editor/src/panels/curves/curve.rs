@@ -2,6 +2,7 @@
 //! so that a column of pixels costs the same whether it contains one key or a thousand.
 
 use super::form::RotationForm;
+use super::given::GivenCurve;
 use crate::panels::keys::intervals::Intervals;
 use crate::panels::keys::{ChannelId, channel};
 use dragonfly_anim::data::{Channel, Interpolation, Take};
@@ -12,7 +13,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Numbers of a key; the fourth of a vector is 0.
-pub(super) type CurveNumbers = [f32; 4];
+pub(in crate::panels) type CurveNumbers = [f32; 4];
 
 /// The columns of a channel.
 #[derive(Clone, Debug)]
@@ -23,10 +24,12 @@ enum CurveColumns {
 
 /// The curve of a channel.
 #[derive(Clone, Debug)]
-pub(super) struct Curve {
+pub(in crate::panels) struct Curve {
     pub(super) id: ChannelId,
     columns: CurveColumns,
     form: RotationForm,
+    /// Number of the angles that were given to its keys; 0 if there are none.
+    given: u64,
     numbers: Vec<CurveNumbers>,
     /// Extents of blocks of keys; a block of each level is [`BLOCK`] blocks of the one before.
     levels: Vec<Vec<Extent>>,
@@ -45,7 +48,7 @@ const BLOCK: usize = 16;
 impl Extent {
     pub(super) const NONE: Self = Self { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] };
 
-    fn with(mut self, other: &Self) -> Self {
+    pub(super) fn with(mut self, other: &Self) -> Self {
         for at in 0..4 {
             self.low[at] = self.low[at].min(other.low[at]);
             self.high[at] = self.high[at].max(other.high[at]);
@@ -67,19 +70,19 @@ pub(super) struct Slopes {
 
 impl Curve {
     /// Returns the curve of a channel, not yet computed; `None` if the channel has no keys.
-    pub(super) fn new(take: &Take, id: ChannelId, form: RotationForm) -> Option<Self> {
+    pub(super) fn new(take: &Take, id: ChannelId, form: RotationForm, given: u64) -> Option<Self> {
         let track = channel::track(take, id.0)?;
         let columns = match id.1 {
             Property::Translation => CurveColumns::Vector(track.translation.clone()),
             Property::Scale => CurveColumns::Vector(track.scale.clone()),
             Property::Rotation => CurveColumns::Turn(track.rotation.clone()),
         };
-        let curve = Self { id, columns, form, numbers: Vec::new(), levels: Vec::new(), whole: false };
+        let curve = Self { id, columns, form, given, numbers: Vec::new(), levels: Vec::new(), whole: false };
         (!curve.times().is_empty()).then_some(curve)
     }
 
-    /// Whether the curve was made from these columns and in this form.
-    pub(super) fn is_of(&self, take: &Take, form: RotationForm) -> bool {
+    /// Whether the curve was made from these columns, in this form and with these given angles.
+    pub(super) fn is_of(&self, take: &Take, form: RotationForm, given: u64) -> bool {
         let Some(track) = channel::track(take, self.id.0) else { return false };
         let same = |channel: &Channel<Vec3>, other: &Channel<Vec3>| {
             Arc::ptr_eq(&channel.times, &other.times)
@@ -91,7 +94,7 @@ impl Curve {
             (CurveColumns::Vector(channel), Property::Scale) => same(channel, &track.scale),
             (CurveColumns::Turn(channel), _) => {
                 let other = &track.rotation;
-                self.form == form
+                (self.form, self.given) == (form, given)
                     && Arc::ptr_eq(&channel.times, &other.times)
                     && Arc::ptr_eq(&channel.values, &other.values)
                     && channel.interpolation == other.interpolation
@@ -124,19 +127,25 @@ impl Curve {
         self.whole
     }
 
-    /// Computes more keys, at most `budget`, and subtracts their number from it.
-    pub(super) fn compute(&mut self, budget: &mut usize) {
+    /// Computes more keys, at most `budget`, and subtracts their number from it. A key has the angles that it was given,
+    /// or those nearest to the key before.
+    pub(super) fn compute(&mut self, budget: &mut usize, given: Option<&GivenCurve>) {
         if self.whole {
             return;
         }
         let count = self.times().len();
         let until = (self.numbers.len() + *budget).min(count);
         *budget -= until - self.numbers.len();
-        let mut near = self.numbers.last().copied().unwrap_or_default();
+        let first = || given.map(GivenCurve::first).unwrap_or_default();
+        let mut near = self.numbers.last().copied().unwrap_or_else(first);
         for key in self.numbers.len()..until {
             near = match &self.columns {
                 CurveColumns::Vector(channel) => vector(channel.value(key).unwrap_or_default()),
-                CurveColumns::Turn(channel) => self.form.of(channel.value(key).unwrap_or_default(), near),
+                CurveColumns::Turn(channel) => {
+                    let rotation = channel.value(key).unwrap_or_default();
+                    let given = given.and_then(|given| given.numbers(key, channel.times[key], rotation));
+                    given.unwrap_or_else(|| self.form.of(rotation, near))
+                }
             };
             self.numbers.push(near);
         }
@@ -149,6 +158,25 @@ impl Curve {
     /// Returns the numbers of a key; zeros if there is none.
     pub(super) fn key(&self, key: usize) -> CurveNumbers {
         self.numbers.get(key).copied().unwrap_or_default()
+    }
+
+    /// Returns the rotation of a key; `None` if the curve is of another property.
+    pub(super) fn turn(&self, key: usize) -> Option<Quat> {
+        match &self.columns {
+            CurveColumns::Vector(_) => None,
+            CurveColumns::Turn(channel) => channel.value(key),
+        }
+    }
+
+    /// Returns the numbers at a time, as the curve is drawn there: continued from the key before.
+    pub(in crate::panels) fn drawn_at(&self, time: f32) -> CurveNumbers {
+        /// Number of samples between the key and the time.
+        const STEPS: u8 = 8;
+        let key = self.times().partition_point(|&key| key <= time).saturating_sub(1);
+        let from = self.times().get(key).copied().unwrap_or(time).min(time);
+        (1..=STEPS).fold(self.key(key), |near, step| {
+            self.at(from + (time - from) * (f32::from(step) / f32::from(STEPS)), near)
+        })
     }
 
     /// Returns the extent of some keys.
@@ -180,6 +208,25 @@ impl Curve {
             }
             (from, to) = (from / BLOCK, to / BLOCK);
             below = Some(&self.levels[level]);
+        }
+        found
+    }
+
+    /// Returns the extent of the curve between its keys, where it may go beyond them.
+    pub(super) fn extent_between_keys(&self) -> Extent {
+        /// Number of samples between two keys.
+        const STEPS: u8 = 8;
+        let mut found = Extent::NONE;
+        let steps = matches!(self.interpolation(), Interpolation::Step | Interpolation::Closest);
+        if steps || self.is_straight() {
+            return found;
+        }
+        for (key, times) in self.times().windows(2).enumerate() {
+            let mut near = self.key(key);
+            for step in 1..STEPS {
+                near = self.at(times[0] + (times[1] - times[0]) * (f32::from(step) / f32::from(STEPS)), near);
+                found = found.with(&Extent::of(&near));
+            }
         }
         found
     }
@@ -277,6 +324,7 @@ mod tests {
                 id: (0, Property::Translation),
                 columns: CurveColumns::Vector(channel),
                 form: RotationForm::default(),
+                given: 0,
                 levels: levels(&numbers),
                 numbers,
                 whole: true,

@@ -3,7 +3,7 @@
 use super::canvas::{CurveCanvas, CurveKey, CurveTarget, component_name};
 use super::curve::Curve;
 use super::tangents::TangentHandle;
-use super::values::{ValueKey, value_edit};
+use super::values::{ValueKey, given_angles, value_edit};
 use crate::panels::dope::to_frame;
 use crate::panels::drag::{
     DragEvent, PanelDrag, PointerInput, Press, SelectionBox, choice_of, position, readout,
@@ -37,7 +37,11 @@ enum CurveDragged {
     },
     Values {
         keys: Vec<ValueKey>,
+        /// The curves of these keys when the drag began.
+        curves: Vec<Arc<Curve>>,
         component: usize,
+        /// Distance from there.
+        by: f32,
         /// Value under the pointer at the press.
         pressed: f32,
         requested: bool,
@@ -80,7 +84,8 @@ impl CurveDrag {
         {
             canvas.hover(ui, pointer, &input, requests);
         }
-        match self.machine.step(&input, response.is_pointer_button_down_on(), |at| canvas.target_at(at)) {
+        let held = response.is_pointer_button_down_on() || response.clicked();
+        match self.machine.step(&input, held, |at| canvas.target_at(at)) {
             DragEvent::Nothing | DragEvent::Cancelled(CurveDragged::Box(_)) => {}
             DragEvent::Pressed => {
                 if let Some(Press { on: CurveTarget::Key(key), .. }) = self.machine.pressed() {
@@ -96,7 +101,12 @@ impl CurveDrag {
                 }
             }
             DragEvent::Moved(at) => self.advance(ui, position(at), canvas, &input, requests),
-            DragEvent::Clicked(press) => click(&press, requests),
+            DragEvent::Clicked(press) => {
+                if let CurveTarget::Key(key) = &press.on {
+                    self.component = key.component;
+                }
+                click(&press, requests);
+            }
             DragEvent::Dropped(CurveDragged::Box(drawn)) => {
                 if let Some(pointer) = pointer.or(input.pointer) {
                     let to = [canvas.time.time_at(pointer.x), canvas.value.value_at(pointer.y)];
@@ -124,6 +134,9 @@ impl CurveDrag {
             return self.machine.spend();
         }
         if let Some(op) = drag.op(ui, pointer, canvas, input) {
+            if let CurveDragged::Values { keys, curves, component, by, .. } = drag {
+                requests.extend(given_angles(curves, keys, *component, *by));
+            }
             requests.push(Request::Timeline(KeysRequest::Drag(op)));
         }
     }
@@ -160,7 +173,7 @@ impl CurveDragged {
                 *requested = true;
                 Some(if *copies { KeyDragOp::Duplicate(by) } else { KeyDragOp::Move(by) })
             }
-            Self::Values { keys, component, pressed, requested } => {
+            Self::Values { keys, component, pressed, by: dragged, requested, .. } => {
                 ui.ctx().set_cursor_icon(CursorIcon::ResizeVertical);
                 if keys.len() > MOST {
                     readout(ui, pointer, &format!("At most {MOST} key values can be dragged at once"));
@@ -173,7 +186,7 @@ impl CurveDragged {
                 }
                 readout(ui, pointer, &format!("{} {by:+.3}", component_name(*component)));
                 let edit = value_edit(context.take_ref()?, keys, *component, by)?;
-                *requested = true;
+                (*dragged, *requested) = (by, true);
                 Some(KeyDragOp::Edit(edit))
             }
             Self::Tangent { handle, curve, requested } => {
@@ -264,12 +277,10 @@ impl CurveCanvas<'_> {
             CurveDragged::Times { grabbed: on.time(), pressed, copies, requested: false }
         } else {
             let pressed = self.value.value_at(at.y);
-            CurveDragged::Values {
-                keys: self.value_keys(on),
-                component: on.component,
-                pressed,
-                requested: false,
-            }
+            let keys = self.value_keys(on);
+            let mut curves: Vec<Arc<Curve>> = self.curves.to_vec();
+            curves.retain(|curve| keys.iter().any(|key| key.id == curve.id));
+            CurveDragged::Values { keys, curves, component: on.component, pressed, by: 0.0, requested: false }
         }
     }
 
@@ -314,5 +325,10 @@ impl CurveCanvas<'_> {
 
 fn select(on: &CurveKey, choice: Choice) -> Request {
     let stretch = [on.time(); 2];
-    Request::Timeline(KeysRequest::Select { channels: Arc::new([on.curve.id]), stretch, choice })
+    Request::Timeline(KeysRequest::Select {
+        channels: Arc::new([on.curve.id]),
+        shapes: false,
+        stretch,
+        choice,
+    })
 }

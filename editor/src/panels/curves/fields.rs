@@ -6,7 +6,7 @@ use super::curve::Curve;
 use super::form::RotationForm;
 use super::paint::color;
 use super::toolbar::Chosen;
-use super::values::{ValueKey, value_edit};
+use super::values::{ValueKey, given_angles, value_edit};
 use crate::control::expression::Quantity;
 use crate::panels::context::PanelContext;
 use crate::panels::dope::to_frame;
@@ -41,11 +41,13 @@ enum KeyNumber {
 }
 
 /// A dragged field: its key as it was when the drag began, and the distance from there.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct HeldField {
     part: KeyNumber,
     key: ValueKey,
     by: f32,
+    /// The curve of the key when the drag began.
+    curve: Option<Arc<Curve>>,
 }
 
 /// What the fields edit.
@@ -64,7 +66,7 @@ impl Fields {
     pub(super) fn show(&mut self, ui: &mut Ui, about: &FieldsContext<'_>, requests: &mut Vec<Request>) {
         self.held
             .take_if(|held| held.by != 0.0 && !about.context.keys.drag().is_some_and(|drag| drag.held()));
-        let key = self.held.map(|held| held.key).or_else(|| only_key(about.curves, about.drawn));
+        let key = self.held.as_ref().map(|held| held.key).or_else(|| only_key(about.curves, about.drawn));
         let Some(key) = key.filter(|_| ui.available_width() >= WIDTH) else { return };
         ui.spacing_mut().item_spacing.x = GRID;
         self.time(ui, &key, about, requests);
@@ -109,7 +111,7 @@ impl Fields {
                 requests.push(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(value as f32 - key.time))));
                 requests.push(Request::Timeline(KeysRequest::Release));
             }
-            event => self.drag(event, KeyNumber::Time, key, |by| Some(KeyDragOp::Move(by)), requests),
+            event => self.drag(event, KeyNumber::Time, key, about, |by| Some(KeyDragOp::Move(by)), requests),
         }
     }
 
@@ -129,9 +131,12 @@ impl Fields {
         let rect = Rect::from_min_max(pos2(rect.left() + LETTER, rect.top()), rect.max);
         let angle = key.id.1 == Property::Rotation && key.form != RotationForm::Quaternion;
         let number = key.numbers[component];
+        let shown = number + self.by(KeyNumber::Value(component));
+        // Below a millionth of the numbers that are shown, a value is a rounding error.
+        let dust = f64::from(shown.abs()) < about.window.span * 1e-6;
         let field = NumberField {
             name: &format!("Value {letter}"),
-            value: Some(f64::from(number + self.by(KeyNumber::Value(component)))),
+            value: Some(if dust { 0.0 } else { f64::from(shown) }),
             quantity: if angle { Quantity::Angle } else { Quantity::Number },
             unit: if angle { "°" } else { "" },
             // About as far as the curve moves on the screen.
@@ -143,6 +148,14 @@ impl Fields {
         };
         let (event, _) = field.show(ui, rect);
         let edit = |by: f32| value_edit(about.context.take_ref()?, &[*key], component, by);
+        let by = match event {
+            FieldEvent::Typed(value) => Some(value as f32 - number),
+            FieldEvent::Dragged(by) => Some(by as f32),
+            FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Released | FieldEvent::Cancelled => None,
+        };
+        if let Some(by) = by {
+            requests.extend(given_angles(self.curve_before(key, about).as_slice(), &[*key], component, by));
+        }
         match event {
             FieldEvent::Typed(value) => {
                 let edit = edit(value as f32 - number);
@@ -152,15 +165,24 @@ impl Fields {
                 event,
                 KeyNumber::Value(component),
                 key,
+                about,
                 |by| edit(by).map(KeyDragOp::Edit),
                 requests,
             ),
         }
     }
 
+    /// Returns the curve of a key as it was when the drag began, or without a drag as it is.
+    fn curve_before(&self, key: &ValueKey, about: &FieldsContext<'_>) -> Option<Arc<Curve>> {
+        match &self.held {
+            Some(held) => held.curve.clone(),
+            None => about.curves.iter().find(|curve| curve.id == key.id).cloned(),
+        }
+    }
+
     /// Returns the distance by which a field is dragged.
     fn by(&self, part: KeyNumber) -> f32 {
-        self.held.filter(|held| held.part == part).map_or(0.0, |held| held.by)
+        self.held.as_ref().filter(|held| held.part == part).map_or(0.0, |held| held.by)
     }
 
     fn drag(
@@ -168,13 +190,15 @@ impl Fields {
         event: FieldEvent,
         part: KeyNumber,
         key: &ValueKey,
+        about: &FieldsContext<'_>,
         op: impl Fn(f32) -> Option<KeyDragOp>,
         requests: &mut Vec<Request>,
     ) {
         let request = match event {
             FieldEvent::Dragged(by) => {
                 let by = by as f32;
-                self.held = Some(HeldField { part, key: *key, by });
+                let curve = self.curve_before(key, about);
+                self.held = Some(HeldField { part, key: *key, by, curve });
                 op(by).map(KeysRequest::Drag)
             }
             FieldEvent::Released => self.held.take().map(|_| KeysRequest::Release),

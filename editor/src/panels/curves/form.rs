@@ -6,7 +6,7 @@ use glam::{DQuat, Quat};
 
 /// The form in which rotations are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum RotationForm {
+pub(in crate::panels) enum RotationForm {
     /// Three angles, degrees, applied in this order.
     Euler(EulerOrder),
     /// x, y, z, w.
@@ -48,26 +48,13 @@ impl RotationForm {
 
     /// Returns the numbers of a rotation, by axis. Of all equivalent angles, those nearest to `near`.
     pub(super) fn of(self, rotation: Quat, near: [f32; 4]) -> [f32; 4] {
-        let Some((order, axes)) = self.order() else { return rotation.to_array() };
+        let Self::Euler(order) = self else { return rotation.to_array() };
         let unit = rotation.as_dquat().normalize();
         if !unit.is_finite() {
             return near;
         }
-        let near = near.map(f64::from);
-        let [a, b, c] = order.angles(unit);
-        // The other set of angles for the same rotation, whose middle angle is beyond a right angle.
-        let half = std::f64::consts::PI;
-        let sets = [[a, b, c], [a + half, half - b, c + half]];
-        let best = sets.map(|angles| {
-            let mut numbers = [0.0; 3];
-            for (angle, &axis) in angles.iter().zip(&axes) {
-                let degrees = angle.to_degrees();
-                numbers[axis] = degrees + ((near[axis] - degrees) / 360.0).round() * 360.0;
-            }
-            let distance: f64 = (0..3).map(|axis| (numbers[axis] - near[axis]).abs()).sum();
-            (distance, numbers)
-        });
-        let [x, y, z] = if best[1].0 < best[0].0 - 1e-6 { best[1].1 } else { best[0].1 };
+        let [x, y, z, _] = near.map(f64::from);
+        let [x, y, z] = turn::nearest(order, unit, [x, y, z]);
         [x as f32, y as f32, z as f32, 0.0]
     }
 

@@ -2,12 +2,13 @@
 
 mod axis;
 mod canvas;
-mod curve;
+pub(super) mod curve;
 mod drag;
 mod fields;
-mod form;
+pub(super) mod form;
+pub mod given;
 mod paint;
-mod shown;
+pub(super) mod shown;
 mod tangents;
 mod toolbar;
 mod values;
@@ -22,9 +23,11 @@ use axis::{ValueScale, ValueWindow};
 use canvas::CurveCanvas;
 use drag::CurveDrag;
 use egui::{
-    Align2, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2,
+    Align2, CornerRadius, FontId, Label, PointerButton, Rect, Response, RichText, Sense, Stroke, Ui,
+    WidgetInfo, pos2,
 };
 use fields::{Fields, FieldsContext};
+use form::RotationForm;
 use paint::{CurveLook, CurveMesh};
 use shown::ShownCurves;
 use tangents::Tangents;
@@ -46,6 +49,10 @@ pub struct Curves {
     fitted: Option<Fitted>,
     /// Whether the user chose another range of values since.
     chosen_by_hand: bool,
+    /// Whether the handles of tangents are to be fitted, too.
+    fits_handles: bool,
+    /// Least and greatest value of the curves with this version and these components.
+    extent: Option<(u64, u8, Option<[f32; 2]>)>,
 }
 
 #[derive(Debug, PartialEq)]
@@ -76,15 +83,24 @@ impl Panel for Curves {
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.spacing_mut().item_spacing.y = 0.0;
+        // The order of the angles is one setting, so that the properties show the same numbers.
+        if self.chosen.form != RotationForm::Quaternion {
+            self.chosen.form = RotationForm::Euler(context.settings.properties.euler);
+        }
         let drawn = context.drawn_keys();
         if let Some(drawn) = &drawn {
             self.follow(ui, context, drawn);
         }
+        let label = drawn.as_ref().and_then(|_| self.label(context));
         let (fields, curves, component) = (&mut self.fields, &self.mesh.drawn, self.drag.component());
         let window = self.window.unwrap_or_default();
         let fit = toolbar::show(ui, &mut self.chosen, curves, context, requests, |ui, chosen, requests| {
             let Some(drawn) = &drawn else { return };
             fields.show(ui, &FieldsContext { chosen, curves, drawn, window, component, context }, requests);
+            if let Some(label) = label.filter(|_| ui.available_width() > 24.0) {
+                let text = RichText::new(label).size(11.0).color(Theme::of(ui).weak);
+                ui.add(Label::new(text).truncate());
+            }
         });
         let rect = ui.available_rect_before_wrap();
         if rect.height() < HEAD + 24.0 || rect.width() < STRIP + 40.0 {
@@ -99,7 +115,7 @@ impl Panel for Curves {
             return widgets::empty(ui, text, "");
         };
         if fit {
-            self.fitted = None;
+            (self.fitted, self.fits_handles) = (None, true);
             requests.push(Request::Command(super::commands::Id::FitKeys));
         }
         self.body(ui, rect, context, &drawn, requests);
@@ -110,7 +126,7 @@ impl Curves {
     /// Updates the numbers, and fits the range of values when other curves are shown.
     fn follow(&mut self, ui: &Ui, context: &PanelContext<'_>, drawn: &Drawn) {
         let ids = shown::wanted(context, drawn, self.chosen.properties);
-        let more = self.shown.update(&drawn.take, &ids, self.chosen.form);
+        let more = self.shown.update(&drawn.take, &ids, self.chosen.form, context.given);
         if more {
             ui.ctx().request_repaint();
         }
@@ -123,7 +139,11 @@ impl Curves {
         if more || self.drag.is_busy() {
             return;
         }
-        let Some([low, high]) = self.shown.extent(self.chosen.components, None) else { return };
+        let (version, components) = (self.shown.version(), self.chosen.components);
+        let known = self.extent.filter(|(of, by, _)| (*of, *by) == (version, components));
+        let extent = known.map_or_else(|| self.shown.extent(components), |(.., extent)| extent);
+        self.extent = Some((version, components, extent));
+        let Some([low, high]) = extent else { return };
         let others = self.fitted.as_ref() != Some(&fitted);
         // Values that an edit moved out of view come back into it, unless the user zoomed in on a part.
         let outside = !self.chosen_by_hand && self.window.is_none_or(|window| !window.holds(low, high));
@@ -153,7 +173,10 @@ impl Curves {
             width: (canvas.width() - 36.0).max(1.0),
             window: context.keys.window(&drawn.take),
         };
-        let value = ValueScale { rect: canvas, window: self.window.unwrap_or_default() };
+        let mut value = ValueScale { rect: canvas, window: self.window.unwrap_or_default() };
+        if self.fits_handles && self.fitted.is_some() {
+            self.fit_handles(drawn, &time, &mut value);
+        }
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         painter.rect_filled(
             Rect::from_min_max(rect.min, pos2(rect.right(), head.bottom())),
@@ -178,7 +201,18 @@ impl Curves {
         self.mesh.paint(&inside, &look);
         self.tangents.update(&self.mesh.drawn, drawn, &time, &value, self.chosen.components);
         self.tangents.paint(&inside, theme);
-        self.legend(&inside, canvas, context, drawn, theme);
+        if self.mesh.drawn.is_empty() {
+            let text = match context.selected() {
+                None => "Select a bone to see its curves",
+                Some(_) => "The selected bone has no keys in this take",
+            };
+            let font = FontId::proportional(11.0);
+            let galley = inside.layout_no_wrap(text.to_owned(), font, theme.faint);
+            let place = Align2::CENTER_CENTER.anchor_size(canvas.center(), galley.size());
+            // A background keeps the text legible over the grid.
+            inside.rect_filled(place.expand2(egui::vec2(4.0, 2.0)), 3, theme.sunken.gamma_multiply(0.9));
+            inside.galley(place.min, galley, theme.faint);
+        }
 
         self.scrub.show(ui, head, "Time track of the curves", &time, context, requests);
         self.values(ui, strip, &response, &value);
@@ -252,33 +286,39 @@ impl Curves {
         }
     }
 
-    /// Draws the name of the bone or the number of bones whose curves are shown.
-    fn legend(
-        &self,
-        painter: &egui::Painter,
-        canvas: Rect,
-        context: &PanelContext<'_>,
-        _drawn: &Drawn,
-        theme: &Theme,
-    ) {
-        let mut bones: Vec<u32> = self.mesh.drawn.iter().map(|curve| curve.id.0).collect();
+    /// Extends the range of values until it contains the handles of the selected keys.
+    fn fit_handles(&mut self, drawn: &Drawn, time: &TimeScale, value: &mut ValueScale) {
+        /// Distance of a handle from the edge, points.
+        const MARGIN: f32 = 6.0;
+        self.fits_handles = false;
+        // In a larger range tangents are flatter, and their handles are elsewhere.
+        for _ in 0..8 {
+            let curves: Vec<_> = self.shown.curves().cloned().collect();
+            self.tangents.update(&curves, drawn, time, value, self.chosen.components);
+            let Some(handles) = self.tangents.bounds().map(|bounds| bounds.expand(MARGIN)) else { return };
+            if value.rect.y_range().contains(handles.top()) && value.rect.y_range().contains(handles.bottom())
+            {
+                return;
+            }
+            let reach = value.rect.union(handles);
+            let [low, high] = [reach.bottom(), reach.top()].map(|y| f64::from(value.value_at(y)));
+            value.window = ValueWindow { low, span: high - low };
+            self.window = Some(value.window);
+        }
+    }
+
+    /// Returns the name of the bone or the number of bones whose curves are shown; `None` if there are no curves.
+    fn label(&self, context: &PanelContext<'_>) -> Option<String> {
+        let mut bones: Vec<u32> = self.shown.curves().map(|curve| curve.id.0).collect();
         bones.dedup();
-        let text = match bones.as_slice() {
-            [] if context.selected().is_none() => "Select a bone to see its curves".to_owned(),
-            [] => "The selected bone has no keys in this take".to_owned(),
+        let wanted = context.selection.bones().len();
+        Some(match bones.as_slice() {
+            [] => return None,
             [bone] => context.bone_name(*bone),
+            all if self.shown.curves().count() >= shown::MOST && all.len() < wanted => {
+                format!("{} of {wanted} bones", all.len())
+            }
             all => format!("{} bones", all.len()),
-        };
-        let (at, align) = if bones.is_empty() {
-            (canvas.center(), Align2::CENTER_CENTER)
-        } else {
-            (canvas.right_top() + egui::vec2(-8.0, 6.0), Align2::RIGHT_TOP)
-        };
-        let color = if bones.is_empty() { theme.faint } else { theme.weak };
-        let galley = painter.layout_no_wrap(text, FontId::proportional(11.0), color);
-        let rect = align.anchor_size(at, galley.size());
-        // A background keeps the text legible over any curve.
-        painter.rect_filled(rect.expand2(egui::vec2(4.0, 2.0)), 3, theme.sunken.gamma_multiply(0.9));
-        painter.galley(rect.min, galley, color);
+        })
     }
 }

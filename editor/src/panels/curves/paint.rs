@@ -36,8 +36,10 @@ struct CurveMeshKey {
 
 /// Average distance of keys below which they have no dots, points.
 const APART: f32 = 5.0;
-/// Distance of the samples of a curve, points.
-const SAMPLE: f32 = 3.0;
+/// Distance of the samples of a curve, points: of one of a few curves, and of one of many.
+const SAMPLES: [f32; 2] = [3.0, 6.0];
+/// Number of curves above which they are many.
+const FEW: usize = 24;
 /// Distance from the center of a key to its corners, points.
 const RADIUS: f32 = 4.0;
 
@@ -60,6 +62,8 @@ struct Canvas<'a> {
     mesh: Mesh,
     tessellator: Tessellator,
     points: [Vec<Pos2>; 4],
+    /// Distance of the samples of a curve, points.
+    sample: f32,
 }
 
 /// Returns the color of a component.
@@ -90,9 +94,11 @@ impl CurveMesh {
         let CurveLook { shown, drawn, time, value, components, theme } = *look;
         self.drawn.clear();
         let options = TessellationOptions::default();
+        let count = shown.curves().count();
         let mut canvas = Canvas {
             time,
             value,
+            sample: SAMPLES[usize::from(count > FEW)],
             // Overwritten in its memory, unless the last frame is still drawn.
             mesh: Arc::try_unwrap(std::mem::take(&mut self.mesh)).unwrap_or_default(),
             tessellator: Tessellator::new(pixels_per_point, options, [1, 1], Vec::new()),
@@ -100,7 +106,6 @@ impl CurveMesh {
         };
         canvas.mesh.indices.clear();
         canvas.mesh.vertices.clear();
-        let count = shown.curves().count();
         for curve in shown.curves() {
             let chosen = drawn.selection.of(curve.id);
             let strength = if count > 6 { 0.7 } else { 1.0 };
@@ -186,11 +191,11 @@ impl Canvas<'_> {
                 _ if curve.is_straight() => {}
                 _ => {
                     near = numbers;
-                    let mut at = (x + SAMPLE).max(rect.left() - SAMPLE);
-                    while at < end.min(rect.right() + SAMPLE) {
+                    let mut at = (x + self.sample).max(rect.left() - self.sample);
+                    while at < end.min(rect.right() + self.sample) {
                         near = curve.at(self.time.time_at(at), near);
                         self.push(at, near, width);
-                        at += SAMPLE;
+                        at += self.sample;
                     }
                 }
             }

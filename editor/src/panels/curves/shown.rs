@@ -2,20 +2,21 @@
 
 use super::curve::{Curve, Extent};
 use super::form::RotationForm;
+use super::given::GivenAngles;
 use crate::panels::context::PanelContext;
 use crate::panels::keys::{ChannelId, Drawn, channel};
 use dragonfly_anim::data::Take;
 use dragonfly_document::edit::Property;
 use std::sync::Arc;
 
-/// Largest number of channels: more cannot be distinguished.
-pub(super) const MOST: usize = 24;
+/// Largest number of channels: more cannot be distinguished. The label counts the bones that are shown.
+pub(in crate::panels) const MOST: usize = 64;
 /// Number of keys that are computed per frame.
 const BUDGET: usize = 24_000;
 
 /// The curves that are shown.
 #[derive(Debug, Default)]
-pub(super) struct ShownCurves {
+pub(in crate::panels) struct ShownCurves {
     entries: Vec<CurveSlot>,
     /// Counts the changes of curves.
     version: u64,
@@ -31,8 +32,15 @@ struct CurveSlot {
 }
 
 impl ShownCurves {
-    /// Updates the curves of `ids` to `take`. Returns whether more is to do in the next frame.
-    pub(super) fn update(&mut self, take: &Take, ids: &[ChannelId], form: RotationForm) -> bool {
+    /// Updates the curves of `ids` to `take`, with the angles that keys were given. Returns whether more is to do in the
+    /// next frame.
+    pub(in crate::panels) fn update(
+        &mut self,
+        take: &Take,
+        ids: &[ChannelId],
+        form: RotationForm,
+        angles: &GivenAngles,
+    ) -> bool {
         if self.entries.len() != ids.len() || self.entries.iter().zip(ids).any(|(entry, &id)| entry.id != id)
         {
             let mut old = std::mem::take(&mut self.entries);
@@ -47,28 +55,30 @@ impl ShownCurves {
         }
         let (mut budget, mut more) = (BUDGET, false);
         for entry in &mut self.entries {
-            if entry.curve.as_ref().is_some_and(|curve| curve.is_of(take, form)) {
+            let (number, given) = angles.of(entry.id, form).unzip();
+            let number = number.unwrap_or_default();
+            if entry.curve.as_ref().is_some_and(|curve| curve.is_of(take, form, number)) {
                 entry.next = None;
                 continue;
             }
             // A curve that is being computed is finished although the take changed since: during a drag of many keys the take
             // changes faster than a long curve is computed.
             if entry.next.as_ref().is_none_or(|next| next.form() != form) {
-                entry.next = Curve::new(take, entry.id, form).map(Box::new);
+                entry.next = Curve::new(take, entry.id, form, number).map(Box::new);
                 if entry.next.is_none() && entry.curve.take().is_some() {
                     self.version += 1;
                 }
             }
             if let Some(next) = &mut entry.next {
-                next.compute(&mut budget);
+                next.compute(&mut budget, given);
                 // Numbers in another form are never shown instead of the requested ones.
                 if next.is_whole() || entry.curve.as_ref().is_some_and(|curve| curve.form() != form) {
                     entry.curve = entry.next.take_if(|next| next.is_whole()).map(|next| Arc::from(*next));
                     self.version += 1;
                 }
             }
-            more |=
-                entry.next.is_some() || entry.curve.as_ref().is_some_and(|curve| !curve.is_of(take, form));
+            more |= entry.next.is_some()
+                || entry.curve.as_ref().is_some_and(|curve| !curve.is_of(take, form, number));
         }
         more
     }
@@ -78,20 +88,28 @@ impl ShownCurves {
         self.version
     }
 
+    /// Returns the curve of a channel, if it is computed.
+    pub(in crate::panels) fn of(&self, id: ChannelId) -> Option<&Arc<Curve>> {
+        self.entries.iter().find(|entry| entry.id == id)?.curve.as_ref()
+    }
+
     /// Returns the curves that can be drawn.
     pub(super) fn curves(&self) -> impl Iterator<Item = &Arc<Curve>> {
         self.entries.iter().filter_map(|entry| entry.curve.as_ref())
     }
 
-    /// Returns the least and the greatest number of the shown components.
-    pub(super) fn extent(&self, components: u8, times: Option<[f32; 2]>) -> Option<[f32; 2]> {
+    /// Returns the least and the greatest number of the shown components, at keys and between them.
+    pub(super) fn extent(&self, components: u8) -> Option<[f32; 2]> {
+        /// Number of keys, of all curves, above which only keys are looked at.
+        const LOOKED_AT: usize = 1000;
         let mut all = [f32::INFINITY, f32::NEG_INFINITY];
+        let keys: usize = self.curves().map(|curve| curve.times().len()).sum();
         for curve in self.curves() {
-            let keys = match times {
-                Some(times) => crate::panels::keys::intervals::keys_between(curve.times(), times),
-                None => 0..curve.times().len(),
-            };
-            let Extent { low, high } = curve.extent(keys);
+            let mut extent = curve.extent(0..curve.times().len());
+            if keys <= LOOKED_AT {
+                extent = extent.with(&curve.extent_between_keys());
+            }
+            let Extent { low, high } = extent;
             for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
                 all = [all[0].min(low[at]), all[1].max(high[at])];
             }

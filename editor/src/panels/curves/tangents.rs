@@ -100,8 +100,7 @@ impl Tangents {
         near.min_by(|a, b| a.end.distance(pointer).total_cmp(&b.end.distance(pointer))).copied()
     }
 
-    /// Returns the positions of the handles, for tests.
-    #[allow(dead_code, reason = "read by tests beside this file")]
+    /// Returns the rectangle of all handles.
     pub(super) fn bounds(&self) -> Option<Rect> {
         self.handles
             .iter()

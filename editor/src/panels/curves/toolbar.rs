@@ -5,9 +5,11 @@ use super::curve::Curve;
 use super::form::RotationForm;
 use super::paint::color;
 use super::shown::bit;
-use crate::panels::commands::{self, Id};
+use crate::panels::command_button::command_button;
+use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
 use crate::panels::icons::Icon;
+use crate::panels::properties::PropertiesLook;
 use crate::panels::request::Request;
 use crate::panels::style::{CONTROL, GRID, RADIUS};
 use crate::panels::theme::Theme;
@@ -87,11 +89,14 @@ pub(super) fn show(
             }
         }
         divider(ui);
-        form(ui, chosen);
+        form(ui, chosen, context, requests);
         divider(ui);
         between(ui, curves, context, requests);
         if icon_button(ui, Icon::Fit, "Fit the curves", false)
-            .on_hover_text("Fit the curves\nShows all values, and the selected keys or the whole take")
+            .on_hover_text(
+                "Fit the curves\nShows all values, and the selected keys or the whole take\n\
+                 Wheel zooms the time, Shift + wheel pans, Ctrl + wheel zooms the values",
+            )
             .clicked()
         {
             fit = true;
@@ -121,7 +126,7 @@ fn letter_button(ui: &mut Ui, letter: &str, name: &str, on: bool, tone: Option<C
     response
 }
 
-fn form(ui: &mut Ui, chosen: &mut Chosen) {
+fn form(ui: &mut Ui, chosen: &mut Chosen, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let text = RichText::new(chosen.form.name()).small().color(Theme::of(ui).weak);
     let button = ui.add(Button::new(text).frame(false)).on_hover_text("How rotations are shown");
     egui::Popup::menu(&button).show(|ui| {
@@ -129,6 +134,10 @@ fn form(ui: &mut Ui, chosen: &mut Chosen) {
         for form in RotationForm::all() {
             if ui.add(Button::selectable(form == chosen.form, form.name())).clicked() {
                 chosen.form = form;
+                if let RotationForm::Euler(euler) = form {
+                    let look = PropertiesLook { euler, ..context.settings.properties };
+                    requests.push(Request::PropertiesLook(look));
+                }
             }
         }
     });
@@ -144,13 +153,7 @@ fn between(ui: &mut Ui, curves: &[Arc<Curve>], context: &PanelContext<'_>, reque
     ] {
         let on = !curves.is_empty() && curves.iter().all(|curve| curve.interpolation() == kind);
         ui.add_enabled_ui(able, |ui| {
-            let reason = commands::get(id).when.reason();
-            let button = icon_button(ui, icon, commands::get(id).title, on)
-                .on_hover_text(commands::tooltip(ui.ctx(), id))
-                .on_disabled_hover_text(reason);
-            if button.clicked() {
-                requests.push(Request::Command(id));
-            }
+            command_button(ui, icon, id, on, requests);
         });
     }
 }

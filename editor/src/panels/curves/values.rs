@@ -2,9 +2,12 @@
 
 use super::curve::{Curve, CurveNumbers};
 use super::form::RotationForm;
+use super::given::GivenCurve;
 use crate::panels::keys::ChannelId;
+use crate::panels::request::Request;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, Property, SetPose, SetPoses, TakeRef};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// A key with the numbers that it had when a drag began.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +41,25 @@ impl ValueKey {
         }
         pose
     }
+}
+
+/// Returns the angles that keys have after `by` was added to one component; `curves` are the curves before.
+pub(super) fn given_angles(
+    curves: &[Arc<Curve>],
+    keys: &[ValueKey],
+    component: usize,
+    by: f32,
+) -> impl Iterator<Item = Request> {
+    let turns = curves.iter().filter(|curve| curve.id.1 == Property::Rotation);
+    turns.map(move |curve| {
+        let keys = keys.iter().filter(|key| key.id == curve.id);
+        let given = keys.map(|key| {
+            let mut numbers = key.numbers;
+            numbers[component.min(3)] += by;
+            (key.time, numbers)
+        });
+        Request::Angles(GivenCurve::new(curve.id, curve.form(), Some(Arc::clone(curve)), given.collect()))
+    })
 }
 
 /// Returns the edit that adds `by` to one component of keys; none without keys.

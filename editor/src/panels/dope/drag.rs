@@ -87,7 +87,8 @@ impl DopeDrag {
         {
             requests.push(sheet.select(on.row, [on.time; 2], Choice::Replace));
         }
-        match self.machine.step(&input, canvas.is_pointer_button_down_on(), |at| sheet.key_at(at)) {
+        let held = canvas.is_pointer_button_down_on() || canvas.clicked();
+        match self.machine.step(&input, held, |at| sheet.key_at(at)) {
             DragEvent::Nothing | DragEvent::Pressed | DragEvent::Cancelled(DopeDragged::Box(_)) => {}
             DragEvent::Started(press) => {
                 self.machine.begin(start(&press, sheet, &input, requests));
@@ -209,7 +210,8 @@ fn click(press: &Press<Option<DopeKey>>, sheet: &Sheet<'_>, requests: &mut Vec<R
             let stretch = [on.time - SAME_TIME, on.time + SAME_TIME];
             let channels = Arc::clone(sheet.rows.channels());
             let choice = choice_of(modifiers);
-            requests.push(Request::Timeline(KeysRequest::Select { channels, stretch, choice }));
+            let select = KeysRequest::Select { channels, shapes: false, stretch, choice };
+            requests.push(Request::Timeline(select));
         }
         Some(on) => requests.push(sheet.select(on.row, [on.time; 2], choice_of(modifiers))),
         None if modifiers.command || modifiers.shift => {}
@@ -220,8 +222,8 @@ fn click(press: &Press<Option<DopeKey>>, sheet: &Sheet<'_>, requests: &mut Vec<R
 impl Sheet<'_> {
     fn select(&self, row: usize, stretch: [f32; 2], choice: Choice) -> Request {
         let kind = self.rows.list().get(row).map_or(RowKind::Morphs, |row| row.kind);
-        let channels = self.rows.of(kind).into();
-        Request::Timeline(KeysRequest::Select { channels, stretch, choice })
+        let (channels, shapes) = (self.rows.of(kind).into(), kind == RowKind::Morphs);
+        Request::Timeline(KeysRequest::Select { channels, shapes, stretch, choice })
     }
 
     /// Returns the request that selects the keys in a box from its first corner to `pointer`.
@@ -232,14 +234,16 @@ impl Sheet<'_> {
             let middle = (at as f32 + 0.5) * ROW;
             middle + REACH >= top && middle - REACH <= bottom
         };
-        let mut channels: Vec<ChannelId> = Vec::new();
+        let (mut channels, mut shapes): (Vec<ChannelId>, bool) = (Vec::new(), false);
         // A row contains the channels of the rows below it as well.
         for (_, row) in self.rows.list().iter().enumerate().filter(|(at, _)| touched(*at)) {
             channels.extend_from_slice(self.rows.of(row.kind));
+            shapes |= row.kind == RowKind::Morphs;
         }
         channels.sort_unstable();
         channels.dedup();
-        Request::Timeline(KeysRequest::Select { channels: channels.into(), stretch, choice: drawn.choice })
+        let (channels, choice) = (channels.into(), drawn.choice);
+        Request::Timeline(KeysRequest::Select { channels, shapes, stretch, choice })
     }
 
     /// Returns the key under the pointer.
@@ -254,7 +258,11 @@ impl Sheet<'_> {
         let reach = scale.seconds(REACH);
         let channels = rows.of(row.kind);
         let nearest = channels.iter().filter_map(|&id| channel::nearest(&drawn.take, id, time));
+        let is_shapes = row.kind == RowKind::Morphs;
+        let morphs = drawn.take.morphs.iter().filter(|_| is_shapes);
+        let shapes = morphs.filter_map(|track| channel::nearest_of(&track.times, time));
         let time = nearest
+            .chain(shapes)
             .filter(|key| (key - time).abs() <= reach)
             .min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))?;
         let selected = channels.iter().any(|&id| {
@@ -262,6 +270,7 @@ impl Sheet<'_> {
             intervals.holds(time)
                 && channel::nearest(&drawn.take, id, time).is_some_and(|key| (key - time).abs() <= SAME_TIME)
         });
+        let selected = selected || (is_shapes && drawn.selection.shapes().holds(time));
         Some(DopeKey { row: at as usize, time, selected })
     }
 

@@ -245,10 +245,12 @@ pub(super) fn tools(
         requests.push(Request::Timeline(KeysRequest::OnlySelected(!only)));
     }
     let snap = commands::tooltip(ui.ctx(), Id::ToggleSnap);
+    let snap = format!("{snap}\nHold 2 while dragging keys to ripple, Alt to duplicate");
     if button(ui, Icon::Snap, "Snap", snap, context.keys.snap()) {
         requests.push(Request::Command(Id::ToggleSnap));
     }
     let fit = commands::tooltip(ui.ctx(), Id::FitKeys);
+    let fit = format!("{fit}\nWheel zooms, Shift + wheel pans, Alt + wheel steps by frames");
     if button(ui, Icon::Fit, "Fit the timeline", fit, false) {
         requests.push(Request::Command(Id::FitKeys));
     }

@@ -3,7 +3,6 @@
 use super::rows::{DopeRow, RowKind};
 use super::sheet::{ROW, Sheet};
 use crate::panels::keys::columns::Columns;
-use crate::panels::keys::intervals::Intervals;
 use crate::panels::keys::{Drawn, KeySelection, TimeScale, channel};
 use dragonfly_anim::data::Take;
 use egui::{Color32, Mesh, Painter, Pos2, Rect, Shape, pos2, vec2};
@@ -102,7 +101,6 @@ impl KeysMesh {
             self.plain.reset(*scale, left, right, pixels_per_point);
             self.chosen.reset(*scale, left, right, pixels_per_point);
             self.marked.clear();
-            let none = Intervals::none();
             for &id in rows.of(row.kind) {
                 let Some(times) = channel::shared_times(&drawn.take, id) else { continue };
                 let selected = drawn.selection.of(id);
@@ -114,8 +112,10 @@ impl KeysMesh {
                 self.chosen.mark(times, selected, true);
             }
             if row.kind == RowKind::Morphs {
+                let selected = drawn.selection.shapes();
                 for morph in &drawn.take.morphs {
-                    self.plain.mark(&morph.times, &none, false);
+                    self.plain.mark(&morph.times, selected, false);
+                    self.chosen.mark(&morph.times, selected, true);
                 }
             }
             let color = match row.kind {

@@ -17,7 +17,7 @@ pub(super) enum RowKind {
     Bone(BoneIndex),
     /// One channel of a bone.
     Channel(BoneIndex, Property),
-    /// Weights of morph targets, which are shown and not edited.
+    /// Weights of morph targets, whose keys can be selected and deleted.
     Morphs,
 }
 

@@ -32,8 +32,8 @@ pub(in crate::panels) struct Press<T> {
 pub(in crate::panels) type PanelDrag<T, D> = DragMachine<Press<T>, D>;
 
 impl<T, D> PanelDrag<T, D> {
-    /// Advances by one frame. `held` is whether egui gives the pressed pointer to this panel; `target` returns what is under
-    /// a point.
+    /// Advances by one frame. `held` is whether egui gives the pressed pointer to this panel, or a click within one frame;
+    /// `target` returns what is under a point.
     pub(in crate::panels) fn step(
         &mut self,
         input: &PointerInput,
@@ -42,6 +42,9 @@ impl<T, D> PanelDrag<T, D> {
     ) -> DragEvent<Press<T>, D> {
         let cancels_drag = input.cancels && self.drag().is_some();
         if !input.primary_down && !cancels_drag {
+            if let Some(at) = input.pointer.filter(|_| held && input.clicked && !self.is_busy()) {
+                self.press(Vec2::new(at.x, at.y), Press { at, on: target(at), modifiers: input.modifiers });
+            }
             return self.released();
         }
         // Before `held`: egui itself releases what it drags when Escape is pressed.
@@ -103,6 +106,23 @@ mod tests {
         assert_eq!(step(&mut machine, down(THRESHOLD)), DragEvent::Nothing);
         assert!(matches!(step(&mut machine, up()), DragEvent::Clicked(press) if press.on == "key"));
         assert!(!machine.is_busy());
+    }
+
+    #[test]
+    fn a_press_and_a_release_in_one_frame_are_a_click() {
+        let mut machine = Machine::default();
+        let quick = PointerInput { clicked: true, pointer: Some(pos2(3.0, 0.0)), ..up() };
+        assert_eq!(machine.step(&quick, false, |_| "key"), DragEvent::Nothing, "on another widget");
+        assert!(
+            matches!(machine.step(&quick, true, |_| "key"), DragEvent::Clicked(press) if press.at.x == 3.0)
+        );
+        assert!(!machine.is_busy());
+        let mut machine = dragging();
+        assert_eq!(
+            machine.step(&quick, true, |_| "key"),
+            DragEvent::Dropped(7),
+            "the end of a drag is no click"
+        );
     }
 
     #[test]

@@ -11,6 +11,8 @@ use egui::{
 pub(in crate::panels) struct PointerInput {
     /// Whether the primary button is down.
     pub(in crate::panels) primary_down: bool,
+    /// Whether the primary button went down and up again in this frame.
+    pub(in crate::panels) clicked: bool,
     /// Whether the secondary button went down in this frame.
     pub(in crate::panels) secondary_pressed: bool,
     /// Whether Escape or the secondary button is down, which cancels a drag.
@@ -32,6 +34,7 @@ impl PointerInput {
     pub(in crate::panels) fn read(ui: &Ui) -> Self {
         ui.input(|input| Self {
             primary_down: input.pointer.primary_down(),
+            clicked: input.pointer.primary_pressed() && input.pointer.primary_released(),
             secondary_pressed: input.pointer.button_pressed(PointerButton::Secondary),
             cancels: input.pointer.secondary_down() || input.key_down(Key::Escape),
             ripple: input.key_down(Key::Num2),

@@ -47,7 +47,11 @@ pub fn channels(take: &Take, bone: BoneIndex) -> impl Iterator<Item = ChannelId>
 
 /// Returns the time of the key of `channel` nearest to `time`.
 pub fn nearest(take: &Take, channel: ChannelId, time: f32) -> Option<f32> {
-    let times = times(take, channel);
+    nearest_of(times(take, channel), time)
+}
+
+/// Returns the time of some ascending times nearest to `time`.
+pub fn nearest_of(times: &[f32], time: f32) -> Option<f32> {
     let after = times.partition_point(|&key| key < time);
     let around =
         [after.checked_sub(1), Some(after)].into_iter().flatten().filter_map(|at| times.get(at).copied());

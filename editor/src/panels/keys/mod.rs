@@ -289,6 +289,14 @@ impl KeyEditing {
     pub(super) fn deselect_all_but(&mut self, bones: &[BoneIndex]) {
         let kept: HashSet<BoneIndex> = bones.iter().copied().collect();
         self.selection.drop_bones(|bone| !kept.contains(&bone));
+        self.selection.drop_shapes();
+    }
+
+    /// Selects the keys that were selected before, unless keys are being dragged.
+    pub(super) fn restore(&mut self, selection: &KeySelection) {
+        if self.drag.is_none() {
+            self.selection = selection.clone();
+        }
     }
 
     /// Deselects all keys.
@@ -301,6 +309,7 @@ impl KeyEditing {
         &mut self,
         take: &Take,
         channels: &[ChannelId],
+        shapes: bool,
         stretch: [f32; 2],
         choice: Choice,
     ) -> Option<BoneIndex> {
@@ -312,6 +321,9 @@ impl KeyEditing {
         let free: Vec<ChannelId> =
             channels.iter().copied().filter(|&(bone, _)| !self.flags.locked(bone)).collect();
         self.selection.choose(take, &free, stretch, choice);
+        if shapes {
+            self.selection.choose_shapes(take, stretch, choice);
+        }
         channels.first().filter(|_| free.is_empty()).map(|&(bone, _)| bone)
     }
 

@@ -16,6 +16,8 @@ pub enum KeysRequest {
     Select {
         /// The channels.
         channels: Arc<[ChannelId]>,
+        /// Whether keys of morph targets are meant as well.
+        shapes: bool,
         /// Start and end, seconds.
         stretch: [f32; 2],
         /// Whether they replace, extend or toggle the selection.

@@ -13,6 +13,8 @@ use std::sync::Arc;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KeySelection {
     channels: Arc<BTreeMap<ChannelId, Intervals>>,
+    /// Keys of morph targets, of all tracks together.
+    shapes: Arc<Intervals>,
 }
 
 static NONE: Intervals = Intervals::none();
@@ -20,7 +22,12 @@ static NONE: Intervals = Intervals::none();
 impl KeySelection {
     /// Returns whether nothing is selected.
     pub fn is_empty(&self) -> bool {
-        self.channels.is_empty()
+        self.channels.is_empty() && self.shapes.is_empty()
+    }
+
+    /// Returns the selected intervals of the keys of morph targets.
+    pub fn shapes(&self) -> &Intervals {
+        &self.shapes
     }
 
     /// Returns the selected intervals of a channel.
@@ -35,18 +42,22 @@ impl KeySelection {
 
     /// Returns whether both share the same data.
     pub fn same(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.channels, &other.channels)
+        Arc::ptr_eq(&self.channels, &other.channels) && Arc::ptr_eq(&self.shapes, &other.shapes)
     }
 
     /// Returns the number of selected keys.
     pub fn count(&self, take: &Take) -> usize {
-        self.channels().map(|(channel, intervals)| intervals.count(channel::times(take, channel))).sum()
+        let shapes: usize = take.morphs.iter().map(|track| self.shapes.count(&track.times)).sum();
+        let keys = self.channels().map(|(channel, intervals)| intervals.count(channel::times(take, channel)));
+        shapes + keys.sum::<usize>()
     }
 
     /// Returns the times of the first and the last selected key, seconds.
     pub fn extent(&self, take: &Take) -> Option<[f32; 2]> {
+        let shapes = take.morphs.iter().filter_map(|track| self.shapes.extent(&track.times));
         self.channels()
             .filter_map(|(channel, intervals)| intervals.extent(channel::times(take, channel)))
+            .chain(shapes)
             .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 
@@ -64,7 +75,7 @@ impl KeySelection {
                         && intervals.next(times, keys.start, false).is_none_or(|next| next >= keys.end))
             });
         if choice == Choice::Replace {
-            self.channels = Arc::default();
+            *self = Self::default();
         }
         let map = Arc::make_mut(&mut self.channels);
         for &channel in channels {
@@ -80,6 +91,27 @@ impl KeySelection {
                 map.remove(&channel);
             }
         }
+    }
+
+    /// Selects the keys of morph targets between two times in addition; a toggle deselects them if all of them are
+    /// selected.
+    pub fn choose_shapes(&mut self, take: &Take, stretch: [f32; 2], choice: Choice) {
+        let mut times: Vec<f32> = take.morphs.iter().flat_map(|track| track.times.iter().copied()).collect();
+        times.sort_by(f32::total_cmp);
+        let keys = super::intervals::keys_between(&times, stretch);
+        let all = times[keys].iter().all(|&time| self.shapes.holds(time));
+        let shapes = Arc::make_mut(&mut self.shapes);
+        if all && choice == Choice::Toggle {
+            shapes.remove(stretch, &times);
+        } else {
+            shapes.add(stretch);
+        }
+        shapes.tidy(&times);
+    }
+
+    /// Deselects the keys of morph targets.
+    pub fn drop_shapes(&mut self) {
+        self.shapes = Arc::default();
     }
 
     /// Selects intervals of one channel in addition; a toggle deselects those that are selected already.
@@ -118,7 +150,8 @@ impl KeySelection {
             moved.tidy(after);
             (!moved.is_empty()).then_some((channel, moved))
         });
-        Self { channels: Arc::new(moved.collect()) }
+        // Keys of morph targets do not move with those of bones.
+        Self { channels: Arc::new(moved.collect()), shapes: Arc::clone(&self.shapes) }
     }
 
     /// Returns the same keys after all keys from time `from` on were moved by `by` seconds: `new` is the take with the
@@ -139,7 +172,7 @@ impl KeySelection {
             moved.tidy(times);
             (!moved.is_empty()).then_some((channel, moved))
         });
-        Self { channels: Arc::new(moved.collect()) }
+        Self { channels: Arc::new(moved.collect()), ..Self::default() }
     }
 
     /// Returns the same keys as edits name them, in as few sets as possible.

@@ -159,6 +159,7 @@ impl ChannelTable<'_> {
         let mut in_use = false;
         for (index, value) in shared.into_iter().enumerate().take(form.count()) {
             let place = Rect::from_x_y_ranges(x, rows.top(index)..=rows.top(index) + FIELD);
+            let value = value.map(|value| self.without_dust(spot, value));
             let cell = Cell { spot, index, value, rect: place };
             in_use |= match column {
                 Column::Original => {
@@ -188,6 +189,7 @@ impl ChannelTable<'_> {
                 pos2(rect.left() + LETTER + 6.0, top),
                 pos2(rect.right() - 6.0, top + SLIDER - 1.0),
             );
+            let value = value.map(|value| self.without_dust(spot, value));
             in_use |= self.slider(ui, &Cell { spot, index, value, rect: place }, drag, requests);
         }
         in_use
@@ -304,6 +306,12 @@ impl ChannelTable<'_> {
             (_, NumberForm::Euler(_)) => (0.5, 15.0),
             _ => (0.005, 0.1),
         }
+    }
+
+    /// Returns a number as it is shown: a translation below a millionth of the model is a rounding error.
+    fn without_dust(&self, spot: Spot, value: f64) -> f64 {
+        let dust = spot.property == Property::Translation && value.abs() < self.size * 1e-6;
+        if dust { 0.0 } else { value }
     }
 
     /// Returns the rounding error of single precision.

@@ -5,16 +5,23 @@
 
 use super::super::commands::Id;
 use super::super::context::PanelContext;
+use super::super::curves::curve::Curve;
+use super::super::curves::form::RotationForm;
+use super::super::curves::given::GivenCurve;
+use super::super::curves::shown::{MOST, ShownCurves};
 use super::super::number_field::FieldEvent;
 use super::super::request::Request;
 use super::parts::{Column, FieldNumbers, NumberForm, Pair, PosePart, is_same_turn, numbers, part, turn_of};
+use super::turn;
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_anim::joint::EulerOrder;
 use dragonfly_anim::sample::{rest_pose, sample_track};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{BonePose, Property};
 use dragonfly_document::history::Gesture;
 use dragonfly_document::posing;
 use glam::DQuat;
+use std::sync::Arc;
 
 /// Identifies the numbers of a bone: a channel, a column and a form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,7 +41,11 @@ pub(super) struct FieldDrag {
     /// Typed angles of the active bone.
     typed: Vec<TypedAngles>,
     /// The other selected bones in this frame; `None` for those without a pose.
-    others: Vec<Option<Pair>>,
+    others: Vec<(BoneIndex, Option<Pair>)>,
+    /// Rotations of the selected bones as the curves show them.
+    curves: ShownCurves,
+    /// Time shown in this frame, seconds.
+    time: f32,
 }
 
 /// A field that is dragged.
@@ -68,11 +79,13 @@ struct Begun {
 }
 
 /// A bone when the drag began.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Start {
     bone: BoneIndex,
     pair: Pair,
     numbers: FieldNumbers,
+    /// The curve of its rotation.
+    curve: Option<Arc<Curve>>,
 }
 
 /// Numbers of a rotation as they were typed.
@@ -102,18 +115,28 @@ enum NewNumber {
 
 impl FieldDrag {
     /// Begins a frame: samples the selected bones once for all fields. `in_use` is whether a field of the panel has the focus or is dragged.
-    pub(super) fn begin(&mut self, context: &PanelContext<'_>, in_use: bool) {
+    /// Returns whether the next frame has to compute more.
+    pub(super) fn begin(&mut self, context: &PanelContext<'_>, in_use: bool) -> bool {
         let active = context.selected();
         self.typed
             .retain(|typed| Some(typed.bone) == active && (in_use || typed.form != NumberForm::Quaternion));
         self.others.clear();
         let others = context.selection.bones().iter().filter(|&&bone| Some(bone) != active);
-        self.others.extend(others.map(|&bone| pair_of(context, bone)));
+        self.others.extend(others.map(|&bone| (bone, pair_of(context, bone))));
+        self.time = context.time();
+        let Some(take) = context.take() else { return false };
+        let bones = context.selection.bones().iter().rev().take(MOST);
+        let ids: Vec<_> = bones.map(|&bone| (bone, Property::Rotation)).collect();
+        let form = RotationForm::Euler(context.settings.properties.euler);
+        self.curves.update(take, &ids, form, context.given)
     }
 
     /// Returns the numbers of a bone at `spot`.
     pub(super) fn numbers(&self, bone: BoneIndex, pair: &Pair, spot: Spot) -> Option<FieldNumbers> {
-        let now = numbers(pair, spot.property, spot.column, spot.form)?;
+        let now = match (spot.property, spot.form) {
+            (Property::Rotation, NumberForm::Euler(order)) => self.angles(bone, pair, spot.column, order),
+            _ => numbers(pair, spot.property, spot.column, spot.form)?,
+        };
         let typed = self.typed.iter().find(|typed| {
             spot.property == Property::Rotation
                 && (typed.bone, typed.column, typed.form) == (bone, spot.column, spot.form)
@@ -124,16 +147,44 @@ impl FieldDrag {
         Some(typed.filter(fits).map_or(now, |typed| typed.numbers))
     }
 
+    /// Returns the angles of a rotation: the result as the curves show it, the original nearest to it, and the change
+    /// nearest to the difference of both.
+    fn angles(&self, bone: BoneIndex, pair: &Pair, column: Column, order: EulerOrder) -> FieldNumbers {
+        let [before, after] = [pair.original, pair.result].map(|pose| pose.rotation.as_dquat());
+        let curve = self.curves.of((bone, Property::Rotation));
+        let [x, y, z, _] = curve.map(|curve| curve.drawn_at(self.time)).unwrap_or_default().map(f64::from);
+        let result = turn::nearest(order, after, [x, y, z]);
+        let original = turn::nearest(order, before, result);
+        let [x, y, z] = match column {
+            Column::Original => original,
+            Column::Result => result,
+            Column::Change if before == after => [0.0; 3],
+            Column::Change => {
+                let difference = std::array::from_fn(|axis| result[axis] - original[axis]);
+                turn::nearest(order, after * before.conjugate(), difference)
+            }
+        };
+        [x, y, z, 0.0]
+    }
+
+    /// Returns whether the angles of original and change add up to those of the result.
+    pub(super) fn adds_up(&self, bone: BoneIndex, pair: &Pair, order: EulerOrder) -> bool {
+        let spot = |column| Spot { property: Property::Rotation, column, form: NumberForm::Euler(order) };
+        let [original, change, result] =
+            Column::ALL.map(|column| self.numbers(bone, pair, spot(column)).unwrap_or_default());
+        (0..3).all(|axis| (original[axis] + change[axis] - result[axis]).abs() < 0.01)
+    }
+
     /// Returns the numbers that all selected bones share at `spot`; `None` if they differ. `pair` is the active
     /// bone.
     pub(super) fn shared(&self, active: BoneIndex, pair: &Pair, spot: Spot, grain: f64) -> [Option<f64>; 4] {
         let first = self.numbers(active, pair, spot);
         let mut shared = first.map_or([None; 4], |numbers| numbers.map(Some));
-        for other in &self.others {
+        for (bone, other) in &self.others {
             if shared == [None; 4] {
                 break;
             }
-            let other = other.as_ref().and_then(|pair| numbers(pair, spot.property, spot.column, spot.form));
+            let other = other.as_ref().and_then(|pair| self.numbers(*bone, pair, spot));
             for (index, number) in shared.iter_mut().enumerate() {
                 let same = number.zip(other).is_some_and(|(a, other)| (a - other[index]).abs() <= grain);
                 *number = number.filter(|_| same);
@@ -215,7 +266,8 @@ impl FieldDrag {
             .bones_to_pose()
             .filter_map(|bone| {
                 let pair = pair_of(context, bone)?;
-                Some(Start { bone, pair, numbers: self.numbers(bone, &pair, spot)? })
+                let curve = self.curves.of((bone, Property::Rotation)).cloned();
+                Some(Start { bone, pair, numbers: self.numbers(bone, &pair, spot)?, curve })
             })
             .collect();
         Begun { starts, hold: context.hold_of_pins() }
@@ -248,6 +300,13 @@ impl FieldDrag {
                 let Spot { column, form, .. } = spot;
                 self.typed.retain(|typed| (typed.column, typed.form) != (column, form));
                 self.typed.push(TypedAngles { bone: start.bone, column, form, numbers, rotation });
+            }
+            if let (Property::Rotation, Column::Result, NumberForm::Euler(order)) =
+                (spot.property, spot.column, spot.form)
+            {
+                let (id, form) = ((start.bone, Property::Rotation), RotationForm::Euler(order));
+                let given = vec![(self.time, numbers.map(|number| number as f32))];
+                requests.push(Request::Angles(GivenCurve::new(id, form, start.curve.clone(), given)));
             }
             poses.push(part.pose(start.bone, spot.property));
         }

@@ -109,7 +109,7 @@ fn toggled(context: &PanelContext<'_>, property: Property, keyed: Keyed) -> Opti
     Some(match keyed {
         Keyed::Here => {
             let keys = vec![KeySet { bones, properties, at: Some(vec![time]), ..KeySet::default() }];
-            Edit::DeleteKeys(DeleteKeys { take, keys })
+            Edit::DeleteKeys(DeleteKeys { take, keys, shapes: Vec::new() })
         }
         Keyed::Pending => Edit::KeyPending(KeyPending { take, time: Some(time), bones, unstep: true }),
         _ => {

@@ -21,7 +21,10 @@ use drag::FieldDrag;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::joint::EulerOrder;
 use dragonfly_document::edit::{Property, ResetTo};
-use egui::{Align, Label, Layout, RichText, ScrollArea, Ui};
+use egui::accesskit::Role;
+use egui::{
+    Align, Align2, Label, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, WidgetInfo, pos2,
+};
 use keys::Keyed;
 pub use look::PropertiesLook;
 use model::fact;
@@ -52,7 +55,9 @@ impl Panel for Properties {
         if context.view.is_none() {
             return widgets::empty(ui, "Properties appear here", "");
         }
-        self.drag.begin(context, self.in_use);
+        if self.drag.begin(context, self.in_use) {
+            ui.ctx().request_repaint();
+        }
         self.in_use = false;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::NONE.inner_margin(egui::Margin::symmetric(12, 8)).show(ui, |ui| {
@@ -105,7 +110,8 @@ impl Properties {
             };
             channels.push(table.room(ui, property, form, look.sliders[at]));
             if property == Property::Rotation {
-                quaternion_head(ui, look, requests);
+                let adds = self.drag.adds_up(bone, &pair, look.euler);
+                quaternion_head(ui, look, adds, requests);
                 if look.quaternion {
                     channels.push(table.room(ui, property, NumberForm::Quaternion, false));
                 }
@@ -244,13 +250,32 @@ fn order(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request>) {
     });
 }
 
-/// Draws the button that shows or hides the quaternion.
-fn quaternion_head(ui: &mut Ui, look: PropertiesLook, requests: &mut Vec<Request>) {
+/// Draws the button that shows or hides the quaternion, and a note where the angles of original and change do not add up
+/// to the result.
+fn quaternion_head(ui: &mut Ui, look: PropertiesLook, adds: bool, requests: &mut Vec<Request>) {
     let mark = if look.quaternion { Icon::Down } else { Icon::Right };
     let name = if look.quaternion { "Hide the quaternion" } else { "Show the quaternion" };
+    let room = ui.available_width();
     let button = widgets::quiet_button(ui, mark, true, "Quaternion", name).on_hover_text(name);
     if button.clicked() {
         requests.push(Request::PropertiesLook(PropertiesLook { quaternion: !look.quaternion, ..look }));
+    }
+    if !adds {
+        let left = button.rect.right() + GRID;
+        let rect = Rect::from_min_max(
+            pos2(left, button.rect.top()),
+            pos2((button.rect.left() + room - 5.0).max(left), button.rect.bottom()),
+        );
+        let text = "Angles do not add up";
+        let response = ui.interact(rect, button.id.with("note"), Sense::hover());
+        response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+        let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+        let font = TextStyle::Small.resolve(ui.style());
+        painter.text(rect.right_center(), Align2::RIGHT_CENTER, text, font, Theme::of(ui).faint);
+        response.on_hover_text(
+            "Change is a rotation about the axes of the parent, made after Original.\n\
+             Rotations about different axes combine, but their angles cannot be added.",
+        );
     }
 }
 

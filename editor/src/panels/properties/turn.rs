@@ -35,6 +35,23 @@ pub fn degrees(order: EulerOrder, rotation: DQuat) -> [f64; 3] {
     out
 }
 
+/// Returns three angles in degrees, those about x, y, z: of all that describe the rotation, those nearest to `near`.
+pub fn nearest(order: EulerOrder, rotation: DQuat, near: [f64; 3]) -> [f64; 3] {
+    let [a, b, c] = order.angles(rotation);
+    // The other set of angles for the same rotation, whose middle angle is beyond a right angle.
+    let half = std::f64::consts::PI;
+    let best = [[a, b, c], [a + half, half - b, c + half]].map(|angles| {
+        let mut numbers = [0.0; 3];
+        for (angle, axis) in angles.into_iter().zip(order.axes()) {
+            let degrees = angle.to_degrees();
+            numbers[axis] = degrees + ((near[axis] - degrees) / 360.0).round() * 360.0;
+        }
+        let distance: f64 = (0..3).map(|axis| (numbers[axis] - near[axis]).abs()).sum();
+        (distance, numbers)
+    });
+    if best[1].0 < best[0].0 - 1e-6 { best[1].1 } else { best[0].1 }
+}
+
 /// Serializes the order by its name.
 pub mod by_name {
     use super::EulerOrder;

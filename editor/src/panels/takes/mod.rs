@@ -278,8 +278,7 @@ fn shared_prefix<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> usize 
 fn command(ui: &mut Ui, context: &PanelContext<'_>, icon: Icon, id: Id, requests: &mut Vec<Request>) {
     let when = super::commands::get(id).when;
     ui.add_enabled_ui(when.holds(context), |ui| {
-        let _ = command_button::command_button(ui, icon, id, false, requests)
-            .on_disabled_hover_text(when.reason());
+        command_button::command_button(ui, icon, id, false, requests);
     });
 }
 

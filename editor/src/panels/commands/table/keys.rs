@@ -20,8 +20,8 @@ commands! {
     ToggleSnap => When::Always, "Snap while dragging keys", [], "Snaps dragged keys to whole frames; hold Ctrl to invert", |w| { w.keys.set_snap(!w.keys.snap()); None };
     InterpolateStep => When::Keys, "Step interpolation", [], "Sets the channels of the selected keys to step interpolation: each value holds until the next key", |w| keys::interpolate(w, KeyInterpolation::Step);
     InterpolateLinear => When::Keys, "Linear interpolation", [], "Sets the channels of the selected keys to linear interpolation", |w| keys::interpolate(w, KeyInterpolation::Linear);
-    InterpolateSpline => When::Keys, "Spline interpolation", [], "Sets the channels of the selected keys to spline interpolation, with editable tangents", |w| keys::interpolate(w, KeyInterpolation::CubicSpline);
-    RippleOpen => When::Take, "Insert a frame", [key(NONE, Key::F5)], "Moves all keys after the playhead one frame later", |w| keys::ripple(w, 1.0);
+    InterpolateSpline => When::Keys, "Spline interpolation", [], "Sets the channels of the selected keys to spline interpolation, with editable tangents; Alt + drag breaks a tangent", |w| keys::interpolate(w, KeyInterpolation::CubicSpline);
+    RippleOpen => When::Take, "Insert a frame", [key(NONE, Key::F5)], "Moves all keys after the playhead one frame later; hold 2 while dragging keys to ripple them by any time", |w| keys::ripple(w, 1.0);
     RippleClose => When::Take, "Remove a frame", [key(SHIFT, Key::F5)], "Removes the frame after the playhead, and its keys", |w| keys::ripple(w, -1.0);
     FitKeys => When::Take, "Fit the timeline", [key(SHIFT, Key::Home)], "Zooms the timeline to the selected keys, or to the whole take", |w| { keys::fit_window(w); None };
     AddMarker => When::Take, "Add a marker", [key(ALT, Key::M)], "Adds a marker at the playhead; markers are not saved in the model's file", |w| { keys::add_marker(w); None };
