@@ -101,7 +101,7 @@ fn drag_keys(
     let from = (zoom.start + zoom.length * 0.3) as f32;
     let stretch = [from, from + frames as f32 / RATE];
     let choice = dragonfly_document::bones::Choice::Replace;
-    window.state.execute(Request::Timeline(KeysRequest::Select { channels, stretch, choice }));
+    window.state.execute(Request::Timeline(KeysRequest::Select { channels, shapes: false, stretch, choice }));
     let selected = window.state.read().keys.selection().count(&take);
     let mut shown = Vec::new();
     let mut edits = 0_u32;
