@@ -4,6 +4,7 @@ use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly_anim::data::{Interpolation, ModelData, MorphTrack};
+use dragonfly_document::images::ImageSurvey;
 use dragonfly_document::{LoadedModel, View};
 use dragonfly_kit::document::fixture;
 use std::sync::Arc;
@@ -24,7 +25,7 @@ fn with_shapes() -> View {
         format: *format,
         model: Arc::new(model),
         bounds: *bounds,
-        images: Vec::new(),
+        images: ImageSurvey::default(),
         warnings: Vec::new(),
     };
     View::opened(1, Arc::new(loaded))
