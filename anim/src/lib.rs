@@ -61,6 +61,7 @@
 //! | rotate or move single bones on top of an animation | [`additional`] |
 //! | attach objects to bones (sockets) | [`attach`] |
 //! | inverse kinematics, with joint limits | [`ik`], [`joint`] |
+//! | tangents of cubic splines | [`tangents`] |
 //! | root motion | [`motion`] |
 //! | play a take on another skeleton | [`retarget`] |
 //! | remove redundant keys | [`reduce`] |
@@ -122,6 +123,8 @@ pub mod sample;
 #[doc(alias("skinning"))]
 pub mod skin;
 #[doc(alias("trigonometry", "axis-angle"))]
+#[doc(alias("handle", "Catmull-Rom", "auto clamped"))]
+pub mod tangents;
 pub mod trig;
 pub mod tutorial;
 

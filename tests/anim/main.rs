@@ -67,6 +67,7 @@ mod simd;
 mod skinning;
 mod soundness;
 mod support;
+mod tangents;
 mod textbook;
 mod textures;
 mod trial;

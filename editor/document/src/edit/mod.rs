@@ -47,6 +47,7 @@ mod set_pending;
 mod set_pose;
 mod set_poses;
 mod set_tangents;
+mod shape_tangents;
 mod snap_keys;
 mod split_take;
 pub(crate) mod target;
@@ -61,6 +62,7 @@ pub use kind::EditInfo;
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use mode::{KeyInterpolation, NewKey, ResetTo};
 pub use pose::{BonePose, PoseAt};
+pub use shape_tangents::KeyTangents;
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
 
 use crate::adapter::plan::{PoseMode, Transaction};
@@ -92,6 +94,7 @@ edits! {
     "snap_keys" => snap_keys::SnapKeys,
     "set_interpolation" => set_interpolation::SetInterpolation,
     "set_tangents" => set_tangents::SetTangents,
+    "shape_tangents" => shape_tangents::ShapeTangents,
     "create_take" => create_take::CreateTake,
     "delete_take" => delete_take::DeleteTake,
     "rename_take" => rename_take::RenameTake,

@@ -57,7 +57,7 @@ impl EditKind for SetInterpolation {
         let wanted = Interpolation::from(self.interpolation);
         let mut changed = false;
         for address in work.channels(take, (&self.bones, &self.properties))? {
-            changed |= with_kind!(address.property, channel::<K>(work, address, wanted));
+            changed |= with_kind!(address.property, become_interpolation::<K>(work, address, wanted));
         }
         if changed { Ok(()) } else { Err(EditError::Nothing("the channels have that interpolation already")) }
     }
@@ -69,7 +69,12 @@ impl EditKind for SetInterpolation {
     }
 }
 
-fn channel<K: ChannelKind>(work: &mut Transaction, address: ChannelAddress, wanted: Interpolation) -> bool {
+/// Sets the interpolation of a channel. Returns whether it had another one.
+pub(super) fn become_interpolation<K: ChannelKind>(
+    work: &mut Transaction,
+    address: ChannelAddress,
+    wanted: Interpolation,
+) -> bool {
     let slot = work.slot(address.take);
     let Some(old) = slot.original_of::<K>(address.bone).cloned() else { return false };
     if old.is_empty() || old.interpolation == wanted {

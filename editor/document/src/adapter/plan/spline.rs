@@ -15,12 +15,14 @@ pub(crate) fn slope<K: ChannelKind>(channel: &Channel<K::Value>, key: usize) -> 
     let (before, after) = (key.saturating_sub(1), (key + 1).min(channel.len() - 1));
     let seconds = channel.times[after] - channel.times[before];
     let middle = value::<K>(channel, key);
-    // q and -q are the same rotation: gives both neighbors the sign that is nearer to this key.
-    let near = |numbers: ChannelNumbers| {
-        let dot: f32 = numbers.iter().zip(middle).map(|(a, b)| a * b).sum();
-        let turn = K::IDENTITY == [0.0, 0.0, 0.0, 1.0];
-        if turn && dot < 0.0 { numbers.map(|number| -number) } else { numbers }
-    };
-    let difference = subtract(near(value::<K>(channel, after)), near(value::<K>(channel, before)));
+    let near = |key| near::<K>(value::<K>(channel, key), middle);
+    let difference = subtract(near(after), near(before));
     if seconds > 0.0 { difference.map(|number| number / seconds) } else { [0.0; 4] }
+}
+
+/// Returns `numbers`; of a rotation with the sign that is nearer to `middle`, because q and -q are the same rotation.
+pub(crate) fn near<K: ChannelKind>(numbers: ChannelNumbers, middle: ChannelNumbers) -> ChannelNumbers {
+    let dot: f32 = numbers.iter().zip(middle).map(|(a, b)| a * b).sum();
+    let is_rotation = K::IDENTITY == [0.0, 0.0, 0.0, 1.0];
+    if is_rotation && dot < 0.0 { numbers.map(|number| -number) } else { numbers }
 }
