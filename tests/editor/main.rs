@@ -67,6 +67,7 @@ mod stdio_journal;
 mod store_full;
 mod takes_panel;
 mod timeline_curves;
+mod timeline_keyboard;
 mod timeline_many;
 mod timeline_markers;
 mod timeline_mouse;

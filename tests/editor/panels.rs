@@ -37,7 +37,7 @@ impl Bench {
         self.state.feed(ui.ctx(), &mut input, 0, &mut self.effects);
         ui.input_mut(|state| state.events = input.events);
         self.state.begin_frame(self.state.read().now);
-        if self.state.read().question().is_none() && !self.state.read().dragging.is_open() {
+        if self.state.read().takes_shortcuts() {
             requests.extend(panels::commands::pressed(ui.ctx()).into_iter().map(Request::Command));
         }
         self.desk.show(ui, &self.state.read(), &mut requests);

@@ -81,8 +81,8 @@ impl Workbench {
     pub(crate) fn frame(&mut self, ui: &mut egui::Ui) {
         let mut requests = Vec::new();
         self.state.begin_frame(self.state.read().now);
-        for id in panels::commands::pressed(ui.ctx()) {
-            requests.push(Request::Command(id));
+        if self.state.read().takes_shortcuts() {
+            requests.extend(panels::commands::pressed(ui.ctx()).into_iter().map(Request::Command));
         }
         self.desk.show(ui, &self.state.read(), &mut requests);
         self.state.end_frame();

@@ -353,7 +353,7 @@ impl Interface {
             let drawn = catch_unwind(AssertUnwindSafe(|| {
                 // egui may run a frame twice; the requests of both runs are carried out. Commands get no keys
                 // while a question is shown or something is dragged.
-                if state.question().is_none() && !state.dragging.is_open() {
+                if state.takes_shortcuts() {
                     requests.extend(commands::pressed(ui.ctx()).into_iter().map(Request::Command));
                 }
                 desk.show(ui, &state, &mut requests);

@@ -10,6 +10,7 @@
 
 mod actions;
 mod bone_menu;
+mod buttonless_keys;
 mod camera_state;
 mod change_summary;
 mod command_button;
@@ -27,6 +28,7 @@ mod frame_rate;
 pub mod hierarchy;
 pub mod history;
 pub mod icons;
+mod key_canvases;
 pub mod keys;
 pub mod layout;
 pub mod marks;
@@ -148,6 +150,7 @@ impl Desk {
             self.layout.show(ui, &mut self.panels, context, requests);
         });
         drop_hint(ui);
+        buttonless_keys::show(ui, context, requests);
         self.overlays.show(ui, context, requests);
         self.dialogs.show(ui, context, requests);
     }

@@ -1,6 +1,6 @@
 //! The sheet of keyboard and mouse shortcuts, in which shortcuts can be changed.
 
-use super::commands::{self, Category, Command, Id, KeySettings, Keymap, MOUSE, Preset};
+use super::commands::{self, Category, Command, Id, KeyScope, KeySettings, Keymap, MOUSE, Preset};
 use super::context::PanelContext;
 use super::icons::Icon;
 use super::overlay_title;
@@ -14,8 +14,8 @@ use egui::{Button, Event, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea
 #[derive(Debug, Default)]
 pub(super) struct ShortcutSheet {
     query: String,
-    /// The command whose key is being chosen, and the index of that key; the number of its keys for a new one.
-    asks: Option<(Id, usize)>,
+    /// The command whose key is being chosen, where that key applies, and its index; the number of its keys for a new one.
+    asks: Option<(KeyScope, Id, usize)>,
     /// Result of the last change of a shortcut.
     note: String,
 }
@@ -44,6 +44,7 @@ impl ShortcutSheet {
                     before += commands::of(*category).len();
                     self.sheet(&mut columns[column], *category, &context.settings.keys, requests);
                 }
+                self.over_keys(&mut columns[0], &context.settings.keys, requests);
                 mouse(&mut columns[0], &self.query);
             });
         });
@@ -63,7 +64,7 @@ impl ShortcutSheet {
                     requests.push(Request::Keys(KeySettings { preset: *preset, ..keys.clone() }));
                 }
             }
-            if !keys.own.is_empty() && ui.button("Reset my shortcuts").clicked() {
+            if !keys.is_preset() && ui.button("Reset my shortcuts").clicked() {
                 let preset = keys.preset;
                 requests.push(Request::Keys(KeySettings { preset, ..KeySettings::default() }));
             }
@@ -72,11 +73,11 @@ impl ShortcutSheet {
 
     /// Assigns the key that was pressed while a key is being chosen.
     fn listen(&mut self, ui: &Ui, keys: &KeySettings, requests: &mut Vec<Request>) {
-        let Some((id, place)) = self.asks else { return };
+        let Some((scope, id, place)) = self.asks else { return };
         let Some((key, modifiers)) = ui.input_mut(|input| take_key(&mut input.events)) else { return };
         self.ask(ui, None);
         let keymap = Keymap::of(ui.ctx());
-        let mut shortcuts = keymap.shortcuts(id).to_vec();
+        let mut shortcuts = keymap.shortcuts(scope, id).to_vec();
         match key {
             Key::Escape => return,
             Key::Delete | Key::Backspace if modifiers.is_none() => {
@@ -87,7 +88,7 @@ impl ShortcutSheet {
             }
             _ => {
                 let chosen = KeyboardShortcut::new(modifiers, key);
-                let loser = keymap.command_of(key, modifiers).filter(|other| *other != id);
+                let loser = keymap.command_of(scope, key, modifiers).filter(|other| *other != id);
                 self.note = match loser {
                     Some(other) => format!(
                         "{} now runs “{}” instead of “{}”",
@@ -109,17 +110,17 @@ impl ShortcutSheet {
         let mut keys = keys.clone();
         // A shortcut that the user assigned to another command is removed from that command.
         for other in commands::all().map(|command| command.id).filter(|other| *other != id) {
-            let left: Vec<_> =
-                keymap.shortcuts(other).iter().filter(|taken| !shortcuts.contains(taken)).copied().collect();
-            if keys.is_own(other) && left.len() < keymap.shortcuts(other).len() {
-                keys.set(other, &left);
+            let taken = keymap.shortcuts(scope, other);
+            let left: Vec<_> = taken.iter().filter(|taken| !shortcuts.contains(taken)).copied().collect();
+            if keys.is_own(scope, other) && left.len() < taken.len() {
+                keys.set(scope, other, &left);
             }
         }
-        keys.set(id, &shortcuts);
+        keys.set(scope, id, &shortcuts);
         requests.push(Request::Keys(keys));
     }
 
-    fn ask(&mut self, ui: &Ui, asks: Option<(Id, usize)>) {
+    fn ask(&mut self, ui: &Ui, asks: Option<(KeyScope, Id, usize)>) {
         self.asks = asks;
         Keymap::set_asking(ui.ctx(), asks.is_some());
         if asks.is_some() {
@@ -136,45 +137,87 @@ impl ShortcutSheet {
         }
         heading(ui, category.title());
         for command in found {
-            let id = command.id;
-            let asked = self.asks.filter(|(asked, _)| *asked == id).map(|(_, place)| place);
-            let shortcuts = keymap.shortcuts(id);
-            let mut asks = None;
-            let row = line(ui, command.title, |ui| {
-                if keys.is_own(id) {
-                    let name = format!("Reset keys of {}", command.title);
-                    if widgets::icon_button(ui, Icon::Close, &name, false).on_hover_text(&name).clicked() {
-                        let mut keys = keys.clone();
-                        keys.reset(id);
-                        requests.push(Request::Keys(keys));
-                    }
-                }
-                // Drawn from right to left, so that the first shortcut is the leftmost.
-                let places = shortcuts.len().max(1) + usize::from(asked == Some(shortcuts.len().max(1)));
-                for place in (0..places.min(4)).rev() {
-                    let text = match shortcuts.get(place) {
-                        _ if asked == Some(place) => "Press a key".to_owned(),
-                        Some(shortcut) => commands::text(shortcut),
-                        None => "–".to_owned(),
-                    };
-                    if cap(ui, command.title, &text, asked == Some(place)).clicked() {
-                        asks = Some((id, place));
-                    }
-                }
-            });
-            row.context_menu(|ui| {
-                if ui.button("Add a key").clicked() {
-                    asks = Some((id, shortcuts.len()));
-                }
-                if ui.button("Remove all keys").clicked() {
+            self.row(ui, KeyScope::Window, command, keys, requests);
+        }
+    }
+
+    /// Draws the keys that commands have over the timeline and the curves.
+    fn over_keys(&mut self, ui: &mut Ui, keys: &KeySettings, requests: &mut Vec<Request>) {
+        let keymap = Keymap::of(ui.ctx());
+        let asked = self.asks.filter(|(scope, ..)| *scope == KeyScope::Keys).map(|(_, id, _)| id);
+        let has_keys = |command: &&Command| {
+            !keymap.shortcuts(KeyScope::Keys, command.id).is_empty()
+                || keys.is_own(KeyScope::Keys, command.id)
+                || asked == Some(command.id)
+        };
+        let found: Vec<&Command> =
+            commands::all().filter(has_keys).filter(|command| self.finds(command, &keymap)).collect();
+        if found.is_empty() {
+            return;
+        }
+        heading(ui, "Over the timeline and the curves");
+        for command in found {
+            self.row(ui, KeyScope::Keys, command, keys, requests);
+        }
+    }
+
+    /// Draws a command with its keys in a part of the window.
+    fn row(
+        &mut self,
+        ui: &mut Ui,
+        scope: KeyScope,
+        command: &Command,
+        keys: &KeySettings,
+        requests: &mut Vec<Request>,
+    ) {
+        let (id, keymap) = (command.id, Keymap::of(ui.ctx()));
+        let is_asked = |(by, asked, _): &(KeyScope, Id, usize)| (*by, *asked) == (scope, id);
+        let asked = self.asks.filter(is_asked).map(|(.., place)| place);
+        let shortcuts = keymap.shortcuts(scope, id);
+        let mut asks = None;
+        let row = line(ui, command.title, |ui| {
+            if keys.is_own(scope, id) {
+                let name = format!("Reset keys of {}", command.title);
+                if widgets::icon_button(ui, Icon::Close, &name, false).on_hover_text(&name).clicked() {
                     let mut keys = keys.clone();
-                    keys.set(id, &[]);
+                    keys.reset(scope, id);
                     requests.push(Request::Keys(keys));
                 }
-            });
-            if asks.is_some() {
-                self.ask(ui, asks);
             }
+            // Drawn from right to left, so that the first shortcut is the leftmost.
+            let places = shortcuts.len().max(1) + usize::from(asked == Some(shortcuts.len().max(1)));
+            for place in (0..places.min(4)).rev() {
+                let text = match shortcuts.get(place) {
+                    _ if asked == Some(place) => "Press a key".to_owned(),
+                    Some(shortcut) => commands::text(shortcut),
+                    None => "–".to_owned(),
+                };
+                let name = match scope {
+                    KeyScope::Window => command.title.to_owned(),
+                    KeyScope::Keys => format!("{} over keys", command.title),
+                };
+                if cap(ui, &name, &text, asked == Some(place)).clicked() {
+                    asks = Some((scope, id, place));
+                }
+            }
+        });
+        row.context_menu(|ui| {
+            if ui.button("Add a key").clicked() {
+                asks = Some((scope, id, shortcuts.len()));
+            }
+            let over_keys = keymap.shortcuts(KeyScope::Keys, id).len();
+            if scope == KeyScope::Window && ui.button("Add a key over the timeline and the curves").clicked()
+            {
+                asks = Some((KeyScope::Keys, id, over_keys));
+            }
+            if ui.button("Remove all keys").clicked() {
+                let mut keys = keys.clone();
+                keys.set(scope, id, &[]);
+                requests.push(Request::Keys(keys));
+            }
+        });
+        if asks.is_some() {
+            self.ask(ui, asks);
         }
     }
 
@@ -182,7 +225,10 @@ impl ShortcutSheet {
         let query = self.query.trim().to_lowercase();
         let has = |text: &str| text.to_lowercase().contains(&query);
         has(command.title)
-            || keymap.shortcuts(command.id).iter().any(|shortcut| has(&commands::text(shortcut)))
+            || KeyScope::ALL
+                .iter()
+                .flat_map(|scope| keymap.shortcuts(*scope, command.id))
+                .any(|shortcut| has(&commands::text(shortcut)))
     }
 }
 

@@ -1,5 +1,6 @@
 //! The line at the bottom: the newest message, all of them on a click, the device in the corner.
 
+use super::buttonless_keys;
 use super::commands::{self, Id};
 use super::context::PanelContext;
 use super::icons::Icon;
@@ -86,6 +87,9 @@ fn message(ui: &mut Ui, context: &PanelContext<'_>) {
     let size = vec2(ui.available_width(), ui.available_height());
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let (text, level) = match (context.loading, context.status.last()) {
+        _ if let Some(drag) = context.keys.buttonless() => {
+            (buttonless_keys::hint(drag).to_owned(), MessageSeverity::Info)
+        }
         (Some(loading), _) => {
             let percent = (loading.progress.done * 100.0) as u32;
             let text = format!("{} {}… {percent} %", loading.progress.stage.title(), loading.title);

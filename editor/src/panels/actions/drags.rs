@@ -98,6 +98,7 @@ fn cancel_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
 /// Ends a drag whose end was not reported: no button is held any more.
 fn release_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
     if !workspace.tools.controls().is_busy()
+        && workspace.keys.buttonless().is_none()
         && let Some(gesture) = workspace.dragging.release()
     {
         send(workspace, Change::Release(gesture), pass);

@@ -1,16 +1,17 @@
 //! Keys: selecting, deleting, moving by a command, markers, the play range.
 
 use super::drags::{cancel_keys, drag_keys, release_keys};
-use super::{edit, locks};
+use super::{edit, locks, playback};
 use crate::panels::keys::intervals::WHOLE;
-use crate::panels::keys::{ChannelId, KeyDragOp, MarkerAction, TimeWindow, channel};
+use crate::panels::keys::{ButtonlessKind, ChannelId, KeyDragOp, MarkerAction, TimeWindow, channel};
 use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{
-    BoneRef, DeleteKeys, Edit, KeyInterpolation, Property, RippleKeys, SAME_TIME, SetInterpolation,
+    BoneRef, DeleteKeys, Edit, KeyInterpolation, KeyTangents, Property, RippleKeys, SAME_TIME,
+    SetInterpolation, ShapeTangents,
 };
 use dragonfly_document::{Change, View};
 use std::collections::BTreeMap;
@@ -31,15 +32,41 @@ pub(super) fn select(
 
 /// Selects all keys that are listed, except those of locked bones.
 pub(in crate::panels) fn select_all(workspace: &mut Workspace) {
-    let Some(take) = workspace.read().shared_take().cloned() else { return };
-    let bones = workspace.read().listed_bones();
-    let channels: Vec<ChannelId> = bones.iter().flat_map(|&bone| channel::channels(&take, bone)).collect();
+    let channels = listed_channels(workspace);
     select(workspace, &channels, false, WHOLE, Choice::Replace);
+}
+
+fn listed_channels(workspace: &Workspace) -> Vec<ChannelId> {
+    let panels = workspace.read();
+    let Some(take) = panels.take() else { return Vec::new() };
+    panels.listed_bones().into_iter().flat_map(|bone| channel::channels(take, bone)).collect()
+}
+
+/// Deselects all keys.
+pub(in crate::panels) fn deselect(workspace: &mut Workspace) {
+    workspace.keys.deselect();
+}
+
+/// Selects the keys that are listed and not selected, and deselects the others.
+pub(in crate::panels) fn invert(workspace: &mut Workspace) {
+    let channels = listed_channels(workspace);
+    select(workspace, &channels, false, WHOLE, Choice::Toggle);
+}
+
+/// Begins to drag the selected keys from where the pointer is, without a button.
+pub(in crate::panels) fn drag_now(workspace: &mut Workspace, kind: ButtonlessKind) {
+    if workspace.read().keys.selection().channels().next().is_none() {
+        return workspace
+            .say(MessageSeverity::Info, "Keys of shapes can be deleted, but not moved or copied");
+    }
+    let time = workspace.player.time();
+    playback::stop_at(workspace, time);
+    workspace.keys.begin_buttonless(kind);
 }
 
 /// Cancels a drag of keys, or closes the overlay, or deselects bones and keys.
 pub(in crate::panels) fn cancel_or_deselect(workspace: &mut Workspace) -> Option<Effect> {
-    if workspace.keys.drag().is_some() {
+    if workspace.keys.drag().is_some() || workspace.keys.buttonless().is_some() {
         return cancel_keys(workspace);
     }
     if !workspace.prompts.close_overlay() {
@@ -138,6 +165,17 @@ pub(in crate::panels) fn interpolate(workspace: &mut Workspace, between: KeyInte
         })
     });
     Some(Effect::Changes(edits.map(|edit| Change::Edit(edit, None)).collect()))
+}
+
+/// Computes the tangents of the selected keys.
+pub(in crate::panels) fn shape_tangents(workspace: &mut Workspace, kind: KeyTangents) -> Option<Effect> {
+    let panels = workspace.read();
+    let keys = panels.keys.selection().key_sets(panels.take()?);
+    if keys.is_empty() {
+        workspace.say(MessageSeverity::Info, "Keys of shapes have no tangents that can be edited");
+        return None;
+    }
+    Some(edit(Edit::ShapeTangents(ShapeTangents { take: panels.take_ref()?, keys, kind })))
 }
 
 /// Adapts the markers to a newer view of the same model, which may have another path and other takes.

@@ -13,7 +13,7 @@ mod when;
 pub use category::Category;
 pub use command::Command;
 pub use id::Id;
-pub use key_settings::KeySettings;
+pub use key_settings::{KeyScope, KeySettings};
 pub use keymap::Keymap;
 pub use preset::Preset;
 pub use shortcut::{parse, text};
@@ -21,6 +21,7 @@ pub use table::TABLE;
 pub use when::When;
 
 use super::context::PanelContext;
+use super::key_canvases;
 use egui::{Key, Modifiers, Popup};
 use std::borrow::Cow;
 
@@ -67,6 +68,10 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("2 + drag keys", "Ripple: move all later keys as well"),
     ("Alt + drag keys, Shift + drag selected keys", "Duplicate keys"),
     ("Ctrl while dragging keys", "Invert snapping"),
+    (
+        "X, Y while keys follow the mouse",
+        "Constrain to time, to value; digits enter frames, a value or a factor",
+    ),
     ("Alt + click a key", "Select the keys of all listed bones at that time"),
     ("Alt + drag a tangent", "Break the tangent: change one side alone"),
 ];
@@ -91,9 +96,10 @@ pub fn title(panels: &PanelContext<'_>, id: Id) -> Cow<'static, str> {
     label.map_or(Cow::Borrowed(title), |label| Cow::Owned(format!("{title} {label}")))
 }
 
-/// Returns the first shortcut as text, `Ctrl+O`; empty when there is none.
+/// Returns the first shortcut as text, `Ctrl+O`, or the first one over the timeline and the curves; empty when there is
+/// none.
 pub fn shortcut_text(context: &egui::Context, id: Id) -> String {
-    Keymap::of(context).shortcuts(id).first().map(text).unwrap_or_default()
+    Keymap::of(context).first_shortcut(id).map(text).unwrap_or_default()
 }
 
 /// Returns the tooltip: title and shortcut, then the help.
@@ -128,6 +134,8 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
     let open = open || context.data(|data| data.get_temp::<bool>(place)).unwrap_or_default();
     context.data_mut(|data| data.insert_temp(place, focused));
     let keymap = Keymap::of(context);
+    let pointer = context.input(|input| input.pointer.latest_pos());
+    let over_keys = pointer.and_then(|at| key_canvases::at(context, at)).is_some();
     let mut found = Vec::new();
     context.input_mut(|input| {
         input.events.retain(|event| {
@@ -140,7 +148,8 @@ pub fn pressed(context: &egui::Context) -> Vec<Id> {
             {
                 return true;
             }
-            match keymap.command_of(key, modifiers) {
+            let special = keymap.command_of(KeyScope::Keys, key, modifiers).filter(|_| over_keys);
+            match special.or_else(|| keymap.command_of(KeyScope::Window, key, modifiers)) {
                 Some(id) if modal && !matches!(id, Id::Palette | Id::Shortcuts) => true,
                 Some(id) if !repeat || get(id).repeats => {
                     found.push(id);

@@ -145,6 +145,11 @@ impl<'a> PanelContext<'a> {
         self.hovered.or(self.pointed)
     }
 
+    /// Returns whether keys run commands: no question is shown, and nothing is dragged.
+    pub fn takes_shortcuts(&self) -> bool {
+        self.question().is_none() && !self.dragging.is_open() && self.keys.buttonless().is_none()
+    }
+
     /// Returns the question that is shown.
     pub fn question(&self) -> Option<&'a Question> {
         self.prompts.question()

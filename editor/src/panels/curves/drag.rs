@@ -1,5 +1,6 @@
 //! Drags on the curves: keys sideways in time or up and down in value, tangents by their handles, and selection boxes.
 
+use super::buttonless::ButtonlessCurves;
 use super::canvas::{CurveCanvas, CurveKey, CurveTarget, component_name};
 use super::curve::Curve;
 use super::tangents::TangentHandle;
@@ -9,7 +10,7 @@ use crate::panels::drag::{
     DragEvent, PanelDrag, PointerInput, Press, SelectionBox, choice_of, position, readout,
 };
 use crate::panels::keys::intervals::keys_between;
-use crate::panels::keys::{ChannelId, KeyDragOp, KeysRequest};
+use crate::panels::keys::{ChannelId, KeyDragOp, KeyPanel, KeysRequest};
 use crate::panels::request::Request;
 use dragonfly_document::bones::Choice;
 use egui::{CursorIcon, Modifiers, Pos2, Response, Ui, pos2};
@@ -21,6 +22,7 @@ pub(super) struct CurveDrag {
     machine: PanelDrag<CurveTarget, CurveDragged>,
     /// Component of the key that was pressed on last.
     component: usize,
+    buttonless: Option<ButtonlessCurves>,
 }
 
 /// The dragged part of the curves. `requested` is whether the drag was requested; if no drag exists after that, it was
@@ -55,7 +57,7 @@ enum CurveDragged {
 }
 
 /// Largest number of keys whose values are dragged at once.
-const MOST: usize = 2000;
+pub(super) const MOST: usize = 2000;
 
 impl CurveDrag {
     /// Component of the key that was pressed on last, 0 for X.
@@ -63,9 +65,9 @@ impl CurveDrag {
         self.component
     }
 
-    /// Whether a press on the curves is in progress.
+    /// Whether a press on the curves, or a drag without a button, is in progress.
     pub(super) fn is_busy(&self) -> bool {
-        self.machine.is_busy()
+        self.machine.is_busy() || self.buttonless.is_some()
     }
 
     /// Acts on what the pointer does on `canvas`.
@@ -77,6 +79,7 @@ impl CurveDrag {
         requests: &mut Vec<Request>,
     ) {
         let input = PointerInput::read(ui);
+        self.follow_pointer(ui, canvas, &input, requests);
         let pointer = response.interact_pointer_pos().or_else(|| response.hover_pos());
         if !self.is_busy()
             && response.hovered()
@@ -117,6 +120,23 @@ impl CurveDrag {
             }
             DragEvent::Dropped(_) => requests.push(Request::Timeline(KeysRequest::Release)),
             DragEvent::Cancelled(_) => requests.push(Request::Timeline(KeysRequest::Cancel)),
+        }
+    }
+
+    /// Requests what a drag without a button does now, if there is one in the curves.
+    fn follow_pointer(
+        &mut self,
+        ui: &Ui,
+        canvas: &CurveCanvas<'_>,
+        input: &PointerInput,
+        requests: &mut Vec<Request>,
+    ) {
+        let start = canvas.context.keys.buttonless().and_then(|drag| drag.start_in(KeyPanel::Curves));
+        let Some(from) = start else { return self.buttonless = None };
+        let component = self.component;
+        let drag = self.buttonless.get_or_insert_with(|| ButtonlessCurves::new(canvas, from, component));
+        if let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) {
+            drag.follow(ui, pointer, canvas, input, requests);
         }
     }
 

@@ -1,6 +1,7 @@
 //! The curves of the selected bones: values over time, with keys and tangents that can be dragged.
 
 mod axis;
+mod buttonless;
 mod canvas;
 pub(super) mod curve;
 mod drag;
@@ -15,7 +16,8 @@ mod values;
 
 use super::context::PanelContext;
 use super::dope::{self, Scrub};
-use super::keys::{Drawn, TimeScale};
+use super::key_canvases;
+use super::keys::{Drawn, KeyPanel, TimeScale};
 use super::request::Request;
 use super::theme::Theme;
 use super::{Panel, PanelPlace, widgets};
@@ -193,6 +195,7 @@ impl Curves {
         painter.vline(strip.right() - 0.5, rect.y_range(), Stroke::new(1.0, theme.line));
         dope::shade(&painter, canvas, &time, context, theme);
 
+        key_canvases::note(ui.ctx(), KeyPanel::Curves, canvas);
         let response = ui.interact(canvas, ui.scope_id().with("curves"), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Curves of keys"));
         let inside = painter.with_clip_rect(canvas.intersect(painter.clip_rect()));

@@ -1,13 +1,14 @@
 //! Clicks, selection boxes and drags on the keys of the dope sheet. A drag is one gesture; Escape and the right button
 //! cancel it.
 
+use super::buttonless::ButtonlessTimes;
 use super::head::to_frame;
 use super::rows::RowKind;
 use super::sheet::{ROW, Sheet};
 use crate::panels::drag::{
     DragEvent, PanelDrag, PointerInput, Press, SelectionBox, choice_of, position, readout,
 };
-use crate::panels::keys::{ChannelId, KeyDragOp, KeysRequest, channel};
+use crate::panels::keys::{ChannelId, KeyDragOp, KeyPanel, KeysRequest, channel};
 use crate::panels::request::Request;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::SAME_TIME;
@@ -74,6 +75,10 @@ impl DopeDrag {
         requests: &mut Vec<Request>,
     ) -> f32 {
         let input = PointerInput::read(ui);
+        if let Some(from) = sheet.context.keys.buttonless().and_then(|drag| drag.start_in(KeyPanel::Timeline))
+        {
+            follow_pointer(ui, from, sheet, &input, requests);
+        }
         let pointer = canvas.interact_pointer_pos().or_else(|| canvas.hover_pos());
         let on = pointer.and_then(|pointer| sheet.key_at(pointer));
         if canvas.hovered() && !self.is_busy() && on.is_some() {
@@ -149,6 +154,15 @@ impl DopeDrag {
             None => {}
         }
         0.0
+    }
+}
+
+/// Requests what the drag without a button does now, which began at `from`.
+fn follow_pointer(ui: &Ui, from: Pos2, sheet: &Sheet<'_>, input: &PointerInput, requests: &mut Vec<Request>) {
+    let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else { return };
+    let times = ButtonlessTimes::new(sheet.context, &sheet.drawn.take, sheet.scale, from);
+    if let Some(op) = times.and_then(|times| times.op(ui, pointer, input)) {
+        requests.push(Request::Timeline(KeysRequest::Drag(op)));
     }
 }
 

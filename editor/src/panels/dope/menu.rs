@@ -8,6 +8,10 @@ use crate::panels::request::Request;
 use dragonfly_document::Change;
 use egui::{Button, Response, Ui};
 
+/// The commands for tangents.
+const TANGENTS: [Id; 5] =
+    [Id::TangentsAuto, Id::TangentsClamped, Id::TangentsFlat, Id::TangentsLinear, Id::TangentsUnified];
+
 /// The context menu of keys in the dope sheet.
 #[derive(Debug, Default)]
 pub(super) struct KeyMenu;
@@ -47,6 +51,11 @@ pub(in crate::panels) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests:
     for id in [Id::InterpolateStep, Id::InterpolateLinear, Id::InterpolateSpline] {
         item(ui, context, id, false, requests);
     }
+    ui.menu_button("Tangents", |ui| {
+        for id in TANGENTS {
+            item(ui, context, id, false, requests);
+        }
+    });
     ui.separator();
     for id in [Id::KeysSlower, Id::KeysFaster, Id::KeysReverse] {
         item(ui, context, id, false, requests);

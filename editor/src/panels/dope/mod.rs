@@ -2,6 +2,7 @@
 //! bands where they are too dense.
 
 mod areas;
+mod buttonless;
 mod drag;
 mod gutter;
 mod head;
@@ -14,10 +15,12 @@ mod scroll;
 mod sheet;
 
 use super::context::PanelContext;
-use super::keys::TimeScale;
+use super::key_canvases;
+use super::keys::{KeyPanel, TimeScale};
 use super::request::Request;
 use super::theme::Theme;
 use areas::DopeAreas;
+pub(super) use buttonless::ButtonlessTimes;
 use drag::DopeDrag;
 use dragonfly_picture::between;
 use egui::{CornerRadius, Rect, Sense, Stroke, Ui, WidgetInfo};
@@ -69,6 +72,7 @@ impl Dope {
         head::back(&painter, &areas, &scale, context, theme);
 
         let canvas = ui.interact(areas.canvas, ui.scope_id().with("keys"), Sense::click_and_drag());
+        key_canvases::note(ui.ctx(), KeyPanel::Timeline, areas.canvas);
         let selected = self.keys.selected();
         canvas.widget_info(|| {
             WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, format!("Keys, {selected} selected"))

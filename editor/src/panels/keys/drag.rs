@@ -5,6 +5,7 @@
 //! further behind the pointer. What is drawn is always the take that an edit resulted in, and the selection follows the
 //! keys.
 
+use super::buttonless::{ButtonlessDrag, ButtonlessKind, ButtonlessStep};
 use super::op::KeyDragOp;
 use super::selection::KeySelection;
 use super::{Drawn, EndedDrag, KeyEditing};
@@ -82,6 +83,11 @@ impl KeyDrag {
     /// Returns whether the drag is in progress, not released yet.
     pub fn held(&self) -> bool {
         !self.released
+    }
+
+    /// Returns the time of the first key that moves when the drag began, seconds.
+    pub(in crate::panels) fn first_time(&self) -> Option<f32> {
+        self.moving.extent(&self.base).map(|[first, _]| first)
     }
 
     /// Returns the change to send now; none while the previous one is not shown. With `last`, which means that no later
@@ -178,6 +184,25 @@ impl KeyEditing {
         self.drag.as_ref().is_none_or(KeyDrag::held)
     }
 
+    /// Returns the drag that follows the pointer without a button.
+    pub fn buttonless(&self) -> Option<&ButtonlessDrag> {
+        self.buttonless.as_ref()
+    }
+
+    /// Begins a drag that follows the pointer without a button, unless there is a drag already.
+    pub(in crate::panels) fn begin_buttonless(&mut self, kind: ButtonlessKind) {
+        if self.drag.is_none() && self.buttonless.is_none() {
+            self.buttonless = Some(ButtonlessDrag::new(kind));
+        }
+    }
+
+    /// Changes the drag that follows the pointer without a button.
+    pub(in crate::panels) fn step_buttonless(&mut self, step: ButtonlessStep) {
+        if let Some(drag) = &mut self.buttonless {
+            drag.step(step);
+        }
+    }
+
     /// Begins a drag.
     pub(in crate::panels) fn begin_drag(&mut self, drag: KeyDrag) {
         self.drag = Some(KeyDrag { selected: self.selection.clone(), ..drag });
@@ -215,6 +240,7 @@ impl KeyEditing {
 
     /// Releases the drag. Returns the changes to send; `None` if no drag is held.
     pub(in crate::panels) fn release_drag(&mut self, echo: &Echo) -> Option<Vec<Change>> {
+        self.buttonless = None;
         let drag = self.drag.as_mut().filter(|drag| drag.held())?;
         let change = drag.send(echo, true);
         drag.released = true;
@@ -245,6 +271,7 @@ impl KeyEditing {
 
     /// Drops the drag if `is_one` returns true for it, and selects what was selected before it.
     fn drop_if(&mut self, is_one: impl Fn(&KeyDrag) -> bool) -> Option<KeyDrag> {
+        self.buttonless.take_if(|_| self.drag.as_ref().is_none_or(&is_one));
         let drag = self.drag.take_if(|drag| is_one(drag))?;
         self.selection = drag.selected.clone();
         Some(drag)

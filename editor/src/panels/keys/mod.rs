@@ -1,6 +1,7 @@
 //! Editing of keys, as the timeline and the curves share it: the selected keys, the drag, the part of time that is
 //! shown, markers, flags of bones, and the play range. No function here draws.
 
+pub mod buttonless;
 pub mod channel;
 pub mod clipboard;
 pub mod columns;
@@ -14,6 +15,7 @@ pub mod selection;
 pub mod shift;
 pub mod window;
 
+pub use buttonless::{ButtonlessDrag, ButtonlessKind, ButtonlessStart, ButtonlessStep, KeyAxis, KeyPanel};
 pub use channel::ChannelId;
 pub use flags::{BoneFlag, BoneFlags};
 pub use markers::{Marker, MarkerAction, Markers};
@@ -59,6 +61,8 @@ pub struct KeyEditing {
     /// The play range, seconds; `None` for the whole take.
     range: Option<[f32; 2]>,
     drag: Option<KeyDrag>,
+    /// The drag that follows the pointer without a button.
+    buttonless: Option<ButtonlessDrag>,
     /// Whether the timeline or the curves were used last. Then the copy command copies keys.
     has_focus: bool,
     /// Keys that were pasted and are selected once the document has them.
@@ -79,6 +83,7 @@ impl Default for KeyEditing {
             seen: None,
             range: None,
             drag: None,
+            buttonless: None,
             has_focus: false,
             pasted: None,
         }
@@ -371,7 +376,7 @@ impl KeyEditing {
     /// Forgets everything about the take: another one is shown.
     pub(super) fn before_take_change(&mut self) {
         self.deselect();
-        (self.window, self.range, self.drag) = (None, None, None);
+        (self.window, self.range, self.drag, self.buttonless) = (None, None, None, None);
         self.seen = None;
         self.pasted = None;
     }

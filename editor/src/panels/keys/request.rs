@@ -1,6 +1,7 @@
 //! Requests of panels about keys.
 
 use super::ChannelId;
+use super::buttonless::ButtonlessStep;
 use super::flags::BoneFlag;
 use super::markers::MarkerAction;
 use super::op::KeyDragOp;
@@ -38,6 +39,8 @@ pub enum KeysRequest {
     Window(Option<TimeWindow>),
     /// Begins or continues a drag.
     Drag(KeyDragOp),
+    /// Changes the drag that follows the pointer without a button.
+    Buttonless(ButtonlessStep),
     /// Ends the drag; its edits stay.
     Release,
     /// Cancels the drag; its edits are undone.

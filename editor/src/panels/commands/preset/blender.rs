@@ -41,3 +41,19 @@ pub(super) const TABLE: PresetKeys = &[
     (Id::ToggleXRay, &[key(ALT, Key::Z)]),
     (Id::Palette, &[key(NONE, Key::F3), key(CTRL, Key::P)]),
 ];
+
+/// The dope sheet and the graph editor.
+#[rustfmt::skip] // A table is read in columns.
+pub(super) const OVER_KEYS: PresetKeys = &[
+    (Id::MoveKeysNow, &[key(NONE, Key::G)]),
+    (Id::ScaleKeysNow, &[key(NONE, Key::S)]),
+    (Id::DuplicateKeysNow, &[key(SHIFT, Key::D)]),
+    (Id::SelectAllKeys, &[key(NONE, Key::A)]),
+    (Id::DeselectKeys, &[key(ALT, Key::A)]),
+    (Id::InvertKeys, &[key(CTRL, Key::I)]),
+    (Id::CopyKeys, &[key(CTRL, Key::C)]),
+    (Id::DeleteKeys, &[key(NONE, Key::X), key(NONE, Key::Delete)]),
+    (Id::SnapKeys, &[key(SHIFT, Key::S)]),
+    (Id::KeysReverse, &[key(CTRL, Key::M)]),
+    (Id::FitKeys, &[key(NONE, Key::Home), key(NONE, Key::Period)]),
+];

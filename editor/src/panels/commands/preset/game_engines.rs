@@ -30,3 +30,13 @@ pub(super) const TABLE: PresetKeys = &[
     (Id::FrameSelected, &[key(NONE, Key::F)]),
     (Id::Palette, &[key(CTRL, Key::K), key(CTRL.plus(SHIFT), Key::P), key(NONE, Key::F3), key(CTRL, Key::P)]),
 ];
+
+/// The animation panel of Godot and the animation window of Unity.
+#[rustfmt::skip] // A table is read in columns.
+pub(super) const OVER_KEYS: PresetKeys = &[
+    (Id::MoveKeysNow, &[key(NONE, Key::W)]),
+    (Id::ScaleKeysNow, &[key(NONE, Key::R)]),
+    (Id::SelectAllKeys, &[key(CTRL, Key::A)]),
+    (Id::CopyKeys, &[key(CTRL, Key::C)]),
+    (Id::FitKeys, &[key(NONE, Key::A), key(NONE, Key::F)]),
+];

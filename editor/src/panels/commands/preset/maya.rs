@@ -37,3 +37,14 @@ pub(super) const TABLE: PresetKeys = &[
     (Id::ShadeMaterial, &[key(NONE, Key::Num6)]),
     (Id::ToggleProjection, &[]),
 ];
+
+/// The graph editor and the dope sheet.
+#[rustfmt::skip] // A table is read in columns.
+pub(super) const OVER_KEYS: PresetKeys = &[
+    (Id::MoveKeysNow, &[key(NONE, Key::W)]),
+    (Id::ScaleKeysNow, &[key(NONE, Key::R)]),
+    (Id::SelectAllKeys, &[key(CTRL, Key::A)]),
+    (Id::CopyKeys, &[key(CTRL, Key::C)]),
+    (Id::DeleteKeys, &[key(NONE, Key::Delete)]),
+    (Id::FitKeys, &[key(NONE, Key::A), key(NONE, Key::F)]),
+];

@@ -8,14 +8,15 @@ mod game_engines;
 mod maya;
 
 use super::id::Id;
+use super::key_settings::KeyScope;
 use super::shortcut::{ALT, CTRL, NONE, PresetKeys, SHIFT, key};
 use egui::Key;
 use serde::{Deserialize, Serialize};
 
-/// Declares [`Preset`] from a list of `Name => "name on the screen", table;` lines. The name is the one that settings
+/// Declares [`Preset`] from a list of `Name => "name on the screen", table, keys over the timeline and the curves;` lines. The name is the one that settings
 /// store, so it never changes.
 macro_rules! presets {
-    ($($Name:ident => $title:literal, $table:expr;)*) => {
+    ($($Name:ident => $title:literal, $table:expr, $over_keys:expr;)*) => {
         /// A set of keys.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
         pub enum Preset {
@@ -34,16 +35,26 @@ macro_rules! presets {
                 match self { Self::Dragonfly => "Dragonfly", $(Self::$Name => $title,)* }
             }
 
-            /// Returns the commands with keys that differ from the table.
-            pub(super) fn table(self) -> PresetKeys {
-                match self { Self::Dragonfly => &[], $(Self::$Name => $table,)* }
+            /// Returns the commands with keys that differ from the table in a part of the window.
+            pub(super) fn table(self, scope: KeyScope) -> PresetKeys {
+                match (scope, self) {
+                    (KeyScope::Window, Self::Dragonfly) => &[],
+                    (KeyScope::Keys, Self::Dragonfly) => OVER_KEYS,
+                    $((KeyScope::Window, Self::$Name) => $table,
+                    (KeyScope::Keys, Self::$Name) => $over_keys,)*
+                }
             }
         }
     };
 }
 
 presets! {
-    Blender => "Blender", blender::TABLE;
-    Maya => "Maya", maya::TABLE;
-    GameEngines => "Godot / Unity", game_engines::TABLE;
+    Blender => "Blender", blender::TABLE, blender::OVER_KEYS;
+    Maya => "Maya", maya::TABLE, maya::OVER_KEYS;
+    GameEngines => "Godot / Unity", game_engines::TABLE, game_engines::OVER_KEYS;
 }
+
+#[rustfmt::skip] // A table is read in columns.
+const OVER_KEYS: PresetKeys = &[
+    (Id::SelectAllKeys, &[key(CTRL, Key::A)]),
+];

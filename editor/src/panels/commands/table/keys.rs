@@ -4,10 +4,16 @@ use super::*;
 use crate::panels::actions::clipboard;
 use crate::panels::actions::keys;
 use crate::panels::actions::playback;
-use dragonfly_document::edit::KeyInterpolation;
+use crate::panels::keys::ButtonlessKind;
+use dragonfly_document::edit::{KeyInterpolation, KeyTangents};
 
 commands! {
     SelectAllKeys => When::Take, "Select all keys", [key(CTRL.plus(SHIFT), Key::A)], "Selects every key listed in the timeline", |w| { keys::select_all(w); None };
+    DeselectKeys => When::Take, "Deselect all keys", [], "Deselects all keys; bones stay selected", |w| { keys::deselect(w); None };
+    InvertKeys => When::Take, "Invert the selection of keys", [], "Selects the keys listed in the timeline that are not selected, and deselects the others", |w| { keys::invert(w); None };
+    MoveKeysNow => When::Keys, "Move keys with the mouse", [], "Moves the selected keys with the mouse: X constrains to time, Y to value, digits enter frames or a value, Enter confirms", |w| { keys::drag_now(w, ButtonlessKind::Move); None };
+    ScaleKeysNow => When::Keys, "Scale keys with the mouse", [], "Scales the selected keys in time about the playhead with the mouse: digits enter a factor, Enter confirms", |w| { keys::drag_now(w, ButtonlessKind::Scale); None };
+    DuplicateKeysNow => When::Keys, "Duplicate keys with the mouse", [], "Moves copies of the selected keys with the mouse: digits enter frames, Enter confirms", |w| { keys::drag_now(w, ButtonlessKind::Duplicate); None };
     DeleteKeys => When::Keys, "Delete keys", [key(NONE, Key::Delete), key(NONE, Key::Backspace)], "Deletes the selected keys", keys::delete;
     DuplicateKeys => When::Keys, "Duplicate keys", [key(CTRL, Key::D), key(SHIFT, Key::D)], "Copies the selected keys to the playhead", keys::duplicate;
     CopyKeys => When::Keys, "Copy keys", [], "Copies the selected keys with their values and tangents; Paste inserts them at the playhead", clipboard::copy_keys;
@@ -21,6 +27,11 @@ commands! {
     InterpolateStep => When::Keys, "Step interpolation", [], "Sets the channels of the selected keys to step interpolation: each value holds until the next key", |w| keys::interpolate(w, KeyInterpolation::Step);
     InterpolateLinear => When::Keys, "Linear interpolation", [], "Sets the channels of the selected keys to linear interpolation", |w| keys::interpolate(w, KeyInterpolation::Linear);
     InterpolateSpline => When::Keys, "Spline interpolation", [], "Sets the channels of the selected keys to spline interpolation, with editable tangents; Alt + drag breaks a tangent", |w| keys::interpolate(w, KeyInterpolation::CubicSpline);
+    TangentsAuto => When::Keys, "Auto tangents", [], "Makes the curves smooth at the selected keys; channels become splines (tangents, handles, Catmull-Rom)", |w| keys::shape_tangents(w, KeyTangents::Auto);
+    TangentsClamped => When::Keys, "Clamped tangents", [], "Makes the curves smooth at the selected keys without overshooting: they stay between the values of the keys (auto clamped, plateau)", |w| keys::shape_tangents(w, KeyTangents::Clamped);
+    TangentsFlat => When::Keys, "Flat tangents", [], "Makes the curves horizontal at the selected keys (ease in and out)", |w| keys::shape_tangents(w, KeyTangents::Flat);
+    TangentsLinear => When::Keys, "Linear tangents", [], "Points the tangents of the selected keys straight at their neighbors (vector handles)", |w| keys::shape_tangents(w, KeyTangents::Linear);
+    TangentsUnified => When::Keys, "Unify tangents", [], "Gives the selected keys one slope: the mean of broken tangents (aligned handles); Alt + drag breaks one", |w| keys::shape_tangents(w, KeyTangents::Unified);
     RippleOpen => When::Take, "Insert a frame", [key(NONE, Key::F5)], "Moves all keys after the playhead one frame later; hold 2 while dragging keys to ripple them by any time", |w| keys::ripple(w, 1.0);
     RippleClose => When::Take, "Remove a frame", [key(SHIFT, Key::F5)], "Removes the frame after the playhead, and its keys", |w| keys::ripple(w, -1.0);
     FitKeys => When::Take, "Fit the timeline", [key(SHIFT, Key::Home)], "Zooms the timeline to the selected keys, or to the whole take", |w| { keys::fit_window(w); None };

@@ -1,0 +1,109 @@
+//! A drag of keys without a button in the curves: sideways in time, or up and down in value.
+
+use super::canvas::{CurveCanvas, component_name};
+use super::curve::Curve;
+use super::drag::MOST;
+use super::values::{ValueKey, given_angles, value_edit};
+use crate::control::drag::THRESHOLD;
+use crate::panels::dope::ButtonlessTimes;
+use crate::panels::drag::{PointerInput, readout};
+use crate::panels::keys::{ButtonlessKind, KeyAxis, KeyDragOp, KeysRequest};
+use crate::panels::request::Request;
+use egui::{CursorIcon, Pos2, Ui};
+use std::sync::Arc;
+
+/// A drag without a button, with the selected keys as they were when it began.
+#[derive(Debug)]
+pub(super) struct ButtonlessCurves {
+    /// Position of the pointer when the drag began, points.
+    from: Pos2,
+    /// Value under the pointer when the drag began.
+    value: f32,
+    /// Selected keys of the property whose values are moved.
+    keys: Vec<ValueKey>,
+    /// The curves of these keys.
+    curves: Vec<Arc<Curve>>,
+    component: usize,
+    /// The direction in which the pointer moved first.
+    first: Option<KeyAxis>,
+}
+
+impl ButtonlessCurves {
+    /// Begins a drag at `from` with the selected keys whose curves are shown. Values move of those with the property of the
+    /// first one; `component` if it is shown, else the first one that is.
+    pub(super) fn new(canvas: &CurveCanvas<'_>, from: Pos2, component: usize) -> Self {
+        let selected = |curve: &Arc<Curve>| {
+            let chosen = canvas.drawn.selection.of(curve.id);
+            let keys = chosen.keys(curve.times()).flatten().filter_map(|key| ValueKey::of(curve, key));
+            keys.take(MOST + 1).collect::<Vec<_>>()
+        };
+        let (mut keys, mut curves): (Vec<ValueKey>, Vec<Arc<Curve>>) = (Vec::new(), Vec::new());
+        for curve in canvas.curves {
+            let is_same = curves.first().is_none_or(|first| first.id.1 == curve.id.1);
+            let own = if is_same && keys.len() <= MOST { selected(curve) } else { Vec::new() };
+            if !own.is_empty() {
+                keys.extend(own);
+                curves.push(Arc::clone(curve));
+            }
+        }
+        let shown: Vec<usize> =
+            curves.first().map(|curve| canvas.components(curve).collect()).unwrap_or_default();
+        let component =
+            if shown.contains(&component) { component } else { shown.first().copied().unwrap_or(0) };
+        Self { from, value: canvas.value.value_at(from.y), keys, curves, component, first: None }
+    }
+
+    /// Requests what the drag does with the pointer at `pointer`.
+    pub(super) fn follow(
+        &mut self,
+        ui: &Ui,
+        pointer: Pos2,
+        canvas: &CurveCanvas<'_>,
+        input: &PointerInput,
+        requests: &mut Vec<Request>,
+    ) {
+        let Some(drag) = canvas.context.keys.buttonless() else { return };
+        if self.first.is_none() && pointer.distance(self.from) >= THRESHOLD {
+            let moved = pointer - self.from;
+            // The first movement decides between time and value: both at once would be two edits in one.
+            let is_time = moved.x.abs() >= moved.y.abs();
+            self.first = Some(if is_time { KeyAxis::Time } else { KeyAxis::Value });
+        }
+        let is_value = drag.axis().or(self.first) == Some(KeyAxis::Value);
+        let op = if is_value && drag.kind() == ButtonlessKind::Move {
+            self.values(ui, pointer, canvas, input, requests)
+        } else {
+            let times = ButtonlessTimes::new(canvas.context, &canvas.drawn.take, canvas.time, self.from);
+            times.and_then(|times| times.op(ui, pointer, input))
+        };
+        if let Some(op) = op {
+            requests.push(Request::Timeline(KeysRequest::Drag(op)));
+        }
+    }
+
+    /// Shows by how much values are moved, and returns the operation that moves them there.
+    fn values(
+        &self,
+        ui: &Ui,
+        pointer: Pos2,
+        canvas: &CurveCanvas<'_>,
+        input: &PointerInput,
+        requests: &mut Vec<Request>,
+    ) -> Option<KeyDragOp> {
+        ui.ctx().set_cursor_icon(CursorIcon::ResizeVertical);
+        if self.keys.len() > MOST {
+            readout(ui, pointer, &format!("At most {MOST} key values can be dragged at once"));
+            return None;
+        }
+        let typed = canvas.context.keys.buttonless().and_then(|drag| drag.amount());
+        let mut by = typed.unwrap_or(canvas.value.value_at(pointer.y) - self.value);
+        if input.modifiers.command && typed.is_none() {
+            let step = (canvas.value.step() / 2.0) as f32;
+            by = (by / step).round() * step;
+        }
+        readout(ui, pointer, &format!("{} {by:+.3}", component_name(self.component)));
+        let edit = value_edit(canvas.context.take_ref()?, &self.keys, self.component, by)?;
+        requests.extend(given_angles(&self.curves, &self.keys, self.component, by));
+        Some(KeyDragOp::Edit(edit))
+    }
+}
