@@ -67,8 +67,8 @@ pub(crate) const PLANTS: &[Plant] = &[
         thing: "preset of keys",
         file: Some(("editor/src/panels/commands/preset/planted.rs", include_str!("files/preset.txt"))),
         list: "editor/src/panels/commands/preset/mod.rs",
-        place: ["presets! {", "    Maya => \"Maya\", maya::TABLE;"],
-        entry: "    Planted => \"Planted\", planted::TABLE;",
+        place: ["presets! {", "    Maya => \"Maya\", maya;"],
+        entry: "    Planted => \"Planted\", planted;",
         mark: "const TABLE: PresetKeys = ",
         ..NOTHING
     },

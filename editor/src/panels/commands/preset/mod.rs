@@ -13,10 +13,10 @@ use super::shortcut::{ALT, CTRL, NONE, PresetKeys, SHIFT, key};
 use egui::Key;
 use serde::{Deserialize, Serialize};
 
-/// Declares [`Preset`] from a list of `Name => "name on the screen", table, keys over the timeline and the curves;` lines. The name is the one that settings
-/// store, so it never changes.
+/// Declares [`Preset`] from a list of `Name => "name on the screen", file;` lines. The name is the one that settings store, so
+/// it never changes. The file has two tables: keys, and those over the timeline and the curves.
 macro_rules! presets {
-    ($($Name:ident => $title:literal, $table:expr, $over_keys:expr;)*) => {
+    ($($Name:ident => $title:literal, $file:ident;)*) => {
         /// A set of keys.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
         pub enum Preset {
@@ -40,8 +40,8 @@ macro_rules! presets {
                 match (scope, self) {
                     (KeyScope::Window, Self::Dragonfly) => &[],
                     (KeyScope::Keys, Self::Dragonfly) => OVER_KEYS,
-                    $((KeyScope::Window, Self::$Name) => $table,
-                    (KeyScope::Keys, Self::$Name) => $over_keys,)*
+                    $((KeyScope::Window, Self::$Name) => $file::TABLE,
+                    (KeyScope::Keys, Self::$Name) => $file::OVER_KEYS,)*
                 }
             }
         }
@@ -49,9 +49,9 @@ macro_rules! presets {
 }
 
 presets! {
-    Blender => "Blender", blender::TABLE, blender::OVER_KEYS;
-    Maya => "Maya", maya::TABLE, maya::OVER_KEYS;
-    GameEngines => "Godot / Unity", game_engines::TABLE, game_engines::OVER_KEYS;
+    Blender => "Blender", blender;
+    Maya => "Maya", maya;
+    GameEngines => "Godot / Unity", game_engines;
 }
 
 #[rustfmt::skip] // A table is read in columns.
