@@ -207,7 +207,7 @@ fn over_a_range_with_a_falloff_nothing_changes_beyond_it_and_the_range_gets_the_
         let (from, to) = random.choice(&[(0.3, 0.6), (0.0, 0.4), (0.55, 1.0), (0.125, 0.25), (0.42, 0.42)]);
         let reach = random.choice(&[FRAME, 0.2]);
         for (index, name) in BONES.iter().enumerate() {
-            // A key that is inserted in a spline of rotations is normalized, which changes the curve beside it a little.
+            // A key that is inserted in a spline of rotations is normalized, which changes the curve around it a little.
             let by = BonePose {
                 rotation: offset(&mut random, name).rotation.filter(|_| *name != "hip"),
                 ..offset(&mut random, name)

@@ -30,7 +30,7 @@ impl FalloffShape {
     }
 }
 
-/// How far an offset fades out around the chosen keys.
+/// The distance and the curve by which an offset fades out around the chosen keys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Falloff {
     /// Distance at which nothing of it is left, seconds.

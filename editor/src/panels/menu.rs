@@ -2,6 +2,7 @@
 
 use super::commands::{self, Category, Id};
 use super::context::PanelContext;
+use super::edit_scope::EditScope;
 use super::request::Request;
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
@@ -81,6 +82,10 @@ fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     for command in commands::of(Category::Pose) {
         let on = match command.id {
             Id::AutoKey => context.settings.auto_key,
+            Id::ToggleFalloff => context.over.falloff,
+            id if EditScope::ALL.iter().any(|scope| scope.command() == id) => {
+                context.over.scope.command() == id
+            }
             Id::ToggleIk => context.ik.on,
             _ => false,
         };
@@ -91,7 +96,13 @@ fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         item(ui, context, command.id, on, requests);
         if matches!(
             command.id,
-            Id::AutoKey | Id::DropPending | Id::PasteMirrored | Id::ResetToRest | Id::LookAt
+            Id::AutoKey
+                | Id::NextEditScope
+                | Id::NextFalloffShape
+                | Id::DropPending
+                | Id::PasteMirrored
+                | Id::ResetToRest
+                | Id::LookAt
         ) {
             ui.separator();
         }
@@ -197,7 +208,7 @@ fn view(
 }
 
 /// Gives fields and boxes the outlines that they have in panels; in menus egui draws none.
-fn outline_fields(ui: &mut Ui) {
+pub(super) fn outline_fields(ui: &mut Ui) {
     let theme = Theme::of(ui);
     let widget = &mut ui.visuals_mut().widgets.inactive;
     (widget.bg_stroke, widget.weak_bg_fill) = (Stroke::new(1.0, theme.line), theme.sunken);

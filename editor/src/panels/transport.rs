@@ -3,6 +3,7 @@
 use super::command_button::command_button;
 use super::commands::{self, Id};
 use super::context::PanelContext;
+use super::edit_scope_menu;
 use super::icons::Icon;
 use super::request::Request;
 use super::ruler;
@@ -59,6 +60,7 @@ fn buttons(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>)
 fn keying(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     command_button(ui, Icon::AutoKey, Id::AutoKey, context.settings.auto_key, requests);
     let waits = context.pending_here().is_some();
+    edit_scope_menu::switch(ui, context, ui.available_width() > 640.0, requests);
     ui.add_enabled_ui(context.take().is_some(), |ui| {
         command_button(ui, Icon::Key, Id::Key, waits, requests);
     });

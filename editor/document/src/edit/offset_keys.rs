@@ -2,10 +2,10 @@
 
 use super::kind::EditKind;
 use super::set_pose::pose_label;
-use super::{Arbitrary, BonePose, EditedBones, Example, OffsetFalloff, OffsetScope, TakeRef, cost};
+use super::{Arbitrary, BonePose, BoneRef, EditedBones, Example, OffsetFalloff, OffsetScope, TakeRef, cost};
 use crate::adapter::plan::{Transaction, offset};
 use crate::adapter::{EditError, ModelAdapter};
-use dragonfly_anim::data::Skeleton;
+use dragonfly_anim::data::{BoneIndex, Skeleton};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +26,17 @@ pub struct OffsetKeys {
     /// How the offset fades out around the keys.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub falloff: Option<OffsetFalloff>,
+}
+
+impl OffsetKeys {
+    /// Returns the bones that it names by index.
+    pub fn bones_named(&self) -> Vec<BoneIndex> {
+        let index = |pose: &BonePose| match pose.bone {
+            BoneRef::Index(bone) => Some(bone),
+            BoneRef::Name(_) => None,
+        };
+        self.poses.iter().filter_map(index).collect()
+    }
 }
 
 impl EditKind for OffsetKeys {
@@ -55,7 +66,11 @@ impl EditKind for OffsetKeys {
     fn detail(&self, adapter: &ModelAdapter) -> Option<String> {
         let keys = offset::keys_of(adapter, &self.take, &self.poses, &self.over);
         let plural = if keys == 1 { "" } else { "s" };
-        Some(format!("{keys} key{plural} {}", self.over.text()))
+        Some(match self.over {
+            OffsetScope::Keys(_) => format!("{keys} selected key{plural}"),
+            OffsetScope::Take => format!("{keys} key{plural} in the whole take"),
+            OffsetScope::Range(_) => format!("{keys} key{plural} in the range"),
+        })
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

@@ -30,7 +30,7 @@ pub struct OffsetRange {
     pub to: f32,
 }
 
-/// How far an offset fades out around its keys.
+/// The distance and the curve by which an offset fades out around its keys.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OffsetFalloff {
@@ -79,12 +79,12 @@ impl From<OffsetFalloff> for Falloff {
 }
 
 impl OffsetScope {
-    /// Returns its keys in a few words: `in the whole take`.
-    pub(crate) fn text(&self) -> &'static str {
+    /// Returns its keys where their number is unknown: `keys in the whole take`.
+    pub(crate) fn keys_text(&self) -> &'static str {
         match self {
-            Self::Take => "in the whole take",
-            Self::Range(_) => "in the range",
-            Self::Keys(_) => "selected",
+            Self::Take => "keys in the whole take",
+            Self::Range(_) => "keys in the range",
+            Self::Keys(_) => "selected keys",
         }
     }
 

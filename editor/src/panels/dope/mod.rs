@@ -3,6 +3,7 @@
 
 mod areas;
 mod drag;
+mod fade;
 mod gutter;
 mod head;
 mod markers;
@@ -88,6 +89,7 @@ impl Dope {
         };
         overlay::rows(&painter, &sheet);
         overlay::outside_range(&painter, &sheet);
+        fade::paint(&painter, &sheet);
         self.keys.paint(&painter, &sheet);
         self.scroll = (self.scroll + self.drag.update(ui, &canvas, &sheet, requests)).max(0.0);
         self.menu.show(&canvas, &self.drag, context, requests);
