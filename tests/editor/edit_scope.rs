@@ -1,6 +1,8 @@
 //! Edits of poses apply to this frame, to the selected keys, to the play range or to the whole take, as the switch says.
 
+use crate::viewport_tools_rig::ViewportHarness;
 use crate::workbench::{Window, Workbench, drag, move_to, press, release, type_into};
+use dragonfly::control;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::edit_scope::EditScope;
 use dragonfly::panels::keys::KeysRequest;
@@ -9,11 +11,12 @@ use dragonfly_anim::data::{Take, Transform};
 use dragonfly_anim::sample::sample_track;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, FadeShape, Property};
-use dragonfly_document::{Change, View};
-use dragonfly_kit::document::fixture;
+use dragonfly_document::{Cancel, Change, LoadError, OpenedModel, Progress, Source, View};
+use dragonfly_kit::document::{arm, fixture};
+use dragonfly_picture::gizmo::Handle;
 use egui::{Key, Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec2, Vec3};
 use std::sync::Arc;
 
 /// The bone that is edited.
@@ -60,11 +63,22 @@ fn select_keys(bench: &mut Workbench, stretch: [f32; 2]) {
     bench.state.execute(Request::Timeline(select));
 }
 
+/// Returns a pose of the bone, turned by an angle about x.
+fn turned(angle: f32) -> Vec<BonePose> {
+    let rotation = Some(Quat::from_rotation_x(angle).to_array());
+    vec![BonePose { bone: BoneRef::Index(BONE), translation: None, rotation, scale: None }]
+}
+
+/// Returns whether no pose can be edited in the scope that is set.
+fn is_refused(bench: &Workbench) -> bool {
+    bench.state.read().pose_edit(turned(1.0)).is_none()
+}
+
 /// Returns what the newest step of the history is about.
 fn about(bench: &Workbench) -> String {
     let (steps, done) = bench.edited.as_ref().expect("open").steps();
     let step = &steps[done - 1];
-    format!("{} {}", step.label, step.about)
+    format!("{} {}", step.edit.label(), step.about)
 }
 
 #[test]
@@ -131,13 +145,9 @@ fn a_field_that_is_dragged_edits_the_whole_take_in_one_step_and_escape_leaves_no
 #[test]
 fn a_drag_over_a_long_take_sends_only_the_pose_at_the_playhead_until_it_is_released() {
     let mut bench = bench(60_000, Id::EditWholeTake);
-    let poses = |angle: f32| {
-        let rotation = Some(Quat::from_rotation_x(angle).to_array());
-        vec![BonePose { bone: BoneRef::Index(BONE), translation: None, rotation, scale: None }]
-    };
-    let gesture = bench.state.read().dragging.open();
+    let gesture = bench.state.read().dragging.new_gesture();
     for step in 1..=3 {
-        let edit = bench.state.read().pose_edit(poses(step as f32 * 0.1)).expect("a take is shown");
+        let edit = bench.state.read().pose_edit(turned(step as f32 * 0.1)).expect("a take is shown");
         bench.change(Change::Edit(edit, Some(gesture)));
         let shown = bench.state.read().pending_here().is_some();
         assert!(shown, "the pose at the playhead is shown");
@@ -149,10 +159,7 @@ fn a_drag_over_a_long_take_sends_only_the_pose_at_the_playhead_until_it_is_relea
     );
     bench.change(Change::Release(gesture));
     let sent = &bench.changes[3..];
-    assert!(
-        matches!(sent, [Change::Edit(Edit::OffsetKeys(_), Some(_)), Change::Release(_)]),
-        "{sent:?}"
-    );
+    assert!(matches!(sent, [Change::Edit(Edit::OffsetKeys(_), Some(_)), Change::Release(_)]), "{sent:?}");
     assert!(bench.pose(BONE).rotation.angle_between(Quat::from_rotation_x(0.3)) < 1e-3);
     assert_eq!(bench.steps(), (1, 1));
     assert!(bench.state.read().pending_here().is_none());
@@ -161,9 +168,9 @@ fn a_drag_over_a_long_take_sends_only_the_pose_at_the_playhead_until_it_is_relea
 #[test]
 fn the_selected_keys_change_alone_and_without_any_the_reason_is_given() {
     let mut bench = bench(11, Id::EditSelectedKeys);
-    assert!(bench.state.read().scope_refusal().is_some_and(|reason| reason.contains("selected keys")));
+    assert!(is_refused(&bench));
     select_keys(&mut bench, [0.28, 0.62]);
-    assert_eq!(bench.state.read().scope_refusal(), None);
+    assert!(!is_refused(&bench));
     let before = take(&bench);
     let mut window = bench.window();
     type_into(&mut window, "Rotation change X", "20", Key::Enter);
@@ -224,19 +231,25 @@ fn outside_the_play_range_nothing_changes_and_a_playhead_out_there_is_refused() 
     }
     assert_eq!(bench.steps(), (1, 1));
     bench.state.execute(Request::Seek(0.9));
-    assert!(bench.state.read().scope_refusal().is_some_and(|reason| reason.contains("play range")));
+    assert!(is_refused(bench));
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("the playhead is outside of it").is_some());
 }
 
 #[test]
 fn a_pose_is_pasted_into_the_whole_take_as_an_offset_of_every_key() {
     let mut bench = bench(11, Id::EditWholeTake);
     let before = take(&bench);
-    let turn = Quat::from_rotation_y(0.5);
-    let rotation = Some((turn * at(&bench, &before, BONE, 0.5).rotation).to_array());
-    let pose = BonePose { bone: BoneRef::Index(BONE), translation: None, rotation, scale: None };
-    match bench.state.execute(Request::Paste { poses: vec![pose], mirrored: false }) {
+    bench.state.execute(Request::Seek(0.1));
+    let Some(Effect::Copy(text)) = bench.state.execute(Request::Command(Id::CopyPose)) else {
+        panic!("nothing was copied");
+    };
+    bench.state.execute(Request::Seek(0.5));
+    let [copied, there] = [0.1, 0.5].map(|time| at(&bench, &before, BONE, time).rotation);
+    let turn = copied * there.conjugate();
+    match bench.state.execute(Request::PastePose { text, mirrored: false }) {
         Some(Effect::Change(change)) => bench.change(change),
-        other => panic!("{other:?}"),
+        _ => panic!("nothing was pasted"),
     }
     let after = take(&bench);
     for time in grid() {
@@ -275,12 +288,83 @@ fn the_menu_of_a_number_field_has_the_scopes() {
     assert_eq!(window.state().steps(), (0, 0));
 }
 
+fn arm(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {
+    Ok(Arc::into_inner(arm::loaded()).expect("the only one").into())
+}
+
+/// Opens the arm in the middle of its take, where it is bent, with a bone selected.
+fn viewport(bone: u32, scope: Id) -> ViewportHarness {
+    let mut viewport = ViewportHarness::new(arm);
+    viewport.state.execute(Request::Seek(0.5));
+    viewport.state.execute(Request::Select(Some(bone)));
+    viewport.command(scope);
+    viewport.state.begin_frame(viewport.state.read().now);
+    viewport
+}
+
+/// Returns the rotations of all bones at some times.
+fn rotations(viewport: &ViewportHarness) -> Vec<[Quat; arm::BONES]> {
+    let view = viewport.state.read().view.expect("open");
+    let bones = &view.loaded.model.animation.skeleton.bones;
+    let bone = |bone: usize, time| sample_track(&view.takes[0].tracks[bone], &bones[bone], time).rotation;
+    grid().map(|time| std::array::from_fn(|index| bone(index, time))).collect()
+}
+
+#[test]
+fn degrees_that_are_typed_while_the_gizmo_is_dragged_turn_the_bone_in_the_whole_take() {
+    let mut viewport = viewport(1, Id::EditWholeTake);
+    let before = rotations(&viewport);
+    viewport.command(Id::RotateNow);
+    viewport.keys("y20");
+    viewport.key(control::Key::Enter);
+    assert_eq!(viewport.refused, [""; 0]);
+    assert_eq!(viewport.steps(), ["Rotate"]);
+    let after = rotations(&viewport);
+    let turn = after[50][1] * before[50][1].conjugate();
+    assert!((turn.to_axis_angle().1.to_degrees() - 20.0).abs() < 1e-3, "{turn}");
+    for (before, after) in before.iter().zip(&after) {
+        assert!((turn * before[1] - after[1]).length() < 2e-6);
+        assert_eq!([before[0], before[2]], [after[0], after[2]], "the other bones stay");
+    }
+    viewport.command(Id::Undo);
+    assert_eq!(rotations(&viewport), before);
+}
+
+#[test]
+fn a_chain_moved_by_ik_keeps_its_motion_in_the_whole_take_and_each_bone_gets_one_offset() {
+    let mut viewport = viewport(2, Id::EditWholeTake);
+    viewport.command(Id::ToolMove);
+    viewport.command(Id::ToggleIk);
+    viewport.state.begin_frame(viewport.state.read().now);
+    let before = rotations(&viewport);
+    let from = viewport.handle(Handle::Center);
+    viewport.press(from);
+    viewport.to(from + Vec2::new(15.0, 20.0));
+    viewport.to(from + Vec2::new(30.0, 40.0));
+    viewport.release();
+    assert_eq!(viewport.refused, [""; 0]);
+    assert_eq!(viewport.steps().len(), 1, "{:?}", viewport.steps());
+    let after = rotations(&viewport);
+    for bone in 0..arm::BONES {
+        let turn = after[50][bone] * before[50][bone].conjugate();
+        assert!(turn.to_axis_angle().1 > 0.01, "bone {bone} turns");
+        for (before, after) in before.iter().zip(&after) {
+            assert!((turn * before[bone] - after[bone]).length() < 2e-6, "bone {bone}");
+        }
+    }
+}
+
 /// Clicks with the secondary button.
 fn click(window: &mut Window, pos: egui::Pos2) {
     window.event(egui::Event::PointerMoved(pos));
     for pressed in [true, false] {
         let modifiers = Modifiers::NONE;
-        window.event(egui::Event::PointerButton { pos, button: PointerButton::Secondary, pressed, modifiers });
+        window.event(egui::Event::PointerButton {
+            pos,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers,
+        });
         window.run_steps(2);
     }
 }

@@ -70,6 +70,7 @@ const TABLE: &[MenuRow] = &[
     ),
     ("key", "timeline", Right("Keys, "), &[Typical], NOTHING),
     ("time-track", "timeline", Right("Time track"), &[Typical], NOTHING),
+    ("edit-scope", "timeline", Click(&["Edits apply to: This frame"]), &[Typical], NOTHING),
     ("frame-rate", "timeline", Click(&["30 fps"]), &[Typical], FIXED),
     ("curve-form", "curves", Click(&["Euler XYZ"]), &[Typical], FIXED),
     ("rotation-order", "properties", Click(&["Order of rotation: "]), &[Typical], NOTHING),

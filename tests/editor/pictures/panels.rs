@@ -109,6 +109,14 @@ fn more() -> Vec<PictureCase> {
                 window.state_mut().state.execute(Request::Command(id));
             }
         }),
+        case("timeline-whole-take", "timeline", Typical, |window| {
+            window.state_mut().state.execute(Request::Command(Id::EditWholeTake));
+        }),
+        case("timeline-falloff", "timeline", Typical, |window| {
+            for id in [Id::SelectAllKeys, Id::EditSelectedKeys, Id::ToggleFalloff] {
+                window.state_mut().state.execute(Request::Command(id));
+            }
+        }),
         case("curves-rest-pose", "curves", Typical, |window| {
             window.state_mut().state.execute(Request::ShowTake(None));
         }),
