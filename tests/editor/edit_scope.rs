@@ -16,7 +16,7 @@ use dragonfly_kit::document::{arm, fixture};
 use dragonfly_picture::gizmo::Handle;
 use egui::{Key, Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
-use glam::{Quat, Vec2, Vec3};
+use glam::{Quat, Vec2};
 use std::sync::Arc;
 
 /// The bone that is edited.
@@ -113,7 +113,7 @@ fn a_field_that_is_dragged_edits_the_whole_take_in_one_step_and_escape_leaves_no
         let bench = bench(keys, Id::EditWholeTake);
         let before = take(&bench);
         let mut window = bench.window();
-        let from = window.get_by_label("Translation result Y").rect().center();
+        let from = window.get_by_label("Rotation change X").rect().center();
         press(&mut window, from);
         for step in 1..=4 {
             move_to(&mut window, from + vec2(10.0 * step as f32, 0.0), Modifiers::NONE);
@@ -125,14 +125,15 @@ fn a_field_that_is_dragged_edits_the_whole_take_in_one_step_and_escape_leaves_no
         assert_eq!(take(window.state()), before, "{keys} keys");
         assert!(view(window.state()).slots[0].pending().is_empty());
 
-        drag(&mut window, "Translation result Y", vec2(40.0, 0.0), Modifiers::NONE);
+        drag(&mut window, "Rotation change X", vec2(40.0, 0.0), Modifiers::NONE);
         let bench = window.state();
         let after = take(bench);
-        let by = bench.pose(BONE).translation.y - at(bench, &before, BONE, 0.5).translation.y;
-        assert!(by > 0.0, "{keys} keys: {by}");
+        let [was, is] = [&before, &after].map(|take| at(bench, take, BONE, 0.5).rotation);
+        let turn = is * was.conjugate();
+        assert!(turn.to_axis_angle().1 > 0.01, "{keys} keys: {turn}");
         for time in grid() {
-            let places = [&before, &after].map(|take| at(bench, take, BONE, time).translation);
-            assert!((places[1] - places[0] - Vec3::Y * by).length() < 1e-5, "{keys} keys at {time}");
+            let off = angle(bench, [&before, &after], BONE, time, turn);
+            assert!(off < 2e-5, "{keys} keys: {off} at {time}");
         }
         assert_eq!(bench.steps(), (1, 1), "{keys} keys");
         assert!(view(bench).slots[0].pending().is_empty(), "{keys} keys");
