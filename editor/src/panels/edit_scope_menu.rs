@@ -1,4 +1,4 @@
-//! The switch for the scope of edits, beside auto-key, and its menu, which number fields show as well.
+//! The switch for the scope of edits, beside auto-key, and its menu, which number fields and the menu of poses show as well.
 
 use super::commands::{self, Id};
 use super::context::PanelContext;
@@ -13,13 +13,27 @@ use dragonfly_document::edit::FadeShape;
 use egui::accesskit::Role;
 use egui::{Button, Color32, CornerRadius, DragValue, Rect, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 
-/// Draws the switch: the name of the scope with its icon, in the color of a warning where edits change more than this frame. A
-/// narrow bar has room for the icon alone.
-pub(super) fn switch(ui: &mut Ui, context: &PanelContext<'_>, wide: bool, requests: &mut Vec<Request>) {
+/// The commands for the scope of edits, which have a menu of their own.
+pub(super) const COMMANDS: [Id; 9] = [
+    Id::EditFrame,
+    Id::EditSelectedKeys,
+    Id::EditPlayRange,
+    Id::EditWholeTake,
+    Id::NextEditScope,
+    Id::ToggleFalloff,
+    Id::WiderFalloff,
+    Id::NarrowerFalloff,
+    Id::NextFalloffShape,
+];
+
+/// Draws the switch: the name of the scope with its icon, in the color of a warning where edits change more than this frame.
+/// `room` is the width that is left in the bar: where it is small, the icon stands alone.
+pub(super) fn switch(ui: &mut Ui, context: &PanelContext<'_>, room: f32, requests: &mut Vec<Request>) {
     let scope = context.over.scope;
     let (theme, wary) = (Theme::of(ui), scope != EditScope::Frame);
     let font = TextStyle::Small.resolve(ui.style());
-    let text = if wide || wary { scope.title() } else { "" };
+    let named = room > if wary { 160.0 } else { 440.0 };
+    let text = if named { scope.title() } else { "" };
     let galley = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
     let words = if text.is_empty() { 0.0 } else { galley.size().x + GRID };
     let size = vec2(icon_size().x + words + 12.0, icon_size().y);
@@ -59,6 +73,15 @@ pub(super) fn entries(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Ve
     }
     ui.separator();
     falloff(ui, context, requests);
+}
+
+/// Draws all commands for the scope and the falloff.
+pub(super) fn all_entries(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    entries(ui, context, requests);
+    ui.separator();
+    for id in [Id::NextEditScope, Id::WiderFalloff, Id::NarrowerFalloff, Id::NextFalloffShape] {
+        menu::item(ui, context, id, false, requests);
+    }
 }
 
 /// Draws the entries for the falloff.

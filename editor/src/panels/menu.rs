@@ -2,7 +2,7 @@
 
 use super::commands::{self, Category, Id};
 use super::context::PanelContext;
-use super::edit_scope::EditScope;
+use super::edit_scope_menu;
 use super::request::Request;
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
@@ -82,28 +82,23 @@ fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     for command in commands::of(Category::Pose) {
         let on = match command.id {
             Id::AutoKey => context.settings.auto_key,
-            Id::ToggleFalloff => context.over.falloff,
-            id if EditScope::ALL.iter().any(|scope| scope.command() == id) => {
-                context.over.scope.command() == id
-            }
             Id::ToggleIk => context.ik.on,
             _ => false,
         };
+        // The switch beside auto-key has the same entries.
+        if command.id == Id::NextEditScope {
+            ui.menu_button("Edits apply to", |ui| edit_scope_menu::all_entries(ui, context, requests));
+            ui.separator();
+        }
+        if edit_scope_menu::COMMANDS.contains(&command.id) {
+            continue;
+        }
         // Lists "paste" directly above "paste mirrored".
         if command.id == Id::PasteMirrored {
             item(ui, context, Id::PastePose, false, requests);
         }
         item(ui, context, command.id, on, requests);
-        if matches!(
-            command.id,
-            Id::AutoKey
-                | Id::NextEditScope
-                | Id::NextFalloffShape
-                | Id::DropPending
-                | Id::PasteMirrored
-                | Id::ResetToRest
-                | Id::LookAt
-        ) {
+        if matches!(command.id, Id::DropPending | Id::PasteMirrored | Id::ResetToRest | Id::LookAt) {
             ui.separator();
         }
     }

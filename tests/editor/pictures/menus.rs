@@ -34,6 +34,7 @@ const TABLE: &[MenuRow] = &[
     ("file", VIEWPORT, Click(&["File"]), &[Empty, Typical], SAME),
     ("edit", VIEWPORT, Click(&["Edit"]), &[Empty, Typical], SAME),
     ("pose", VIEWPORT, Click(&["Pose"]), &[Empty, Typical, Crowded], ""),
+    ("pose-scope", VIEWPORT, Click(&["Pose", "Edits apply to"]), &[Typical], FIXED),
     ("tools", VIEWPORT, Click(&["Tools"]), &[Empty, Typical], SAME),
     ("play", VIEWPORT, Click(&["Play"]), &[Empty, Typical], SAME),
     ("keys", VIEWPORT, Click(&["Keys"]), &[Empty, Typical], SAME),
