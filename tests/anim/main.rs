@@ -30,6 +30,7 @@ mod fast_characters;
 mod fast_layers;
 mod fast_limbs;
 mod fast_path;
+mod fast_scratch;
 mod fast_vertices;
 mod figures;
 mod fixture;

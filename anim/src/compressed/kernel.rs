@@ -35,7 +35,7 @@ macro_rules! three {
     };
 }
 
-/// Decodes a pose.
+/// Decodes what moves of a pose.
 pub(super) struct Decode<'a> {
     pub(super) tables: &'a Tables,
     pub(super) bytes: &'a [u8],
@@ -218,20 +218,6 @@ impl Kernel for Decode<'_> {
     #[inline(always)]
     fn run<S: Simd>(self) {
         let Self { tables, bytes, time, out } = self;
-        for (out, still) in out.iter_mut().zip(&tables.still) {
-            out.translation = *still;
-            out.scale = PoseBlock::IDENTITY.scale;
-        }
-        for (block, still) in &tables.still_scales {
-            if let Some(out) = out.get_mut(*block as usize) {
-                out.scale = *still;
-            }
-        }
-        for (block, still) in &tables.still_rotations {
-            if let Some(out) = out.get_mut(*block as usize) {
-                out.rotation = *still;
-            }
-        }
         let (key, mix) = around(tables, time);
         if let Some(keys) = KeyPair::new(tables, bytes, key, mix) {
             if keys.segments[0] == keys.segments[1] {

@@ -4,12 +4,13 @@ use super::bits::BitReader;
 use super::clock::FrameClock;
 use super::head::{HeadBlock, LaneLayout, WideBlock};
 use super::lane_groups::{LaneGroup, TrackSlot, groups, slots};
-use super::stored::{PARTS, Reference, SegmentHead, ValueRange, rotation_of};
+use super::stored::{PACKED, PARTS, Reference, SegmentHead, ValueRange, WHOLE, rotation_of};
 use super::whole::WholeTrack;
 use crate::data::Transform;
-use crate::fast::PoseBlock;
 use crate::fast::simd::LANES;
+use crate::fast::{PoseBlock, StillPose};
 use glam::{Quat, Vec3};
+use std::sync::Arc;
 
 /// Everything about a compressed take but its keys.
 #[derive(Clone, Debug)]
@@ -22,12 +23,7 @@ pub(super) struct Tables {
     pub(super) keys_per_second: f64,
     pub(super) shift: u32,
     pub(super) bones: usize,
-    /// Constant translations of every block.
-    pub(super) still: Vec<[[f32; LANES]; 3]>,
-    /// Scales of the blocks in which not all are 1.
-    pub(super) still_scales: Vec<(u32, [[f32; LANES]; 3])>,
-    /// Rotations of the blocks in which none moves, or few do.
-    pub(super) still_rotations: Vec<(u32, [[f32; LANES]; 4])>,
+    pub(super) still: Arc<StillPose>,
     /// Rotations that move.
     pub(super) turning: Vec<Turning>,
     /// Translations and scales that move.
@@ -77,10 +73,9 @@ impl Tables {
         let turning: Vec<Turning> =
             turning.into_iter().map(|group| Turning { reference: reference(&group), group }).collect();
         let turns = |block: u32| turning.iter().any(|turning| turning.group.block == Some(block));
-        let still_rotations = (0..).zip(&base).filter(|(block, _)| !turns(*block));
-        let still_rotations = still_rotations.map(|(block, base)| (block, base.rotation)).collect();
-        let still_scales = (0..).zip(&base).filter(|(_, base)| base.scale != PoseBlock::IDENTITY.scale);
-        let still_scales = still_scales.map(|(block, base)| (block, base.scale)).collect();
+        let moves = |bone: usize| {
+            kinds.get(bone).is_some_and(|kinds| kinds.iter().any(|&kind| kind == PACKED || kind == WHOLE))
+        };
         Self {
             name,
             interval: clock.interval(),
@@ -88,9 +83,7 @@ impl Tables {
             clock,
             shift,
             bones: poses.len(),
-            still: base.iter().map(|base| base.translation).collect(),
-            still_scales,
-            still_rotations,
+            still: Arc::new(StillPose::of_blocks(&base, moves, turns)),
             turning,
             moving: [translations, scales],
             heads: Vec::new(),
@@ -103,19 +96,13 @@ impl Tables {
     /// Returns the constant pose of `bone`.
     pub(super) fn still_pose(&self, bone: usize) -> Transform {
         let (block, mut pose) = (bone / LANES, PoseBlock::IDENTITY);
-        pose.translation = self.still[block];
-        pose.scale = self.still_scale(block);
+        pose.translation = self.still.translation(block);
+        pose.scale = self.still.scale(block);
         let turning = self.turning.iter().find(|turning| turning.group.block == Some(block as u32));
-        let still = self.still_rotations.iter().find(|(at, _)| *at as usize == block);
-        if let Some(rotation) = turning.map(|turning| turning.reference).or(still.map(|still| still.1)) {
+        if let Some(rotation) = turning.map(|turning| turning.reference).or(self.still.rotation(block)) {
             pose.rotation = rotation;
         }
         pose.get(bone)
-    }
-
-    fn still_scale(&self, block: usize) -> [[f32; LANES]; 3] {
-        let still = self.still_scales.iter().find(|(at, _)| *at as usize == block);
-        still.map_or(PoseBlock::IDENTITY.scale, |still| still.1)
     }
 
     /// Returns every packed track, in the order in which tracks are stored.
@@ -167,8 +154,8 @@ impl Tables {
     fn still_lanes(&self, part: usize, group: usize) -> [LaneLayout; LANES] {
         let block = part.checked_sub(1).and_then(|vector| self.moving[vector][group].block);
         let rows = match block {
-            Some(block) if part == 1 => self.still[block as usize],
-            Some(block) => self.still_scale(block as usize),
+            Some(block) if part == 1 => self.still.translation(block as usize),
+            Some(block) => self.still.scale(block as usize),
             None => [[0.0; LANES]; 3],
         };
         std::array::from_fn(|lane| LaneLayout { start: rows.map(|row| row[lane]), ..LaneLayout::default() })
@@ -180,9 +167,7 @@ impl Tables {
 
     /// Returns the size of the tables in bytes.
     pub(super) fn bytes(&self) -> usize {
-        size_of_val(self.still.as_slice())
-            + size_of_val(self.still_scales.as_slice())
-            + size_of_val(self.still_rotations.as_slice())
+        self.still.bytes()
             + size_of_val(self.turning.as_slice())
             + size_of_val(self.moving[0].as_slice())
             + size_of_val(self.moving[1].as_slice())

@@ -7,7 +7,7 @@ use super::stored::BETWEEN;
 use super::table::Tables;
 use crate::data::{Channel, Take, Track};
 use crate::fast::simd::{Kernel, Simd, SimdLevel};
-use crate::fast::{Playable, Pose, PoseBlock};
+use crate::fast::{Playable, Pose, PoseBlock, StillPose};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
@@ -81,7 +81,7 @@ impl CompressedTake {
     /// left out; bones of `pose` past the take's stay as they are, from the next multiple of eight on. Allocates
     /// nothing.
     pub fn sample(&self, time: f32, pose: &mut Pose) {
-        self.level.run(Decode { tables: &self.tables, bytes: &self.bytes, time, out: pose.blocks_mut() });
+        crate::fast::sample(self.level, self, time, pose.blocks_mut());
     }
 
     /// Returns an ordinary take with the decoded keys, to be edited, shown or sampled on the open path.
@@ -152,8 +152,12 @@ impl Playable for CompressedTake {
         self.length()
     }
 
+    fn still(&self) -> &Arc<StillPose> {
+        &self.tables.still
+    }
+
     #[inline(always)]
-    fn sample_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]) {
+    fn sample_moving_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]) {
         Decode { tables: &self.tables, bytes: &self.bytes, time, out }.run::<S>();
     }
 }

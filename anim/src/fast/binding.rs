@@ -14,16 +14,31 @@ pub struct SkinBinding {
     joints: Vec<BoundJoint>,
     /// Whether a byte can index every bone of the rig.
     is_near: bool,
-    /// Every bone that a joint needs, those of one depth after the other.
+    /// Every bone that a joint needs: the roots, then the children of each step after those of the step before it.
     steps: Vec<ChainStep>,
-    /// 1 + each child that a joint needs, in the order of the steps of their parents.
-    children: Vec<u32>,
-    /// The blocks of the pose in which there are such bones, in the order of the steps that prepare them.
+    /// Number of steps of roots.
+    roots: usize,
+    /// 1 + the bone of each step.
+    order: Vec<u32>,
+    /// `order` as bytes, if they can index every bone of the rig.
+    near_order: [u8; NARROW],
+    /// The blocks of the pose in which there are such bones: those of the roots, then in the order of the steps that
+    /// prepare them.
     blocks: Vec<u32>,
+    /// Number of blocks of the roots.
+    root_blocks: usize,
     /// The use of each bone, in bone order.
     uses: Vec<BoneUse>,
     /// The joints that `steps` and `uses` do not have: of a bone that has another joint, or of no bone.
-    further: Vec<u32>,
+    further: Vec<FurtherJoint>,
+}
+
+/// A joint without a step of its own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FurtherJoint {
+    pub(super) joint: u32,
+    /// 1 + the step of its bone; 0 for no bone.
+    pub(super) step: u32,
 }
 
 /// A joint's bone and offset.
@@ -46,7 +61,7 @@ pub(super) enum BoneUse {
     Joint(u32),
 }
 
-/// A bone, its joint and its children, in memory as wide as a cache line.
+/// A bone, its joint and the number of its children, in memory as wide as a cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct ChainStep {
@@ -107,12 +122,18 @@ impl SkinBinding {
         }
         let is_needed = |slot: u32| uses[slot as usize - 1] != BoneUse::NotNeeded;
         let mut children = vec![Vec::new(); 1 + rig.bones()];
-        for link in rig.links.iter().filter(|link| is_needed(link.own)) {
+        for link in rig.by_depth().filter(|link| is_needed(link.own)) {
             children[link.parent as usize].push(link.own);
         }
-        let order: Vec<u32> = rig.by_depth().map(|link| link.own).filter(|&own| is_needed(own)).collect();
-        let (blocks, counts) = blocks_of_steps(&order, &children);
-        let steps = order.iter().zip(counts).map(|(&own, blocks)| {
+        let mut order = std::mem::take(&mut children[0]);
+        let roots = order.len();
+        let mut at = 0;
+        while let Some(&own) = order.get(at) {
+            order.extend(&children[own as usize]);
+            at += 1;
+        }
+        let plan = BlockPlan::new(&order, roots, &children);
+        let steps = order.iter().zip(&plan.counts).map(|(&own, &blocks)| {
             let (joint, offset) = match uses[own as usize - 1] {
                 BoneUse::Joint(joint) => (joint, joints[joint as usize].offset),
                 BoneUse::Parent | BoneUse::NotNeeded => (NO_JOINT, NO_OFFSET),
@@ -120,8 +141,19 @@ impl SkinBinding {
             ChainStep { offset, own, children: children[own as usize].len() as u32, joint, blocks }
         });
         let steps = steps.collect();
-        let children = order.iter().flat_map(|&own| &children[own as usize]).copied().collect();
-        Self { is_near: rig.bones() < NARROW, steps, children, blocks, uses, further, joints }
+        let step_of =
+            |slot: u32| (1..).zip(&order).find(|&(_, &own)| own == slot).map_or(0, |(step, _)| step);
+        let further = further
+            .into_iter()
+            .map(|joint: u32| FurtherJoint { joint, step: step_of(joints[joint as usize].slot) })
+            .collect();
+        let is_near = rig.bones() < NARROW;
+        let mut near_order = [0; NARROW];
+        for (near, own) in near_order.iter_mut().zip(&order).filter(|_| is_near) {
+            *near = *own as u8;
+        }
+        let BlockPlan { blocks, root_blocks, .. } = plan;
+        Self { is_near, steps, roots, order, near_order, blocks, root_blocks, uses, further, joints }
     }
 
     /// Returns the number of joints.
@@ -135,22 +167,35 @@ impl SkinBinding {
         self.is_near
     }
 
-    /// Returns every bone that a joint needs, those of one depth after the other.
+    /// Returns every bone that a joint needs: the roots, then the children of each step after those of the step before
+    /// it.
     #[inline(always)]
     pub(super) fn steps(&self) -> &[ChainStep] {
         &self.steps
     }
 
-    /// Returns 1 + each child that a joint needs, in the order of the steps of their parents.
+    /// Returns the number of steps of roots.
     #[inline(always)]
-    pub(super) fn children(&self) -> &[u32] {
-        &self.children
+    pub(super) fn roots(&self) -> usize {
+        self.roots
     }
 
-    /// Returns the blocks of the pose that the steps prepare, in their order.
+    /// Returns 1 + the bone of each step.
     #[inline(always)]
-    pub(super) fn blocks(&self) -> &[u32] {
-        &self.blocks
+    pub(super) fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// Returns 1 + the bone of each step as bytes, for [`Self::is_near`].
+    #[inline(always)]
+    pub(super) fn near_order(&self) -> &[u8; NARROW] {
+        &self.near_order
+    }
+
+    /// Returns the blocks of the pose of the roots, and those that the steps prepare, in their order.
+    #[inline(always)]
+    pub(super) fn blocks(&self) -> (&[u32], &[u32]) {
+        self.blocks.split_at_checked(self.root_blocks).unwrap_or_default()
     }
 
     /// Returns the use of each bone, in bone order.
@@ -159,10 +204,10 @@ impl SkinBinding {
         &self.uses
     }
 
-    /// Returns the joints that [`Self::steps`] and [`Self::uses`] do not have, each with its number.
+    /// Returns the joints that [`Self::steps`] and [`Self::uses`] do not have.
     #[inline(always)]
-    pub(super) fn further(&self) -> impl Iterator<Item = (usize, &BoundJoint)> {
-        self.further.iter().filter_map(|&joint| Some((joint as usize, self.joints.get(joint as usize)?)))
+    pub(super) fn further(&self) -> &[FurtherJoint] {
+        &self.further
     }
 
     /// Returns the joints.
@@ -171,19 +216,32 @@ impl SkinBinding {
     }
 }
 
-/// Returns the blocks of the pose that the steps of the bones of `order` need, and how many are to be prepared before
-/// each step: those of its bone and of its children, if no step before has prepared them, and blocks of later steps.
-fn blocks_of_steps(order: &[u32], children: &[Vec<u32>]) -> (Vec<u32>, Vec<u32>) {
-    let (mut blocks, mut counts) = (Vec::new(), vec![0; order.len()]);
-    let mut is_known = vec![false; blocks_of(children.len())];
-    for (step, own) in order.iter().enumerate() {
-        for &slot in std::iter::once(own).chain(&children[*own as usize]) {
+/// The order in which the blocks of the pose are prepared.
+struct BlockPlan {
+    blocks: Vec<u32>,
+    /// Number of blocks of the roots, which come first.
+    root_blocks: usize,
+    /// For each step the number of blocks to be prepared before it: those of its children, if no step before has
+    /// prepared them, and blocks of later steps.
+    counts: Vec<u32>,
+}
+
+impl BlockPlan {
+    fn new(order: &[u32], roots: usize, children: &[Vec<u32>]) -> Self {
+        let mut plan = Self { blocks: Vec::new(), root_blocks: 0, counts: vec![0; order.len()] };
+        let mut is_known = vec![false; blocks_of(children.len())];
+        let mut is_new = |slot: u32| {
             let block = (slot as usize - 1) / LANES;
-            if !std::mem::replace(&mut is_known[block], true) {
-                counts[step.min(blocks.len() * STEPS_A_BLOCK)] += 1;
-                blocks.push(block as u32);
+            (!std::mem::replace(&mut is_known[block], true)).then_some(block as u32)
+        };
+        plan.blocks.extend(order[..roots].iter().filter_map(|&slot| is_new(slot)));
+        plan.root_blocks = plan.blocks.len();
+        for (step, own) in order.iter().enumerate() {
+            for block in children[*own as usize].iter().filter_map(|&slot| is_new(slot)) {
+                plan.counts[step.min((plan.blocks.len() - plan.root_blocks) * STEPS_A_BLOCK)] += 1;
+                plan.blocks.push(block);
             }
         }
+        plan
     }
-    (blocks, counts)
 }

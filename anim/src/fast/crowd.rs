@@ -13,15 +13,20 @@
 use super::binding::{BoneUse, BoundJoint, SkinBinding};
 use super::local::local_rows;
 use super::matrix::Matrix34;
-use super::pose::{Pose, PoseBlock};
+use super::played::PlayedPose;
+use super::pose::PoseBlock;
 use super::rig::Rig;
 use super::simd::{LANES, MOST_LANES, Many};
+use super::still::StillPose;
 use std::array::from_fn;
+use std::sync::Arc;
 
 /// Memory for one character in each lane.
 #[derive(Clone, Debug)]
 pub(super) struct Crowd {
-    poses: [Pose; MOST_LANES],
+    poses: [PlayedPose; MOST_LANES],
+    /// The pose of each lane.
+    places: [usize; MOST_LANES],
     /// A matrix of every lane for no bone, the parent of roots, and one for each bone.
     matrices: Vec<f32>,
 }
@@ -41,22 +46,45 @@ impl Crowd {
     /// Allocates memory for characters of `rig`.
     pub(super) fn new(rig: &Rig) -> Self {
         Self {
-            poses: from_fn(|_| rig.rest().clone()),
+            poses: from_fn(|_| PlayedPose::new(rig)),
+            places: from_fn(|lane| lane),
             matrices: vec![0.0; (1 + rig.bones()) * 12 * MOST_LANES + ALIGNMENT / size_of::<f32>()],
         }
     }
 
-    /// Returns the poses, to be written; those of the first [`Many::COUNT`] are used.
+    /// Gives each of the first `count` lanes a pose, if possible one that contains what does not move of its take
+    /// already: `wanted` is that of each lane.
     #[inline(always)]
-    pub(super) fn poses(&mut self) -> &mut [Pose; MOST_LANES] {
-        &mut self.poses
+    pub(super) fn assign(&mut self, wanted: &[Option<&Arc<StillPose>>; MOST_LANES], count: usize) {
+        let mut is_free = [true; MOST_LANES];
+        let mut is_served = [false; MOST_LANES];
+        for (lane, wanted) in wanted.iter().enumerate().take(count) {
+            let mut at = lane;
+            for _ in 0..count {
+                if is_free[at % MOST_LANES] && self.poses[at % MOST_LANES].contains(*wanted) {
+                    (self.places[lane], is_free[at % MOST_LANES], is_served[lane]) = (at, false, true);
+                    break;
+                }
+                at = if at + 1 < count { at + 1 } else { 0 };
+            }
+        }
+        let mut left = (0..count).filter(|&at| is_free[at % MOST_LANES]);
+        for (place, _) in self.places.iter_mut().zip(is_served).take(count).filter(|(_, served)| !served) {
+            *place = left.next().unwrap_or(0);
+        }
+    }
+
+    /// Returns the pose of `lane`, to be written.
+    #[inline(always)]
+    pub(super) fn pose(&mut self, lane: usize) -> &mut PlayedPose {
+        &mut self.poses[self.places[lane % MOST_LANES] % MOST_LANES]
     }
 
     /// Computes the final matrices from the poses: those of one character after those of the other. Returns whether all
     /// are finite; otherwise the characters have to be computed one by one.
     #[inline(always)]
     pub(super) fn finals<M: Many>(&mut self, rig: &Rig, binding: &SkinBinding, out: &mut [Matrix34]) -> bool {
-        let Self { poses, matrices } = self;
+        let Self { poses, places, matrices } = self;
         let start = matrices.as_ptr().align_offset(ALIGNMENT).min(matrices.len());
         let matrices = M::numbers_of(&mut matrices[start..]).as_chunks_mut().0;
         if let Some(first) = matrices.first_mut() {
@@ -65,7 +93,8 @@ impl Crowd {
             M::all(1.0).put(&mut first[5]);
             M::all(1.0).put(&mut first[10]);
         }
-        pose_bones::<M>(rig, binding, poses, matrices, out).is_some_and(M::is_number)
+        let poses = from_fn(|lane| poses[places[lane] % MOST_LANES].blocks());
+        pose_bones::<M>(rig, binding, &poses, matrices, out).is_some_and(M::is_number)
     }
 }
 
@@ -75,19 +104,18 @@ impl Crowd {
 fn pose_bones<M: Many>(
     rig: &Rig,
     binding: &SkinBinding,
-    poses: &[Pose; MOST_LANES],
+    blocks: &[&[PoseBlock]; MOST_LANES],
     matrices: &mut [CrowdMatrix<M>],
     out: &mut [Matrix34],
 ) -> Option<M> {
     let mut sum = M::all(0.0);
-    let blocks: [&[PoseBlock]; MOST_LANES] = from_fn(|at| poses[at].blocks());
     let mut bones = CrowdPoses::<M>([[M::ZEROS; LANES]; 10]);
     for (block, (parents, uses)) in rig.parents().chunks(LANES).zip(binding.uses().chunks(LANES)).enumerate()
     {
         if uses.iter().all(|used| *used == BoneUse::NotNeeded) {
             continue;
         }
-        turn::<M>(&blocks, block, &mut bones);
+        turn::<M>(blocks, block, &mut bones);
         for (lane, (&parent, &used)) in parents.iter().zip(uses).enumerate() {
             if used == BoneUse::NotNeeded {
                 continue;
@@ -101,8 +129,10 @@ fn pose_bones<M: Many>(
             }
         }
     }
-    for (joint, bound) in binding.further() {
-        sum = finals::<M>(matrices.get(bound.slot as usize)?, binding, joint, out, sum)?;
+    for further in binding.further() {
+        let bound = binding.list().get(further.joint as usize)?;
+        let to_root = matrices.get(bound.slot as usize)?;
+        sum = finals::<M>(to_root, binding, further.joint as usize, out, sum)?;
     }
     Some(sum)
 }

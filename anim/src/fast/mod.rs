@@ -4,7 +4,8 @@
 //! bones as a structure of arrays ([`Pose`]) and computes eight of them in one step with the instructions that the
 //! machine has ([`simd::SimdLevel`]). Both agree within 1e-5 of the largest number.
 //!
-//! Nothing here allocates after set-up, and no character has a cache: any time of a take costs the same.
+//! Nothing here allocates after set-up, and no result of one time is used for another: any time of a take costs the
+//! same.
 
 mod additive;
 mod binding;
@@ -21,10 +22,12 @@ mod morph;
 mod one_character;
 mod pipeline;
 mod playable;
+mod played;
 mod pose;
 mod rig;
 pub mod simd;
 mod slerp;
+mod still;
 mod tiny;
 mod to_root;
 mod two_bone;
@@ -42,6 +45,7 @@ pub use pipeline::{MAX_LAYERS, Playing, Scratch, pose_character, pose_crowd};
 pub use playable::{Playable, sample};
 pub use pose::{Pose, PoseBlock};
 pub use rig::Rig;
+pub use still::StillPose;
 pub use to_root::{RootPoses, to_root};
 pub use two_bone::{FastTwoBone, distance_left, two_bone};
 pub use vertices::{SkinnedVertices, skin_morphed_vertices, skin_vertices, skin_vertices_by_matrix};

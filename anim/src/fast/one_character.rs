@@ -12,36 +12,47 @@
 use super::binding::SkinBinding;
 use super::final_poses::final_poses_with;
 use super::matrix::{Matrix34, RootMatrix};
+use super::played::{LocalPoses, PlayedPose};
 use super::pose::PoseBlock;
 use super::rig::{NARROW, Rig};
 use super::simd::{Rows, Simd};
-use super::to_root::{RootPoses, fit, to_parent, to_parents, to_root_with};
+use super::to_root::{RootPoses, fit, to_parent, to_root_with};
 
-/// Computes the final matrices of `pose`. `memory` is for `to_root` of the bones that a joint needs.
+/// Computes the final matrices of `played`. `locals` and `roots` are for `to_parent` and `to_root` of the bones that a
+/// joint needs.
 #[inline(always)]
 pub(super) fn one_character<S: Simd>(
     rig: &Rig,
     binding: &SkinBinding,
-    pose: &[PoseBlock],
-    memory: &mut RootPoses,
+    played: &PlayedPose,
+    locals: &mut LocalPoses,
+    roots: &mut RootPoses,
     out: &mut [Matrix34],
 ) {
+    fit(rig, roots);
+    locals.keep::<S>(rig, played);
     // With few registers, two things at once are slower than one after the other.
     let are_ready = !S::Rows::IS_ONE_REGISTER || !rig.sheared.is_empty();
     if are_ready {
-        to_parents::<S>(rig, pose, memory);
-    } else {
-        fit(rig, memory);
+        locals.complete::<S>(rig, played);
     }
-    let blocks = Blocks { pose, rest: rig.rest().blocks(), are_ready };
-    let matrices = memory.matrices.as_mut_slice();
-    let sum = match matrices.first_chunk_mut::<NARROW>() {
-        Some(first) if binding.is_near() => steps::<S>(binding, &blocks, first, out),
-        Some(_) | None => steps::<S>(binding, &blocks, matrices, out),
+    if !rig.sheared.is_empty() {
+        locals.shear(rig, played);
+    }
+    let (to_parent, is_ready) = locals.parts();
+    let blocks = Blocks { pose: played.blocks(), rest: rig.rest().blocks(), is_ready, are_ready };
+    let to_root = roots.matrices.as_mut_slice();
+    let sum = match (to_parent.first_chunk_mut::<NARROW>(), to_root.first_chunk_mut::<NARROW>()) {
+        (Some(to_parent), Some(to_root)) if binding.is_near() => {
+            steps::<S, _>(binding, binding.near_order(), &blocks, to_parent, to_root, out)
+        }
+        (Some(_), Some(_)) | (None, _) | (_, None) => {
+            steps::<S, _>(binding, binding.order(), &blocks, to_parent, to_root, out)
+        }
     };
-    let sum = further::<S>(binding, matrices, out, sum);
+    let sum = further::<S>(binding, to_root, out, sum);
     if !sum.is_number() {
-        again::<S>(rig, binding, pose, memory, out);
+        again::<S>(rig, binding, played.blocks(), roots, out);
     }
 }
 
@@ -49,12 +60,18 @@ pub(super) fn one_character<S: Simd>(
 struct Blocks<'a> {
     pose: &'a [PoseBlock],
     rest: &'a [PoseBlock],
+    /// Whether `to_parent` of a block is there.
+    is_ready: &'a [bool],
     /// Whether all `to_parent` are there.
     are_ready: bool,
 }
 
-/// `to_root` of bones, or `to_parent` as long as it is not computed, by slot: 1 + the bone.
+/// `to_parent` by slot: 1 + the bone. Or `to_root` by slot: 1 + the step.
 trait Slots {
+    /// 1 + the bone of each step.
+    type Order: ?Sized;
+    /// Returns 1 + the bone of a step.
+    fn bone(order: &Self::Order, step: u32) -> u32;
     fn slot(&self, slot: u32) -> Option<&RootMatrix>;
     fn slot_mut(&mut self, slot: u32) -> Option<&mut RootMatrix>;
     /// Returns the matrices of the bones of a block.
@@ -63,6 +80,13 @@ trait Slots {
 
 /// Slots that a byte can index: a byte is always within the array, so that nothing is checked.
 impl Slots for [RootMatrix; NARROW] {
+    type Order = [u8; NARROW];
+
+    #[inline(always)]
+    fn bone(order: &[u8; NARROW], step: u32) -> u32 {
+        u32::from(order[usize::from(step as u8)])
+    }
+
     #[inline(always)]
     fn slot(&self, slot: u32) -> Option<&RootMatrix> {
         Some(&self[usize::from(slot as u8)])
@@ -80,6 +104,13 @@ impl Slots for [RootMatrix; NARROW] {
 }
 
 impl Slots for [RootMatrix] {
+    type Order = [u32];
+
+    #[inline(always)]
+    fn bone(order: &[u32], step: u32) -> u32 {
+        order.get(step as usize).copied().unwrap_or(u32::MAX)
+    }
+
     #[inline(always)]
     fn slot(&self, slot: u32) -> Option<&RootMatrix> {
         self.get(slot as usize)
@@ -96,26 +127,39 @@ impl Slots for [RootMatrix] {
     }
 }
 
-/// Computes `to_root` of the bones in place, where their `to_parent` is, and the final matrices of their joints. Returns
-/// NaN in some places if not all are finite.
+/// Computes `to_root` of the bones and the final matrices of their joints. Returns NaN in some places if not all are
+/// finite.
 #[inline(always)]
-fn steps<S: Simd>(
+fn steps<S: Simd, M: Slots + ?Sized>(
     binding: &SkinBinding,
+    order: &M::Order,
     blocks: &Blocks,
-    matrices: &mut (impl Slots + ?Sized),
+    to_parent: &mut M,
+    to_root: &mut M,
     out: &mut [Matrix34],
 ) -> S::Rows {
-    let mut sum = S::Rows::zero();
-    let (mut children, mut to_prepare) = (binding.children().iter(), binding.blocks().iter());
-    for step in binding.steps() {
-        for &block in to_prepare.by_ref().take(step.blocks as usize) {
-            prepare::<S>(blocks, block, matrices);
+    let (of_roots, to_prepare) = binding.blocks();
+    for &block in of_roots {
+        prepare::<S>(blocks, block, to_parent);
+    }
+    for (slot, root) in (1..).zip(binding.steps().iter().take(binding.roots())) {
+        if let (Some(local), Some(root)) = (to_parent.slot(root.own), to_root.slot_mut(slot)) {
+            *root = *local;
         }
-        let Some(to_root) = matrices.slot(step.own) else { continue };
-        let columns = S::Rows::load(&to_root.rows).columns();
-        for &child in children.by_ref().take(step.children as usize) {
-            if let Some(own) = matrices.slot_mut(child) {
-                S::Rows::product(columns, own.three_rows()).store(&mut own.rows);
+    }
+    let mut sum = S::Rows::zero();
+    let (mut to_prepare, mut child) = (to_prepare.iter(), binding.roots() as u32);
+    for (slot, step) in (1..).zip(binding.steps()) {
+        for &block in to_prepare.by_ref().take(step.blocks as usize) {
+            prepare::<S>(blocks, block, to_parent);
+        }
+        let Some(own) = to_root.slot(slot) else { continue };
+        let columns = S::Rows::load(&own.rows).columns();
+        for _ in 0..step.children {
+            let local = to_parent.slot(M::bone(order, child));
+            child += 1;
+            if let (Some(local), Some(root)) = (local, to_root.slot_mut(child)) {
+                S::Rows::product(columns, local.three_rows()).store(&mut root.rows);
             }
         }
         // The number of no joint is larger than that of any.
@@ -130,27 +174,29 @@ fn steps<S: Simd>(
 
 /// Computes the `to_parent` of a block, unless they are there.
 #[inline(always)]
-fn prepare<S: Simd>(blocks: &Blocks, block: u32, matrices: &mut (impl Slots + ?Sized)) {
+fn prepare<S: Simd>(blocks: &Blocks, block: u32, locals: &mut (impl Slots + ?Sized)) {
     let at = block as usize;
     if !blocks.are_ready
+        && blocks.is_ready.get(at) == Some(&false)
         && let Some(pose) = blocks.pose.get(at).or(blocks.rest.get(at))
-        && let Some(own) = matrices.block(block)
+        && let Some(own) = locals.block(block)
     {
         to_parent::<S>(pose, own);
     }
 }
 
-/// Computes the final matrices of the joints that no step has.
+/// Computes the final matrices of the joints that no step has, from `to_root` by slot: 1 + the step.
 #[inline(always)]
 fn further<S: Simd>(
     binding: &SkinBinding,
-    matrices: &[RootMatrix],
+    to_root: &[RootMatrix],
     out: &mut [Matrix34],
     mut sum: S::Rows,
 ) -> S::Rows {
-    for (joint, bound) in binding.further() {
-        let to_root = matrices.get(bound.slot as usize).unwrap_or(&RootMatrix::IDENTITY);
-        if let Some(out) = out.get_mut(joint) {
+    for further in binding.further() {
+        let joint = further.joint as usize;
+        let to_root = to_root.get(further.step as usize).unwrap_or(&RootMatrix::IDENTITY);
+        if let (Some(bound), Some(out)) = (binding.list().get(joint), out.get_mut(joint)) {
             let product = S::Rows::load(&to_root.rows).times(&bound.offset);
             product.store_packed(out);
             sum = product.checked(sum);

@@ -16,10 +16,13 @@ use super::mask::{LaneMask, usable};
 use super::matrix::Matrix34;
 use super::one_character::one_character;
 use super::playable::Playable;
+use super::played::{LocalPoses, PlayedPose};
 use super::pose::Pose;
 use super::rig::Rig;
 use super::simd::{Kernel, MOST_LANES, Many, Simd, SimdLevel};
+use super::still::StillPose;
 use super::to_root::RootPoses;
+use std::sync::Arc;
 
 /// A take that a character plays, possibly with others.
 #[derive(Debug)]
@@ -56,10 +59,14 @@ impl<T> Clone for Playing<'_, T> {
 impl<T> Copy for Playing<'_, T> {}
 
 /// Memory that the characters of a call use one after the other.
+///
+/// It keeps what does not move of the takes that were played most recently: a scratch for each character, or for
+/// characters that play the same take, saves computing it anew. The results are the same.
 #[derive(Clone, Debug)]
 pub struct Scratch {
-    sampled: Vec<Pose>,
-    blended: Pose,
+    sampled: Vec<PlayedPose>,
+    blended: PlayedPose,
+    to_parent: LocalPoses,
     to_root: RootPoses,
     crowd: Crowd,
 }
@@ -71,10 +78,11 @@ pub const MAX_LAYERS: usize = 8;
 impl Scratch {
     /// Allocates memory for characters of `rig`.
     pub fn new(rig: &Rig) -> Self {
-        let pose = rig.rest().clone();
+        let pose = PlayedPose::new(rig);
         Self {
             sampled: vec![pose.clone(); MAX_LAYERS],
             blended: pose,
+            to_parent: LocalPoses::new(rig),
             to_root: RootPoses::new(rig),
             crowd: Crowd::new(rig),
         }
@@ -83,7 +91,7 @@ impl Scratch {
     /// Returns the pose of the character that [`pose_character`] computed most recently, relative to the parents: for
     /// [`super::to_root()`] of bones to which something is attached.
     pub fn pose(&self) -> &Pose {
-        &self.blended
+        self.blended.pose()
     }
 }
 
@@ -182,9 +190,9 @@ fn character<S: Simd, T: Playable>(
     scratch: &mut Scratch,
     out: &mut [Matrix34],
 ) {
-    let Scratch { sampled, blended, to_root, .. } = scratch;
+    let Scratch { sampled, blended, to_parent, to_root, .. } = scratch;
     pose::<S, T>(rig, layers, sampled, blended);
-    one_character::<S>(rig, binding, blended.blocks(), to_root, out);
+    one_character::<S>(rig, binding, blended, to_parent, to_root, out);
 }
 
 /// Computes the final matrices of a full register of characters, and returns whether all numbers are finite; otherwise
@@ -198,18 +206,33 @@ fn at_once<S: Simd, T: Playable>(
     out: &mut [Matrix34],
 ) -> bool {
     let Scratch { sampled, crowd, .. } = scratch;
-    for (layers, to) in group.iter().zip(crowd.poses()).take(S::Many::COUNT) {
-        pose::<S, T>(rig, layers, sampled, to);
+    crowd.assign(&std::array::from_fn(|at| still(group[at])), S::Many::COUNT);
+    for (lane, layers) in group.iter().enumerate().take(S::Many::COUNT) {
+        pose::<S, T>(rig, layers, sampled, crowd.pose(lane));
     }
     crowd.finals::<S::Many>(rig, binding, out)
 }
 
 /// Computes the pose of one character.
 #[inline(always)]
-fn pose<S: Simd, T: Playable>(rig: &Rig, layers: &[Playing<T>], sampled: &mut [Pose], out: &mut Pose) {
+fn pose<S: Simd, T: Playable>(
+    rig: &Rig,
+    layers: &[Playing<T>],
+    sampled: &mut [PlayedPose],
+    out: &mut PlayedPose,
+) {
     match layers {
-        [one] if one.is_all() => one.take.sample_with::<S>(one.time, out.blocks_mut()),
+        [one] if one.is_all() => out.play::<S, T>(rig, one.take, one.time),
         _ => blend_layers::<S, T>(rig, layers, sampled, out),
+    }
+}
+
+/// Returns what does not move of the take that alone determines the pose; `None` for several layers.
+#[inline(always)]
+fn still<'a, T: Playable>(layers: &[Playing<'a, T>]) -> Option<&'a Arc<StillPose>> {
+    match layers {
+        [one] if one.is_all() => Some(one.take.still()),
+        _ => None,
     }
 }
 
@@ -218,13 +241,13 @@ fn pose<S: Simd, T: Playable>(rig: &Rig, layers: &[Playing<T>], sampled: &mut [P
 fn blend_layers<S: Simd, T: Playable>(
     rig: &Rig,
     layers: &[Playing<T>],
-    sampled: &mut [Pose],
-    blended: &mut Pose,
+    sampled: &mut [PlayedPose],
+    blended: &mut PlayedPose,
 ) {
     let mut count = 0;
     for (layer, pose) in layers.iter().zip(&mut *sampled) {
         if usable(layer.weight) > 0.0 {
-            layer.take.sample_with::<S>(layer.time, pose.blocks_mut());
+            pose.play::<S, T>(rig, layer.take, layer.time);
         }
         count += 1;
     }

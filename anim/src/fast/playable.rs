@@ -2,6 +2,8 @@
 
 use super::pose::PoseBlock;
 use super::simd::Simd;
+use super::still::StillPose;
+use std::sync::Arc;
 
 /// A take in a form that is sampled eight bones at once, into blocks of a [`super::Pose`].
 ///
@@ -16,11 +18,22 @@ pub trait Playable {
     /// Returns the length of the take in seconds.
     fn length(&self) -> f32;
 
-    /// Writes the pose of every bone at `time` seconds, clamped to the take; NaN counts as before it.
+    /// Returns the part of the take that does not move, always the same.
+    fn still(&self) -> &Arc<StillPose>;
+
+    /// Writes what moves at `time` seconds, clamped to the take; NaN counts as before it. `out` contains
+    /// [`Self::still`] already, and possibly what moves at another time.
     ///
     /// Writes the blocks that `out` and the take both have. Rotations have unit length, every number is finite. Mark it
     /// `#[inline(always)]`: it becomes part of the kernel that calls it.
-    fn sample_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]);
+    fn sample_moving_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]);
+
+    /// Writes the pose of every bone at `time` seconds, as [`Self::sample_moving_with`], into any pose.
+    #[inline(always)]
+    fn sample_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]) {
+        self.still().put::<S>(out);
+        self.sample_moving_with::<S>(time, out);
+    }
 }
 
 /// Kernel that samples one take, for [`super::simd::SimdLevel::run`].

@@ -169,7 +169,7 @@ fn far_chain<S: Simd>(links: &[Link<u32>], matrices: &mut [RootMatrix]) {
 
 /// Replaces the matrices of sheared bones in their rest pose by the exact rest matrices.
 #[cold]
-fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [RootMatrix]) {
+pub(super) fn put_sheared(rig: &Rig, pose: &[PoseBlock], matrices: &mut [RootMatrix]) {
     for sheared in &rig.sheared {
         let (block, at) = (sheared.bone / 8, sheared.bone % 8);
         let posed = pose.get(block).or(rig.rest().blocks().get(block));

@@ -5,12 +5,14 @@ use super::super::pose::{Pose, blocks_of};
 use super::super::rig::flushed_poses;
 use super::super::simd::LANES;
 use super::super::slerp::steps;
+use super::super::still::StillPose;
 use super::super::tiny::{flushed, largest};
 use super::tracks::{BlockKey, Tracks};
-use super::{ConstantBlocks, FallbackChannel, KeyedTake};
+use super::{FallbackChannel, KeyedTake};
 use crate::data::{Channel, Interpolation, Skeleton, Take, Track, Transform};
 use crate::sample::{Value, rest_pose, sample_channel};
 use glam::{Quat, Vec3};
+use std::sync::Arc;
 
 /// One property of one bone: its channel, and the value used where that is empty.
 struct LaneChannel<'a, T> {
@@ -45,7 +47,15 @@ struct PropertyTracks<const N: usize, T> {
     constant: Vec<u32>,
     /// Value of each bone where no track or fallback channel changes it.
     base: Vec<T>,
+    /// Whether a bone's value changes.
+    is_moving: Vec<bool>,
     fallback: Vec<usize>,
+}
+
+impl<const N: usize, T> PropertyTracks<N, T> {
+    fn is_moving(&self, bone: usize) -> bool {
+        self.is_moving.get(bone) == Some(&true)
+    }
 }
 
 /// A value that can be stored in blocks of eight lanes.
@@ -124,19 +134,18 @@ pub(super) fn build(skeleton: &Skeleton, take: &Take) -> KeyedTake {
         let (track, rest) = track(bone);
         FallbackChannel::Scale(bone, track.scale.clone(), rest.scale)
     });
+    let moves =
+        |bone: usize| rotations.is_moving(bone) || translations.is_moving(bone) || scales.is_moving(bone);
+    let turns = |block: u32| !rotations.constant.contains(&block);
     KeyedTake {
         start: take.start,
         length: take.length,
+        bones: bones.len(),
+        still: Arc::new(StillPose::of_blocks(base.blocks(), moves, turns)),
         fallback: odd_rotations.chain(odd_translations).chain(odd_scales).collect(),
         rotations: rotations.tracks,
         translations: translations.tracks,
         scales: scales.tracks,
-        constant: ConstantBlocks {
-            rotations: rotations.constant,
-            translations: translations.constant,
-            scales: scales.constant,
-        },
-        base,
     }
 }
 
@@ -144,6 +153,7 @@ pub(super) fn build(skeleton: &Skeleton, take: &Take) -> KeyedTake {
 fn property<const N: usize, T: LaneValue<N>>(lanes: Vec<LaneChannel<'_, T>>) -> PropertyTracks<N, T> {
     let mut base: Vec<T> = Vec::with_capacity(lanes.len());
     let (mut fallback, mut is_track) = (Vec::new(), vec![false; lanes.len()]);
+    let is_moving: Vec<bool> = lanes.iter().map(|lane| lane.constant().is_none()).collect();
     for (bone, lane) in lanes.iter().enumerate() {
         base.push(lane.constant().unwrap_or(lane.rest));
         if lane.constant().is_none() {
@@ -169,7 +179,7 @@ fn property<const N: usize, T: LaneValue<N>>(lanes: Vec<LaneChannel<'_, T>>) -> 
             None => constant.push(block as u32),
         }
     }
-    PropertyTracks { tracks: Tracks::collect(tracks), constant, base, fallback }
+    PropertyTracks { tracks: Tracks::collect(tracks), constant, base, is_moving, fallback }
 }
 
 /// Returns the times at which the block of `lanes` needs keys: all of theirs, and more in wide rotations. `None`

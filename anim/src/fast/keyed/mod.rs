@@ -7,7 +7,7 @@
 //!
 //! The two keys around a time are two neighboring ranges of memory. Eight bones that are keyed at different times get
 //! the union of their times; the inserted keys are the values of the open path there, so nothing moves. Constant
-//! channels have no track but are part of the take's base pose. Numbers are not packed: that is for compressed takes.
+//! channels have no track but are in the take's [`StillPose`]. Numbers are not packed: that is for compressed takes.
 //!
 //! Linear channels are played this way. Those of another interpolation, and ones whose times do not ascend, are played
 //! by the open path itself, one by one ([`KeyedTake::fallback_channels`] returns their number).
@@ -16,12 +16,14 @@ mod build;
 mod tracks;
 
 use super::playable::Playable;
-use super::pose::{Pose, PoseBlock};
+use super::pose::PoseBlock;
 use super::simd::{Float8, LANES, Simd};
 use super::slerp::FastSlerp;
+use super::still::StillPose;
 use crate::data::{Channel, Skeleton, Take, Transform};
 use crate::sample::sample_channel;
 use glam::{Quat, Vec3};
+use std::sync::Arc;
 use tracks::Tracks;
 
 /// A take for the fast path, its keys unchanged. See the top of its module for the layout.
@@ -29,21 +31,12 @@ use tracks::Tracks;
 pub struct KeyedTake {
     start: f32,
     length: f32,
-    /// Values that no track changes; complete, so that tracks may also be missing.
-    base: Pose,
+    bones: usize,
+    still: Arc<StillPose>,
     rotations: Vec<Tracks<4>>,
     translations: Vec<Tracks<3>>,
     scales: Vec<Tracks<3>>,
-    constant: ConstantBlocks,
     fallback: Vec<FallbackChannel>,
-}
-
-/// Blocks that no track writes, for each property.
-#[derive(Clone, Debug, Default)]
-struct ConstantBlocks {
-    rotations: Vec<u32>,
-    translations: Vec<u32>,
-    scales: Vec<u32>,
 }
 
 /// A channel that the open path plays.
@@ -77,27 +70,6 @@ impl KeyedTake {
         rotations + vectors
     }
 
-    /// Copies the constant values.
-    #[inline(always)]
-    fn copy_constant<S: Simd>(&self, out: &mut [PoseBlock]) {
-        let base = self.base.blocks();
-        for &block in &self.constant.rotations {
-            if let (Some(out), Some(base)) = (out.get_mut(block as usize), base.get(block as usize)) {
-                copy::<S, 4>(&base.rotation, &mut out.rotation);
-            }
-        }
-        for &block in &self.constant.translations {
-            if let (Some(out), Some(base)) = (out.get_mut(block as usize), base.get(block as usize)) {
-                copy::<S, 3>(&base.translation, &mut out.translation);
-            }
-        }
-        for &block in &self.constant.scales {
-            if let (Some(out), Some(base)) = (out.get_mut(block as usize), base.get(block as usize)) {
-                copy::<S, 3>(&base.scale, &mut out.scale);
-            }
-        }
-    }
-
     /// Samples the channels that the open path plays.
     #[cold]
     fn sample_fallback(&self, time: f32, out: &mut [PoseBlock]) {
@@ -125,7 +97,7 @@ impl KeyedTake {
 
 impl Playable for KeyedTake {
     fn bones(&self) -> usize {
-        self.base.bones()
+        self.bones
     }
 
     fn start(&self) -> f32 {
@@ -136,9 +108,12 @@ impl Playable for KeyedTake {
         self.length
     }
 
+    fn still(&self) -> &Arc<StillPose> {
+        &self.still
+    }
+
     #[inline(always)]
-    fn sample_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]) {
-        self.copy_constant::<S>(out);
+    fn sample_moving_with<S: Simd>(&self, time: f32, out: &mut [PoseBlock]) {
         for tracks in &self.rotations {
             let (slerp, keys) = tracks.around::<S>(time);
             for (block, before, after) in keys {
@@ -176,12 +151,5 @@ fn straight<S: Simd>(
 ) {
     for ((out, before), after) in out.iter_mut().zip(before).zip(after) {
         slerp.straight(S::F8::load(before), S::F8::load(after)).store(out);
-    }
-}
-
-#[inline(always)]
-fn copy<S: Simd, const N: usize>(from: &[[f32; LANES]; N], to: &mut [[f32; LANES]; N]) {
-    for (from, to) in from.iter().zip(to) {
-        S::F8::load(from).store(to);
     }
 }

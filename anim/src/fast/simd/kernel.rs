@@ -6,7 +6,7 @@ use super::vector::{Float4, Float8, Word8};
 use std::fmt::Debug;
 
 /// The vectors of one set of instructions.
-pub trait Simd: Copy + Debug {
+pub trait Simd: Copy + Debug + 'static {
     /// Whether eight numbers fit in one register.
     const IS_WIDE: bool;
     /// Eight numbers.
