@@ -1,4 +1,4 @@
-//! Edits of poses apply to this frame, to the selected keys, to the play range or to the whole take, as the switch says.
+//! Edits of poses apply to this frame, to the selected keys, to the play range or to the whole take, as set by the switch.
 
 use crate::viewport_tools_rig::ViewportHarness;
 use crate::workbench::{Window, Workbench, drag, move_to, press, release, type_into};

@@ -1,4 +1,4 @@
-//! The switch for the scope of edits, beside auto-key, and its menu, which number fields and the menu of poses show as well.
+//! The switch for the scope of edits, next to auto-key, and its menu, which number fields and the menu of poses show as well.
 
 use super::commands::{self, Id};
 use super::context::PanelContext;
@@ -27,7 +27,7 @@ pub(super) const COMMANDS: [Id; 9] = [
 ];
 
 /// Draws the switch: the name of the scope with its icon, in the color of a warning where edits change more than this frame.
-/// `room` is the width that is left in the bar: where it is small, the icon stands alone.
+/// `room` is the width that is left in the bar: where it is small, only the icon is drawn.
 pub(super) fn switch(ui: &mut Ui, context: &PanelContext<'_>, room: f32, requests: &mut Vec<Request>) {
     let scope = context.over.scope;
     let (theme, wary) = (Theme::of(ui), scope != EditScope::Frame);

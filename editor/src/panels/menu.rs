@@ -85,7 +85,7 @@ fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
             Id::ToggleIk => context.ik.on,
             _ => false,
         };
-        // The switch beside auto-key has the same entries.
+        // The switch next to auto-key has the same entries.
         if command.id == Id::NextEditScope {
             ui.menu_button("Edits apply to", |ui| edit_scope_menu::all_entries(ui, context, requests));
             ui.separator();

@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
         ui.add_enabled_ui(able, |ui| buttons(ui, context, requests));
         divider(ui);
         keying(ui, context, requests);
-        // What does not fit beside the time is left out: menus have it as well.
+        // Controls that do not fit next to the time are left out: menus have them as well.
         let room = ui.available_width() - right_width(ui, context);
         let buttons = 3.0 * (icon_size().x + 2.0) + DIVIDER;
         if room > buttons {

@@ -1,4 +1,4 @@
-//! The falloff of edits: how much of an edit each time gets, as a shade behind the keys and a curve in the ruler.
+//! The falloff of edits: how much of an edit each time gets, as a shade under the keys and a curve in the ruler.
 
 use super::sheet::Sheet;
 use crate::panels::keys::intervals::Intervals;
