@@ -64,6 +64,7 @@
 //! | tangents of cubic splines | [`tangents`] |
 //! | root motion | [`motion`] |
 //! | play a take on another skeleton | [`retarget`] |
+//! | change many keys by the same offset, with falloff | [`offset`] |
 //! | remove redundant keys | [`reduce`] |
 //! | compress takes | [`compressed`] |
 //! | bounding volumes; ray and sphere queries | [`bounds`], [`hit`] |
@@ -115,6 +116,8 @@ pub mod level;
 pub mod limits;
 #[doc(alias("root motion"))]
 pub mod motion;
+#[doc(alias("additive edit", "proportional editing"))]
+pub mod offset;
 #[doc(alias("key reduction", "decimate keys"))]
 pub mod reduce;
 #[doc(alias("retargeting"))]

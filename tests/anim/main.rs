@@ -48,6 +48,7 @@ mod limited_chains;
 mod made;
 mod masks;
 mod motion;
+mod offset;
 mod poses;
 mod reduce;
 mod retarget;

@@ -12,6 +12,7 @@ mod journal_later;
 mod keeping;
 mod limits;
 mod many_bones;
+mod offset_keys;
 mod old_journals;
 mod savable;
 mod save_and_open;

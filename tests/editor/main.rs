@@ -16,6 +16,7 @@ mod curves_view;
 mod drag;
 mod echo;
 mod edit_command;
+mod edit_scope;
 mod explain;
 mod eye;
 mod faults;

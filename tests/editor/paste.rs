@@ -137,7 +137,16 @@ fn bones_numbered_in_opposite_order_on_the_two_sides_are_paired_by_position() {
 fn pasting_applies_known_bones_and_skips_unknown_ones() {
     let mut model = model(1);
     let paste = |poses: Vec<BonePose>, mirrored, pending| {
-        Edit::PastePose(PastePose { take: walk(), time: 0.3, poses, mirrored, pending, unstep: false })
+        Edit::PastePose(PastePose {
+            take: walk(),
+            time: 0.3,
+            poses,
+            mirrored,
+            pending,
+            unstep: false,
+            over: None,
+            falloff: None,
+        })
     };
     let moved = |name: &str| BonePose { translation: Some([1.0, 2.0, 3.0]), ..pose(name) };
     model.apply(&paste(vec![moved("tail of another model"), moved("hand.L")], false, false)).unwrap();

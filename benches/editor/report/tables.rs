@@ -85,7 +85,12 @@ fn none() -> String {
 
 fn drag(results: &Results) -> Result<String, String> {
     let mut table = header(&["model", "median", "99 %", "worst", "99 %, at most", "moves"]);
-    for (task, words) in [("fox", "Fox, 25 bones"), ("thousand_bones", "a tree of 1,000 bones")] {
+    for (task, words) in [
+        ("fox", "Fox, 25 bones"),
+        ("thousand_bones", "a tree of 1,000 bones"),
+        ("whole_take_30", "10 minutes of 100 bones, 30 keys per second, in the whole take"),
+        ("whole_take_120", "10 minutes of 100 bones, 120 keys per second, in the whole take"),
+    ] {
         let limit = format!("{GOAL}p99");
         let Some(cells) = times(results, task, "move", ["median", "p99", "worst", &limit]) else { continue };
         let moves = results.value(task, "move", "samples").map_or_else(none, grouped);

@@ -8,9 +8,10 @@ use std::sync::Arc;
 /// Length of the longest name in a list, in characters. Longer names are cut.
 const LONGEST: usize = 60;
 
-/// Returns the bone or the number of bones, then the take: `head · Walk`. Empty where the edit names neither.
+/// Returns the bone or the number of bones, then the take, then its keys where the edit has a text for them: `head · Walk`. Empty where the edit names neither.
 pub(super) fn about(adapter: &ModelAdapter, edit: &Edit) -> Arc<str> {
-    let parts = [bones(adapter, edit), edit.take_title(adapter).map(|take| shortened(&take))];
+    let take = edit.take_title(adapter).map(|take| shortened(&take));
+    let parts = [bones(adapter, edit), take, edit.detail(adapter)];
     parts.into_iter().flatten().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("  ·  ").into()
 }
 
@@ -93,6 +94,8 @@ pub(crate) mod tests {
                 mirrored,
                 pending: false,
                 unstep: false,
+                over: None,
+                falloff: None,
             };
             about(&adapter, &edit.into()).to_string()
         };

@@ -4,6 +4,7 @@ use super::about::about;
 use super::adapter::{EditError, Inverse, ModelAdapter, ValueDrag};
 use super::edit::Edit;
 use std::collections::VecDeque;
+use std::mem::discriminant;
 use std::sync::Arc;
 
 /// Identifies one gesture, for example a drag.
@@ -115,7 +116,8 @@ impl Edited {
         if goes_on && let Some(step) = self.steps.back() {
             adapter.revert(step.inverse.clone());
         }
-        let about = match self.steps.back().filter(|_| goes_on) {
+        let same_kind = |step: &&HistoryStep| discriminant(&step.edit) == discriminant(&edit);
+        let about = match self.steps.back().filter(|_| goes_on).filter(same_kind) {
             // A gesture changes the same bones all the time, so its text stays.
             Some(step) => Arc::clone(&step.about),
             None => about(&adapter, &edit),

@@ -10,6 +10,8 @@
 
 use super::echo::Echo;
 use dragonfly_document::Change;
+use dragonfly_document::View;
+use dragonfly_document::edit::{Edit, KeySet, OffsetKeys, OffsetScope, SetPending};
 use dragonfly_document::history::Gesture;
 use egui::{Context, Event, Key, Modifiers, PointerButton, RawInput, pos2};
 use std::cell::Cell;
@@ -39,6 +41,15 @@ pub struct Dragging {
     events: VecDeque<Vec<Event>>,
     /// Number of gestures begun so far.
     gestures: Cell<u64>,
+    offset: Option<DraggedOffset>,
+}
+
+/// The drag of an offset of many keys.
+#[derive(Clone, Debug)]
+struct DraggedOffset {
+    gesture: Gesture,
+    /// The newest edit, which is sent at the end of the drag; `None` where each edit is sent at once, because it is quick.
+    held: Option<OffsetKeys>,
 }
 
 /// The treatment of a change that is requested while a drag may be in progress.
@@ -91,6 +102,38 @@ impl Dragging {
         Admission::Pass
     }
 
+    /// Returns the edit to send now in place of an offset of many keys that is being dragged. A quick one is sent as it is. One that would
+    /// take longer than a frame is held back until the drag ends: only what it does at the playhead is sent, so that no move of
+    /// the mouse costs more in a longer take. `around` are the last key before the time of the offset and the first one after it.
+    pub(super) fn preview(
+        &mut self,
+        edit: OffsetKeys,
+        gesture: Gesture,
+        view: Option<&View>,
+        around: impl FnOnce(f32) -> [f32; 2],
+    ) -> Edit {
+        let known = self.offset.as_ref().filter(|offset| offset.gesture == gesture);
+        let edit = Edit::OffsetKeys(edit);
+        // Decided once for a drag: the cost depends on the keys, which stay the same.
+        let quick = match known {
+            Some(offset) => offset.held.is_none(),
+            None => self.echo.is_quick(&edit, view),
+        };
+        let Edit::OffsetKeys(edit) = edit else { return edit };
+        if quick {
+            self.offset = Some(DraggedOffset { gesture, held: None });
+            return Edit::OffsetKeys(edit);
+        }
+        let preview = preview_of(&edit, around);
+        self.offset = Some(DraggedOffset { gesture, held: Some(edit) });
+        preview
+    }
+
+    /// Returns the offset that was held back during a drag that ends now.
+    pub(super) fn take_offset(&mut self, gesture: Gesture) -> Option<Edit> {
+        self.offset.take_if(|offset| offset.gesture == gesture)?.held.map(Edit::OffsetKeys)
+    }
+
     /// Ends the drag as cancelled. Returns its gesture.
     pub(super) fn cancel(&mut self) -> Option<Gesture> {
         let gesture = self.open.take()?;
@@ -124,4 +167,23 @@ impl Dragging {
         rest.push(Event::PointerGone);
         self.events.push_back(rest);
     }
+}
+
+/// Returns an edit that shows at the time of an offset what the offset does there.
+fn preview_of(edit: &OffsetKeys, around: impl FnOnce(f32) -> [f32; 2]) -> Edit {
+    let (take, poses, time) = (edit.take.clone(), edit.poses.clone(), edit.at.unwrap_or_default());
+    let OffsetScope::Keys(sets) = &edit.over else {
+        // The pose at that time is the wanted one.
+        return Edit::SetPending(SetPending { take, time, poses });
+    };
+    // Of selected keys, only those next to that time shape the pose there.
+    let reach = edit.falloff.map_or(0.0, |falloff| falloff.seconds);
+    let [from, to] = around(time);
+    let (from, to) = (from - reach, to + reach);
+    let near = |set: &KeySet| KeySet {
+        from: Some(set.from.map_or(from, |own| own.max(from))),
+        to: Some(set.to.map_or(to, |own| own.min(to))),
+        ..set.clone()
+    };
+    Edit::OffsetKeys(OffsetKeys { over: OffsetScope::Keys(sets.iter().map(near).collect()), ..edit.clone() })
 }

@@ -53,6 +53,16 @@ impl Echo {
         self.has_answered(number) || self.local.as_ref().is_some_and(|local| number <= local.number)
     }
 
+    /// Returns whether an edit of the takes of `view` is carried out here, within a part of a frame.
+    pub(super) fn is_quick(&self, edit: &Edit, view: Option<&View>) -> bool {
+        let cost = match (&self.local, view) {
+            (Some(local), _) => edit.cost(local.edited.adapter()),
+            (None, Some(view)) => edit.cost(view.edited().adapter()),
+            (None, None) => None,
+        };
+        cost.is_some_and(|cost| cost <= LARGEST)
+    }
+
     /// Assigns a number to a change that is sent to the document, and also carries it out in `shown` if that is quick.
     pub fn send(&mut self, change: &Change, shown: &mut Option<View>) -> u64 {
         self.sent += 1;

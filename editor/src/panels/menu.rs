@@ -2,6 +2,7 @@
 
 use super::commands::{self, Category, Id};
 use super::context::PanelContext;
+use super::edit_scope_menu;
 use super::request::Request;
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
@@ -84,15 +85,20 @@ fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
             Id::ToggleIk => context.ik.on,
             _ => false,
         };
+        // The switch next to auto-key has the same entries.
+        if command.id == Id::NextEditScope {
+            ui.menu_button("Edits apply to", |ui| edit_scope_menu::all_entries(ui, context, requests));
+            ui.separator();
+        }
+        if edit_scope_menu::COMMANDS.contains(&command.id) {
+            continue;
+        }
         // Lists "paste" directly above "paste mirrored".
         if command.id == Id::PasteMirrored {
             item(ui, context, Id::PastePose, false, requests);
         }
         item(ui, context, command.id, on, requests);
-        if matches!(
-            command.id,
-            Id::AutoKey | Id::DropPending | Id::PasteMirrored | Id::ResetToRest | Id::LookAt
-        ) {
+        if matches!(command.id, Id::DropPending | Id::PasteMirrored | Id::ResetToRest | Id::LookAt) {
             ui.separator();
         }
     }
@@ -197,7 +203,7 @@ fn view(
 }
 
 /// Gives fields and boxes the outlines that they have in panels; in menus egui draws none.
-fn outline_fields(ui: &mut Ui) {
+pub(super) fn outline_fields(ui: &mut Ui) {
     let theme = Theme::of(ui);
     let widget = &mut ui.visuals_mut().widgets.inactive;
     (widget.bg_stroke, widget.weak_bg_fill) = (Stroke::new(1.0, theme.line), theme.sunken);

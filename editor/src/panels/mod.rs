@@ -24,6 +24,8 @@ mod dope;
 mod drag;
 pub mod dragging;
 pub mod echo;
+pub mod edit_scope;
+mod edit_scope_menu;
 mod frame_rate;
 pub mod hierarchy;
 pub mod history;

@@ -3,6 +3,7 @@
 use super::commands::id::Id;
 use super::commands::key_settings::KeySettings;
 use super::curves::given::GivenCurve;
+use super::edit_scope::FalloffSettings;
 use super::keys::request::KeysRequest;
 use super::overlay::Overlay;
 use super::properties::look::PropertiesLook;
@@ -67,6 +68,8 @@ pub enum Request {
     Shields(Vec<egui::Rect>),
     /// Sets how ghosts are shown.
     Ghosts(GhostSettings),
+    /// Sets the size of the falloff of edits.
+    Falloff(FalloffSettings),
     /// The wheel was turned over the viewport: points, positive is nearer.
     Wheel(f32),
     /// Position of the pointer over the viewport, points; `None` if it is elsewhere or a button is held.

@@ -1,6 +1,7 @@
 //! Settings that are remembered between runs.
 
 use super::commands::key_settings::KeySettings;
+use super::edit_scope::FalloffSettings;
 use super::properties::look::PropertiesLook;
 use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
 use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
@@ -188,6 +189,8 @@ pub struct Settings {
     pub keys: KeySettings,
     /// Whether a changed pose becomes a key at once.
     pub auto_key: bool,
+    /// Size of the falloff of edits.
+    pub falloff: FalloffSettings,
     /// Whether each save first shows what it will change.
     pub show_changes: bool,
     /// Paths of the files opened last, newest first.
@@ -209,6 +212,7 @@ impl Default for Settings {
             frame_rate: 30,
             keys: KeySettings::default(),
             auto_key: true,
+            falloff: FalloffSettings::default(),
             show_changes: false,
             recent: Vec::new(),
             properties: PropertiesLook::default(),
@@ -236,6 +240,7 @@ impl Settings {
         if !FRAME_RATES.contains(&self.frame_rate) {
             self.frame_rate = 30;
         }
+        self.falloff = self.falloff.sanitized();
         self.tools.ghosts = self.tools.ghosts.sanitized();
         self.tools.ik.length = self.tools.ik.length.clamp(1, LONGEST_CHAIN);
         self.recent.truncate(RECENT);

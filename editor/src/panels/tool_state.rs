@@ -27,6 +27,8 @@ pub(super) struct PlacedGizmo {
     pub(super) active: Option<BoneIndex>,
     /// Version of the flags of bones: some are shown at rest.
     pub(super) flags: u64,
+    /// Whether the scope of edits has nothing to edit.
+    pub(super) refused: bool,
 }
 
 /// The viewport tools, their drag, the motion path and IK.

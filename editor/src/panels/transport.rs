@@ -3,11 +3,12 @@
 use super::command_button::command_button;
 use super::commands::{self, Id};
 use super::context::PanelContext;
+use super::edit_scope_menu;
 use super::icons::Icon;
 use super::request::Request;
 use super::ruler;
 use super::settings::{FRAME_RATES, SPEEDS};
-use super::style::{CONTROL, GRID};
+use super::style::{CONTROL, GRID, icon_size};
 use super::theme::Theme;
 use super::widgets::{icon_button, text_width};
 use crate::control::expression::{Quantity, evaluate};
@@ -24,10 +25,17 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
         ui.add_enabled_ui(able, |ui| buttons(ui, context, requests));
         divider(ui);
         keying(ui, context, requests);
-        divider(ui);
-        repeat(ui, context, requests);
-        divider(ui);
-        speed(ui, context, requests);
+        // Controls that do not fit next to the time are left out: menus have them as well.
+        let room = ui.available_width() - right_width(ui, context);
+        let buttons = 3.0 * (icon_size().x + 2.0) + DIVIDER;
+        if room > buttons {
+            divider(ui);
+            repeat(ui, context, requests);
+        }
+        if room > buttons + SPEED + DIVIDER {
+            divider(ui);
+            speed(ui, context, requests);
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(2.0 * GRID);
             ui.spacing_mut().item_spacing.x = GRID;
@@ -59,6 +67,7 @@ fn buttons(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>)
 fn keying(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     command_button(ui, Icon::AutoKey, Id::AutoKey, context.settings.auto_key, requests);
     let waits = context.pending_here().is_some();
+    edit_scope_menu::switch(ui, context, ui.available_width() - right_width(ui, context), requests);
     ui.add_enabled_ui(context.take().is_some(), |ui| {
         command_button(ui, Icon::Key, Id::Key, waits, requests);
     });
@@ -87,7 +96,7 @@ fn speed(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         .suffix("×")
         .update_while_editing(false)
         .custom_parser(number);
-    let response = ui.add_sized(vec2(52.0, CONTROL), field).accessible_name("Speed");
+    let response = ui.add_sized(vec2(SPEED, CONTROL), field).accessible_name("Speed");
     if response.on_hover_text("Speed\nDrag, or click to type").changed() {
         requests.push(Request::Speed(speed));
     }
@@ -107,6 +116,10 @@ fn frame_rate(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Reques
     });
 }
 
+/// Width of the field for the speed.
+const SPEED: f32 = 52.0;
+/// Width of a line between groups, with its margins.
+const DIVIDER: f32 = 15.0;
 /// Smallest width of the field for the frame.
 const FRAME: f32 = 48.0;
 /// Smallest width of the field for the time.
@@ -117,6 +130,19 @@ fn field_width(ui: &Ui, text: &str) -> f32 {
     text_width(ui, text, &TextStyle::Monospace) + 2.0 * ui.spacing().button_padding.x
 }
 
+/// Returns the widths of the fields for the frame and the time.
+fn time_widths(ui: &Ui, context: &PanelContext<'_>) -> [f32; 2] {
+    let frame = ruler::frame_of(context.time(), context.settings.frame_rate);
+    let fields = [format!("{frame}"), format!("{:.3} s", context.time())].map(|text| field_width(ui, &text));
+    [fields[0].max(FRAME), fields[1].max(TIME)]
+}
+
+/// Returns the width of the frame rate and the time, without the number of the last frame.
+fn right_width(ui: &Ui, context: &PanelContext<'_>) -> f32 {
+    let rate = field_width(ui, &format!("{} fps", context.settings.frame_rate));
+    time_widths(ui, context).iter().sum::<f32>() + rate + DIVIDER + 6.0 * GRID
+}
+
 /// Draws the time from right to left: frames, seconds.
 fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
@@ -125,8 +151,8 @@ fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let mut frame = ruler::frame_of(context.time(), rate);
     let last = format!("/ {}", ruler::frame_of(start + length, rate));
     // Long numbers need the room of the last frame's number themselves.
-    let fields = [format!("{frame}"), format!("{:.3} s", context.time())].map(|text| field_width(ui, &text));
-    let needed = fields[0].max(FRAME) + fields[1].max(TIME) + text_width(ui, &last, &TextStyle::Monospace);
+    let fields = time_widths(ui, context).iter().sum::<f32>();
+    let needed = fields + text_width(ui, &last, &TextStyle::Monospace);
     if ui.available_width() > needed + 3.0 * ui.spacing().item_spacing.x {
         ui.label(RichText::new(last).monospace().color(theme.weak));
     }

@@ -4,6 +4,7 @@ use super::camera_state::CameraState;
 use super::context::PanelContext;
 use super::curves::given::GivenAngles;
 use super::dragging::Dragging;
+use super::edit_scope::EditOver;
 use super::keys::KeyEditing;
 use super::marks::Marks;
 use super::open_model::OpenModel;
@@ -40,6 +41,8 @@ pub(super) struct Workspace {
     pub(super) takes: TakeListState,
     /// The tools of the viewport.
     pub(super) tools: ToolState,
+    /// The keys that edits of poses are for.
+    pub(super) over: EditOver,
     /// The camera and the viewport.
     pub(super) camera: CameraState,
     /// The drag in progress, whichever panel it belongs to.
@@ -69,6 +72,7 @@ impl Workspace {
             given: GivenAngles::default(),
             takes: TakeListState::default(),
             tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
+            over: EditOver::default(),
             camera: CameraState::default(),
             dragging: Dragging::default(),
             prompts: Prompts::default(),
@@ -93,6 +97,7 @@ impl Workspace {
             pointed: self.bones.pointed(),
             pointer: self.bones.pointer(),
             ik: self.tools.ik(),
+            over: self.over,
             playback: self.player.playback(),
             now: self.player.now(),
             keys: &self.keys,

@@ -4,9 +4,12 @@ use super::series::{self, Crop, PictureCase};
 use super::states::Fullness::{self, Crowded, Empty, Typical};
 use crate::workbench::{Window, Workbench, type_into};
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::keys::KeysRequest;
 use dragonfly::panels::open_model::Loading;
 use dragonfly::panels::window_status::DeviceStatus;
 use dragonfly::panels::{self, Request, style};
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::Property;
 use dragonfly_document::{LoadStage, Progress, View};
 use egui::{Key, vec2};
 use egui_kittest::kittest::Queryable;
@@ -107,6 +110,18 @@ fn more() -> Vec<PictureCase> {
         case("timeline-marks", "timeline", Typical, |window| {
             for id in [Id::AddMarker, Id::SelectAllKeys, Id::RangeFromHere] {
                 window.state_mut().state.execute(Request::Command(id));
+            }
+        }),
+        case("timeline-whole-take", "timeline", Typical, |window| {
+            window.state_mut().state.execute(Request::Command(Id::EditWholeTake));
+        }),
+        case("timeline-falloff", "timeline", Typical, |window| {
+            let state = &mut window.state_mut().state;
+            let channels = std::sync::Arc::from([(4, Property::Rotation)]);
+            let (shapes, stretch, choice) = (false, [0.75, 1.05], Choice::Replace);
+            state.execute(Request::Timeline(KeysRequest::Select { channels, shapes, stretch, choice }));
+            for id in [Id::EditSelectedKeys, Id::ToggleFalloff] {
+                state.execute(Request::Command(id));
             }
         }),
         case("curves-rest-pose", "curves", Typical, |window| {

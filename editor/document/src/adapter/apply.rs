@@ -69,9 +69,11 @@ fn only_named(
 ) -> Result<(), EditError> {
     for op in undo {
         let bone = match op {
-            Op::Changes(place, _) | Op::Splice(place, ..) | Op::Times(place, _) | Op::Replace(place, _) => {
-                (!named.contains(&place.bone)).then_some(place.bone)
-            }
+            Op::Changes(place, _)
+            | Op::AllChanges(place, _)
+            | Op::Splice(place, ..)
+            | Op::Times(place, _)
+            | Op::Replace(place, _) => (!named.contains(&place.bone)).then_some(place.bone),
             Op::Pending(take, time, _) => {
                 let [old, new] = [before, after].map(|adapter| {
                     let slot = adapter.slots.iter().find(|slot| slot.id == *take);

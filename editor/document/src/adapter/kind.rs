@@ -2,6 +2,7 @@
 
 use crate::edit::target::Property;
 use dragonfly_anim::data::{Channel, Track, Transform};
+use dragonfly_anim::offset::{AddedTranslation, KeyOffset, ParentRotation, ScaleFactors};
 use dragonfly_anim::sample::Value;
 use glam::{Quat, Vec3};
 
@@ -14,6 +15,8 @@ pub(crate) trait ChannelKind {
     type Value: PartialEq + ChannelValue;
     /// The identity: the change that leaves the original as it is.
     const IDENTITY: ChannelNumbers;
+    /// An offset of many keys.
+    type Offset: KeyOffset<Value = Self::Value>;
 
     fn channel(track: &Track) -> &Channel<Self::Value>;
     fn channel_mut(track: &mut Track) -> &mut Channel<Self::Value>;
@@ -69,6 +72,7 @@ fn four(vector: Vec3) -> ChannelNumbers {
 impl ChannelKind for TranslationChannel {
     type Value = Vec3;
     const IDENTITY: ChannelNumbers = [0.0; 4];
+    type Offset = AddedTranslation;
 
     fn channel(track: &Track) -> &Channel<Vec3> {
         &track.translation
@@ -124,6 +128,7 @@ fn unit(rotation: Quat) -> Quat {
 impl ChannelKind for RotationChannel {
     type Value = Quat;
     const IDENTITY: ChannelNumbers = [0.0, 0.0, 0.0, 1.0];
+    type Offset = ParentRotation;
 
     fn channel(track: &Track) -> &Channel<Quat> {
         &track.rotation
@@ -172,6 +177,7 @@ impl ChannelKind for RotationChannel {
 impl ChannelKind for ScaleChannel {
     type Value = Vec3;
     const IDENTITY: ChannelNumbers = [1.0, 1.0, 1.0, 0.0];
+    type Offset = ScaleFactors;
 
     fn channel(track: &Track) -> &Channel<Vec3> {
         &track.scale

@@ -4,7 +4,7 @@ use super::ModelAdapter;
 use super::change::KeyChange;
 use super::kind::AnyChannel;
 use super::pending::PendingAt;
-use super::slot::{ChannelContent, KeyContent, TakeId, TakeVersions};
+use super::slot::{ChannelChanges, ChannelContent, KeyContent, TakeId, TakeVersions};
 use super::times::SharedTimes;
 use crate::edit::target::Property;
 use dragonfly_anim::data::MorphTrack;
@@ -23,6 +23,8 @@ pub(crate) struct ChannelAddress {
 pub(crate) enum Op {
     /// Replaces the changes of some keys.
     Changes(ChannelAddress, Vec<(u32, Option<KeyChange>)>),
+    /// Replaces all changes of a channel.
+    AllChanges(ChannelAddress, Arc<ChannelChanges>),
     /// Removes keys (positions before the operation) and inserts keys (positions after the operation).
     Splice(ChannelAddress, Vec<u32>, Vec<(u32, KeyContent)>),
     /// Replaces the times of some keys, listed in ascending order. The order of the keys stays the same.
@@ -60,6 +62,7 @@ impl Op {
         size_of::<Self>()
             + match self {
                 Self::Changes(_, changes) => size_of_val(changes.as_slice()),
+                Self::AllChanges(_, changes) => size_of_val(changes.as_slice()),
                 Self::Splice(_, remove, insert) => {
                     size_of_val(remove.as_slice()) + size_of_val(insert.as_slice())
                 }
@@ -82,6 +85,7 @@ impl Op {
             Self::Splice(place, ..) | Self::Times(place, _) | Self::Replace(place, _) => Some(place.take),
             Self::Morphs(take, _) => Some(*take),
             Self::Changes(..)
+            | Self::AllChanges(..)
             | Self::Pending(..)
             | Self::Name(..)
             | Self::Insert(..)
@@ -98,6 +102,10 @@ impl ModelAdapter {
             Op::Changes(place, changes) => {
                 let before = self.slot_mut(place.take).set_changes(place.bone, place.property, &changes);
                 Op::Changes(place, before)
+            }
+            Op::AllChanges(place, changes) => {
+                let slot = self.slot_mut(place.take);
+                Op::AllChanges(place, slot.replace_changes(place.bone, place.property, changes))
             }
             Op::Splice(place, remove, insert) => {
                 let slot = self.slot_mut(place.take);

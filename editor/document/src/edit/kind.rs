@@ -49,6 +49,11 @@ pub(crate) trait EditKind: Sized {
         Ok(())
     }
 
+    /// Returns more about its keys for the list of the history, in a few words.
+    fn detail(&self, _adapter: &ModelAdapter) -> Option<String> {
+        None
+    }
+
     /// Returns the keys that it takes out of their channels, inserts elsewhere or copies.
     fn keys(&self) -> &[KeySet] {
         &[]
@@ -137,6 +142,11 @@ macro_rules! edits {
             /// Returns the take as the list of the history names it.
             pub(crate) fn take_title(&self, adapter: &ModelAdapter) -> Option<String> {
                 match self { $(Self::$Kind(edit) => edit.take_title(adapter),)* }
+            }
+
+            /// Returns more about its keys for the list of the history.
+            pub(crate) fn detail(&self, adapter: &ModelAdapter) -> Option<String> {
+                match self { $(Self::$Kind(edit) => edit.detail(adapter),)* }
             }
 
             /// Returns the time and the poses of an edit that does nothing but give values.

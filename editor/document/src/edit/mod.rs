@@ -32,7 +32,9 @@ mod lines;
 pub(crate) mod mode;
 mod move_keys;
 mod move_take;
+mod offset_keys;
 mod offset_pose;
+mod over;
 mod paste_keys;
 mod paste_pose;
 pub(crate) mod pose;
@@ -61,6 +63,7 @@ pub use examples::Example;
 pub use kind::EditInfo;
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use mode::{KeyInterpolation, NewKey, ResetTo};
+pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope};
 pub use pose::{BonePose, PoseAt};
 pub use shape_tangents::KeyTangents;
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
@@ -79,6 +82,7 @@ edits! {
     "set" => set_pose::SetPose,
     "set_many" => set_poses::SetPoses,
     "offset" => offset_pose::OffsetPose,
+    "offset_keys" => offset_keys::OffsetKeys,
     "reset" => reset_pose::ResetPose,
     "pend" => set_pending::SetPending,
     "paste" => paste_pose::PastePose,

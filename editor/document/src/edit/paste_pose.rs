@@ -2,7 +2,10 @@
 
 use super::kind::EditKind;
 use super::target::BoneFinder;
-use super::{Arbitrary, BonePose, BoneRef, EditedBones, Example, SetPending, SetPose, TakeRef, cost};
+use super::{
+    Arbitrary, BonePose, BoneRef, EditedBones, Example, OffsetFalloff, OffsetKeys, OffsetScope, SetPending,
+    SetPose, TakeRef, cost,
+};
 use crate::adapter::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use crate::adapter::plan::{
     Transaction, key_time,
@@ -39,6 +42,12 @@ pub struct PastePose {
     /// that do not move. The bone then moves to the pose instead of jumping to it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unstep: bool,
+    /// Offsets these keys of the bones by as much as the poses change at the time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<OffsetScope>,
+    /// How the offset fades out around the keys.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub falloff: Option<OffsetFalloff>,
 }
 
 impl EditKind for PastePose {
@@ -63,8 +72,17 @@ impl EditKind for PastePose {
         EditedBones::Named(given.filter_map(target).collect())
     }
 
-    fn cost(&self, _adapter: &ModelAdapter) -> Option<usize> {
-        Some(cost::of_poses(self.poses.len()))
+    fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
+        let columns = match self.over {
+            Some(_) => cost::of_columns(adapter, &self.take, &self.bones(adapter.skeleton()))?,
+            None => 0,
+        };
+        // Each of the copied keys is also offset.
+        Some(columns * 16 + cost::of_poses(self.poses.len()))
+    }
+
+    fn detail(&self, _adapter: &ModelAdapter) -> Option<String> {
+        self.over.as_ref().map(|over| over.keys_text().to_owned())
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
@@ -108,7 +126,9 @@ impl EditKind for PastePose {
             return Err(EditError::Nothing("the bones are in this pose already"));
         }
         let take = self.take.clone();
-        if self.pending {
+        if let Some(over) = self.over.clone() {
+            OffsetKeys { take, poses, at: Some(time), over, falloff: self.falloff }.plan(work)
+        } else if self.pending {
             SetPending { take, time, poses }.plan(work)
         } else {
             SetPose { take, time, poses, unstep: self.unstep }.plan(work)
@@ -117,7 +137,10 @@ impl EditKind for PastePose {
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let [mirrored, pending, unstep] = [(); 3].map(|()| from.flag());
-        Self { take: from.take(), time: from.time(), poses: from.poses(), mirrored, pending, unstep }
+        let over = from.optional(OffsetScope::arbitrary);
+        let falloff = from.optional(OffsetFalloff::arbitrary);
+        let (take, time, poses) = (from.take(), from.time(), from.poses());
+        Self { take, time, poses, mirrored, pending, unstep, over, falloff }
     }
 }
 

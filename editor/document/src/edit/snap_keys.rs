@@ -47,7 +47,8 @@ impl EditKind for SnapKeys {
             return Err(EditError::Number { what: "the frame rate", value: self.rate });
         }
         let rate = f64::from(self.rate);
-        let nearest = |time: f32| ((f64::from(time) * rate).round() / rate) as f32;
+        // A time shortly before 0 s goes to 0, not to -0, which a saved file does not distinguish.
+        let nearest = |time: f32| ((f64::from(time) * rate).round() / rate) as f32 + 0.0;
         move_keys(work, &self.take, &self.keys, KeyMove::PLAIN, nearest)
     }
 

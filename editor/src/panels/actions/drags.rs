@@ -7,9 +7,11 @@ use crate::panels::keys::{ChannelId, KeyDragOp, KeySelection, channel};
 use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::data::Take;
+use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::Change;
 use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::{Edit, OffsetKeys};
+use dragonfly_document::history::Gesture;
 use egui::{Context, Popup};
 use std::sync::Arc;
 
@@ -63,7 +65,50 @@ fn pass_change(workspace: &mut Workspace, change: Change, pass: &mut impl FnMut(
         Admission::Pass => {}
         Admission::CancelDragFirst => cancel_drag(workspace, pass),
     }
+    let change = match change {
+        Change::Edit(Edit::OffsetKeys(edit), Some(gesture)) => {
+            Change::Edit(preview(workspace, edit, gesture), Some(gesture))
+        }
+        Change::Release(gesture) => {
+            send_held_offset(workspace, gesture, pass);
+            Change::Release(gesture)
+        }
+        Change::Cancel(gesture) => {
+            workspace.dragging.take_offset(gesture);
+            Change::Cancel(gesture)
+        }
+        change @ (Change::Edit(..) | Change::Undo | Change::Redo | Change::GoTo(_)) => change,
+    };
     send(workspace, change, pass);
+}
+
+/// Returns the edit to send now in place of an offset of many keys that is being dragged.
+fn preview(workspace: &mut Workspace, edit: OffsetKeys, gesture: Gesture) -> Edit {
+    let Workspace { dragging, model, player, .. } = workspace;
+    let view = model.view();
+    let take = view.zip(player.take()).and_then(|(view, take)| view.takes.get(take));
+    let bones = edit.bones_named();
+    dragging
+        .preview(edit, gesture, view, |time| take.map_or([time; 2], |take| keys_around(take, &bones, time)))
+}
+
+/// Returns the last key of these bones at or before a time, and the first one at or after it.
+fn keys_around(take: &Take, bones: &[BoneIndex], time: f32) -> [f32; 2] {
+    let channels = bones.iter().flat_map(|&bone| channel::channels(take, bone));
+    channels.fold([time; 2], |[from, to], id| {
+        let times = channel::times(take, id);
+        let before = times.partition_point(|&key| key <= time).checked_sub(1);
+        let after = times.partition_point(|&key| key < time);
+        let before = before.map_or(from, |at| times[at].min(from));
+        [before, times.get(after).map_or(to, |&after| after.max(to))]
+    })
+}
+
+/// Sends the offset that was held back during a drag.
+fn send_held_offset(workspace: &mut Workspace, gesture: Gesture, pass: &mut impl FnMut(Effect)) {
+    if let Some(edit) = workspace.dragging.take_offset(gesture) {
+        send(workspace, Change::Edit(edit, Some(gesture)), pass);
+    }
 }
 
 /// Assigns a number to a change, shows its result before the document answers if possible, and passes it on.
@@ -91,6 +136,7 @@ fn cancel_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
     }
     workspace.keys.drop_held();
     if let Some(gesture) = workspace.dragging.cancel() {
+        workspace.dragging.take_offset(gesture);
         send(workspace, Change::Cancel(gesture), pass);
     }
 }
@@ -101,6 +147,7 @@ fn release_drag(workspace: &mut Workspace, pass: &mut impl FnMut(Effect)) {
         && workspace.keys.buttonless().is_none()
         && let Some(gesture) = workspace.dragging.release()
     {
+        send_held_offset(workspace, gesture, pass);
         send(workspace, Change::Release(gesture), pass);
     }
 }

@@ -2,7 +2,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
-use super::{bones, clipboard, drags, files, framing, keys, locks, look, playback, takes};
+use super::{bones, clipboard, drags, files, framing, keys, locks, look, playback, scope, takes};
 use crate::panels::commands;
 use crate::panels::keys::KeysRequest;
 use crate::panels::request::{Effect, FileAction, Request};
@@ -60,6 +60,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Camera(camera) => workspace.camera.set_camera(camera),
         Request::Viewport(rect) => framing::set_viewport(workspace, rect),
         Request::Ghosts(ghosts) => workspace.settings.tools.ghosts = ghosts.sanitized(),
+        Request::Falloff(falloff) => scope::set_falloff(workspace, falloff),
         Request::Shields(shields) => framing::set_shields(workspace, shields),
         Request::Wheel(by) => framing::wheel(workspace, by),
         Request::Point(pointer) => bones::point(workspace, pointer),

@@ -99,5 +99,9 @@ pub(in crate::panels) fn look(workspace: &mut Workspace) -> Option<Effect> {
     if poses.is_empty() {
         workspace.say(MessageSeverity::Info, "There is nothing to rotate");
     }
+    if let Some(reason) = workspace.read().scope_refusal() {
+        workspace.say(MessageSeverity::Warning, reason);
+        return None;
+    }
     workspace.read().pose_edit(poses).map(edit)
 }

@@ -18,6 +18,7 @@ pub(super) mod locks;
 pub(super) mod look;
 pub(super) mod playback;
 pub(super) mod pose;
+pub(super) mod scope;
 pub(super) mod show;
 pub(super) mod takes;
 pub(super) mod tools;

@@ -115,8 +115,15 @@ pub(super) fn paste(workspace: &mut Workspace, mut poses: Vec<BonePose>, mirrore
             return None;
         }
     }
-    let (time, pending) = (workspace.player.time(), !workspace.settings.auto_key);
-    Some(edit(Edit::PastePose(PastePose { take, time, poses, mirrored, pending, unstep: true })))
+    if let Some(reason) = workspace.read().scope_refusal() {
+        workspace.say(MessageSeverity::Warning, reason);
+        return None;
+    }
+    let panels = workspace.read();
+    let (over, falloff) = (panels.offset_scope(), panels.offset_falloff());
+    let (time, pending) = (panels.time(), over.is_none() && !panels.settings.auto_key);
+    let paste = PastePose { take, time, poses, mirrored, pending, unstep: true, over, falloff };
+    Some(edit(Edit::PastePose(paste)))
 }
 
 /// Resets channels of the selected bones to the pose in the file, or to the rest pose.
@@ -144,7 +151,7 @@ pub(in crate::panels) fn reset(
         };
         Some(only(whole(bone, &pose), properties))
     };
-    panels.pose_edit(bones.iter().filter_map(pose).collect()).map(edit)
+    panels.pose_edit_here(bones.iter().filter_map(pose).collect()).map(edit)
 }
 
 fn sampled(take: &Take, bone: BoneIndex, rules: &dragonfly_anim::data::Bone, time: f32) -> Transform {

@@ -1,6 +1,6 @@
 //! The start of a frame, and a newer view of the document.
 
-use super::{drags, framing, keys, playback, tools};
+use super::{drags, framing, keys, playback, scope, tools};
 use crate::panels::change_summary;
 use crate::panels::frame_rate;
 use crate::panels::marks::{BoneMarks, RecalledMarks};
@@ -59,6 +59,7 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
 
 /// Shows a model that was just opened.
 fn show_model(workspace: &mut Workspace) {
+    scope::reset(workspace);
     workspace.tools.drop_drag();
     workspace.bones.reset(workspace.model.bones());
     workspace.tools.set_pole(None);

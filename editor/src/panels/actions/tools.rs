@@ -64,7 +64,8 @@ pub(super) fn sync_gizmo(workspace: &mut Workspace) {
         ..panels.tools.controls().gizmo().gizmo.settings
     };
     let (take, active, flags) = (panels.playback.take, panels.selected(), panels.keys.flags());
-    let editable = take.is_some() && !panels.selection_is_locked();
+    let refused = panels.scope_refusal().is_some();
+    let editable = take.is_some() && !panels.selection_is_locked() && !refused;
     let free = active.is_none_or(|bone| !flags.locked(bone));
     let placement = PlacedGizmo {
         generation: view.generation,
@@ -75,8 +76,9 @@ pub(super) fn sync_gizmo(workspace: &mut Workspace) {
         bones,
         active,
         flags: flags.version(),
+        refused,
     };
-    let path_editable = take.is_some() && free;
+    let path_editable = take.is_some() && free && !refused;
     workspace.tools.sync_gizmo(view, &mut workspace.posed, placement, editable, path_editable);
 }
 
@@ -98,7 +100,10 @@ pub(super) fn update_path(workspace: &mut Workspace) {
 /// Reports why a pose cannot be changed.
 pub(super) fn say_refused(workspace: &mut Workspace) {
     if let Some(bone) = workspace.bones.active().filter(|_| workspace.player.take().is_some()) {
-        return locks::say_locked(workspace, bone);
+        return match workspace.read().scope_refusal().filter(|_| !workspace.read().selection_is_locked()) {
+            Some(reason) => workspace.say(MessageSeverity::Warning, reason),
+            None => locks::say_locked(workspace, bone),
+        };
     }
     workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
 }

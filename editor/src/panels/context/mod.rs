@@ -3,10 +3,12 @@
 mod ik;
 mod keys;
 mod pose;
+mod scope;
 
 use super::curves::given::GivenAngles;
 use super::digest::Digest;
 use super::dragging::Dragging;
+use super::edit_scope::EditOver;
 use super::keys::KeyEditing;
 use super::open_model::Loading;
 use super::posed::PoseCache;
@@ -53,6 +55,8 @@ pub struct PanelContext<'a> {
     pub pointer: Option<Pos2>,
     /// How bones follow one that is moved.
     pub ik: IkMode,
+    /// The keys that edits of poses are for.
+    pub over: EditOver,
     /// The take and the time that are shown.
     pub playback: PlaybackClock,
     /// The moment of the frame that is drawn.

@@ -13,14 +13,30 @@ impl<'a> PanelContext<'a> {
     }
 
     /// Returns the edit that sets these poses (parent space) at the time shown: as keys with auto-key on, as pending poses
-    /// with it off. `None` if the rest pose is shown, which is not edited, or no bone is named.
+    /// with it off. In a scope of many keys it offsets all of these, with auto-key on or off. `None` if the rest pose is
+    /// shown, which is not edited, no bone is named, or the scope has no keys there.
     pub fn pose_edit(&self, poses: Vec<BonePose>) -> Option<Edit> {
-        let take = self.take_ref().filter(|_| !poses.is_empty())?;
+        let take = self.take_ref().filter(|_| !poses.is_empty() && self.scope_refusal().is_none())?;
         Some(self.edit_of(take, self.time(), poses))
     }
 
-    /// Returns the edit that sets these poses (parent space) at any time.
+    /// Returns the edit that sets these poses (parent space) at the time shown and nowhere else, whatever the scope of
+    /// edits is: for resets.
+    pub(in crate::panels) fn pose_edit_here(&self, poses: Vec<BonePose>) -> Option<Edit> {
+        let take = self.take_ref().filter(|_| !poses.is_empty())?;
+        Some(self.edit_of_frame(take, self.time(), poses))
+    }
+
+    /// Returns the edit that sets these poses (parent space) at any time, in the scope of edits.
     pub(in crate::panels) fn edit_of(&self, take: TakeRef, time: f32, poses: Vec<BonePose>) -> Edit {
+        match self.offset_edit(take.clone(), time, poses) {
+            Ok(edit) => edit,
+            Err(poses) => self.edit_of_frame(take, time, poses),
+        }
+    }
+
+    /// Returns the edit that sets these poses at a time and nowhere else.
+    fn edit_of_frame(&self, take: TakeRef, time: f32, poses: Vec<BonePose>) -> Edit {
         if self.settings.auto_key {
             Edit::SetPose(SetPose { take, time, poses, unstep: true })
         } else {

@@ -4,6 +4,7 @@
 mod areas;
 mod buttonless;
 mod drag;
+mod fade;
 mod gutter;
 mod head;
 mod markers;
@@ -92,6 +93,7 @@ impl Dope {
         };
         overlay::rows(&painter, &sheet);
         overlay::outside_range(&painter, &sheet);
+        fade::paint(&painter, &sheet);
         self.keys.paint(&painter, &sheet);
         self.scroll = (self.scroll + self.drag.update(ui, &canvas, &sheet, requests)).max(0.0);
         self.menu.show(&canvas, &self.drag, context, requests);

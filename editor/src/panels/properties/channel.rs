@@ -1,6 +1,7 @@
 //! One channel of a bone as a table: a row for each axis, and columns for original, change and result.
 
 use super::super::context::PanelContext;
+use super::super::edit_scope_menu;
 use super::super::number_field::{self, FieldEvent, NumberField};
 use super::super::number_slider::{NumberSlider, SliderScale};
 use super::super::number_text::{Digits, exact};
@@ -260,6 +261,7 @@ impl ChannelTable<'_> {
             quiet: spot.column == Column::Change && value == Some(unchanged(spot, index)),
         };
         let (event, response) = field.show(ui, rect);
+        response.context_menu(|ui| edit_scope_menu::entries(ui, self.context, requests));
         if let Err(reason) = drag.apply(self.context, spot, index, event, requests) {
             number_field::refuse(ui, id, value, reason);
         }

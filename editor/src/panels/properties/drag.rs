@@ -317,7 +317,7 @@ impl FieldDrag {
     }
 }
 
-/// Returns the change that gives all selected bones other parts of their pose, as a step of its own.
+/// Returns the change that gives all selected bones other parts of their pose at the time shown, as a step of its own.
 pub(super) fn set(
     context: &PanelContext<'_>,
     property: Property,
@@ -327,7 +327,7 @@ pub(super) fn set(
     let poses =
         bones.filter_map(|bone| Some(of(&pair_of(context, bone)?, bone)?.pose(bone, property))).collect();
     let poses = PanelContext::with_pins(&mut context.hold_of_pins(), poses);
-    context.pose_edit(poses).map(|edit| Request::Change(Change::Edit(edit, None)))
+    context.pose_edit_here(poses).map(|edit| Request::Change(Change::Edit(edit, None)))
 }
 
 impl Moment {

@@ -86,7 +86,7 @@ impl Properties {
             Some(_) if context.keys.flags().locked(bone) => {
                 Some("Locked in the timeline: its keys cannot be edited")
             }
-            Some(_) => None,
+            Some(_) => context.scope_refusal(),
         };
         if let Some(why) = locked {
             ui.add_space(GRID);

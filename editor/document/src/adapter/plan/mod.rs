@@ -7,6 +7,7 @@ mod chosen;
 pub(crate) mod cut;
 pub(crate) mod keys;
 pub(crate) mod morph;
+pub(crate) mod offset;
 pub(crate) mod pending;
 pub(crate) mod pose;
 pub(crate) mod remap;

@@ -45,22 +45,29 @@ pub(super) fn refresh<K: ChannelKind>(
         return;
     }
     // If the last result has a column of its own, only the touched keys differ from it.
-    let (mut values, keys): (Arc<[K::Value]>, Vec<u32>) = match touched {
-        Some(touched) if !Arc::ptr_eq(&result.values, &original.values) => {
-            // A column that is not shared is overwritten in place.
-            (std::mem::take(&mut result.values), touched.iter().map(|(key, _)| *key).collect())
-        }
-        _ => (Arc::from(&*original.values), changes.iter().map(|(key, _)| *key).collect()),
+    let touched = touched.filter(|_| !Arc::ptr_eq(&result.values, &original.values));
+    let mut values: Arc<[K::Value]> = match touched {
+        // A column that is not shared is overwritten in place.
+        Some(_) => std::mem::take(&mut result.values),
+        None => Arc::from(&*original.values),
     };
     if Arc::get_mut(&mut values).is_none() {
         values = Arc::from(&*values);
     }
     if let Some(values) = Arc::get_mut(&mut values) {
-        for key in keys {
+        let mut set = |key: u32, change: Option<&KeyChange>| {
             let as_read = triple::<K>(&original, key as usize);
-            let change = changes.binary_search_by_key(&key, |(key, _)| *key).ok().map(|at| changes[at].1);
             let now = change.map_or(as_read, |change| change.result::<K>(&as_read));
             put::<K>(values, original.interpolation, key as usize, &now);
+        };
+        match touched {
+            Some(touched) => {
+                for &(key, _) in touched {
+                    let at = changes.binary_search_by_key(&key, |(key, _)| *key).ok();
+                    set(key, at.map(|at| &changes[at].1));
+                }
+            }
+            None => changes.iter().for_each(|(key, change)| set(*key, Some(change))),
         }
     }
     *result = Channel { values, ..original };

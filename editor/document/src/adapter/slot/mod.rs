@@ -175,6 +175,23 @@ impl TakeVersions {
         before
     }
 
+    /// Replaces all changes of a channel. Returns the previous ones.
+    pub(crate) fn replace_changes(
+        &mut self,
+        bone: u32,
+        property: Property,
+        changes: Arc<ChannelChanges>,
+    ) -> Arc<ChannelChanges> {
+        let channel = (bone, property);
+        let before = if changes.is_empty() {
+            self.changes.remove(&channel)
+        } else {
+            self.changes.insert(channel, changes)
+        };
+        with_kind!(property, refresh::<K>(self, property, bone, None));
+        before.unwrap_or_default()
+    }
+
     /// Removes keys (ascending positions before the operation) and inserts others (ascending positions after it).
     /// Returns the positions and keys that undo it.
     pub(crate) fn splice(

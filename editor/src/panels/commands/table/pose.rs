@@ -4,12 +4,23 @@ use super::*;
 use crate::panels::actions::baking;
 use crate::panels::actions::ik;
 use crate::panels::actions::pose;
+use crate::panels::actions::scope;
+use crate::panels::edit_scope::EditScope;
 use crate::panels::prompts::Overlay;
 use dragonfly_document::edit::Property;
 use dragonfly_document::edit::ResetTo;
 
 commands! {
     AutoKey => When::Always, "Auto-key", [key(SHIFT, Key::I)], "Inserts keys for every changed pose; when off, changed poses are pending until they are keyed", |w| { pose::toggle_auto_key(w); None };
+    EditFrame => When::Always, "Edit this frame", [], "Edits of poses apply to the frame at the playhead", |w| { scope::set(w, EditScope::Frame); None };
+    EditSelectedKeys => When::Always, "Edit selected keys", [], "Edits of poses offset all selected keys of the bones by the same amount, with falloff also those around them (additive, relative)", |w| { scope::set(w, EditScope::Keys); None };
+    EditPlayRange => When::Always, "Edit play range", [], "Edits of poses offset all keys of the bones in the play range by the same amount; keys at its ends keep the motion outside (additive, relative)", |w| { scope::set(w, EditScope::Range); None };
+    EditWholeTake => When::Always, "Edit whole take", [], "Edits of poses offset all keys of the bones in the take by the same amount (all keys, additive, relative, layer)", |w| { scope::set(w, EditScope::Take); None };
+    NextEditScope => When::Always, "Next edit scope", [key(SHIFT, Key::T)], "Switches the keys that edits apply to: this frame, the selected keys, the play range, the whole take", |w| { scope::next(w); None };
+    ToggleFalloff => When::Always, "Falloff", [key(NONE, Key::O)], "Fades edits of selected keys and of the play range out over the keys around them (proportional editing, soft selection)", |w| { scope::toggle_falloff(w); None };
+    WiderFalloff => When::Always, "Wider falloff", [key(ALT, Key::Equals)], "Makes the falloff of edits one frame wider", |w| { scope::widen(w, 1); None }, repeats;
+    NarrowerFalloff => When::Always, "Narrower falloff", [key(ALT, Key::Minus)], "Makes the falloff of edits one frame narrower", |w| { scope::widen(w, -1); None }, repeats;
+    NextFalloffShape => When::Always, "Next falloff shape", [key(SHIFT, Key::O)], "Switches the curve of the falloff of edits: linear, smooth, sphere, sharp", |w| { scope::next_shape(w); None };
     Key => When::Take, "Key", [key(NONE, Key::K), key(NONE, Key::I)], "Keys the pending poses at the playhead; if there are none, adds keys for the selected bones, or for all", pose::key;
     KeyAllPending => When::Pending, "Key all pending poses", [key(SHIFT, Key::K)], "Keys all pending poses of the take", pose::key_pending;
     DropPending => When::Pending, "Discard pending poses", [key(ALT, Key::K)], "Discards all pending poses of the take", pose::drop_pending;
