@@ -64,6 +64,7 @@
 //! | root motion | [`motion`] |
 //! | play a take on another skeleton | [`retarget`] |
 //! | remove redundant keys | [`reduce`] |
+//! | in-betweens: blend keys with their neighbors, smooth curves | [`inbetween`] |
 //! | compress takes | [`compressed`] |
 //! | bounding volumes; ray and sphere queries | [`bounds`], [`hit`] |
 //! | levels of detail | [`level`] |
@@ -107,6 +108,8 @@ pub mod format;
 pub mod hit;
 #[doc(alias("inverse kinematics"))]
 pub mod ik;
+#[doc(alias("tween", "smooth", "breakdown"))]
+pub mod inbetween;
 #[doc(alias("joint limits", "constraints"))]
 pub mod joint;
 #[doc(alias("LOD", "level of detail"))]
