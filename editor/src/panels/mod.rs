@@ -27,6 +27,7 @@ mod frame_rate;
 pub mod hierarchy;
 pub mod history;
 pub mod icons;
+pub mod inbetween;
 pub mod keys;
 pub mod layout;
 pub mod marks;
@@ -90,6 +91,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<history::History>::default(),
         Box::<timeline::TimelinePanel>::default(),
         Box::<curves::Curves>::default(),
+        Box::<inbetween::InBetween>::default(),
     ]
 }
 

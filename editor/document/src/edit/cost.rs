@@ -31,6 +31,17 @@ pub(super) fn of_columns(adapter: &ModelAdapter, take: &TakeRef, bones: &EditedB
     Some(keys.div_ceil(COPIED))
 }
 
+/// Returns the cost of reading `times` each key of the channels of `bones`, as filters do; `None` where a take changes as a whole.
+pub(super) fn of_reading(
+    adapter: &ModelAdapter,
+    take: &TakeRef,
+    bones: &EditedBones,
+    times: usize,
+) -> Option<usize> {
+    let columns = of_columns(adapter, take, bones)?;
+    Some(columns.saturating_mul(times))
+}
+
 fn keys_of_bone(slot: &TakeVersions, bone: u32) -> usize {
     let Some(track) = slot.original.tracks.get(bone as usize) else { return 0 };
     track.translation.len() + track.rotation.len() + track.scale.len()

@@ -47,7 +47,8 @@ impl EditKind for SnapKeys {
             return Err(EditError::Number { what: "the frame rate", value: self.rate });
         }
         let rate = f64::from(self.rate);
-        let nearest = |time: f32| ((f64::from(time) * rate).round() / rate) as f32;
+        // The sum makes a zero positive: files have one zero only.
+        let nearest = |time: f32| ((f64::from(time) * rate).round() / rate + 0.0) as f32;
         move_keys(work, &self.take, &self.keys, KeyMove::PLAIN, nearest)
     }
 

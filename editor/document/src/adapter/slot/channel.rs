@@ -26,6 +26,24 @@ pub(super) fn exchange(
     }
 }
 
+/// Replaces the changes of many keys, which ascend, as [`exchange`] does one by one. Takes time in proportion to both lists.
+pub(super) fn merge(
+    changes: &mut ChannelChanges,
+    wanted: &[(u32, Option<KeyChange>)],
+) -> Vec<(u32, Option<KeyChange>)> {
+    let mut old = std::mem::take(changes).into_iter().peekable();
+    let mut before = Vec::with_capacity(wanted.len());
+    for &(key, change) in wanted {
+        while let Some(earlier) = old.next_if(|(other, _)| *other < key) {
+            changes.push(earlier);
+        }
+        before.push((key, old.next_if(|(other, _)| *other == key).map(|(_, change)| change)));
+        changes.extend(change.map(|change| (key, change)));
+    }
+    changes.extend(old);
+    before
+}
+
 /// Computes the result of a channel again, for the keys in `touched` or for all keys.
 pub(super) fn refresh<K: ChannelKind>(
     slot: &mut TakeVersions,
