@@ -110,6 +110,12 @@ fn more() -> Vec<PictureCase> {
                 window.state_mut().state.execute(Request::Command(id));
             }
         }),
+        case("inbetween-keys", "inbetween", Typical, |window| {
+            window.state_mut().state.execute(Request::Command(Id::SelectAllKeys));
+        }),
+        case("inbetween-rest-pose", "inbetween", Typical, |window| {
+            window.state_mut().state.execute(Request::ShowTake(None));
+        }),
         case("curves-rest-pose", "curves", Typical, |window| {
             window.state_mut().state.execute(Request::ShowTake(None));
         }),

@@ -4,7 +4,6 @@ use super::InBetweenTool;
 use crate::control::expression::Quantity;
 use crate::panels::number_field::{FieldEvent, NumberField};
 use crate::panels::number_slider::NumberSlider;
-use crate::panels::number_text::Digits;
 use crate::panels::style::{CONTROL, GRID};
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
@@ -47,7 +46,7 @@ impl Row {
         );
         let slider = NumberSlider {
             id: Id::unique(("in-between slider", tool)),
-            name: tool.title(),
+            name: &format!("{} slider", tool.title()),
             value: Some(self.value),
             scale: tool.scale(),
             snap: tool.snap(),
@@ -57,14 +56,14 @@ impl Row {
         let by_slider = if line.width() > 24.0 { slider.show(ui, line) } else { FieldEvent::Nothing };
         let field = NumberField {
             id: Id::unique(("in-between number", tool)),
-            name: tool.number_name(),
+            name: tool.title(),
             value: Some(self.value),
             quantity: Quantity::Number,
             unit: tool.unit(),
             speed: tool.snap() * 0.2,
             snap: tool.snap(),
             grain: 1e-9,
-            digits: Digits::Fitting,
+            digits: tool.digits(),
             range: tool.range(),
             locked: self.locked,
             help: tool.help(),

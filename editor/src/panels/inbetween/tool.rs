@@ -2,6 +2,7 @@
 
 use crate::panels::context::PanelContext;
 use crate::panels::number_slider::SliderScale;
+use crate::panels::number_text::Digits;
 use dragonfly_document::edit::{
     BlendKeys, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, TakeRef,
 };
@@ -68,24 +69,18 @@ impl ChosenKeys {
 
 /// The settings of a tool's number.
 struct Number {
-    /// Name for screen readers.
-    name: &'static str,
     unit: &'static str,
     scale: SliderScale,
     range: [f64; 2],
     snap: f64,
+    /// Digits after the point.
+    digits: usize,
     /// Number at which the slider rests.
     neutral: f64,
 }
 
-const PERCENT: Number = Number {
-    name: "Amount",
-    unit: "%",
-    scale: SliderScale::Linear(150.0),
-    range: [-150.0, 150.0],
-    snap: 10.0,
-    neutral: 0.0,
-};
+const PERCENT: Number =
+    Number { unit: "%", scale: SliderScale::Linear(150.0), range: [-150.0, 150.0], snap: 10.0, neutral: 0.0 };
 
 impl InBetweenTool {
     /// All tools in the order of the panel.
@@ -157,51 +152,51 @@ impl InBetweenTool {
         match self {
             Self::Tween | Self::Push | Self::Relax | Self::Neighbor | Self::Ease | Self::Rest => PERCENT,
             Self::Delay => Number {
-                name: "Frames",
                 unit: "fr",
                 scale: SliderScale::Linear(10.0),
                 range: [-1000.0, 1000.0],
                 snap: 1.0,
+                digits: 1,
                 neutral: 0.0,
             },
             Self::Noise => Number {
-                name: "Angle",
                 unit: "°",
                 scale: SliderScale::Upward(20.0),
                 range: [0.0, 180.0],
                 snap: 1.0,
+                digits: 1,
                 neutral: 0.0,
             },
             Self::Gaussian => Number {
-                name: "Width",
                 unit: "fr",
                 scale: SliderScale::Upward(10.0),
                 range: [0.0, 200.0],
                 snap: 0.5,
+                digits: 1,
                 neutral: 0.0,
             },
             Self::Butterworth => Number {
-                name: "Frequency",
                 unit: "Hz",
                 scale: SliderScale::Around { middle: 6.0, factor: 10.0 },
                 range: [0.01, 500.0],
                 snap: 0.5,
+                digits: 1,
                 neutral: 6.0,
             },
             Self::Peaks => Number {
-                name: "Deviations",
                 unit: "σ",
                 scale: SliderScale::Around { middle: 3.0, factor: 10.0 },
                 range: [0.0, 1000.0],
                 snap: 0.5,
+                digits: 1,
                 neutral: 3.0,
             },
         }
     }
 
-    /// Returns the name of its number for screen readers.
-    pub(super) fn number_name(self) -> &'static str {
-        self.number().name
+    /// Returns how its number is written.
+    pub(super) fn digits(self) -> Digits {
+        Digits::Fixed(self.number().digits)
     }
 
     /// Returns the unit of its number.

@@ -5,7 +5,7 @@ use crate::panels::actions::inbetween::{apply, resample};
 use crate::panels::inbetween::InBetweenTool as Tool;
 
 commands! {
-    TweenKeys => When::Keys, "Tween keys", [key(SHIFT, Key::E)], "Moves the selected keys halfway between the keys before and after them (tween, breakdown)", |w| apply(w, Tool::Tween, 0.0);
+    TweenKeys => When::Keys, "Tween keys", [key(SHIFT, Key::E)], "Moves the selected keys halfway between the keys before and after them (tween, breakdown, in-between)", |w| apply(w, Tool::Tween, 0.0);
     PushKeys => When::Keys, "Push keys", [key(CTRL, Key::E)], "Moves the selected keys a quarter further away from the line between their neighbors (push, exaggerate)", |w| apply(w, Tool::Push, 25.0), repeats;
     PullKeys => When::Keys, "Pull keys", [], "Moves the selected keys a quarter of the way to the line between their neighbors (pull, flatten)", |w| apply(w, Tool::Push, -25.0), repeats;
     RelaxKeys => When::Keys, "Relax keys", [key(ALT, Key::E)], "Moves each selected key halfway to the average of the keys beside it (relax, average)", |w| apply(w, Tool::Relax, 50.0), repeats;
