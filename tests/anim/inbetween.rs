@@ -129,7 +129,7 @@ fn filters_keep_the_ends_and_straight_lines() {
 
 #[test]
 fn a_margin_longer_than_the_curve_reflects_it_again_and_again() {
-    // A line goes on as a line, however far.
+    // A line continues as a line, however far.
     let line = extended(&[1.0_f64, 2.0, 3.0], 9);
     let expected: Vec<f64> = (-8..=12).map(f64::from).collect();
     assert_eq!(line, expected);
@@ -257,7 +257,7 @@ fn keys_move_between_and_beyond_the_neighbors_of_their_row() {
     let times = [0.0, 1.0, 2.0, 4.0, 5.0];
     let values = [0.0_f64, 3.0, 9.0, 8.0, 7.0];
     let blend = |chosen: &[u32], target, factor| blend_keys(&times, &values, chosen, target, factor);
-    // The row 1, 2 lies between the keys 0 (value 0, at 0 s) and 3 (value 8, at 4 s).
+    // The row 1, 2 is between the keys 0 (value 0, at 0 s) and 3 (value 8, at 4 s).
     assert_eq!(blend(&[1, 2], BlendTarget::Between(0.25), 1.0), [2.0, 2.0]);
     assert_eq!(blend(&[1, 2], BlendTarget::Between(1.5), 1.0), [12.0, 12.0]);
     assert_eq!(blend(&[1, 2], BlendTarget::Between(0.5), 0.5), [3.5, 6.5]);
@@ -266,7 +266,7 @@ fn keys_move_between_and_beyond_the_neighbors_of_their_row() {
     // The line is at 2 and 4 there.
     assert_eq!(blend(&[1, 2], BlendTarget::AwayFromLine, 1.0), [4.0, 14.0]);
     assert_eq!(blend(&[1, 2], BlendTarget::AwayFromLine, -1.0), [2.0, 4.0]);
-    // Directly beside key 1 are the values 0 and 9, beside key 2 the values 3 and 8 at a third of the way.
+    // Directly before and after key 1 are the values 0 and 9, before and after key 2 the values 3 and 8 at a third of the way.
     let relaxed = blend(&[1, 2], BlendTarget::Average, 1.0);
     assert_eq!(relaxed[0], 4.5);
     assert!((relaxed[1] - (3.0 + 5.0 / 3.0)).abs() < 1e-12);

@@ -3,7 +3,7 @@
 use super::KeyValue;
 use std::ops::Range;
 
-/// What [`blend_keys`] moves keys toward.
+/// The target toward which [`blend_keys`] moves keys.
 ///
 /// The neighbors of a key are the keys before and after the unbroken row of chosen keys that it belongs to. Where such a row is at the
 /// end of the channel, its own first or last key takes the place of the missing one. `u` is the part of the time between the two

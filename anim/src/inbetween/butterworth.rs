@@ -50,7 +50,7 @@ impl Butterworth {
         Some(Self { sections, order })
     }
 
-    /// Returns the number of samples by which the curve is extended at either end: as many as in SciPy.
+    /// Returns the number of samples by which the curve is extended at either end, the same as in SciPy.
     fn margin(&self) -> usize {
         3 * (self.order + 1)
     }

@@ -1,4 +1,4 @@
-//! Removal of single values that lie far from those around them.
+//! Removal of single values that are far from those around them.
 
 use super::KeyValue;
 

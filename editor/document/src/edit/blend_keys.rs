@@ -25,13 +25,13 @@ pub struct BlendKeys {
     /// Stretches of time, start and end in seconds, in which keys of morph targets are blended.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shapes: Vec<[f32; 2]>,
-    /// What the keys move toward.
+    /// The target toward which the keys move.
     pub toward: KeyTarget,
-    /// How far, -10 to 10; 1 is at the target.
+    /// Part of the way to the target, -10 to 10; 1 is at the target.
     pub factor: f32,
 }
 
-/// What keys move toward. Their neighbors are the keys before and after each unbroken row of selected keys of a channel; at the end of
+/// The target toward which keys move. Their neighbors are the keys before and after each unbroken row of selected keys of a channel; at the end of
 /// a channel, the end key itself.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

@@ -15,7 +15,7 @@ pub enum InBetweenTool {
     Tween,
     /// Away from the line between the neighbors, or onto it.
     Push,
-    /// Toward the average of the keys directly beside each key.
+    /// Toward the average of the keys directly before and after each key.
     Relax,
     /// Toward the neighbor before or after.
     Neighbor,
@@ -79,8 +79,14 @@ struct Number {
     neutral: f64,
 }
 
-const PERCENT: Number =
-    Number { unit: "%", scale: SliderScale::Linear(150.0), range: [-150.0, 150.0], snap: 10.0, neutral: 0.0 };
+const PERCENT: Number = Number {
+    unit: "%",
+    scale: SliderScale::Linear(150.0),
+    range: [-150.0, 150.0],
+    snap: 10.0,
+    digits: 0,
+    neutral: 0.0,
+};
 
 impl InBetweenTool {
     /// All tools in the order of the panel.

@@ -12,7 +12,7 @@ use dragonfly_anim::data::{Channel, Interpolation, MorphTrack};
 use dragonfly_anim::sample::Value;
 use std::sync::Arc;
 
-/// What gives keys new values.
+/// A tool that gives keys new values.
 pub(crate) trait ValueTool {
     /// Returns new values for the `chosen` keys of a channel of a bone; `None` where they stay. `values` are those of all keys.
     fn bone_values<K: ChannelKind>(
