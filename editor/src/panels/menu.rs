@@ -90,7 +90,7 @@ fn keys(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
                     Id::RelaxKeys,
                     Id::BlendToNext,
                     Id::EaseOutKeys,
-                    Id::BlendToRest,
+                    Id::BlendToTake,
                     Id::DelayKeys,
                     Id::RemovePeaks,
                 ];

@@ -1,12 +1,12 @@
 //! Moves the values of keys between or beyond those of their neighbors.
 
 use super::kind::EditKind;
-use super::{Arbitrary, BonePose, EditedBones, Example, KeySet, TakeRef};
-use crate::adapter::EditError;
+use super::{Arbitrary, BonePose, EditedBones, Example, KeySet, TakeRef, cost};
 use crate::adapter::kind::ChannelKind;
 use crate::adapter::op::ChannelAddress;
 use crate::adapter::plan::values::{ValueTool, change_values};
 use crate::adapter::plan::{Transaction, finite, pose, rest};
+use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::{MorphTrack, Skeleton, Take, Transform};
 use dragonfly_anim::inbetween::{BlendTarget, KeyValue, blend_keys};
 use dragonfly_anim::sample::{sample_channel, sample_morph_weights};
@@ -96,6 +96,12 @@ impl EditKind for BlendKeys {
 
     fn keys(&self) -> &[KeySet] {
         &self.keys
+    }
+
+    fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
+        let columns = cost::of_columns(adapter, &self.take, &self.bones(adapter.skeleton()))?;
+        // A rotation is blended in about the time of two keys that are moved.
+        Some(columns + 3 * cost::of_keys(adapter, &self.take, &self.keys))
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

@@ -1,12 +1,12 @@
 //! Adds noise to keys.
 
 use super::kind::EditKind;
-use super::{Arbitrary, EditedBones, Example, KeySet, Property, TakeRef};
-use crate::adapter::EditError;
+use super::{Arbitrary, EditedBones, Example, KeySet, Property, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, RotationChannel, TranslationChannel};
 use crate::adapter::op::ChannelAddress;
 use crate::adapter::plan::Transaction;
 use crate::adapter::plan::values::{ValueTool, change_values};
+use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::{MorphTrack, Skeleton};
 use dragonfly_anim::inbetween::noise_at;
 use dragonfly_anim::trig::rotation_of_vector;
@@ -62,6 +62,12 @@ impl EditKind for NoiseKeys {
 
     fn keys(&self) -> &[KeySet] {
         &self.keys
+    }
+
+    fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
+        let columns = cost::of_columns(adapter, &self.take, &self.bones(adapter.skeleton()))?;
+        // A rotation is computed in about the time of two keys that are moved.
+        Some(columns + 3 * cost::of_keys(adapter, &self.take, &self.keys))
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {

@@ -1,8 +1,9 @@
 //! In-betweens: the selected keys get other values, at once.
 
 use super::edit;
-use crate::panels::inbetween::{ChosenKeys, InBetweenTool};
+use crate::panels::inbetween::{ChosenKeys, InBetweenTool, next_take};
 use crate::panels::request::Effect;
+use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{Edit, ResampleKeys};
 
@@ -11,8 +12,12 @@ pub(in crate::panels) fn apply(workspace: &mut Workspace, tool: InBetweenTool, v
     let panels = workspace.read();
     // Each step of the history gets other noise.
     let steps = panels.view.map_or(0, |view| view.history.done);
-    let chosen = ChosenKeys::of(&panels, steps as u32)?;
-    Some(edit(tool.edit(value, &chosen)))
+    let chosen = ChosenKeys::of(&panels, steps as u32, next_take(&panels))?;
+    let made = tool.edit(value, &chosen);
+    if made.is_none() {
+        workspace.say(MessageSeverity::Info, "The model has no other take");
+    }
+    made.map(edit)
 }
 
 /// Replaces the selected keys by keys on every frame, or every few frames.

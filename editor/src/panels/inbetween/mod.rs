@@ -16,7 +16,7 @@ use super::request::Request;
 use super::style::GRID;
 use super::theme::Theme;
 use super::{Panel, PanelPlace, widgets};
-use egui::{RichText, ScrollArea, Ui};
+use egui::{Align, Button, Layout, Popup, RichText, ScrollArea, Ui};
 use row::Row;
 
 /// The sliders, and the one that is dragged.
@@ -27,6 +27,8 @@ pub struct InBetween {
     held: Option<HeldSlider>,
     /// Number of drags so far: each gets other noise.
     drags: u32,
+    /// The take toward which keys are blended, if one was chosen.
+    other: Option<usize>,
 }
 
 /// A slider that is dragged, and the keys that it changes.
@@ -66,6 +68,10 @@ impl Panel for InBetween {
         ui.horizontal(|ui| {
             ui.add_space(2.0 * GRID);
             ui.label(RichText::new(heading(context)).small().color(Theme::of(ui).weak));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ui.add_space(2.0 * GRID);
+                self.choose_take(ui, context);
+            });
         });
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
@@ -85,6 +91,12 @@ impl Panel for InBetween {
             });
         });
     }
+}
+
+/// Returns the take after the one that is shown; after the last one the first. `None` if there is no other.
+pub(super) fn next_take(context: &PanelContext<'_>) -> Option<usize> {
+    let (takes, shown) = (context.digest.takes.len(), context.playback.take?);
+    (takes > 1).then(|| (shown + 1) % takes)
 }
 
 /// Returns what the sliders change, in a few words.
@@ -109,9 +121,41 @@ impl InBetween {
             Some(held) if held.tool == tool => held.value,
             Some(_) | None => self.setting(tool),
         };
-        let locked = (!When::Keys.holds(context)).then(|| When::Keys.reason());
+        let locked = if !When::Keys.holds(context) {
+            Some(When::Keys.reason())
+        } else if tool == InBetweenTool::Take && self.other(context).is_none() {
+            Some("The model has no other take")
+        } else {
+            None
+        };
         let event = Row { tool, value, locked }.show(ui);
         self.apply(tool, event, context, requests);
+    }
+
+    /// Returns the take toward which keys are blended: the chosen one, or the next in the list.
+    fn other(&self, context: &PanelContext<'_>) -> Option<usize> {
+        let chosen = self.other.filter(|&take| take < context.digest.takes.len());
+        chosen.filter(|&take| Some(take) != context.playback.take).or_else(|| next_take(context))
+    }
+
+    /// Draws the button that chooses the take toward which keys are blended.
+    fn choose_take(&mut self, ui: &mut Ui, context: &PanelContext<'_>) {
+        let Some(other) = self.other(context) else { return };
+        let name = |take: usize| widgets::shortened(&context.digest.takes[take].name);
+        let text = RichText::new(format!("To take: {}", name(other))).small().color(Theme::of(ui).weak);
+        let button = ui.add(Button::new(text).frame(false).truncate());
+        let button = button.on_hover_text("Other take\nThe take toward which “To take” moves keys");
+        Popup::menu(&button).show(|ui| {
+            ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
+                for take in
+                    (0..context.digest.takes.len()).filter(|&take| Some(take) != context.playback.take)
+                {
+                    if ui.add(Button::selectable(take == other, name(take))).clicked() {
+                        self.other = Some(take);
+                    }
+                }
+            });
+        });
     }
 
     /// Returns the number at which a slider rests.
@@ -145,12 +189,14 @@ impl InBetween {
                         return;
                     }
                     self.drags += 1;
-                    let Some(keys) = ChosenKeys::of(context, self.drags) else { return };
+                    let Some(keys) = ChosenKeys::of(context, self.drags, self.other(context)) else { return };
                     self.held = Some(HeldSlider { tool, start, value: start, keys });
                 }
                 let Some(held) = self.held.as_mut().filter(|held| held.tool == tool) else { return };
                 held.value = tool.within(start + by);
-                push(KeysRequest::Drag(KeyDragOp::Edit(tool.edit(held.value, &held.keys))));
+                if let Some(edit) = tool.edit(held.value, &held.keys) {
+                    push(KeysRequest::Drag(KeyDragOp::Edit(edit)));
+                }
             }
             FieldEvent::Released => {
                 if let Some(held) = self.held.take() {
@@ -167,8 +213,9 @@ impl InBetween {
             FieldEvent::Typed(value) if tool.changes_nothing(value) => {}
             FieldEvent::Typed(value) => {
                 self.drags += 1;
-                let Some(keys) = ChosenKeys::of(context, self.drags) else { return };
-                push(KeysRequest::Drag(KeyDragOp::Edit(tool.edit(tool.within(value), &keys))));
+                let Some(keys) = ChosenKeys::of(context, self.drags, self.other(context)) else { return };
+                let Some(edit) = tool.edit(tool.within(value), &keys) else { return };
+                push(KeysRequest::Drag(KeyDragOp::Edit(edit)));
                 push(KeysRequest::Release);
                 self.keep(tool, value);
             }

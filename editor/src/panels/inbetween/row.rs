@@ -14,7 +14,7 @@ pub(super) const NARROWEST: f32 = 220.0;
 /// Width of the name.
 const NAME: f32 = 82.0;
 /// Width of the number.
-const NUMBER: f32 = 68.0;
+const NUMBER: f32 = 80.0;
 
 /// A tool as its row shows it.
 pub(super) struct Row {

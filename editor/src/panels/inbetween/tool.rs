@@ -6,6 +6,7 @@ use crate::panels::number_text::Digits;
 use dragonfly_document::edit::{
     BlendKeys, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, TakeRef,
 };
+use dragonfly_picture::between;
 use std::ops::RangeInclusive;
 
 /// A tool that changes the values of the selected keys.
@@ -23,6 +24,8 @@ pub enum InBetweenTool {
     Ease,
     /// Toward the rest pose.
     Rest,
+    /// Toward another take.
+    Take,
     /// The values of earlier or later times.
     Delay,
     /// Random offsets.
@@ -44,16 +47,26 @@ pub struct ChosenKeys {
     /// Length of a frame, seconds.
     frame: f32,
     seed: u32,
+    /// Another take.
+    other: Option<TakeRef>,
 }
 
 impl ChosenKeys {
-    /// Returns the selected keys of the take that is shown; `None` without any. `seed` determines noise.
-    pub fn of(context: &PanelContext<'_>, seed: u32) -> Option<Self> {
+    /// Returns the selected keys of the take that is shown; `None` without any. `seed` determines noise, and `other` is the take
+    /// toward which keys are blended.
+    pub fn of(context: &PanelContext<'_>, seed: u32, other: Option<usize>) -> Option<Self> {
         let (selection, shown) = (context.keys.selection(), context.take()?);
         let (keys, shapes) = (selection.key_sets(shown), selection.shapes().stretches().to_vec());
         let any = !keys.is_empty() || !shapes.is_empty();
         let take = context.take_ref()?;
-        any.then(|| Self { take, keys, shapes, frame: context.frame_seconds(), seed })
+        any.then(|| Self {
+            take,
+            keys,
+            shapes,
+            frame: context.frame_seconds(),
+            seed,
+            other: other.map(TakeRef::Index),
+        })
     }
 
     fn blend(&self, toward: KeyTarget, percent: f64) -> Edit {
@@ -97,6 +110,7 @@ impl InBetweenTool {
         Self::Neighbor,
         Self::Ease,
         Self::Rest,
+        Self::Take,
         Self::Delay,
         Self::Noise,
         Self::Gaussian,
@@ -113,6 +127,7 @@ impl InBetweenTool {
             Self::Neighbor => "To neighbor",
             Self::Ease => "Ease",
             Self::Rest => "To rest pose",
+            Self::Take => "To take",
             Self::Delay => "Delay",
             Self::Noise => "Noise",
             Self::Gaussian => "Smooth",
@@ -136,6 +151,9 @@ impl InBetweenTool {
             Self::Neighbor => "Moves keys toward the key before (negative) or the key after (positive)",
             Self::Ease => "Moves keys onto a curve with a slow start (negative) or a slow end (positive)",
             Self::Rest => "Moves keys toward the rest pose; negative numbers move them away",
+            Self::Take => {
+                "Moves keys toward the values of another take at the same times; negative numbers move them away"
+            }
             Self::Delay => {
                 "Gives keys the values of earlier times (positive) or later times (negative); the keys stay where they are"
             }
@@ -156,7 +174,13 @@ impl InBetweenTool {
 
     fn number(self) -> Number {
         match self {
-            Self::Tween | Self::Push | Self::Relax | Self::Neighbor | Self::Ease | Self::Rest => PERCENT,
+            Self::Tween
+            | Self::Push
+            | Self::Relax
+            | Self::Neighbor
+            | Self::Ease
+            | Self::Rest
+            | Self::Take => PERCENT,
             Self::Delay => Number {
                 unit: "fr",
                 scale: SliderScale::Linear(10.0),
@@ -224,7 +248,7 @@ impl InBetweenTool {
     /// Returns the nearest number that is allowed.
     pub(super) fn within(self, value: f64) -> f64 {
         let [least, most] = self.number().range;
-        value.clamp(least, most)
+        between(value, least, most)
     }
 
     /// Returns the step to which a drag with Ctrl snaps.
@@ -247,11 +271,11 @@ impl InBetweenTool {
         value == 0.0 && !self.keeps_number() && self != Self::Tween
     }
 
-    /// Returns the edit that applies it.
-    pub fn edit(self, value: f64, chosen: &ChosenKeys) -> Edit {
+    /// Returns the edit that applies it; `None` where it needs another take and there is none.
+    pub fn edit(self, value: f64, chosen: &ChosenKeys) -> Option<Edit> {
         let seconds = (value * f64::from(chosen.frame)) as f32;
         let amount = value.abs();
-        match self {
+        Some(match self {
             Self::Tween => chosen.blend(KeyTarget::Between((0.5 + value / 200.0) as f32), 100.0),
             Self::Push => chosen.blend(KeyTarget::AwayFromLine, value),
             Self::Relax => chosen.blend(KeyTarget::Average, value),
@@ -260,6 +284,9 @@ impl InBetweenTool {
             Self::Ease if value < 0.0 => chosen.blend(KeyTarget::SlowStart, amount),
             Self::Ease => chosen.blend(KeyTarget::SlowEnd, amount),
             Self::Rest => chosen.blend(KeyTarget::Rest, value),
+            Self::Take => {
+                chosen.blend(KeyTarget::OtherTake { take: chosen.other.clone()?, later: 0.0 }, value)
+            }
             Self::Delay => chosen.blend(KeyTarget::Delayed(seconds), 100.0),
             Self::Noise => {
                 let ChosenKeys { take, keys, shapes, seed, .. } = chosen.clone();
@@ -279,6 +306,6 @@ impl InBetweenTool {
             Self::Gaussian => chosen.filter(CurveFilter::Gaussian(seconds.min(10.0))),
             Self::Butterworth => chosen.filter(CurveFilter::Butterworth { cutoff: value as f32, order: 2 }),
             Self::Peaks => chosen.filter(CurveFilter::Peaks { window: 5, threshold: value as f32 }),
-        }
+        })
     }
 }

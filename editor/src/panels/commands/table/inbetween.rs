@@ -14,6 +14,7 @@ commands! {
     EaseInKeys => When::Keys, "Ease in", [], "Moves the selected keys onto a curve with a slow start between their neighbors (ease)", |w| apply(w, Tool::Ease, -100.0);
     EaseOutKeys => When::Keys, "Ease out", [], "Moves the selected keys onto a curve with a slow end between their neighbors (ease)", |w| apply(w, Tool::Ease, 100.0);
     BlendToRest => When::Keys, "Blend to the rest pose", [], "Moves the selected keys halfway to the rest pose (default pose)", |w| apply(w, Tool::Rest, 50.0), repeats;
+    BlendToTake => When::Keys, "Blend to the next take", [], "Moves the selected keys halfway to the values of the next take at the same times (another take, animation blend)", |w| apply(w, Tool::Take, 50.0), repeats;
     DelayKeys => When::Keys, "Delay values by a frame", [], "Gives the selected keys the values of one frame earlier; the keys stay where they are (time offset, overlap, drag)", |w| apply(w, Tool::Delay, 1.0), repeats;
     NoiseKeys => When::Keys, "Add noise to keys", [], "Turns the selected keys by up to 2° at random, moves them by up to 10 mm and scales them by up to 2 % (noise, jitter, shake)", |w| apply(w, Tool::Noise, 2.0);
     SmoothKeys => When::Keys, "Smooth keys", [key(ALT, Key::O)], "Smooths the selected keys by a Gaussian one frame wide (smooth, blur)", |w| apply(w, Tool::Gaussian, 1.0), repeats;
