@@ -66,6 +66,7 @@
 //! | play a take on another skeleton | [`retarget`] |
 //! | change many keys by the same offset, with falloff | [`offset`] |
 //! | remove redundant keys | [`reduce`] |
+//! | in-betweens: blend keys with their neighbors, smooth curves | [`inbetween`] |
 //! | compress takes | [`compressed`] |
 //! | bounding volumes; ray and sphere queries | [`bounds`], [`hit`] |
 //! | levels of detail | [`level`] |
@@ -109,6 +110,8 @@ pub mod format;
 pub mod hit;
 #[doc(alias("inverse kinematics"))]
 pub mod ik;
+#[doc(alias("tween", "smooth", "breakdown"))]
+pub mod inbetween;
 #[doc(alias("joint limits", "constraints"))]
 pub mod joint;
 #[doc(alias("LOD", "level of detail"))]

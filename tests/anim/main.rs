@@ -40,6 +40,7 @@ mod gaze;
 mod hits;
 mod hostile;
 mod ik;
+mod inbetween;
 mod instances;
 mod joint_limits;
 mod lenient;

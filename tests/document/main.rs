@@ -8,6 +8,7 @@ mod edit_cost;
 mod edits;
 mod image_memory;
 mod images;
+mod inbetween;
 mod journal_later;
 mod keeping;
 mod limits;

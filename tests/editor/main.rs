@@ -32,6 +32,7 @@ mod gizmo_rig;
 mod gizmo_several;
 mod history_panel;
 mod hover;
+mod inbetween;
 mod keeping_save;
 mod keymap;
 mod large_rigs;

@@ -27,7 +27,7 @@ pub fn show(
         ui.menu_button("Pose", |ui| scrolled(ui, |ui| pose(ui, context, requests)));
         ui.menu_button("Tools", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Tools], requests)));
         ui.menu_button("Play", |ui| list(ui, context, &[Category::Playback], requests));
-        ui.menu_button("Keys", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Keys], requests)));
+        ui.menu_button("Keys", |ui| scrolled(ui, |ui| keys(ui, context, requests)));
         ui.menu_button("Take", |ui| list(ui, context, &[Category::Takes], requests));
         ui.menu_button("View", |ui| view(ui, context, panels, requests));
         ui.menu_button("Help", |ui| list(ui, context, &[Category::Help], requests));
@@ -76,6 +76,33 @@ fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], reques
         let on = command.id == Id::ToggleSnap && context.keys.snap();
         item(ui, context, command.id, on, requests);
     }
+}
+
+/// Draws the commands for keys: those that change values in two menus of their own.
+fn keys(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let inbetweens = commands::of(Category::InBetween);
+    let smooth = inbetweens.iter().position(|command| command.id == Id::SmoothKeys).unwrap_or_default();
+    for (title, commands) in [("In-between", &inbetweens[..smooth]), ("Smooth, bake", &inbetweens[smooth..])]
+    {
+        ui.menu_button(title, |ui| {
+            for command in commands {
+                item(ui, context, command.id, false, requests);
+                let ends_group = [
+                    Id::RelaxKeys,
+                    Id::BlendToNext,
+                    Id::EaseOutKeys,
+                    Id::BlendToTake,
+                    Id::DelayKeys,
+                    Id::RemovePeaks,
+                ];
+                if ends_group.contains(&command.id) {
+                    ui.separator();
+                }
+            }
+        });
+    }
+    ui.separator();
+    list(ui, context, &[Category::Keys], requests);
 }
 
 fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {

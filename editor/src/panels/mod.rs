@@ -31,6 +31,7 @@ pub mod hierarchy;
 pub mod history;
 pub mod icons;
 mod key_canvases;
+pub mod inbetween;
 pub mod keys;
 pub mod layout;
 pub mod marks;
@@ -94,6 +95,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<history::History>::default(),
         Box::<timeline::TimelinePanel>::default(),
         Box::<curves::Curves>::default(),
+        Box::<inbetween::InBetween>::default(),
     ]
 }
 

@@ -23,7 +23,7 @@ pub struct NumberSlider<'a> {
     pub scale: SliderScale,
     /// With Ctrl, a drag snaps to multiples of this.
     pub snap: f64,
-    /// Color of the line from the middle to the number.
+    /// Color of the line from its start to the number.
     pub color: Color32,
     /// Whether it can be moved.
     pub enabled: bool,
@@ -36,6 +36,15 @@ pub enum SliderScale {
     Linear(f64),
     /// From 1 over this to this, with 1 in the middle: equal distances are equal factors.
     Factor(f64),
+    /// From 0 at the left to this.
+    Upward(f64),
+    /// A number in the middle, divided by a factor at the left and multiplied by it at the right: equal distances are equal factors.
+    Around {
+        /// The number in the middle.
+        middle: f64,
+        /// The factor, more than 1.
+        factor: f64,
+    },
 }
 
 impl SliderScale {
@@ -44,6 +53,8 @@ impl SliderScale {
         let place = match self {
             Self::Linear(end) => value / end,
             Self::Factor(end) => value.max(f64::MIN_POSITIVE).ln() / end.ln(),
+            Self::Upward(end) => 2.0 * value / end - 1.0,
+            Self::Around { middle, factor } => (value / middle).max(f64::MIN_POSITIVE).ln() / factor.ln(),
         };
         if place.is_finite() { place.clamp(-1.0, 1.0) } else { 0.0 }
     }
@@ -53,6 +64,16 @@ impl SliderScale {
         match self {
             Self::Linear(end) => place * end,
             Self::Factor(end) => end.powf(place),
+            Self::Upward(end) => (place + 1.0) / 2.0 * end,
+            Self::Around { middle, factor } => middle * factor.powf(place),
+        }
+    }
+
+    /// Returns the number at which the line starts.
+    fn origin(self) -> f64 {
+        match self {
+            Self::Linear(_) | Self::Factor(_) | Self::Around { .. } => self.value(0.0),
+            Self::Upward(_) => 0.0,
         }
     }
 
@@ -113,7 +134,7 @@ impl NumberSlider<'_> {
             return event;
         }
         if response.double_clicked() {
-            return FieldEvent::Typed(self.scale.value(0.0));
+            return FieldEvent::Typed(self.scale.origin());
         }
         let id = self.id;
         let pointer = response.interact_pointer_pos();
@@ -121,7 +142,7 @@ impl NumberSlider<'_> {
         if response.drag_started_by(PointerButton::Primary)
             && let Some(pointer) = pointer
         {
-            let start = self.value.unwrap_or(self.scale.value(0.0));
+            let start = self.value.unwrap_or(self.scale.origin());
             let place = self.scale.place(start);
             let grip = KnobDrag { start, place, beside: at(pointer.x) - place };
             ui.data_mut(|data| data.insert_temp(id, GripDrag::dragging(grip)));
@@ -198,11 +219,12 @@ impl NumberSlider<'_> {
         let theme = Theme::of(ui);
         let painter = ui.painter();
         let y = painter.round_to_pixel_center(rect.center().y);
-        let middle = rect.center().x;
+        let x_of = |value: f64| rect.center().x + self.scale.place(value) as f32 * rect.width() / 2.0;
+        let middle = x_of(self.scale.origin());
         painter.hline(rect.x_range(), y, Stroke::new(2.0, theme.line));
         painter.vline(middle, y - 3.0..=y + 3.0, Stroke::new(1.0, theme.faint));
         let Some(value) = self.value else { return };
-        let x = middle + self.scale.place(value) as f32 * rect.width() / 2.0;
+        let x = x_of(value);
         let color = if enabled { self.color } else { theme.faint };
         painter.hline(middle.min(x)..=middle.max(x), y, Stroke::new(2.0, color));
         let held = response.hovered() || response.dragged() || response.has_focus();

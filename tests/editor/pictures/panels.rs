@@ -35,6 +35,7 @@ panels! {
     "history", [300.0, 250.0], the_history_panel_looks_as_stored;
     "timeline", [720.0, 220.0], the_timeline_panel_looks_as_stored;
     "curves", [520.0, 220.0], the_curves_panel_looks_as_stored;
+    "inbetween", [520.0, 220.0], the_inbetween_panel_looks_as_stored;
 }
 
 /// Returns a window in which all panels but one are hidden.
@@ -123,6 +124,12 @@ fn more() -> Vec<PictureCase> {
             for id in [Id::EditSelectedKeys, Id::ToggleFalloff] {
                 state.execute(Request::Command(id));
             }
+        }),
+        case("inbetween-keys", "inbetween", Typical, |window| {
+            window.state_mut().state.execute(Request::Command(Id::SelectAllKeys));
+        }),
+        case("inbetween-rest-pose", "inbetween", Typical, |window| {
+            window.state_mut().state.execute(Request::ShowTake(None));
         }),
         case("curves-rest-pose", "curves", Typical, |window| {
             window.state_mut().state.execute(Request::ShowTake(None));

@@ -2,6 +2,7 @@
 
 use super::key_bytes::KEY_BYTES;
 use crate::edit::target::{BoneRef, Property, TakeRef};
+use dragonfly_anim::inbetween::UniformTimes;
 use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 use std::fmt;
 use thiserror::Error;
@@ -78,6 +79,9 @@ pub enum EditError {
     /// There is not enough memory for the keys.
     #[error("there is not enough memory for that many keys")]
     NoMemory,
+    /// A filter would need too many samples.
+    #[error("a channel would be sampled more than {} times; use a lower sample rate", UniformTimes::LARGEST)]
+    TooManySamples,
     /// Keys would have the same time.
     #[error("keys would be at the same time; use a larger length")]
     TooShort,

@@ -3,6 +3,7 @@
 use crate::edit::target::Property;
 use dragonfly_anim::data::{Channel, Track, Transform};
 use dragonfly_anim::offset::{AddedTranslation, KeyOffset, ParentRotation, ScaleFactors};
+use dragonfly_anim::inbetween::KeyValue;
 use dragonfly_anim::sample::Value;
 use glam::{Quat, Vec3};
 
@@ -12,7 +13,7 @@ pub type ChannelNumbers = [f32; 4];
 /// One of [`Property`], as a type, so that columns keep the type of their values.
 pub(crate) trait ChannelKind {
     /// The value of a key.
-    type Value: PartialEq + ChannelValue;
+    type Value: PartialEq + ChannelValue + KeyValue;
     /// The identity: the change that leaves the original as it is.
     const IDENTITY: ChannelNumbers;
     /// An offset of many keys.

@@ -124,4 +124,10 @@ impl<'a> Arbitrary<'a> {
         let (from, to) = (Some(time - 0.3), Some(time + 0.2));
         vec![KeySet { bones: self.bones(), properties: self.properties(), from, to, ..KeySet::default() }]
     }
+
+    /// Stretches of time for keys of morph targets, often none.
+    pub(super) fn shapes(&mut self) -> Vec<[f32; 2]> {
+        let time = self.time();
+        if self.flag() { vec![[time - 0.2, time + 0.3]] } else { Vec::new() }
+    }
 }

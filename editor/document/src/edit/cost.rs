@@ -31,6 +31,17 @@ pub(super) fn of_columns(adapter: &ModelAdapter, take: &TakeRef, bones: &EditedB
     Some(keys.div_ceil(COPIED))
 }
 
+/// Returns the cost of reading `times` each key of the channels of `bones`, as filters do; `None` where a take changes as a whole.
+pub(super) fn of_reading(
+    adapter: &ModelAdapter,
+    take: &TakeRef,
+    bones: &EditedBones,
+    times: usize,
+) -> Option<usize> {
+    let columns = of_columns(adapter, take, bones)?;
+    Some(columns.saturating_mul(times))
+}
+
 fn keys_of_bone(slot: &TakeVersions, bone: u32) -> usize {
     let Some(track) = slot.original.tracks.get(bone as usize) else { return 0 };
     track.translation.len() + track.rotation.len() + track.scale.len()
@@ -66,7 +77,9 @@ fn keys_of_set(times: &[f32], set: &KeySet) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edit::{BonePose, BoneRef, Edit, MoveKeys, PoseAt, ReverseTake, SetPoses};
+    use crate::edit::{
+        BonePose, BoneRef, CurveFilter, Edit, FilterKeys, MoveKeys, PoseAt, ReverseTake, SetPoses,
+    };
     use crate::{Cancel, Source, load_model};
 
     fn built_in() -> ModelAdapter {
@@ -97,6 +110,19 @@ mod tests {
             moved(KeySet { bones, ..KeySet::default() }).cost(&model),
             Some(of_bone + of_bone.div_ceil(COPIED))
         );
+    }
+
+    #[test]
+    fn a_filter_costs_more_the_more_keys_it_reads_and_the_wider_it_is() {
+        let model = built_in();
+        let filter = |bones: Vec<BoneRef>, sigma: f32| {
+            let keys = vec![KeySet { bones, ..KeySet::default() }];
+            let (take, shapes, filter) = (TakeRef::Index(0), Vec::new(), CurveFilter::Gaussian(sigma));
+            Edit::FilterKeys(FilterKeys { take, keys, shapes, filter, rate: None }).cost(&model)
+        };
+        let (one, all) = (filter(vec![BoneRef::Index(1)], 0.1), filter(Vec::new(), 0.1));
+        assert!(one.is_some() && one < all && all < filter(Vec::new(), 1.0), "{one:?} {all:?}");
+        assert!(all.is_some_and(|cost| cost >= 2 * model.slots()[0].original.keys()));
     }
 
     #[test]

@@ -65,10 +65,7 @@ impl EditKind for DeleteKeys {
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        let (take, keys) = (from.take(), from.keys());
-        let time = from.time();
-        let shapes = if from.flag() { vec![[time - 0.2, time + 0.3]] } else { Vec::new() };
-        Self { take, keys, shapes }
+        Self { take: from.take(), keys: from.keys(), shapes: from.shapes() }
     }
 }
 

@@ -17,6 +17,7 @@
 
 mod add_keys;
 mod arbitrary;
+mod blend_keys;
 mod bones;
 mod copied;
 mod cost;
@@ -26,6 +27,7 @@ mod delete_take;
 mod drop_pending;
 mod duplicate_keys;
 mod examples;
+mod filter_keys;
 mod key_pending;
 mod kind;
 mod lines;
@@ -33,12 +35,14 @@ pub(crate) mod mode;
 mod move_keys;
 mod move_take;
 mod offset_keys;
+mod noise_keys;
 mod offset_pose;
 mod over;
 mod paste_keys;
 mod paste_pose;
 pub(crate) mod pose;
 mod rename_take;
+mod resample_keys;
 mod reset_pose;
 mod retime_take;
 mod reverse_take;
@@ -57,9 +61,11 @@ mod trim_take;
 
 #[doc(hidden)]
 pub use arbitrary::Arbitrary;
+pub use blend_keys::KeyTarget;
 pub use bones::EditedBones;
 pub use copied::{CopiedChannel, CopiedKey};
 pub use examples::Example;
+pub use filter_keys::CurveFilter;
 pub use kind::EditInfo;
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use mode::{KeyInterpolation, NewKey, ResetTo};
@@ -99,6 +105,10 @@ edits! {
     "set_interpolation" => set_interpolation::SetInterpolation,
     "set_tangents" => set_tangents::SetTangents,
     "shape_tangents" => shape_tangents::ShapeTangents,
+    "blend_keys" => blend_keys::BlendKeys,
+    "filter_keys" => filter_keys::FilterKeys,
+    "noise_keys" => noise_keys::NoiseKeys,
+    "resample_keys" => resample_keys::ResampleKeys,
     "create_take" => create_take::CreateTake,
     "delete_take" => delete_take::DeleteTake,
     "rename_take" => rename_take::RenameTake,

@@ -1,6 +1,6 @@
 //! Poses of single bones.
 
-use super::BoneRef;
+use super::{BoneRef, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +19,17 @@ pub struct BonePose {
     /// Factors per axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<[f32; 3]>,
+}
+
+impl BonePose {
+    /// Returns whether the pose has this part.
+    pub(crate) fn gives(&self, property: Property) -> bool {
+        match property {
+            Property::Translation => self.translation.is_some(),
+            Property::Rotation => self.rotation.is_some(),
+            Property::Scale => self.scale.is_some(),
+        }
+    }
 }
 
 /// Poses at one time.

@@ -12,6 +12,7 @@ pub(super) mod feed;
 pub(super) mod files;
 pub(super) mod framing;
 pub(super) mod ik;
+pub(super) mod inbetween;
 pub(super) mod input;
 pub(super) mod keys;
 pub(super) mod locks;

@@ -14,6 +14,7 @@ pub(crate) mod remap;
 pub(crate) mod spline;
 pub(crate) mod timing;
 mod unstep;
+pub(crate) mod values;
 
 pub(crate) use super::slot::key_at;
 pub(crate) use arrange::KeyMove;

@@ -1,5 +1,9 @@
 //! Moves and cuts morph weights together with the keys of their take.
 
+use super::super::op::Op;
+use super::super::slot::TakeId;
+use super::values::ValueTool;
+use super::{EditError, Transaction, finite};
 use crate::edit::SAME_TIME;
 use dragonfly_anim::data::{Interpolation, MorphTrack, Take};
 use dragonfly_anim::sample::mix::hermite_slope;
@@ -94,4 +98,87 @@ fn slope(track: &MorphTrack, target: usize, time: f32) -> f32 {
     let span = track.times[keys.after] - track.times[keys.before];
     let (before, after) = (keys.before, keys.after);
     hermite_slope(at(before, 1), at(before, 2), at(after, 0), at(after, 1), span, keys.mix)
+}
+
+/// Gives new weights to the keys of morph targets in stretches of time. A tangent changes as the slope from the key before to the key
+/// after does.
+pub(crate) fn change_weights(
+    work: &mut Transaction,
+    take: TakeId,
+    shapes: &[[f32; 2]],
+    alone: bool,
+    tool: &impl ValueTool,
+) -> Result<(), EditError> {
+    if shapes.is_empty() {
+        return Ok(());
+    }
+    for time in shapes.iter().flatten() {
+        finite("the time", *time)?;
+    }
+    let inside =
+        |time: f32| shapes.iter().any(|[from, to]| time >= from - SAME_TIME && time <= to + SAME_TIME);
+    let (mut found, mut differs) = (false, false);
+    let mut tracks = work.slot(take).original.morphs.clone();
+    for track in &mut tracks {
+        let chosen: Vec<u32> =
+            (0..track.times.len() as u32).filter(|&key| inside(track.times[key as usize])).collect();
+        found |= !chosen.is_empty();
+        if let Some(weights) = changed_weights(work, track, &chosen, tool)? {
+            track.weights = weights.into();
+            differs = true;
+        }
+    }
+    if alone && !found {
+        return Err(EditError::Nothing("no key is selected"));
+    }
+    if differs {
+        work.perform(Op::Morphs(take, tracks));
+    }
+    Ok(())
+}
+
+/// Returns the column of weights of a track after its `chosen` keys were changed; `None` where nothing changes.
+fn changed_weights(
+    work: &Transaction,
+    track: &MorphTrack,
+    chosen: &[u32],
+    tool: &impl ValueTool,
+) -> Result<Option<Vec<f32>>, EditError> {
+    let (width, targets) = (per_key(track), track.targets as usize);
+    let spline = track.interpolation == Interpolation::CubicSpline;
+    if chosen.is_empty() || track.weights.len() < track.times.len() * width {
+        return Ok(None);
+    }
+    let mut column = track.weights.to_vec();
+    let mut differs = false;
+    for target in 0..targets {
+        let place = |key: usize| key * width + if spline { targets } else { 0 } + target;
+        let old: Vec<f32> = (0..track.times.len()).map(|key| track.weights[place(key)]).collect();
+        let Some(wanted) = tool.shape_weights(work, track, target, &old, chosen)? else { continue };
+        let mut new = old.clone();
+        for (&key, wanted) in chosen.iter().zip(wanted) {
+            new[key as usize] = finite("the result", wanted)?;
+        }
+        if new == old {
+            continue;
+        }
+        differs = true;
+        for key in chosen.iter().map(|&key| key as usize) {
+            column[place(key)] = new[key];
+            if spline {
+                let more = slope_at_key(&track.times, &new, key) - slope_at_key(&track.times, &old, key);
+                for tangent in [key * width + target, key * width + 2 * targets + target] {
+                    column[tangent] = finite("the result", column[tangent] + more)?;
+                }
+            }
+        }
+    }
+    Ok(differs.then_some(column))
+}
+
+/// Returns the slope at a key per second: from the key before to the key after, at either end to the only neighbor.
+fn slope_at_key(times: &[f32], weights: &[f32], key: usize) -> f32 {
+    let (before, after) = (key.saturating_sub(1), (key + 1).min(times.len() - 1));
+    let seconds = times[after] - times[before];
+    if seconds > 0.0 { (weights[after] - weights[before]) / seconds } else { 0.0 }
 }

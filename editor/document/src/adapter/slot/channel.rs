@@ -26,6 +26,24 @@ pub(super) fn exchange(
     }
 }
 
+/// Replaces the changes of many keys, which ascend, as [`exchange`] does one by one. Takes time in proportion to both lists.
+pub(super) fn merge(
+    changes: &mut ChannelChanges,
+    wanted: &[(u32, Option<KeyChange>)],
+) -> Vec<(u32, Option<KeyChange>)> {
+    let mut old = std::mem::take(changes).into_iter().peekable();
+    let mut before = Vec::with_capacity(wanted.len());
+    for &(key, change) in wanted {
+        while let Some(earlier) = old.next_if(|(other, _)| *other < key) {
+            changes.push(earlier);
+        }
+        before.push((key, old.next_if(|(other, _)| *other == key).map(|(_, change)| change)));
+        changes.extend(change.map(|change| (key, change)));
+    }
+    changes.extend(old);
+    before
+}
+
 /// Computes the result of a channel again, for the keys in `touched` or for all keys.
 pub(super) fn refresh<K: ChannelKind>(
     slot: &mut TakeVersions,
@@ -182,4 +200,35 @@ fn put_channel<K: ChannelKind>(
         *K::channel_mut(&mut Arc::make_mut(&mut slot.result).tracks[bone as usize]) = original;
     }
     refresh::<K>(slot, property, bone, None);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dragonfly_kit::random::{Random, seed};
+
+    #[test]
+    fn many_changes_are_replaced_as_they_would_be_one_by_one_and_undone_in_the_same_way() {
+        let first = seed(65);
+        for number in first..first + 200 {
+            let mut random = Random::new(number);
+            let change = |random: &mut Random| KeyChange::of_value([random.unit(); 4]);
+            let some =
+                |random: &mut Random| -> Vec<u32> { (0..40).filter(|_| random.below(2) == 0).collect() };
+            let keys = some(&mut random);
+            let changes: ChannelChanges = keys.into_iter().map(|key| (key, change(&mut random))).collect();
+            let keys = some(&mut random);
+            let wanted: Vec<(u32, Option<KeyChange>)> = keys
+                .into_iter()
+                .map(|key| (key, (random.below(3) > 0).then(|| change(&mut random))))
+                .collect();
+            let (mut merged, mut exchanged) = (changes.clone(), changes.clone());
+            let before = merge(&mut merged, &wanted);
+            let one_by_one: Vec<_> =
+                wanted.iter().map(|&(key, change)| (key, exchange(&mut exchanged, key, change))).collect();
+            assert_eq!((&merged, &before), (&exchanged, &one_by_one), "seed {number}");
+            merge(&mut merged, &before);
+            assert_eq!(merged, changes, "seed {number}");
+        }
+    }
 }

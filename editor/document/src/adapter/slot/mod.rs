@@ -8,7 +8,7 @@ use super::kind::{AnyChannel, ChannelKind, ChannelNumbers, with_kind};
 use super::pending::{Pending, PendingAt, place_of};
 use super::times::SharedTimes;
 use crate::edit::target::{Property, SAME_TIME};
-use channel::{exchange, refresh, replaced, retimed, spliced};
+use channel::{exchange, merge, refresh, replaced, retimed, spliced};
 use dragonfly_anim::data::{Channel, MorphTrack, Take};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -19,6 +19,9 @@ pub struct TakeId(pub u32);
 
 /// The changes of one channel: key index and change, ascending by index. Identities are left out.
 pub type ChannelChanges = Vec<(u32, KeyChange)>;
+
+/// Largest number of changes that are replaced one by one, each of which may move all later ones in the list.
+const FEW: usize = 16;
 
 /// A key with its original and its change.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -166,8 +169,11 @@ impl TakeVersions {
         wanted: &[(u32, Option<KeyChange>)],
     ) -> Vec<(u32, Option<KeyChange>)> {
         let changes = Arc::make_mut(self.changes.entry((bone, property)).or_default());
-        let before: Vec<_> =
-            wanted.iter().map(|&(key, change)| (key, exchange(changes, key, change))).collect();
+        let before = if wanted.len() > FEW && wanted.is_sorted_by(|a, b| a.0 < b.0) {
+            merge(changes, wanted)
+        } else {
+            wanted.iter().map(|&(key, change)| (key, exchange(changes, key, change))).collect()
+        };
         if changes.is_empty() {
             self.changes.remove(&(bone, property));
         }

@@ -24,7 +24,7 @@ commands! {
     KeysReverse => When::Keys, "Mirror keys about the playhead", [key(CTRL, Key::M)], "Reverses the selected keys in time about the playhead", |w| keys::scale(w, -1.0);
     SnapKeys => When::Keys, "Snap keys to frames", [key(SHIFT, Key::S)], "Moves the selected keys to whole frames", keys::snap;
     ToggleSnap => When::Always, "Snap while dragging keys", [], "Snaps dragged keys to whole frames; hold Ctrl to invert", |w| { w.keys.set_snap(!w.keys.snap()); None };
-    InterpolateStep => When::Keys, "Step interpolation", [], "Sets the channels of the selected keys to step interpolation: each value holds until the next key", |w| keys::interpolate(w, KeyInterpolation::Step);
+    InterpolateStep => When::Keys, "Step interpolation", [], "Sets the channels of the selected keys to step interpolation: each value holds until the next key (stepped, blocking)", |w| keys::interpolate(w, KeyInterpolation::Step);
     InterpolateLinear => When::Keys, "Linear interpolation", [], "Sets the channels of the selected keys to linear interpolation", |w| keys::interpolate(w, KeyInterpolation::Linear);
     InterpolateSpline => When::Keys, "Spline interpolation", [], "Sets the channels of the selected keys to spline interpolation, with editable tangents; Alt + drag breaks a tangent", |w| keys::interpolate(w, KeyInterpolation::CubicSpline);
     TangentsAuto => When::Keys, "Auto tangents", [], "Makes the curves smooth at the selected keys; channels become splines (tangents, handles, Catmull-Rom)", |w| keys::shape_tangents(w, KeyTangents::Auto);

@@ -28,6 +28,7 @@ mod camera;
 mod edit;
 mod file;
 mod help;
+mod inbetween;
 mod keys;
 mod look;
 mod playback;
@@ -50,6 +51,7 @@ pub const TABLE: &[(Category, &[Command])] = &[
     (Category::Pose, pose::COMMANDS),
     (Category::Playback, playback::COMMANDS),
     (Category::Keys, keys::COMMANDS),
+    (Category::InBetween, inbetween::COMMANDS),
     (Category::Takes, takes::COMMANDS),
     (Category::Selection, selection::COMMANDS),
     (Category::Tools, tools::COMMANDS),

@@ -1,0 +1,29 @@
+//! In-betweens: the selected keys get other values, at once.
+
+use super::edit;
+use crate::panels::inbetween::{ChosenKeys, InBetweenTool, next_take};
+use crate::panels::request::Effect;
+use crate::panels::status::MessageSeverity;
+use crate::panels::workspace::Workspace;
+use dragonfly_document::edit::{Edit, ResampleKeys};
+
+/// Applies a tool to the selected keys, with the number that its slider would have.
+pub(in crate::panels) fn apply(workspace: &mut Workspace, tool: InBetweenTool, value: f64) -> Option<Effect> {
+    let panels = workspace.read();
+    // Each step of the history gets other noise.
+    let steps = panels.view.map_or(0, |view| view.history.done);
+    let chosen = ChosenKeys::of(&panels, steps as u32, next_take(&panels))?;
+    let made = tool.edit(value, &chosen);
+    if made.is_none() {
+        workspace.say(MessageSeverity::Info, "The model has no other take");
+    }
+    made.map(edit)
+}
+
+/// Replaces the selected keys by keys on every frame, or every few frames.
+pub(in crate::panels) fn resample(workspace: &mut Workspace, every: u32) -> Option<Effect> {
+    let panels = workspace.read();
+    let keys = panels.keys.selection().key_sets(panels.take()?);
+    let (take, rate) = (panels.take_ref()?, panels.settings.frame_rate as f32);
+    Some(edit(Edit::ResampleKeys(ResampleKeys { take, keys, rate, every })))
+}

@@ -1,0 +1,25 @@
+//! Commands that change the values of the selected keys: in-betweens, smoothing, noise. The panel has sliders for them.
+
+use super::*;
+use crate::panels::actions::inbetween::{apply, resample};
+use crate::panels::inbetween::InBetweenTool as Tool;
+
+commands! {
+    TweenKeys => When::Keys, "Tween keys", [key(SHIFT, Key::E)], "Moves the selected keys halfway between the keys before and after them (tween, breakdown, in-between)", |w| apply(w, Tool::Tween, 0.0);
+    PushKeys => When::Keys, "Push keys", [key(CTRL, Key::E)], "Moves the selected keys a quarter further away from the line between their neighbors (push, exaggerate)", |w| apply(w, Tool::Push, 25.0), repeats;
+    PullKeys => When::Keys, "Pull keys", [], "Moves the selected keys a quarter of the way to the line between their neighbors (pull, flatten)", |w| apply(w, Tool::Push, -25.0), repeats;
+    RelaxKeys => When::Keys, "Relax keys", [key(ALT, Key::E)], "Moves each selected key halfway to the average of the keys beside it (relax, average)", |w| apply(w, Tool::Relax, 50.0), repeats;
+    BlendToPrevious => When::Keys, "Blend to the key before", [], "Moves the selected keys halfway to the key before them (neighbor)", |w| apply(w, Tool::Neighbor, -50.0), repeats;
+    BlendToNext => When::Keys, "Blend to the key after", [], "Moves the selected keys halfway to the key after them (neighbor)", |w| apply(w, Tool::Neighbor, 50.0), repeats;
+    EaseInKeys => When::Keys, "Ease in", [], "Moves the selected keys onto a curve with a slow start between their neighbors (ease)", |w| apply(w, Tool::Ease, -100.0);
+    EaseOutKeys => When::Keys, "Ease out", [], "Moves the selected keys onto a curve with a slow end between their neighbors (ease)", |w| apply(w, Tool::Ease, 100.0);
+    BlendToRest => When::Keys, "Blend to the rest pose", [], "Moves the selected keys halfway to the rest pose (default pose)", |w| apply(w, Tool::Rest, 50.0), repeats;
+    BlendToTake => When::Keys, "Blend to the next take", [], "Moves the selected keys halfway to the values of the next take at the same times (another take, animation blend)", |w| apply(w, Tool::Take, 50.0), repeats;
+    DelayKeys => When::Keys, "Delay values by a frame", [], "Gives the selected keys the values of one frame earlier; the keys stay where they are (time offset, overlap, drag)", |w| apply(w, Tool::Delay, 1.0), repeats;
+    NoiseKeys => When::Keys, "Add noise to keys", [], "Turns the selected keys by up to 2° at random, moves them by up to 10 mm and scales them by up to 2 % (noise, jitter, shake)", |w| apply(w, Tool::Noise, 2.0);
+    SmoothKeys => When::Keys, "Smooth keys", [key(ALT, Key::O)], "Smooths the selected keys by a Gaussian one frame wide (smooth, blur)", |w| apply(w, Tool::Gaussian, 1.0), repeats;
+    SmoothButterworth => When::Keys, "Smooth keys above 6 Hz", [], "Removes movements of the selected keys that are faster than 6 Hz, without delay (smooth, Butterworth, low-pass, jitter)", |w| apply(w, Tool::Butterworth, 6.0);
+    RemovePeaks => When::Keys, "Remove peaks", [], "Replaces selected keys that are far from the keys around them by their median (smooth, spikes, pops, outliers)", |w| apply(w, Tool::Peaks, 3.0);
+    BakeKeys => When::Keys, "Bake keys to frames", [], "Sets a key on every frame from the first selected key to the last of each channel (bake, sample)", |w| resample(w, 1);
+    ResampleKeys => When::Keys, "Resample keys to every second frame", [], "Replaces the selected keys of each channel by keys on every second frame (resample, on twos)", |w| resample(w, 2);
+}

@@ -1,0 +1,311 @@
+//! The tools: their words, their numbers, and the edits that they make.
+
+use crate::panels::context::PanelContext;
+use crate::panels::number_slider::SliderScale;
+use crate::panels::number_text::Digits;
+use dragonfly_document::edit::{
+    BlendKeys, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, TakeRef,
+};
+use dragonfly_picture::between;
+use std::ops::RangeInclusive;
+
+/// A tool that changes the values of the selected keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum InBetweenTool {
+    /// Between the neighbors.
+    Tween,
+    /// Away from the line between the neighbors, or onto it.
+    Push,
+    /// Toward the average of the keys directly before and after each key.
+    Relax,
+    /// Toward the neighbor before or after.
+    Neighbor,
+    /// A slow start or a slow end.
+    Ease,
+    /// Toward the rest pose.
+    Rest,
+    /// Toward another take.
+    Take,
+    /// The values of earlier or later times.
+    Delay,
+    /// Random offsets.
+    Noise,
+    /// A Gaussian.
+    Gaussian,
+    /// A Butterworth filter.
+    Butterworth,
+    /// Removal of single peaks.
+    Peaks,
+}
+
+/// The selected keys as the edits of the tools name them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChosenKeys {
+    take: TakeRef,
+    keys: Vec<KeySet>,
+    shapes: Vec<[f32; 2]>,
+    /// Length of a frame, seconds.
+    frame: f32,
+    seed: u32,
+    /// Another take.
+    other: Option<TakeRef>,
+}
+
+impl ChosenKeys {
+    /// Returns the selected keys of the take that is shown; `None` without any. `seed` determines noise, and `other` is the take
+    /// toward which keys are blended.
+    pub fn of(context: &PanelContext<'_>, seed: u32, other: Option<usize>) -> Option<Self> {
+        let (selection, shown) = (context.keys.selection(), context.take()?);
+        let (keys, shapes) = (selection.key_sets(shown), selection.shapes().stretches().to_vec());
+        let any = !keys.is_empty() || !shapes.is_empty();
+        let take = context.take_ref()?;
+        any.then(|| Self {
+            take,
+            keys,
+            shapes,
+            frame: context.frame_seconds(),
+            seed,
+            other: other.map(TakeRef::Index),
+        })
+    }
+
+    fn blend(&self, toward: KeyTarget, percent: f64) -> Edit {
+        let Self { take, keys, shapes, .. } = self.clone();
+        Edit::BlendKeys(BlendKeys { take, keys, shapes, toward, factor: (percent / 100.0) as f32 })
+    }
+
+    fn filter(&self, filter: CurveFilter) -> Edit {
+        let Self { take, keys, shapes, .. } = self.clone();
+        Edit::FilterKeys(FilterKeys { take, keys, shapes, filter, rate: None })
+    }
+}
+
+/// The settings of a tool's number.
+struct Number {
+    unit: &'static str,
+    scale: SliderScale,
+    range: [f64; 2],
+    snap: f64,
+    /// Digits after the point.
+    digits: usize,
+    /// Number at which the slider rests.
+    neutral: f64,
+}
+
+const PERCENT: Number = Number {
+    unit: "%",
+    scale: SliderScale::Linear(150.0),
+    range: [-150.0, 150.0],
+    snap: 10.0,
+    digits: 0,
+    neutral: 0.0,
+};
+
+impl InBetweenTool {
+    /// All tools in the order of the panel.
+    pub const ALL: &[Self] = &[
+        Self::Tween,
+        Self::Push,
+        Self::Relax,
+        Self::Neighbor,
+        Self::Ease,
+        Self::Rest,
+        Self::Take,
+        Self::Delay,
+        Self::Noise,
+        Self::Gaussian,
+        Self::Butterworth,
+        Self::Peaks,
+    ];
+
+    /// Returns its name on the screen.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Tween => "Tween",
+            Self::Push => "Push, pull",
+            Self::Relax => "Relax",
+            Self::Neighbor => "To neighbor",
+            Self::Ease => "Ease",
+            Self::Rest => "To rest pose",
+            Self::Take => "To take",
+            Self::Delay => "Delay",
+            Self::Noise => "Noise",
+            Self::Gaussian => "Smooth",
+            Self::Butterworth => "Low-pass",
+            Self::Peaks => "Peaks",
+        }
+    }
+
+    /// Returns its tooltip: what its number means.
+    pub fn help(self) -> &'static str {
+        match self {
+            Self::Tween => {
+                "Places keys between their neighbors: −100 % is the key before, 0 % halfway, 100 % the key after"
+            }
+            Self::Push => {
+                "Exaggerates: moves keys away from the straight line between their neighbors; negative numbers flatten"
+            }
+            Self::Relax => {
+                "Moves each key toward the average of the keys directly before and after it; negative numbers sharpen"
+            }
+            Self::Neighbor => "Moves keys toward the key before (negative) or the key after (positive)",
+            Self::Ease => "Moves keys onto a curve with a slow start (negative) or a slow end (positive)",
+            Self::Rest => "Moves keys toward the rest pose; negative numbers move them away",
+            Self::Take => {
+                "Moves keys toward the values of another take at the same times; negative numbers move them away"
+            }
+            Self::Delay => {
+                "Gives keys the values of earlier times (positive) or later times (negative); the keys stay where they are"
+            }
+            Self::Noise => {
+                "Turns keys by up to this angle per axis at random, moves them by up to 5 mm and scales them by up to 1 % per degree"
+            }
+            Self::Gaussian => {
+                "Smooths by a Gaussian of this width; the first and the last key of a channel stay"
+            }
+            Self::Butterworth => {
+                "Removes movements faster than this frequency without delay (Butterworth filter of order 2)"
+            }
+            Self::Peaks => {
+                "Replaces keys that are further from the median of 5 keys than this many deviations; smaller numbers replace more"
+            }
+        }
+    }
+
+    fn number(self) -> Number {
+        match self {
+            Self::Tween
+            | Self::Push
+            | Self::Relax
+            | Self::Neighbor
+            | Self::Ease
+            | Self::Rest
+            | Self::Take => PERCENT,
+            Self::Delay => Number {
+                unit: "fr",
+                scale: SliderScale::Linear(10.0),
+                range: [-1000.0, 1000.0],
+                snap: 1.0,
+                digits: 1,
+                neutral: 0.0,
+            },
+            Self::Noise => Number {
+                unit: "°",
+                scale: SliderScale::Upward(20.0),
+                range: [0.0, 180.0],
+                snap: 1.0,
+                digits: 1,
+                neutral: 0.0,
+            },
+            Self::Gaussian => Number {
+                unit: "fr",
+                scale: SliderScale::Upward(10.0),
+                range: [0.0, 200.0],
+                snap: 0.5,
+                digits: 1,
+                neutral: 0.0,
+            },
+            Self::Butterworth => Number {
+                unit: "Hz",
+                scale: SliderScale::Around { middle: 6.0, factor: 10.0 },
+                range: [0.01, 500.0],
+                snap: 0.5,
+                digits: 1,
+                neutral: 6.0,
+            },
+            Self::Peaks => Number {
+                unit: "σ",
+                scale: SliderScale::Around { middle: 3.0, factor: 10.0 },
+                range: [0.0, 1000.0],
+                snap: 0.5,
+                digits: 1,
+                neutral: 3.0,
+            },
+        }
+    }
+
+    /// Returns how its number is written.
+    pub(super) fn digits(self) -> Digits {
+        Digits::Fixed(self.number().digits)
+    }
+
+    /// Returns the unit of its number.
+    pub(super) fn unit(self) -> &'static str {
+        self.number().unit
+    }
+
+    /// Returns the mapping between its number and positions of its slider.
+    pub(super) fn scale(self) -> SliderScale {
+        self.number().scale
+    }
+
+    /// Returns the numbers that can be typed and dragged to.
+    pub(super) fn range(self) -> RangeInclusive<f64> {
+        let [least, most] = self.number().range;
+        least..=most
+    }
+
+    /// Returns the nearest number that is allowed.
+    pub(super) fn within(self, value: f64) -> f64 {
+        let [least, most] = self.number().range;
+        between(value, least, most)
+    }
+
+    /// Returns the step to which a drag with Ctrl snaps.
+    pub(super) fn snap(self) -> f64 {
+        self.number().snap
+    }
+
+    /// Returns the number at which the slider rests.
+    pub(super) fn neutral(self) -> f64 {
+        self.number().neutral
+    }
+
+    /// Returns whether the slider stays where it is released: its number is a setting, not an amount.
+    pub(super) fn keeps_number(self) -> bool {
+        matches!(self, Self::Butterworth | Self::Peaks)
+    }
+
+    /// Returns whether keys stay as they are with this number.
+    pub(super) fn changes_nothing(self, value: f64) -> bool {
+        value == 0.0 && !self.keeps_number() && self != Self::Tween
+    }
+
+    /// Returns the edit that applies it; `None` where it needs another take and there is none.
+    pub fn edit(self, value: f64, chosen: &ChosenKeys) -> Option<Edit> {
+        let seconds = (value * f64::from(chosen.frame)) as f32;
+        let amount = value.abs();
+        Some(match self {
+            Self::Tween => chosen.blend(KeyTarget::Between((0.5 + value / 200.0) as f32), 100.0),
+            Self::Push => chosen.blend(KeyTarget::AwayFromLine, value),
+            Self::Relax => chosen.blend(KeyTarget::Average, value),
+            Self::Neighbor if value < 0.0 => chosen.blend(KeyTarget::Previous, amount),
+            Self::Neighbor => chosen.blend(KeyTarget::Next, amount),
+            Self::Ease if value < 0.0 => chosen.blend(KeyTarget::SlowStart, amount),
+            Self::Ease => chosen.blend(KeyTarget::SlowEnd, amount),
+            Self::Rest => chosen.blend(KeyTarget::Rest, value),
+            Self::Take => {
+                chosen.blend(KeyTarget::OtherTake { take: chosen.other.clone()?, later: 0.0 }, value)
+            }
+            Self::Delay => chosen.blend(KeyTarget::Delayed(seconds), 100.0),
+            Self::Noise => {
+                let ChosenKeys { take, keys, shapes, seed, .. } = chosen.clone();
+                let degrees = value as f32;
+                let (translation, scale) = (degrees * 0.005, degrees * 0.01);
+                Edit::NoiseKeys(NoiseKeys {
+                    take,
+                    keys,
+                    shapes,
+                    translation,
+                    rotation: degrees,
+                    scale,
+                    frequency: 8.0,
+                    seed,
+                })
+            }
+            Self::Gaussian => chosen.filter(CurveFilter::Gaussian(seconds.min(10.0))),
+            Self::Butterworth => chosen.filter(CurveFilter::Butterworth { cutoff: value as f32, order: 2 }),
+            Self::Peaks => chosen.filter(CurveFilter::Peaks { window: 5, threshold: value as f32 }),
+        })
+    }
+}

@@ -1,0 +1,186 @@
+//! The sliders and commands of in-betweens: live while dragged, one step of undo, nothing left of a cancelled drag.
+
+use crate::timeline_rig::Animator;
+use dragonfly::panels::Request;
+use dragonfly::panels::commands::{self, Category, Id};
+use dragonfly_anim::data::Take;
+use dragonfly_document::Change;
+use dragonfly_document::edit::{
+    BlendKeys, BonePose, BoneRef, CurveFilter, Edit, KeyTarget, SetPose, TakeRef,
+};
+use egui::{Key, Pos2, pos2};
+use egui_kittest::kittest::Queryable;
+use glam::Quat;
+use std::sync::Arc;
+
+/// Creates a user who sees the sliders instead of the curves, with the keys 3 to 5 of a bone selected.
+fn animator() -> Animator {
+    let mut animator = Animator::with_bone(3);
+    animator.harness.get_by_label("In-between").click();
+    animator.steps(3);
+    let (from, to) = (animator.at(animator.key(3) - 0.04, 3), animator.at(animator.key(5) + 0.04, 2));
+    animator.drag(from, to);
+    animator.release(to);
+    assert_eq!(animator.selected(), 3);
+    animator
+}
+
+/// Returns the place on a slider: -1 is its left end, 1 its right end.
+fn place(animator: &Animator, name: &str, at: f32) -> Pos2 {
+    let rect = animator.harness.get_by_label(&format!("{name} slider")).rect();
+    pos2(rect.center().x + at * rect.width() / 2.0, rect.center().y)
+}
+
+fn shown(animator: &Animator) -> Arc<Take> {
+    Arc::clone(&animator.edited.adapter().slots()[0].result)
+}
+
+fn rotations(animator: &Animator) -> Vec<Quat> {
+    shown(animator).tracks[3].rotation.values.to_vec()
+}
+
+fn steps(animator: &Animator) -> usize {
+    animator.edited.steps().0.len()
+}
+
+#[test]
+fn a_slider_moves_the_selected_keys_while_it_is_dragged_and_leaves_one_step() {
+    let mut animator = animator();
+    let before = rotations(&animator);
+    let (from, to) = (place(&animator, "Tween", 0.0), place(&animator, "Tween", 2.0 / 3.0));
+    animator.drag(from, to);
+    let during = rotations(&animator);
+    // 100 %: at the key after the selected ones.
+    for key in 0..before.len() {
+        let wanted = if (3..=5).contains(&key) { before[6] } else { before[key] };
+        assert!(during[key].dot(wanted).abs() > 1.0 - 1e-5, "key {key}");
+    }
+    animator.release(to);
+    assert_eq!(rotations(&animator), during);
+    assert_eq!(steps(&animator), 1);
+    assert_eq!(animator.selected(), 3);
+    animator.request(Request::Command(Id::Undo));
+    assert_eq!(rotations(&animator), before);
+}
+
+#[test]
+fn escape_cancels_the_drag_of_a_slider_and_nothing_is_left_of_it() {
+    let mut animator = animator();
+    let before = shown(&animator);
+    let (from, to) = (place(&animator, "Push, pull", 0.0), place(&animator, "Push, pull", 0.6));
+    animator.drag(from, to);
+    assert_ne!(shown(&animator), before);
+    animator.harness.key_press(Key::Escape);
+    animator.steps(3);
+    assert_eq!(shown(&animator), before);
+    animator.move_to(from);
+    animator.release(from);
+    assert_eq!((shown(&animator), steps(&animator)), (before, 0));
+}
+
+#[test]
+fn a_slider_that_returns_to_where_it_was_leaves_no_step() {
+    let mut animator = animator();
+    let before = shown(&animator);
+    let (from, to) = (place(&animator, "Relax", 0.0), place(&animator, "Relax", 0.5));
+    animator.drag(from, to);
+    assert_ne!(shown(&animator), before);
+    animator.move_to(from);
+    animator.release(from);
+    assert_eq!((shown(&animator), steps(&animator)), (before, 0));
+}
+
+#[test]
+fn a_typed_number_is_applied_once() {
+    let mut animator = animator();
+    animator.harness.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Smooth").click();
+    animator.steps(2);
+    animator.harness.event(egui::Event::Text("1.5".to_owned()));
+    animator.steps(2);
+    animator.harness.key_press(Key::Enter);
+    animator.steps(4);
+    assert_eq!(steps(&animator), 1);
+    let [Edit::FilterKeys(edit)] = animator.edits()[..] else { panic!("{:?}", animator.edits()) };
+    let frame = 1.0 / animator.harness.state().state.read().settings.frame_rate as f32;
+    assert_eq!(edit.filter, CurveFilter::Gaussian(1.5 * frame));
+}
+
+#[test]
+fn without_selected_keys_the_sliders_do_nothing_and_say_why() {
+    let mut animator = Animator::with_bone(3);
+    animator.harness.get_by_label("In-between").click();
+    animator.steps(3);
+    let (from, to) = (place(&animator, "Tween", 0.0), place(&animator, "Tween", 0.5));
+    animator.drag(from, to);
+    animator.release(to);
+    assert_eq!(animator.changes.len(), 0);
+    assert!(animator.harness.query_by_label_contains("No key is selected").is_some());
+}
+
+#[test]
+fn every_command_of_in_betweens_changes_the_selected_keys_in_one_step() {
+    for command in commands::of(Category::InBetween) {
+        let mut animator = animator();
+        let before = shown(&animator);
+        // A peak, so that there is one to remove.
+        if command.id == Id::RemovePeaks {
+            let time = animator.key(4);
+            let far = BonePose {
+                bone: BoneRef::Index(3),
+                translation: None,
+                rotation: Some([1.0, 0.0, 0.0, 0.0]),
+                scale: None,
+            };
+            let peak = SetPose { take: TakeRef::Index(0), time, poses: vec![far], unstep: false };
+            animator.request(Request::Change(Change::Edit(Edit::SetPose(peak), None)));
+        }
+        let (peaked, done) = (shown(&animator), steps(&animator));
+        animator.request(Request::Command(command.id));
+        assert_eq!(steps(&animator), done + 1, "{}", command.title);
+        let after = shown(&animator);
+        // The keys are less than 12 per second, so nothing is faster than 6 Hz.
+        if command.id != Id::SmoothButterworth {
+            assert!(after != peaked, "{}", command.title);
+        }
+        for bone in (0..after.tracks.len()).filter(|&bone| bone != 3) {
+            assert!(after.tracks[bone] == before.tracks[bone], "{}", command.title);
+        }
+        for _ in 0..steps(&animator) {
+            animator.request(Request::Command(Id::Undo));
+        }
+        assert!(shown(&animator) == before, "{}", command.title);
+    }
+}
+
+#[test]
+fn the_tween_command_moves_keys_halfway_between_their_neighbors() {
+    let mut animator = animator();
+    animator.request(Request::Command(Id::TweenKeys));
+    let [Edit::BlendKeys(BlendKeys { toward, factor, .. })] = animator.edits()[..] else {
+        panic!("{:?}", animator.edits())
+    };
+    assert_eq!((toward, *factor), (&KeyTarget::Between(0.5), 1.0));
+}
+
+#[test]
+fn the_palette_finds_the_tools_by_the_words_of_other_programs() {
+    for (word, id) in [
+        ("breakdown", Id::TweenKeys),
+        ("in-between", Id::TweenKeys),
+        ("exaggerate", Id::PushKeys),
+        ("flatten", Id::PullKeys),
+        ("average", Id::RelaxKeys),
+        ("neighbor", Id::BlendToNext),
+        ("time offset", Id::DelayKeys),
+        ("jitter", Id::NoiseKeys),
+        ("butterworth", Id::SmoothButterworth),
+        ("low-pass", Id::SmoothButterworth),
+        ("spikes", Id::RemovePeaks),
+        ("bake", Id::BakeKeys),
+        ("on twos", Id::ResampleKeys),
+    ] {
+        let command = commands::get(id);
+        let text = format!("{} {}", command.title, command.help).to_lowercase();
+        assert!(text.contains(word), "{word}: {text}");
+    }
+}
