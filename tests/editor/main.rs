@@ -21,6 +21,7 @@ mod eye;
 mod faults;
 mod fixture_layer;
 mod folder;
+mod frame_rate;
 mod framing;
 mod gestures_listed;
 mod gizmo_control;

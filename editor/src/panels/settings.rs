@@ -154,8 +154,6 @@ impl Default for ToolSettings {
     }
 }
 
-/// Frame rates of the timeline that can be chosen, ascending.
-pub const FRAME_RATES: &[u32] = &[24, 25, 30, 48, 50, 60, 90, 100, 120];
 /// Smallest and largest scale of the window's content.
 pub const SCALES: std::ops::RangeInclusive<f32> = 0.75..=2.0;
 /// Slowest and fastest playback.
@@ -182,8 +180,6 @@ pub struct Settings {
     pub repeat: Repeat,
     /// Speed of playback, seconds of the take per second.
     pub speed: f32,
-    /// Frame rate of the timeline, frames per second.
-    pub frame_rate: u32,
     /// Keys of commands.
     pub keys: KeySettings,
     /// Whether a changed pose becomes a key at once.
@@ -206,7 +202,6 @@ impl Default for Settings {
             timeline: TimelineSettings::default(),
             repeat: Repeat::default(),
             speed: 1.0,
-            frame_rate: 30,
             keys: KeySettings::default(),
             auto_key: true,
             show_changes: false,
@@ -233,9 +228,6 @@ impl Settings {
             if self.scale.is_finite() { self.scale.clamp(*SCALES.start(), *SCALES.end()) } else { 1.0 };
         self.speed =
             if self.speed.is_finite() { self.speed.clamp(*SPEEDS.start(), *SPEEDS.end()) } else { 1.0 };
-        if !FRAME_RATES.contains(&self.frame_rate) {
-            self.frame_rate = 30;
-        }
         self.tools.ghosts = self.tools.ghosts.sanitized();
         self.tools.ik.length = self.tools.ik.length.clamp(1, LONGEST_CHAIN);
         self.recent.truncate(RECENT);

@@ -3,13 +3,14 @@
 use super::command_button::command_button;
 use super::commands::{self, Id};
 use super::context::PanelContext;
+use super::frame_rate::{OFFERED, RATES};
 use super::icons::Icon;
 use super::request::Request;
 use super::ruler;
-use super::settings::{FRAME_RATES, SPEEDS};
+use super::settings::SPEEDS;
 use super::style::{CONTROL, GRID};
 use super::theme::Theme;
-use super::widgets::{icon_button, text_width};
+use super::widgets::{icon_button, quiet_button, text_width};
 use crate::control::expression::{Quantity, evaluate};
 use dragonfly_picture::playback::{LATEST, Repeat};
 use egui::{Align, Button, DragValue, Layout, RichText, TextStyle, Ui, vec2};
@@ -94,15 +95,30 @@ fn speed(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
 }
 
 fn frame_rate(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let rate = context.settings.frame_rate;
-    let button = Button::new(RichText::new(format!("{rate} fps")).color(Theme::of(ui).weak)).frame(false);
-    let response = ui.add(button).on_hover_text("Frames per second, for display and stepping");
-    egui::Popup::menu(&response).show(|ui| {
+    let rate = context.frame_rate;
+    let text = format!("{rate} fps");
+    let response = quiet_button(ui, Icon::Down, false, &text, &text);
+    let response = response.on_hover_text("Frame rate of this document: display, stepping and baking");
+    let menu = egui::Popup::menu(&response).close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+    menu.show(|ui| {
         ui.set_width(96.0);
-        for &choice in FRAME_RATES {
+        for &choice in OFFERED {
             if ui.add(Button::selectable(choice == rate, format!("{choice} fps"))).clicked() {
                 requests.push(Request::FrameRate(choice));
+                ui.close();
             }
+        }
+        let mut typed = rate;
+        let field = DragValue::new(&mut typed)
+            .range(RATES)
+            .speed(0.1)
+            .suffix(" fps")
+            .update_while_editing(false)
+            .custom_parser(|text| number(text.trim_end_matches("fps")));
+        let width = ui.available_width();
+        let response = ui.add_sized(vec2(width, CONTROL), field).accessible_name("Frame rate");
+        if response.on_hover_text("Any other frame rate\nDrag, or click to type").changed() {
+            requests.push(Request::FrameRate(typed));
         }
     });
 }
@@ -120,7 +136,7 @@ fn field_width(ui: &Ui, text: &str) -> f32 {
 /// Draws the time from right to left: frames, seconds.
 fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
-    let rate = context.settings.frame_rate;
+    let rate = context.frame_rate;
     let (start, length) = context.take_bounds();
     let mut frame = ruler::frame_of(context.time(), rate);
     let last = format!("/ {}", ruler::frame_of(start + length, rate));

@@ -34,7 +34,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
         job.append(what, 0.0, words(theme.text));
         job.append("Shift adds, Ctrl toggles, Esc cancels", 10.0, words(theme.weak));
     } else if let Some(time) = context.tools.controls().path().hovered() {
-        let frame = (f64::from(time) * f64::from(context.settings.frame_rate)).round();
+        let frame = (f64::from(time) * f64::from(context.frame_rate)).round();
         job.append("Key", 0.0, words(theme.text));
         job.append(&format!("frame {frame}"), 6.0, words(theme.weak));
         job.append(&format!("{time:.3} s"), 10.0, digits(theme.text));
