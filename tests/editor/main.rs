@@ -60,6 +60,7 @@ mod remembered;
 #[cfg(target_os = "linux")]
 mod render_memory;
 mod ruler;
+mod saved_pending;
 mod screen;
 mod settings;
 mod shape_keys;

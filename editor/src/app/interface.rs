@@ -178,12 +178,11 @@ impl Interface {
         self.egui.set_max_texture_side(side as usize);
     }
 
-    /// Shows the document's name in the window's title, with a dot before it while there are unsaved changes.
-    pub(super) fn set_title(&mut self, title: &str, saved: bool) {
-        let text = format!("{}{title} – Dragonfly", if saved { "" } else { "• " });
-        if text != self.title {
-            self.window.set_title(&text);
-            self.title = text;
+    /// Sets the window's title.
+    pub(super) fn set_title(&mut self, title: &str) {
+        if title != self.title {
+            self.window.set_title(title);
+            title.clone_into(&mut self.title);
         }
     }
 

@@ -14,7 +14,7 @@ use super::workspace::Workspace;
 use crate::control::InputEvent;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{NotSaved, Offer, SaveOrder, View};
+use dragonfly_document::{NotSaved, Offer, SaveOrder, SavedFile, View};
 use egui::{Context, Pos2, RawInput};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -138,6 +138,11 @@ impl State {
     pub fn document_lost(&mut self) {
         self.workspace.prompts.document_lost();
         self.workspace.dragging.echo.forget();
+    }
+
+    /// Reports a save that was completed, and the pending poses that it left out.
+    pub fn saved(&mut self, saved: &SavedFile) {
+        files::saved(&mut self.workspace, saved);
     }
 
     /// Handles a save that failed: asks the user what to do, or reports the reason.
