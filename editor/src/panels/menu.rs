@@ -197,7 +197,7 @@ fn view(
 }
 
 /// Gives fields and boxes the outlines that they have in panels; in menus egui draws none.
-fn outline_fields(ui: &mut Ui) {
+pub(super) fn outline_fields(ui: &mut Ui) {
     let theme = Theme::of(ui);
     let widget = &mut ui.visuals_mut().widgets.inactive;
     (widget.bg_stroke, widget.weak_bg_fill) = (Stroke::new(1.0, theme.line), theme.sunken);

@@ -5,6 +5,7 @@ use super::commands::{self, Id};
 use super::context::PanelContext;
 use super::frame_rate::{OFFERED, RATES};
 use super::icons::Icon;
+use super::menu::outline_fields;
 use super::request::Request;
 use super::ruler;
 use super::settings::SPEEDS;
@@ -22,21 +23,59 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
         ui.set_height(32.0);
         ui.add_space(2.0 * GRID);
         ui.spacing_mut().item_spacing.x = 2.0;
+        let room = Room::of(ui.available_width());
         ui.add_enabled_ui(able, |ui| buttons(ui, context, requests));
-        divider(ui);
-        keying(ui, context, requests);
-        divider(ui);
-        repeat(ui, context, requests);
-        divider(ui);
-        speed(ui, context, requests);
+        if room >= Room::Keying {
+            divider(ui);
+            keying(ui, context, requests);
+        }
+        if room >= Room::Repeat {
+            divider(ui);
+            repeat(ui, context, requests);
+        }
+        if room >= Room::Speed {
+            divider(ui);
+            speed(ui, context, requests);
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(2.0 * GRID);
             ui.spacing_mut().item_spacing.x = GRID;
-            frame_rate(ui, context, requests);
-            divider(ui);
-            ui.add_enabled_ui(able, |ui| time(ui, context, requests));
+            if room >= Room::Rate {
+                frame_rate(ui, context, requests);
+                divider(ui);
+            }
+            if room >= Room::Frame {
+                ui.add_enabled_ui(able, |ui| time(ui, context, room, requests));
+            }
         });
     });
+}
+
+/// The parts of the bar that fit, the most important first: menus and keys have the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Room {
+    Buttons,
+    Frame,
+    Keying,
+    Rate,
+    Repeat,
+    Seconds,
+    Speed,
+}
+
+impl Room {
+    /// Returns what fits into a width, points.
+    fn of(width: f32) -> Self {
+        let needed = [
+            (Self::Speed, 690.0),
+            (Self::Seconds, 620.0),
+            (Self::Repeat, 540.0),
+            (Self::Rate, 420.0),
+            (Self::Keying, 330.0),
+            (Self::Frame, 260.0),
+        ];
+        needed.into_iter().find(|(_, needed)| width >= *needed).map_or(Self::Buttons, |(room, _)| room)
+    }
 }
 
 fn buttons(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
@@ -108,6 +147,7 @@ fn frame_rate(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Reques
                 ui.close();
             }
         }
+        outline_fields(ui);
         let mut typed = rate;
         let field = DragValue::new(&mut typed)
             .range(RATES)
@@ -134,7 +174,7 @@ fn field_width(ui: &Ui, text: &str) -> f32 {
 }
 
 /// Draws the time from right to left: frames, seconds.
-fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn time(ui: &mut Ui, context: &PanelContext<'_>, room: Room, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
     let rate = context.frame_rate;
     let (start, length) = context.take_bounds();
@@ -159,6 +199,9 @@ fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         .changed()
     {
         requests.push(Request::Seek(ruler::time_of(frame, rate)));
+    }
+    if room < Room::Seconds {
+        return;
     }
     let mut seconds = context.time();
     let field = DragValue::new(&mut seconds)
