@@ -2,6 +2,7 @@
 
 mod accessible;
 mod bone_menu;
+mod bone_search;
 mod check_and_diff;
 mod command_line;
 mod commands;

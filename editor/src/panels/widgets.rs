@@ -98,6 +98,28 @@ pub(super) fn text_width(ui: &Ui, text: &str, style: &TextStyle) -> f32 {
 }
 
 /// Draws a number right-aligned at `right`, in digits of equal width. Returns its left end.
+/// Returns a text that is at most as wide as `width`: without its middle if it is wider, because names often differ at
+/// both ends.
+pub(super) fn cut_in_middle(ui: &Ui, text: &str, width: f32, style: &TextStyle) -> String {
+    if text_width(ui, text, style) <= width {
+        return text.to_owned();
+    }
+    let letters: Vec<char> = text.chars().collect();
+    let cut = |kept: usize| {
+        let (first, last) = (kept.div_ceil(2), kept / 2);
+        let start: String = letters[..first].iter().collect();
+        let end: String = letters[letters.len() - last..].iter().collect();
+        format!("{start}…{end}")
+    };
+    // The widest that fits, by bisection: it is wider with each letter.
+    let (mut fits, mut too_many) = (0, letters.len());
+    while too_many - fits > 1 {
+        let middle = fits.midpoint(too_many);
+        if text_width(ui, &cut(middle), style) <= width { fits = middle } else { too_many = middle }
+    }
+    cut(fits)
+}
+
 pub(super) fn number_at(ui: &Ui, right: f32, y: f32, text: &str, color: Color32) -> f32 {
     let rect = ui.painter().text(
         pos2(right, y),
