@@ -33,6 +33,7 @@ mod gizmo_rig;
 mod gizmo_several;
 mod history_panel;
 mod hover;
+mod in_the_way;
 mod keeping_save;
 mod keymap;
 mod large_rigs;

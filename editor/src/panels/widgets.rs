@@ -18,6 +18,13 @@ pub(super) fn hint_beside(response: &Response, hint: impl Into<WidgetText>) {
     tooltip.show(|ui| ui.label(hint));
 }
 
+/// Shows a tooltip on the right of a disabled widget.
+pub(super) fn disabled_hint_beside(response: &Response, hint: impl Into<WidgetText>) {
+    let mut tooltip = Tooltip::for_disabled(response);
+    tooltip.popup = tooltip.popup.align(RectAlign::RIGHT);
+    tooltip.show(|ui| ui.label(hint));
+}
+
 /// Draws a square button with an icon; `name` is its accessible name.
 pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(style::icon_size(), Sense::click());
@@ -91,13 +98,6 @@ pub(super) fn text_in(ui: &Ui, rect: Rect, text: &str, style: &TextStyle, color:
     right
 }
 
-/// Returns the width of a text, points.
-pub(super) fn text_width(ui: &Ui, text: &str, style: &TextStyle) -> f32 {
-    let font = style.resolve(ui.style());
-    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
-}
-
-/// Draws a number right-aligned at `right`, in digits of equal width. Returns its left end.
 /// Returns a text that is at most as wide as `width`: without its middle if it is wider, because names often differ at
 /// both ends.
 pub(super) fn cut_in_middle(ui: &Ui, text: &str, width: f32, style: &TextStyle) -> String {
@@ -120,6 +120,13 @@ pub(super) fn cut_in_middle(ui: &Ui, text: &str, width: f32, style: &TextStyle) 
     cut(fits)
 }
 
+/// Returns the width of a text, points.
+pub(super) fn text_width(ui: &Ui, text: &str, style: &TextStyle) -> f32 {
+    let font = style.resolve(ui.style());
+    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
+}
+
+/// Draws a number right-aligned at `right`, in digits of equal width. Returns its left end.
 pub(super) fn number_at(ui: &Ui, right: f32, y: f32, text: &str, color: Color32) -> f32 {
     let rect = ui.painter().text(
         pos2(right, y),
