@@ -98,6 +98,7 @@ mod window_panics;
 mod window_save;
 mod window_scale;
 mod window_visit;
+mod window_size;
 mod wire;
 mod workbench;
 
