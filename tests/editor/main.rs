@@ -76,6 +76,7 @@ mod timeline_markers;
 mod timeline_mouse;
 mod timeline_random;
 mod timeline_rig;
+mod told_in_place;
 mod undo_selection;
 mod unplugged;
 mod viewport_control;

@@ -185,9 +185,10 @@ impl State {
         &mut self.workspace.settings
     }
 
-    /// Returns when the time display must be drawn again, if it must.
+    /// Returns when the time display or the status line must be drawn again, if they must.
     pub fn next_display(&self) -> Option<Duration> {
-        self.workspace.player.next_display()
+        let message = self.workspace.status.shown_for().filter(|left| !left.is_zero());
+        [self.workspace.player.next_display(), message].into_iter().flatten().min()
     }
 
     /// Returns the markers and marks as the text of their files.

@@ -85,7 +85,7 @@ fn message(ui: &mut Ui, context: &PanelContext<'_>) {
     let theme = Theme::of(ui);
     let size = vec2(ui.available_width(), ui.available_height());
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let (text, level) = match (context.loading, context.status.last()) {
+    let (text, level) = match (context.loading, context.status.current()) {
         (Some(loading), _) => {
             let percent = (loading.progress.done * 100.0) as u32;
             let text = format!("{} {}… {percent} %", loading.progress.stage.title(), loading.title);

@@ -10,6 +10,7 @@ use std::time::Instant;
 /// Starts a frame: computes what the panels read.
 pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
     workspace.player.set_now(now);
+    workspace.status.begin_frame(now);
     workspace.player.stop_at_end();
     drags::settle_keys(workspace);
     if let Some(take) = workspace.read().shared_take().cloned() {
@@ -64,8 +65,8 @@ fn show_model(workspace: &mut Workspace) {
         workspace.keys.open(view.file.key());
     }
     guess_frame_rate(workspace);
-    let takes = workspace.model.takes();
     recall_marks(workspace);
+    let takes = workspace.model.takes();
     // Some programs write a single pose before the takes that move.
     let moving = takes.iter().position(|take| take.length > 0.0);
     let first = moving.or((!takes.is_empty()).then_some(0));
@@ -105,10 +106,10 @@ fn recall_marks(workspace: &mut Workspace) {
         }
         workspace.bones.set_pins(pins);
         workspace.tools.set_pole(pole);
-        if let Some(view) = workspace.model.view() {
         if let Some(rate) = frame_rate {
             workspace.frame_rate.choose(rate);
         }
+        if let Some(view) = workspace.model.view() {
             remembered.recalled(view, marks(workspace));
         }
     }
