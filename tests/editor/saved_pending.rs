@@ -1,4 +1,4 @@
-//! Pending poses and saves: a save says what it leaves out, and poses that were discarded again are no unsaved work.
+//! Pending poses and saves: the message names the poses that a save leaves out, and discarded poses are no unsaved work.
 
 use dragonfly::panels::{Settings, State};
 use dragonfly_document::adapter::ModelAdapter;
@@ -98,7 +98,12 @@ fn a_pending_pose_that_was_discarded_again_is_no_unsaved_work() {
     assert!(bench.edited.undo() && !bench.edited.is_saved(), "the pose is pending again");
     assert!(bench.edited.redo() && bench.edited.is_saved());
     // A key between is unsaved work, and pending poses do not hide it.
-    bench.apply(Edit::SetPose(SetPose { take: TakeRef::Index(0), time: 0.3, poses: poses(&[2]), unstep: true }));
+    bench.apply(Edit::SetPose(SetPose {
+        take: TakeRef::Index(0),
+        time: 0.3,
+        poses: poses(&[2]),
+        unstep: true,
+    }));
     bench.apply(pend(&[3]));
     bench.apply(discard());
     assert!(!bench.edited.is_saved());

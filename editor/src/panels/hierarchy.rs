@@ -152,7 +152,7 @@ impl Hierarchy {
     ) {
         ui.spacing_mut().item_spacing.y = 0.0;
         let mut area = ScrollArea::vertical().auto_shrink(false);
-        // egui pulls a position back that lies beyond the rows of the frame before, so new rows are drawn first.
+        // egui pulls a position back that is beyond the rows of the last frame, so new rows are drawn first.
         let is_new = std::mem::replace(&mut self.drawn, rows.len()) != rows.len();
         if context.selected() != self.followed && is_new {
             ui.ctx().request_repaint();

@@ -182,7 +182,7 @@ impl BaseControl for GizmoControl {
             let answer = self.gizmo.pointer(at, mouse.modifiers);
             return self.note(answer, framework);
         }
-        // What cannot be dragged does not light up.
+        // A handle that cannot be dragged does not light up.
         self.gizmo.hover(Some(at).filter(|_| self.editable));
         self.refuses = !self.editable && self.gizmo.handle_at(at).is_some();
         InputFlow::ToParent

@@ -1,4 +1,4 @@
-//! What the window says where the user looks: messages that pass, an empty viewport that is explained, a gizmo that cannot
+//! Messages where the user looks: information that passes, an empty viewport that is explained, a gizmo that cannot
 //! be dragged, the folder of a file that is saved.
 
 use crate::workbench::Workbench;
