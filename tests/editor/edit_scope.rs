@@ -190,7 +190,7 @@ fn the_selected_keys_change_alone_and_without_any_the_reason_is_given() {
 fn the_falloff_spreads_an_edit_of_selected_keys_over_those_around_them() {
     let mut bench = bench(11, Id::EditSelectedKeys);
     select_keys(&mut bench, [0.5, 0.5]);
-    bench.state.settings_mut().frame_rate = 10;
+    bench.state.execute(Request::FrameRate(10));
     bench.state.settings_mut().falloff.frames = 4;
     bench.state.settings_mut().falloff.shape = FadeShape::Linear;
     bench.state.execute(Request::Command(Id::ToggleFalloff));
@@ -213,7 +213,7 @@ fn the_falloff_spreads_an_edit_of_selected_keys_over_those_around_them() {
 fn outside_the_play_range_nothing_changes_and_a_playhead_out_there_is_refused() {
     let mut bench = bench(11, Id::EditPlayRange);
     bench.state.execute(Request::Timeline(KeysRequest::Range(Some([0.3, 0.7]))));
-    bench.state.settings_mut().frame_rate = 20;
+    bench.state.execute(Request::FrameRate(20));
     let before = take(&bench);
     let mut window = bench.window();
     type_into(&mut window, "Rotation change X", "20", Key::Enter);

@@ -97,6 +97,23 @@ impl Window {
 }
 
 #[test]
+fn a_handle_that_cannot_be_dragged_does_not_light_up_and_says_so() {
+    let mut window = Window::new();
+    window.control().editable = false;
+    let tip = window.tip;
+    window.to(tip);
+    assert!(window.control().gizmo.hovered().is_none() && window.control().refuses());
+    window.send(InputEvent::MouseDown(Button::Left));
+    window.send(InputEvent::MouseUp(Button::Left));
+    assert!(window.control().take_refused() && !window.is_moved());
+    window.to(CORNER + Vec2::splat(20.0));
+    assert!(!window.control().refuses());
+    window.to(tip);
+    window.control().editable = true;
+    assert!(!window.control().refuses());
+}
+
+#[test]
 fn a_handle_is_dragged_and_input_that_misses_it_goes_to_the_viewport() {
     let mut window = Window::new();
     let (own, picture) = (window.owner.gizmo.0, window.owner.picture.0);

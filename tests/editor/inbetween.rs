@@ -101,7 +101,7 @@ fn a_typed_number_is_applied_once() {
     animator.steps(4);
     assert_eq!(steps(&animator), 1);
     let [Edit::FilterKeys(edit)] = animator.edits()[..] else { panic!("{:?}", animator.edits()) };
-    let frame = 1.0 / animator.harness.state().state.read().settings.frame_rate as f32;
+    let frame = 1.0 / animator.harness.state().state.read().frame_rate as f32;
     assert_eq!(edit.filter, CurveFilter::Gaussian(1.5 * frame));
 }
 

@@ -67,7 +67,7 @@ fn a_command_shows_the_fields_for_start_and_length() {
 #[test]
 fn start_and_length_can_also_be_given_in_frames() {
     let mut window = Workbench::full().window();
-    window.state_mut().state.settings_mut().frame_rate = 24;
+    window.state_mut().state.execute(Request::FrameRate(24));
     give(&mut window, Id::RetimeTake);
     type_into(&mut window, "Length in frames", "48", Key::Enter);
     let length = |window: &Window| window.state().state.read().view.unwrap().takes[0].length;

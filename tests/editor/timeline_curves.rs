@@ -202,7 +202,7 @@ fn dragging_a_number_of_a_key_is_one_step_and_escape_cancels_it() {
     animator.release(field + vec2(20.0, 0.0));
     assert_eq!((animator.edited.steps().1, animator.selected()), (2, 1));
     let moved = shown(&animator, "Time of the key");
-    let frames = moved * animator.harness.state().state.read().settings.frame_rate as f32;
+    let frames = moved * animator.harness.state().state.read().frame_rate as f32;
     assert!(moved > time + 0.05 && (frames - frames.round()).abs() < 1e-3, "to a frame: {moved} s");
 }
 

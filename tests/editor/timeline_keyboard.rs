@@ -43,7 +43,7 @@ impl Animator {
     }
 
     fn frame(&self) -> f32 {
-        1.0 / self.harness.state().state.read().settings.frame_rate as f32
+        1.0 / self.harness.state().state.read().frame_rate as f32
     }
 
     fn steps_done(&self) -> usize {

@@ -223,7 +223,7 @@ fn a_gizmo_grabbed_during_playback_is_dragged_at_a_whole_frame_as_after_a_pause(
         viewport.press(viewport.handle(Handle::Axis(GizmoAxis::X)));
         assert!(!viewport.state.read().playback.playing);
         let state = viewport.state.read();
-        let frames = state.time() * state.settings.frame_rate as f32;
+        let frames = state.time() * state.frame_rate as f32;
         assert_eq!((frames - frames.round()).abs() < 1e-3, whole, "frame {frames}, snapping: {snaps}");
     }
 }

@@ -69,9 +69,10 @@ impl Editor {
         let settings = Folder::new(&format!("settings-{}", STARTS.fetch_add(1, Ordering::Relaxed)));
         let faults = arguments.iter().any(|argument| FAULT_SWITCHES.contains(argument));
         let mut program = if faults { dragonfly_with_faults(arguments) } else { dragonfly(arguments) };
+        if !arguments.contains(&"--settings") {
+            program.arg("--settings").arg(settings.path());
+        }
         let mut child = program
-            .arg("--settings")
-            .arg(settings.path())
             .arg(file)
             .env("DISPLAY", screen.display())
             .env("XDG_RUNTIME_DIR", settings.path())

@@ -56,7 +56,7 @@ impl Bench {
         ];
         let mut editor = Editor::open_file(screen, &self.file, &arguments, &environment);
         let name = self.file.file_name().unwrap().to_str().unwrap();
-        let name = if name == "demo:" { "Dragonfly" } else { name };
+        let name = if name == "demo:" { "Untitled" } else { name };
         if more.is_empty() {
             editor.window = screen.window(name, SOON);
             screen.focus(editor.window);
@@ -247,7 +247,7 @@ fn a_document_without_a_file_is_saved_where_the_user_chooses() {
     fs::write(&bench.edits, r#"{"edit":"rename_take","take":0,"name":"Hover"}"#).unwrap();
     let mut screen = Screen::new("where", 1280, 800);
     let mut editor = bench.start(&mut screen, &["--edits", bench.edits.as_str()]);
-    screen.window("• Dragonfly", SOON);
+    screen.window("• Untitled", SOON);
     control(&mut screen, key::S);
     editor.wait_for_log("asked where to save", 1, SOON);
     screen.press(key::ENTER);

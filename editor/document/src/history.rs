@@ -229,9 +229,18 @@ impl Edited {
         self.saved.map_or(self.done, |saved| self.done.abs_diff(saved))
     }
 
-    /// Returns whether the takes are as they were when last saved or opened.
+    /// Returns whether a save would change nothing: the takes are as they were when last saved or opened, and no pose is
+    /// pending that was not pending then. Pending poses that were set and discarded since count as nothing.
     pub fn is_saved(&self) -> bool {
-        self.saved == Some(self.done)
+        let Some(saved) = self.saved else { return false };
+        saved == self.done || (self.adapter.pending_poses() == 0 && self.only_pending_changed_since(saved))
+    }
+
+    /// Returns whether all steps between the present state and another one change pending poses and nothing else.
+    fn only_pending_changed_since(&self, other: usize) -> bool {
+        let (from, to) = (self.done.min(other), self.done.max(other));
+        let mut between = self.steps.range(from..to);
+        between.all(|step| matches!(step.edit, Edit::SetPending(_) | Edit::DropPending(_)))
     }
 
     /// Returns the number of steps that were applied at the last save; `None` where neither undo nor redo leads there.

@@ -8,7 +8,7 @@ use super::store::{self, Store};
 use crate::panels::commands;
 use crate::panels::marks;
 use crate::panels::prompts::{Overlay, Question};
-use crate::panels::settings::ThemeChoice;
+use crate::panels::settings::{ThemeChoice, WindowSettings};
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Desk, Effect, FileAction, Request, Settings, State, style};
 use dragonfly_anim::data::BoneIndex;
@@ -59,6 +59,8 @@ pub struct Interface {
     drawn: Instant,
     accepts_input: bool,
     occluded: bool,
+    /// Whether the size of the window changed since the settings were stored.
+    is_resized: bool,
     /// The part of the program that failed too often, so that the program ends.
     pub(super) given_up: Option<String>,
     /// Faults that a test injects.
@@ -69,9 +71,13 @@ pub struct Interface {
 
 impl Interface {
     /// Creates the interface for `window`, which must not be visible yet; `egui` has its accessibility bridge.
-    pub(super) fn new(window: Arc<Window>, egui: egui_winit::State, store: Store) -> Self {
+    pub(super) fn new(
+        window: Arc<Window>,
+        egui: egui_winit::State,
+        settings: Settings,
+        store: Store,
+    ) -> Self {
         let now = Instant::now();
-        let settings = Settings::parse(&store.read(store::SETTINGS));
         let desk = Desk::new(&store.read(store::LAYOUT));
         style::install(egui.egui_ctx());
         let saved = settings.clone();
@@ -96,6 +102,7 @@ impl Interface {
             drawn: now - FASTEST,
             accepts_input: true,
             occluded: false,
+            is_resized: false,
             given_up: None,
             faults: FaultInjection::default(),
             state_trace: StateTrace::default(),
@@ -178,12 +185,11 @@ impl Interface {
         self.egui.set_max_texture_side(side as usize);
     }
 
-    /// Shows the document's name in the window's title, with a dot before it while there are unsaved changes.
-    pub(super) fn set_title(&mut self, title: &str, saved: bool) {
-        let text = format!("{}{title} – Dragonfly", if saved { "" } else { "• " });
-        if text != self.title {
-            self.window.set_title(&text);
-            self.title = text;
+    /// Sets the window's title.
+    pub(super) fn set_title(&mut self, title: &str) {
+        if title != self.title {
+            self.window.set_title(title);
+            title.clone_into(&mut self.title);
         }
     }
 
@@ -227,6 +233,7 @@ impl Interface {
         }
         if let WindowEvent::Resized(size) = event {
             self.size = (*size).into();
+            self.is_resized = true;
         }
         match event {
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => {
@@ -287,7 +294,23 @@ impl Interface {
         self.graphics = None;
     }
 
+    /// Notes the size of the window in the settings; that of a maximized, minimized or full-screen window is no size to
+    /// return to.
+    fn note_size(&mut self) {
+        if !std::mem::take(&mut self.is_resized) || self.state.window_mut().is_full_screen() {
+            return;
+        }
+        let maximized = self.window.is_maximized();
+        let size = self.size.map(|side| (f64::from(side) / self.desktop_scale) as f32);
+        let window = &mut self.state.settings_mut().window;
+        window.maximized = maximized;
+        if !maximized && size[0] >= WindowSettings::LEAST[0] && size[1] >= WindowSettings::LEAST[1] {
+            window.size = size;
+        }
+    }
+
     fn save(&mut self) {
+        self.note_size();
         if *self.state.read().settings != self.saved {
             self.saved = self.state.read().settings.clone();
             self.keep(store::SETTINGS, &self.saved.to_text());

@@ -6,9 +6,11 @@ use super::editor_runtime::report_faults;
 use super::event::UserEvent;
 use super::init_manager::{InitManager, MakeRuntime};
 use super::interface::Interface;
-use super::store::Store;
+use super::store::{self, Store};
 use super::target_window::WinitWindow;
 use super::timeline::{Step, StepTrace};
+use crate::panels::Settings;
+use crate::panels::settings::WindowSettings;
 use dragonfly_document::FaultInjection;
 use dragonfly_picture::guard::caught;
 use dragonfly_picture::{Connection, DeviceParameters, Graphics, GraphicsHandle, SurfaceSource};
@@ -48,11 +50,18 @@ impl MainRuntime {
         faults: FaultInjection,
     ) -> Result<Self, AppError> {
         // Invisible until the accessibility bridge exists: the bridge must be created before the window is shown.
+        let settings = Settings::parse(&store.read(store::SETTINGS));
+        let monitor = event_loop.primary_monitor().or_else(|| event_loop.available_monitors().next());
+        let screen = monitor.map(|monitor| {
+            let size = monitor.size().to_logical::<f32>(monitor.scale_factor());
+            [size.width, size.height]
+        });
         let attributes = Window::default_attributes()
             .with_title("Dragonfly")
             .with_visible(false)
-            .with_min_inner_size(LogicalSize::new(480.0, 320.0))
-            .with_inner_size(LogicalSize::new(1280.0, 720.0));
+            .with_min_inner_size(LogicalSize::<f32>::from(WindowSettings::LEAST))
+            .with_inner_size(LogicalSize::<f32>::from(settings.window.size_on(screen)))
+            .with_maximized(settings.window.maximized);
         let window =
             event_loop.create_window(attributes).map_err(|error| AppError::Window(error.to_string()))?;
         let window = Arc::new(window);
@@ -74,7 +83,7 @@ impl MainRuntime {
             // The loop may have ended; then it need not be woken.
             let _ = waker.send_event(UserEvent::Wake);
         });
-        let interface = Rc::new(RefCell::new(Interface::new(Arc::clone(&window), egui, store)));
+        let interface = Rc::new(RefCell::new(Interface::new(Arc::clone(&window), egui, settings, store)));
         let connection = Connection::beside(Arc::new(event_loop.owned_display_handle()));
         let target = WinitWindow(Arc::clone(&window));
         let surfaces = SurfaceSource::new(Arc::new(target), connection.clone());

@@ -92,9 +92,8 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
 fn show_view(interface: &mut Interface, view: View) {
     interface.state.set_now(Instant::now());
     interface.state.show(view);
-    let Some(view) = interface.state.read().view else { return };
-    let (file, saved) = (Arc::clone(&view.file), view.history.saved);
-    interface.set_title(&file.title, saved);
+    let title = interface.state.read().window_title();
+    interface.set_title(&title);
 }
 
 /// Reports a model that was opened, and applies the edits of the command line to it.
@@ -115,21 +114,7 @@ fn opened(interface: &mut Interface, loaded: &LoadedModel) {
 }
 
 fn show_saved(interface: &mut Interface, saved: SavedFile) {
-    let state = &mut interface.state;
-    let name = saved.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    if !saved.copy {
-        state.settings_mut().remember(&saved.path);
-    }
-    for notice in &saved.notices {
-        state.say(MessageSeverity::Warning, format!("{name}: {notice}"));
-    }
-    let what = if saved.copy { "Saved a copy as" } else { "Saved" };
-    let others = match saved.beside {
-        0 => String::new(),
-        1 => " and one further file".to_owned(),
-        files => format!(" and {files} further files"),
-    };
-    state.say(MessageSeverity::Info, format!("{what} {name}{others}"));
+    interface.state.saved(&saved);
     if let Some(then) = saved.then {
         interface.effects.push(Effect::File(FileAction::Leave(then)));
     }

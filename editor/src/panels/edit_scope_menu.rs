@@ -8,7 +8,7 @@ use super::menu;
 use super::request::Request;
 use super::style::{GRID, RADIUS, icon_size};
 use super::theme::Theme;
-use super::widgets::focus_ring;
+use super::widgets::{focus_ring, text_width};
 use dragonfly_document::edit::FadeShape;
 use egui::accesskit::Role;
 use egui::{Button, Color32, CornerRadius, DragValue, Rect, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
@@ -26,17 +26,27 @@ pub(super) const COMMANDS: [Id; 9] = [
     Id::NextFalloffShape,
 ];
 
-/// Draws the switch: the name of the scope with its icon, in the color of a warning where edits change more than this frame.
-/// `room` is the width that is left in the bar: where it is small, only the icon is drawn.
-pub(super) fn switch(ui: &mut Ui, context: &PanelContext<'_>, room: f32, requests: &mut Vec<Request>) {
+/// Returns the name of the scope as the switch shows it in a bar of this width, points: nothing where that is small. The name
+/// of a scope that changes more than this frame comes before less important parts of the bar.
+pub(super) fn title_in(context: &PanelContext<'_>, width: f32) -> &'static str {
+    let scope = context.over.scope;
+    let needed = if scope == EditScope::Frame { 900.0 } else { 500.0 };
+    if width > needed { scope.title() } else { "" }
+}
+
+/// Returns the width of the switch with this name, points.
+pub(super) fn width(ui: &Ui, title: &str) -> f32 {
+    let words = if title.is_empty() { 0.0 } else { text_width(ui, title, &TextStyle::Small) + GRID };
+    icon_size().x + words + 12.0
+}
+
+/// Draws the switch: its icon and `title`, in the color of a warning where edits change more than this frame.
+pub(super) fn switch(ui: &mut Ui, context: &PanelContext<'_>, title: &str, requests: &mut Vec<Request>) {
     let scope = context.over.scope;
     let (theme, wary) = (Theme::of(ui), scope != EditScope::Frame);
     let font = TextStyle::Small.resolve(ui.style());
-    let named = room > if wary { 160.0 } else { 440.0 };
-    let text = if named { scope.title() } else { "" };
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
-    let words = if text.is_empty() { 0.0 } else { galley.size().x + GRID };
-    let size = vec2(icon_size().x + words + 12.0, icon_size().y);
+    let galley = ui.painter().layout_no_wrap(title.to_owned(), font, Color32::PLACEHOLDER);
+    let size = vec2(width(ui, title), icon_size().y);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let name = format!("Edits apply to: {}", scope.title());
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), wary, name.as_str()));

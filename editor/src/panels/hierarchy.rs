@@ -23,6 +23,8 @@ pub struct Hierarchy {
     collapsed: HashSet<BoneIndex>,
     /// The selection that was last scrolled to.
     followed: Option<BoneIndex>,
+    /// Number of rows that were drawn last.
+    drawn: usize,
     /// The model that this state belongs to.
     of: Option<Arc<LoadedModel>>,
     /// The rows that are shown, until the search or the collapsed bones change.
@@ -91,6 +93,10 @@ impl Hierarchy {
     fn visible(&mut self, context: &PanelContext<'_>) -> ShownRows {
         let query = self.query.trim().to_lowercase();
         if query.is_empty() {
+            if self.listed.as_ref().is_some_and(|listed| !listed.query.is_empty()) {
+                // The search ended: the tree scrolls to the bone that was chosen in it.
+                self.followed = None;
+            }
             self.expand_above_selected(context);
         }
         if let Some(listed) = self.listed.as_ref().filter(|listed| listed.query == query) {
@@ -146,7 +152,11 @@ impl Hierarchy {
     ) {
         ui.spacing_mut().item_spacing.y = 0.0;
         let mut area = ScrollArea::vertical().auto_shrink(false);
-        if context.selected() != self.followed {
+        // egui pulls a position back that is beyond the rows of the last frame, so new rows are drawn first.
+        let is_new = std::mem::replace(&mut self.drawn, rows.len()) != rows.len();
+        if context.selected() != self.followed && is_new {
+            ui.ctx().request_repaint();
+        } else if context.selected() != self.followed {
             self.followed = context.selected();
             let place = rows.iter().position(|(row, _)| Some(row.bone) == context.selected());
             if let Some(place) = place {
@@ -178,8 +188,7 @@ impl Hierarchy {
         let name = context.bone_name(row.bone);
         let selected = context.selection.contains(row.bone);
         let (rect, response) = widgets::row(ui, &name, selected, context.highlighted() == Some(row.bone));
-        // Very deep skeletons stay readable: the indentation is limited, the order of the rows is not.
-        let indent = 10.0 + (row.depth as f32 * 12.0).min(rect.width() * 0.5);
+        let indent = indent_of(row.depth, rect.width());
         let color = match (selected, hit) {
             (true, _) => theme.accent,
             (false, _) if hidden => theme.faint,
@@ -203,7 +212,15 @@ impl Hierarchy {
         }
         let text =
             Rect::from_min_max(pos2(left + 18.0, rect.top()), pos2(rect.right() - 34.0, rect.bottom()));
-        widgets::text_in(ui, text, &name, &TextStyle::Body, color);
+        for depth in 1..=row.depth {
+            let x =
+                ui.painter().round_to_pixel_center(rect.left() + indent_of(depth - 1, rect.width()) + 6.0);
+            ui.painter().vline(x, rect.y_range(), egui::Stroke::new(1.0, theme.line.gamma_multiply(0.5)));
+        }
+        let shown = widgets::cut_in_middle(ui, &name, text.width(), &TextStyle::Body);
+        widgets::text_in(ui, text, &shown, &TextStyle::Body, color);
+        let response =
+            if shown == *name { response } else { response.on_hover_text(widgets::shortened(&name)) };
         eye(ui, context, row, &name, rect, response.id.with("eye"), requests);
         if response.hovered() {
             requests.push(Request::Hover(row.bone));
@@ -233,6 +250,13 @@ impl Hierarchy {
             }
         }
     }
+}
+
+/// Returns the distance of a row's content from the left edge. Bones below the fourth level are indented less, and the
+/// indentation is limited, so that the names of a very deep skeleton stay readable.
+fn indent_of(depth: u32, width: f32) -> f32 {
+    let (wide, narrow) = (depth.min(4) as f32, depth.saturating_sub(4) as f32);
+    10.0 + (wide * 12.0 + narrow * 5.0).min(width * 0.35)
 }
 
 /// Draws the eye icon at the right end of a row. A click hides the bone or shows it again; with Shift or Alt also all
@@ -322,9 +346,8 @@ fn matching(rows: &[HierarchyRow], hit: impl Fn(BoneIndex) -> bool) -> Vec<(Hier
             kept[index] = true;
         }
         if kept[index] {
-            wanted = if depth == 0 { None } else { Some(wanted.map_or(depth, |below| below.min(depth))) };
-        } else if depth == 0 {
-            wanted = None;
+            // Rows between a kept row and its ancestor are below that ancestor, so the ancestors of this row are enough.
+            wanted = (depth > 0).then_some(depth);
         }
     }
     rows.iter().zip(hits).zip(kept).filter(|(_, kept)| *kept).map(|((row, hit), _)| (*row, hit)).collect()

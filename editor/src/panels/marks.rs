@@ -1,5 +1,5 @@
 //! Marks of bones, remembered for each file: which bones are muted, soloed, locked and pinned, and towards which bone elbows
-//! bend. They are stored with the program's settings and never in the model's file.
+//! bend; and the frame rate that was chosen for the file. They are stored with the program's settings and never in the model's file.
 
 use super::keys::channel::BoneNames;
 use super::keys::{BoneFlag, BoneFlags};
@@ -27,6 +27,8 @@ struct FileMarks {
     lock: Vec<BoneRef>,
     pins: Vec<BoneRef>,
     pole: Option<BoneRef>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frame_rate: Option<u32>,
 }
 
 impl FileMarks {
@@ -61,6 +63,7 @@ struct Noted {
     version: u64,
     pins: Vec<BoneIndex>,
     pole: Option<BoneIndex>,
+    frame_rate: Option<u32>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -101,6 +104,8 @@ pub(super) struct BoneMarks<'a> {
     pub(super) pins: &'a [BoneIndex],
     /// The bone towards which elbows and knees bend.
     pub(super) pole: Option<BoneIndex>,
+    /// The frame rate that was chosen for the file.
+    pub(super) frame_rate: Option<u32>,
 }
 
 /// Marks that were found again for a model.
@@ -112,6 +117,8 @@ pub(super) struct RecalledMarks {
     pub(super) pins: Vec<BoneIndex>,
     /// The bone towards which elbows and knees bend.
     pub(super) pole: Option<BoneIndex>,
+    /// The frame rate that was chosen for the file.
+    pub(super) frame_rate: Option<u32>,
 }
 
 impl Marks {
@@ -123,8 +130,8 @@ impl Marks {
     /// Notes the marks of the model that is open, if they changed.
     pub(super) fn note(&mut self, view: &View, now: BoneMarks<'_>) {
         let same = |noted: &Noted| {
-            (&noted.path, noted.version, &noted.pins[..], noted.pole)
-                == (&view.file.path, now.flags.version(), now.pins, now.pole)
+            (&noted.path, noted.version, &noted.pins[..], noted.pole, noted.frame_rate)
+                == (&view.file.path, now.flags.version(), now.pins, now.pole, now.frame_rate)
         };
         if self.noted.as_ref().is_some_and(same) {
             return;
@@ -159,6 +166,7 @@ impl Marks {
             flags: BoneFlag::ALL.into_iter().flat_map(of).collect(),
             pins: marks.pins.iter().filter_map(index).collect(),
             pole: marks.pole.as_ref().and_then(index),
+            frame_rate: marks.frame_rate,
         })
     }
 
@@ -169,14 +177,16 @@ impl Marks {
 }
 
 impl Noted {
-    fn of(view: &View, BoneMarks { flags, pins, pole }: BoneMarks<'_>) -> Self {
-        Self { path: view.file.path.clone(), version: flags.version(), pins: pins.to_vec(), pole }
+    fn of(view: &View, BoneMarks { flags, pins, pole, frame_rate }: BoneMarks<'_>) -> Self {
+        let path = view.file.path.clone();
+        Self { path, version: flags.version(), pins: pins.to_vec(), pole, frame_rate }
     }
 }
 
 impl FileMarks {
     /// Returns the marks of a model as they are stored.
-    fn of(path: String, skeleton: &Skeleton, BoneMarks { flags, pins, pole }: BoneMarks<'_>) -> Self {
+    fn of(path: String, skeleton: &Skeleton, now: BoneMarks<'_>) -> Self {
+        let BoneMarks { flags, pins, pole, frame_rate } = now;
         let names = BoneNames::of(skeleton);
         let list = |flag| flags.of(flag).map(|bone| names.reference(bone)).collect();
         Self {
@@ -186,6 +196,7 @@ impl FileMarks {
             lock: list(BoneFlag::Lock),
             pins: pins.iter().map(|&bone| names.reference(bone)).collect(),
             pole: pole.map(|bone| names.reference(bone)),
+            frame_rate,
         }
     }
 }

@@ -7,6 +7,7 @@ use super::request::Request;
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
 use super::theme::Theme;
+use super::widgets::{disabled_hint_beside, hint_beside};
 use dragonfly_document::Source;
 use dragonfly_picture::{BoneLook, Shading};
 use egui::{Align, Button, Layout, MenuBar, RichText, ScrollArea, Slider, Stroke, TextWrapMode, Ui};
@@ -64,8 +65,10 @@ pub(super) fn item(ui: &mut Ui, context: &PanelContext<'_>, id: Id, on: bool, re
     });
     let button = Button::new(title).shortcut_text(shortcut).frame_when_inactive(false);
     let response = ui.add_enabled(command.when.holds(context), button);
+    hint_beside(&response, command.help);
     let why = format!("{}\n{}", command.help, command.when.reason());
-    if response.on_hover_text(command.help).on_disabled_hover_text(why).clicked() {
+    disabled_hint_beside(&response, why);
+    if response.clicked() {
         requests.push(Request::Command(id));
         ui.close();
     }

@@ -5,7 +5,7 @@
 pub enum Overlay {
     /// Search for a command.
     Palette,
-    /// Keys and mouse.
+    /// Shortcuts of keyboard and mouse.
     Shortcuts,
     /// Version and licenses.
     About,

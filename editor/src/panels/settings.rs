@@ -155,8 +155,46 @@ impl Default for ToolSettings {
     }
 }
 
-/// Frame rates of the timeline that can be chosen, ascending.
-pub const FRAME_RATES: &[u32] = &[24, 25, 30, 48, 50, 60, 90, 100, 120];
+/// Size of the window and whether it fills the screen, as at the last end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct WindowSettings {
+    /// Width and height without the frame, points of the desktop, while the window is not maximized.
+    pub size: [f32; 2],
+    /// Whether it is maximized.
+    pub maximized: bool,
+}
+
+impl Default for WindowSettings {
+    fn default() -> Self {
+        Self { size: [1280.0, 720.0], maximized: false }
+    }
+}
+
+impl WindowSettings {
+    /// Smallest size of the window, points.
+    pub const LEAST: [f32; 2] = [480.0, 320.0];
+    /// Largest size that is remembered, points.
+    const MOST: f32 = 16_384.0;
+
+    /// Height that the window's frame and a panel of the desktop need, points.
+    const FRAME: f32 = 60.0;
+
+    /// Returns the size for a window that fits completely on a screen of this size, points.
+    pub fn size_on(&self, screen: Option<[f32; 2]>) -> [f32; 2] {
+        let most = screen.map_or([Self::MOST; 2], |[width, height]| [width, height - Self::FRAME]);
+        std::array::from_fn(|side| self.size[side].min(most[side]).max(Self::LEAST[side]))
+    }
+
+    fn sanitized(mut self) -> Self {
+        if !self.size.iter().all(|side| side.is_finite()) {
+            self.size = Self::default().size;
+        }
+        self.size = std::array::from_fn(|side| self.size[side].clamp(Self::LEAST[side], Self::MOST));
+        self
+    }
+}
+
 /// Smallest and largest scale of the window's content.
 pub const SCALES: std::ops::RangeInclusive<f32> = 0.75..=2.0;
 /// Slowest and fastest playback.
@@ -170,6 +208,8 @@ pub const RECENT: usize = 10;
 pub struct Settings {
     /// The theme.
     pub theme: ThemeChoice,
+    /// Size of the window.
+    pub window: WindowSettings,
     /// Scale of the window's content; 1 is the usual size.
     pub scale: f32,
     /// How the viewport is drawn.
@@ -183,8 +223,6 @@ pub struct Settings {
     pub repeat: Repeat,
     /// Speed of playback, seconds of the take per second.
     pub speed: f32,
-    /// Frame rate of the timeline, frames per second.
-    pub frame_rate: u32,
     /// Keys of commands.
     pub keys: KeySettings,
     /// Whether a changed pose becomes a key at once.
@@ -203,13 +241,13 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             theme: ThemeChoice::default(),
+            window: WindowSettings::default(),
             scale: 1.0,
             look: LookSettings::default(),
             tools: ToolSettings::default(),
             timeline: TimelineSettings::default(),
             repeat: Repeat::default(),
             speed: 1.0,
-            frame_rate: 30,
             keys: KeySettings::default(),
             auto_key: true,
             falloff: FalloffSettings::default(),
@@ -237,10 +275,8 @@ impl Settings {
             if self.scale.is_finite() { self.scale.clamp(*SCALES.start(), *SCALES.end()) } else { 1.0 };
         self.speed =
             if self.speed.is_finite() { self.speed.clamp(*SPEEDS.start(), *SPEEDS.end()) } else { 1.0 };
-        if !FRAME_RATES.contains(&self.frame_rate) {
-            self.frame_rate = 30;
-        }
         self.falloff = self.falloff.sanitized();
+        self.window = self.window.sanitized();
         self.tools.ghosts = self.tools.ghosts.sanitized();
         self.tools.ik.length = self.tools.ik.length.clamp(1, LONGEST_CHAIN);
         self.recent.truncate(RECENT);

@@ -30,7 +30,7 @@ impl ShortcutSheet {
     pub(super) fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         let room = ui.ctx().content_rect();
         ui.set_width((room.width() - 96.0).clamp(320.0, 860.0));
-        overlay_title::show(ui, "Keys and mouse", requests);
+        overlay_title::show(ui, "Shortcuts", requests);
         self.listen(ui, &context.settings.keys, requests);
         self.head(ui, &context.settings.keys, requests);
         let height = (room.height() - 220.0).max(120.0);
@@ -55,8 +55,8 @@ impl ShortcutSheet {
     /// Draws the search field and the presets.
     fn head(&mut self, ui: &mut Ui, keys: &KeySettings, requests: &mut Vec<Request>) {
         ui.horizontal_wrapped(|ui| {
-            let field = TextEdit::singleline(&mut self.query).hint_text("Find a command or a key");
-            ui.add(field.desired_width(200.0)).accessible_name("Find a command or a key");
+            let field = TextEdit::singleline(&mut self.query).hint_text("Find a command or a shortcut");
+            ui.add(field.desired_width(200.0)).accessible_name("Find a command or a shortcut");
             ui.add_space(2.0 * GRID);
             ui.label(RichText::new("Preset").color(Theme::of(ui).weak));
             for preset in Preset::ALL {

@@ -14,7 +14,7 @@ use super::workspace::Workspace;
 use crate::control::InputEvent;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{NotSaved, Offer, SaveOrder, View};
+use dragonfly_document::{NotSaved, Offer, SaveOrder, SavedFile, View};
 use egui::{Context, Pos2, RawInput};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -140,6 +140,11 @@ impl State {
         self.workspace.dragging.echo.forget();
     }
 
+    /// Reports a save that was completed, and the pending poses that it left out.
+    pub fn saved(&mut self, saved: &SavedFile) {
+        files::saved(&mut self.workspace, saved);
+    }
+
     /// Handles a save that failed: asks the user what to do, or reports the reason.
     pub fn not_saved(&mut self, order: SaveOrder, reason: NotSaved) -> Option<Effect> {
         files::not_saved(&mut self.workspace, order, reason)
@@ -180,9 +185,10 @@ impl State {
         &mut self.workspace.settings
     }
 
-    /// Returns when the time display must be drawn again, if it must.
+    /// Returns when the time display or the status line must be drawn again, if they must.
     pub fn next_display(&self) -> Option<Duration> {
-        self.workspace.player.next_display()
+        let message = self.workspace.status.shown_for().filter(|left| !left.is_zero());
+        [self.workspace.player.next_display(), message].into_iter().flatten().min()
     }
 
     /// Returns the markers and marks as the text of their files.

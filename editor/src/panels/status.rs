@@ -1,6 +1,7 @@
 //! Messages: the last one is shown at the bottom of the window, all of them on a click.
 
 use std::collections::VecDeque;
+use std::time::{Duration, Instant};
 
 /// Severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +33,16 @@ pub struct Status {
     said: u64,
     /// Whether the last message is more important than a remark that follows it.
     weighs_more: bool,
+    /// The number of messages and the moment when the newest one was shown first.
+    shown: Option<(u64, Instant)>,
+    /// The moment of the newest frame.
+    now: Option<Instant>,
 }
+
+/// Time for which an information is shown.
+const INFO_SHOWN: Duration = Duration::from_secs(6);
+/// Time for which a warning is shown.
+const WARNING_SHOWN: Duration = Duration::from_secs(20);
 
 /// Maximum number of messages that are kept.
 const KEPT: usize = 200;
@@ -77,6 +87,32 @@ impl Status {
         if !std::mem::take(&mut self.weighs_more) {
             self.say(MessageSeverity::Info, text);
         }
+    }
+
+    /// Notes the moment of a frame, from which the time is counted for which a message is shown.
+    pub(super) fn begin_frame(&mut self, now: Instant) {
+        self.now = Some(now);
+        if self.shown.is_none_or(|(said, _)| said != self.said) {
+            self.shown = Some((self.said, now));
+        }
+    }
+
+    /// Returns the newest message while it is shown: an error until the next message, others for some seconds.
+    pub fn current(&self) -> Option<&StatusMessage> {
+        self.last().filter(|_| self.shown_for() != Some(Duration::ZERO))
+    }
+
+    /// Returns the time after which the newest message is no longer shown; zero when it is not shown any more, `None` if it
+    /// stays.
+    pub(super) fn shown_for(&self) -> Option<Duration> {
+        let limit = match self.last()?.level {
+            MessageSeverity::Info => INFO_SHOWN,
+            MessageSeverity::Warning => WARNING_SHOWN,
+            MessageSeverity::Error => return None,
+        };
+        let (said, since) = self.shown?;
+        let age = self.now?.saturating_duration_since(since);
+        (said == self.said).then(|| limit.saturating_sub(age))
     }
 
     /// Returns the newest message.

@@ -86,7 +86,7 @@ fn message(ui: &mut Ui, context: &PanelContext<'_>) {
     let theme = Theme::of(ui);
     let size = vec2(ui.available_width(), ui.available_height());
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let (text, level) = match (context.loading, context.status.last()) {
+    let (text, level) = match (context.loading, context.status.current()) {
         _ if let Some(drag) = context.keys.buttonless() => {
             (buttonless_keys::hint(drag).to_owned(), MessageSeverity::Info)
         }

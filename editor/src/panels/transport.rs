@@ -4,13 +4,15 @@ use super::command_button::command_button;
 use super::commands::{self, Id};
 use super::context::PanelContext;
 use super::edit_scope_menu;
+use super::frame_rate::{OFFERED, RATES};
 use super::icons::Icon;
+use super::menu::outline_fields;
 use super::request::Request;
 use super::ruler;
-use super::settings::{FRAME_RATES, SPEEDS};
-use super::style::{CONTROL, GRID, icon_size};
+use super::settings::SPEEDS;
+use super::style::{CONTROL, GRID};
 use super::theme::Theme;
-use super::widgets::{icon_button, text_width};
+use super::widgets::{icon_button, quiet_button, text_width};
 use crate::control::expression::{Quantity, evaluate};
 use dragonfly_picture::playback::{LATEST, Repeat};
 use egui::{Align, Button, DragValue, Layout, RichText, TextStyle, Ui, vec2};
@@ -22,28 +24,60 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
         ui.set_height(32.0);
         ui.add_space(2.0 * GRID);
         ui.spacing_mut().item_spacing.x = 2.0;
+        let scope = edit_scope_menu::title_in(context, ui.available_width());
+        let room = Room::of(ui.available_width() - edit_scope_menu::width(ui, scope));
         ui.add_enabled_ui(able, |ui| buttons(ui, context, requests));
-        divider(ui);
-        keying(ui, context, requests);
-        // Controls that do not fit next to the time are left out: menus have them as well.
-        let room = ui.available_width() - right_width(ui, context);
-        let buttons = 3.0 * (icon_size().x + 2.0) + DIVIDER;
-        if room > buttons {
+        if room >= Room::Keying {
+            divider(ui);
+            keying(ui, context, scope, requests);
+        }
+        if room >= Room::Repeat {
             divider(ui);
             repeat(ui, context, requests);
         }
-        if room > buttons + SPEED + DIVIDER {
+        if room >= Room::Speed {
             divider(ui);
             speed(ui, context, requests);
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.add_space(2.0 * GRID);
             ui.spacing_mut().item_spacing.x = GRID;
-            frame_rate(ui, context, requests);
-            divider(ui);
-            ui.add_enabled_ui(able, |ui| time(ui, context, requests));
+            if room >= Room::Rate {
+                frame_rate(ui, context, requests);
+                divider(ui);
+            }
+            if room >= Room::Frame {
+                ui.add_enabled_ui(able, |ui| time(ui, context, room, requests));
+            }
         });
     });
+}
+
+/// The parts of the bar that fit, the most important first: menus and keys have the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Room {
+    Buttons,
+    Frame,
+    Keying,
+    Rate,
+    Repeat,
+    Seconds,
+    Speed,
+}
+
+impl Room {
+    /// Returns what fits into a width, points.
+    fn of(width: f32) -> Self {
+        let needed = [
+            (Self::Speed, 690.0),
+            (Self::Seconds, 620.0),
+            (Self::Repeat, 540.0),
+            (Self::Rate, 420.0),
+            (Self::Keying, 330.0),
+            (Self::Frame, 260.0),
+        ];
+        needed.into_iter().find(|(_, needed)| width >= *needed).map_or(Self::Buttons, |(room, _)| room)
+    }
 }
 
 fn buttons(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
@@ -64,10 +98,10 @@ fn buttons(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>)
     command_button(ui, Icon::Last, Id::End, false, requests);
 }
 
-fn keying(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn keying(ui: &mut Ui, context: &PanelContext<'_>, scope: &str, requests: &mut Vec<Request>) {
     command_button(ui, Icon::AutoKey, Id::AutoKey, context.settings.auto_key, requests);
+    edit_scope_menu::switch(ui, context, scope, requests);
     let waits = context.pending_here().is_some();
-    edit_scope_menu::switch(ui, context, ui.available_width() - right_width(ui, context), requests);
     ui.add_enabled_ui(context.take().is_some(), |ui| {
         command_button(ui, Icon::Key, Id::Key, waits, requests);
     });
@@ -96,30 +130,42 @@ fn speed(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         .suffix("×")
         .update_while_editing(false)
         .custom_parser(number);
-    let response = ui.add_sized(vec2(SPEED, CONTROL), field).accessible_name("Speed");
+    let response = ui.add_sized(vec2(52.0, CONTROL), field).accessible_name("Speed");
     if response.on_hover_text("Speed\nDrag, or click to type").changed() {
         requests.push(Request::Speed(speed));
     }
 }
 
 fn frame_rate(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-    let rate = context.settings.frame_rate;
-    let button = Button::new(RichText::new(format!("{rate} fps")).color(Theme::of(ui).weak)).frame(false);
-    let response = ui.add(button).on_hover_text("Frames per second, for display and stepping");
-    egui::Popup::menu(&response).show(|ui| {
+    let rate = context.frame_rate;
+    let text = format!("{rate} fps");
+    let response = quiet_button(ui, Icon::Down, false, &text, &text);
+    let response = response.on_hover_text("Frame rate of this document: display, stepping and baking");
+    let menu = egui::Popup::menu(&response).close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+    menu.show(|ui| {
         ui.set_width(96.0);
-        for &choice in FRAME_RATES {
+        for &choice in OFFERED {
             if ui.add(Button::selectable(choice == rate, format!("{choice} fps"))).clicked() {
                 requests.push(Request::FrameRate(choice));
+                ui.close();
             }
+        }
+        outline_fields(ui);
+        let mut typed = rate;
+        let field = DragValue::new(&mut typed)
+            .range(RATES)
+            .speed(0.1)
+            .suffix(" fps")
+            .update_while_editing(false)
+            .custom_parser(|text| number(text.trim_end_matches("fps")));
+        let width = ui.available_width();
+        let response = ui.add_sized(vec2(width, CONTROL), field).accessible_name("Frame rate");
+        if response.on_hover_text("Any other frame rate\nDrag, or click to type").changed() {
+            requests.push(Request::FrameRate(typed));
         }
     });
 }
 
-/// Width of the field for the speed.
-const SPEED: f32 = 52.0;
-/// Width of a line between groups, with its margins.
-const DIVIDER: f32 = 15.0;
 /// Smallest width of the field for the frame.
 const FRAME: f32 = 48.0;
 /// Smallest width of the field for the time.
@@ -130,29 +176,16 @@ fn field_width(ui: &Ui, text: &str) -> f32 {
     text_width(ui, text, &TextStyle::Monospace) + 2.0 * ui.spacing().button_padding.x
 }
 
-/// Returns the widths of the fields for the frame and the time.
-fn time_widths(ui: &Ui, context: &PanelContext<'_>) -> [f32; 2] {
-    let frame = ruler::frame_of(context.time(), context.settings.frame_rate);
-    let fields = [format!("{frame}"), format!("{:.3} s", context.time())].map(|text| field_width(ui, &text));
-    [fields[0].max(FRAME), fields[1].max(TIME)]
-}
-
-/// Returns the width of the frame rate and the time, without the number of the last frame.
-fn right_width(ui: &Ui, context: &PanelContext<'_>) -> f32 {
-    let rate = field_width(ui, &format!("{} fps", context.settings.frame_rate));
-    time_widths(ui, context).iter().sum::<f32>() + rate + DIVIDER + 6.0 * GRID
-}
-
 /// Draws the time from right to left: frames, seconds.
-fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+fn time(ui: &mut Ui, context: &PanelContext<'_>, room: Room, requests: &mut Vec<Request>) {
     let theme = Theme::of(ui);
-    let rate = context.settings.frame_rate;
+    let rate = context.frame_rate;
     let (start, length) = context.take_bounds();
     let mut frame = ruler::frame_of(context.time(), rate);
     let last = format!("/ {}", ruler::frame_of(start + length, rate));
     // Long numbers need the room of the last frame's number themselves.
-    let fields = time_widths(ui, context).iter().sum::<f32>();
-    let needed = fields + text_width(ui, &last, &TextStyle::Monospace);
+    let fields = [format!("{frame}"), format!("{:.3} s", context.time())].map(|text| field_width(ui, &text));
+    let needed = fields[0].max(FRAME) + fields[1].max(TIME) + text_width(ui, &last, &TextStyle::Monospace);
     if ui.available_width() > needed + 3.0 * ui.spacing().item_spacing.x {
         ui.label(RichText::new(last).monospace().color(theme.weak));
     }
@@ -169,6 +202,9 @@ fn time(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         .changed()
     {
         requests.push(Request::Seek(ruler::time_of(frame, rate)));
+    }
+    if room < Room::Seconds {
+        return;
     }
     let mut seconds = context.time();
     let field = DragValue::new(&mut seconds)

@@ -18,6 +18,13 @@ pub(super) fn hint_beside(response: &Response, hint: impl Into<WidgetText>) {
     tooltip.show(|ui| ui.label(hint));
 }
 
+/// Shows a tooltip on the right of a disabled widget.
+pub(super) fn disabled_hint_beside(response: &Response, hint: impl Into<WidgetText>) {
+    let mut tooltip = Tooltip::for_disabled(response);
+    tooltip.popup = tooltip.popup.align(RectAlign::RIGHT);
+    tooltip.show(|ui| ui.label(hint));
+}
+
 /// Draws a square button with an icon; `name` is its accessible name.
 pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(style::icon_size(), Sense::click());
@@ -89,6 +96,28 @@ pub(super) fn text_in(ui: &Ui, rect: Rect, text: &str, style: &TextStyle, color:
     let right = at.x + galley.size().x;
     ui.painter().galley(at, galley, color);
     right
+}
+
+/// Returns a text that is at most as wide as `width`: without its middle if it is wider, because names often differ at
+/// both ends.
+pub(super) fn cut_in_middle(ui: &Ui, text: &str, width: f32, style: &TextStyle) -> String {
+    if text_width(ui, text, style) <= width {
+        return text.to_owned();
+    }
+    let letters: Vec<char> = text.chars().collect();
+    let cut = |kept: usize| {
+        let (first, last) = (kept.div_ceil(2), kept / 2);
+        let start: String = letters[..first].iter().collect();
+        let end: String = letters[letters.len() - last..].iter().collect();
+        format!("{start}…{end}")
+    };
+    // The widest that fits, by bisection: it is wider with each letter.
+    let (mut fits, mut too_many) = (0, letters.len());
+    while too_many - fits > 1 {
+        let middle = fits.midpoint(too_many);
+        if text_width(ui, &cut(middle), style) <= width { fits = middle } else { too_many = middle }
+    }
+    cut(fits)
 }
 
 /// Returns the width of a text, points.

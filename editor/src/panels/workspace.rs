@@ -5,6 +5,7 @@ use super::context::PanelContext;
 use super::curves::given::GivenAngles;
 use super::dragging::Dragging;
 use super::edit_scope::EditOver;
+use super::frame_rate::FrameRate;
 use super::keys::KeyEditing;
 use super::marks::Marks;
 use super::open_model::OpenModel;
@@ -29,6 +30,8 @@ pub(super) struct Workspace {
     pub(super) posed: PoseCache,
     /// The take and the time that are shown.
     pub(super) player: Player,
+    /// The frame rate of the document.
+    pub(super) frame_rate: FrameRate,
     /// Selected, hidden and pinned bones.
     pub(super) bones: SelectedBones,
     /// Selection and drag of keys, flags, markers, the play range.
@@ -66,6 +69,7 @@ impl Workspace {
             model: OpenModel::default(),
             posed: PoseCache::default(),
             player: Player::new(settings.speed, settings.repeat, now),
+            frame_rate: FrameRate::default(),
             bones: SelectedBones::default(),
             keys: KeyEditing::of(settings.timeline),
             selections: SelectionSteps::default(),
@@ -100,6 +104,7 @@ impl Workspace {
             over: self.over,
             playback: self.player.playback(),
             now: self.player.now(),
+            frame_rate: self.frame_rate.get(),
             keys: &self.keys,
             given: &self.given,
             takes: &self.takes,

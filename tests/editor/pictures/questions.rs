@@ -9,7 +9,7 @@ use dragonfly::panels::dialogs::{
     UnsavedQuestion,
 };
 use dragonfly_document::edit::{Edit, ReverseTake, TakeRef};
-use dragonfly_document::{Change, Offer, SaveOrder, Source, Then};
+use dragonfly_document::{Change, FileView, Offer, SaveOrder, Source, Then};
 use dragonfly_store::DocumentFileState::{Changed, Missing, Same, Unsaved};
 use dragonfly_store::FileState;
 use dragonfly_store::OwnerStatus::{Exited, OnOtherHost};
@@ -106,6 +106,10 @@ fn bench(state: &str) -> Workbench {
     for panel in dragonfly::panels::all() {
         bench.desk.toggle_panel(panel.id());
     }
+    let mut view = bench.state.read().view.cloned().expect("a model");
+    // A relative path would be completed with the folder in which the tests run.
+    view.file = Arc::new(FileView { path: Some("/home/mara/models/Fox.glb".into()), ..(*view.file).clone() });
+    bench.state.show(view);
     bench
 }
 

@@ -76,7 +76,7 @@ fn announced_length(bytes: &[u8], context: &ImportContext<'_>) -> Result<usize, 
         return Err(invalid(8, code::GLB_LENGTH_TOO_SMALL, reason));
     }
     if length > bytes.len() {
-        let reason = format!("the header declares {length} bytes, the file has {}", bytes.len());
+        let reason = format!("the file is incomplete: {} of {length} bytes", bytes.len());
         return Err(invalid(8, code::GLB_LENGTH_MISMATCH, reason));
     }
     if length < bytes.len() {
@@ -123,7 +123,7 @@ fn not_a_glb(bytes: &[u8]) -> String {
     } else {
         ""
     };
-    format!("the file does not begin with \"glTF\"{instead}")
+    format!("this is not a glTF file{instead}")
 }
 
 fn word(bytes: &[u8], at: usize) -> u32 {

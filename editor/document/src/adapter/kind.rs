@@ -2,8 +2,8 @@
 
 use crate::edit::target::Property;
 use dragonfly_anim::data::{Channel, Track, Transform};
-use dragonfly_anim::offset::{AddedTranslation, KeyOffset, ParentRotation, ScaleFactors};
 use dragonfly_anim::inbetween::KeyValue;
+use dragonfly_anim::offset::{AddedTranslation, KeyOffset, ParentRotation, ScaleFactors};
 use dragonfly_anim::sample::Value;
 use glam::{Quat, Vec3};
 

@@ -35,12 +35,12 @@ impl MirrorGuess {
     /// Returns the text for lists.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Name => "same name",
-            Self::Capitals => "same except for capitals",
-            Self::Words => "same words, other spelling",
-            Self::Numbers => "same except for a number",
-            Self::Glued => "side inside another word",
-            Self::Place => "mirrored positions",
+            Self::Name => "by name",
+            Self::Capitals => "by name, except for capitals",
+            Self::Words => "by name, in another spelling",
+            Self::Numbers => "by name, except for a number",
+            Self::Glued => "by a side inside another word",
+            Self::Place => "by mirrored positions",
         }
     }
 }

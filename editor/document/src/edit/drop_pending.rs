@@ -29,7 +29,7 @@ impl EditKind for DropPending {
     };
 
     fn label(&self) -> &'static str {
-        "Drop pending poses"
+        "Discard pending poses"
     }
 
     fn take(&self) -> Option<&TakeRef> {

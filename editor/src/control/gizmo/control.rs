@@ -26,6 +26,8 @@ pub struct GizmoControl {
     answer: Option<GizmoAnswer>,
     clicked: Option<Mouse>,
     refused: bool,
+    /// Whether the pointer is over a handle that cannot be dragged.
+    refuses: bool,
 }
 
 /// A press that may still be a click.
@@ -60,11 +62,17 @@ impl Default for GizmoControl {
             answer: None,
             clicked: None,
             refused: false,
+            refuses: false,
         }
     }
 }
 
 impl GizmoControl {
+    /// Returns whether the pointer is over a handle that cannot be dragged now.
+    pub fn refuses(&self) -> bool {
+        self.refuses && !self.editable
+    }
+
     /// Begins a drag by a key, with the pointer at `at` in the window. The gizmo, whose id is `own`, has mouse and
     /// keyboard until the drag ends. Returns false if there is nothing to drag.
     pub fn begin_by_key(&mut self, own: ControlId, at: Vec2, framework: &mut ControlFramework) -> bool {
@@ -174,12 +182,15 @@ impl BaseControl for GizmoControl {
             let answer = self.gizmo.pointer(at, mouse.modifiers);
             return self.note(answer, framework);
         }
-        self.gizmo.hover(Some(at));
+        // A handle that cannot be dragged does not light up.
+        self.gizmo.hover(Some(at).filter(|_| self.editable));
+        self.refuses = !self.editable && self.gizmo.handle_at(at).is_some();
         InputFlow::ToParent
     }
 
     fn mouse_leave(&mut self, _framework: &mut ControlFramework) {
         self.gizmo.hover(None);
+        self.refuses = false;
     }
 
     fn mouse_down(&mut self, button: Button, mouse: Mouse, framework: &mut ControlFramework) -> InputFlow {

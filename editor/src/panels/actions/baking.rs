@@ -26,7 +26,7 @@ pub(in crate::panels) fn bake_pins(workspace: &mut Workspace) -> Option<Effect> 
     let take = Arc::clone(panels.posed.takes(view).get(panels.playback.take?)?);
     let skeleton = Arc::clone(&view.loaded.model.animation.skeleton);
     let (fixed, mode) = (panels.fixed_bones(), panels.ik);
-    let (play, rate) = (panels.play_bounds(), panels.settings.frame_rate);
+    let (play, rate) = (panels.play_bounds(), panels.frame_rate);
     let mut poses = vec![Transform::IDENTITY; skeleton.len()];
     let mut at_time = |time: f32| {
         sample_take(Some(&take), &skeleton, time, &mut poses);

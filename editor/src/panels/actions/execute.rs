@@ -54,7 +54,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Seek(time) => playback::seek(workspace, time),
         Request::Speed(speed) => playback::set_speed(workspace, speed),
         Request::Repeat(repeat) => playback::set_repeat(workspace, repeat),
-        Request::FrameRate(rate) => workspace.settings.frame_rate = rate,
+        Request::FrameRate(rate) => workspace.frame_rate.choose(rate),
         Request::Scale(scale) => look::set_scale(workspace, scale),
         Request::Keys(keys) => workspace.settings.keys = keys,
         Request::Camera(camera) => workspace.camera.set_camera(camera),

@@ -6,7 +6,7 @@ use crate::panels::prompts::Question;
 use crate::panels::request::{Effect, FileAction};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_document::{Decision, DocumentMessage, NotSaved, Offer, SaveOrder, SaveTo};
+use dragonfly_document::{Decision, DocumentMessage, NotSaved, Offer, SaveOrder, SaveTo, SavedFile};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 
@@ -79,6 +79,35 @@ fn save_as(workspace: &Workspace, order: SaveOrder) -> Effect {
     } else {
         FileAction::Send(DocumentMessage::Save(order))
     })
+}
+
+/// Reports a save that was completed. Poses that are still pending are named: they are not in the file.
+pub(in crate::panels) fn saved(workspace: &mut Workspace, saved: &SavedFile) {
+    let name = saved.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    if !saved.copy {
+        workspace.settings.remember(&saved.path);
+    }
+    for notice in &saved.notices {
+        workspace.say(MessageSeverity::Warning, format!("{name}: {notice}"));
+    }
+    let what = if saved.copy { "Saved a copy as" } else { "Saved" };
+    let others = match saved.beside {
+        0 => String::new(),
+        1 => " and one further file".to_owned(),
+        files => format!(" and {files} further files"),
+    };
+    let text = format!("{what} {name}{others}");
+    match workspace.read().pending_poses().1 {
+        0 => workspace.say(MessageSeverity::Info, text),
+        1 => workspace.say(
+            MessageSeverity::Warning,
+            format!("{text}, but 1 pending pose is not in the file: key it first"),
+        ),
+        poses => workspace.say(
+            MessageSeverity::Warning,
+            format!("{text}, but {poses} pending poses are not in the file: key them first"),
+        ),
+    }
 }
 
 /// Handles a save that failed: asks the user what to do, or reports the reason.

@@ -24,6 +24,6 @@ pub(in crate::panels) fn apply(workspace: &mut Workspace, tool: InBetweenTool, v
 pub(in crate::panels) fn resample(workspace: &mut Workspace, every: u32) -> Option<Effect> {
     let panels = workspace.read();
     let keys = panels.keys.selection().key_sets(panels.take()?);
-    let (take, rate) = (panels.take_ref()?, panels.settings.frame_rate as f32);
+    let (take, rate) = (panels.take_ref()?, panels.frame_rate as f32);
     Some(edit(Edit::ResampleKeys(ResampleKeys { take, keys, rate, every })))
 }

@@ -127,7 +127,7 @@ pub(in crate::panels) fn nudge(workspace: &mut Workspace, frames: f32) -> Option
 
 /// Moves the selected keys to whole frames.
 pub(in crate::panels) fn snap(workspace: &mut Workspace) -> Option<Effect> {
-    let rate = workspace.settings.frame_rate as f32;
+    let rate = workspace.frame_rate.get() as f32;
     drag_at_once(workspace, KeyDragOp::Snap(rate))
 }
 

@@ -2,9 +2,7 @@
 
 use super::{drags, framing, keys, playback, scope, tools};
 use crate::panels::change_summary;
-use crate::panels::frame_rate;
 use crate::panels::marks::{BoneMarks, RecalledMarks};
-use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::View;
 use std::time::Instant;
@@ -12,6 +10,7 @@ use std::time::Instant;
 /// Starts a frame: computes what the panels read.
 pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
     workspace.player.set_now(now);
+    workspace.status.begin_frame(now);
     workspace.player.stop_at_end();
     drags::settle_keys(workspace);
     if let Some(take) = workspace.read().shared_take().cloned() {
@@ -66,8 +65,8 @@ fn show_model(workspace: &mut Workspace) {
     if let Some(view) = workspace.model.view() {
         workspace.keys.open(view.file.key());
     }
-    recall_marks(workspace);
     guess_frame_rate(workspace);
+    recall_marks(workspace);
     let takes = workspace.model.takes();
     // Some programs write a single pose before the takes that move.
     let moving = takes.iter().position(|take| take.length > 0.0);
@@ -81,7 +80,12 @@ fn show_model(workspace: &mut Workspace) {
 }
 
 fn marks(workspace: &Workspace) -> BoneMarks<'_> {
-    BoneMarks { flags: workspace.keys.flags(), pins: workspace.bones.pins(), pole: workspace.tools.ik().pole }
+    BoneMarks {
+        flags: workspace.keys.flags(),
+        pins: workspace.bones.pins(),
+        pole: workspace.tools.ik().pole,
+        frame_rate: workspace.frame_rate.chosen(),
+    }
 }
 
 /// Notes the marks of the model that is open, if they changed.
@@ -97,12 +101,15 @@ pub(in crate::panels) fn note_marks(workspace: &mut Workspace) {
 fn recall_marks(workspace: &mut Workspace) {
     let mut remembered = std::mem::take(&mut workspace.marks);
     let recalled = workspace.model.view().and_then(|view| remembered.recall(view));
-    if let Some(RecalledMarks { flags, pins, pole }) = recalled {
+    if let Some(RecalledMarks { flags, pins, pole, frame_rate }) = recalled {
         for (flag, bone) in flags {
             workspace.keys.set_flag(flag, bone, true);
         }
         workspace.bones.set_pins(pins);
         workspace.tools.set_pole(pole);
+        if let Some(rate) = frame_rate {
+            workspace.frame_rate.choose(rate);
+        }
         if let Some(view) = workspace.model.view() {
             remembered.recalled(view, marks(workspace));
         }
@@ -110,12 +117,7 @@ fn recall_marks(workspace: &mut Workspace) {
     workspace.marks = remembered;
 }
 
-/// Sets the frame rate at which the keys of the model were made, unless they are at frames of the current rate.
+/// Sets the lowest usual frame rate that the keys of the model fit.
 fn guess_frame_rate(workspace: &mut Workspace) {
-    let now = workspace.settings.frame_rate;
-    if let Some(rate) = frame_rate::rate_of(workspace.model.takes(), now).filter(|&rate| rate != now) {
-        workspace.settings.frame_rate = rate;
-        let text = format!("The keys are at {rate} frames per second: the timeline uses this frame rate now");
-        workspace.say(MessageSeverity::Info, text);
-    }
+    workspace.frame_rate.guess(workspace.model.takes());
 }

@@ -87,7 +87,7 @@ pub(super) fn update_path(workspace: &mut Workspace) {
     let source = workspace.model.view().zip(workspace.player.take()).zip(workspace.bones.active());
     let changed = match source.filter(|_| workspace.settings.tools.path) {
         Some(((view, take), bone)) => {
-            let (rate, flags) = (workspace.settings.frame_rate, workspace.keys.flags());
+            let (rate, flags) = (workspace.frame_rate.get(), workspace.keys.flags());
             workspace.tools.path_mut().update(view, take, bone, rate, flags)
         }
         None => workspace.tools.path_mut().clear(),

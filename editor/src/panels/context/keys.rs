@@ -22,7 +22,7 @@ impl<'a> PanelContext<'a> {
 
     /// Returns the duration of a frame, seconds.
     pub(in crate::panels) fn frame_seconds(&self) -> f32 {
-        1.0 / self.settings.frame_rate.max(1) as f32
+        1.0 / self.frame_rate.max(1) as f32
     }
 
     /// Returns start and length of the take that is shown.
@@ -120,7 +120,7 @@ impl<'a> PanelContext<'a> {
                         Some(_) | None => break,
                     }
                 } else {
-                    time + (direction * ghosts.step as i32) as f32 / self.settings.frame_rate.max(1) as f32
+                    time + (direction * ghosts.step as i32) as f32 / self.frame_rate.max(1) as f32
                 };
                 if time < start - 1e-4 || time > end + 1e-4 {
                     break;

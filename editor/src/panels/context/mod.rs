@@ -61,6 +61,8 @@ pub struct PanelContext<'a> {
     pub playback: PlaybackClock,
     /// The moment of the frame that is drawn.
     pub now: Instant,
+    /// Frame rate of the document, frames per second.
+    pub frame_rate: u32,
     /// Selection and drag of keys, flags, markers, the play range.
     pub keys: &'a KeyEditing,
     /// The angles that were given to rotation keys.

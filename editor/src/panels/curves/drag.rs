@@ -188,7 +188,7 @@ impl CurveDragged {
                 let snap = context.keys.snap() != input.modifiers.command;
                 let by = if snap { to_frame(*grabbed + by, context) - *grabbed } else { by };
                 ui.ctx().set_cursor_icon(CursorIcon::ResizeHorizontal);
-                let frames = by * context.settings.frame_rate as f32;
+                let frames = by * context.frame_rate as f32;
                 readout(ui, pointer, &format!("{by:+.3} s   {frames:+.1} frames"));
                 *requested = true;
                 Some(if *copies { KeyDragOp::Duplicate(by) } else { KeyDragOp::Move(by) })

@@ -25,16 +25,18 @@ impl QuestionKind for PlaceQuestion {
         let Some(view) = view else { return String::new() };
         let read = view.loaded.path.as_deref();
         let own = view.file.path.as_deref();
+        // With its folder, also where the file was opened by a relative path.
+        let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let beside = |path: &Path, what: &str| {
             let part = |part: Option<&std::ffi::OsStr>| {
                 part.map_or_else(String::new, |part| part.to_string_lossy().into_owned())
             };
             let name = format!("{} {what}.{}", part(path.file_stem()), part(path.extension()));
-            path.with_file_name(name).display().to_string()
+            whole(path).with_file_name(name).display().to_string()
         };
         match (own, read) {
             (Some(path), _) if self.copy => beside(path, "copy"),
-            (Some(path), _) => path.display().to_string(),
+            (Some(path), _) => whole(path).display().to_string(),
             (None, Some(path)) => beside(path, "recovered"),
             (None, None) => {
                 let folder = std::env::home_dir().unwrap_or_default();

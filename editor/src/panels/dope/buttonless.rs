@@ -83,7 +83,7 @@ impl<'a> ButtonlessTimes<'a> {
     }
 
     fn distance(&self, verb: &str, by: f32) -> String {
-        let frames = by * self.context.settings.frame_rate as f32;
+        let frames = by * self.context.frame_rate as f32;
         format!("{verb}{by:+.3} s   {frames:+.1} frames")
     }
 }

@@ -209,7 +209,7 @@ impl DraggedKeys {
             DragMode::Duplicate => ("Duplicate ", KeyDragOp::Duplicate(by)),
             DragMode::Ripple { from } => ("Ripple ", KeyDragOp::Ripple { from, by }),
         };
-        let frames = by * context.settings.frame_rate as f32;
+        let frames = by * context.frame_rate as f32;
         readout(ui, pointer, &format!("{verb}{by:+.3} s   {frames:+.1} frames"));
         op
     }

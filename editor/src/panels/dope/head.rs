@@ -71,7 +71,7 @@ pub(in crate::panels) fn ticks(
     context: &PanelContext<'_>,
     theme: &Theme,
 ) {
-    let rate = context.settings.frame_rate;
+    let rate = context.frame_rate;
     let ruler = scale.ruler();
     let decimals = ruler.decimals(rate);
     let fine = Stroke::new(1.0, theme.line.gamma_multiply(0.55));
@@ -257,7 +257,7 @@ fn to_key_or_frame(time: f32, scale: &TimeScale, context: &PanelContext<'_>) -> 
 
 /// Returns the frame nearest to a time, seconds.
 pub(in crate::panels) fn to_frame(time: f32, context: &PanelContext<'_>) -> f32 {
-    let rate = context.settings.frame_rate;
+    let rate = context.frame_rate;
     crate::panels::ruler::time_of(crate::panels::ruler::frame_of(time, rate), rate)
 }
 

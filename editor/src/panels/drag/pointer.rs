@@ -59,8 +59,11 @@ pub(in crate::panels) fn position(at: glam::Vec2) -> Pos2 {
     pos2(at.x, at.y)
 }
 
-/// Draws the present amount of a drag next to the pointer.
+/// Draws the present amount of a drag, or a value, next to the pointer; not over an open menu.
 pub(in crate::panels) fn readout(ui: &Ui, pointer: Pos2, text: &str) {
+    if egui::Popup::is_any_open(ui.ctx()) {
+        return;
+    }
     let theme = Theme::of(ui);
     let layer = egui::LayerId::new(egui::Order::Tooltip, egui::Id::unique("readout"));
     let painter = ui.ctx().layer_painter(layer);

@@ -279,11 +279,11 @@ fn quaternion_head(ui: &mut Ui, look: PropertiesLook, adds: bool, requests: &mut
     }
 }
 
-/// Draws the position of the bone in the scene and its place in the skeleton.
+/// Draws the world position of the bone and its place in the skeleton.
 fn place(ui: &mut Ui, context: &PanelContext<'_>, bone: BoneIndex, size: f64) {
     let to_root = context.posed.animation().and_then(|animation| animation.to_root().get(bone as usize));
     if let Some(to_root) = to_root {
-        widgets::caption(ui, "In the scene");
+        widgets::caption(ui, "World position");
         for (axis, value) in ["X", "Y", "Z"].into_iter().zip(to_root.w_axis.truncate().to_array()) {
             // Less than a millionth of the model is a rounding error.
             let value = if f64::from(value.abs()) < size * 1e-6 { 0.0 } else { f64::from(value) };

@@ -36,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>) {
         fact(ui, "Images", &widgets::grouped(model.images.len()));
     }
     let size = loaded.bounds.max - loaded.bounds.min;
-    widgets::caption(ui, "Size in the first pose");
+    widgets::caption(ui, "Size");
     for (axis, size) in ["X", "Y", "Z"].into_iter().zip(size.to_array()) {
         fact(ui, axis, &format!("{} m", Digits::Fitting.text(f64::from(size))));
     }

@@ -38,7 +38,7 @@ impl TimeSheet {
     /// Draws the fields for the take that is shown.
     pub(super) fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.set_width(240.0);
-        let rate = f64::from(context.settings.frame_rate.max(1));
+        let rate = f64::from(context.frame_rate.max(1));
         ui.spacing_mut().item_spacing.y = GRID;
         let Some((take, shown)) = context.take_ref().zip(context.take()) else {
             ui.label(RichText::new("The rest pose has no start and no length").color(Theme::of(ui).weak));

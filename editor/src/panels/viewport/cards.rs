@@ -1,4 +1,4 @@
-//! Cards in the middle of the viewport: no model is open, a model is loading, the graphics device failed.
+//! Cards in the middle of the viewport: no model is open, a model is loading, the graphics device failed, everything is hidden.
 
 use crate::panels::commands::{self, Id};
 use crate::panels::context::PanelContext;
@@ -36,6 +36,19 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>, requests
         });
     } else if context.view.is_none() {
         welcome(ui, rect, context, requests);
+    } else if !context.settings.look.surface && !context.shows_skeleton() {
+        card(ui, rect, |ui| {
+            ui.label(RichText::new("Surface and skeleton are hidden").heading());
+            ui.add_space(GRID);
+            for (title, id) in
+                [("Show the surface", Id::ToggleSurface), ("Show the skeleton", Id::ToggleSkeleton)]
+            {
+                let button = ui.add_sized(vec2(260.0, 28.0), egui::Button::new(title));
+                if button.on_hover_text(commands::tooltip(ui.ctx(), id)).clicked() {
+                    requests.push(Request::Command(id));
+                }
+            }
+        });
     }
 }
 

@@ -12,7 +12,7 @@ use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{FontId, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 
-/// Draws the text during a drag, while a command waits for its drag, and over the keys of a motion path.
+/// Draws the text during a drag, while a command waits for its drag, over a gizmo that cannot be dragged, and over the keys of a motion path.
 pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
     let theme = Theme::of(ui);
     let words = |color| TextFormat::simple(FontId::proportional(NUMBER), color);
@@ -33,8 +33,11 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, context: &PanelContext<'_>) {
         };
         job.append(what, 0.0, words(theme.text));
         job.append("Shift adds, Ctrl toggles, Esc cancels", 10.0, words(theme.weak));
+    } else if context.tools.controls().gizmo().refuses() && !context.selection_is_locked() {
+        job.append("The rest pose cannot be edited", 0.0, words(theme.text));
+        job.append("show a take first", 6.0, words(theme.weak));
     } else if let Some(time) = context.tools.controls().path().hovered() {
-        let frame = (f64::from(time) * f64::from(context.settings.frame_rate)).round();
+        let frame = (f64::from(time) * f64::from(context.frame_rate)).round();
         job.append("Key", 0.0, words(theme.text));
         job.append(&format!("frame {frame}"), 6.0, words(theme.weak));
         job.append(&format!("{time:.3} s"), 10.0, digits(theme.text));
