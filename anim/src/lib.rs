@@ -62,6 +62,7 @@
 //! | attach objects to bones (sockets) | [`attach`] |
 //! | inverse kinematics, with joint limits | [`ik`], [`joint`] |
 //! | root motion | [`motion`] |
+//! | contacts of feet; loops; defects of a take; a take at its frames | [`contact`], [`loops`], [`lint`], [`frames`] |
 //! | play a take on another skeleton | [`retarget`] |
 //! | remove redundant keys | [`reduce`] |
 //! | compress takes | [`compressed`] |
@@ -98,11 +99,14 @@ mod checksum;
 pub mod compare;
 #[doc(alias("compression", "codec"))]
 pub mod compressed;
+#[doc(alias("foot contact", "foot lock", "foot slide", "foot plant"))]
+pub mod contact;
 pub mod data;
 pub mod evaluator;
 pub mod explain;
 pub mod fast;
 pub mod format;
+pub mod frames;
 #[doc(alias("raycast", "picking", "BVH"))]
 pub mod hit;
 #[doc(alias("inverse kinematics"))]
@@ -112,6 +116,10 @@ pub mod joint;
 #[doc(alias("LOD", "level of detail"))]
 pub mod level;
 pub mod limits;
+#[doc(alias("quality", "defects"))]
+pub mod lint;
+#[doc(alias("cycle", "loop"))]
+pub mod loops;
 #[doc(alias("root motion"))]
 pub mod motion;
 #[doc(alias("key reduction", "decimate keys"))]
