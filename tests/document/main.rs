@@ -16,6 +16,7 @@ mod old_journals;
 mod savable;
 mod save_and_open;
 mod save_in_background;
+mod take_tools;
 mod undo;
 
 #[global_allocator]

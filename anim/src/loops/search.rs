@@ -7,7 +7,7 @@
 //! cost(i, j) = 1/B Σ |p_i − p_j|² + w² |v_i − v_j|²        √cost is reported, in the model's unit
 //! ```
 //!
-//! Frames are first compared on a grid so coarse that at most [`MOST_PAIRS`] pairs are computed, then all frames
+//! Frames are first compared on a grid so coarse that at most 2¹⁸ pairs are computed, then all frames
 //! around the best pairs of the grid.
 
 use super::gap::relative;
@@ -17,7 +17,7 @@ use crate::motion::Axis;
 use glam::Vec3;
 
 /// Largest number of pairs of frames on the grid.
-pub const MOST_PAIRS: usize = 1 << 18;
+pub(super) const MOST_PAIRS: usize = 1 << 18;
 
 /// Number of pairs of the grid around which all frames are compared.
 const REFINED: usize = 16;

@@ -10,6 +10,7 @@ pub(crate) mod morph;
 pub(crate) mod pending;
 pub(crate) mod pose;
 pub(crate) mod remap;
+pub(crate) mod rewrite;
 pub(crate) mod spline;
 pub(crate) mod timing;
 mod unstep;
