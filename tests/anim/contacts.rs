@@ -134,7 +134,9 @@ fn a_locked_foot_slides_less_than_two_millimeters_and_nothing_changes_far_from_i
     assert_eq!(locked.take.tracks[0], take.tracks[0]);
     let (before, after) = (sampled(&take, &skeleton, RATE), sampled(&locked.take, &skeleton, RATE));
     for frame in 23..27 {
-        assert_eq!(before.position(frame, FOOT), after.position(frame, FOOT), "frame {frame}");
+        // Rotations of the keys at both ends of the gap are computed, so the last digit may differ.
+        let distance = before.position(frame, FOOT).distance(after.position(frame, FOOT));
+        assert!(distance < 1e-6, "frame {frame}: {distance}");
     }
 }
 

@@ -20,11 +20,12 @@ fn leg() -> Skeleton {
     }
 }
 
-/// Two seconds in which the hips sway and the shin swings; smooth, with a key on each frame.
+/// Two seconds in which the hips sway and the shin swings; smooth, with a key on each frame. Where the foot is slow it is high.
 fn clean() -> Take {
     let times: Vec<f32> = (0..61).map(|frame| frame as f32 / RATE).collect();
     let wave = |frame: usize| (frame as f32 / 60.0 * TAU).sin();
-    let places = (0..61).map(|frame| Vec3::new(0.0, HIP_HEIGHT + 0.02 * wave(frame), 0.3 * wave(frame)));
+    let height = |frame: usize| HIP_HEIGHT + 0.06 - 0.06 * (frame as f32 / 30.0 * TAU).cos();
+    let places = (0..61).map(|frame| Vec3::new(0.0, height(frame), 0.3 * wave(frame)));
     let turns = (0..61).map(|frame| Quat::from_rotation_x(0.3 * wave(frame)));
     take(vec![
         Track {
@@ -116,7 +117,7 @@ fn a_foot_below_the_floor_is_found_with_its_depth() {
     places(&mut take, |key, value| if (10..50).contains(&key) { value - Vec3::Y * 0.2 } else { value });
     let findings = found(&take, LintRule::Floor);
     assert!(findings.iter().all(|finding| finding.bone == 3), "{findings:?}");
-    assert!((100.0..200.0).contains(&findings[0].amount), "{findings:?}");
+    assert!((100.0..210.0).contains(&findings[0].amount), "{findings:?}");
 }
 
 #[test]

@@ -50,7 +50,7 @@ fn a_take_that_repeats_has_no_gap_and_travel_is_left_out() {
     let take = made(31, |frame| Vec3::Z * 0.03 * frame, swing);
     for gap in loop_gaps(&sampled(&take), Some(0), Axis::Y) {
         // One step of velocity differs, because the first and the last step are one frame apart.
-        assert!(gap.position < 1e-5 && gap.rotation < 1e-5 && gap.velocity < 0.1, "{gap:?}");
+        assert!(gap.position < 1e-5 && gap.rotation < 1e-5 && gap.velocity < 0.2, "{gap:?}");
     }
     let gap = loop_gaps(&sampled(&take), None, Axis::Y)[2];
     assert!((gap.position - 0.9).abs() < 1e-4, "{gap:?}");
@@ -171,11 +171,10 @@ fn contacts_are_kept_while_a_loop_is_closed() {
     let settings = CloseSettings { rate: RATE, frames: 14, travel: None, up: Axis::Y };
     let slide = |contacts: &[Contact]| {
         let closed = close_loop(&take, &arm(), contacts, &settings).expect("closed");
-        contact_slide(&sampled(&closed), &contact, Axis::Y, 1.0).millimeters
+        contact_slide(&sampled(&closed), &contact, Axis::Z, 1.0).millimeters
     };
     assert!(slide(&[]) > 20.0);
-    // The arm has no elbow here: it is as long as it is, so the rest of the slide is what its length does not allow.
-    assert!(slide(&[contact]) < slide(&[]) / 2.0, "{} {}", slide(&[contact]), slide(&[]));
+    assert!(slide(&[contact]) < 2.0, "{} {}", slide(&[contact]), slide(&[]));
 }
 
 #[test]
