@@ -57,7 +57,7 @@ fn a_take_that_repeats_has_no_gap_and_travel_is_left_out() {
 }
 
 #[test]
-fn gaps_are_those_computed_by_hand() {
+fn gaps_have_the_values_computed_by_hand() {
     let take = made(4, |frame| if frame == 3.0 { Vec3::X * 0.5 } else { Vec3::ZERO }, |frame| 0.1 * frame);
     let gaps = loop_gaps(&sampled(&take), None, Axis::Y);
     assert!((gaps[0].position - 0.5).abs() < 1e-6);
@@ -147,7 +147,7 @@ fn three_plays_in_a_row_of_a_closed_loop_show_no_jump() {
 }
 
 #[test]
-fn the_bone_that_travels_goes_on() {
+fn the_bone_that_travels_keeps_its_way() {
     let take = made(41, |frame| Vec3::new(0.0, 0.002 * frame, 0.03 * frame), swing);
     let settings = CloseSettings { rate: RATE, frames: 12, travel: Some(0), up: Axis::Y };
     let closed = close_loop(&take, &arm(), &[], &settings).expect("closed");

@@ -7,7 +7,7 @@
 //! h(f) = p(f) · up − g                                height above the ground
 //! v(f) = |p(f+1) − p(f−1)| · r / 2                    speed; one-sided at the ends
 //! contact begins   where h < enter_height and v < enter_speed
-//! contact goes on  while h < leave_height and v < leave_speed
+//! contact continues while h < leave_height and v < leave_speed
 //! ```
 //!
 //! The larger thresholds for leaving keep a contact whole where height or speed oscillates about a threshold. A contact is
@@ -25,11 +25,11 @@ use crate::motion::Axis;
 pub struct ContactThresholds {
     /// Height below which a contact begins, meters.
     pub enter_height: f32,
-    /// Height up to which a contact goes on, meters; at least `enter_height`.
+    /// Height above which a contact ends, meters; at least `enter_height`.
     pub leave_height: f32,
     /// Speed below which a contact begins, meters per second.
     pub enter_speed: f32,
-    /// Speed up to which a contact goes on, meters per second; at least `enter_speed`.
+    /// Speed above which a contact ends, meters per second; at least `enter_speed`.
     pub leave_speed: f32,
     /// Shortest contact, seconds.
     pub least: f32,

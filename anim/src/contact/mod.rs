@@ -2,7 +2,7 @@
 //!
 //! | function | result |
 //! |---|---|
-//! | [`detect_contacts`] | the intervals in which bones stand on the ground |
+//! | [`detect_contacts`] | the intervals in which bones are in contact with the ground |
 //! | [`contact_slide`], [`take_slide`] | how far bones slide while they are in contact |
 //! | [`lock_contacts`] | a take in which they do not slide |
 //!

@@ -27,7 +27,7 @@ pub struct CloseSettings {
     pub rate: f32,
     /// Number of frames before the end over which the take is corrected.
     pub frames: u32,
-    /// The bone whose movement on the ground goes on; it has to have no moving bones above it.
+    /// The bone that travels: its way on the ground is kept. No bone above it may move.
     pub travel: Option<BoneIndex>,
     /// The axis that points up.
     pub up: Axis,

@@ -9,7 +9,7 @@ use dragonfly_anim::frames::TakeFrames;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A bone that stands on the ground for a while.
+/// The contact of a bone with the ground.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactSpan {

@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Holds feet where they stand: in each contact the foot stays at its mean position, by two-bone IK. The correction fades before and
+/// Locks feet to the ground: in each contact the foot stays at its mean position, by two-bone IK. The correction fades before and
 /// after. Keys are added at every frame of the contacts and fades.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
