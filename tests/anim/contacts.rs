@@ -245,3 +245,16 @@ fn feet_are_found_by_their_names() {
         feet_by_name(skeleton).iter().map(|&foot| skeleton.bones[foot as usize].name.as_str()).collect();
     assert_eq!(names, ["b_LeftFoot01_017", "b_RightFoot01_021"]);
 }
+
+#[test]
+fn a_take_with_numbers_that_are_none_is_an_error_or_unchanged() {
+    let (skeleton, settings) = (leg(), LockSettings { rate: RATE, ease: 4 });
+    let contact = Contact { bone: FOOT, from: 0.1, to: 0.5 };
+    for (start, length) in [(f32::NAN, 1.0), (0.0, f32::NAN), (0.0, -1.0), (f32::INFINITY, 1.0)] {
+        let take = Take { start, length, ..step() };
+        if let Ok(locked) = lock_contacts(&take, &skeleton, &[contact], &settings) {
+            let values = locked.take.tracks.iter().flat_map(|track| track.rotation.values.to_vec());
+            assert!(values.into_iter().all(Quat::is_finite), "{start} {length}");
+        }
+    }
+}

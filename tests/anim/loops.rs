@@ -57,7 +57,7 @@ fn a_take_that_repeats_has_no_gap_and_travel_is_left_out() {
 }
 
 #[test]
-fn gaps_have_the_values_computed_by_hand() {
+fn each_gap_has_the_value_computed_on_paper() {
     let take = made(4, |frame| if frame == 3.0 { Vec3::X * 0.5 } else { Vec3::ZERO }, |frame| 0.1 * frame);
     let gaps = loop_gaps(&sampled(&take), None, Axis::Y);
     assert!((gaps[0].position - 0.5).abs() < 1e-6);

@@ -264,7 +264,7 @@ fn key_times(
     let mut times = frames.to_vec();
     for span in spans {
         let borders = [span.from - span.ease[0], span.from, span.to, span.to + span.ease[1]];
-        times.extend(borders.map(|time| time.clamp(take.start, take.end())));
+        times.extend(borders.map(|time| time.max(take.start).min(take.end())));
     }
     let mut bone = Some(limb.end);
     while let Some(index) = bone {
