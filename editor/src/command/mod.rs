@@ -23,7 +23,6 @@ mod render;
 mod run_command;
 mod stdio;
 mod table;
-mod take_lint;
 
 pub use failure::{Failure, tell};
 
