@@ -63,6 +63,7 @@
 //! | inverse kinematics, with joint limits | [`ik`], [`joint`] |
 //! | tangents of cubic splines | [`tangents`] |
 //! | root motion | [`motion`] |
+//! | contacts of feet; loops; defects of a take; a take at its frames | [`contact`], [`loops`], [`lint`], [`frames`] |
 //! | play a take on another skeleton | [`retarget`] |
 //! | change many keys by the same offset, with falloff | [`offset`] |
 //! | remove redundant keys | [`reduce`] |
@@ -101,11 +102,14 @@ mod checksum;
 pub mod compare;
 #[doc(alias("compression", "codec"))]
 pub mod compressed;
+#[doc(alias("foot contact", "foot lock", "foot slide", "foot plant"))]
+pub mod contact;
 pub mod data;
 pub mod evaluator;
 pub mod explain;
 pub mod fast;
 pub mod format;
+pub mod frames;
 #[doc(alias("raycast", "picking", "BVH"))]
 pub mod hit;
 #[doc(alias("inverse kinematics"))]
@@ -117,6 +121,10 @@ pub mod joint;
 #[doc(alias("LOD", "level of detail"))]
 pub mod level;
 pub mod limits;
+#[doc(alias("quality", "defects"))]
+pub mod lint;
+#[doc(alias("cycle", "loop"))]
+pub mod loops;
 #[doc(alias("root motion"))]
 pub mod motion;
 #[doc(alias("additive edit", "proportional editing"))]

@@ -18,6 +18,7 @@ mod old_journals;
 mod savable;
 mod save_and_open;
 mod save_in_background;
+mod take_tools;
 mod tangents;
 mod undo;
 

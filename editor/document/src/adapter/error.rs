@@ -118,6 +118,15 @@ pub enum EditError {
     /// The edit would change a bone that it does not name, so that no lock of the bone could stop it: a bug in this program.
     #[error("bone {0} would change, although the edit does not name it; this is an error of the program")]
     Unnamed(u32),
+    /// Contacts cannot be locked.
+    #[error(transparent)]
+    Lock(#[from] dragonfly_anim::contact::LockError),
+    /// A loop cannot be closed.
+    #[error(transparent)]
+    Close(#[from] dragonfly_anim::loops::CloseError),
+    /// A take cannot be sampled.
+    #[error(transparent)]
+    Frames(#[from] dragonfly_anim::frames::FramesError),
     /// The edit would change nothing.
     #[error("{0}")]
     Nothing(&'static str),

@@ -19,6 +19,8 @@ mod add_keys;
 mod arbitrary;
 mod blend_keys;
 mod bones;
+mod close_loop;
+mod contact_span;
 mod copied;
 mod cost;
 mod create_take;
@@ -31,6 +33,8 @@ mod filter_keys;
 mod key_pending;
 mod kind;
 mod lines;
+mod lock_contacts;
+mod mirror_take;
 pub(crate) mod mode;
 mod move_keys;
 mod move_take;
@@ -63,6 +67,7 @@ mod trim_take;
 pub use arbitrary::Arbitrary;
 pub use blend_keys::KeyTarget;
 pub use bones::EditedBones;
+pub use contact_span::ContactSpan;
 pub use copied::{CopiedChannel, CopiedKey};
 pub use examples::Example;
 pub use filter_keys::CurveFilter;
@@ -117,6 +122,9 @@ edits! {
     "trim_take" => trim_take::TrimTake,
     "reverse_take" => reverse_take::ReverseTake,
     "retime_take" => retime_take::RetimeTake,
+    "mirror_take" => mirror_take::MirrorTake,
+    "lock_contacts" => lock_contacts::LockContacts,
+    "close_loop" => close_loop::CloseLoop,
 }
 
 #[cfg(test)]
@@ -129,14 +137,18 @@ mod tests {
     use std::collections::BTreeSet;
     use std::sync::Arc;
 
-    const BONES: [&str; 3] = ["hips", "hand.L", "hand.R"];
+    const BONES: [&str; 6] = ["hips", "hand.L", "hand.R", "thigh.L", "shin.L", "foot.L"];
 
     fn bone(name: &str) -> Bone {
         let rest = Transform::IDENTITY;
         Bone {
             name: name.to_owned(),
-            parent: None,
-            rest,
+            parent: match name {
+                "shin.L" => Some(3),
+                "foot.L" => Some(4),
+                _ => None,
+            },
+            rest: Transform { translation: glam::Vec3::Y, ..rest },
             rest_matrix: None,
             offset: Mat4::IDENTITY,
             node: None,

@@ -64,13 +64,20 @@ impl Mirror {
 
     /// Returns the rotation of the mirror bone for a rotation of `bone` (both in parent space, unit length).
     pub fn rotation(&self, bone: BoneIndex, rotation: Quat) -> Option<Quat> {
+        let turned = self.rotation_rate(bone, rotation)?;
+        (turned.length_squared() > 1e-12).then(|| turned.normalize())
+    }
+
+    /// Returns the rate of change of the mirror bone's rotation for one of `bone`: [`Self::rotation`] without normalizing,
+    /// which is linear.
+    pub fn rotation_rate(&self, bone: BoneIndex, rate: Quat) -> Option<Quat> {
         let (from, to) = self.both(bone)?;
-        let turn = from.parent_turn * (rotation * from.rotation.inverse()) * from.parent_turn.inverse();
+        let turn = from.parent_turn * (rate * from.rotation.inverse()) * from.parent_turn.inverse();
         // A mirror reverses the sense of a rotation: the axis is mirrored and negated, and the angle stays.
         let axis = -self.plane.direction(Vec3::new(turn.x, turn.y, turn.z));
         let turn = Quat::from_xyzw(axis.x, axis.y, axis.z, turn.w);
         let turned = to.parent_turn.inverse() * turn * to.parent_turn * to.rotation;
-        (turned.is_finite() && turned.length_squared() > 1e-12).then(|| turned.normalize())
+        turned.is_finite().then_some(turned)
     }
 
     /// Returns the scale of the mirror bone for a scale of `bone`.

@@ -8,6 +8,7 @@ pub mod clipboard;
 mod hold;
 mod look;
 pub mod mirror;
+pub mod mirror_take;
 mod reach;
 
 pub use hold::{Goal, IkMode, LONGEST_CHAIN, PoseDragState, poses_of_drag, poses_of_pins};

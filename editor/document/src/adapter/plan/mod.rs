@@ -11,6 +11,7 @@ pub(crate) mod offset;
 pub(crate) mod pending;
 pub(crate) mod pose;
 pub(crate) mod remap;
+pub(crate) mod rewrite;
 pub(crate) mod spline;
 pub(crate) mod timing;
 mod unstep;

@@ -1,0 +1,23 @@
+//! Contacts of feet with the ground: detection, slide, and locking.
+//!
+//! | function | result |
+//! |---|---|
+//! | [`detect_contacts`] | the intervals in which bones are in contact with the ground |
+//! | [`contact_slide`], [`take_slide`] | how far bones slide while they are in contact |
+//! | [`lock_contacts`] | a take in which they do not slide |
+//!
+//! A contact is the same [`Contact`] that key reduction respects, so detected contacts can be given to
+//! [`crate::reduce::Contacts::given`]. Detection reads a take sampled at its frame rate ([`crate::frames`]). Contacts are
+//! measured in scene space: a figure that walks on the spot has no contact, because its feet slide as fast as it
+//! walks; give it back its root motion first ([`crate::motion`]).
+
+mod detect;
+mod feet;
+mod lock;
+mod slide;
+
+pub use crate::reduce::Contact;
+pub use detect::{ContactThresholds, detect_contacts};
+pub use feet::{feet_by_name, limb_of};
+pub use lock::{LockError, LockSettings, LockedTake, lock_contacts};
+pub use slide::{ContactSlide, TakeSlide, contact_slide, take_slide};

@@ -1,0 +1,156 @@
+//! Edits of whole takes that compute motion: mirrored takes, locked contacts, closed loops.
+
+use dragonfly_anim::contact::{Contact, contact_slide};
+use dragonfly_anim::data::{Skeleton, Take, Transform};
+use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+use dragonfly_anim::frames::TakeFrames;
+use dragonfly_anim::motion::Axis;
+use dragonfly_anim::sample::sample_take;
+use dragonfly_document::adapter::{EditError, ModelAdapter};
+use dragonfly_document::edit::{Edit, EditedBones};
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+fn fox() -> ModelAdapter {
+    let bytes = include_bytes!("../data/gltf/Fox.glb");
+    let model = read("Fox.glb", bytes, &NoFiles, &ReadOptions::default()).expect("the fox").model;
+    ModelAdapter::new(&model.animation)
+}
+
+fn edit(json: &str) -> Edit {
+    serde_json::from_str(json).expect(json)
+}
+
+/// Applies an edit, and checks the invariants. Returns the take that it changed.
+#[track_caller]
+fn applied(model: &mut ModelAdapter, json: &str) -> Arc<Take> {
+    let edit = edit(json);
+    model.apply(&edit).unwrap_or_else(|error| panic!("{json}: {error}"));
+    model.check().expect("an invariant");
+    let take = edit.take().expect("a take");
+    Arc::clone(&model.take(take).expect("the take").result)
+}
+
+fn poses(skeleton: &Skeleton, take: &Take, time: f32) -> Vec<Transform> {
+    let mut poses = vec![Transform::IDENTITY; skeleton.len()];
+    sample_take(Some(take), skeleton, time, &mut poses);
+    poses
+}
+
+/// Returns the largest difference of two takes at `times`; lengths relative to the largest.
+fn apart(skeleton: &Skeleton, a: &Take, b: &Take, times: impl Iterator<Item = f32>) -> f32 {
+    let mut largest = 0.0_f32;
+    for time in times {
+        for (a, b) in poses(skeleton, a, time).iter().zip(poses(skeleton, b, time)) {
+            let turn = (a.rotation - b.rotation).length().min((a.rotation + b.rotation).length());
+            let length = 1.0 + a.translation.length();
+            let moved = a.translation.distance(b.translation) / length;
+            largest = largest.max(turn).max(moved).max(a.scale.distance(b.scale));
+        }
+    }
+    largest
+}
+
+fn times(take: &Take) -> impl Iterator<Item = f32> {
+    let (start, length) = (take.start, take.length);
+    (0..=100).map(move |step| start + length * step as f32 / 100.0)
+}
+
+#[test]
+fn a_take_mirrored_twice_is_the_take() {
+    let mut model = fox();
+    for (index, name) in ["Survey", "Walk", "Run"].into_iter().enumerate() {
+        let before = Arc::clone(&model.slots()[index].result);
+        let line = format!(r#"{{"edit":"mirror_take","take":"{name}"}}"#);
+        let once = applied(&mut model, &line);
+        assert!(apart(model.skeleton(), &before, &once, times(&before)) > 0.05, "{name}");
+        let twice = applied(&mut model, &line);
+        let difference = apart(model.skeleton(), &before, &twice, times(&before));
+        assert!(difference < 1e-6, "{name}: {difference}");
+    }
+}
+
+#[test]
+fn a_mirrored_take_puts_each_foot_at_the_mirror_image_of_the_other() {
+    let mut model = fox();
+    let before = Arc::clone(&model.slots()[1].result);
+    let after = applied(&mut model, r#"{"edit":"mirror_take","take":"Walk"}"#);
+    let skeleton = Arc::clone(model.skeleton());
+    let frames = |take: &Take| TakeFrames::of(take, &skeleton, 24.0).expect("frames");
+    let (before, after) = (frames(&before), frames(&after));
+    let bone = |name: &str| skeleton.find(name).expect(name);
+    let (left, right) = (bone("b_LeftFoot01_017"), bone("b_RightFoot01_021"));
+    for frame in 0..before.len() {
+        let (was, is) = (before.position(frame, left), after.position(frame, right));
+        // The fox is 150 units long, and its rest pose is symmetric to within a few tenths.
+        let apart = ((was.x + is.x).abs()).max((was.y - is.y).abs()).max((was.z - is.z).abs());
+        assert!(apart < 4.0, "frame {frame}: {was} {is}");
+    }
+}
+
+#[test]
+fn a_mirrored_range_leaves_the_rest_of_the_take_alone() {
+    let mut model = fox();
+    let before = Arc::clone(&model.slots()[1].result);
+    let whole = applied(&mut fox(), r#"{"edit":"mirror_take","take":"Walk"}"#);
+    let after = applied(&mut model, r#"{"edit":"mirror_take","take":"Walk","from":0.25,"to":0.5}"#);
+    let skeleton = model.skeleton();
+    let part = |from: f32, to: f32| times(&before).filter(move |time| (from..=to).contains(time));
+    assert!(apart(skeleton, &before, &after, part(0.0, 0.2)) < 1e-6);
+    assert!(apart(skeleton, &before, &after, part(0.55, 9.0)) < 1e-6);
+    assert!(apart(skeleton, &whole, &after, part(0.25, 0.5)) < 1e-6);
+    assert_eq!((after.start, after.length), (before.start, before.length));
+}
+
+#[test]
+fn mirrored_bones_give_their_motion_to_their_mirror_bones_only() {
+    let line = r#"{"edit":"mirror_take","take":"Walk","bones":["b_LeftForeArm_010"]}"#;
+    let mut model = fox();
+    let before = Arc::clone(&model.slots()[1].result);
+    let after = applied(&mut model, line);
+    let right = model.skeleton().find("b_RightForeArm_07").expect("a bone");
+    assert_eq!(edit(line).bones(model.skeleton()), EditedBones::Named(BTreeSet::from([right])));
+    for (before, after) in before.tracks.iter().zip(&after.tracks) {
+        assert_eq!(before != after, before.bone == right, "{}", before.bone);
+    }
+}
+
+#[test]
+fn locked_contacts_slide_less_than_two_millimeters_and_an_undo_restores_the_take() {
+    let mut model = fox();
+    let before = Arc::clone(&model.slots()[1].result);
+    let line = r#"{"edit":"lock_contacts","take":"Walk","contacts":[{"bone":"b_LeftFoot01_017","from":0.2,"to":0.3}],"ease":3}"#;
+    let undo = model.apply(&edit(line)).expect("applied");
+    let after = Arc::clone(&model.slots()[1].result);
+    let bone = model.skeleton().find("b_LeftFoot01_017").expect("a bone");
+    let contact = Contact { bone, from: 0.2, to: 0.3 };
+    let slide = |take: &Take| {
+        let frames = TakeFrames::of(take, model.skeleton(), 120.0).expect("frames");
+        contact_slide(&frames, &contact, Axis::Y, 0.01).millimeters
+    };
+    assert!(slide(&before) > 20.0, "{}", slide(&before));
+    assert!(slide(&after) < 2.0, "{}", slide(&after));
+    model.revert(undo);
+    assert_eq!(model.slots()[1].result, before);
+}
+
+#[test]
+fn edits_that_cannot_be_carried_out_say_why() {
+    let mut model = fox();
+    let wrong = |line: &str, model: &mut ModelAdapter| model.apply(&edit(line)).expect_err(line);
+    let error = wrong(r#"{"edit":"lock_contacts","take":"Walk"}"#, &mut model);
+    assert_eq!(error, EditError::Nothing("no foot is in contact with the ground"));
+    for (line, wanted) in [
+        (r#"{"edit":"lock_contacts","take":"Walk","contacts":[{"bone":0,"from":0,"to":0.5}]}"#, "limb"),
+        (
+            r#"{"edit":"lock_contacts","take":"Walk","contacts":[{"bone":0,"from":0.5,"to":0}]}"#,
+            "before the start",
+        ),
+        (r#"{"edit":"close_loop","take":"Walk","frames":0}"#, "over 0 frames"),
+        (r#"{"edit":"mirror_take","take":"Walk","from":0.5,"to":0.2}"#, "before the start"),
+        (r#"{"edit":"mirror_take","take":"Walk","from":-3}"#, "-3"),
+    ] {
+        let error = wrong(line, &mut model).to_string();
+        assert!(error.contains(wanted), "{line}: {error}");
+    }
+}
