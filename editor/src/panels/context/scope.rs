@@ -7,6 +7,7 @@ use dragonfly_anim::offset::Falloff;
 use dragonfly_document::edit::{
     BonePose, Edit, FadeShape, OffsetFalloff, OffsetKeys, OffsetRange, OffsetScope, SAME_TIME, TakeRef,
 };
+use dragonfly_picture::between;
 
 impl PanelContext<'_> {
     /// Returns the reason why edits cannot be made in the scope that is set; `None` if they can.
@@ -55,7 +56,7 @@ impl PanelContext<'_> {
     pub(in crate::panels) fn shown_falloff(&self) -> Option<(Intervals, Falloff)> {
         let falloff = self.offset_falloff().filter(|_| self.over.fades())?;
         let (start, length) = self.take_bounds();
-        let inside = |time: f32| time.clamp(start, start + length);
+        let inside = |time: f32| between(time, start, start + length);
         let inside = |[from, to]: [f32; 2]| [inside(from), inside(to)];
         let parts = match (self.over.scope, self.keys.range()) {
             (EditScope::Frame | EditScope::Take, _) | (EditScope::Range, None) => return None,

@@ -28,7 +28,7 @@ enum Scope {
 }
 
 /// An offset edit whose numbers were checked.
-struct Plan {
+struct OffsetPlan {
     take: TakeId,
     scope: Scope,
     falloff: Option<Falloff>,
@@ -54,7 +54,7 @@ pub(crate) fn offset_keys(work: &mut Transaction, edit: &OffsetKeys) -> Result<(
         Some(_) | None => None,
     };
     let at = edit.at.map(|at| finite("a time", at)).transpose()?;
-    let plan = Plan { take, scope, falloff, at };
+    let plan = OffsetPlan { take, scope, falloff, at };
     let (mut given, mut found) = (false, false);
     for pose in &edit.poses {
         let bone = work.track(take, &pose.bone)?;
@@ -130,7 +130,7 @@ pub(crate) fn keys_of(
     }
 }
 
-impl Plan {
+impl OffsetPlan {
     /// Offsets the keys of a channel by `given`, or so that it has this value at the wanted time. Returns whether it has any.
     fn channel<K: ChannelKind>(
         &self,
