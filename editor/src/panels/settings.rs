@@ -6,7 +6,7 @@ use super::properties::look::PropertiesLook;
 use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
 use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
 use dragonfly_picture::playback::Repeat;
-use dragonfly_picture::{BoneLook, Shading};
+use dragonfly_picture::{BoneLook, Shading, between};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -190,7 +190,7 @@ impl WindowSettings {
         if !self.size.iter().all(|side| side.is_finite()) {
             self.size = Self::default().size;
         }
-        self.size = std::array::from_fn(|side| self.size[side].clamp(Self::LEAST[side], Self::MOST));
+        self.size = std::array::from_fn(|side| between(self.size[side], Self::LEAST[side], Self::MOST));
         self
     }
 }
