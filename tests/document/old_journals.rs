@@ -57,8 +57,8 @@ fn takes(view: &View) -> Vec<(String, i32, usize)> {
 
 fn first_takes() -> Vec<(String, i32, usize)> {
     let takes = [
-        ("Walk", 967, 383),
-        ("Walk slowly", 2000, 381),
+        ("Walk", 967, 378),
+        ("Walk slowly", 2000, 444),
         ("Look around", 1000, 525),
         ("Look around, end", 600, 357),
         ("Run", 1983, 651),
