@@ -55,7 +55,7 @@ fn clamped_tangents_make_a_spline_that_stays_between_the_keys() {
             }
         }
     }
-    // Again changes nothing, and says so.
+    // The second time nothing changes, which is an error with its reason.
     let error = edited.ask(shape(vec![keys], KeyTangents::Clamped), None).unwrap_err();
     assert!(error.to_string().contains("these tangents already"), "{error}");
     assert!(edited.undo());

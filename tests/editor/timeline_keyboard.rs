@@ -109,7 +109,7 @@ fn typed_digits_move_keys_by_exactly_that_many_frames() {
     animator.steps(2);
     assert!((animator.times(3)[40] - before[40] - 12.0 * animator.frame()).abs() < 1e-6);
     assert_eq!(animator.steps_done(), 1);
-    // Digits run no command afterwards or meanwhile: the view of the camera is the same.
+    // Each drag begins with no text.
     animator.type_all(&[Key::G, Key::Num5, Key::Backspace, Key::Minus, Key::Num2, Key::Enter]);
     animator.steps(2);
     assert!((animator.times(3)[40] - before[40] - 10.0 * animator.frame()).abs() < 1e-6);

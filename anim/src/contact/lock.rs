@@ -154,13 +154,13 @@ fn smooth(x: f32) -> f32 {
 }
 
 /// The pose of a skeleton at a time, reused from time to time.
-struct SampledPose<'a> {
+struct LegPose<'a> {
     skeleton: &'a Skeleton,
     poses: Vec<Transform>,
     matrices: Vec<Mat4>,
 }
 
-impl<'a> SampledPose<'a> {
+impl<'a> LegPose<'a> {
     fn of(skeleton: &'a Skeleton) -> Self {
         let bones = skeleton.len();
         Self { skeleton, poses: vec![Transform::IDENTITY; bones], matrices: vec![Mat4::IDENTITY; bones] }
@@ -187,7 +187,7 @@ fn lock_limb(
     spans: &[(f32, f32)],
     settings: &LockSettings,
 ) -> Result<(), LockError> {
-    let mut pose = SampledPose::of(skeleton);
+    let mut pose = LegPose::of(skeleton);
     let take = &locked.take;
     let frames = frame_times(take, settings.rate);
     let longest = settings.ease as f32 / settings.rate;

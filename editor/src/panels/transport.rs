@@ -69,7 +69,7 @@ impl Room {
     /// Returns what fits into a width, points.
     fn of(width: f32) -> Self {
         let needed = [
-            (Self::Speed, 690.0),
+            (Self::Speed, 660.0),
             (Self::Seconds, 620.0),
             (Self::Repeat, 540.0),
             (Self::Rate, 420.0),

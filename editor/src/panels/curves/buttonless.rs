@@ -29,8 +29,8 @@ pub(super) struct ButtonlessCurves {
 }
 
 impl ButtonlessCurves {
-    /// Begins a drag at `from` with the selected keys whose curves are shown. Values move of those with the property of the
-    /// first one; `component` if it is shown, else the first one that is.
+    /// Begins a drag at `from` with the selected keys whose curves are shown. The values that move are those with the property
+    /// of the first key: `component` if it is shown, otherwise the first one that is.
     pub(super) fn new(canvas: &CurveCanvas<'_>, from: Pos2, component: usize) -> Self {
         let selected = |curve: &Arc<Curve>| {
             let chosen = canvas.drawn.selection.of(curve.id);

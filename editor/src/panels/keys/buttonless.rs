@@ -1,7 +1,7 @@
 //! A drag of the selected keys that follows the pointer without a button, until it is confirmed or cancelled.
 //!
-//! A command begins it. The overlay that covers the window meanwhile assigns it to the timeline or to the curves, and adds
-//! what is typed; that panel computes the operation from the pointer, as for a drag with the button.
+//! A command begins it. An overlay, which covers the window until the end, assigns it to the timeline or to the curves, and
+//! adds the typed text; that panel computes the operation from the pointer, as for a drag with the button.
 
 use egui::Pos2;
 
