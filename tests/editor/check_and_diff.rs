@@ -130,7 +130,7 @@ fn the_defects_of_takes_are_listed_with_bone_frame_amount_and_unit() {
     let limits = folder.join("lint.json");
     let rules =
         r#""foot_slide":null,"floor":null,"jitter":null,"stretch":null,"spare_keys":null,"flip":null"#;
-    std::fs::write(&limits, format!(r#"{{{rules},"pop":20,"meters_per_unit":0.01}}"#)).expect("written");
+    std::fs::write(&limits, format!(r#"{{{rules},"pop":80,"meters_per_unit":0.01}}"#)).expect("written");
     let check = |file: &Path| run(["check", text(file), "--takes", "--thresholds", text(&limits), "--json"]);
     let clean = check(&fox()).expect(0).json();
     assert_eq!(clean[0]["takes"].as_array().map(Vec::len), Some(0), "{clean}");
