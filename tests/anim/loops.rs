@@ -1,6 +1,7 @@
 //! Loops: gaps, the missing last frame, the best range, and closing.
 
 use super::support::{bone, take};
+use dragonfly_anim::contact::{Contact, contact_slide};
 use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take, Track};
 use dragonfly_anim::frames::TakeFrames;
 use dragonfly_anim::loops::{
@@ -160,6 +161,19 @@ fn a_loop_that_is_closed_already_keeps_its_keys_bit_for_bit() {
     let hold = made(31, |_| Vec3::ZERO, |_| 0.3);
     let settings = CloseSettings { rate: RATE, frames: 10, travel: None, up: Axis::Y };
     assert_eq!(close_loop(&hold, &arm(), &[], &settings), Ok(hold));
+}
+
+#[test]
+fn contacts_are_kept_while_a_loop_is_closed() {
+    let take = made(41, |_| Vec3::ZERO, |frame| if frame < 25.0 { 0.01 * frame } else { 0.25 });
+    let contact = Contact { bone: 2, from: 26.0 / RATE, to: 36.0 / RATE };
+    let settings = CloseSettings { rate: RATE, frames: 14, travel: None, up: Axis::Y };
+    let slide = |contacts: &[Contact]| {
+        let closed = close_loop(&take, &arm(), contacts, &settings).expect("closed");
+        contact_slide(&sampled(&closed), &contact, Axis::Z, 1.0).millimeters
+    };
+    assert!(slide(&[]) > 20.0);
+    assert!(slide(&[contact]) < 2.0, "{} {}", slide(&[contact]), slide(&[]));
 }
 
 #[test]

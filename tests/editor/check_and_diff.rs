@@ -123,3 +123,41 @@ fn takes_and_bones_without_a_counterpart_are_differences() {
     let json = run(["diff", text(&fox()), "demo:", "--json"]).expect(1).json();
     assert!(json["only_in_first"]["bones"].as_array().is_some_and(|bones| bones.len() > 10), "{json}");
 }
+
+#[test]
+fn the_defects_of_takes_are_listed_with_bone_frame_amount_and_unit() {
+    let folder = Folder::new("check-takes");
+    let limits = folder.join("lint.json");
+    let rules =
+        r#""foot_slide":null,"floor":null,"jitter":null,"stretch":null,"spare_keys":null,"flip":null"#;
+    std::fs::write(&limits, format!(r#"{{{rules},"pop":80,"meters_per_unit":0.01}}"#)).expect("written");
+    let check = |file: &Path| run(["check", text(file), "--takes", "--thresholds", text(&limits), "--json"]);
+    let clean = check(&fox()).expect(0).json();
+    assert_eq!(clean[0]["takes"].as_array().map(Vec::len), Some(0), "{clean}");
+    let pop = r#"{"edit":"offset","take":"Walk","time":0.3333333,"poses":[{"bone":"b_Hip_01","translation":[0,0,60]}]}"#;
+    let popped = edited(&folder, "popped.glb", pop);
+    let found = check(&popped).expect(1).json();
+    let defects = found[0]["takes"].as_array().expect("defects");
+    let hip = defects.iter().find(|defect| defect["bone"] == "b_Hip_01").expect("the hips");
+    assert_eq!((&hip["take"], &hip["rule"], &hip["unit"]), (&"Walk".into(), &"pop".into(), &"mm".into()));
+    let lines = run(["check", text(&popped), "--takes", "--thresholds", text(&limits)]).expect(1);
+    assert!(lines.text().contains("pop: take Walk, bone b_Hip_01, frame "), "{}", lines.text());
+    assert!(run(["check", text(&popped), "--json"]).expect(0).json()[0]["takes"].is_null());
+}
+
+#[test]
+fn wrong_thresholds_are_an_input_error_that_names_them() {
+    let folder = Folder::new("check-thresholds");
+    let limits = folder.join("lint.json");
+    for (content, wanted) in [
+        ("[]", "an object"),
+        (r#"{"pops":1}"#, "\"pops\""),
+        (r#"{"pop":"much"}"#, "\"pop\" has to be a number"),
+        (r#"{"rate":0}"#, "above 0"),
+        (r#"{"up":"w"}"#, "\"up\" has to be"),
+    ] {
+        std::fs::write(&limits, content).expect("written");
+        let outcome = run(["check", "demo:", "--takes", "--thresholds", text(&limits)]).expect(2);
+        assert!(outcome.stderr.contains(wanted), "{content}: {}", outcome.stderr);
+    }
+}

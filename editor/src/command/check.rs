@@ -5,6 +5,7 @@ use super::choice::{load_checked, models_help, plain, source};
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
 use super::table::count;
+use super::take_lint::{TakeDefect, TakeThresholds, defects};
 use dragonfly_anim::check::{RULES, Severity, check};
 use serde::Serialize;
 use std::io::{self, Write};
@@ -14,14 +15,24 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, clap::Args)]
 #[command(about = about(), long_about = None, after_help = "\
 Findings are errors (shown wrong, or replaced by a placeholder), warnings (allowed, but probably unintended) and notes.\n\
-Import warnings are listed as well. Exit code 1: at least one finding has the severity of --deny or higher.\n\n\
-Examples:\n  dragonfly check Fox.glb\n  dragonfly check models/*.glb --deny warning --json")]
+Import warnings are listed as well. Exit code 1: at least one finding has the severity of --deny or higher, or with --takes, a take has a defect.\n\n\
+With --takes, motion is measured frame by frame: jitter, foot_slide, floor, pop, flip, stretch, loop_gap (off), spare_keys and\n\
+outside. --thresholds FILE is a JSON object such as {\"pop\": 80, \"floor\": null, \"loop_gap\": 5, \"meters_per_unit\": 0.01,\n\
+\"up\": \"y\", \"floor_height\": 0, \"rate\": 30}; null switches a rule off.\n\n\
+Examples:\n  dragonfly check Fox.glb\n  dragonfly check models/*.glb --deny warning --json\n  \
+dragonfly check Fox.glb --takes --thresholds lint.json")]
 pub(super) struct CheckArguments {
     #[arg(value_name = "FILE", required = true, help = models_help())]
     files: Vec<PathBuf>,
     /// Exit with code 1 on findings of this severity or higher
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     deny: Deny,
+    /// Also measure defects of the motion of takes, each with bone, frame, amount and unit
+    #[arg(long)]
+    takes: bool,
+    /// Read the thresholds of --takes from a JSON file
+    #[arg(long, value_name = "FILE", requires = "takes")]
+    thresholds: Option<PathBuf>,
     /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
@@ -55,8 +66,10 @@ impl RunCommand for CheckArguments {
     fn run(self) -> Result<(), Failure> {
         let mut reports = Vec::with_capacity(self.files.len());
         let mut failure = None;
+        let thresholds = self.thresholds.as_deref().map(TakeThresholds::read).transpose()?;
+        let thresholds = self.takes.then(|| thresholds.unwrap_or_default());
         for file in &self.files {
-            match CheckReport::of(file, self.deny) {
+            match CheckReport::of(file, self.deny, thresholds.as_ref()) {
                 Ok(report) => reports.push(report),
                 // The files after it are still checked; the last unreadable one decides the exit
                 // code.
@@ -92,6 +105,9 @@ struct CheckReport {
     #[serde(skip)]
     denied: usize,
     findings: Vec<FindingRow>,
+    /// Defects of takes; absent without `--takes`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    takes: Option<Vec<TakeDefect>>,
 }
 
 /// One finding.
@@ -104,10 +120,18 @@ struct FindingRow {
 }
 
 impl CheckReport {
-    fn of(file: &std::path::Path, deny: Deny) -> Result<Self, Failure> {
+    fn of(file: &std::path::Path, deny: Deny, thresholds: Option<&TakeThresholds>) -> Result<Self, Failure> {
         let loaded = load_checked(&source(file))?;
-        let mut report =
-            Self { file: loaded.title, errors: 0, warnings: 0, notes: 0, denied: 0, findings: Vec::new() };
+        let takes = thresholds.map(|thresholds| defects(&loaded.model.animation, thresholds)).transpose()?;
+        let mut report = Self {
+            file: loaded.title,
+            errors: 0,
+            warnings: 0,
+            notes: 0,
+            denied: takes.as_ref().map_or(0, Vec::len),
+            findings: Vec::new(),
+            takes,
+        };
         let imported = loaded.warnings.into_iter();
         for text in imported {
             report.add(
@@ -143,11 +167,15 @@ impl CheckReport {
         let errors = count(self.errors, "error", "errors");
         let warnings = count(self.warnings, "warning", "warnings");
         let notes = count(self.notes, "note", "notes");
-        writeln!(out, "{}: {errors}, {warnings}, {notes}", plain(&self.file))?;
+        write!(out, "{}: {errors}, {warnings}, {notes}", plain(&self.file))?;
+        if let Some(takes) = &self.takes {
+            write!(out, ", {} of takes", count(takes.len(), "defect", "defects"))?;
+        }
+        writeln!(out)?;
         for FindingRow { severity, rule, place, text } in &self.findings {
             let place = if place.is_empty() { String::new() } else { format!("{}: ", plain(place)) };
             writeln!(out, "  {severity}: {place}{} ({rule})", plain(text))?;
         }
-        Ok(())
+        self.takes.iter().flatten().try_for_each(|defect| defect.write(out))
     }
 }

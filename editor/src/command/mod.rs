@@ -23,6 +23,7 @@ mod render;
 mod run_command;
 mod stdio;
 mod table;
+mod take_lint;
 
 pub use failure::{Failure, tell};
 
