@@ -1,6 +1,7 @@
 //! `dragonfly edit` applies edits read from a text file and saves them without touching the rest of the model.
 
 use crate::program::{dragonfly, outcome, run};
+use dragonfly_document::edit::EDITS;
 use dragonfly_kit::folder::{Folder, data};
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
@@ -201,12 +202,12 @@ fn the_list_of_edits_and_their_schema_can_be_read_by_programs() {
         .iter()
         .filter_map(|entry| entry["example"]["edit"].as_str())
         .collect();
-    assert!(names.len() == 26 && names.contains(&"split_take"), "{names:?}");
+    assert!(names.len() == EDITS.len() && names.contains(&"split_take"), "{names:?}");
     assert_eq!(list["version"], 1);
     let people = run(["edit", "--list"]).expect(0);
     assert!(people.text().contains("# Rotates the head 30°"));
     let schema = run(["edit", "--schema"]).expect(0).json();
-    assert_eq!(schema["oneOf"].as_array().map(Vec::len), Some(26));
+    assert_eq!(schema["oneOf"].as_array().map(Vec::len), Some(EDITS.len()));
 }
 
 #[test]

@@ -11,6 +11,8 @@ use std::time::Duration;
 /// The size of the window at scale 1, and at 1.5.
 const USUAL: [u32; 4] = [0, 0, 1280, 720];
 const LARGER: [u32; 4] = [0, 0, 1920, 1080];
+/// Height of the screen that the program leaves to the frame of its window, at the larger scale.
+const FRAME: u32 = 90;
 
 /// Returns the rectangle without the status line, which shows how long a frame took.
 const fn still([x, y, width, height]: [u32; 4]) -> [u32; 4] {
@@ -85,7 +87,7 @@ fn end(mut editor: Editor, screen: &mut Screen) {
 fn a_new_scale_gives_the_same_layout_as_starting_with_it() {
     let _one = alone();
     for managed in [false, true] {
-        let mut screen = Screen::new("scale", LARGER[2], LARGER[3]);
+        let mut screen = Screen::new("scale", LARGER[2], LARGER[3] + FRAME);
         if managed {
             manager::start(&screen);
         }
@@ -111,7 +113,7 @@ fn a_new_scale_gives_the_same_layout_as_starting_with_it() {
 #[test]
 fn a_hundred_scale_changes_leave_the_window_unchanged() {
     let _one = alone();
-    let mut screen = Screen::new("scales", LARGER[2], LARGER[3]);
+    let mut screen = Screen::new("scales", LARGER[2], LARGER[3] + FRAME);
     manager::start(&screen);
     let (mut desktop, editor, [usual, _]) = begin(&mut screen);
     let seed = dragonfly_kit::random::seed(7);

@@ -70,7 +70,7 @@ impl Room {
     fn of(width: f32) -> Self {
         let needed = [
             (Self::Speed, 660.0),
-            (Self::Seconds, 620.0),
+            (Self::Seconds, 596.0),
             (Self::Repeat, 540.0),
             (Self::Rate, 420.0),
             (Self::Keying, 330.0),
