@@ -72,6 +72,7 @@ mod shape_keys;
 mod stdio;
 mod stdio_journal;
 mod store_full;
+mod take_commands;
 mod takes_panel;
 mod timeline_curves;
 mod timeline_keyboard;

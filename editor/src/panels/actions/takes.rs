@@ -5,7 +5,8 @@ use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{
-    CreateTake, DeleteTake, Edit, MoveTake, ReverseTake, SplitTake, TakeRef, TrimTake,
+    BoneRef, CloseLoop, CreateTake, DeleteTake, Edit, LockContacts, MirrorTake, MoveTake, ReverseTake,
+    SplitTake, TakeRef, TrimTake,
 };
 
 /// Creates an empty take.
@@ -79,6 +80,41 @@ pub(in crate::panels) fn reverse(workspace: &mut Workspace) -> Option<Effect> {
     let (take, _) = shown(workspace)?;
     Some(edit(Edit::ReverseTake(ReverseTake { take })))
 }
+
+/// Mirrors the take that is shown, or the play range of it; with `of_bones` only the motion of the selected bones.
+pub(in crate::panels) fn mirror(workspace: &mut Workspace, of_bones: bool) -> Option<Effect> {
+    let (take, _) = shown(workspace)?;
+    let selected = workspace.bones.bones().iter().filter(|_| of_bones);
+    let bones = selected.map(|&bone| BoneRef::Index(bone)).collect();
+    let range = workspace.keys.range();
+    let (from, to) = (range.map(|[from, _]| from), range.map(|[_, to]| to));
+    Some(edit(Edit::MirrorTake(MirrorTake { take, bones, from, to })))
+}
+
+/// Closes the loop of the take that is shown: what follows the playhead leads into the start.
+pub(in crate::panels) fn close_loop(workspace: &mut Workspace) -> Option<Effect> {
+    let (take, _) = shown(workspace)?;
+    let panels = workspace.read();
+    let (start, length) = panels.take_bounds();
+    let frames = ((start + length - panels.time()) / panels.frame_seconds()).round();
+    if frames < 1.0 {
+        let text = "Move the playhead to where the take begins to lead into its start, before its end";
+        workspace.say(MessageSeverity::Info, text);
+        return None;
+    }
+    let (rate, frames) = (Some(panels.frame_rate as f32), frames as u32);
+    Some(edit(Edit::CloseLoop(CloseLoop { take, frames, travel: None, contacts: Vec::new(), rate })))
+}
+
+/// Locks the feet of the take that is shown in their contacts with the ground.
+pub(in crate::panels) fn lock_contacts(workspace: &mut Workspace) -> Option<Effect> {
+    let (take, _) = shown(workspace)?;
+    let rate = Some(workspace.read().frame_rate as f32);
+    Some(edit(Edit::LockContacts(LockContacts { take, contacts: Vec::new(), ease: EASE, rate })))
+}
+
+/// Number of frames over which the correction of a locked foot fades.
+const EASE: u32 = 4;
 
 /// Returns the take that is shown and its name.
 fn shown(workspace: &Workspace) -> Option<(TakeRef, String)> {

@@ -14,4 +14,8 @@ commands! {
     TrimTake => When::Take, "Trim take to play range", [], "Deletes all keys outside the play range", takes::trim;
     RetimeTake => When::Take, "Change start and length…", [], "Moves and stretches all keys of the take in time", |w| { takes::ask_times(w); None };
     ReverseTake => When::Take, "Reverse take", [], "Reverses the take in time", takes::reverse;
+    MirrorTake => When::Take, "Mirror take", [], "Mirrors the take, or the play range of it: each side of the body gets the motion of the other (flip, swap sides)", |w| takes::mirror(w, false);
+    MirrorBonesInTake => When::BoneInTake, "Mirror motion of bones", [], "Gives the motion of the selected bones in the take, or in the play range, to those of the other side", |w| takes::mirror(w, true);
+    CloseLoop => When::Take, "Close loop from here", [], "Changes the take from the playhead to its end so that it leads into its start (cycle, seamless)", takes::close_loop;
+    LockContacts => When::Take, "Lock feet in contacts", [], "Holds feet where they touch the ground, so that they do not slide; feet are found by name, contacts by height and speed (plant, foot slide)", takes::lock_contacts;
 }
