@@ -49,6 +49,21 @@ impl KeyChange {
         [tangent(original[0], self.arrive), value, tangent(original[2], self.leave)]
     }
 
+    /// Returns the change with which a key gets these tangents; `None` leaves one as it is, to the bit.
+    pub(crate) fn given_tangents<K: ChannelKind>(
+        self,
+        original: &Triple,
+        [arrive, leave]: [Option<ChannelNumbers>; 2],
+    ) -> Self {
+        let now = self.result::<K>(original);
+        let plain = Self { arrive: NONE, leave: NONE, ..self }.result::<K>(original);
+        let added = |wanted: Option<ChannelNumbers>, side: usize, old: ChannelNumbers| match wanted {
+            Some(wanted) if wanted != now[side] => subtract(wanted, plain[side]),
+            _ => old,
+        };
+        Self { arrive: added(arrive, 0, self.arrive), leave: added(leave, 2, self.leave), ..self }
+    }
+
     /// Returns the change from `original` to `result`: `Some(None)` where they are the same, `None` where no change
     /// leads there.
     pub(crate) fn between<K: ChannelKind>(original: &Triple, result: &Triple) -> Option<Option<Self>> {

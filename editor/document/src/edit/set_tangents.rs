@@ -2,7 +2,7 @@
 
 use super::kind::EditKind;
 use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef, cost};
-use crate::adapter::change::{KeyChange, Triple, subtract};
+use crate::adapter::change::KeyChange;
 use crate::adapter::kind::{ChannelKind, ChannelNumbers, with_kind};
 use crate::adapter::op::{ChannelAddress, Op};
 use crate::adapter::plan::{Transaction, finite, key_at, pose::numbers};
@@ -95,15 +95,8 @@ fn set_tangents<K: ChannelKind>(
         return Err(EditError::NoSpline { bone: address.bone, property: address.property });
     }
     let Some(found) = slot.key::<K>(address.property, address.bone, key) else { return Ok(()) };
-    let now: Triple = found.change.map_or(found.original, |change| change.result::<K>(&found.original));
     let before = found.change.unwrap_or(KeyChange::identity::<K>());
-    let plain = KeyChange { arrive: [0.0; 4], leave: [0.0; 4], ..before }.result::<K>(&found.original);
-    let added = |wanted: Option<ChannelNumbers>, side: usize, old: ChannelNumbers| match wanted {
-        Some(wanted) if wanted != now[side] => subtract(wanted, plain[side]),
-        _ => old,
-    };
-    let change =
-        KeyChange { arrive: added(arrive, 0, before.arrive), leave: added(leave, 2, before.leave), ..before };
+    let change = before.given_tangents::<K>(&found.original, [arrive, leave]);
     work.perform(Op::Changes(address, vec![(key as u32, change.some::<K>())]));
     Ok(())
 }

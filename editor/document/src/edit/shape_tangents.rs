@@ -3,7 +3,7 @@
 use super::kind::EditKind;
 use super::set_interpolation::become_interpolation;
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef, cost};
-use crate::adapter::change::{KeyChange, Triple, subtract};
+use crate::adapter::change::{KeyChange, Triple};
 use crate::adapter::kind::{ChannelKind, ChannelNumbers, with_kind};
 use crate::adapter::op::{ChannelAddress, Op};
 use crate::adapter::plan::{Transaction, list, spline::near, spline::value};
@@ -125,15 +125,7 @@ fn shape<K: ChannelKind>(
         let before = found.change.unwrap_or(KeyChange::identity::<K>());
         let now: Triple = before.result::<K>(&found.original);
         let wanted = tangents_of::<K>(result, key as usize, now, kind);
-        let plain = KeyChange { arrive: [0.0; 4], leave: [0.0; 4], ..before }.result::<K>(&found.original);
-        let added = |side: usize, wanted: ChannelNumbers, old: ChannelNumbers| {
-            if wanted == now[side] { old } else { subtract(wanted, plain[side]) }
-        };
-        let change = KeyChange {
-            arrive: added(0, wanted[0], before.arrive),
-            leave: added(2, wanted[1], before.leave),
-            ..before
-        };
+        let change = before.given_tangents::<K>(&found.original, wanted.map(Some));
         if change != before {
             changes.push((key, change.some::<K>()));
         }
