@@ -61,6 +61,7 @@ mod sampling;
 mod save_compact;
 mod save_edits;
 mod save_errors;
+mod save_extras;
 mod save_judges;
 mod save_mutants;
 mod save_random;

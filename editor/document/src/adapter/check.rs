@@ -46,6 +46,7 @@ fn slot_is_right(slot: &TakeVersions) -> CheckResult {
     let unchanged = slot.changed().next().is_none();
     ensure(unchanged == Arc::ptr_eq(original, result), || "an unchanged take is its original".to_owned())?;
     ensure(original.name == result.name, || "the names differ".to_owned())?;
+    ensure(original.extras == result.extras, || "the extras differ".to_owned())?;
     ensure(original.tracks.len() == result.tracks.len(), || "the tracks differ".to_owned())?;
     ensure(original.morphs == result.morphs, || "the morph tracks differ".to_owned())?;
     for take in [original, result] {

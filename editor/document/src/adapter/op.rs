@@ -37,6 +37,8 @@ pub(crate) enum Op {
     Pending(TakeId, f32, Option<Arc<PendingAt>>),
     /// Renames a take.
     Name(TakeId, String),
+    /// Replaces a text of the extras of a take; `None` for none.
+    Extras(TakeId, String, Option<Arc<str>>),
     /// Inserts a take at an index of the list.
     Insert(usize, Arc<TakeVersions>),
     /// Removes a take.
@@ -73,6 +75,7 @@ impl Op {
                 }
                 Self::Pending(_, _, at) => at.as_ref().map_or(0, |at| size_of_val(at.poses.as_slice())),
                 Self::Insert(_, slot) => slot.original.keys() * 16,
+                Self::Extras(_, _, text) => text.as_ref().map_or(0, |text| text.len()),
                 Self::Name(..) | Self::Remove(_) | Self::Move(..) => 0,
             }
     }
@@ -88,6 +91,7 @@ impl Op {
             | Self::AllChanges(..)
             | Self::Pending(..)
             | Self::Name(..)
+            | Self::Extras(..)
             | Self::Insert(..)
             | Self::Remove(_)
             | Self::Move(..) => None,
@@ -126,6 +130,10 @@ impl ModelAdapter {
                 Op::Pending(take, time, before)
             }
             Op::Name(take, name) => Op::Name(take, self.slot_mut(take).set_name(&name)),
+            Op::Extras(take, name, text) => {
+                let before = self.slot_mut(take).set_extras(&name, text);
+                Op::Extras(take, name, before)
+            }
             Op::Insert(index, slot) => {
                 let id = slot.id;
                 self.slots.insert(index.min(self.slots.len()), slot);

@@ -52,6 +52,7 @@ mod retime_take;
 mod reverse_take;
 mod ripple_keys;
 mod scale_keys;
+mod set_extras;
 mod set_interpolation;
 mod set_pending;
 mod set_pose;
@@ -116,6 +117,7 @@ edits! {
     "resample_keys" => resample_keys::ResampleKeys,
     "create_take" => create_take::CreateTake,
     "delete_take" => delete_take::DeleteTake,
+    "set_extras" => set_extras::SetExtras,
     "rename_take" => rename_take::RenameTake,
     "move_take" => move_take::MoveTake,
     "split_take" => split_take::SplitTake,

@@ -250,6 +250,13 @@ impl TakeVersions {
         before
     }
 
+    /// Replaces a text of the extras; `None` removes it. Returns the previous one.
+    pub(crate) fn set_extras(&mut self, name: &str, text: Option<Arc<str>>) -> Option<Arc<str>> {
+        let mut before = None;
+        self.both(|take| before = take.extras.set(name, text.clone()));
+        before
+    }
+
     /// Returns the original, to be modified. The caller must set the result afterwards: without changes, the result is
     /// the original itself and is released here, because a take that both share would be copied for each channel of an
     /// edit.
