@@ -44,6 +44,7 @@ mod ik;
 mod inbetween;
 mod instances;
 mod joint_limits;
+mod layers;
 mod lenient;
 mod levels;
 mod limited_chains;
