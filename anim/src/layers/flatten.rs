@@ -146,6 +146,8 @@ fn in_lines<R: LayerRule>(
     }
     let way = ends.iter().fold(0.0_f32, |way, &value| way.max(R::distance(ends[0], value)));
     let tolerance = TOLERANCE * way.clamp(1e-3, 1.0);
+    // A hostile file must not make a channel much longer than its sources.
+    let mut room = KEYS_PER_CHANNEL.min(times.len() + 1000);
     let (mut all, mut values) = (Vec::with_capacity(times.len()), Vec::with_capacity(times.len()));
     for (index, (&time, &value)) in times.iter().zip(&ends).enumerate() {
         all.push(time);
@@ -154,7 +156,6 @@ fn in_lines<R: LayerRule>(
             && next - time > 2.0 * JUMP
             && bends(base, layers, time, next)
         {
-            let mut room = KEYS_PER_CHANNEL.saturating_sub(all.len() + times.len());
             halve::<R>(
                 &at,
                 [(time, value), (next, after)],

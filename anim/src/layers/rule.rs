@@ -3,7 +3,7 @@
 use crate::data::{Channel, Track};
 use crate::sample::Value;
 use crate::sample::mix::{lerp, slerp};
-use glam::{Quat, Vec3, Vec4Swizzles};
+use glam::{Quat, Vec3};
 
 /// The rule of one channel of a bone; the formulas are in [the module](super).
 pub trait LayerRule {
@@ -209,7 +209,7 @@ fn exact_ends<T>(from: T, to: T, weight: f32) -> Option<T> {
 /// Returns whether the part `weight` of some rotation by less than half a turn is `part`.
 fn is_short(part: Quat, weight: f32) -> bool {
     let angle = 2.0 * libm::atan2f(part.xyz().length(), part.w.abs());
-    angle < weight * (std::f32::consts::PI - 1e-3)
+    weight >= 1.0 || angle < weight * (std::f32::consts::PI - 1e-3)
 }
 
 /// Returns the rotation about the same axis by `exponent` times the angle, the short way.

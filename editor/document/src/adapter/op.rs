@@ -4,7 +4,7 @@ use super::ModelAdapter;
 use super::change::KeyChange;
 use super::kind::AnyChannel;
 use super::pending::PendingAt;
-use super::slot::{ChannelChanges, ChannelContent, KeyContent, TakeId, TakeVersions};
+use super::slot::{ChannelChanges, ChannelContent, KeyContent, LayerVersions, TakeId, TakeVersions};
 use super::times::SharedTimes;
 use crate::edit::target::Property;
 use dragonfly_anim::data::MorphTrack;
@@ -35,6 +35,8 @@ pub(crate) enum Op {
     Morphs(TakeId, Vec<MorphTrack>),
     /// Replaces the pending poses at a time; `None` for none.
     Pending(TakeId, f32, Option<Arc<PendingAt>>),
+    /// Replaces the layers of a take.
+    Layers(TakeId, Vec<LayerVersions>),
     /// Renames a take.
     Name(TakeId, String),
     /// Replaces a text of the extras of a take; `None` for none.
@@ -75,6 +77,9 @@ impl Op {
                 }
                 Self::Pending(_, _, at) => at.as_ref().map_or(0, |at| size_of_val(at.poses.as_slice())),
                 Self::Insert(_, slot) => slot.original.keys() * 16,
+                Self::Layers(_, layers) => {
+                    layers.iter().map(|layer| 256 + layer.keys.original.keys() * 16).sum()
+                }
                 Self::Extras(_, _, text) => text.as_ref().map_or(0, |text| text.len()),
                 Self::Name(..) | Self::Remove(_) | Self::Move(..) => 0,
             }
@@ -86,7 +91,7 @@ impl Op {
     pub(crate) fn keys_of(&self) -> Option<TakeId> {
         match self {
             Self::Splice(place, ..) | Self::Times(place, _) | Self::Replace(place, _) => Some(place.take),
-            Self::Morphs(take, _) => Some(*take),
+            Self::Morphs(take, _) | Self::Layers(take, _) => Some(*take),
             Self::Changes(..)
             | Self::AllChanges(..)
             | Self::Pending(..)
@@ -130,6 +135,7 @@ impl ModelAdapter {
                 Op::Pending(take, time, before)
             }
             Op::Name(take, name) => Op::Name(take, self.slot_mut(take).set_name(&name)),
+            Op::Layers(take, layers) => Op::Layers(take, self.slot_mut(take).set_layers(layers)),
             Op::Extras(take, name, text) => {
                 let before = self.slot_mut(take).set_extras(&name, text);
                 Op::Extras(take, name, before)
@@ -152,10 +158,16 @@ impl ModelAdapter {
         }
     }
 
-    /// Computes start and length of takes whose keys have changed, if they still exist.
+    /// Computes start and length of takes whose keys have changed, if they still exist, and puts layers over the takes below them.
     pub(crate) fn measure(&mut self, takes: &[TakeId]) {
-        for slot in self.slots.iter_mut().filter(|slot| takes.contains(&slot.id)) {
-            Arc::make_mut(slot).measure();
+        for &take in takes {
+            if self.place_of(take).is_some() {
+                self.slot_mut(take).measure();
+            }
+        }
+        let skeleton = Arc::clone(&self.skeleton);
+        for slot in self.slots.iter_mut().filter(|slot| slot.is_flat_outdated()) {
+            Arc::make_mut(slot).flatten(&skeleton);
         }
     }
 
@@ -167,7 +179,16 @@ impl ModelAdapter {
     }
 
     fn slot_mut(&mut self, take: TakeId) -> &mut TakeVersions {
-        let index = self.index_of(take);
-        Arc::make_mut(&mut self.slots[index])
+        let Some((index, layer)) = self.place_of(take) else {
+            unreachable!("an operation names a take that is not there: {take:?}");
+        };
+        let slot = Arc::make_mut(&mut self.slots[index]);
+        match layer {
+            None => slot,
+            Some(layer) => match slot.layer_mut(layer) {
+                Some(keys) => keys,
+                None => unreachable!("layer {layer} was found in the take"),
+            },
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Options of edits.
 
+use dragonfly_anim::layers::LayerMode;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -35,6 +36,35 @@ pub enum KeyInterpolation {
     Linear,
     /// A cubic spline with tangents. A channel without tangents gets ones that make it smooth.
     CubicSpline,
+}
+
+/// How a layer changes what lies below it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LayerKind {
+    /// Its keys are offsets in parent space.
+    #[default]
+    Additive,
+    /// Its keys are poses, which replace what lies below.
+    Override,
+}
+
+impl From<LayerKind> for LayerMode {
+    fn from(kind: LayerKind) -> Self {
+        match kind {
+            LayerKind::Additive => Self::Additive,
+            LayerKind::Override => Self::Override,
+        }
+    }
+}
+
+impl From<LayerMode> for LayerKind {
+    fn from(mode: LayerMode) -> Self {
+        match mode {
+            LayerMode::Additive => Self::Additive,
+            LayerMode::Override => Self::Override,
+        }
+    }
 }
 
 impl From<KeyInterpolation> for dragonfly_anim::data::Interpolation {

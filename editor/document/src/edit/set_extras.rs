@@ -3,6 +3,7 @@
 use super::kind::EditKind;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::EditError;
+use crate::adapter::LAYERS;
 use crate::adapter::op::Op;
 use crate::adapter::plan::Transaction;
 use dragonfly_anim::data::Skeleton;
@@ -48,6 +49,9 @@ impl EditKind for SetExtras {
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let take = work.take(&self.take)?;
+        if self.name == LAYERS {
+            return Err(EditError::Nothing("layers have edits of their own"));
+        }
         if self.name.is_empty() {
             return Err(EditError::Nothing("the extras need a name"));
         }

@@ -1,6 +1,7 @@
 //! One take in its three forms: original, changes, result.
 
 mod channel;
+mod layers;
 
 use super::change::{KeyChange, Triple, triple};
 use super::key_bytes::key_bytes;
@@ -12,6 +13,8 @@ use channel::{exchange, merge, refresh, replaced, retimed, spliced};
 use dragonfly_anim::data::{Channel, MorphTrack, Take};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+pub use layers::LayerVersions;
 
 /// Identifies a take among all takes that its document has or had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
@@ -48,12 +51,15 @@ pub struct TakeVersions {
     pub origin: Option<usize>,
     /// The take as it was read. Keys that are created or deleted are created or deleted in it, too.
     pub original: Arc<Take>,
-    /// Original + changes: the take that is shown and saved.
+    /// Original + changes, without layers. Shown and saved is [`Self::shown`].
     pub result: Arc<Take>,
     /// Size of its keys in bytes.
     pub(crate) key_bytes: u64,
     changes: BTreeMap<(u32, Property), Arc<ChannelChanges>>,
     pending: Pending,
+    layers: Vec<LayerVersions>,
+    /// The result with all layers over it; `None` without layers.
+    flat: Option<layers::FlatTake>,
 }
 
 impl TakeVersions {
@@ -66,12 +72,18 @@ impl TakeVersions {
             result: take,
             changes: BTreeMap::new(),
             pending: Vec::new(),
+            layers: Vec::new(),
+            flat: None,
         }
     }
 
-    /// Returns a copy of the take, including its pending poses, with another identifier. The copy is not from the file.
-    pub(crate) fn copied(&self, id: TakeId) -> Self {
-        Self { id, origin: None, ..self.clone() }
+    /// Returns a copy of the take, including its pending poses and layers, with other identifiers. The copy is not from the file.
+    pub(crate) fn copied(&self, new_id: &mut impl FnMut() -> TakeId) -> Self {
+        let mut copy = Self { id: new_id(), origin: None, ..self.clone() };
+        for layer in &mut copy.layers {
+            layer.keys = Arc::new(TakeVersions { id: new_id(), ..TakeVersions::clone(&layer.keys) });
+        }
+        copy
     }
 
     /// Returns the changes of a channel.
