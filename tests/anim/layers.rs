@@ -80,7 +80,7 @@ fn blended(base: &Track, layers: &[TakeLayer], rest: Transform, time: f32) -> Tr
     })
 }
 
-/// Returns whether a step of any channel lies near `time`.
+/// Returns whether a step of any channel is near `time`.
 fn is_near_jump(tracks: &[&Track], time: f32) -> bool {
     let jumps = |times: &[f32], kind: Interpolation| match kind {
         Interpolation::Step => times.iter().any(|&key| (key - time).abs() < 2e-3),

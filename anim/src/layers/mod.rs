@@ -1,7 +1,7 @@
 //! Layers over a take: keys of their own that change what is played, while the keys of the take stay as they are.
 //!
 //! The take below is the *base*. Each layer has a take of keys for the bones that it moves; a channel without keys moves
-//! nothing. From the lowest to the highest, with `b` for what lies below, `k` for the value of the layer and `w` for its weight at
+//! nothing. From the lowest to the highest, with `b` for the value below, `k` for the value of the layer and `w` for its weight at
 //! that time:
 //!
 //! ```text
@@ -82,7 +82,7 @@ pub fn key_for<R: LayerRule>(
                 if left < LEAST_WEIGHT {
                     return None;
                 }
-                // target = mix(x, key, weight), so x lies beyond target, seen from key.
+                // target = mix(x, key, weight), so x is beyond target, seen from key.
                 R::beyond(key, target, left)?
             }
         };

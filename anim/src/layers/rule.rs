@@ -30,7 +30,7 @@ pub trait LayerRule {
     /// Returns the offset that, added to `below` with this weight, gives `sum`; `None` where there is none.
     fn offset(below: Self::Value, sum: Self::Value, weight: f32) -> Option<Self::Value>;
 
-    /// Goes from `below` towards `value`: 0 stays, 1 arrives, more goes on.
+    /// Returns the value on the way from `below` to `value`: the weight 0 is `below`, 1 is `value`, more is beyond it.
     fn mix(below: Self::Value, value: Self::Value, weight: f32) -> Self::Value;
 
     /// Goes beyond `value`, so that [`Self::mix`] with `weight` leads from `below` back to it; `None` where it would lead another

@@ -1,15 +1,15 @@
-//! What a layer is, apart from its keys.
+//! The settings of a layer: everything but its keys.
 
 use crate::data::{BoneIndex, Take};
 use std::sync::Arc;
 
-/// How the keys of a layer change what lies below.
+/// How the keys of a layer change the values below.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LayerMode {
     /// The keys are offsets in parent space.
     #[default]
     Additive,
-    /// The keys are poses, which replace what lies below.
+    /// The keys are poses, which replace the values below.
     Override,
 }
 
@@ -27,7 +27,7 @@ pub struct WeightKey {
 pub struct LayerSettings {
     /// Name for the list of layers.
     pub name: String,
-    /// How it changes what lies below.
+    /// How it changes the values below.
     pub mode: LayerMode,
     /// The weight where it has no keys.
     pub weight: f32,

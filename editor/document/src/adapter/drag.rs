@@ -41,7 +41,7 @@ impl ValueDrag {
     /// Starts after `edit`, which `inverse` undoes; `None` where later edits may do more than set values.
     pub(crate) fn of(adapter: &ModelAdapter, edit: &Edit, inverse: &Inverse) -> Option<Self> {
         let (time, poses, _) = edit.values()?;
-        // What is shown of a take with layers is computed after each edit.
+        // The take that layers give is computed after each edit.
         if !adapter.base(edit.take()?).ok()?.layers().is_empty() {
             return None;
         }

@@ -18,7 +18,7 @@ pub struct AddLayer {
     pub take: TakeRef,
     /// Name of the layer.
     pub name: String,
-    /// How the layer changes what lies below; a copy has that of its source.
+    /// How the layer changes the values below; a copy has that of its source.
     #[serde(default)]
     pub kind: LayerKind,
     /// The bones that it may move; all where empty. A copy has those of its source.

@@ -14,7 +14,7 @@ pub(crate) trait EditKind: Sized {
     /// The edit as a line of JSON, with a description; for help texts and tests.
     const EXAMPLE: Example;
 
-    /// What it can be applied to.
+    /// Whether it can be applied to layers and to takes with layers.
     const LAYERS: LayerUse = LayerUse::TakeOnly;
 
     /// Returns the name of the edit for the history and the undo command, in a few words.

@@ -38,14 +38,14 @@ pub enum KeyInterpolation {
     CubicSpline,
 }
 
-/// How a layer changes what lies below it.
+/// How a layer changes the values below it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LayerKind {
     /// Its keys are offsets in parent space.
     #[default]
     Additive,
-    /// Its keys are poses, which replace what lies below.
+    /// Its keys are poses, which replace the values below.
     Override,
 }
 

@@ -18,7 +18,7 @@ pub struct SetLayer {
     /// Its name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// How it changes what lies below. A layer with keys keeps its kind, because they mean something else in the other one.
+    /// How it changes the values below. A layer with keys keeps its kind, because they mean something else in the other one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kind: Option<LayerKind>,
     /// Its weight while the weight has no keys, 0 to 10.
