@@ -1,6 +1,7 @@
 //! Data that the panels derive from a view, computed once when it changes instead of every frame.
 
 use dragonfly_anim::data::{BoneIndex, Take};
+use dragonfly_document::adapter::TakeId;
 use dragonfly_document::{LoadedModel, View};
 use std::sync::Arc;
 
@@ -48,6 +49,34 @@ pub struct Lanes {
     pub channels: [Arc<[f32]>; 3],
 }
 
+/// The keys that are shown and edited: those of a take, or of a layer of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ShownKeys {
+    /// Index of the take; `None` for the rest pose.
+    pub take: Option<usize>,
+    /// The chosen layer, which the take may not have.
+    pub layer: Option<TakeId>,
+}
+
+impl ShownKeys {
+    /// Returns the index of the layer; `None` where the take has no such layer.
+    pub fn layer_in(self, view: &View) -> Option<usize> {
+        let (slot, chosen) = (view.slots.get(self.take?)?, self.layer?);
+        slot.layers().iter().position(|layer| layer.keys.id == chosen)
+    }
+
+    /// Returns the keys: of a take with layers those of the layer, or those below all layers.
+    pub fn of(self, view: &View) -> Option<&Arc<Take>> {
+        let take = self.take?;
+        let slot = view.slots.get(take).filter(|slot| !slot.layers().is_empty());
+        match (slot, self.layer_in(view)) {
+            (None, _) => view.takes.get(take),
+            (Some(slot), None) => Some(&slot.result),
+            (Some(slot), Some(layer)) => slot.layers().get(layer).map(|layer| &layer.keys.result),
+        }
+    }
+}
+
 /// Everything computed from a view.
 #[derive(Clone, Debug, Default)]
 pub struct Digest {
@@ -61,12 +90,12 @@ pub struct Digest {
     pub lanes: Lanes,
     generation: Option<u64>,
     loaded: Option<Arc<LoadedModel>>,
-    lanes_of: Option<(u64, Option<usize>, Option<BoneIndex>)>,
+    lanes_of: Option<(u64, ShownKeys, Option<BoneIndex>)>,
 }
 
 impl Digest {
     /// Computes what changed since the last call.
-    pub fn update(&mut self, view: Option<&View>, take: Option<usize>, bone: Option<BoneIndex>) {
+    pub fn update(&mut self, view: Option<&View>, keys: ShownKeys, bone: Option<BoneIndex>) {
         let Some(view) = view else {
             *self = Self::default();
             return;
@@ -79,12 +108,11 @@ impl Digest {
                 self.loaded = Some(Arc::clone(loaded));
             }
             self.takes = takes(&view.takes);
-            self.lanes_of = None;
             self.generation = Some(view.generation);
         }
-        let key = (view.generation, take, bone);
+        let key = (view.generation, keys, bone);
         if self.lanes_of != Some(key) {
-            self.lanes = lanes(&view.takes, take, bone);
+            self.lanes = lanes(keys.of(view), bone);
             self.lanes_of = Some(key);
         }
     }
@@ -147,10 +175,8 @@ fn totals(loaded: &LoadedModel) -> Totals {
     totals
 }
 
-fn lanes(takes: &[Arc<Take>], take: Option<usize>, bone: Option<BoneIndex>) -> Lanes {
-    let Some(take) = take.and_then(|take| takes.get(take)) else {
-        return Lanes::default();
-    };
+fn lanes(take: Option<&Arc<Take>>, bone: Option<BoneIndex>) -> Lanes {
+    let Some(take) = take else { return Lanes::default() };
     let track = bone.and_then(|bone| take.tracks.iter().find(|track| track.bone == bone));
     track.map_or_else(Lanes::default, |track| Lanes {
         channels: [&track.translation.times, &track.rotation.times, &track.scale.times].map(Arc::clone),

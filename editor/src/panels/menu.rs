@@ -29,7 +29,11 @@ pub fn show(
         ui.menu_button("Tools", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Tools], requests)));
         ui.menu_button("Play", |ui| list(ui, context, &[Category::Playback], requests));
         ui.menu_button("Keys", |ui| scrolled(ui, |ui| keys(ui, context, requests)));
-        ui.menu_button("Take", |ui| list(ui, context, &[Category::Takes], requests));
+        ui.menu_button("Take", |ui| {
+            list(ui, context, &[Category::Takes], requests);
+            ui.separator();
+            ui.menu_button("Layers", |ui| list(ui, context, &[Category::Layers], requests));
+        });
         ui.menu_button("View", |ui| view(ui, context, panels, requests));
         ui.menu_button("Help", |ui| list(ui, context, &[Category::Help], requests));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

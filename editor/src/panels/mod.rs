@@ -33,6 +33,8 @@ pub mod icons;
 pub mod inbetween;
 mod key_canvases;
 pub mod keys;
+pub mod layer_choice;
+pub mod layers;
 pub mod layout;
 pub mod marks;
 pub mod menu;
@@ -90,6 +92,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
     vec![
         Box::<hierarchy::Hierarchy>::default(),
         Box::<takes::Takes>::default(),
+        Box::<layers::Layers>::default(),
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
         Box::<history::History>::default(),

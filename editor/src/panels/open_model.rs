@@ -1,6 +1,6 @@
 //! The model that is open, as the document sent it last, and the model that is being loaded.
 
-use super::digest::Digest;
+use super::digest::{Digest, ShownKeys};
 use super::echo::Echo;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::adapter::TakeVersions;
@@ -57,9 +57,9 @@ impl OpenModel {
         &self.digest
     }
 
-    /// Computes the digest for the take that is shown and the active bone.
-    pub(super) fn update_digest(&mut self, take: Option<usize>, bone: Option<BoneIndex>) {
-        self.digest.update(self.view.as_ref(), take, bone);
+    /// Computes the digest for the keys that are shown and the active bone.
+    pub(super) fn update_digest(&mut self, keys: ShownKeys, bone: Option<BoneIndex>) {
+        self.digest.update(self.view.as_ref(), keys, bone);
     }
 
     /// Returns the model that is open.

@@ -9,6 +9,7 @@ use super::overlay::Overlay;
 use super::properties::look::PropertiesLook;
 use super::settings::GhostSettings;
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_document::adapter::TakeId;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{Change, DocumentMessage, Offer, Source, Then};
 use dragonfly_picture::camera::Camera;
@@ -48,6 +49,8 @@ pub enum Request {
     Hover(BoneIndex),
     /// Shows a take, or the rest pose.
     ShowTake(Option<usize>),
+    /// Makes a layer active, whose keys are then shown and edited, or the take itself.
+    ChooseLayer(Option<TakeId>),
     /// Goes to this time, seconds.
     Seek(f32),
     /// Sets the speed of playback, seconds of the take per second.

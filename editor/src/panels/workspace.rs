@@ -7,6 +7,7 @@ use super::dragging::Dragging;
 use super::edit_scope::EditOver;
 use super::frame_rate::FrameRate;
 use super::keys::KeyEditing;
+use super::layer_choice::LayerChoice;
 use super::marks::Marks;
 use super::open_model::OpenModel;
 use super::player::Player;
@@ -42,6 +43,8 @@ pub(super) struct Workspace {
     pub(super) given: GivenAngles,
     /// The list of takes.
     pub(super) takes: TakeListState,
+    /// The layer whose keys are shown and edited.
+    pub(super) layers: LayerChoice,
     /// The tools of the viewport.
     pub(super) tools: ToolState,
     /// The keys that edits of poses are for.
@@ -75,6 +78,7 @@ impl Workspace {
             selections: SelectionSteps::default(),
             given: GivenAngles::default(),
             takes: TakeListState::default(),
+            layers: LayerChoice::default(),
             tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
             over: EditOver::default(),
             camera: CameraState::default(),
@@ -108,6 +112,7 @@ impl Workspace {
             keys: &self.keys,
             given: &self.given,
             takes: &self.takes,
+            layer_choice: self.layers,
             camera: *self.camera.camera(),
             viewport: self.camera.viewport(),
             tools: &self.tools,
@@ -123,14 +128,14 @@ impl Workspace {
 
     /// Returns the selected bones and keys.
     pub(super) fn selection_state(&self) -> SelectionState {
-        let take = self.read().slot().map(|slot| slot.id);
+        let take = self.read().key_slot().map(|slot| slot.id);
         SelectionState { bones: self.bones.bones().to_vec(), keys: self.keys.selection().clone(), take }
     }
 
     /// Selects the bones and keys that were selected before; the keys only if their take is shown.
     pub(super) fn restore_selection(&mut self, selection: &SelectionState) {
         self.bones.choose(&selection.bones, Choice::Replace);
-        if selection.take.is_some() && selection.take == self.read().slot().map(|slot| slot.id) {
+        if selection.take.is_some() && selection.take == self.read().key_slot().map(|slot| slot.id) {
             self.keys.restore(&selection.keys);
         }
     }

@@ -402,7 +402,7 @@ fn read_channel(record: &ChannelRecord, numbers: &[SharedNumbers], track: &mut T
 fn fits(base: &Take, layers: &[LayerVersions]) -> bool {
     let keys = |take: &Take| take.tracks.iter().map(|track| track.keys() as u64).sum::<u64>();
     let all = keys(base) + layers.iter().map(|layer| keys(&layer.keys.result)).sum::<u64>();
-    // A line between keys may need as many again.
+    // Lines between keys may need as many again.
     all.saturating_mul(2 * 20) <= KEY_BYTES
 }
 

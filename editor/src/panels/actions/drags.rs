@@ -217,8 +217,8 @@ pub(in crate::panels) fn cancel_keys(workspace: &mut Workspace) -> Option<Effect
 pub(super) fn settle_keys(workspace: &mut Workspace) {
     let Some(generation) = workspace.model.view().map(|view| view.generation) else { return };
     let take = workspace.read().shared_take().cloned();
-    let place = workspace.player.take().and_then(|index| workspace.model.slots().get(index));
-    let pasted = place.and_then(|slot| workspace.keys.select_pasted(slot, take.as_deref(), generation));
+    let place = workspace.read().key_slot().cloned();
+    let pasted = place.and_then(|slot| workspace.keys.select_pasted(&slot, take.as_deref(), generation));
     let moved = workspace.keys.settle(take.as_deref(), &workspace.dragging.echo);
     for ended in [pasted, moved].into_iter().flatten() {
         let now = take.as_ref().map_or(0, |take| take.keys());

@@ -2,7 +2,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
-use super::{bones, clipboard, drags, files, framing, keys, locks, look, playback, scope, takes};
+use super::{bones, clipboard, drags, files, framing, keys, layers, locks, look, playback, scope, takes};
 use crate::panels::commands;
 use crate::panels::keys::KeysRequest;
 use crate::panels::request::{Effect, FileAction, Request};
@@ -51,6 +51,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::PastePose { text, mirrored } => return clipboard::paste(workspace, &text, mirrored),
         Request::Hover(bone) => workspace.bones.hover(Some(bone)),
         Request::ShowTake(take) => playback::show_take(workspace, take),
+        Request::ChooseLayer(layer) => layers::choose(workspace, layer),
         Request::Seek(time) => playback::seek(workspace, time),
         Request::Speed(speed) => playback::set_speed(workspace, speed),
         Request::Repeat(repeat) => playback::set_repeat(workspace, repeat),

@@ -15,6 +15,7 @@ pub(super) mod ik;
 pub(super) mod inbetween;
 pub(super) mod input;
 pub(super) mod keys;
+pub(super) mod layers;
 pub(super) mod locks;
 pub(super) mod look;
 pub(super) mod playback;

@@ -1,6 +1,6 @@
 //! The start of a frame, and a newer view of the document.
 
-use super::{drags, framing, keys, playback, scope, tools};
+use super::{drags, framing, keys, layers, playback, scope, tools};
 use crate::panels::change_summary;
 use crate::panels::marks::{BoneMarks, RecalledMarks};
 use crate::panels::workspace::Workspace;
@@ -19,7 +19,8 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
     workspace.keys.deselect_unlisted(workspace.bones.selection());
     let playback = workspace.player.playback();
     workspace.posed.set_running(playback.moves(now));
-    workspace.model.update_digest(playback.take, workspace.bones.active());
+    let keys = workspace.read().shown_keys();
+    workspace.model.update_digest(keys, workspace.bones.active());
     if let Some(view) = workspace.model.view() {
         workspace.posed.hold_still(workspace.keys.flags(), view);
         workspace.tools.path_mut().hold_still(workspace.keys.flags(), view);
@@ -44,6 +45,7 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     let before = workspace.model.replace(view);
     playback::follow_take(workspace, before.as_ref());
     keys::keep_markers(workspace, before.as_ref());
+    layers::follow_layers(workspace, before.as_ref());
     if let Some((old, new)) = before.as_ref().zip(workspace.model.view())
         && let Some(summary) = change_summary::describe_change(old, new)
     {

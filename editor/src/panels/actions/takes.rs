@@ -119,7 +119,7 @@ const EASE: u32 = 4;
 /// Returns the take that is shown and its name.
 fn shown(workspace: &Workspace) -> Option<(TakeRef, String)> {
     let panels = workspace.read();
-    Some((panels.take_ref()?, panels.take()?.name.clone()))
+    Some((panels.shown_take_ref()?, panels.shown_take()?.name.clone()))
 }
 
 /// Returns `base`, with the first number from `first` on that makes it a name that no take has; 1 is not written.

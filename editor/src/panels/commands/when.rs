@@ -15,6 +15,12 @@ pub enum When {
     Take,
     /// A take is shown, and the model has other takes.
     OtherTakes,
+    /// A layer is active.
+    Layer,
+    /// A layer is active and a bone is selected.
+    LayerAndBone,
+    /// The take that is shown has layers.
+    Layers,
     /// A bone is selected.
     Bone,
     /// A bone is selected and a take is shown.
@@ -50,6 +56,9 @@ impl When {
             Self::Model => panels.view.is_some(),
             Self::Take => take,
             Self::OtherTakes => take && panels.digest.takes.len() > 1,
+            Self::Layer => panels.layer().is_some(),
+            Self::LayerAndBone => panels.layer().is_some() && bone,
+            Self::Layers => !panels.layers().is_empty(),
             Self::Bone => bone,
             Self::BoneInTake => bone && take,
             Self::Keys => take && !panels.keys.selection().is_empty(),
@@ -71,6 +80,9 @@ impl When {
             Self::Model => "No model is open",
             Self::Take => "No take is shown",
             Self::OtherTakes => "The only take of a model cannot be deleted or moved",
+            Self::Layer => "No layer is active",
+            Self::LayerAndBone => "Requires an active layer and a selected bone",
+            Self::Layers => "The take has no layers",
             Self::Bone => "No bone is selected",
             Self::BoneInTake => "Requires a selected bone and a take",
             Self::Keys => "No key is selected",

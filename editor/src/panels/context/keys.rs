@@ -27,7 +27,7 @@ impl<'a> PanelContext<'a> {
 
     /// Returns start and length of the take that is shown.
     pub fn take_bounds(&self) -> (f32, f32) {
-        self.take().map_or((0.0, 0.0), |take| (take.start, take.length))
+        self.shown_take().map_or((0.0, 0.0), |take| (take.start, take.length))
     }
 
     /// Returns start and length of the play range, or of the whole take if there is none, seconds.
@@ -109,8 +109,11 @@ impl<'a> PanelContext<'a> {
     pub fn ghost_times(&self, out: &mut Vec<(f32, i32)>) {
         out.clear();
         let ghosts = &self.settings.tools.ghosts;
-        let Some(take) = self.take().filter(|_| ghosts.shown && !self.playback.playing) else { return };
-        let (start, end) = (take.start, take.start + take.length);
+        if self.take().is_none() || !ghosts.shown || self.playback.playing {
+            return;
+        }
+        let (start, length) = self.take_bounds();
+        let end = start + length;
         for (direction, count) in [(-1, ghosts.count[0]), (1, ghosts.count[1])] {
             let mut time = self.time();
             for index in 1..=count as i32 {

@@ -2,6 +2,7 @@
 
 mod ik;
 mod keys;
+mod layer;
 mod pose;
 mod scope;
 
@@ -10,6 +11,7 @@ use super::digest::Digest;
 use super::dragging::Dragging;
 use super::edit_scope::EditOver;
 use super::keys::KeyEditing;
+use super::layer_choice::LayerChoice;
 use super::open_model::Loading;
 use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
@@ -27,7 +29,6 @@ use dragonfly_document::{LoadedModel, View};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::playback::PlaybackClock;
 use egui::{Pos2, Rect};
-use std::sync::Arc;
 use std::time::Instant;
 
 /// Everything that a panel reads in one frame. A panel changes nothing of it: it pushes requests.
@@ -69,6 +70,8 @@ pub struct PanelContext<'a> {
     pub given: &'a GivenAngles,
     /// The list of takes.
     pub takes: &'a TakeListState,
+    /// The layer whose keys are shown and edited.
+    pub layer_choice: LayerChoice,
     /// The camera.
     pub camera: Camera,
     /// The viewport, points.
@@ -102,14 +105,9 @@ impl<'a> PanelContext<'a> {
         self.loaded().map_or(0, |loaded| loaded.model.animation.skeleton.len())
     }
 
-    /// Returns the take that is shown.
+    /// Returns the keys that are shown and edited, see [`Self::shared_take`].
     pub fn take(&self) -> Option<&'a Take> {
         self.shared_take().map(|take| &**take)
-    }
-
-    /// Returns the take that is shown, as it is shared.
-    pub fn shared_take(&self) -> Option<&'a Arc<Take>> {
-        self.view?.takes.get(self.playback.take?)
     }
 
     /// Returns the take that is shown with its original and its pending poses.

@@ -7,11 +7,6 @@ use dragonfly_document::edit::{AddKeys, BonePose, BoneRef, Edit, NewKey, SetPend
 use dragonfly_document::posing::{PoseDragState, poses_of_drag};
 
 impl<'a> PanelContext<'a> {
-    /// Returns the take that is shown, as edits name it.
-    pub fn take_ref(&self) -> Option<TakeRef> {
-        self.take().and(self.playback.take).map(TakeRef::Index)
-    }
-
     /// Returns the edit that sets these poses (parent space) at the time shown: as keys with auto-key on, as pending poses
     /// with it off. In a scope of many keys it offsets all of these, with auto-key on or off. `None` if the rest pose is
     /// shown, which is not edited, no bone is named, or the scope has no keys there.

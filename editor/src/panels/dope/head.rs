@@ -250,7 +250,7 @@ impl Scaling {
 fn to_key_or_frame(time: f32, scale: &TimeScale, context: &PanelContext<'_>) -> f32 {
     let reach = scale.seconds(NEAR).min(context.frame_seconds() * 0.5);
     let beside = [true, false].into_iter().filter_map(|forward| context.next_key_from(time, forward));
-    let end = context.take().map(|take| take.end());
+    let end = context.shown_take().map(|take| take.end());
     let nearest = beside.chain(end).min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()));
     nearest.filter(|key| (key - time).abs() <= reach).unwrap_or_else(|| to_frame(time, context))
 }

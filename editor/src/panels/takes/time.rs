@@ -40,7 +40,7 @@ impl TimeSheet {
         ui.set_width(240.0);
         let rate = f64::from(context.frame_rate.max(1));
         ui.spacing_mut().item_spacing.y = GRID;
-        let Some((take, shown)) = context.take_ref().zip(context.take()) else {
+        let Some((take, shown)) = context.shown_take_ref().zip(context.shown_take()) else {
             ui.label(RichText::new("The rest pose has no start and no length").color(Theme::of(ui).weak));
             return;
         };

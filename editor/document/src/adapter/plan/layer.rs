@@ -1,4 +1,4 @@
-//! Keys of a layer: the pose that is wanted is one that is seen, so the key depends on what lies below and above.
+//! Keys of a layer: the pose that is wanted is one that is seen, so the key depends on the values below and above it.
 
 use super::{EditError, Transaction};
 use crate::adapter::kind::ChannelKind;
@@ -108,7 +108,7 @@ pub(crate) fn key_for<K: ChannelKind>(
     key.map(Some).ok_or_else(|| EditError::HiddenByLayer(name()))
 }
 
-/// Returns what lies below a layer of poses at a time: the value of its channel while that has no key. `None` for all other takes.
+/// Returns the value below a layer of poses at a time: the value of its channel while that has no key. `None` for all other takes.
 pub(crate) fn below<K: ChannelKind>(
     work: &Transaction,
     address: ChannelAddress,

@@ -30,6 +30,7 @@ mod file;
 mod help;
 mod inbetween;
 mod keys;
+mod layers;
 mod look;
 mod playback;
 mod pose;
@@ -53,6 +54,7 @@ pub const TABLE: &[(Category, &[Command])] = &[
     (Category::Keys, keys::COMMANDS),
     (Category::InBetween, inbetween::COMMANDS),
     (Category::Takes, takes::COMMANDS),
+    (Category::Layers, layers::COMMANDS),
     (Category::Selection, selection::COMMANDS),
     (Category::Tools, tools::COMMANDS),
     (Category::Camera, camera::COMMANDS),

@@ -1,0 +1,102 @@
+//! The list of the layers of the take: a click makes one active, whose keys are then shown and edited.
+
+mod row;
+
+use super::commands::Id;
+use super::context::PanelContext;
+use super::icons::Icon;
+use super::request::Request;
+use super::style::{GRID, ROW};
+use super::theme::Theme;
+use super::{Panel, PanelPlace, command_button, commands, menu, widgets};
+use dragonfly_document::adapter::TakeId;
+use egui::{Popup, RichText, ScrollArea, Ui, vec2};
+use row::LayerRow;
+
+/// The list of layers.
+#[derive(Debug, Default)]
+pub struct Layers {
+    /// The layer whose name is being typed, and the text so far.
+    renaming: Option<(TakeId, String)>,
+}
+
+/// Commands for the active layer, in the order of the context menu.
+const MENU: &[&[Id]] = &[
+    &[Id::DuplicateLayer, Id::DeleteLayer],
+    &[Id::MoveLayerUp, Id::MoveLayerDown],
+    &[Id::MaskLayer, Id::UnmaskLayer, Id::KeyLayerWeight],
+    &[Id::MergeLayerDown, Id::MergeLayers],
+];
+
+impl Panel for Layers {
+    fn id(&self) -> &'static str {
+        "layers"
+    }
+
+    fn title(&self) -> &'static str {
+        "Layers"
+    }
+
+    fn place(&self) -> PanelPlace {
+        PanelPlace::LeftBelow
+    }
+
+    fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let Some(slot) = context.slot() else {
+            return widgets::empty(ui, "Layers of a take appear here", "");
+        };
+        ui.add_space(GRID);
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+            ui.add_space(2.0 * GRID);
+            for (icon, id) in [
+                (Icon::Add, Id::AddLayer),
+                (Icon::Duplicate, Id::DuplicateLayer),
+                (Icon::Trash, Id::DeleteLayer),
+            ] {
+                let holds = commands::get(id).when.holds(context);
+                ui.add_enabled_ui(holds, |ui| command_button::command_button(ui, icon, id, false, requests));
+            }
+            let more = widgets::icon_button(ui, Icon::Down, "More commands for layers", false);
+            Popup::menu(&more.on_hover_text("More commands for layers")).show(|ui| {
+                menu::item(ui, context, Id::AddOverrideLayer, false, requests);
+                ui.separator();
+                entries(ui, context, requests);
+            });
+        });
+        ui.spacing_mut().item_spacing.y = 0.0;
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            for index in (0..context.layers().len()).rev() {
+                let response = LayerRow::of(context, index).show(ui, self, context, requests);
+                response.context_menu(|ui| entries(ui, context, requests));
+            }
+            let name = format!("{} (base)", widgets::shortened(&slot.result.name));
+            let (_, response) = widgets::row(ui, &name, context.layer().is_none(), false);
+            if response.on_hover_text("Keys of the take itself, below all layers").clicked() {
+                requests.push(Request::ChooseLayer(None));
+            }
+            if context.layers().is_empty() {
+                ui.add_space(2.0 * GRID);
+                ui.horizontal_wrapped(|ui| {
+                    ui.add_space(3.0 * GRID);
+                    let text = "A layer changes the take without changing its keys";
+                    ui.label(RichText::new(text).small().color(Theme::of(ui).weak));
+                });
+            }
+        });
+    }
+}
+
+fn entries(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    for (at, group) in MENU.iter().enumerate() {
+        if at > 0 {
+            ui.separator();
+        }
+        for &id in *group {
+            menu::item(ui, context, id, false, requests);
+        }
+    }
+}
+
+/// Height of a row with its weight below the name, points.
+const HEIGHT: f32 = ROW + 20.0;
