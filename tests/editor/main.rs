@@ -39,6 +39,7 @@ mod inbetween;
 mod keeping_save;
 mod keymap;
 mod large_rigs;
+mod layers;
 mod life;
 mod locks;
 mod manager;

@@ -9,7 +9,7 @@ use crate::sample::{Value, rest_pose, sample_channel};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
-/// Seconds between the two keys that stand for a jump of a channel with steps.
+/// Seconds between the two keys of a jump of a channel with steps.
 const JUMP: f32 = 1e-4;
 
 /// Seconds: times that are nearer to each other are the same.

@@ -10,7 +10,7 @@ use dragonfly::panels::window_status::DeviceStatus;
 use dragonfly::panels::{self, Request, style};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::Property;
-use dragonfly_document::{LoadStage, Progress, View};
+use dragonfly_document::{Change, LoadStage, Progress, View};
 use egui::{Key, vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -30,6 +30,7 @@ macro_rules! panels {
 panels! {
     "hierarchy", [250.0, 330.0], the_skeleton_panel_looks_as_stored;
     "takes", [250.0, 250.0], the_takes_panel_looks_as_stored;
+    "layers", [250.0, 250.0], the_layers_panel_looks_as_stored;
     "viewport", [720.0, 400.0], the_viewport_panel_looks_as_stored;
     "properties", [300.0, 520.0], the_properties_panel_looks_as_stored;
     "history", [300.0, 250.0], the_history_panel_looks_as_stored;
@@ -84,6 +85,21 @@ fn more() -> Vec<PictureCase> {
         case("takes-refused-name", "takes", Typical, |window| {
             type_into(window, "hover", "", Key::F2);
             type_into(window, "Name of the take", " ", Key::Enter);
+        }),
+        case("layers-three", "layers", Typical, |window| {
+            for line in [
+                r#"{"edit":"add_layer","take":0,"name":"Head up"}"#,
+                r#"{"edit":"add_layer","take":0,"name":"Arms from another take, with a long name","kind":"override"}"#,
+                r#"{"edit":"add_layer","take":0,"name":"Breath"}"#,
+                r#"{"edit":"set_layer","take":{"take":0,"layer":0},"weight":0.4}"#,
+                r#"{"edit":"set_layer","take":{"take":0,"layer":1},"muted":true}"#,
+                r#"{"edit":"set_layer","take":{"take":0,"layer":2},"solo":true}"#,
+            ] {
+                let edit = serde_json::from_str(line).expect(line);
+                window.state_mut().change(Change::Edit(edit, None));
+            }
+            let chosen = window.state().state.read().layers()[0].keys.id;
+            window.state_mut().state.execute(Request::ChooseLayer(Some(chosen)));
         }),
         case("viewport-loading", "viewport", Empty, |window| {
             let progress = Progress { stage: LoadStage::Decoding, done: 0.6 };

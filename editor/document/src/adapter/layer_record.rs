@@ -45,7 +45,7 @@ struct LayersRecord {
 
 /// A bone, by its name and, because names may occur twice, by its node in the file.
 #[derive(Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
-struct BoneRecord {
+struct LayerBone {
     bone: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     node: Option<u32>,
@@ -54,7 +54,7 @@ struct BoneRecord {
 #[derive(Serialize, Deserialize)]
 struct ChannelRecord {
     #[serde(flatten)]
-    bone: BoneRecord,
+    bone: LayerBone,
     path: Property,
     interpolation: InterpolationRecord,
     times: usize,
@@ -68,7 +68,7 @@ struct LayerRecord {
     weight: f32,
     weights: Vec<(f32, f32)>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    bones: Option<Vec<BoneRecord>>,
+    bones: Option<Vec<LayerBone>>,
     muted: bool,
     solo: bool,
     color: [u8; 3],
@@ -180,7 +180,7 @@ fn layer_record(layer: &LayerVersions, skeleton: &Skeleton, numbers: &mut Number
             ));
         }
     }
-    let name = |bone: &u32| BoneRecord::of(skeleton, *bone);
+    let name = |bone: &u32| LayerBone::of(skeleton, *bone);
     LayerRecord {
         name: settings.name.clone(),
         kind: settings.mode.into(),
@@ -194,7 +194,7 @@ fn layer_record(layer: &LayerVersions, skeleton: &Skeleton, numbers: &mut Number
     }
 }
 
-impl BoneRecord {
+impl LayerBone {
     fn of(skeleton: &Skeleton, bone: u32) -> Option<Self> {
         let found = skeleton.bones.get(bone as usize)?;
         Some(Self { bone: found.name.clone(), node: found.node })
@@ -202,20 +202,20 @@ impl BoneRecord {
 }
 
 /// Finds the bones of records in a skeleton.
-struct RecordedBones<'a>(HashMap<(&'a str, Option<u32>), u32>);
+struct LayerBones<'a>(HashMap<(&'a str, Option<u32>), u32>);
 
-impl<'a> RecordedBones<'a> {
+impl<'a> LayerBones<'a> {
     fn of(skeleton: &'a Skeleton) -> Self {
         let mut found = HashMap::new();
         for (index, bone) in skeleton.bones.iter().enumerate() {
             found.entry((bone.name.as_str(), bone.node)).or_insert(index as u32);
-            // The first bone of a name, for a file in which another program has numbered the nodes anew.
+            // The first bone of a name, for a file in which another program has renumbered the nodes.
             found.entry((bone.name.as_str(), None)).or_insert(index as u32);
         }
         Self(found)
     }
 
-    fn find(&self, record: &BoneRecord) -> Option<u32> {
+    fn find(&self, record: &LayerBone) -> Option<u32> {
         let name = record.bone.as_str();
         self.0.get(&(name, record.node)).or_else(|| self.0.get(&(name, None))).copied()
     }
@@ -256,7 +256,7 @@ fn written<K: ChannelKind>(
     let width = width(property);
     let values = channel.values.iter().flat_map(|value| K::numbers(*value).into_iter().take(width));
     Some(ChannelRecord {
-        bone: BoneRecord::of(skeleton, bone)?,
+        bone: LayerBone::of(skeleton, bone)?,
         path: property,
         interpolation: channel.interpolation.into(),
         times: numbers.index(channel.times.iter().copied()),
@@ -285,7 +285,7 @@ fn restored(
     base.extras.set(LAYERS, None);
     let numbers: Vec<SharedNumbers> =
         record.numbers.iter().map(|text| SharedNumbers::of(text)).collect::<Option<_>>()?;
-    let bones = RecordedBones::of(skeleton);
+    let bones = LayerBones::of(skeleton);
     let keys = |records: &[ChannelRecord], tracks: &mut [Track]| -> Option<()> {
         for record in records {
             let bone = bones.find(&record.bone)?;
@@ -320,7 +320,7 @@ fn restored(
     with_layers.adopt_flat(&read, &|made, read| is_near(made, read)).then_some(with_layers)
 }
 
-fn settings_of(record: &LayerRecord, all: &RecordedBones<'_>) -> Option<LayerSettings> {
+fn settings_of(record: &LayerRecord, all: &LayerBones<'_>) -> Option<LayerSettings> {
     let bones = record.bones.as_ref().map(|names| {
         let mut bones = names.iter().map(|name| all.find(name)).collect::<Option<Vec<_>>>()?;
         bones.sort_unstable();
@@ -402,7 +402,7 @@ fn read_channel(record: &ChannelRecord, numbers: &[SharedNumbers], track: &mut T
 fn fits(base: &Take, layers: &[LayerVersions]) -> bool {
     let keys = |take: &Take| take.tracks.iter().map(|track| track.keys() as u64).sum::<u64>();
     let all = keys(base) + layers.iter().map(|layer| keys(&layer.keys.result)).sum::<u64>();
-    // Lines between keys may need as many again.
+    // Lines between keys may need the same number again.
     all.saturating_mul(2 * 20) <= KEY_BYTES
 }
 

@@ -134,6 +134,17 @@ impl ModelAdapter {
         }
     }
 
+    /// Returns the name of a take, or of a layer and its take: `Walk, layer Arm up`.
+    pub(crate) fn title(&self, take: &TakeRef) -> Option<String> {
+        let base = self.base(take).ok()?;
+        let (_, layer) = self.place_of(self.take(take).ok()?.id)?;
+        let name = base.original.name.clone();
+        match layer.and_then(|layer| base.layers().get(layer)) {
+            Some(layer) => Some(format!("{name}, layer {}", layer.settings.name)),
+            None => Some(name),
+        }
+    }
+
     /// Returns the index of a take in the list, and that of its layer where it is one.
     pub(crate) fn place_of(&self, take: TakeId) -> Option<(usize, Option<usize>)> {
         let own = self.slots.iter().position(|slot| slot.id == take).map(|index| (index, None));

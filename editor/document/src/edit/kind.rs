@@ -38,8 +38,7 @@ pub(crate) trait EditKind: Sized {
 
     /// Returns the take as the list of the history names it: by default its current name.
     fn take_title(&self, adapter: &ModelAdapter) -> Option<String> {
-        let take = adapter.take(self.take()?).ok()?;
-        Some(take.original.name.clone())
+        adapter.title(self.take()?)
     }
 
     /// Checks whether users and programs may ask for it now. Journals are replayed without this check: earlier versions allowed

@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Merges a layer into what lies below it, which shows the same. Where the edit names a take, all its layers become keys of it.
+/// Merges a layer into the one below it; the same is shown then. Where the edit names a take, all its layers become keys of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MergeLayers {

@@ -1,6 +1,5 @@
 //! References of an edit: to a take, to bones, to channels, to keys.
 
-use crate::adapter::LayerVersions;
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -35,16 +34,6 @@ pub enum LayerRef {
     Index(usize),
     /// Its name.
     Name(String),
-}
-
-impl LayerRef {
-    /// Returns the index of the layer; `None` where the take does not have it.
-    pub fn find_in(&self, layers: &[LayerVersions]) -> Option<usize> {
-        match self {
-            Self::Index(index) => Some(*index).filter(|&index| index < layers.len()),
-            Self::Name(name) => layers.iter().position(|layer| layer.settings.name == *name),
-        }
-    }
 }
 
 /// A bone, by its index or by its name. A name that several bones share means the first of them.

@@ -207,6 +207,7 @@ impl Curves {
         if self.mesh.drawn.is_empty() {
             let text = match context.selected() {
                 None => "Select a bone to see its curves",
+                Some(_) if context.layer().is_some() => "The selected bone has no keys in this layer",
                 Some(_) => "The selected bone has no keys in this take",
             };
             let font = FontId::proportional(11.0);

@@ -104,10 +104,13 @@ pub(super) fn nothing(painter: &Painter, sheet: &Sheet<'_>) {
     let Sheet { areas, context, theme, .. } = *sheet;
     let text = if !context.keys.filter().is_empty() {
         "No bone with keys matches the filter"
-    } else if context.lists_only_selected() {
-        "The selected bones have no keys in this take"
     } else {
-        "This take has no keys"
+        match (context.lists_only_selected(), context.layer().is_some()) {
+            (true, false) => "The selected bones have no keys in this take",
+            (true, true) => "The selected bones have no keys in this layer: pose one to add a key",
+            (false, false) => "This take has no keys",
+            (false, true) => "This layer has no keys: pose a bone to add one",
+        }
     };
     painter.text(areas.canvas.center(), Align2::CENTER_CENTER, text, FontId::proportional(12.0), theme.faint);
 }

@@ -10,7 +10,7 @@ use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::{Panel, PanelPlace, command_button, commands, menu, widgets};
 use dragonfly_document::adapter::TakeId;
-use egui::{Popup, RichText, ScrollArea, Ui, vec2};
+use egui::{Popup, Rect, RichText, ScrollArea, TextStyle, Ui, pos2, vec2};
 use row::LayerRow;
 
 /// The list of layers.
@@ -71,7 +71,11 @@ impl Panel for Layers {
                 response.context_menu(|ui| entries(ui, context, requests));
             }
             let name = format!("{} (base)", widgets::shortened(&slot.result.name));
-            let (_, response) = widgets::row(ui, &name, context.layer().is_none(), false);
+            let is_active = context.layer().is_none();
+            let (rect, response) = widgets::row(ui, &name, is_active, false);
+            let color = if is_active { Theme::of(ui).accent } else { Theme::of(ui).text };
+            let text = Rect::from_min_max(pos2(rect.left() + 18.0, rect.top()), rect.max - vec2(12.0, 0.0));
+            widgets::text_in(ui, text, &name, &TextStyle::Body, color);
             if response.on_hover_text("Keys of the take itself, below all layers").clicked() {
                 requests.push(Request::ChooseLayer(None));
             }

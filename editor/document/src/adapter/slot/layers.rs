@@ -2,7 +2,7 @@
 
 use super::TakeVersions;
 use crate::adapter::kind::{AnyChannel, ChannelKind, ChannelValue, with_kind};
-use crate::edit::target::Property;
+use crate::edit::target::{LayerRef, Property};
 use dragonfly_anim::data::{Channel, Skeleton, Take};
 use dragonfly_anim::layers::{LayerChannel, LayerSettings, TakeLayer, flatten_channel, played};
 use dragonfly_anim::sample::rest_pose;
@@ -16,6 +16,16 @@ pub struct LayerVersions {
     pub settings: Arc<LayerSettings>,
     /// Its keys in their three forms. Edits change them as they change those of a take.
     pub keys: Arc<TakeVersions>,
+}
+
+impl LayerRef {
+    /// Returns the index of the layer; `None` where the take does not have it.
+    pub fn find_in(&self, layers: &[LayerVersions]) -> Option<usize> {
+        match self {
+            Self::Index(index) => Some(*index).filter(|&index| index < layers.len()),
+            Self::Name(name) => layers.iter().position(|layer| layer.settings.name == *name),
+        }
+    }
 }
 
 impl LayerVersions {

@@ -1,0 +1,165 @@
+//! The layers of a take in the window: a new layer is active, poses become its keys, and the panels show these keys.
+
+use crate::timeline_rig::Animator;
+use dragonfly::panels::Request;
+use dragonfly::panels::commands::Id;
+use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, LayerKind, TakeRef};
+use dragonfly_kit::document::fixture;
+use egui_kittest::kittest::Queryable;
+use std::sync::Arc;
+
+/// Returns a window with two layers, the lower one with a key of bone 3.
+fn animator() -> Animator {
+    let mut animator = Animator::new(fixture::full());
+    animator.request(Request::TogglePanel("layers"));
+    animator.request(Request::Select(Some(3)));
+    animator.request(Request::Command(Id::AddLayer));
+    pose(&mut animator, 0.4);
+    animator
+}
+
+/// Rotates bone 3 as a gizmo or a number does.
+fn pose(animator: &mut Animator, angle: f32) {
+    let panels = animator.harness.state().state.read();
+    let rotation = Some(glam::Quat::from_rotation_y(angle).to_array());
+    let poses = vec![BonePose { bone: BoneRef::Index(3), translation: None, rotation, scale: None }];
+    let edit = panels.pose_edit(poses).expect("an edit");
+    animator.request(Request::Change(dragonfly_document::Change::Edit(edit, None)));
+}
+
+fn layers(animator: &Animator) -> Vec<(String, usize)> {
+    let layers = animator.edited.adapter().slots()[0].layers().iter();
+    layers.map(|layer| (layer.settings.name.clone(), layer.keys.result.keys())).collect()
+}
+
+fn shown_keys(animator: &Animator) -> usize {
+    animator.harness.state().state.read().take().expect("keys").keys()
+}
+
+#[test]
+fn a_new_layer_is_active_and_a_pose_becomes_its_key_and_not_one_of_the_take() {
+    let mut animator = Animator::new(fixture::full());
+    let before = Arc::clone(&animator.edited.adapter().slots()[0].result);
+    animator.request(Request::Select(Some(3)));
+    animator.request(Request::Command(Id::AddLayer));
+    let panels = animator.harness.state().state.read();
+    assert_eq!(panels.layer(), Some(0));
+    assert!(matches!(panels.take_ref(), Some(TakeRef::Layer { .. })));
+    pose(&mut animator, 0.4);
+    assert_eq!(layers(&animator), [("Layer".to_owned(), 1)]);
+    assert!(Arc::ptr_eq(&before, &animator.edited.adapter().slots()[0].result));
+    assert_eq!(shown_keys(&animator), 1);
+    // The pose that is seen is the one that was asked for.
+    let seen = animator.harness.state().pose(3).rotation;
+    assert!(seen.angle_between(glam::Quat::from_rotation_y(0.4)) < 1e-3, "{seen}");
+    animator.request(Request::Command(Id::Undo));
+    animator.request(Request::Command(Id::Undo));
+    assert_eq!(shown_keys(&animator), before.keys());
+    assert_eq!(animator.harness.state().state.read().layer(), None);
+}
+
+#[test]
+fn keys_of_the_active_layer_are_selected_and_deleted_and_those_of_the_take_stay() {
+    let mut animator = animator();
+    let before = animator.edited.adapter().slots()[0].result.keys();
+    animator.request(Request::Command(Id::SelectAllKeys));
+    animator.request(Request::Command(Id::DeleteKeys));
+    assert_eq!(layers(&animator), [("Layer".to_owned(), 0)]);
+    assert_eq!(animator.edited.adapter().slots()[0].result.keys(), before);
+    animator.request(Request::ChooseLayer(None));
+    assert_eq!(shown_keys(&animator), before);
+    animator.request(Request::Command(Id::LayerAbove));
+    assert_eq!((shown_keys(&animator), animator.said()), (0, "Layer Layer".to_owned()));
+    animator.request(Request::Command(Id::LayerAbove));
+    assert_eq!(animator.harness.state().state.read().layer(), None);
+}
+
+#[test]
+fn no_key_stays_selected_when_another_layer_becomes_active() {
+    let mut animator = animator();
+    animator.request(Request::Command(Id::SelectAllKeys));
+    assert!(!animator.harness.state().state.read().keys.selection().is_empty());
+    animator.request(Request::ChooseLayer(None));
+    assert!(animator.harness.state().state.read().keys.selection().is_empty());
+}
+
+#[test]
+fn a_click_in_the_list_chooses_mutes_and_selects_the_base() {
+    let mut animator = animator();
+    animator.request(Request::Command(Id::AddOverrideLayer));
+    assert_eq!(layers(&animator).len(), 2);
+    let press = |animator: &mut Animator, name: &str| {
+        let at = animator.harness.get_by_label(name).rect().center();
+        animator.click(at);
+    };
+    press(&mut animator, "Layer");
+    assert_eq!(animator.harness.state().state.read().layer(), Some(0));
+    press(&mut animator, "Mute Layer");
+    let muted = |animator: &Animator| animator.edited.adapter().slots()[0].layers()[0].settings.is_muted;
+    assert!(muted(&animator));
+    press(&mut animator, "Mute Layer");
+    assert!(!muted(&animator));
+    press(&mut animator, "Solo Override");
+    assert!(animator.edited.adapter().slots()[0].layers()[1].settings.is_solo);
+    let base = animator.edited.adapter().slots()[0].result.name.clone();
+    press(&mut animator, &format!("{base} (base)"));
+    assert_eq!(animator.harness.state().state.read().layer(), None);
+}
+
+#[test]
+fn the_weight_is_dragged_as_one_step_and_escape_leaves_no_trace() {
+    let mut animator = animator();
+    let steps = animator.edited.steps().0.len();
+    let weight = |animator: &Animator| animator.edited.adapter().slots()[0].layers()[0].settings.weight;
+    let slider = animator.harness.get_by_label("Weight of Layer, slider").rect();
+    let (right, left) = (slider.right_center() - egui::vec2(1.0, 0.0), slider.center());
+    animator.drag(right, left);
+    animator.release(left);
+    assert!((0.3..0.7).contains(&weight(&animator)), "{}", weight(&animator));
+    assert_eq!(animator.edited.steps().0.len(), steps + 1);
+    animator.request(Request::Command(Id::Undo));
+    assert_eq!(weight(&animator), 1.0);
+    animator.drag(right, left);
+    assert!(weight(&animator) < 0.9);
+    animator.harness.key_press(egui::Key::Escape);
+    animator.steps(2);
+    animator.release(left);
+    assert_eq!((weight(&animator), animator.edited.steps().1), (1.0, steps));
+}
+
+#[test]
+fn commands_copy_mask_move_and_merge_the_active_layer() {
+    let mut animator = animator();
+    animator.request(Request::Command(Id::DuplicateLayer));
+    assert_eq!(layers(&animator), [("Layer".to_owned(), 1), ("Layer copy".to_owned(), 1)]);
+    assert_eq!(animator.harness.state().state.read().layer(), Some(1));
+    animator.request(Request::SelectBones(vec![2, 3], Choice::Replace));
+    animator.request(Request::Command(Id::MaskLayer));
+    let mask = |animator: &Animator| animator.edited.adapter().slots()[0].layers()[1].settings.bones.clone();
+    assert_eq!(mask(&animator).as_deref(), Some(&[2, 3][..]));
+    animator.request(Request::Command(Id::UnmaskLayer));
+    assert_eq!(mask(&animator), None);
+    animator.request(Request::Command(Id::MoveLayerDown));
+    assert_eq!(layers(&animator)[0].0, "Layer copy");
+    assert_eq!(animator.harness.state().state.read().layer(), Some(0), "the same layer stays active");
+    animator.request(Request::Command(Id::KeyLayerWeight));
+    assert_eq!(animator.edited.adapter().slots()[0].layers()[0].settings.weights.len(), 1);
+    animator.request(Request::Command(Id::MoveLayerUp));
+    animator.request(Request::Command(Id::MergeLayerDown));
+    assert_eq!(layers(&animator).len(), 1);
+    assert_eq!(animator.harness.state().state.read().layer(), Some(0), "the merged layer is active");
+    animator.request(Request::Command(Id::MergeLayers));
+    assert_eq!(layers(&animator).len(), 0);
+    assert!(animator.edited.adapter().slots()[0].result.keys() > 0);
+}
+
+#[test]
+fn whole_takes_are_edited_as_takes_while_a_layer_is_active() {
+    let mut animator = animator();
+    animator.request(Request::Command(Id::ReverseTake));
+    assert!(matches!(animator.edits().last(), Some(Edit::ReverseTake(edit)) if matches!(edit.take, TakeRef::Index(0))));
+    animator.request(Request::Command(Id::AddOverrideLayer));
+    assert!(matches!(animator.edits().last(), Some(Edit::AddLayer(edit)) if edit.kind == LayerKind::Override));
+    assert_eq!(animator.edited.adapter().slots()[0].layers()[1].settings.name, "Override");
+}
