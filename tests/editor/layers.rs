@@ -3,6 +3,7 @@
 use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
+use dragonfly_anim::sample::sample_channel;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, LayerKind, TakeRef};
 use dragonfly_kit::document::fixture;
@@ -12,7 +13,8 @@ use std::sync::Arc;
 /// Returns a window with two layers, the lower one with a key of bone 3.
 fn animator() -> Animator {
     let mut animator = Animator::new(fixture::full());
-    animator.request(Request::TogglePanel("layers"));
+    animator.harness.get_by_label("Layers").click();
+    animator.steps(2);
     animator.request(Request::Select(Some(3)));
     animator.request(Request::Command(Id::AddLayer));
     pose(&mut animator, 0.4);
@@ -51,7 +53,9 @@ fn a_new_layer_is_active_and_a_pose_becomes_its_key_and_not_one_of_the_take() {
     assert!(Arc::ptr_eq(&before, &animator.edited.adapter().slots()[0].result));
     assert_eq!(shown_keys(&animator), 1);
     // The pose that is seen is the one that was asked for.
-    let seen = animator.harness.state().pose(3).rotation;
+    let panels = animator.harness.state().state.read();
+    let track = &panels.shown_take().expect("a take").tracks[3];
+    let seen = sample_channel(&track.rotation, glam::Quat::IDENTITY, panels.time());
     assert!(seen.angle_between(glam::Quat::from_rotation_y(0.4)) < 1e-3, "{seen}");
     animator.request(Request::Command(Id::Undo));
     animator.request(Request::Command(Id::Undo));
@@ -90,8 +94,9 @@ fn a_click_in_the_list_chooses_mutes_and_selects_the_base() {
     animator.request(Request::Command(Id::AddOverrideLayer));
     assert_eq!(layers(&animator).len(), 2);
     let press = |animator: &mut Animator, name: &str| {
-        let at = animator.harness.get_by_label(name).rect().center();
-        animator.click(at);
+        // The upper line of a row has the name; the slider of the weight is below it.
+        let rect = animator.harness.get_by_label(name).rect();
+        animator.click(egui::pos2(rect.center().x, rect.top() + 8.0));
     };
     press(&mut animator, "Layer");
     assert_eq!(animator.harness.state().state.read().layer(), Some(0));
@@ -158,8 +163,12 @@ fn commands_copy_mask_move_and_merge_the_active_layer() {
 fn whole_takes_are_edited_as_takes_while_a_layer_is_active() {
     let mut animator = animator();
     animator.request(Request::Command(Id::ReverseTake));
-    assert!(matches!(animator.edits().last(), Some(Edit::ReverseTake(edit)) if matches!(edit.take, TakeRef::Index(0))));
+    assert!(
+        matches!(animator.edits().last(), Some(Edit::ReverseTake(edit)) if matches!(edit.take, TakeRef::Index(0)))
+    );
     animator.request(Request::Command(Id::AddOverrideLayer));
-    assert!(matches!(animator.edits().last(), Some(Edit::AddLayer(edit)) if edit.kind == LayerKind::Override));
+    assert!(
+        matches!(animator.edits().last(), Some(Edit::AddLayer(edit)) if edit.kind == LayerKind::Override)
+    );
     assert_eq!(animator.edited.adapter().slots()[0].layers()[1].settings.name, "Override");
 }

@@ -3,7 +3,7 @@
 use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, KeySet, SAME_TIME, TakeRef};
 use crate::adapter::op::Op;
-use crate::adapter::plan::{Transaction, finite, morph};
+use crate::adapter::plan::{Transaction, finite, layer, morph};
 use crate::adapter::{EditError, TakeId};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
@@ -57,7 +57,8 @@ impl EditKind for DeleteKeys {
         let deleted: usize = found.iter().map(|(_, keys)| keys.len()).sum();
         // Keys of morph targets do not count: they belong to no bone.
         let all: usize = work.slot(take).original.tracks.iter().map(|track| track.keys()).sum();
-        if deleted >= all {
+        // A layer without keys changes nothing; a take without keys would be none.
+        if deleted >= all && layer::mode(work, take).is_none() {
             return Err(EditError::LastKey);
         }
         for (address, keys) in found {
