@@ -80,3 +80,18 @@ fn the_ghost_style_is_remembered_and_defaults_to_skeletons() {
     let ghosts = Settings::parse(text).tools.ghosts;
     assert_eq!((ghosts.skin, ghosts.step, ghosts.count), (true, 3, [3, 3]));
 }
+
+#[test]
+fn a_layout_that_is_older_than_a_panel_stays_as_it_is_and_gets_the_panel_as_a_tab() {
+    let panels = dragonfly::panels::all();
+    let older: Vec<_> = dragonfly::panels::all().into_iter().filter(|panel| panel.id() != "layers").collect();
+    let mut layout = Layout::parse("", &older);
+    layout.toggle("takes");
+    let text = layout.to_text();
+    let mut read = Layout::parse(&text, &panels);
+    assert!(read.is_shown("layers") && !read.is_shown("takes"), "the arrangement of the file is kept");
+    assert!(read.take_changed(), "it is stored with the new panel");
+    assert_eq!(Layout::parse(&read.to_text(), &panels).to_text(), read.to_text());
+    // A panel that this program does not have makes the file one of another program.
+    assert!(Layout::parse(&text, &older[1..]).is_shown("takes"));
+}

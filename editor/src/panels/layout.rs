@@ -62,12 +62,17 @@ impl Layout {
         Self { tree: Tree::new(egui::Id::unique("panels"), root, tiles), changed: true }
     }
 
-    /// Reads the text of a layout file; a damaged one, or one that lacks a panel, gives the default layout.
+    /// Reads the text of a layout file; a damaged one gives the default layout. A panel that the file does not have, because it is
+    /// newer than the file, becomes a tab beside the panels with which it is by default.
     pub fn parse(text: &str, panels: &[Box<dyn Panel>]) -> Self {
         let stored =
             serde_json::from_str::<StoredLayout>(text).ok().filter(|stored| stored.version == VERSION);
-        let tree = stored.map(|stored| stored.tree).filter(|tree| sound(tree, panels));
-        tree.map_or_else(|| Self::usual(panels), |tree| Self { tree, changed: false })
+        let Some(mut tree) = stored.map(|stored| stored.tree) else { return Self::usual(panels) };
+        let mut changed = false;
+        for panel in panels {
+            changed |= add_newer(&mut tree, &**panel, panels);
+        }
+        if sound(&tree, panels) { Self { tree, changed } } else { Self::usual(panels) }
     }
 
     /// Returns the text of a layout file.
@@ -122,6 +127,28 @@ fn linear(direction: LinearDir, shares: &[(TileId, f32)]) -> Tile<Pane> {
         linear.shares.set_share(tile, share);
     }
     Tile::Container(Container::Linear(linear))
+}
+
+/// Adds a panel that the tree does not have as a tab beside one of its neighbors in the default layout. Returns whether it was
+/// added.
+fn add_newer(tree: &mut Tree<Pane>, panel: &dyn Panel, panels: &[Box<dyn Panel>]) -> bool {
+    if tree.tiles.find_pane(&Pane(panel.id().to_owned())).is_some() {
+        return false;
+    }
+    let neighbors = panels.iter().filter(|other| other.place() == panel.place());
+    let parents = neighbors.filter_map(|other| {
+        let tile = tree.tiles.find_pane(&Pane(other.id().to_owned()))?;
+        tree.tiles.parent_of(tile)
+    });
+    let tabs = parents
+        .into_iter()
+        .find(|parent| matches!(tree.tiles.get(*parent), Some(Tile::Container(Container::Tabs(_)))));
+    let Some(tabs) = tabs else { return false };
+    let pane = tree.tiles.insert_pane(Pane(panel.id().to_owned()));
+    if let Some(Tile::Container(container)) = tree.tiles.get_mut(tabs) {
+        container.add_child(pane);
+    }
+    true
 }
 
 /// Whether the tree has a root, every panel exactly once, and no unknown panel.

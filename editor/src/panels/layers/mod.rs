@@ -10,7 +10,7 @@ use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::{Panel, PanelPlace, command_button, commands, menu, widgets};
 use dragonfly_document::adapter::TakeId;
-use egui::{Popup, Rect, RichText, ScrollArea, TextStyle, Ui, pos2, vec2};
+use egui::{Frame, Margin, Popup, Rect, RichText, ScrollArea, TextStyle, Ui, pos2, vec2};
 use row::LayerRow;
 
 /// The list of layers.
@@ -81,9 +81,8 @@ impl Panel for Layers {
             }
             if context.layers().is_empty() {
                 ui.add_space(2.0 * GRID);
-                ui.horizontal_wrapped(|ui| {
-                    ui.add_space(3.0 * GRID);
-                    let text = "A layer changes the take without changing its keys";
+                let text = "A layer changes the take without changing its keys";
+                Frame::NONE.inner_margin(Margin::symmetric(18, 0)).show(ui, |ui| {
                     ui.label(RichText::new(text).small().color(Theme::of(ui).weak));
                 });
             }

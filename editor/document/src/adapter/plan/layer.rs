@@ -77,7 +77,7 @@ fn stack<'a, K: ChannelKind>(
     }
     let is_played = |at: &usize| all[*at] && layers[*at].settings.moves(address.bone);
     let channel = |layer: &'a LayerVersions| LayerChannel {
-        settings: &*layer.settings,
+        settings: &layer.settings,
         keys: layer.keys.result.tracks.get(address.bone as usize).map_or(none, K::channel),
     };
     let own = (0..index).filter(is_played).count();
