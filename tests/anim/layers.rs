@@ -298,7 +298,7 @@ fn flattening_a_take_of_another_skeleton_does_not_panic() {
     let skeleton = one_bone();
     let AnimationData { takes, .. } = animation_data(Vec::new(), vec![take(Vec::new())]);
     let layer = TakeLayer { settings: LayerSettings::default(), take: Arc::clone(&takes[0]) };
-    assert_eq!(flatten(&takes[0], &[layer.clone()], &skeleton).tracks.len(), 0);
+    assert_eq!(flatten(&takes[0], std::slice::from_ref(&layer), &skeleton).tracks.len(), 0);
     let base: Take = take(vec![Track::default(), Track::default()]);
     assert_eq!(flatten(&base, &[layer], &skeleton), base);
 }
