@@ -10,6 +10,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
+/// Colors of new layers, one after the other: red, green, blue.
+pub const LAYER_COLORS: [[u8; 3]; 6] =
+    [[90, 160, 220], [230, 160, 70], [120, 190, 110], [200, 110, 180], [220, 110, 100], [110, 190, 190]];
+
 /// Adds a layer over a take. Its keys change what is seen; those of the take stay as they are.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -64,7 +68,7 @@ impl EditKind for AddLayer {
             }
             None => {
                 let bones = layer::mask(work, &self.bones)?;
-                let color = layer::COLORS[work.slot(take).layers().len() % layer::COLORS.len()];
+                let color = LAYER_COLORS[work.slot(take).layers().len() % LAYER_COLORS.len()];
                 let settings =
                     LayerSettings { name, mode: self.kind.into(), bones, color, ..LayerSettings::default() };
                 layer::empty(work, take, settings)

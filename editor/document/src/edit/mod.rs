@@ -70,6 +70,7 @@ mod split_take;
 pub(crate) mod target;
 mod trim_take;
 
+pub use add_layer::LAYER_COLORS;
 #[doc(hidden)]
 pub use arbitrary::Arbitrary;
 pub use blend_keys::KeyTarget;

@@ -2,6 +2,7 @@
 
 mod row;
 
+use super::actions::layers::unchanged;
 use super::commands::Id;
 use super::context::PanelContext;
 use super::icons::Icon;
@@ -9,8 +10,10 @@ use super::request::Request;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::{Panel, PanelPlace, command_button, commands, menu, widgets};
+use dragonfly_document::Change;
 use dragonfly_document::adapter::TakeId;
-use egui::{Frame, Margin, Popup, Rect, RichText, ScrollArea, TextStyle, Ui, pos2, vec2};
+use dragonfly_document::edit::{Edit, LAYER_COLORS, MoveLayer, SetLayer, TakeRef};
+use egui::{Button, Color32, Frame, Margin, Popup, Rect, RichText, ScrollArea, TextStyle, Ui, pos2, vec2};
 use row::LayerRow;
 
 /// The list of layers.
@@ -99,6 +102,47 @@ fn entries(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>)
             menu::item(ui, context, id, false, requests);
         }
     }
+    if let Some(layer) = context.layer() {
+        ui.separator();
+        ui.menu_button("Move to take", |ui| move_to_take(ui, context, layer, requests));
+        ui.menu_button("Color", |ui| colors(ui, context, layer, requests));
+    }
+}
+
+/// Draws the takes to which the layer can be moved.
+fn move_to_take(ui: &mut Ui, context: &PanelContext<'_>, layer: usize, requests: &mut Vec<Request>) {
+    ScrollArea::vertical().max_height(300.0).show(ui, |ui| {
+        for (index, take) in context.digest.takes.iter().enumerate() {
+            let is_other = context.playback.take != Some(index);
+            let button = Button::new(widgets::shortened(&take.name)).frame_when_inactive(false);
+            if ui.add_enabled(is_other, button).clicked()
+                && let Some(from) = context.layer_ref(layer)
+            {
+                let to_take = Some(TakeRef::Index(index));
+                let edit = Edit::MoveLayer(MoveLayer { take: from, to: usize::MAX, to_take });
+                requests.push(Request::Change(Change::Edit(edit, None)));
+                ui.close();
+            }
+        }
+    });
+}
+
+/// Draws the colors that the layer can have.
+fn colors(ui: &mut Ui, context: &PanelContext<'_>, layer: usize, requests: &mut Vec<Request>) {
+    ui.horizontal(|ui| {
+        for color in LAYER_COLORS {
+            let [red, green, blue] = color;
+            let button = Button::new("").fill(Color32::from_rgb(red, green, blue)).min_size(vec2(20.0, 20.0));
+            let name = format!("Color {red}, {green}, {blue}");
+            if ui.add(button).accessible_name(&name).clicked()
+                && let Some(take) = context.layer_ref(layer)
+            {
+                let edit = Edit::SetLayer(SetLayer { color: Some(color), ..unchanged(take) });
+                requests.push(Request::Change(Change::Edit(edit, None)));
+                ui.close();
+            }
+        }
+    });
 }
 
 /// Height of a row with its weight below the name, points.

@@ -123,10 +123,6 @@ pub(crate) fn below<K: ChannelKind>(
     Some(seen::<K::Rule>(stack.below, &stack.channels[..stack.own], time))
 }
 
-/// Colors of new layers, one after the other.
-pub(crate) const COLORS: [[u8; 3]; 6] =
-    [[90, 160, 220], [230, 160, 70], [120, 190, 110], [200, 110, 180], [220, 110, 100], [110, 190, 190]];
-
 /// Largest weight of a layer.
 const LARGEST_WEIGHT: f32 = 10.0;
 
