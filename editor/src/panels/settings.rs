@@ -99,11 +99,13 @@ pub struct TimelineSettings {
     pub snap: bool,
     /// Whether only the selected bones are listed, if any are selected.
     pub only_selected: bool,
+    /// Whether the ruler has seconds instead of frames.
+    pub seconds: bool,
 }
 
 impl Default for TimelineSettings {
     fn default() -> Self {
-        Self { snap: true, only_selected: true }
+        Self { snap: true, only_selected: true, seconds: false }
     }
 }
 
