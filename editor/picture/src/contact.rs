@@ -10,12 +10,12 @@ use dragonfly_anim::data::Primitive;
 use glam::{Vec3, Vec4};
 
 /// Number of spots. WGSL twin: `SPOTS` in `shaders/common/frame.wgsl`.
-pub const SPOTS: usize = 16;
+pub(super) const SPOTS: usize = 16;
 
 /// Height above the ground at which a part leaves no shadow, in radii of the model.
 const REACH: f32 = 0.16;
 /// Largest strength of a spot, 0..1.
-const STRONGEST: f32 = 0.55;
+const STRONGEST: f32 = 0.75;
 
 /// Adds the vertices of a primitive to the boxes of the matrices that move them most; `first` is its first matrix, and
 /// without influences it is the only one.
@@ -61,6 +61,6 @@ fn spot(part: &AxisBox, matrix: &Affine, reach: f32) -> Option<Vec4> {
         return None;
     }
     let near = 1.0 - ((y.0 - y.1).max(0.0) / reach).min(1.0);
-    let spread = (x.1 * z.1).sqrt().max(0.5 * x.1.max(z.1)) + 0.35 * reach;
-    (near > 0.0).then(|| Vec4::new(x.0, z.0, spread * (1.6 - 0.4 * near), STRONGEST * near * near))
+    let spread = (x.1 * z.1).sqrt().max(0.5 * x.1.max(z.1)) + 0.5 * reach;
+    (near > 0.0).then(|| Vec4::new(x.0, z.0, spread * (2.0 - 0.4 * near), STRONGEST * near * near))
 }

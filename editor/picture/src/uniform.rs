@@ -1,5 +1,6 @@
 //! Data that shaders read, byte for byte; each structure names its twin in WGSL.
 
+use super::contact::SPOTS;
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec4};
 
@@ -15,7 +16,7 @@ pub struct FrameUniform {
     pub eye: Vec4,
     /// Width and height of the viewport in pixels, and their reciprocals.
     pub size: Vec4,
-    /// Cosine and sine of the camera's yaw, shading mode, unused.
+    /// Cosine and sine of the camera's yaw, shading mode, 1 where the lines of the grid are drawn.
     pub studio: Vec4,
     /// Top of the background, linear, multiplied by its alpha.
     pub background_top: Vec4,
@@ -29,6 +30,8 @@ pub struct FrameUniform {
     pub bone_color: Vec4,
     /// Color of selected bones, linear RGB.
     pub accent: Vec4,
+    /// Spots of the contact shadow: center x and z, radius, strength.
+    pub contact: [Vec4; SPOTS],
 }
 
 /// An affine matrix by rows, three quarters the size of a full matrix. WGSL twin: `Affine` in

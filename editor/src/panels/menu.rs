@@ -244,6 +244,7 @@ fn view(
     ui.separator();
     let look = &context.settings.look;
     item(ui, context, Id::ToggleGrid, look.grid, requests);
+    item(ui, context, Id::ToggleContactShadow, look.contact_shadow, requests);
     item(ui, context, Id::ToggleSurface, look.surface, requests);
     item(ui, context, Id::ToggleSkeleton, context.shows_skeleton(), requests);
     item(ui, context, Id::ToggleXRay, look.bones_in_front, requests);
