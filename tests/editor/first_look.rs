@@ -60,12 +60,13 @@ fn no_text_of_the_sheet_of_shortcuts_overprints_another() {
         let harness = sheet(text);
         let field = harness.get_by_label(FIELD).rect();
         let close = harness.query_all_by_label("Close").next_back().expect("a button").rect();
-        let (columns, below) = (field.left() - 1.0..=close.right(), field.bottom());
+        let hint = harness.get_by_label("Click a shortcut to change it").rect();
+        let (columns, rows) = (field.left() - 1.0..=close.right(), field.bottom()..=hint.top());
         let texts: Vec<(String, Rect)> = harness
             .query_all(egui_kittest::kittest::By::new().role(egui::accesskit::Role::Label))
             .filter_map(|node| Some((node.accesskit_node().value()?, node.rect())))
             .filter(|(_, rect)| columns.contains(&rect.left()) && columns.contains(&rect.right()))
-            .filter(|(_, rect)| rect.top() > below && rect.is_positive())
+            .filter(|(_, rect)| rows.contains(&rect.top()) && rows.contains(&rect.bottom()))
             .collect();
         assert!(texts.len() > 2, "{text}: {texts:?}");
         for (at, (name, rect)) in texts.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Parts near the ground darken it, and white surfaces keep their shape.
 
-use dragonfly_anim::data::Material;
+use dragonfly_anim::data::{Material, Metallic};
 use dragonfly_document::{Cancel, LoadedModel, Source, load_model};
 use dragonfly_kit::folder::data;
 use dragonfly_kit::picture::images::settings;
@@ -45,7 +45,8 @@ fn white_surfaces_stay_below_the_white_of_the_screen() {
     let Some(mut studio) = studio::studio() else { return };
     let mut loaded = open("quaternius_Character4skins.glb");
     let model = Arc::get_mut(&mut loaded.model).expect("not shared yet");
-    let white = Material { base_color: Vec4::splat(0.9).with_w(1.0), ..Material::default() };
+    let metallic = Metallic { metallic: 0.0, roughness: 0.6 };
+    let white = Material { base_color: Vec4::splat(0.9).with_w(1.0), metallic, ..Material::default() };
     model.materials.fill(white);
     let settings = PictureSettings { grid: false, background: Some([0; 4]), ..settings() };
     let image = studio.render(&Arc::new(loaded), &settings).expect("an image");
