@@ -1,6 +1,6 @@
 // Data of this frame for every pass of the scene.
 
-// Rust twin: picture::contact::SPOTS
+// Rust twin: picture::uniform::SPOTS
 const SPOTS: u32 = 16u;
 
 // Rust twin: picture::uniform::FrameUniform

@@ -1,4 +1,4 @@
-//! What a new user sees first: a sheet of shortcuts that can be read while typing, notes that are no warnings, a ruler in
+//! The first look of a new user: a sheet of shortcuts that can be read while typing, notes that are no warnings, a ruler in
 //! frames, messages in plain words.
 
 use crate::panels::{Bench, harness};

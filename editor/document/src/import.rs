@@ -19,7 +19,7 @@ pub(super) struct ImportedModel {
     pub(super) format: Format,
     /// Contents that are not shown or were sanitized.
     pub(super) warnings: Vec<String>,
-    /// What was noticed and changes neither the picture nor the animation, one sentence each.
+    /// Findings that change neither the picture nor the animation, one sentence each.
     pub(super) notes: Vec<String>,
     /// Bytes of the memory budget that the import left.
     pub(super) memory: u64,

@@ -26,7 +26,7 @@ pub struct LoadedModel {
     pub images: ImageSurvey,
     /// Contents that are not shown or were sanitized, one sentence each.
     pub warnings: Vec<String>,
-    /// What was noticed while reading and changes neither the picture nor the animation, one sentence each.
+    /// Findings while reading that change neither the picture nor the animation, one sentence each.
     pub notes: Vec<String>,
 }
 

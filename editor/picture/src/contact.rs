@@ -3,14 +3,10 @@
 //! A part is what one matrix moves most: the vertices of a bone, or a whole rigid mesh. Its box is found once; in a frame only
 //! the boxes are moved, so a spot costs the same however many vertices there are.
 
-use super::posed::PosedModel;
-use super::uniform::Affine;
+use super::uniform::{Affine, SPOTS};
 use dragonfly_anim::bounds::AxisBox;
 use dragonfly_anim::data::Primitive;
 use glam::{Vec3, Vec4};
-
-/// Number of spots. WGSL twin: `SPOTS` in `shaders/common/frame.wgsl`.
-pub(super) const SPOTS: usize = 16;
 
 /// Height above the ground at which a part leaves no shadow, in radii of the model.
 const REACH: f32 = 0.16;
@@ -36,12 +32,12 @@ pub(super) fn add_boxes(boxes: &mut [AxisBox], primitive: &Primitive, first: usi
     }
 }
 
-/// Returns the spots below a model of this radius: center x and z, radius, strength; those that are not used have no strength.
-/// Allocates nothing.
-pub(super) fn spots(model: &PosedModel, radius: f32) -> [Vec4; SPOTS] {
+/// Returns the spots below a model of this radius, with the boxes of its parts and their matrices: center x and z, radius,
+/// strength; those that are not used have no strength. Allocates nothing.
+pub(super) fn spots(boxes: &[AxisBox], matrices: &[Affine], radius: f32) -> [Vec4; SPOTS] {
     let mut spots = [Vec4::ZERO; SPOTS];
     let reach = (REACH * radius).max(1e-6);
-    for (part, matrix) in model.part_boxes().iter().zip(model.palettes()) {
+    for (part, matrix) in boxes.iter().zip(matrices) {
         let Some(spot) = spot(part, matrix, reach) else { continue };
         let weakest = spots.iter_mut().min_by(|a, b| a.w.total_cmp(&b.w));
         if let Some(weakest) = weakest.filter(|weakest| weakest.w < spot.w) {

@@ -3,13 +3,13 @@
 //! Everything a frame needs is computed into memory allocated when the model is shown, so playing allocates nothing.
 
 use super::appearance::Appearances;
-use super::contact::{SPOTS, spots};
+use super::contact::spots;
 use super::control::{ControlFrame, SceneControls};
 use super::frustum::ViewFrustum;
 use super::message::{Look, Shading};
 use super::posed::PosedModel;
 use super::skin::SkinPicker;
-use super::uniform::FrameUniform;
+use super::uniform::{FrameUniform, SPOTS};
 use crate::camera::{Camera, CameraRay, Projection};
 use crate::playback::PlaybackClock;
 use dragonfly_anim::bounds::{Bounds, Sphere};
@@ -178,7 +178,8 @@ impl Scene {
         // A high camera sees far; the ground must not end below it.
         let radius = camera.distance.max(camera.eye().y.abs()) * 5.0;
         let casts = self.model.as_ref().filter(|_| look.contact_shadow && look.surface);
-        let contact = casts.map_or([Vec4::ZERO; SPOTS], |model| spots(model, bounds.radius));
+        let contact = casts
+            .map_or([Vec4::ZERO; SPOTS], |model| spots(model.part_boxes(), model.palettes(), bounds.radius));
         FrameUniform {
             clip_from_world: self.clip_from_world(bounds),
             view_from_world: camera.view_from_world(),

@@ -1,8 +1,10 @@
 //! Data that shaders read, byte for byte; each structure names its twin in WGSL.
 
-use super::contact::SPOTS;
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec4};
+
+/// Number of spots of the contact shadow. WGSL twin: `SPOTS` in `shaders/common/frame.wgsl`.
+pub const SPOTS: usize = 16;
 
 /// Uniform of a frame. WGSL twin: `Frame` in `shaders/common/frame.wgsl`.
 #[repr(C)]
