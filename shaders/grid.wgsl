@@ -1,4 +1,4 @@
-// The ground grid: lines about one pixel wide, two densities that blend into each other, fading with distance.
+// The ground: the contact shadow, and a grid of lines about one pixel wide, two densities that blend into each other, fading with distance.
 
 struct Ground {
     @builtin(position) position: vec4f,
@@ -23,6 +23,18 @@ fn lines(world: vec2f, footprint: vec2f, step: f32, width: f32) -> f32 {
     let dense = clamp((step / footprint - 3.0) / 9.0, vec2f(0.0), vec2f(1.0));
     let strength = covered * dense;
     return max(strength.x, strength.y);
+}
+
+// Share of the light that parts near the ground keep away from it, 0..1.
+fn contact_shadow(world: vec2f) -> f32 {
+    var light = 1.0;
+    for (var index = 0u; index < SPOTS; index++) {
+        let spot = frame.contact[index];
+        let away = length(world - spot.xy) / max(spot.z, 1e-9);
+        let inside = clamp(1.0 - away * away, 0.0, 1.0);
+        light *= 1.0 - spot.w * inside * inside;
+    }
+    return 1.0 - light;
 }
 
 @fragment
@@ -52,6 +64,8 @@ fn fs_grid(in: Ground) -> @location(0) vec4f {
         color = mix(color, vec3f(0.10, 0.22, 0.62), axis.x);
         strength = max(strength, axis.x * 0.5);
     }
-    let alpha = strength * fade * grazing;
-    return vec4f(color * alpha, alpha);
+    let alpha = strength * fade * grazing * frame.studio.w;
+    // The shadow is below the lines.
+    let shadow = contact_shadow(in.world);
+    return vec4f(color * alpha, 1.0 - (1.0 - alpha) * (1.0 - shadow));
 }

@@ -108,6 +108,9 @@ fn mapped_normal(in: Surface, smooth_normal: vec3f) -> vec3f {
     return normalize(mapped);
 }
 
+// Keeps white surfaces below the white of the screen, so that their shape stays visible.
+const EXPOSURE: f32 = 0.76;
+
 // With `thin`, this share of the light on the far side passes through: wings, leaves, cloth.
 fn lit_metallic(
     base: vec3f, metallic: f32, roughness: f32, normal: vec3f, view: vec3f, occlusion: f32, thin: f32,
@@ -221,7 +224,7 @@ fn fs_model(in: Surface, @builtin(front_facing) front: bool) -> @location(0) vec
         let thin = select(0.0, 0.8, material.alpha_mode == 2u);
         light = lit_metallic(base.rgb, metallic, clamp(roughness, 0.045, 1.0), normal, view, occlusion, thin);
     }
-    return shown(tone_map(light + emissive), alpha);
+    return shown(tone_map(EXPOSURE * (light + emissive)), alpha);
 }
 
 // Blended colors are premultiplied by alpha; a mask's alpha only discards samples: in the fixed part of the pipeline where

@@ -132,6 +132,7 @@ fn tree(bones: u32, seconds: u32, keys_per_second: u32) -> LoadedModel {
         model,
         images: ImageSurvey::default(),
         warnings: Vec::new(),
+        notes: Vec::new(),
     }
 }
 

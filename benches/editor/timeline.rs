@@ -306,6 +306,7 @@ fn view(length: f32) -> View {
         model,
         images: ImageSurvey::default(),
         warnings: Vec::new(),
+        notes: Vec::new(),
     };
     View::opened(1, Arc::new(loaded))
 }

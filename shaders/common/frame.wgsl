@@ -1,5 +1,8 @@
 // Data of this frame for every pass of the scene.
 
+// Rust twin: picture::uniform::SPOTS
+const SPOTS: u32 = 16u;
+
 // Rust twin: picture::uniform::FrameUniform
 struct Frame {
     clip_from_world: mat4x4f,
@@ -10,7 +13,7 @@ struct Frame {
     // Width and height of the viewport in pixels, and their reciprocals.
     size: vec4f,
     // x and y: cosine and sine of the camera's yaw, because the studio's lights follow the viewer. z: 0 material,
-    // 1 clay, 2 unlit.
+    // 1 clay, 2 unlit. w: 1 where the lines of the grid are drawn.
     studio: vec4f,
     // Linear RGB; alpha 0 makes the background transparent.
     background_top: vec4f,
@@ -22,6 +25,8 @@ struct Frame {
     // Linear RGB of bones and of selected bones.
     bone_color: vec4f,
     accent: vec4f,
+    // Spots of the contact shadow: center x and z, radius, strength.
+    contact: array<vec4f, SPOTS>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -11,6 +11,8 @@ fn search(key: egui::Key, field: &str, text: &str) -> Harness<'static, Bench> {
     harness.run_steps(4);
     harness.key_press(key);
     harness.run_steps(4);
+    harness.get_by_label(field).click();
+    harness.run_steps(2);
     harness.get_by_label(field).type_text(text);
     harness.run_steps(4);
     harness

@@ -8,14 +8,14 @@ use egui_kittest::kittest::Queryable;
 
 #[test]
 fn the_tooltip_of_a_menu_entry_covers_no_other_entry() {
-    let mut window = Workbench::full().window();
-    window.get_by_label("Edit").click();
-    window.run_steps(4);
     let entry = |window: &crate::workbench::Window, name: &str| {
         let all = window.query_all_by_label_contains(name).map(|node| node.rect());
         all.min_by(|a, b| a.top().total_cmp(&b.top())).expect("an entry")
     };
-    for (name, help) in [("Undo", "Undoes the last step"), ("Select parent bone", "Selects the parent")] {
+    for (menu, name, help) in [("Edit", "Undo", "Undoes the last step"), ("File", "Save a copy", "Saves")] {
+        let mut window = Workbench::full().window();
+        window.get_by_label(menu).click();
+        window.run_steps(4);
         let at = entry(&window, name);
         window.event(Event::PointerMoved(at.center()));
         window.run_steps(90);

@@ -21,6 +21,7 @@ mod edit_scope;
 mod explain;
 mod eye;
 mod faults;
+mod first_look;
 mod fixture_layer;
 mod folder;
 mod frame_rate;

@@ -27,6 +27,7 @@ fn with_shapes() -> View {
         bounds: *bounds,
         images: ImageSurvey::default(),
         warnings: Vec::new(),
+        notes: Vec::new(),
     };
     View::opened(1, Arc::new(loaded))
 }

@@ -48,6 +48,7 @@ fn changed(loaded: &Arc<LoadedModel>, memory: u64, change: impl FnOnce(&mut [Ima
         bounds,
         images,
         warnings,
+        notes: Vec::new(),
     })
 }
 

@@ -3,6 +3,7 @@
 mod between;
 mod camera;
 mod complaints;
+mod contact_shadow;
 mod device_loss;
 mod draws;
 mod ghost_skins;

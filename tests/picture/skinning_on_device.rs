@@ -55,6 +55,7 @@ fn shown(model: Arc<ModelData>, like: &LoadedModel, bounds: &Arc<ModelData>) -> 
         bounds: Evaluator::new(Arc::clone(bounds)).bounds(),
         images: like.images.clone(),
         warnings: Vec::new(),
+        notes: Vec::new(),
     })
 }
 

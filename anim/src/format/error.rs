@@ -146,6 +146,21 @@ pub struct Warning {
     pub text: String,
 }
 
+impl Warning {
+    /// Returns whether this changes neither what is drawn nor what is animated: something unused was left out, or the file
+    /// breaks a rule without any effect on what was read.
+    pub fn is_harmless(&self) -> bool {
+        const HARMLESS: &[&str] = &[
+            "ACCESSOR_OFFSET_ALIGNMENT",
+            "BUFFER_GLB_CHUNK_TOO_BIG",
+            "CAMERA_NOT_SHOWN",
+            "IMAGE_MIME_TYPE_INVALID",
+            "MESH_PRIMITIVE_INVALID_ATTRIBUTE",
+        ];
+        HARMLESS.contains(&self.code)
+    }
+}
+
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.place, one_line(&self.text))

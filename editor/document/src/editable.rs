@@ -74,7 +74,8 @@ impl Editable {
         }
         let file = imported.format.edit(&name, bytes, door, &ReadOptions::default());
         let file = file.map_err(|error| wrong(error.to_string()))?;
-        let (model, warnings) = (Arc::new(imported.model), imported.warnings);
+        let (model, mut warnings) = (Arc::new(imported.model), imported.warnings);
+        warnings.extend(imported.notes);
         let on_disk = Arc::clone(&model);
         let beside = read_once.as_ref().map(ReadOnce::stamps).unwrap_or_default();
         let file = Arc::new(file);
@@ -96,7 +97,7 @@ impl Editable {
             title: source.title(),
             path: loaded.path.clone(),
             model: Arc::clone(&loaded.model),
-            warnings: loaded.warnings.clone(),
+            warnings: loaded.warnings.iter().chain(&loaded.notes).cloned().collect(),
             file: Arc::new(file),
             stamp,
             beside: door.map(ReadOnce::stamps).unwrap_or_default(),

@@ -19,6 +19,8 @@ pub(super) struct ImportedModel {
     pub(super) format: Format,
     /// Contents that are not shown or were sanitized.
     pub(super) warnings: Vec<String>,
+    /// Findings that change neither the picture nor the animation, one sentence each.
+    pub(super) notes: Vec<String>,
     /// Bytes of the memory budget that the import left.
     pub(super) memory: u64,
 }
@@ -38,12 +40,17 @@ pub(super) fn read(
 ) -> Result<ImportedModel, LoadError> {
     let options = ReadOptions { is_cancelled: &|| cancel.is_cancelled(), progress, ..ReadOptions::default() };
     match formats().read(title, bytes, door, &options) {
-        Ok(imported) => Ok(ImportedModel {
-            model: imported.model,
-            format: imported.format,
-            warnings: imported.warnings.iter().map(ToString::to_string).collect(),
-            memory: options.budget.remaining(),
-        }),
+        Ok(imported) => {
+            let (notes, warnings): (Vec<_>, Vec<_>) =
+                imported.warnings.iter().partition(|warning| warning.is_harmless());
+            Ok(ImportedModel {
+                model: imported.model,
+                format: imported.format,
+                warnings: warnings.iter().map(ToString::to_string).collect(),
+                notes: notes.iter().map(ToString::to_string).collect(),
+                memory: options.budget.remaining(),
+            })
+        }
         Err(ImportError::Cancelled) => Err(LoadError::Cancelled),
         Err(error) => Err(LoadError::Format { title: title.to_owned(), reason: error.to_string() }),
     }

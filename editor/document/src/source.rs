@@ -27,7 +27,7 @@ impl Source {
 #[derive(Debug, Error)]
 pub enum LoadError {
     /// The file could not be read.
-    #[error("{}: file: {reason}", path.display())]
+    #[error("{}", not_read(path, reason))]
     File {
         /// The path.
         path: PathBuf,
@@ -45,6 +45,14 @@ pub enum LoadError {
     /// It was cancelled.
     #[error("cancelled")]
     Cancelled,
+}
+
+/// Returns why the file was not read; a folder is no file at all.
+fn not_read(path: &Path, reason: &FileAccessError) -> String {
+    if let FileAccessError::NotRegular(kind) = reason {
+        return format!("{} is {kind}", path.display());
+    }
+    format!("{}: file: {reason}", path.display())
 }
 
 /// Returns the last part of `path`, or all of it where it has no parts.

@@ -26,6 +26,8 @@ pub struct LoadedModel {
     pub images: ImageSurvey,
     /// Contents that are not shown or were sanitized, one sentence each.
     pub warnings: Vec<String>,
+    /// Findings while reading that change neither the picture nor the animation, one sentence each.
+    pub notes: Vec<String>,
 }
 
 /// The history, for the menu and for the list of the history.

@@ -152,6 +152,7 @@ impl Studio {
             viewport: [0, 0, width, height],
             skeleton: settings.skeleton,
             grid: settings.grid,
+            contact_shadow: settings.grid && settings.look.contact_shadow,
             ..settings.look.clone()
         };
         scene.background_alpha = 1.0;

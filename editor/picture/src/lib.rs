@@ -19,6 +19,7 @@ mod between;
 pub mod body;
 pub mod camera;
 pub mod connection;
+mod contact;
 pub mod control;
 pub mod device;
 mod error;

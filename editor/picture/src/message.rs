@@ -48,6 +48,8 @@ pub struct Look {
     pub background: [[f32; 3]; 2],
     /// Whether the ground grid is drawn.
     pub grid: bool,
+    /// Whether parts of the model near the ground darken it.
+    pub contact_shadow: bool,
     /// Color of the grid's lines, linear RGB.
     pub grid_color: [f32; 3],
     /// Whether the skeleton is drawn over the model.
@@ -83,6 +85,7 @@ impl Default for Look {
             pixels_per_point: 1.0,
             background: [[0.046, 0.052, 0.061], [0.014, 0.016, 0.020]],
             grid: true,
+            contact_shadow: true,
             grid_color: [0.30, 0.33, 0.37],
             skeleton: false,
             bone_look: BoneLook::Octahedra,

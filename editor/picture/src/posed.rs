@@ -1,6 +1,7 @@
 //! A model in a pose, laid out for the device: one list of matrices, one of morph weights, one of items to draw.
 
 use super::batch::DrawBatches;
+use super::contact::add_boxes;
 use super::frustum::ViewFrustum;
 use super::message::Look;
 use super::shape::SkeletonShape;
@@ -59,6 +60,8 @@ pub struct PosedModel {
     /// First weight of each instance, and their number.
     weight_ranges: Vec<(usize, usize)>,
     items: Vec<DrawItem>,
+    /// For each matrix the box around the vertices that it moves most, for the contact shadow.
+    part_boxes: Vec<AxisBox>,
     /// Distances and indices of the blended items, farthest first.
     back_to_front: Vec<(f32, u32)>,
     batches: DrawBatches,
@@ -97,6 +100,7 @@ impl PosedModel {
             weights: vec![0.0; weight_count.max(1)],
             weight_ranges,
             items: Vec::new(),
+            part_boxes: Vec::new(),
             back_to_front: Vec::new(),
             batches: DrawBatches::default(),
             shape: SkeletonShape::new(model),
@@ -104,6 +108,7 @@ impl PosedModel {
             loaded: Arc::clone(&loaded),
         };
         posed.items = posed.draw_items();
+        posed.part_boxes = posed.boxes_of_parts();
         posed.batches = DrawBatches::new(&posed.items);
         posed.back_to_front.reserve(posed.items.iter().filter(|item| item.blend).count());
         posed.pose(None, 0.0, false);
@@ -139,6 +144,11 @@ impl PosedModel {
     /// All matrices, ready for the device.
     pub fn palettes(&self) -> &[Affine] {
         &self.palettes
+    }
+
+    /// For each of the [`palettes`](Self::palettes) the box around the vertices that it moves most.
+    pub(super) fn part_boxes(&self) -> &[AxisBox] {
+        &self.part_boxes
     }
 
     /// All morph weights, ready for the device.
@@ -236,6 +246,18 @@ impl PosedModel {
     /// Places the skeleton's bodies. Allocates nothing.
     pub fn place_bones(&mut self, look: &Look) {
         self.shape.place(self.animation.to_root(), look);
+    }
+
+    fn boxes_of_parts(&self) -> Vec<AxisBox> {
+        let mut boxes = vec![AxisBox::EMPTY; self.palettes.len()];
+        for item in &self.items {
+            let primitives = primitives(&self.loaded.model, item.mesh);
+            if let Some(primitive) = primitives.get(item.primitive as usize) {
+                let DrawInstance { palette, influences, .. } = item.instance;
+                add_boxes(&mut boxes, primitive, palette as usize, influences as usize);
+            }
+        }
+        boxes
     }
 
     fn draw_items(&self) -> Vec<DrawItem> {

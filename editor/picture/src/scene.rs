@@ -3,12 +3,13 @@
 //! Everything a frame needs is computed into memory allocated when the model is shown, so playing allocates nothing.
 
 use super::appearance::Appearances;
+use super::contact::spots;
 use super::control::{ControlFrame, SceneControls};
 use super::frustum::ViewFrustum;
 use super::message::{Look, Shading};
 use super::posed::PosedModel;
 use super::skin::SkinPicker;
-use super::uniform::FrameUniform;
+use super::uniform::{FrameUniform, SPOTS};
 use crate::camera::{Camera, CameraRay, Projection};
 use crate::playback::PlaybackClock;
 use dragonfly_anim::bounds::{Bounds, Sphere};
@@ -176,18 +177,22 @@ impl Scene {
         let (spacing, appeared) = grid_spacing(camera.distance);
         // A high camera sees far; the ground must not end below it.
         let radius = camera.distance.max(camera.eye().y.abs()) * 5.0;
+        let casts = self.model.as_ref().filter(|_| look.contact_shadow && look.surface);
+        let contact = casts
+            .map_or([Vec4::ZERO; SPOTS], |model| spots(model.part_boxes(), model.palettes(), bounds.radius));
         FrameUniform {
             clip_from_world: self.clip_from_world(bounds),
             view_from_world: camera.view_from_world(),
             eye,
             size: Vec4::new(size.x, size.y, 1.0 / size.x, 1.0 / size.y),
-            studio: Vec4::new(cos, sin, shading, 0.0),
+            studio: Vec4::new(cos, sin, shading, f32::from(u8::from(look.grid))),
             background_top: top,
             background_bottom: bottom,
             grid_color: Vec3::from(look.grid_color).extend(appeared),
             grid: Vec4::new(camera.target.x, camera.target.z, radius, spacing),
             bone_color: Vec3::from(look.bone_color).extend(1.0),
             accent: Vec3::from(look.accent).extend(1.0),
+            contact,
         }
     }
 

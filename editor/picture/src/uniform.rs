@@ -3,6 +3,9 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec4};
 
+/// Number of spots of the contact shadow. WGSL twin: `SPOTS` in `shaders/common/frame.wgsl`.
+pub const SPOTS: usize = 16;
+
 /// Uniform of a frame. WGSL twin: `Frame` in `shaders/common/frame.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -15,7 +18,7 @@ pub struct FrameUniform {
     pub eye: Vec4,
     /// Width and height of the viewport in pixels, and their reciprocals.
     pub size: Vec4,
-    /// Cosine and sine of the camera's yaw, shading mode, unused.
+    /// Cosine and sine of the camera's yaw, shading mode, 1 where the lines of the grid are drawn.
     pub studio: Vec4,
     /// Top of the background, linear, multiplied by its alpha.
     pub background_top: Vec4,
@@ -29,6 +32,8 @@ pub struct FrameUniform {
     pub bone_color: Vec4,
     /// Color of selected bones, linear RGB.
     pub accent: Vec4,
+    /// Spots of the contact shadow: center x and z, radius, strength.
+    pub contact: [Vec4; SPOTS],
 }
 
 /// An affine matrix by rows, three quarters the size of a full matrix. WGSL twin: `Affine` in

@@ -127,6 +127,7 @@ fn look(
         pixels_per_point,
         background: theme.sky.map(linear),
         grid: settings.grid,
+        contact_shadow: settings.contact_shadow,
         grid_color: linear(theme.grid),
         skeleton: state.shows_skeleton(),
         bone_look: settings.bone_look,

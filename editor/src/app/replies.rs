@@ -107,6 +107,9 @@ fn opened(interface: &mut Interface, loaded: &LoadedModel) {
     for warning in &loaded.warnings {
         state.say(MessageSeverity::Warning, format!("{}: {warning}", loaded.title));
     }
+    for note in &loaded.notes {
+        state.say(MessageSeverity::Info, format!("{}: {note}", loaded.title));
+    }
     state.say(MessageSeverity::Info, format!("Opened {}", loaded.title));
     say_passed_over(state, passed_over);
     let edits = std::mem::take(&mut interface.edits).into_iter();

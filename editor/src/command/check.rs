@@ -132,7 +132,7 @@ impl CheckReport {
             findings: Vec::new(),
             takes,
         };
-        let imported = loaded.warnings.into_iter();
+        let imported = loaded.warnings.into_iter().chain(loaded.notes);
         for text in imported {
             report.add(
                 deny,

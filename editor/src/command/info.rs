@@ -131,7 +131,7 @@ impl Info {
                 max: bounds.max.to_array(),
                 sphere: InfoSphere { center: bounds.sphere.center.to_array(), radius: bounds.sphere.radius },
             },
-            warnings: loaded.warnings,
+            warnings: loaded.warnings.into_iter().chain(loaded.notes).collect(),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::commands::{self, Id};
 use super::icons::Icon;
 use super::request::Request;
-use super::widgets::{hint_beside, icon_button};
+use super::widgets::{hint_beside, icon_button, wary_icon_button};
 use egui::{Response, Ui};
 
 /// Draws a square button with an icon that runs a command; highlighted when `on`. Its tooltip contains the
@@ -27,7 +27,13 @@ pub(super) fn column_button(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests:
 }
 
 fn command(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request>) -> Response {
-    let response = icon_button(ui, icon, commands::get(id).title, on);
+    let title = commands::get(id).title;
+    // With auto-key on, every movement is recorded.
+    let response = if id == Id::AutoKey {
+        wary_icon_button(ui, icon, title, on)
+    } else {
+        icon_button(ui, icon, title, on)
+    };
     if response.clicked() {
         requests.push(Request::Command(id));
     }

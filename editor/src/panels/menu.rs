@@ -3,6 +3,7 @@
 use super::commands::{self, Category, Id};
 use super::context::PanelContext;
 use super::edit_scope_menu;
+use super::icons::Icon;
 use super::request::Request;
 use super::settings::{GhostSettings, SCALES, ThemeChoice};
 use super::style::{self, GRID};
@@ -10,7 +11,9 @@ use super::theme::Theme;
 use super::widgets::{disabled_hint_beside, hint_beside};
 use dragonfly_document::Source;
 use dragonfly_picture::{BoneLook, Shading};
-use egui::{Align, Button, Layout, MenuBar, RichText, ScrollArea, Slider, Stroke, TextWrapMode, Ui};
+use egui::{
+    Align, Button, Layout, MenuBar, Rect, RichText, ScrollArea, Slider, Stroke, TextWrapMode, Ui, pos2, vec2,
+};
 
 /// Draws the bar; `panels` are id, title and whether they are shown.
 pub fn show(
@@ -22,9 +25,8 @@ pub fn show(
     MenuBar::new().ui(ui, |ui| {
         ui.add_space(GRID);
         ui.menu_button("File", |ui| file(ui, context, requests));
-        ui.menu_button("Edit", |ui| {
-            scrolled(ui, |ui| list(ui, context, &[Category::Edit, Category::Selection], requests))
-        });
+        ui.menu_button("Edit", |ui| list(ui, context, &[Category::Edit], requests));
+        ui.menu_button("Select", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Selection], requests)));
         ui.menu_button("Pose", |ui| scrolled(ui, |ui| pose(ui, context, requests)));
         ui.menu_button("Tools", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Tools], requests)));
         ui.menu_button("Play", |ui| list(ui, context, &[Category::Playback], requests));
@@ -57,18 +59,34 @@ fn scrolled(ui: &mut Ui, entries: impl FnOnce(&mut Ui)) {
     ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, entries);
 }
 
-/// Draws an entry: title and shortcut, with the title in the accent color if `on`.
+/// Width at the left of the entries, where a check mark is, points.
+const GUTTER: f32 = 20.0;
+
+/// Draws an entry: title and shortcut, with a check mark before the title and the title in the accent color if `on`.
 pub(super) fn item(ui: &mut Ui, context: &PanelContext<'_>, id: Id, on: bool, requests: &mut Vec<Request>) {
     let command = commands::get(id);
     let shortcut =
         RichText::new(commands::shortcut_text(ui.ctx(), id)).size(style::SMALL).color(Theme::of(ui).faint);
-    let title = RichText::new(super::commands::title(context, id)).color(if on {
-        Theme::of(ui).accent
-    } else {
-        Theme::of(ui).text
-    });
+    let color = match (on, id) {
+        // Dangerous while it is on: every movement is recorded.
+        (true, Id::AutoKey) => Theme::of(ui).error,
+        (true, _) => Theme::of(ui).accent,
+        (false, _) => Theme::of(ui).text,
+    };
+    let title = RichText::new(super::commands::title(context, id)).color(color);
     let button = Button::new(title).shortcut_text(shortcut).frame_when_inactive(false);
-    let response = ui.add_enabled(command.when.holds(context), button);
+    let enabled = command.when.holds(context);
+    let response = ui
+        .scope(|ui| {
+            ui.spacing_mut().button_padding.x += GUTTER;
+            ui.add_enabled(enabled, button)
+        })
+        .inner;
+    if on {
+        let at = pos2(response.rect.left() + 0.5 * GUTTER + 4.0, response.rect.center().y);
+        let color = if enabled { color } else { color.gamma_multiply(0.5) };
+        Icon::Saved.paint(ui.painter(), Rect::from_center_size(at, vec2(16.0, 16.0)), color);
+    }
     hint_beside(&response, command.help);
     let why = format!("{}\n{}", command.help, command.when.reason());
     disabled_hint_beside(&response, why);
@@ -80,10 +98,48 @@ pub(super) fn item(ui: &mut Ui, context: &PanelContext<'_>, id: Id, on: bool, re
 
 fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], requests: &mut Vec<Request>) {
     for command in categories.iter().flat_map(|category| commands::of(*category)) {
-        let on = command.id == Id::ToggleSnap && context.keys.snap();
+        let on = match command.id {
+            Id::ToggleSnap => context.keys.snap(),
+            Id::ToggleRulerSeconds => context.keys.ruler_in_seconds(),
+            Id::ToggleCurl => context.settings.tools.curl,
+            Id::ToggleGhosts => context.settings.tools.ghosts.shown,
+            Id::TogglePath => context.settings.tools.path,
+            _ => false,
+        };
         item(ui, context, command.id, on, requests);
+        if GROUP_ENDS.contains(&command.id) {
+            ui.separator();
+        }
     }
 }
+
+/// The last entries of groups in long menus.
+const GROUP_ENDS: &[Id] = &[
+    Id::Redo,
+    // Select
+    Id::InvertSelection,
+    Id::ShrinkSelection,
+    Id::ExtendMirror,
+    Id::ShowAll,
+    Id::LockBones,
+    // Tools
+    Id::ToolScale,
+    Id::ScaleNow,
+    Id::SpaceView,
+    Id::ToggleCurl,
+    Id::LassoSelect,
+    // Keys
+    Id::InvertKeys,
+    Id::DuplicateKeysNow,
+    Id::CopyKeys,
+    Id::KeysReverse,
+    Id::ToggleSnap,
+    Id::InterpolateSpline,
+    Id::TangentsUnified,
+    Id::RippleClose,
+    Id::ToggleRulerSeconds,
+    Id::NextMarker,
+];
 
 /// Draws the commands for keys: those that change values in two menus of their own.
 fn keys(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
@@ -192,6 +248,7 @@ fn view(
     ui.separator();
     let look = &context.settings.look;
     item(ui, context, Id::ToggleGrid, look.grid, requests);
+    item(ui, context, Id::ToggleContactShadow, look.contact_shadow, requests);
     item(ui, context, Id::ToggleSurface, look.surface, requests);
     item(ui, context, Id::ToggleSkeleton, context.shows_skeleton(), requests);
     item(ui, context, Id::ToggleXRay, look.bones_in_front, requests);

@@ -96,5 +96,9 @@ fn about(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     );
     if let super::window_status::DeviceStatus::Ready { adapter } = context.window.device() {
         ui.label(RichText::new(adapter).small().color(theme.faint));
+        if let Some(time) = context.window.frame_time() {
+            let text = format!("The last frame took {time:.1} ms");
+            ui.label(RichText::new(text).small().color(theme.faint));
+        }
     }
 }

@@ -28,6 +28,8 @@ pub enum ThemeChoice {
 pub struct LookSettings {
     /// Whether the ground grid is drawn.
     pub grid: bool,
+    /// Whether parts of the model near the ground darken it.
+    pub contact_shadow: bool,
     /// Whether bones are drawn.
     pub skeleton: bool,
     /// Shape of bones.
@@ -44,6 +46,7 @@ impl Default for LookSettings {
     fn default() -> Self {
         Self {
             grid: true,
+            contact_shadow: true,
             // Off, so that the model is seen first; a selected bone shows its skeleton in any case.
             skeleton: false,
             bone_look: BoneLook::default(),
@@ -99,11 +102,13 @@ pub struct TimelineSettings {
     pub snap: bool,
     /// Whether only the selected bones are listed, if any are selected.
     pub only_selected: bool,
+    /// Whether the ruler has seconds instead of frames.
+    pub seconds: bool,
 }
 
 impl Default for TimelineSettings {
     fn default() -> Self {
-        Self { snap: true, only_selected: true }
+        Self { snap: true, only_selected: true, seconds: false }
     }
 }
 

@@ -8,7 +8,10 @@ use super::request::Request;
 use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets;
-use egui::{Button, Event, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Button, Event, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, TextEdit, TextStyle, Ui};
+
+/// Room at the right end of a line, for the bar that scrolls, points.
+const END: f32 = 3.0 * GRID;
 
 /// State of the sheet.
 #[derive(Debug, Default)]
@@ -34,18 +37,30 @@ impl ShortcutSheet {
         self.listen(ui, &context.settings.keys, requests);
         self.head(ui, &context.settings.keys, requests);
         let height = (room.height() - 220.0).max(120.0);
-        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
+        // As high with few hits as with all, so that nothing moves while the user types.
+        let area = ScrollArea::vertical().auto_shrink(false).max_height(height).min_scrolled_height(height);
+        area.show(ui, |ui| {
+            let keymap = Keymap::of(ui.ctx());
+            let found = |category: &Category| {
+                commands::of(*category).iter().filter(|command| self.finds(command, &keymap)).count()
+            };
+            let counts: Vec<usize> = Category::ALL.iter().map(found).collect();
+            let (all, keys) = (counts.iter().sum::<usize>(), &context.settings.keys);
+            let gestures = found_gestures(&self.query);
+            if all + gestures.len() == 0 {
+                return widgets::empty(ui, "No shortcut found", "");
+            }
             let columns = if ui.available_width() > 700.0 { 2 } else { 1 };
             ui.columns(columns, |columns| {
-                let half = commands::all().count().div_ceil(columns.len());
+                let half = all.div_ceil(columns.len()).max(1);
                 let mut before = 0;
-                for category in Category::ALL {
-                    let column = (before / half.max(1)).min(columns.len() - 1);
-                    before += commands::of(*category).len();
-                    self.sheet(&mut columns[column], *category, &context.settings.keys, requests);
+                for (category, count) in Category::ALL.iter().zip(counts) {
+                    let column = (before / half).min(columns.len() - 1);
+                    before += count;
+                    self.sheet(&mut columns[column], *category, keys, requests);
                 }
-                self.over_keys(&mut columns[0], &context.settings.keys, requests);
-                mouse(&mut columns[0], &self.query);
+                self.over_keys(&mut columns[0], keys, requests);
+                mouse(&mut columns[0], &gestures);
             });
         });
         let hint = if self.note.is_empty() { "Click a shortcut to change it" } else { &self.note };
@@ -124,7 +139,7 @@ impl ShortcutSheet {
         self.asks = asks;
         Keymap::set_asking(ui.ctx(), asks.is_some());
         if asks.is_some() {
-            self.note = "Press a key · Esc keeps the old key · Delete removes it".to_owned();
+            self.note = "Press a shortcut · Esc keeps the old one · Delete removes it".to_owned();
         }
     }
 
@@ -177,7 +192,7 @@ impl ShortcutSheet {
         let mut asks = None;
         let row = line(ui, command.title, |ui| {
             if keys.is_own(scope, id) {
-                let name = format!("Reset keys of {}", command.title);
+                let name = format!("Reset shortcuts of {}", command.title);
                 if widgets::icon_button(ui, Icon::Close, &name, false).on_hover_text(&name).clicked() {
                     let mut keys = keys.clone();
                     keys.reset(scope, id);
@@ -202,15 +217,16 @@ impl ShortcutSheet {
             }
         });
         row.context_menu(|ui| {
-            if ui.button("Add a key").clicked() {
+            if ui.button("Add a shortcut").clicked() {
                 asks = Some((scope, id, shortcuts.len()));
             }
             let over_keys = keymap.shortcuts(KeyScope::Keys, id).len();
-            if scope == KeyScope::Window && ui.button("Add a key over the timeline and the curves").clicked()
+            if scope == KeyScope::Window
+                && ui.button("Add a shortcut over the timeline and the curves").clicked()
             {
                 asks = Some((KeyScope::Keys, id, over_keys));
             }
-            if ui.button("Remove all keys").clicked() {
+            if ui.button("Remove all shortcuts").clicked() {
                 let mut keys = keys.clone();
                 keys.set(scope, id, &[]);
                 requests.push(Request::Keys(keys));
@@ -264,22 +280,37 @@ fn cap(ui: &mut Ui, title: &str, text: &str, asked: bool) -> egui::Response {
     response
 }
 
-/// Draws the gestures of the mouse that contain every word of `query`.
-fn mouse(ui: &mut Ui, query: &str) {
+/// Returns the gestures of the mouse that contain every word of `query`.
+fn found_gestures(query: &str) -> Vec<&'static (&'static str, &'static str)> {
     let query = query.to_lowercase();
     let finds = |(gesture, action): &&(&str, &str)| {
         let text = format!("{gesture} {action}").to_lowercase();
         query.split_whitespace().all(|word| text.contains(word))
     };
-    let found: Vec<_> = MOUSE.iter().filter(finds).collect();
+    MOUSE.iter().filter(finds).collect()
+}
+
+/// Draws gestures of the mouse.
+fn mouse(ui: &mut Ui, found: &[&(&str, &str)]) {
     if found.is_empty() {
         return;
     }
     heading(ui, "Mouse");
     for (gesture, action) in found {
-        line(ui, action, |ui| {
-            ui.label(RichText::new(*gesture).small().color(Theme::of(ui).weak));
-        });
+        let gesture_text = RichText::new(*gesture).small().color(Theme::of(ui).weak);
+        let needed = widgets::text_width(ui, action, &TextStyle::Body)
+            + widgets::text_width(ui, gesture, &TextStyle::Small);
+        if needed + END + 2.0 * GRID < ui.available_width() {
+            line(ui, action, |ui| {
+                ui.label(gesture_text);
+            });
+        } else {
+            // Too long for one line: the gesture is below what it does.
+            ui.label(*action);
+            line(ui, "", |ui| {
+                ui.label(gesture_text);
+            });
+        }
     }
 }
 
@@ -290,11 +321,14 @@ fn heading(ui: &mut Ui, text: &str) {
 
 fn line(ui: &mut Ui, title: &str, add: impl FnOnce(&mut Ui)) -> egui::Response {
     ui.horizontal(|ui| {
-        ui.label(title);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = GRID;
-            ui.add_space(3.0 * GRID);
+            ui.add_space(END);
             add(ui);
+            // The title has the room that is left.
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                ui.add(egui::Label::new(title).truncate());
+            });
         });
     })
     .response

@@ -1,4 +1,4 @@
-//! The line at the bottom: the newest message, all of them on a click, the device in the corner.
+//! The line at the bottom: the newest message, all of them on a click, the state of the device.
 
 use super::buttonless_keys;
 use super::commands::{self, Id};
@@ -18,7 +18,7 @@ pub fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.add_space(3.0 * GRID);
         corner(ui, context);
-        ui.add_space(3.0 * GRID);
+        ui.add_space(GRID);
         unrecorded(ui, context);
         pending(ui, context, requests);
         message(ui, context);
@@ -34,16 +34,8 @@ fn corner(ui: &mut Ui, context: &PanelContext<'_>) {
         DeviceStatus::Paused { .. } => {
             ui.label(RichText::new("Viewport paused").small().color(theme.warning));
         }
-        DeviceStatus::Ready { adapter } => {
-            let time = context.window.frame_time().map_or(String::new(), |time| format!("{time:>5.1} ms"));
-            let font = egui::FontId::monospace(10.0);
-            let label = ui.label(RichText::new(time).font(font).color(theme.faint));
-            label.on_hover_text(format!("{adapter}\nTime that the last frame took"));
-            let name = adapter.split(['(', ',', '·']).next().unwrap_or(adapter).trim();
-            if ui.available_width() > 420.0 {
-                ui.label(RichText::new(name).small().color(theme.faint)).on_hover_text(adapter);
-            }
-        }
+        // The name of the device and the time of a frame are in “About”.
+        DeviceStatus::Ready { .. } => {}
     }
 }
 

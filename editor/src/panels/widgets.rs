@@ -27,6 +27,18 @@ pub(super) fn disabled_hint_beside(response: &Response, hint: impl Into<WidgetTe
 
 /// Draws a square button with an icon; `name` is its accessible name.
 pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Response {
+    let theme = Theme::of(ui);
+    colored_icon_button(ui, icon, name, on, [theme.accent_soft, theme.accent])
+}
+
+/// Draws a square button of something dangerous while it is on, in red then; `name` is its accessible name.
+pub(super) fn wary_icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Response {
+    let theme = Theme::of(ui);
+    colored_icon_button(ui, icon, name, on, [theme.error.gamma_multiply(0.22), theme.error])
+}
+
+/// Draws a square button with an icon, in these colors of background and icon while it is on.
+fn colored_icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool, lit: [Color32; 2]) -> Response {
     let (rect, response) = ui.allocate_exact_size(style::icon_size(), Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), on, name));
     if ui.is_rect_visible(rect) {
@@ -34,7 +46,7 @@ pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, on: bool) -> Resp
         let (fill, color) = if response.is_pointer_button_down_on() {
             (theme.pressed, theme.text)
         } else if on {
-            (theme.accent_soft, theme.accent)
+            (lit[0], lit[1])
         } else if response.hovered() {
             (theme.hover, theme.text)
         } else {

@@ -36,6 +36,7 @@ impl Session {
             bounds: Bounds::of_points(&[]),
             images: ImageSurvey::default(),
             warnings: editable.warnings.clone(),
+            notes: Vec::new(),
         };
         let autosave = autosave.filter(|_| loaded.path.is_some());
         let mut open = Open::new(OpenedModel { loaded, editable: Ok(editable) }, autosave.clone());

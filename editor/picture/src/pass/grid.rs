@@ -1,11 +1,11 @@
-//! The ground grid.
+//! The ground: grid and contact shadow.
 
 use super::definition::{FrameCommands, Pass, PassLayer, Surroundings, scene_pipeline};
 use crate::device::DeviceListener;
 use crate::gpu::Gpu;
 use crate::shaders;
 
-/// Draws the ground grid.
+/// Draws the ground grid and the contact shadow.
 #[derive(Default)]
 pub(super) struct GridPass {
     pipeline: Option<wgpu::RenderPipeline>,
@@ -37,7 +37,7 @@ impl Pass for GridPass {
 
     fn draw(&mut self, around: &Surroundings<'_>, pass: &mut wgpu::RenderPass<'static>) {
         let Some(pipeline) = &self.pipeline else { return };
-        if around.scene.look.grid {
+        if around.scene.look.grid || around.scene.look.contact_shadow {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &around.gpu.frame_group, &[]);
             pass.draw(0..4, 0..1);

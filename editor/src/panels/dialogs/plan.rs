@@ -7,7 +7,7 @@ use crate::panels::request::Request;
 use crate::panels::style::{self, GRID};
 use crate::panels::theme::Theme;
 use dragonfly_document::{DocumentMessage, SaveOrder};
-use egui::{Align, Label, Layout, RichText, ScrollArea, vec2};
+use egui::{Align, Label, Layout, RichText, ScrollArea, Ui, vec2};
 use std::sync::Arc;
 
 /// Height of a line of the list, in points.
@@ -43,26 +43,8 @@ impl QuestionKind for PlanQuestion {
                 }
                 lines => lines,
             };
-            ask.adds("Everything not listed here is kept byte for byte.".to_owned());
-            let theme = Theme::of(ask.ui);
-            inset(theme).inner_margin(2.0 * GRID).show(ask.ui, |ui| {
-                ui.spacing_mut().item_spacing.y = 0.0;
-                let height = (lines.len() as f32 * LINE).min(320.0);
-                ScrollArea::both()
-                    .max_height(height)
-                    .min_scrolled_height(height)
-                    .auto_shrink([false, true])
-                    .show_rows(ui, LINE, lines.len(), |ui, range| {
-                        for line in &lines[range] {
-                            let text = RichText::new(line).monospace().size(style::SMALL);
-                            let room = vec2(ui.available_width(), LINE);
-                            ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
-                                ui.set_min_height(LINE);
-                                ui.add(Label::new(text).extend());
-                            });
-                        }
-                    });
-            });
+            ask.adds("Everything else is kept byte for byte.".to_owned());
+            egui::CollapsingHeader::new("Details").default_open(false).show(ask.ui, |ui| details(ui, lines));
         }
         let close = ("Close", "Close without saving", Tone::First, false);
         let cancel = ("Cancel", "Close without saving", Tone::Plain, false);
@@ -76,4 +58,27 @@ impl QuestionKind for PlanQuestion {
             (None, _) => {}
         }
     }
+}
+
+/// Lists the changes one by one.
+fn details(ui: &mut Ui, lines: &[String]) {
+    let theme = Theme::of(ui);
+    inset(theme).inner_margin(2.0 * GRID).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let height = (lines.len() as f32 * LINE).min(320.0);
+        ScrollArea::both()
+            .max_height(height)
+            .min_scrolled_height(height)
+            .auto_shrink([false, true])
+            .show_rows(ui, LINE, lines.len(), |ui, range| {
+                for line in &lines[range] {
+                    let text = RichText::new(line).monospace().size(style::SMALL);
+                    let room = vec2(ui.available_width(), LINE);
+                    ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
+                        ui.set_min_height(LINE);
+                        ui.add(Label::new(text).extend());
+                    });
+                }
+            });
+    });
 }

@@ -7,6 +7,7 @@ use crate::panels::context::PanelContext;
 use crate::panels::drag::{DragEvent, PanelDrag, PointerInput};
 use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest, TimeScale};
 use crate::panels::request::Request;
+use crate::panels::ruler::frame_of;
 use crate::panels::theme::Theme;
 use dragonfly_picture::between;
 use egui::{
@@ -74,13 +75,18 @@ pub(in crate::panels) fn ticks(
     let rate = context.frame_rate;
     let ruler = scale.ruler();
     let decimals = ruler.decimals(rate);
+    let seconds = context.keys.ruler_in_seconds();
     let fine = Stroke::new(1.0, theme.line.gamma_multiply(0.55));
     for tick in ruler.ticks(rate) {
         let x = painter.round_to_pixel_center(scale.x_of(tick.time));
         if tick.major {
             painter.vline(x, head.bottom()..=bottom, fine);
             painter.vline(x, head.bottom() - 7.0..=head.bottom(), Stroke::new(1.0, theme.faint));
-            let label = format!("{:.decimals$}", tick.time);
+            let label = if seconds {
+                format!("{:.decimals$}", tick.time)
+            } else {
+                frame_of(tick.time, rate).to_string()
+            };
             let at = pos2(x, head.top() + 9.0);
             painter.text(at, Align2::CENTER_CENTER, label, FontId::monospace(10.0), theme.weak);
         } else {
@@ -141,6 +147,9 @@ impl Scrub {
             ] {
                 super::super::menu::item(ui, context, id, false, requests);
             }
+            ui.separator();
+            let seconds = context.keys.ruler_in_seconds();
+            super::super::menu::item(ui, context, Id::ToggleRulerSeconds, seconds, requests);
         });
         super::scroll::wheel(ui, &response, scale, requests);
     }

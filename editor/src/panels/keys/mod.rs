@@ -13,6 +13,7 @@ pub mod op;
 pub mod request;
 pub mod selection;
 pub mod shift;
+mod units;
 pub mod window;
 
 pub use buttonless::{ButtonlessDrag, ButtonlessKind, ButtonlessStart, ButtonlessStep, KeyAxis, KeyPanel};
@@ -47,6 +48,8 @@ pub struct KeyEditing {
     snap: bool,
     /// Whether only the selected bones are listed, if any are selected.
     only_selected: bool,
+    /// Whether the ruler has seconds instead of frames.
+    seconds: bool,
     /// Bones that were listed when one of their rows was clicked, and the selection that this made: the other bones stay
     /// listed as long as that is selected.
     kept: Option<(HashSet<BoneIndex>, Vec<BoneIndex>)>,
@@ -75,6 +78,7 @@ impl Default for KeyEditing {
             selection: KeySelection::default(),
             snap: true,
             only_selected: true,
+            seconds: false,
             kept: None,
             filter: String::new(),
             flags: BoneFlags::default(),
@@ -111,13 +115,13 @@ pub(super) struct EndedDrag {
 impl KeyEditing {
     /// Returns the initial state with these settings.
     pub fn of(settings: TimelineSettings) -> Self {
-        let TimelineSettings { snap, only_selected } = settings;
-        Self { snap, only_selected, ..Self::default() }
+        let TimelineSettings { snap, only_selected, seconds } = settings;
+        Self { snap, only_selected, seconds, ..Self::default() }
     }
 
     /// Returns the settings that are remembered between runs.
     pub(super) fn settings(&self) -> TimelineSettings {
-        TimelineSettings { snap: self.snap, only_selected: self.only_selected }
+        TimelineSettings { snap: self.snap, only_selected: self.only_selected, seconds: self.seconds }
     }
 
     /// Returns the selected keys.
@@ -383,7 +387,7 @@ impl KeyEditing {
 
     /// Forgets everything about the model: another one is open, whose markers are stored under `path`.
     pub(super) fn open(&mut self, path: String) {
-        let (snap, only_selected, flags) = (self.snap, self.only_selected, self.flags.emptied());
-        *self = Self { snap, only_selected, flags, markers: Markers::open(path), ..Self::default() };
+        let flags = self.flags.emptied();
+        *self = Self { flags, markers: Markers::open(path), ..Self::of(self.settings()) };
     }
 }

@@ -46,6 +46,12 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>) {
             ui.label(RichText::new(warning).small().color(theme.warning));
         }
     }
+    if !loaded.notes.is_empty() {
+        widgets::caption(ui, &widgets::count(loaded.notes.len(), "note", "notes"));
+        for note in &loaded.notes {
+            ui.label(RichText::new(note).small().color(theme.weak));
+        }
+    }
 }
 
 /// Draws a name and a value on one line.

@@ -23,6 +23,7 @@ pub fn loaded() -> Arc<LoadedModel> {
         model,
         images: ImageSurvey::default(),
         warnings: Vec::new(),
+        notes: Vec::new(),
     })
 }
 

@@ -90,6 +90,7 @@ pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> Vi
         bounds,
         images: ImageSurvey::default(),
         warnings: vec!["material 0 uses KHR_materials_clearcoat, which is not shown".to_owned()],
+        notes: vec!["/meshes/0/primitives/0/attributes: TEXCOORD_2 is not used".to_owned()],
     };
     View::opened(1, Arc::new(loaded))
 }

@@ -75,6 +75,7 @@ fn loaded(model: ModelData) -> Arc<LoadedModel> {
         model,
         images: ImageSurvey::default(),
         warnings: Vec::new(),
+        notes: Vec::new(),
     })
 }
 

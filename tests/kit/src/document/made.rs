@@ -23,6 +23,7 @@ pub fn loaded(mut model: ModelData, images: Vec<DecodedImage>) -> Arc<LoadedMode
         model,
         images,
         warnings,
+        notes: Vec::new(),
     })
 }
 

@@ -131,6 +131,27 @@ impl Changes {
             && self.bytes_removed == 0
     }
 
+    /// Returns which takes change, as one line for users: `2 takes changed, 1 added`; empty if none does.
+    pub fn takes_summary(&self) -> String {
+        let of = |wanted: &[TakeChange]| -> BTreeSet<&str> {
+            let takes = self.takes.iter().filter(|(_, change)| wanted.contains(change));
+            takes.map(|(name, _)| name.as_str()).collect()
+        };
+        let (added, deleted) = (of(&[TakeChange::Added]), of(&[TakeChange::Deleted]));
+        let channels = self.channels.iter().map(|channel| channel.take.as_str());
+        let mut changed = of(&[TakeChange::Renamed, TakeChange::Moved, TakeChange::Extras]);
+        changed.extend(channels.filter(|take| !added.contains(take) && !deleted.contains(take)));
+        let mut parts = Vec::new();
+        for (takes, what) in [(changed, "changed"), (added, "added"), (deleted, "deleted")] {
+            match (takes.len(), parts.is_empty()) {
+                (0, _) => {}
+                (number, true) => parts.push(format!("{} {what}", count(number, "take"))),
+                (number, false) => parts.push(format!("{number} {what}")),
+            }
+        }
+        parts.join(", ")
+    }
+
     /// Returns the amount of changes as one line for users.
     pub fn summary(&self) -> String {
         let takes: BTreeSet<&str> = self.channels.iter().map(|channel| channel.take.as_str()).collect();
@@ -202,6 +223,10 @@ impl fmt::Display for Changes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_empty() {
             return writeln!(f, "nothing changes");
+        }
+        let takes = self.takes_summary();
+        if !takes.is_empty() {
+            writeln!(f, "{takes}")?;
         }
         writeln!(f, "{}", self.summary())?;
         for (name, change) in &self.takes {

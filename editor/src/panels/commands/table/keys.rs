@@ -35,6 +35,7 @@ commands! {
     RippleOpen => When::Take, "Insert a frame", [key(NONE, Key::F5)], "Moves all keys after the playhead one frame later; hold 2 while dragging keys to ripple them by any time", |w| keys::ripple(w, 1.0);
     RippleClose => When::Take, "Remove a frame", [key(SHIFT, Key::F5)], "Removes the frame after the playhead, and its keys", |w| keys::ripple(w, -1.0);
     FitKeys => When::Take, "Fit the timeline", [key(SHIFT, Key::Home)], "Zooms the timeline to the selected keys, or to the whole take", |w| { keys::fit_window(w); None };
+    ToggleRulerSeconds => When::Always, "Ruler in seconds", [], "Labels the ruler with seconds instead of frames", |w| { w.keys.set_ruler_in_seconds(!w.keys.ruler_in_seconds()); None };
     AddMarker => When::Take, "Add a marker", [key(ALT, Key::M)], "Adds a marker at the playhead; markers are not saved in the model's file", |w| { keys::add_marker(w); None };
     PreviousMarker => When::Take, "Previous marker", [key(SHIFT, Key::PageUp)], "Moves the playhead to the previous marker", |w| { playback::step_marker(w, false); None };
     NextMarker => When::Take, "Next marker", [key(SHIFT, Key::PageDown)], "Moves the playhead to the next marker", |w| { playback::step_marker(w, true); None };

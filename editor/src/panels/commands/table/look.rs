@@ -6,6 +6,7 @@ use dragonfly_picture::Shading;
 
 commands! {
     ToggleGrid => When::Always, "Ground grid", [key(NONE, Key::G)], "Shows or hides the ground grid", |w| { w.settings.look.grid ^= true; None };
+    ToggleContactShadow => When::Always, "Contact shadow", [], "Shows or hides the shadow on the ground below parts of the model that are near it", |w| { w.settings.look.contact_shadow ^= true; None };
     ToggleSkeleton => When::Always, "Skeleton", [key(NONE, Key::B)], "Shows or hides the bones", |w| { w.settings.look.skeleton ^= true; None };
     ToggleXRay => When::Always, "Bones in front (X-ray)", [key(NONE, Key::X)], "Draws bones in front of the surface", |w| { w.settings.look.bones_in_front ^= true; None };
     ToggleSurface => When::Always, "Surface", [key(NONE, Key::M)], "Shows or hides the model's surface", |w| { w.settings.look.surface ^= true; None };
