@@ -54,6 +54,7 @@ mod ripple_keys;
 mod scale_keys;
 mod set_extras;
 mod set_interpolation;
+mod set_many_tangents;
 mod set_pending;
 mod set_pose;
 mod set_poses;
@@ -77,6 +78,7 @@ pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use mode::{KeyInterpolation, NewKey, ResetTo};
 pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope};
 pub use pose::{BonePose, PoseAt};
+pub use set_many_tangents::TangentsAt;
 pub use shape_tangents::KeyTangents;
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
 
@@ -110,6 +112,7 @@ edits! {
     "snap_keys" => snap_keys::SnapKeys,
     "set_interpolation" => set_interpolation::SetInterpolation,
     "set_tangents" => set_tangents::SetTangents,
+    "set_many_tangents" => set_many_tangents::SetManyTangents,
     "shape_tangents" => shape_tangents::ShapeTangents,
     "blend_keys" => blend_keys::BlendKeys,
     "filter_keys" => filter_keys::FilterKeys,

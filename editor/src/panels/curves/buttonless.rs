@@ -3,7 +3,7 @@
 use super::canvas::{CurveCanvas, component_name};
 use super::curve::Curve;
 use super::drag::MOST;
-use super::values::{ValueKey, given_angles, value_edit};
+use super::values::{ValueChange, ValueKey, given_angles, value_edit};
 use crate::control::drag::THRESHOLD;
 use crate::panels::dope::ButtonlessTimes;
 use crate::panels::drag::{PointerInput, readout};
@@ -102,8 +102,8 @@ impl ButtonlessCurves {
             by = (by / step).round() * step;
         }
         readout(ui, pointer, &format!("{} {by:+.3}", component_name(self.component)));
-        let edit = value_edit(canvas.context.take_ref()?, &self.keys, self.component, by)?;
-        requests.extend(given_angles(&self.curves, &self.keys, self.component, by));
+        let edit = value_edit(canvas.context.take_ref()?, &self.keys, self.component, ValueChange::Add(by))?;
+        requests.extend(given_angles(&self.curves, &self.keys, self.component, ValueChange::Add(by)));
         Some(KeyDragOp::Edit(edit))
     }
 }

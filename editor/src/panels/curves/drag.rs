@@ -4,7 +4,7 @@ use super::buttonless::ButtonlessCurves;
 use super::canvas::{CurveCanvas, CurveKey, CurveTarget, component_name};
 use super::curve::Curve;
 use super::tangents::TangentHandle;
-use super::values::{ValueKey, given_angles, value_edit};
+use super::values::{ValueChange, ValueKey, given_angles, value_edit};
 use crate::panels::dope::to_frame;
 use crate::panels::drag::{
     DragEvent, PanelDrag, PointerInput, Press, SelectionBox, choice_of, position, readout,
@@ -155,7 +155,7 @@ impl CurveDrag {
         }
         if let Some(op) = drag.op(ui, pointer, canvas, input) {
             if let CurveDragged::Values { keys, curves, component, by, .. } = drag {
-                requests.extend(given_angles(curves, keys, *component, *by));
+                requests.extend(given_angles(curves, keys, *component, ValueChange::Add(*by)));
             }
             requests.push(Request::Timeline(KeysRequest::Drag(op)));
         }
@@ -205,7 +205,7 @@ impl CurveDragged {
                     by = (by / step).round() * step;
                 }
                 readout(ui, pointer, &format!("{} {by:+.3}", component_name(*component)));
-                let edit = value_edit(context.take_ref()?, keys, *component, by)?;
+                let edit = value_edit(context.take_ref()?, keys, *component, ValueChange::Add(by))?;
                 (*dragged, *requested) = (by, true);
                 Some(KeyDragOp::Edit(edit))
             }

@@ -8,8 +8,10 @@ mod drag;
 mod fields;
 pub(super) mod form;
 pub mod given;
+mod key_numbers;
 mod paint;
 pub(super) mod shown;
+mod slopes;
 mod tangents;
 mod toolbar;
 mod values;
@@ -30,8 +32,10 @@ use egui::{
 };
 use fields::{Fields, FieldsContext};
 use form::RotationForm;
+use key_numbers::KeyNumbers;
 use paint::{CurveLook, CurveMesh};
 use shown::ShownCurves;
+use slopes::SlopeFields;
 use tangents::Tangents;
 use toolbar::Chosen;
 
@@ -44,6 +48,7 @@ pub struct Curves {
     tangents: Tangents,
     drag: CurveDrag,
     fields: Fields,
+    slopes: SlopeFields,
     scrub: Scrub,
     /// Range of values that is shown; `None` until there are curves to fit.
     window: Option<ValueWindow>,
@@ -94,11 +99,15 @@ impl Panel for Curves {
             self.follow(ui, context, drawn);
         }
         let label = drawn.as_ref().and_then(|_| self.label(context));
-        let (fields, curves, component) = (&mut self.fields, &self.mesh.drawn, self.drag.component());
+        let (fields, slopes) = (&mut self.fields, &mut self.slopes);
+        let (curves, component) = (&self.mesh.drawn, self.drag.component());
         let window = self.window.unwrap_or_default();
         let fit = toolbar::show(ui, &mut self.chosen, curves, context, requests, |ui, chosen, requests| {
             let Some(drawn) = &drawn else { return };
-            fields.show(ui, &FieldsContext { chosen, curves, drawn, window, component, context }, requests);
+            let numbers = KeyNumbers::of(curves, drawn);
+            slopes.show(ui, numbers.as_ref(), curves, drawn, context, requests);
+            let about = FieldsContext { chosen, curves, numbers, drawn, window, component, context };
+            fields.show(ui, &about, requests);
             if let Some(label) = label.filter(|_| ui.available_width() > 24.0) {
                 let text = RichText::new(label).size(11.0).color(Theme::of(ui).weak);
                 ui.add(Label::new(text).truncate());

@@ -181,7 +181,7 @@ impl InBetween {
     ) {
         let mut push = |request| requests.push(Request::Timeline(request));
         match event {
-            FieldEvent::Nothing | FieldEvent::Touched => {}
+            FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Changed(_) => {}
             FieldEvent::Dragged(by) => {
                 let start = self.held.as_ref().map_or_else(|| self.setting(tool), |held| held.start);
                 if self.held.is_none() {
