@@ -46,6 +46,7 @@ mod paste_keys;
 mod paste_pose;
 pub(crate) mod pose;
 mod rename_take;
+mod repeat_keys;
 mod resample_keys;
 mod reset_pose;
 mod retime_take;
@@ -64,6 +65,7 @@ mod snap_keys;
 mod split_take;
 pub(crate) mod target;
 mod trim_take;
+mod turn_keys;
 
 #[doc(hidden)]
 pub use arbitrary::Arbitrary;
@@ -78,9 +80,11 @@ pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use mode::{KeyInterpolation, NewKey, ResetTo};
 pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope};
 pub use pose::{BonePose, PoseAt};
+pub use repeat_keys::{RepeatCount, RepeatMode};
 pub use set_many_tangents::TangentsAt;
 pub use shape_tangents::KeyTangents;
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
+pub use turn_keys::TurnWay;
 
 use crate::adapter::plan::{PoseMode, Transaction};
 use crate::adapter::{EditError, ModelAdapter};
@@ -118,6 +122,8 @@ edits! {
     "filter_keys" => filter_keys::FilterKeys,
     "noise_keys" => noise_keys::NoiseKeys,
     "resample_keys" => resample_keys::ResampleKeys,
+    "turn_keys" => turn_keys::TurnKeys,
+    "repeat_keys" => repeat_keys::RepeatKeys,
     "create_take" => create_take::CreateTake,
     "delete_take" => delete_take::DeleteTake,
     "set_extras" => set_extras::SetExtras,

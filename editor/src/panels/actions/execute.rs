@@ -71,6 +71,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Answer(action) => return files::answered(workspace, action),
         Request::Dismiss => return files::dismiss(workspace),
         Request::PropertiesLook(look) => workspace.settings.properties = look,
+        Request::CurvesLook(look) => workspace.settings.curves = look.sanitized(),
     }
     None
 }

@@ -7,6 +7,7 @@ use super::drag::MOST;
 use super::form::RotationForm;
 use super::key_numbers::{KeyNumbers, selected_keys};
 use super::paint::color;
+use super::scales::CurveRanges;
 use super::toolbar::Chosen;
 use super::values::{ValueChange, ValueKey, given_angles, value_edit};
 use crate::control::expression::Quantity;
@@ -25,7 +26,7 @@ use egui::{Align2, FontId, Id, Rect, Sense, Ui, pos2, vec2};
 use std::sync::Arc;
 
 /// Width of a field.
-const WIDTH: f32 = 80.0;
+const WIDTH: f32 = 64.0;
 /// Width of the letter before a value.
 const LETTER: f32 = 12.0;
 /// Largest number of keys whose values are typed at once.
@@ -65,6 +66,7 @@ pub(super) struct FieldsContext<'a> {
     pub(super) numbers: Option<KeyNumbers>,
     pub(super) drawn: &'a Drawn,
     pub(super) window: ValueWindow,
+    pub(super) ranges: &'a CurveRanges,
     /// Component of the key that was pressed on last: shown where there is no space for all.
     pub(super) component: usize,
     pub(super) context: &'a PanelContext<'a>,
@@ -173,7 +175,8 @@ impl Fields {
         let angle = key.id.1 == Property::Rotation && key.form != RotationForm::Quaternion;
         let by = self.by(KeyNumber::Value(component));
         // Below a millionth of the numbers that are shown, a value is a rounding error.
-        let dust = |shown: f64| shown.abs() < about.window.span * 1e-6;
+        let span = about.ranges.window(about.window, key.id, component).span;
+        let dust = |shown: f64| shown.abs() < span * 1e-6;
         let shown = numbers.values[component].map(|number| f64::from(number + by));
         let field = NumberField {
             name: &format!("Value {letter}"),
@@ -181,7 +184,7 @@ impl Fields {
             quantity: if angle { Quantity::Angle } else { Quantity::Number },
             unit: if angle { "°" } else { "" },
             // About as far as the curve moves on the screen.
-            speed: about.window.span / 300.0,
+            speed: span / 300.0,
             snap: if angle { 15.0 } else { 0.1 },
             grain: f64::from(key.numbers[component].abs()) * 1e-6 + 1e-7,
             digits: if angle { Digits::Fixed(2) } else { Digits::Fitting },

@@ -4,7 +4,8 @@ use crate::panels::context::PanelContext;
 use crate::panels::number_slider::SliderScale;
 use crate::panels::number_text::Digits;
 use dragonfly_document::edit::{
-    BlendKeys, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, TakeRef,
+    BlendKeys, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, RepeatCount, RepeatKeys,
+    RepeatMode, TakeRef, TurnKeys, TurnWay,
 };
 use dragonfly_picture::between;
 use std::ops::RangeInclusive;
@@ -36,6 +37,14 @@ pub enum InBetweenTool {
     Butterworth,
     /// Removal of single peaks.
     Peaks,
+    /// Full turns from key to key.
+    Turns,
+    /// The same values again, after the keys or before them.
+    Repeat,
+    /// Cycles that start where the one before ends.
+    RepeatOffset,
+    /// Cycles of which every other runs backwards.
+    RepeatMirror,
 }
 
 /// The selected keys as the edits of the tools name them.
@@ -101,6 +110,15 @@ const PERCENT: Number = Number {
     neutral: 0.0,
 };
 
+const COUNT: Number = Number {
+    unit: "×",
+    scale: SliderScale::Linear(10.0),
+    range: [-1000.0, 1000.0],
+    snap: 1.0,
+    digits: 0,
+    neutral: 0.0,
+};
+
 impl InBetweenTool {
     /// All tools in the order of the panel.
     pub const ALL: &[Self] = &[
@@ -116,6 +134,10 @@ impl InBetweenTool {
         Self::Gaussian,
         Self::Butterworth,
         Self::Peaks,
+        Self::Turns,
+        Self::Repeat,
+        Self::RepeatOffset,
+        Self::RepeatMirror,
     ];
 
     /// Returns its name on the screen.
@@ -133,6 +155,10 @@ impl InBetweenTool {
             Self::Gaussian => "Smooth",
             Self::Butterworth => "Low-pass",
             Self::Peaks => "Peaks",
+            Self::Turns => "Full turns",
+            Self::Repeat => "Repeat",
+            Self::RepeatOffset => "Repeat on",
+            Self::RepeatMirror => "Mirror",
         }
     }
 
@@ -168,6 +194,18 @@ impl InBetweenTool {
             }
             Self::Peaks => {
                 "Replaces keys that are further from the median of 5 keys than this many deviations; smaller numbers replace more"
+            }
+            Self::Turns => {
+                "Turns this many more times around from each selected rotation key to the next; keys are inserted"
+            }
+            Self::Repeat => {
+                "Repeats the selected keys this many times after them; negative numbers before them (cycle)"
+            }
+            Self::RepeatOffset => {
+                "Repeats the selected keys, each time starting where the time before ends; negative numbers before them (cycle with offset)"
+            }
+            Self::RepeatMirror => {
+                "Repeats the selected keys, every other time backwards; negative numbers before them (oscillate)"
             }
         }
     }
@@ -213,6 +251,8 @@ impl InBetweenTool {
                 digits: 1,
                 neutral: 6.0,
             },
+            Self::Turns => Number { range: [-100.0, 100.0], ..COUNT },
+            Self::Repeat | Self::RepeatOffset | Self::RepeatMirror => COUNT,
             Self::Peaks => Number {
                 unit: "σ",
                 scale: SliderScale::Around { middle: 3.0, factor: 10.0 },
@@ -248,7 +288,13 @@ impl InBetweenTool {
     /// Returns the nearest number that is allowed.
     pub(super) fn within(self, value: f64) -> f64 {
         let [least, most] = self.number().range;
+        let value = if self.is_count() { value.round() } else { value };
         between(value, least, most)
+    }
+
+    /// Whether its number is a whole number.
+    fn is_count(self) -> bool {
+        matches!(self, Self::Turns | Self::Repeat | Self::RepeatOffset | Self::RepeatMirror)
     }
 
     /// Returns the step to which a drag with Ctrl snaps.
@@ -275,7 +321,25 @@ impl InBetweenTool {
     pub fn edit(self, value: f64, chosen: &ChosenKeys) -> Option<Edit> {
         let seconds = (value * f64::from(chosen.frame)) as f32;
         let amount = value.abs();
+        let repeat = |mode| {
+            let ChosenKeys { take, keys, .. } = chosen.clone();
+            let count = |sign: f64| RepeatCount::Times((value.round() * sign).max(0.0) as u32);
+            let edit = RepeatKeys { take, keys, mode, before: count(-1.0), after: count(1.0) };
+            (!edit.keys.is_empty()).then_some(Edit::RepeatKeys(edit))
+        };
         Some(match self {
+            // No turn and no cycle leaves the keys as they are.
+            Self::Turns | Self::Repeat | Self::RepeatOffset | Self::RepeatMirror if value.round() == 0.0 => {
+                chosen.blend(KeyTarget::Rest, 0.0)
+            }
+            Self::Turns => {
+                let ChosenKeys { take, keys, .. } = chosen.clone();
+                let way = TurnWay::Full { turns: value.round() as i32, axis: [0.0, 1.0, 0.0] };
+                Edit::TurnKeys(TurnKeys { take, keys, way })
+            }
+            Self::Repeat => repeat(RepeatMode::Repeat)?,
+            Self::RepeatOffset => repeat(RepeatMode::Offset)?,
+            Self::RepeatMirror => repeat(RepeatMode::Mirror)?,
             Self::Tween => chosen.blend(KeyTarget::Between((0.5 + value / 200.0) as f32), 100.0),
             Self::Push => chosen.blend(KeyTarget::AwayFromLine, value),
             Self::Relax => chosen.blend(KeyTarget::Average, value),

@@ -1,8 +1,9 @@
 //! Commands that change the values of the selected keys: in-betweens, smoothing, noise. The panel has sliders for them.
 
 use super::*;
-use crate::panels::actions::inbetween::{apply, resample};
+use crate::panels::actions::inbetween::{apply, repeat, resample, unroll};
 use crate::panels::inbetween::InBetweenTool as Tool;
+use dragonfly_document::edit::RepeatMode;
 
 commands! {
     TweenKeys => When::Keys, "Tween keys", [key(SHIFT, Key::E)], "Moves the selected keys halfway between the keys before and after them (tween, breakdown, in-between)", |w| apply(w, Tool::Tween, 0.0);
@@ -20,6 +21,11 @@ commands! {
     SmoothKeys => When::Keys, "Smooth keys", [key(ALT, Key::O)], "Smooths the selected keys by a Gaussian one frame wide (smooth, blur)", |w| apply(w, Tool::Gaussian, 1.0), repeats;
     SmoothButterworth => When::Keys, "Smooth keys above 6 Hz", [], "Removes movements of the selected keys that are faster than 6 Hz, without delay (smooth, Butterworth, low-pass, jitter)", |w| apply(w, Tool::Butterworth, 6.0);
     RemovePeaks => When::Keys, "Remove peaks", [], "Replaces selected keys that are far from the keys around them by their median (smooth, spikes, pops, outliers)", |w| apply(w, Tool::Peaks, 3.0);
+    FullTurn => When::Keys, "Add a full turn", [], "Turns bones once more around from each selected rotation key to the next; keys are inserted (360°, revolution, spin)", |w| apply(w, Tool::Turns, 1.0), repeats;
+    UnrollKeys => When::Keys, "Unroll rotations", [], "Gives the selected rotation keys the signs with which they turn the short way, and shows their angles without jumps (Euler filter, quaternion sign, flip)", unroll;
+    RepeatToEnd => When::Keys, "Repeat keys until the end", [], "Repeats the selected keys until the end of the take, as keys (cycle, loop, extrapolation)", |w| repeat(w, RepeatMode::Repeat);
+    RepeatOffsetToEnd => When::Keys, "Repeat keys with offset until the end", [], "Repeats the selected keys until the end of the take, each time starting where the time before ends (cycle with offset)", |w| repeat(w, RepeatMode::Offset);
+    RepeatMirrorToEnd => When::Keys, "Repeat keys mirrored until the end", [], "Repeats the selected keys until the end of the take, every other time backwards (oscillate, ping-pong)", |w| repeat(w, RepeatMode::Mirror);
     BakeKeys => When::Keys, "Bake keys to frames", [], "Sets a key on every frame from the first selected key to the last of each channel (bake, sample)", |w| resample(w, 1);
     ResampleKeys => When::Keys, "Resample keys to every second frame", [], "Replaces the selected keys of each channel by keys on every second frame (resample, on twos)", |w| resample(w, 2);
 }
