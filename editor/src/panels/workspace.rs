@@ -20,6 +20,8 @@ use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
 use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::BonePose;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// The owners of the state. A command gets all of them and calls the methods of those that it concerns.
@@ -40,6 +42,8 @@ pub(super) struct Workspace {
     pub(super) selections: SelectionSteps,
     /// The angles that were given to rotation keys.
     pub(super) given: GivenAngles,
+    /// The pose that was copied last.
+    pub(super) copied_pose: Option<Arc<[BonePose]>>,
     /// The list of takes.
     pub(super) takes: TakeListState,
     /// The tools of the viewport.
@@ -74,6 +78,7 @@ impl Workspace {
             keys: KeyEditing::of(settings.timeline),
             selections: SelectionSteps::default(),
             given: GivenAngles::default(),
+            copied_pose: None,
             takes: TakeListState::default(),
             tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
             over: EditOver::default(),
@@ -107,6 +112,7 @@ impl Workspace {
             frame_rate: self.frame_rate.get(),
             keys: &self.keys,
             given: &self.given,
+            copied_pose: self.copied_pose.as_ref(),
             takes: &self.takes,
             camera: *self.camera.camera(),
             viewport: self.camera.viewport(),

@@ -45,6 +45,7 @@ mod over;
 mod paste_keys;
 mod paste_pose;
 pub(crate) mod pose;
+mod reduce_keys;
 mod rename_take;
 mod repeat_keys;
 mod resample_keys;
@@ -122,6 +123,7 @@ edits! {
     "filter_keys" => filter_keys::FilterKeys,
     "noise_keys" => noise_keys::NoiseKeys,
     "resample_keys" => resample_keys::ResampleKeys,
+    "reduce_keys" => reduce_keys::ReduceKeys,
     "turn_keys" => turn_keys::TurnKeys,
     "repeat_keys" => repeat_keys::RepeatKeys,
     "create_take" => create_take::CreateTake,

@@ -15,7 +15,9 @@ pub(in crate::panels) fn apply(workspace: &mut Workspace, tool: InBetweenTool, v
     let chosen = ChosenKeys::of(&panels, steps as u32, next_take(&panels))?;
     let made = tool.edit(value, &chosen);
     if made.is_none() {
-        workspace.say(MessageSeverity::Info, "The model has no other take");
+        let what =
+            if tool == InBetweenTool::Pose { "No pose was copied" } else { "The model has no other take" };
+        workspace.say(MessageSeverity::Info, what);
     }
     made.map(edit)
 }

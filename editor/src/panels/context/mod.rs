@@ -21,6 +21,7 @@ use super::window_status::WindowStatus;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::adapter::TakeVersions;
 use dragonfly_document::bones::{BoneSelection, HiddenBones};
+use dragonfly_document::edit::BonePose;
 use dragonfly_document::history::Gesture;
 use dragonfly_document::posing::IkMode;
 use dragonfly_document::{LoadedModel, View};
@@ -67,6 +68,8 @@ pub struct PanelContext<'a> {
     pub keys: &'a KeyEditing,
     /// The angles that were given to rotation keys.
     pub given: &'a GivenAngles,
+    /// The pose that was copied last; `None` if none of this model was.
+    pub copied_pose: Option<&'a Arc<[BonePose]>>,
     /// The list of takes.
     pub takes: &'a TakeListState,
     /// The camera.

@@ -56,6 +56,9 @@ impl CurveCanvas<'_> {
 
     /// Returns what is under the pointer.
     pub(super) fn target_at(&self, pointer: Pos2) -> CurveTarget {
+        if self.context.keys.draws_box() {
+            return CurveTarget::Nothing;
+        }
         if let Some(handle) = self.tangents.under(pointer, REACH) {
             return CurveTarget::Handle(handle);
         }

@@ -4,11 +4,12 @@ use crate::panels::context::PanelContext;
 use crate::panels::number_slider::SliderScale;
 use crate::panels::number_text::Digits;
 use dragonfly_document::edit::{
-    BlendKeys, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, RepeatCount, RepeatKeys,
-    RepeatMode, TakeRef, TurnKeys, TurnWay,
+    BlendKeys, BonePose, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, ReduceKeys,
+    RepeatCount, RepeatKeys, RepeatMode, TakeRef, TurnKeys, TurnWay,
 };
 use dragonfly_picture::between;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 /// A tool that changes the values of the selected keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,6 +28,8 @@ pub enum InBetweenTool {
     Rest,
     /// Toward another take.
     Take,
+    /// Toward the pose that was copied last.
+    Pose,
     /// The values of earlier or later times.
     Delay,
     /// Random offsets.
@@ -37,6 +40,8 @@ pub enum InBetweenTool {
     Butterworth,
     /// Removal of single peaks.
     Peaks,
+    /// Removal of redundant keys.
+    Reduce,
     /// Full turns from key to key.
     Turns,
     /// The same values again, after the keys or before them.
@@ -58,6 +63,8 @@ pub struct ChosenKeys {
     seed: u32,
     /// Another take.
     other: Option<TakeRef>,
+    /// The pose that was copied last.
+    pose: Option<Arc<[BonePose]>>,
 }
 
 impl ChosenKeys {
@@ -75,6 +82,7 @@ impl ChosenKeys {
             frame: context.frame_seconds(),
             seed,
             other: other.map(TakeRef::Index),
+            pose: context.copied_pose.cloned(),
         })
     }
 
@@ -129,11 +137,13 @@ impl InBetweenTool {
         Self::Ease,
         Self::Rest,
         Self::Take,
+        Self::Pose,
         Self::Delay,
         Self::Noise,
         Self::Gaussian,
         Self::Butterworth,
         Self::Peaks,
+        Self::Reduce,
         Self::Turns,
         Self::Repeat,
         Self::RepeatOffset,
@@ -150,11 +160,13 @@ impl InBetweenTool {
             Self::Ease => "Ease",
             Self::Rest => "To rest pose",
             Self::Take => "To take",
+            Self::Pose => "To pose",
             Self::Delay => "Delay",
             Self::Noise => "Noise",
             Self::Gaussian => "Smooth",
             Self::Butterworth => "Low-pass",
             Self::Peaks => "Peaks",
+            Self::Reduce => "Reduce",
             Self::Turns => "Full turns",
             Self::Repeat => "Repeat",
             Self::RepeatOffset => "Repeat on",
@@ -180,6 +192,9 @@ impl InBetweenTool {
             Self::Take => {
                 "Moves keys toward the values of another take at the same times; negative numbers move them away"
             }
+            Self::Pose => {
+                "Moves keys toward the pose that was copied last, of any frame of any take; negative numbers move them away"
+            }
             Self::Delay => {
                 "Gives keys the values of earlier times (positive) or later times (negative); the keys stay where they are"
             }
@@ -194,6 +209,9 @@ impl InBetweenTool {
             }
             Self::Peaks => {
                 "Replaces keys that are further from the median of 5 keys than this many deviations; smaller numbers replace more"
+            }
+            Self::Reduce => {
+                "Removes the selected keys without which no point near any bone moves further than this; the line above shows the number of keys and the largest error"
             }
             Self::Turns => {
                 "Turns this many more times around from each selected rotation key to the next; keys are inserted"
@@ -218,7 +236,8 @@ impl InBetweenTool {
             | Self::Neighbor
             | Self::Ease
             | Self::Rest
-            | Self::Take => PERCENT,
+            | Self::Take
+            | Self::Pose => PERCENT,
             Self::Delay => Number {
                 unit: "fr",
                 scale: SliderScale::Linear(10.0),
@@ -250,6 +269,14 @@ impl InBetweenTool {
                 snap: 0.5,
                 digits: 1,
                 neutral: 6.0,
+            },
+            Self::Reduce => Number {
+                unit: "mm",
+                scale: SliderScale::Upward(10.0),
+                range: [0.0, 10_000.0],
+                snap: 0.5,
+                digits: 2,
+                neutral: 0.0,
             },
             Self::Turns => Number { range: [-100.0, 100.0], ..COUNT },
             Self::Repeat | Self::RepeatOffset | Self::RepeatMirror => COUNT,
@@ -329,6 +356,11 @@ impl InBetweenTool {
         };
         Some(match self {
             // No turn and no cycle leaves the keys as they are.
+            Self::Reduce if value == 0.0 => chosen.blend(KeyTarget::Rest, 0.0),
+            Self::Reduce => {
+                let ChosenKeys { take, keys, .. } = chosen.clone();
+                Edit::ReduceKeys(ReduceKeys { take, keys, tolerance: value as f32, unit: 1000.0 })
+            }
             Self::Turns | Self::Repeat | Self::RepeatOffset | Self::RepeatMirror if value.round() == 0.0 => {
                 chosen.blend(KeyTarget::Rest, 0.0)
             }
@@ -351,6 +383,7 @@ impl InBetweenTool {
             Self::Take => {
                 chosen.blend(KeyTarget::OtherTake { take: chosen.other.clone()?, later: 0.0 }, value)
             }
+            Self::Pose => chosen.blend(KeyTarget::Pose(chosen.pose.as_deref()?.to_vec()), value),
             Self::Delay => chosen.blend(KeyTarget::Delayed(seconds), 100.0),
             Self::Noise => {
                 let ChosenKeys { take, keys, shapes, seed, .. } = chosen.clone();

@@ -1,7 +1,8 @@
 //! Editing of keys, as the timeline and the curves share it: the selected keys, the drag, the part of time that is
 //! shown, markers, flags of bones, and the play range. No function here draws.
 
-pub mod buttonless;
+pub mod aim;
+mod buttonless;
 pub mod channel;
 pub mod clipboard;
 pub mod columns;
@@ -15,6 +16,7 @@ pub mod selection;
 pub mod shift;
 pub mod window;
 
+pub use aim::KeyAim;
 pub use buttonless::{ButtonlessDrag, ButtonlessKind, ButtonlessStart, ButtonlessStep, KeyAxis, KeyPanel};
 pub use channel::ChannelId;
 pub use flags::{BoneFlag, BoneFlags};
@@ -63,6 +65,8 @@ pub struct KeyEditing {
     drag: Option<KeyDrag>,
     /// The drag that follows the pointer without a button.
     buttonless: Option<ButtonlessDrag>,
+    /// What the next press over keys does, if a command prepared it.
+    aim: Option<KeyAim>,
     /// Whether the timeline or the curves were used last. Then the copy command copies keys.
     has_focus: bool,
     /// Keys that were pasted and are selected once the document has them.
@@ -84,6 +88,7 @@ impl Default for KeyEditing {
             range: None,
             drag: None,
             buttonless: None,
+            aim: None,
             has_focus: false,
             pasted: None,
         }
