@@ -160,7 +160,7 @@ fn oklab(light: [f64; 3]) -> [f64; 3] {
 }
 
 #[test]
-fn the_colors_of_bones_can_be_read_and_told_apart_without_a_sense_of_red_green_or_blue() {
+fn the_colors_of_bones_are_legible_and_distinct_for_color_blind_users() {
     // Full deficiencies by Machado, Oliveira and Fernandes 2009.
     let senses = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],

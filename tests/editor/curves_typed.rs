@@ -40,7 +40,7 @@ fn enter(animator: &mut Animator, field: &str, text: &str) {
     animator.steps(3);
 }
 
-/// Returns what a screen reader says about the value of a field.
+/// Returns the value of a field for screen readers.
 fn spoken(animator: &Animator, field: &str) -> String {
     animator.harness.get_by_label(field).accesskit_node().value().unwrap_or_default()
 }

@@ -31,6 +31,12 @@ fn place(animator: &Animator, name: &str, at: f32) -> Pos2 {
     pos2(rect.center().x + at * rect.width() / 2.0, rect.center().y)
 }
 
+/// Makes the window large enough for all sliders.
+fn enlarge(animator: &mut Animator) {
+    animator.harness.set_size(egui::vec2(1920.0, 1400.0));
+    animator.steps(4);
+}
+
 fn shown(animator: &Animator) -> Arc<Take> {
     Arc::clone(&animator.edited.adapter().slots()[0].result)
 }
@@ -195,6 +201,7 @@ fn the_palette_finds_the_tools_by_the_words_of_other_programs() {
 #[test]
 fn keys_move_toward_the_pose_that_was_copied_at_another_frame() {
     let mut animator = animator();
+    enlarge(&mut animator);
     let before = rotations(&animator);
     assert!(animator.harness.get_by_label("To pose").accesskit_node().is_read_only(), "no pose was copied");
     animator.request(Request::Seek(animator.key(20)));
@@ -214,6 +221,7 @@ fn keys_move_toward_the_pose_that_was_copied_at_another_frame() {
 fn full_turns_and_cycles_follow_their_sliders_as_whole_numbers_and_zero_leaves_no_trace() {
     for (name, keys) in [("Full turns", 2 * 4 * 4), ("Repeat", 4 * 2), ("Mirror", 4 * 2)] {
         let mut animator = animator();
+        enlarge(&mut animator);
         let before = shown(&animator);
         let count = |animator: &Animator| rotations(animator).len();
         // 10 is at the right end of the slider.
@@ -240,13 +248,15 @@ fn the_reduce_slider_shows_the_number_of_keys_and_the_largest_error_before_it_is
     animator.request(Request::Command(Id::SelectAllKeys));
     animator.harness.get_by_label("In-between").click();
     animator.steps(3);
+    enlarge(&mut animator);
     let before = shown(&animator);
     let (from, to) = (place(&animator, "Reduce", -1.0), place(&animator, "Reduce", 0.5));
     animator.drag(from, to);
     animator.steps(3);
     let during = shown(&animator);
     assert!(during.keys() < before.keys(), "{} of {} keys", during.keys(), before.keys());
-    let text = format!("{} → {} keys · ", before.keys(), during.keys());
+    let grouped = |keys: usize| format!("{},{:03}", keys / 1000, keys % 1000);
+    let text = format!("{} → {} keys · ", grouped(before.keys()), grouped(during.keys()));
     assert!(animator.harness.query_all_by_label_contains(&text).count() > 0, "{text}");
     assert!(animator.harness.query_all_by_label_contains(" mm ").count() > 0);
     let limit = 7.5;

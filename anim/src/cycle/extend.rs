@@ -14,7 +14,7 @@ pub enum CycleMode {
     Mirror,
 }
 
-/// How far cycles go on one side.
+/// The extent of cycles on one side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CycleRange {
     /// This many cycles.

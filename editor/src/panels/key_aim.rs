@@ -1,4 +1,4 @@
-//! What follows commands that wait for the pointer over keys: the cursor of a selection box, and the menus at the pointer.
+//! Commands that wait for the pointer over keys: the cursor of a selection box, and the menus at the pointer.
 
 use super::commands::Id;
 use super::context::PanelContext;

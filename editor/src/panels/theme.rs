@@ -150,9 +150,9 @@ impl Theme {
         Self::get(ui.visuals().dark_mode)
     }
 
-    /// Returns the color of a component of the curve of a bone, of which it is the number `at` among those that are shown: a hue for
-    /// each bone, lighter for X and darker for Z. Neighboring bones differ in lightness, too, so that the colors can be told apart without
-    /// a sense of red and green.
+    /// Returns the color of a component of the curve of a bone, with the position `at` of the bone among those that are shown: a hue for
+    /// each bone, lighter for X and darker for Z. Neighboring bones differ in lightness, too, so that color-blind users can distinguish
+    /// them.
     pub fn bone_hue(&self, at: usize, component: usize) -> Color32 {
         let hues = if self.dark { &DARK_HUES } else { &LIGHT_HUES };
         let [red, green, blue] = hues[at % hues.len()][component.min(2)];

@@ -35,7 +35,7 @@ pub struct RepeatKeys {
 pub enum RepeatMode {
     /// The same values again.
     Repeat,
-    /// Each cycle starts where the one before ends: a walk that goes on.
+    /// Each cycle starts where the one before ends: a walk continues.
     Offset,
     /// Every other cycle runs backwards.
     Mirror,

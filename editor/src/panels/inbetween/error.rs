@@ -1,4 +1,4 @@
-//! How far a drag of a slider moves the bones.
+//! Distance by which a drag of a slider moves the bones.
 
 use crate::panels::context::PanelContext;
 use crate::panels::count_text::grouped;

@@ -1,8 +1,8 @@
-//! What the next press over the timeline or the curves does, where it is not what lies under the pointer.
+//! Action of the next press over the timeline or the curves, where a command chose it.
 
 use super::KeyEditing;
 
-/// What a command prepared for keys.
+/// Action over keys that a command prepared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeyAim {
     /// The next drag draws a selection box, also where it begins on a key.

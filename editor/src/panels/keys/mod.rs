@@ -65,7 +65,7 @@ pub struct KeyEditing {
     drag: Option<KeyDrag>,
     /// The drag that follows the pointer without a button.
     buttonless: Option<ButtonlessDrag>,
-    /// What the next press over keys does, if a command prepared it.
+    /// Action of the next press over keys, if a command prepared one.
     aim: Option<KeyAim>,
     /// Whether the timeline or the curves were used last. Then the copy command copies keys.
     has_focus: bool,

@@ -1,4 +1,4 @@
-//! Texts that change the number of each thing that a field stands for: `+5`, `*2`.
+//! Texts that change each of several numbers that a field edits: `+5`, `*2`.
 
 use super::{FieldEvent, NumberField};
 use crate::control::expression::{Quantity, evaluate};
