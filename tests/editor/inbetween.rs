@@ -255,7 +255,7 @@ fn the_reduce_slider_shows_the_number_of_keys_and_the_largest_error_before_it_is
     animator.steps(3);
     let during = shown(&animator);
     assert!(during.keys() < before.keys(), "{} of {} keys", during.keys(), before.keys());
-    let grouped = |keys: usize| format!("{},{:03}", keys / 1000, keys % 1000);
+    let grouped = |keys: usize| format!("{}\u{2009}{:03}", keys / 1000, keys % 1000);
     let text = format!("{} → {} keys · ", grouped(before.keys()), grouped(during.keys()));
     assert!(animator.harness.query_all_by_label_contains(&text).count() > 0, "{text}");
     assert!(animator.harness.query_all_by_label_contains(" mm ").count() > 0);

@@ -26,6 +26,15 @@ pub(super) struct CurveKey {
     pub(super) selected: bool,
 }
 
+/// A point of the curve of one component.
+#[derive(Clone, Debug)]
+pub(super) struct CurvePoint {
+    pub(super) curve: Arc<Curve>,
+    pub(super) component: usize,
+    /// Value of the curve there.
+    pub(super) number: f32,
+}
+
 /// Distance within which something is under the pointer, points.
 const REACH: f32 = 8.0;
 impl CurveKey {
@@ -87,15 +96,16 @@ impl CurveCanvas<'_> {
     }
 
     /// Returns the curve nearest to the pointer, if it is near enough, with its component and its value there.
-    pub(super) fn curve_at(&self, pointer: Pos2) -> Option<(Arc<Curve>, usize, f32)> {
+    pub(super) fn curve_at(&self, pointer: Pos2) -> Option<CurvePoint> {
         let time = self.time.time_at(pointer.x);
-        let mut best: Option<(f32, (Arc<Curve>, usize, f32))> = None;
+        let mut best: Option<(f32, CurvePoint)> = None;
         for curve in self.curves {
             let (numbers, scales) = (curve.drawn_at(time), self.scales.all(curve.id));
             for component in self.components(curve) {
                 let distance = (scales[component].y_of(numbers[component]) - pointer.y).abs();
                 if distance <= REACH && best.as_ref().is_none_or(|(least, _)| distance < *least) {
-                    best = Some((distance, (Arc::clone(curve), component, numbers[component])));
+                    let (curve, number) = (Arc::clone(curve), numbers[component]);
+                    best = Some((distance, CurvePoint { curve, component, number }));
                 }
             }
         }

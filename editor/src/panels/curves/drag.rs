@@ -1,7 +1,7 @@
 //! Drags on the curves: keys sideways in time or up and down in value, tangents by their handles, and selection boxes.
 
 use super::buttonless::ButtonlessCurves;
-use super::canvas::{CurveCanvas, CurveKey, CurveTarget, component_name};
+use super::canvas::{CurveCanvas, CurveKey, CurvePoint, CurveTarget, component_name};
 use super::curve::Curve;
 use super::tangents::TangentHandle;
 use super::values::{ValueChange, ValueKey, given_angles, value_edit};
@@ -255,7 +255,7 @@ impl CurveCanvas<'_> {
             }
             CurveTarget::Handle(_) => ui.ctx().set_cursor_icon(CursorIcon::Grab),
             CurveTarget::Nothing => {
-                if let Some((curve, component, number)) = self.curve_at(pointer) {
+                if let Some(CurvePoint { curve, component, number }) = self.curve_at(pointer) {
                     let time = self.time.time_at(pointer.x);
                     readout(ui, pointer, &self.description_at(&curve, component, number, time));
                 }

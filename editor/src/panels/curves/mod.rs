@@ -270,7 +270,7 @@ impl Curves {
         };
         let pointer = response.hover_pos().filter(|_| !self.drag.is_busy());
         let under = pointer.and_then(|pointer| curve_canvas.curve_at(pointer));
-        let hovered = under.map(|(curve, component, _)| (curve.id, component));
+        let hovered = under.map(|under| (under.curve.id, under.component));
         if hovered != self.hovered && !self.drag.is_busy() {
             self.hovered = hovered;
             ui.ctx().request_repaint();
