@@ -62,7 +62,7 @@
 //! | rotate or move single bones on top of an animation | [`additional`] |
 //! | attach objects to bones (sockets) | [`attach`] |
 //! | inverse kinematics, with joint limits | [`ik`], [`joint`] |
-//! | tangents of cubic splines | [`tangents`] |
+//! | tangents of cubic splines; full turns and signs of rotation keys; keys repeated in cycles | [`tangents`], [`turns`], [`cycle`] |
 //! | root motion | [`motion`] |
 //! | contacts of feet; loops; defects of a take; a take at its frames | [`contact`], [`loops`], [`lint`], [`frames`] |
 //! | play a take on another skeleton | [`retarget`] |
@@ -105,6 +105,8 @@ pub mod compare;
 pub mod compressed;
 #[doc(alias("foot contact", "foot lock", "foot slide", "foot plant"))]
 pub mod contact;
+#[doc(alias("extrapolation", "repeat", "oscillate"))]
+pub mod cycle;
 pub mod data;
 pub mod evaluator;
 pub mod explain;
@@ -143,6 +145,8 @@ pub mod skin;
 #[doc(alias("handle", "Catmull-Rom", "auto clamped"))]
 pub mod tangents;
 pub mod trig;
+#[doc(alias("Euler filter", "unroll"))]
+pub mod turns;
 pub mod tutorial;
 
 /// Compiles and runs the example of `README.md`.

@@ -9,7 +9,7 @@ use dragonfly_document::edit::{
     BlendKeys, BonePose, BoneRef, CurveFilter, Edit, KeyTarget, SetPose, TakeRef,
 };
 use egui::{Key, Pos2, pos2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use glam::Quat;
 use std::sync::Arc;
 
@@ -29,6 +29,12 @@ fn animator() -> Animator {
 fn place(animator: &Animator, name: &str, at: f32) -> Pos2 {
     let rect = animator.harness.get_by_label(&format!("{name} slider")).rect();
     pos2(rect.center().x + at * rect.width() / 2.0, rect.center().y)
+}
+
+/// Makes the window large enough for all sliders.
+fn enlarge(animator: &mut Animator) {
+    animator.harness.set_size(egui::vec2(1920.0, 1400.0));
+    animator.steps(4);
 }
 
 fn shown(animator: &Animator) -> Arc<Take> {
@@ -134,6 +140,13 @@ fn every_command_of_in_betweens_changes_the_selected_keys_in_one_step() {
             let peak = SetPose { take: TakeRef::Index(0), time, poses: vec![far], unstep: false };
             animator.request(Request::Change(Change::Edit(Edit::SetPose(peak), None)));
         }
+        // After a full turn the next key has the other sign.
+        if command.id == Id::UnrollKeys {
+            animator.request(Request::Command(Id::FullTurn));
+        }
+        if command.id == Id::BlendToPose {
+            animator.request(Request::Command(Id::CopyPose));
+        }
         let (peaked, done) = (shown(&animator), steps(&animator));
         animator.request(Request::Command(command.id));
         assert_eq!(steps(&animator), done + 1, "{}", command.title);
@@ -183,4 +196,77 @@ fn the_palette_finds_the_tools_by_the_words_of_other_programs() {
         let text = format!("{} {}", command.title, command.help).to_lowercase();
         assert!(text.contains(word), "{word}: {text}");
     }
+}
+
+#[test]
+fn keys_move_toward_the_pose_that_was_copied_at_another_frame() {
+    let mut animator = animator();
+    enlarge(&mut animator);
+    let before = rotations(&animator);
+    assert!(animator.harness.get_by_label("To pose").accesskit_node().is_read_only(), "no pose was copied");
+    animator.request(Request::Seek(animator.key(20)));
+    animator.request(Request::Command(Id::CopyPose));
+    let (from, to) = (place(&animator, "To pose", 0.0), place(&animator, "To pose", 2.0 / 3.0));
+    animator.drag(from, to);
+    animator.release(to);
+    let after = rotations(&animator);
+    for key in 0..before.len() {
+        let wanted = if (3..=5).contains(&key) { before[20] } else { before[key] };
+        assert!(after[key].dot(wanted).abs() > 1.0 - 1e-5, "key {key}");
+    }
+    assert_eq!(steps(&animator), 1);
+}
+
+#[test]
+fn full_turns_and_cycles_follow_their_sliders_as_whole_numbers_and_zero_leaves_no_trace() {
+    for (name, keys) in [("Full turns", 2 * 4 * 4), ("Repeat", 4 * 2), ("Mirror", 4 * 2)] {
+        let mut animator = animator();
+        enlarge(&mut animator);
+        let before = shown(&animator);
+        let count = |animator: &Animator| rotations(animator).len();
+        // 10 is at the right end of the slider.
+        let (from, to) = (place(&animator, name, 0.0), place(&animator, name, 0.42));
+        animator.drag(from, to);
+        let during = count(&animator);
+        if name == "Full turns" {
+            // Four turns between three keys: a key at each quarter.
+            assert!((keys - 2..=keys + 41).contains(&during), "{name}: {during} keys");
+            assert!(during >= 41 + 2 * 15, "{name}: {during} keys");
+        } else {
+            assert_ne!(shown(&animator), before, "{name}");
+        }
+        animator.move_to(from);
+        animator.release(from);
+        assert_eq!(shown(&animator), before, "{name} back at zero");
+        assert_eq!(steps(&animator), 0, "{name}");
+    }
+}
+
+#[test]
+fn the_reduce_slider_shows_the_number_of_keys_and_the_largest_error_before_it_is_released() {
+    let mut animator = Animator::with_bone(3);
+    animator.request(Request::Command(Id::SelectAllKeys));
+    animator.harness.get_by_label("In-between").click();
+    animator.steps(3);
+    enlarge(&mut animator);
+    let before = shown(&animator);
+    let (from, to) = (place(&animator, "Reduce", -1.0), place(&animator, "Reduce", 0.5));
+    animator.drag(from, to);
+    animator.steps(3);
+    let during = shown(&animator);
+    assert!(during.keys() < before.keys(), "{} of {} keys", during.keys(), before.keys());
+    let grouped = |keys: usize| format!("{}\u{2009}{:03}", keys / 1000, keys % 1000);
+    let text = format!("{} → {} keys · ", grouped(before.keys()), grouped(during.keys()));
+    assert!(animator.harness.query_all_by_label_contains(&text).count() > 0, "{text}");
+    assert!(animator.harness.query_all_by_label_contains(" mm ").count() > 0);
+    let limit = 7.5;
+    let adapter = animator.edited.adapter();
+    let settings = dragonfly_anim::reduce::ReduceSettings { tolerance: limit, ..Default::default() };
+    let measured = dragonfly_anim::reduce::measure(&before, &during, adapter.skeleton(), &settings).unwrap();
+    assert!(measured.largest.unwrap().millimeters <= f64::from(limit), "{measured:?}");
+    animator.harness.key_press(Key::Escape);
+    animator.steps(3);
+    assert_eq!(shown(&animator), before);
+    animator.release(to);
+    assert_eq!(steps(&animator), 0);
 }

@@ -12,6 +12,8 @@ mod control_framework;
 mod control_mirror;
 mod control_probe;
 mod control_random;
+mod curves_look;
+mod curves_typed;
 mod curves_unrolled;
 mod curves_view;
 mod drag;

@@ -267,3 +267,72 @@ fn random_drags_without_a_button_that_are_cancelled_change_no_bit() {
     }
     assert_eq!(animator.steps_done(), 0);
 }
+
+#[test]
+fn the_next_drag_after_b_draws_a_box_although_it_begins_on_a_key() {
+    for (preset, letter) in [
+        (Preset::Blender, Key::B),
+        (Preset::Maya, Key::Q),
+        (Preset::GameEngines, Key::Q),
+        (Preset::Dragonfly, Key::B),
+    ] {
+        let mut animator = animator(preset);
+        let (times, from) = (animator.times(3), animator.at(animator.key(8), 2));
+        let to = animator.at(animator.key(12) + 0.04, 2) + vec2(0.0, 4.0);
+        animator.move_to(from);
+        animator.type_key(letter, Modifiers::NONE);
+        animator.drag(from, to);
+        animator.release(to);
+        assert_eq!(animator.times(3), times, "{preset:?}: no key was moved");
+        assert_eq!(animator.selected(), 5, "{preset:?}");
+        // The box is over: the next drag moves keys.
+        let at = animator.at(animator.key(8), 2);
+        animator.drag(at, at + vec2(40.0, 0.0));
+        animator.release(at + vec2(40.0, 0.0));
+        assert_ne!(animator.times(3), times, "{preset:?}");
+    }
+}
+
+#[test]
+fn t_and_v_over_keys_open_menus_of_interpolations_and_tangents_that_escape_closes() {
+    for preset in Preset::ALL.iter().copied() {
+        for (letter, entry, hint) in [
+            (Key::T, "Spline interpolation", "Choose the interpolation"),
+            (Key::V, "Flat tangents", "Choose the tangents"),
+        ] {
+            let mut animator = animator(preset);
+            let at = animator.select_key(8);
+            animator.move_to(at);
+            // The buttons over the curves have these names, too.
+            let count = |animator: &Animator| animator.harness.query_all_by_label_contains(entry).count();
+            let buttons = count(&animator);
+            for _ in 0..2 {
+                animator.type_key(letter, Modifiers::NONE);
+                animator.steps(2);
+                assert_eq!(count(&animator), buttons + 1, "{preset:?} {letter:?}");
+                let hints = animator.harness.query_all_by_label_contains(hint).count();
+                assert!(hints > 0, "{preset:?}: the status line");
+                animator.type_key(Key::Escape, Modifiers::NONE);
+                animator.steps(2);
+                assert_eq!(count(&animator), buttons, "Escape closes it");
+            }
+            animator.type_key(letter, Modifiers::NONE);
+            animator.steps(2);
+            let below = |rect: &egui::Rect| rect.top() > at.y - 30.0 && rect.left() < at.x + 30.0;
+            let places: Vec<egui::Rect> =
+                animator.harness.query_all_by_label_contains(entry).map(|node| node.rect()).collect();
+            let place =
+                places.into_iter().min_by(|a, b| a.center().distance(at).total_cmp(&b.center().distance(at)));
+            let place = place.filter(below).expect("an entry near the pointer");
+            animator.click(place.center());
+            animator.steps(3);
+            let rotation = &animator.take().tracks[3].rotation;
+            assert_eq!(
+                rotation.interpolation,
+                dragonfly_anim::data::Interpolation::CubicSpline,
+                "{preset:?}"
+            );
+            assert_eq!(count(&animator), buttons, "the menu is closed");
+        }
+    }
+}

@@ -26,6 +26,15 @@ pub(super) fn column_button(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests:
     hint_beside(&command(ui, icon, id, on, requests), hint);
 }
 
+/// Draws a button with the title of a command, which runs it.
+pub(super) fn text_button(ui: &mut Ui, id: Id, requests: &mut Vec<Request>) -> Response {
+    let response = ui.button(commands::get(id).title).on_hover_text(commands::tooltip(ui.ctx(), id));
+    if response.clicked() {
+        requests.push(Request::Command(id));
+    }
+    response
+}
+
 fn command(ui: &mut Ui, icon: Icon, id: Id, on: bool, requests: &mut Vec<Request>) -> Response {
     let title = commands::get(id).title;
     // With auto-key on, every movement is recorded.

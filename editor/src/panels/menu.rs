@@ -257,6 +257,10 @@ fn view(
         item(ui, context, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
         item(ui, context, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
     });
+    ui.menu_button("Curves", |ui| {
+        item(ui, context, Id::NormalizeCurves, context.settings.curves.normalized, requests);
+        item(ui, context, Id::SoloCurves, context.settings.curves.solo, requests);
+    });
     let hand = &context.settings.tools;
     item(ui, context, Id::TogglePath, hand.path, requests);
     ui.menu_button("Ghosts", |ui| ghosts(ui, context, requests));

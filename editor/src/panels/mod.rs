@@ -31,6 +31,7 @@ pub mod hierarchy;
 pub mod history;
 pub mod icons;
 pub mod inbetween;
+mod key_aim;
 mod key_canvases;
 pub mod keys;
 pub mod layer_choice;
@@ -158,6 +159,7 @@ impl Desk {
         });
         drop_hint(ui);
         buttonless_keys::show(ui, context, requests);
+        key_aim::show(ui, context, requests);
         self.overlays.show(ui, context, requests);
         self.dialogs.show(ui, context, requests);
     }

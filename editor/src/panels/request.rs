@@ -3,6 +3,7 @@
 use super::commands::id::Id;
 use super::commands::key_settings::KeySettings;
 use super::curves::given::GivenCurve;
+use super::curves::look::CurvesLook;
 use super::edit_scope::FalloffSettings;
 use super::keys::request::KeysRequest;
 use super::overlay::Overlay;
@@ -91,6 +92,8 @@ pub enum Request {
     Dismiss,
     /// Sets how the numbers of a bone are shown.
     PropertiesLook(PropertiesLook),
+    /// Sets how curves are shown.
+    CurvesLook(CurvesLook),
 }
 
 /// An action that only the application around the panels can carry out.

@@ -1,6 +1,7 @@
 //! Settings that are remembered between runs.
 
 use super::commands::key_settings::KeySettings;
+use super::curves::look::CurvesLook;
 use super::edit_scope::FalloffSettings;
 use super::properties::look::PropertiesLook;
 use dragonfly_document::posing::{IkMode, LONGEST_CHAIN};
@@ -240,6 +241,8 @@ pub struct Settings {
     pub recent: Vec<PathBuf>,
     /// How the numbers of a bone are shown.
     pub properties: PropertiesLook,
+    /// How curves are shown.
+    pub curves: CurvesLook,
 }
 
 impl Default for Settings {
@@ -259,6 +262,7 @@ impl Default for Settings {
             show_changes: false,
             recent: Vec::new(),
             properties: PropertiesLook::default(),
+            curves: CurvesLook::default(),
         }
     }
 }
@@ -281,6 +285,7 @@ impl Settings {
         self.speed =
             if self.speed.is_finite() { self.speed.clamp(*SPEEDS.start(), *SPEEDS.end()) } else { 1.0 };
         self.falloff = self.falloff.sanitized();
+        self.curves = self.curves.sanitized();
         self.window = self.window.sanitized();
         self.tools.ghosts = self.tools.ghosts.sanitized();
         self.tools.ik.length = self.tools.ik.length.clamp(1, LONGEST_CHAIN);

@@ -4,6 +4,7 @@ use super::buttonless_keys;
 use super::commands::{self, Id};
 use super::context::PanelContext;
 use super::icons::Icon;
+use super::key_aim;
 use super::request::Request;
 use super::status::{MessageSeverity, StatusMessage};
 use super::style::{self, GRID};
@@ -82,6 +83,7 @@ fn message(ui: &mut Ui, context: &PanelContext<'_>) {
         _ if let Some(drag) = context.keys.buttonless() => {
             (buttonless_keys::hint(drag).to_owned(), MessageSeverity::Info)
         }
+        _ if let Some(aim) = context.keys.aim() => (key_aim::hint(aim).to_owned(), MessageSeverity::Info),
         (Some(loading), _) => {
             let percent = (loading.progress.done * 100.0) as u32;
             let text = format!("{} {}… {percent} %", loading.progress.stage.title(), loading.title);

@@ -124,10 +124,39 @@ pub const LIGHT: Theme = Theme {
     backdrop: Color32::from_black_alpha(60),
 };
 
+/// Colors of curves by bone and component, in the dark theme.
+const DARK_HUES: [[[u8; 3]; 3]; 6] = [
+    [[206, 233, 253], [123, 199, 253], [50, 161, 230]],
+    [[254, 165, 121], [221, 122, 70], [181, 86, 29]],
+    [[205, 232, 122], [167, 193, 83], [131, 155, 39]],
+    [[226, 154, 238], [187, 116, 199], [148, 81, 160]],
+    [[41, 215, 184], [6, 173, 147], [12, 132, 112]],
+    [[254, 192, 228], [235, 137, 198], [195, 100, 160]],
+];
+
+/// Colors of curves by bone and component, in the light theme.
+const LIGHT_HUES: [[[u8; 3]; 3]; 6] = [
+    [[45, 112, 190], [6, 82, 158], [1, 50, 102]],
+    [[202, 93, 114], [168, 62, 85], [128, 23, 53]],
+    [[116, 120, 5], [87, 90, 8], [55, 57, 1]],
+    [[149, 125, 220], [120, 95, 187], [87, 59, 148]],
+    [[2, 150, 160], [15, 117, 124], [8, 79, 85]],
+    [[150, 71, 144], [118, 42, 113], [81, 2, 78]],
+];
+
 impl Theme {
     /// Returns the theme that `ui` is drawn in.
     pub fn of(ui: &egui::Ui) -> &'static Self {
         Self::get(ui.visuals().dark_mode)
+    }
+
+    /// Returns the color of a component of the curve of a bone, with the position `at` of the bone among those that are shown: a hue for
+    /// each bone, lighter for X and darker for Z. Neighboring bones differ in lightness, too, so that color-blind users can distinguish
+    /// them.
+    pub fn bone_hue(&self, at: usize, component: usize) -> Color32 {
+        let hues = if self.dark { &DARK_HUES } else { &LIGHT_HUES };
+        let [red, green, blue] = hues[at % hues.len()][component.min(2)];
+        Color32::from_rgb(red, green, blue)
     }
 
     /// Returns the color of the letters at the ends of the axes.

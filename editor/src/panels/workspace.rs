@@ -21,6 +21,8 @@ use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
 use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::BonePose;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// The owners of the state. A command gets all of them and calls the methods of those that it concerns.
@@ -41,6 +43,8 @@ pub(super) struct Workspace {
     pub(super) selections: SelectionSteps,
     /// The angles that were given to rotation keys.
     pub(super) given: GivenAngles,
+    /// The pose that was copied last.
+    pub(super) copied_pose: Option<Arc<[BonePose]>>,
     /// The list of takes.
     pub(super) takes: TakeListState,
     /// The layer whose keys are shown and edited.
@@ -77,6 +81,7 @@ impl Workspace {
             keys: KeyEditing::of(settings.timeline),
             selections: SelectionSteps::default(),
             given: GivenAngles::default(),
+            copied_pose: None,
             takes: TakeListState::default(),
             layers: LayerChoice::default(),
             tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
@@ -111,6 +116,7 @@ impl Workspace {
             frame_rate: self.frame_rate.get(),
             keys: &self.keys,
             given: &self.given,
+            copied_pose: self.copied_pose.as_ref(),
             takes: &self.takes,
             layer_choice: self.layers,
             camera: *self.camera.camera(),

@@ -50,7 +50,9 @@ mod over;
 mod paste_keys;
 mod paste_pose;
 pub(crate) mod pose;
+mod reduce_keys;
 mod rename_take;
+mod repeat_keys;
 mod resample_keys;
 mod reset_pose;
 mod retime_take;
@@ -60,6 +62,7 @@ mod scale_keys;
 mod set_extras;
 mod set_interpolation;
 mod set_layer;
+mod set_many_tangents;
 mod set_pending;
 mod set_pose;
 mod set_poses;
@@ -69,6 +72,7 @@ mod snap_keys;
 mod split_take;
 pub(crate) mod target;
 mod trim_take;
+mod turn_keys;
 
 pub use add_layer::LAYER_COLORS;
 #[doc(hidden)]
@@ -84,8 +88,11 @@ pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use mode::{KeyInterpolation, LayerKind, NewKey, ResetTo};
 pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope};
 pub use pose::{BonePose, PoseAt};
+pub use repeat_keys::{RepeatCount, RepeatMode};
+pub use set_many_tangents::TangentsAt;
 pub use shape_tangents::KeyTangents;
 pub use target::{BoneRef, KeySet, LayerRef, Property, SAME_TIME, TakeRef};
+pub use turn_keys::TurnWay;
 
 use crate::adapter::plan::{PoseMode, Transaction};
 use crate::adapter::{EditError, ModelAdapter};
@@ -117,11 +124,15 @@ edits! {
     "snap_keys" => snap_keys::SnapKeys,
     "set_interpolation" => set_interpolation::SetInterpolation,
     "set_tangents" => set_tangents::SetTangents,
+    "set_many_tangents" => set_many_tangents::SetManyTangents,
     "shape_tangents" => shape_tangents::ShapeTangents,
     "blend_keys" => blend_keys::BlendKeys,
     "filter_keys" => filter_keys::FilterKeys,
     "noise_keys" => noise_keys::NoiseKeys,
     "resample_keys" => resample_keys::ResampleKeys,
+    "reduce_keys" => reduce_keys::ReduceKeys,
+    "turn_keys" => turn_keys::TurnKeys,
+    "repeat_keys" => repeat_keys::RepeatKeys,
     "create_take" => create_take::CreateTake,
     "delete_take" => delete_take::DeleteTake,
     "set_extras" => set_extras::SetExtras,

@@ -1,6 +1,7 @@
 //! Sets the tangents of a key.
 
 use super::kind::{EditKind, LayerUse};
+use super::set_many_tangents::TangentsAt;
 use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::change::KeyChange;
 use crate::adapter::kind::{ChannelKind, ChannelNumbers, with_kind};
@@ -57,7 +58,25 @@ impl EditKind for SetTangents {
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
-        let (take, property) = (work.take(&self.take)?, self.property);
+        let Self { take, time, bone, property, arrive, leave } = self;
+        let (time, bone, property) = (*time, bone.clone(), *property);
+        let at = TangentsAt { time, bone, property, arrive: arrive.clone(), leave: leave.clone() };
+        at.plan(work, take)
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        let property = from.property();
+        let count = if property == Property::Rotation { 4 } else { 3 };
+        let arrive = from.optional(|from| from.numbers(count));
+        let leave = from.optional(|from| from.numbers(count));
+        Self { take: from.take(), time: from.time(), bone: from.bone(), property, arrive, leave }
+    }
+}
+
+impl TangentsAt {
+    /// Sets the tangents of this key of a take.
+    pub(super) fn plan(&self, work: &mut Transaction, take: &TakeRef) -> Result<(), EditError> {
+        let (take, property) = (work.take(take)?, self.property);
         let time = finite("a time", self.time)?;
         let bone = work.track(take, &self.bone)?;
         let tangents = [&self.arrive, &self.leave]
@@ -71,14 +90,6 @@ impl EditKind for SetTangents {
         let key = key_at(work.slot(take).times(bone, property), time);
         let key = key.map_err(|_| EditError::NoKey { bone, property, time })?;
         with_kind!(property, set_tangents::<K>(work, address, key, arrive, leave))
-    }
-
-    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        let property = from.property();
-        let count = if property == Property::Rotation { 4 } else { 3 };
-        let arrive = from.optional(|from| from.numbers(count));
-        let leave = from.optional(|from| from.numbers(count));
-        Self { take: from.take(), time: from.time(), bone: from.bone(), property, arrive, leave }
     }
 }
 

@@ -72,6 +72,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Answer(action) => return files::answered(workspace, action),
         Request::Dismiss => return files::dismiss(workspace),
         Request::PropertiesLook(look) => workspace.settings.properties = look,
+        Request::CurvesLook(look) => workspace.settings.curves = look.sanitized(),
     }
     None
 }
@@ -94,6 +95,7 @@ fn keys_request(workspace: &mut Workspace, request: KeysRequest) -> Option<Effec
         KeysRequest::Window(window) => keys::show_window(workspace, window),
         KeysRequest::Drag(op) => return drags::drag_keys(workspace, op),
         KeysRequest::Buttonless(step) => workspace.keys.step_buttonless(step),
+        KeysRequest::Aim(aim) => workspace.keys.set_aim(aim),
         KeysRequest::Release => return drags::release_keys(workspace),
         KeysRequest::Cancel => return drags::cancel_keys(workspace),
         KeysRequest::Flag(flag, bone, on) => workspace.keys.set_flag(flag, bone, on),

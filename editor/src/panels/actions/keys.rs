@@ -66,6 +66,10 @@ pub(in crate::panels) fn drag_now(workspace: &mut Workspace, kind: ButtonlessKin
 
 /// Cancels a drag of keys, or closes the overlay, or deselects bones and keys.
 pub(in crate::panels) fn cancel_or_deselect(workspace: &mut Workspace) -> Option<Effect> {
+    if workspace.keys.aim().is_some() {
+        workspace.keys.set_aim(None);
+        return None;
+    }
     if workspace.keys.drag().is_some() || workspace.keys.buttonless().is_some() {
         return cancel_keys(workspace);
     }

@@ -91,7 +91,9 @@ pub(in crate::panels) fn copy(workspace: &mut Workspace) -> Option<Effect> {
     let copied: Vec<BonePose> = bones.iter().filter_map(pose).collect();
     let bones = count(copied.len(), "bone", "bones");
     workspace.say(MessageSeverity::Info, format!("Copied the pose of {bones}"));
-    Some(Effect::Copy(clipboard::to_text(&copied)))
+    let text = clipboard::to_text(&copied);
+    workspace.copied_pose = Some(copied.into());
+    Some(Effect::Copy(text))
 }
 
 /// Pastes copied poses at the time shown.

@@ -65,6 +65,11 @@ pub const MOUSE: &[(&str, &str)] = &[
     ("Shift + wheel over the timeline or the curves", "Pan in time"),
     ("Ctrl + wheel over the curves", "Zoom the values"),
     ("Middle drag over the timeline or the curves", "Pan (also: Alt + Shift + drag)"),
+    (
+        "B over the timeline or the curves, then drag",
+        "Box select keys (Q in Maya's, Godot's and Unity's keys)",
+    ),
+    ("T, V over the timeline or the curves", "Menu of interpolations, menu of tangents"),
     ("2 + drag keys", "Ripple: move all later keys as well"),
     ("Alt + drag keys, Shift + drag selected keys", "Duplicate keys"),
     ("Ctrl while dragging keys", "Invert snapping"),

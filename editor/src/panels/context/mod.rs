@@ -23,12 +23,14 @@ use super::window_status::WindowStatus;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::adapter::TakeVersions;
 use dragonfly_document::bones::{BoneSelection, HiddenBones};
+use dragonfly_document::edit::BonePose;
 use dragonfly_document::history::Gesture;
 use dragonfly_document::posing::IkMode;
 use dragonfly_document::{LoadedModel, View};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::playback::PlaybackClock;
 use egui::{Pos2, Rect};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Everything that a panel reads in one frame. A panel changes nothing of it: it pushes requests.
@@ -68,6 +70,8 @@ pub struct PanelContext<'a> {
     pub keys: &'a KeyEditing,
     /// The angles that were given to rotation keys.
     pub given: &'a GivenAngles,
+    /// The pose that was copied last; `None` if none of this model was.
+    pub copied_pose: Option<&'a Arc<[BonePose]>>,
     /// The list of takes.
     pub takes: &'a TakeListState,
     /// The layer whose keys are shown and edited.

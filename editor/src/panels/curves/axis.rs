@@ -86,9 +86,18 @@ impl ValueScale {
 }
 
 /// Draws the lines over `rect`, with their numbers in `strip` on the left.
-pub(super) fn paint(painter: &Painter, strip: Rect, scale: &ValueScale, theme: &Theme) {
+///
+/// Where curves are normalized, `true_scale` is that of the curve whose numbers are written; without it none are.
+pub(super) fn paint(
+    painter: &Painter,
+    strip: Rect,
+    scale: &ValueScale,
+    true_scale: Option<&ValueScale>,
+    theme: &Theme,
+) {
     let step = scale.step();
-    let decimals = (-step.log10().floor()).clamp(0.0, 6.0) as usize;
+    let true_step = true_scale.map_or(step, |own| step * own.window.span / scale.window.span);
+    let decimals = (-true_step.log10().floor()).clamp(0.0, 6.0) as usize;
     let first = (scale.window.low / step).ceil() as i64;
     let count = (scale.window.span / step).ceil().clamp(0.0, 200.0) as i64;
     for index in first..=first.saturating_add(count) {
@@ -99,8 +108,13 @@ pub(super) fn paint(painter: &Painter, strip: Rect, scale: &ValueScale, theme: &
         }
         let strong = if index == 0 { 1.0 } else { 0.45 };
         painter.hline(scale.rect.x_range(), y, Stroke::new(1.0, theme.line.gamma_multiply(strong)));
-        if y > strip.top() + 6.0 && y < strip.bottom() - 6.0 {
-            let text = format!("{value:.decimals$}");
+        if let Some(true_scale) = true_scale
+            && y > strip.top() + 6.0
+            && y < strip.bottom() - 6.0
+        {
+            let number = true_scale.window.low
+                + (value - scale.window.low) / scale.window.span * true_scale.window.span;
+            let text = format!("{number:.decimals$}");
             painter.text(
                 pos2(strip.right() - 5.0, y),
                 Align2::RIGHT_CENTER,

@@ -3,7 +3,7 @@
 use super::canvas::{CurveCanvas, component_name};
 use super::curve::Curve;
 use super::drag::MOST;
-use super::values::{ValueKey, given_angles, value_edit};
+use super::values::{ValueChange, ValueKey, given_angles, value_edit};
 use crate::control::drag::THRESHOLD;
 use crate::panels::dope::ButtonlessTimes;
 use crate::panels::drag::{PointerInput, readout};
@@ -50,7 +50,9 @@ impl ButtonlessCurves {
             curves.first().map(|curve| canvas.components(curve).collect()).unwrap_or_default();
         let component =
             if shown.contains(&component) { component } else { shown.first().copied().unwrap_or(0) };
-        Self { from, value: canvas.value.value_at(from.y), keys, curves, component, first: None }
+        let of = curves.first().map(|curve| curve.id);
+        let scale = of.map_or(canvas.scales.view, |id| canvas.scales.of(id, component));
+        Self { from, value: scale.value_at(from.y), keys, curves, component, first: None }
     }
 
     /// Requests what the drag does with the pointer at `pointer`.
@@ -96,14 +98,16 @@ impl ButtonlessCurves {
             return None;
         }
         let typed = canvas.context.keys.buttonless().and_then(|drag| drag.amount());
-        let mut by = typed.unwrap_or(canvas.value.value_at(pointer.y) - self.value);
-        if input.modifiers.command && typed.is_none() {
-            let step = (canvas.value.step() / 2.0) as f32;
-            by = (by / step).round() * step;
-        }
+        let first = self.keys.first()?;
+        let scale = canvas.scales.of(first.id, self.component);
+        let by = typed.unwrap_or_else(|| {
+            let (look, usual) = (canvas.context.settings.curves, (scale.step() / 2.0) as f32);
+            let value = first.numbers[self.component.min(3)];
+            look.snapped(value, scale.value_at(pointer.y) - self.value, input.modifiers.command, usual)
+        });
         readout(ui, pointer, &format!("{} {by:+.3}", component_name(self.component)));
-        let edit = value_edit(canvas.context.take_ref()?, &self.keys, self.component, by)?;
-        requests.extend(given_angles(&self.curves, &self.keys, self.component, by));
+        let edit = value_edit(canvas.context.take_ref()?, &self.keys, self.component, ValueChange::Add(by))?;
+        requests.extend(given_angles(&self.curves, &self.keys, self.component, ValueChange::Add(by)));
         Some(KeyDragOp::Edit(edit))
     }
 }

@@ -1,7 +1,7 @@
 //! The canvas of the curves, and what is under the pointer on it: a key, or the handle of a tangent.
 
-use super::axis::ValueScale;
 use super::curve::Curve;
+use super::scales::CurveScales;
 use super::tangents::{TangentHandle, Tangents};
 use crate::panels::context::PanelContext;
 use crate::panels::keys::intervals::keys_between;
@@ -26,6 +26,15 @@ pub(super) struct CurveKey {
     pub(super) selected: bool,
 }
 
+/// A point of the curve of one component.
+#[derive(Clone, Debug)]
+pub(super) struct CurvePoint {
+    pub(super) curve: Arc<Curve>,
+    pub(super) component: usize,
+    /// Value of the curve there.
+    pub(super) number: f32,
+}
+
 /// Distance within which something is under the pointer, points.
 const REACH: f32 = 8.0;
 impl CurveKey {
@@ -40,7 +49,7 @@ pub(super) struct CurveCanvas<'a> {
     pub(super) curves: &'a [Arc<Curve>],
     pub(super) drawn: &'a Drawn,
     pub(super) time: &'a TimeScale,
-    pub(super) value: &'a ValueScale,
+    pub(super) scales: &'a CurveScales,
     /// A bit for each component that is shown.
     pub(super) components: u8,
     pub(super) tangents: &'a Tangents,
@@ -56,6 +65,9 @@ impl CurveCanvas<'_> {
 
     /// Returns what is under the pointer.
     pub(super) fn target_at(&self, pointer: Pos2) -> CurveTarget {
+        if self.context.keys.draws_box() {
+            return CurveTarget::Nothing;
+        }
         if let Some(handle) = self.tangents.under(pointer, REACH) {
             return CurveTarget::Handle(handle);
         }
@@ -67,10 +79,11 @@ impl CurveCanvas<'_> {
             if keys.len() > 8 {
                 continue;
             }
+            let scales = self.scales.all(curve.id);
             for key in keys {
                 let (x, numbers) = (self.time.x_of(curve.times()[key]), curve.key(key));
                 for component in self.components(curve) {
-                    let distance = pos2(x, self.value.y_of(numbers[component])).distance(pointer);
+                    let distance = pos2(x, scales[component].y_of(numbers[component])).distance(pointer);
                     if distance <= REACH && best.as_ref().is_none_or(|(least, _)| distance < *least) {
                         let selected = curve.is_chosen(key, self.drawn.selection.of(curve.id));
                         best =
@@ -82,17 +95,34 @@ impl CurveCanvas<'_> {
         best.map_or(CurveTarget::Nothing, |(_, on)| CurveTarget::Key(on))
     }
 
+    /// Returns the curve nearest to the pointer, if it is near enough, with its component and its value there.
+    pub(super) fn curve_at(&self, pointer: Pos2) -> Option<CurvePoint> {
+        let time = self.time.time_at(pointer.x);
+        let mut best: Option<(f32, CurvePoint)> = None;
+        for curve in self.curves {
+            let (numbers, scales) = (curve.drawn_at(time), self.scales.all(curve.id));
+            for component in self.components(curve) {
+                let distance = (scales[component].y_of(numbers[component]) - pointer.y).abs();
+                if distance <= REACH && best.as_ref().is_none_or(|(least, _)| distance < *least) {
+                    let (curve, number) = (Arc::clone(curve), numbers[component]);
+                    best = Some((distance, CurvePoint { curve, component, number }));
+                }
+            }
+        }
+        best.map(|(_, found)| found)
+    }
+
     /// Returns bone, channel, value and time of a key as text.
     pub(super) fn description(&self, on: &CurveKey) -> String {
-        let (bone, property) = on.curve.id;
         let number = on.curve.key(on.key)[on.component];
-        format!(
-            "{} {} {}  {number:.3}  at {:.3} s",
-            self.context.bone_name(bone),
-            property.name(),
-            component_name(on.component),
-            on.time()
-        )
+        self.description_at(&on.curve, on.component, number, on.time())
+    }
+
+    /// Returns bone, channel, value and time of a point of a curve as text.
+    pub(super) fn description_at(&self, curve: &Curve, component: usize, number: f32, time: f32) -> String {
+        let (bone, property) = curve.id;
+        let name = self.context.bone_name(bone);
+        format!("{name} {} {}  {number:.3}  at {time:.3} s", property.name(), component_name(component))
     }
 }
 

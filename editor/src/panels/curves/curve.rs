@@ -212,6 +212,14 @@ impl Curve {
         found
     }
 
+    /// Returns the extent of the whole curve, of a long one at its keys.
+    pub(super) fn full_extent(&self) -> Extent {
+        /// Number of keys above which only keys are looked at.
+        const LOOKED_AT: usize = 1000;
+        let keys = self.extent(0..self.times().len());
+        if self.times().len() > LOOKED_AT { keys } else { keys.with(&self.extent_between_keys()) }
+    }
+
     /// Returns the extent of the curve between its keys, where it may go beyond them.
     pub(super) fn extent_between_keys(&self) -> Extent {
         /// Number of samples between two keys.

@@ -1,10 +1,10 @@
 //! Drags on the curves: keys sideways in time or up and down in value, tangents by their handles, and selection boxes.
 
 use super::buttonless::ButtonlessCurves;
-use super::canvas::{CurveCanvas, CurveKey, CurveTarget, component_name};
+use super::canvas::{CurveCanvas, CurveKey, CurvePoint, CurveTarget, component_name};
 use super::curve::Curve;
 use super::tangents::TangentHandle;
-use super::values::{ValueKey, given_angles, value_edit};
+use super::values::{ValueChange, ValueKey, given_angles, value_edit};
 use crate::panels::dope::to_frame;
 use crate::panels::drag::{
     DragEvent, PanelDrag, PointerInput, Press, SelectionBox, choice_of, position, readout,
@@ -46,6 +46,8 @@ enum CurveDragged {
         by: f32,
         /// Value under the pointer at the press.
         pressed: f32,
+        /// The pressed curve, and the value of the pressed key at the press.
+        of: (ChannelId, f32),
         requested: bool,
     },
     Tangent {
@@ -112,7 +114,7 @@ impl CurveDrag {
             }
             DragEvent::Dropped(CurveDragged::Box(drawn)) => {
                 if let Some(pointer) = pointer.or(input.pointer) {
-                    let to = [canvas.time.time_at(pointer.x), canvas.value.value_at(pointer.y)];
+                    let to = [canvas.time.time_at(pointer.x), canvas.scales.view.value_at(pointer.y)];
                     let parts = canvas.boxed(drawn.ranges(to));
                     let choice = drawn.choice;
                     requests.push(Request::Timeline(KeysRequest::SelectKeys { parts, choice }));
@@ -155,7 +157,7 @@ impl CurveDrag {
         }
         if let Some(op) = drag.op(ui, pointer, canvas, input) {
             if let CurveDragged::Values { keys, curves, component, by, .. } = drag {
-                requests.extend(given_angles(curves, keys, *component, *by));
+                requests.extend(given_angles(curves, keys, *component, ValueChange::Add(*by)));
             }
             requests.push(Request::Timeline(KeysRequest::Drag(op)));
         }
@@ -193,24 +195,24 @@ impl CurveDragged {
                 *requested = true;
                 Some(if *copies { KeyDragOp::Duplicate(by) } else { KeyDragOp::Move(by) })
             }
-            Self::Values { keys, component, pressed, by: dragged, requested, .. } => {
+            Self::Values { keys, component, pressed, by: dragged, of, requested, .. } => {
                 ui.ctx().set_cursor_icon(CursorIcon::ResizeVertical);
                 if keys.len() > MOST {
                     readout(ui, pointer, &format!("At most {MOST} key values can be dragged at once"));
                     return None;
                 }
-                let mut by = canvas.value.value_at(pointer.y) - *pressed;
-                if input.modifiers.command {
-                    let step = (canvas.value.step() / 2.0) as f32;
-                    by = (by / step).round() * step;
-                }
+                let scale = canvas.scales.of(of.0, *component);
+                let by = scale.value_at(pointer.y) - *pressed;
+                let (look, usual) = (context.settings.curves, (scale.step() / 2.0) as f32);
+                let by = look.snapped(of.1, by, input.modifiers.command, usual);
                 readout(ui, pointer, &format!("{} {by:+.3}", component_name(*component)));
-                let edit = value_edit(context.take_ref()?, keys, *component, by)?;
+                let edit = value_edit(context.take_ref()?, keys, *component, ValueChange::Add(by))?;
                 (*dragged, *requested) = (by, true);
                 Some(KeyDragOp::Edit(edit))
             }
             Self::Tangent { handle, curve, requested } => {
-                let slope = handle.slope_at(pointer, canvas.time, canvas.value);
+                let scale = canvas.scales.of(handle.id, handle.component);
+                let slope = handle.slope_at(pointer, canvas.time, &scale);
                 ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
                 readout(ui, pointer, &format!("{} {slope:+.3} / s", component_name(handle.component)));
                 let edit = handle.edit(context.take_ref()?, curve, slope, input.modifiers.alt)?;
@@ -219,8 +221,8 @@ impl CurveDragged {
             }
             Self::Box(drawn) => {
                 let [time, value] = drawn.from;
-                let corner = pos2(canvas.time.x_of(time), canvas.value.y_of(value));
-                SelectionBox::paint(ui, canvas.value.rect, corner, pointer);
+                let corner = pos2(canvas.time.x_of(time), canvas.scales.view.y_of(value));
+                SelectionBox::paint(ui, canvas.scales.view.rect, corner, pointer);
                 None
             }
         }
@@ -252,7 +254,12 @@ impl CurveCanvas<'_> {
                 }
             }
             CurveTarget::Handle(_) => ui.ctx().set_cursor_icon(CursorIcon::Grab),
-            CurveTarget::Nothing => {}
+            CurveTarget::Nothing => {
+                if let Some(CurvePoint { curve, component, number }) = self.curve_at(pointer) {
+                    let time = self.time.time_at(pointer.x);
+                    readout(ui, pointer, &self.description_at(&curve, component, number, time));
+                }
+            }
         }
     }
 
@@ -270,7 +277,7 @@ impl CurveCanvas<'_> {
                 Some(CurveDragged::Tangent { handle, curve: Arc::clone(curve), requested: false })
             }
             CurveTarget::Nothing => Some(CurveDragged::Box(SelectionBox {
-                from: [self.time.time_at(at.x), self.value.value_at(at.y)],
+                from: [self.time.time_at(at.x), self.scales.view.value_at(at.y)],
                 choice: choice_of(modifiers),
             })),
             CurveTarget::Key(on) => Some(self.start_on_key(&on, at, pointer, modifiers, requests)),
@@ -296,11 +303,20 @@ impl CurveCanvas<'_> {
             let pressed = self.time.time_at(at.x);
             CurveDragged::Times { grabbed: on.time(), pressed, copies, requested: false }
         } else {
-            let pressed = self.value.value_at(at.y);
+            let pressed = self.scales.of(on.curve.id, on.component).value_at(at.y);
+            let of = (on.curve.id, on.curve.key(on.key)[on.component]);
             let keys = self.value_keys(on);
             let mut curves: Vec<Arc<Curve>> = self.curves.to_vec();
             curves.retain(|curve| keys.iter().any(|key| key.id == curve.id));
-            CurveDragged::Values { keys, curves, component: on.component, pressed, by: 0.0, requested: false }
+            CurveDragged::Values {
+                keys,
+                curves,
+                component: on.component,
+                pressed,
+                by: 0.0,
+                of,
+                requested: false,
+            }
         }
     }
 
@@ -330,9 +346,17 @@ impl CurveCanvas<'_> {
                 parts.push((curve.id, vec![times]));
                 continue;
             }
+            let (scales, view) = (self.scales.all(curve.id), &self.scales.view);
             let inside = |&key: &usize| {
                 let numbers = curve.key(key);
-                self.components(curve).any(|at| (values[0]..=values[1]).contains(&numbers[at]))
+                let shown = |at: usize| {
+                    if self.scales.ranges.is_normalized() {
+                        view.value_at(scales[at].y_of(numbers[at]))
+                    } else {
+                        numbers[at]
+                    }
+                };
+                self.components(curve).any(|at| (values[0]..=values[1]).contains(&shown(at)))
             };
             let found: Vec<[f32; 2]> = keys.filter(inside).map(|key| [curve.times()[key]; 2]).collect();
             if !found.is_empty() {

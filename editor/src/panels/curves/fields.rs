@@ -1,17 +1,20 @@
-//! Number fields for the values and the time of the selected key.
+//! Number fields for the values and the time of the selected keys.
 
 use super::axis::ValueWindow;
 use super::canvas::component_name;
 use super::curve::Curve;
+use super::drag::MOST;
 use super::form::RotationForm;
+use super::key_numbers::{KeyNumbers, selected_keys};
 use super::paint::color;
+use super::scales::CurveRanges;
 use super::toolbar::Chosen;
-use super::values::{ValueKey, given_angles, value_edit};
+use super::values::{ValueChange, ValueKey, given_angles, value_edit};
 use crate::control::expression::Quantity;
 use crate::panels::context::PanelContext;
 use crate::panels::dope::to_frame;
 use crate::panels::keys::{Drawn, KeyDragOp, KeysRequest};
-use crate::panels::number_field::{FieldEvent, NumberField};
+use crate::panels::number_field::{FieldEvent, NumberField, RelativeNumber};
 use crate::panels::number_text::Digits;
 use crate::panels::request::Request;
 use crate::panels::style::{CONTROL, GRID};
@@ -23,9 +26,13 @@ use egui::{Align2, FontId, Id, Rect, Sense, Ui, pos2, vec2};
 use std::sync::Arc;
 
 /// Width of a field.
-const WIDTH: f32 = 80.0;
+const WIDTH: f32 = 64.0;
 /// Width of the letter before a value.
 const LETTER: f32 = 12.0;
+/// Largest number of keys whose values are typed at once.
+const MOST_TYPED: usize = 50_000;
+/// Reason why more cannot be typed.
+const TOO_MANY: &str = "At most 50,000 keys can be given values at once";
 
 /// The fields, with the one that is dragged.
 #[derive(Debug, Default)]
@@ -40,22 +47,26 @@ enum KeyNumber {
     Time,
 }
 
-/// A dragged field: its key as it was when the drag began, and the distance from there.
+/// A dragged field: its keys as they were when the drag began, and the distance from there.
 #[derive(Clone, Debug)]
 struct HeldField {
     part: KeyNumber,
-    key: ValueKey,
+    numbers: KeyNumbers,
+    keys: Vec<ValueKey>,
     by: f32,
-    /// The curve of the key when the drag began.
-    curve: Option<Arc<Curve>>,
+    /// The curves of the keys when the drag began.
+    curves: Vec<Arc<Curve>>,
 }
 
 /// What the fields edit.
 pub(super) struct FieldsContext<'a> {
     pub(super) chosen: &'a Chosen,
     pub(super) curves: &'a [Arc<Curve>],
+    /// The numbers of the selected keys of these curves.
+    pub(super) numbers: Option<KeyNumbers>,
     pub(super) drawn: &'a Drawn,
     pub(super) window: ValueWindow,
+    pub(super) ranges: &'a CurveRanges,
     /// Component of the key that was pressed on last: shown where there is no space for all.
     pub(super) component: usize,
     pub(super) context: &'a PanelContext<'a>,
@@ -66,59 +77,90 @@ impl Fields {
     pub(super) fn show(&mut self, ui: &mut Ui, about: &FieldsContext<'_>, requests: &mut Vec<Request>) {
         self.held
             .take_if(|held| held.by != 0.0 && !about.context.keys.drag().is_some_and(|drag| drag.held()));
-        let key = self.held.as_ref().map(|held| held.key).or_else(|| only_key(about.curves, about.drawn));
-        let Some(key) = key.filter(|_| ui.available_width() >= WIDTH) else { return };
+        let held = self.held.as_ref().map(|held| held.numbers);
+        let numbers = held.or(about.numbers);
+        let Some(numbers) = numbers.filter(|_| ui.available_width() >= WIDTH) else { return };
         ui.spacing_mut().item_spacing.x = GRID;
-        self.time(ui, &key, about, requests);
-        let shown: Vec<usize> =
-            (0..key.width()).filter(|at| about.chosen.components & (1 << at) != 0).collect();
+        self.time(ui, &numbers, about, requests);
+        let width = numbers.first.width();
+        let shown: Vec<usize> = (0..width).filter(|at| about.chosen.components & (1 << at) != 0).collect();
         let room = (ui.available_width() / (WIDTH + LETTER + GRID)) as usize;
         if shown.len() <= room {
             for &component in shown.iter().rev() {
-                self.value(ui, &key, component, about, requests);
+                self.value(ui, &numbers, component, about, requests);
             }
         } else if room > 0 {
             let touched = Some(about.component).filter(|component| shown.contains(component));
-            self.value(ui, &key, touched.unwrap_or(shown[0]), about, requests);
+            self.value(ui, &numbers, touched.unwrap_or(shown[0]), about, requests);
         }
     }
 
-    fn time(&mut self, ui: &mut Ui, key: &ValueKey, about: &FieldsContext<'_>, requests: &mut Vec<Request>) {
+    fn time(
+        &mut self,
+        ui: &mut Ui,
+        numbers: &KeyNumbers,
+        about: &FieldsContext<'_>,
+        requests: &mut Vec<Request>,
+    ) {
         let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, CONTROL), Sense::hover());
         let frame = f64::from(about.context.frame_seconds());
-        let shown = key.time + self.by(KeyNumber::Time);
+        let by = self.by(KeyNumber::Time);
+        let help = if numbers.count > 1 {
+            "Of the selected keys. A number moves them together, so that the first one is there"
+        } else {
+            "Of the selected key"
+        };
         let field = NumberField {
-            name: "Time of the key",
-            value: Some(f64::from(shown)),
+            name: if numbers.count > 1 { "Time of the keys" } else { "Time of the key" },
+            value: numbers.time.map(|time| f64::from(time + by)),
             unit: "s",
             speed: frame * 0.2,
             snap: frame,
             grain: 1e-6,
             digits: Digits::Fixed(3),
-            range: 0.0..=f64::from(LATEST),
+            range: if numbers.time.is_some() { 0.0..=f64::from(LATEST) } else { ANY },
+            help,
             ..field(KeyNumber::Time)
         };
         let (event, _) = field.show(ui, rect);
+        // The first of all selected keys, those of other channels included.
+        let first = || about.context.keys.selection().extent(&about.drawn.take).map(|[first, _]| first);
+        let start = numbers.time.or_else(first).unwrap_or(numbers.first.time);
         let snap = about.context.keys.snap() != ui.input(|input| input.modifiers.command);
         let event = match event {
             FieldEvent::Dragged(by) if snap => {
-                FieldEvent::Dragged(f64::from(to_frame(key.time + by as f32, about.context) - key.time))
+                FieldEvent::Dragged(f64::from(to_frame(start + by as f32, about.context) - start))
             }
             event => event,
         };
-        match event {
-            FieldEvent::Typed(value) => {
-                requests.push(Request::Timeline(KeysRequest::Drag(KeyDragOp::Move(value as f32 - key.time))));
+        let typed = match event {
+            FieldEvent::Typed(value) => Some(KeyDragOp::Move(value as f32 - start)),
+            FieldEvent::Changed(RelativeNumber::Add(by)) => Some(KeyDragOp::Move(by as f32)),
+            FieldEvent::Changed(RelativeNumber::Multiply(by)) => {
+                Some(KeyDragOp::Scale { about: 0.0, factor: by as f32 })
+            }
+            FieldEvent::Nothing
+            | FieldEvent::Touched
+            | FieldEvent::Dragged(_)
+            | FieldEvent::Released
+            | FieldEvent::Cancelled => None,
+        };
+        match typed {
+            Some(op) => {
+                requests.push(Request::Timeline(KeysRequest::Drag(op)));
                 requests.push(Request::Timeline(KeysRequest::Release));
             }
-            event => self.drag(event, KeyNumber::Time, key, about, |by| Some(KeyDragOp::Move(by)), requests),
+            None => {
+                let op = |_: &[ValueKey], by| Some(KeyDragOp::Move(by));
+                self.drag(event, KeyNumber::Time, numbers, about, op, requests);
+            }
         }
     }
 
     fn value(
         &mut self,
         ui: &mut Ui,
-        key: &ValueKey,
+        numbers: &KeyNumbers,
         component: usize,
         about: &FieldsContext<'_>,
         requests: &mut Vec<Request>,
@@ -129,54 +171,55 @@ impl Fields {
         let at = pos2(rect.left(), rect.center().y);
         ui.painter().text(at, Align2::LEFT_CENTER, letter, FontId::proportional(11.0), tone);
         let rect = Rect::from_min_max(pos2(rect.left() + LETTER, rect.top()), rect.max);
+        let key = &numbers.first;
         let angle = key.id.1 == Property::Rotation && key.form != RotationForm::Quaternion;
-        let number = key.numbers[component];
-        let shown = number + self.by(KeyNumber::Value(component));
+        let by = self.by(KeyNumber::Value(component));
         // Below a millionth of the numbers that are shown, a value is a rounding error.
-        let dust = f64::from(shown.abs()) < about.window.span * 1e-6;
+        let span = about.ranges.window(about.window, key.id, component).span;
+        let dust = |shown: f64| shown.abs() < span * 1e-6;
+        let shown = numbers.values[component].map(|number| f64::from(number + by));
         let field = NumberField {
             name: &format!("Value {letter}"),
-            value: Some(if dust { 0.0 } else { f64::from(shown) }),
+            value: shown.map(|shown| if dust(shown) { 0.0 } else { shown }),
             quantity: if angle { Quantity::Angle } else { Quantity::Number },
             unit: if angle { "°" } else { "" },
             // About as far as the curve moves on the screen.
-            speed: about.window.span / 300.0,
+            speed: span / 300.0,
             snap: if angle { 15.0 } else { 0.1 },
-            grain: f64::from(number.abs()) * 1e-6 + 1e-7,
+            grain: f64::from(key.numbers[component].abs()) * 1e-6 + 1e-7,
             digits: if angle { Digits::Fixed(2) } else { Digits::Fitting },
+            locked: (numbers.count > MOST_TYPED).then_some(TOO_MANY),
+            help: if numbers.count > 1 { "Of the selected keys" } else { "Of the selected key" },
             ..field(KeyNumber::Value(component))
         };
         let (event, _) = field.show(ui, rect);
-        let edit = |by: f32| value_edit(about.context.take_ref()?, &[*key], component, by);
-        let by = match event {
-            FieldEvent::Typed(value) => Some(value as f32 - number),
-            FieldEvent::Dragged(by) => Some(by as f32),
-            FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Released | FieldEvent::Cancelled => None,
+        let typed = match event {
+            FieldEvent::Typed(value) => Some(ValueChange::Set(value as f32)),
+            FieldEvent::Changed(RelativeNumber::Add(by)) => Some(ValueChange::Add(by as f32)),
+            FieldEvent::Changed(RelativeNumber::Multiply(by)) => Some(ValueChange::Multiply(by as f32)),
+            FieldEvent::Nothing
+            | FieldEvent::Touched
+            | FieldEvent::Dragged(_)
+            | FieldEvent::Released
+            | FieldEvent::Cancelled => None,
         };
-        if let Some(by) = by {
-            requests.extend(given_angles(self.curve_before(key, about).as_slice(), &[*key], component, by));
-        }
-        match event {
-            FieldEvent::Typed(value) => {
-                let edit = edit(value as f32 - number);
-                requests.extend(edit.map(|edit| Request::Change(Change::Edit(edit, None))));
+        let edit = |keys: &[ValueKey], change| value_edit(about.context.take_ref()?, keys, component, change);
+        match typed {
+            Some(change) => {
+                let keys = selected_keys(about.curves, about.drawn, MOST_TYPED);
+                let Some(edit) = edit(&keys, change) else { return };
+                requests.extend(given_angles(&curves_of(about.curves, &keys), &keys, component, change));
+                requests.push(Request::Change(Change::Edit(edit, None)));
             }
-            event => self.drag(
-                event,
-                KeyNumber::Value(component),
-                key,
-                about,
-                |by| edit(by).map(KeyDragOp::Edit),
-                requests,
-            ),
-        }
-    }
-
-    /// Returns the curve of a key as it was when the drag began, or without a drag as it is.
-    fn curve_before(&self, key: &ValueKey, about: &FieldsContext<'_>) -> Option<Arc<Curve>> {
-        match &self.held {
-            Some(held) => held.curve.clone(),
-            None => about.curves.iter().find(|curve| curve.id == key.id).cloned(),
+            None => {
+                let part = KeyNumber::Value(component);
+                let op = |keys: &[ValueKey], by| edit(keys, ValueChange::Add(by)).map(KeyDragOp::Edit);
+                self.drag(event, part, numbers, about, op, requests);
+                if let (FieldEvent::Dragged(_), Some(held)) = (event, &self.held) {
+                    let change = ValueChange::Add(held.by);
+                    requests.extend(given_angles(&held.curves, &held.keys, component, change));
+                }
+            }
         }
     }
 
@@ -189,30 +232,46 @@ impl Fields {
         &mut self,
         event: FieldEvent,
         part: KeyNumber,
-        key: &ValueKey,
+        numbers: &KeyNumbers,
         about: &FieldsContext<'_>,
-        op: impl Fn(f32) -> Option<KeyDragOp>,
+        op: impl Fn(&[ValueKey], f32) -> Option<KeyDragOp>,
         requests: &mut Vec<Request>,
     ) {
         let request = match event {
+            // More keys do not follow the pointer.
+            FieldEvent::Dragged(_) if part != KeyNumber::Time && numbers.count > MOST => None,
             FieldEvent::Dragged(by) => {
-                let by = by as f32;
-                let curve = self.curve_before(key, about);
-                self.held = Some(HeldField { part, key: *key, by, curve });
-                op(by).map(KeysRequest::Drag)
+                let held = self.held.get_or_insert_with(|| {
+                    let most = if part == KeyNumber::Time { 1 } else { MOST };
+                    let keys = selected_keys(about.curves, about.drawn, most);
+                    let curves = curves_of(about.curves, &keys);
+                    HeldField { part, numbers: *numbers, keys, by: 0.0, curves }
+                });
+                held.by = by as f32;
+                op(&held.keys, held.by).map(KeysRequest::Drag)
             }
             FieldEvent::Released => self.held.take().map(|_| KeysRequest::Release),
             FieldEvent::Cancelled => self.held.take().map(|_| KeysRequest::Cancel),
-            FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Typed(_) => None,
+            FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Typed(_) | FieldEvent::Changed(_) => None,
         };
         requests.extend(request.map(Request::Timeline));
     }
 }
 
+/// Returns the curves of these keys.
+fn curves_of(curves: &[Arc<Curve>], keys: &[ValueKey]) -> Vec<Arc<Curve>> {
+    let mut ids: Vec<_> = keys.iter().map(|key| key.id).collect();
+    ids.dedup();
+    curves.iter().filter(|curve| ids.contains(&curve.id)).cloned().collect()
+}
+
+/// Any number.
+const ANY: std::ops::RangeInclusive<f64> = f32::MIN as f64..=f32::MAX as f64;
+
 /// Returns the settings that all fields share.
 fn field<'a>(part: KeyNumber) -> NumberField<'a> {
     NumberField {
-        id: Id::unique(("number of the selected key", part)),
+        id: Id::unique(("number of the selected keys", part)),
         name: "",
         value: None,
         quantity: Quantity::Number,
@@ -221,26 +280,10 @@ fn field<'a>(part: KeyNumber) -> NumberField<'a> {
         snap: 0.0,
         grain: 0.0,
         digits: Digits::Fitting,
-        range: f64::from(f32::MIN)..=f64::from(f32::MAX),
+        range: ANY,
         locked: None,
-        help: "Of the selected key",
+        help: "",
         quiet: false,
+        relative: true,
     }
-}
-
-/// Returns the selected key, if exactly one key of the shown curves is selected.
-fn only_key(curves: &[Arc<Curve>], drawn: &Drawn) -> Option<ValueKey> {
-    let mut found = None;
-    for curve in curves {
-        let chosen = drawn.selection.of(curve.id);
-        if chosen.is_empty() {
-            continue;
-        }
-        let keys = chosen.keys(curve.times()).next()?;
-        if found.is_some() || keys.len() != 1 || chosen.stretches().len() > 1 {
-            return None;
-        }
-        found = ValueKey::of(curve, keys.start);
-    }
-    found
 }

@@ -8,11 +8,17 @@ mod drag;
 mod fields;
 pub(super) mod form;
 pub mod given;
+mod hues;
+mod key_numbers;
+pub mod look;
 mod paint;
+mod scales;
 pub(super) mod shown;
+mod slopes;
 mod tangents;
 mod toolbar;
 mod values;
+mod view_menu;
 
 use super::context::PanelContext;
 use super::dope::{self, Scrub};
@@ -30,8 +36,12 @@ use egui::{
 };
 use fields::{Fields, FieldsContext};
 use form::RotationForm;
+use hues::CurveHues;
+use key_numbers::KeyNumbers;
 use paint::{CurveLook, CurveMesh};
+use scales::{CurveRanges, CurveScales};
 use shown::ShownCurves;
+use slopes::SlopeFields;
 use tangents::Tangents;
 use toolbar::Chosen;
 
@@ -44,6 +54,7 @@ pub struct Curves {
     tangents: Tangents,
     drag: CurveDrag,
     fields: Fields,
+    slopes: SlopeFields,
     scrub: Scrub,
     /// Range of values that is shown; `None` until there are curves to fit.
     window: Option<ValueWindow>,
@@ -53,6 +64,10 @@ pub struct Curves {
     chosen_by_hand: bool,
     /// Whether the handles of tangents are to be fitted, too.
     fits_handles: bool,
+    /// Least and greatest values of each curve, where curves are normalized, with the version of the curves.
+    ranges: (u64, CurveRanges),
+    /// The curve under the pointer in the last frame.
+    hovered: Option<(super::keys::ChannelId, usize)>,
     /// Least and greatest value of the curves with this version and these components.
     extent: Option<(u64, u8, Option<[f32; 2]>)>,
 }
@@ -62,7 +77,7 @@ struct Fitted {
     model: usize,
     take: Option<usize>,
     ids: Vec<super::keys::ChannelId>,
-    chosen: (u8, u8, form::RotationForm),
+    chosen: (u8, u8, form::RotationForm, bool),
 }
 
 /// Width of the numbers at the left.
@@ -94,11 +109,15 @@ impl Panel for Curves {
             self.follow(ui, context, drawn);
         }
         let label = drawn.as_ref().and_then(|_| self.label(context));
-        let (fields, curves, component) = (&mut self.fields, &self.mesh.drawn, self.drag.component());
-        let window = self.window.unwrap_or_default();
+        let (fields, slopes) = (&mut self.fields, &mut self.slopes);
+        let (curves, component) = (&self.mesh.drawn, self.drag.component());
+        let (window, ranges) = (self.window.unwrap_or_default(), &self.ranges.1);
         let fit = toolbar::show(ui, &mut self.chosen, curves, context, requests, |ui, chosen, requests| {
             let Some(drawn) = &drawn else { return };
-            fields.show(ui, &FieldsContext { chosen, curves, drawn, window, component, context }, requests);
+            let numbers = KeyNumbers::of(curves, drawn);
+            slopes.show(ui, numbers.as_ref(), curves, drawn, context, requests);
+            let about = FieldsContext { chosen, curves, numbers, drawn, window, ranges, component, context };
+            fields.show(ui, &about, requests);
             if let Some(label) = label.filter(|_| ui.available_width() > 24.0) {
                 let text = RichText::new(label).size(11.0).color(Theme::of(ui).weak);
                 ui.add(Label::new(text).truncate());
@@ -132,11 +151,20 @@ impl Curves {
         if more {
             ui.ctx().request_repaint();
         }
+        let normalized = context.settings.curves.normalized;
+        if !(more || self.drag.is_busy() || context.keys.is_dragging()) {
+            let version = self.shown.version();
+            if !normalized {
+                self.ranges = (0, CurveRanges::default());
+            } else if self.ranges.0 != version || !self.ranges.1.is_normalized() {
+                self.ranges = (version, CurveRanges::of(&self.shown));
+            }
+        }
         let fitted = Fitted {
             model: context.view.map_or(0, |view| std::sync::Arc::as_ptr(&view.loaded) as usize),
             take: context.playback.take,
             ids,
-            chosen: (self.chosen.properties, self.chosen.components, self.chosen.form),
+            chosen: (self.chosen.properties, self.chosen.components, self.chosen.form, normalized),
         };
         if more || self.drag.is_busy() {
             return;
@@ -145,6 +173,7 @@ impl Curves {
         let known = self.extent.filter(|(of, by, _)| (*of, *by) == (version, components));
         let extent = known.map_or_else(|| self.shown.extent(components), |(.., extent)| extent);
         self.extent = Some((version, components, extent));
+        let extent = if normalized { extent.map(|_| [-1.0, 1.0]) } else { extent };
         let Some([low, high]) = extent else { return };
         let others = self.fitted.as_ref() != Some(&fitted);
         // Values that an edit moved out of view come back into it, unless the user zoomed in on a part.
@@ -175,10 +204,12 @@ impl Curves {
             width: (canvas.width() - 36.0).max(1.0),
             window: context.keys.window(&drawn.take),
         };
-        let mut value = ValueScale { rect: canvas, window: self.window.unwrap_or_default() };
+        let view = ValueScale { rect: canvas, window: self.window.unwrap_or_default() };
+        let mut scales = CurveScales { view, ranges: self.ranges.1.clone() };
         if self.fits_handles && self.fitted.is_some() {
-            self.fit_handles(drawn, &time, &mut value);
+            self.fit_handles(drawn, &time, &mut scales);
         }
+        let (value, hues) = (scales.view, CurveHues::of(&self.shown));
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         painter.rect_filled(
             Rect::from_min_max(rect.min, pos2(rect.right(), head.bottom())),
@@ -190,7 +221,9 @@ impl Curves {
             painter.with_clip_rect(Rect::from_min_max(head.min, rect.max).intersect(painter.clip_rect()));
         dope::ticks(&right, head, rect.bottom(), &time, context, theme);
         if self.shown.curves().next().is_some() {
-            axis::paint(&painter, strip, &value, theme);
+            let own = self.hovered.map(|(id, component)| scales.of(id, component));
+            let is_true = !scales.ranges.is_normalized();
+            axis::paint(&painter, strip, &value, if is_true { Some(&value) } else { own.as_ref() }, theme);
         }
         painter.vline(strip.right() - 0.5, rect.y_range(), Stroke::new(1.0, theme.line));
         dope::shade(&painter, canvas, &time, context, theme);
@@ -200,10 +233,12 @@ impl Curves {
         response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Canvas, true, "Curves of keys"));
         let inside = painter.with_clip_rect(canvas.intersect(painter.clip_rect()));
         let components = self.chosen.components;
-        let look = CurveLook { shown: &self.shown, drawn, time: &time, value: &value, components, theme };
+        let solo = self.hovered.filter(|_| context.settings.curves.solo);
+        let (shown, time, scales, hues) = (&self.shown, &time, &scales, &hues);
+        let look = CurveLook { shown, drawn, time, scales, hues, solo, components, theme };
         self.mesh.paint(&inside, &look);
-        self.tangents.update(&self.mesh.drawn, drawn, &time, &value, self.chosen.components);
-        self.tangents.paint(&inside, theme);
+        self.tangents.update(&self.mesh.drawn, drawn, time, scales, self.chosen.components);
+        self.tangents.paint(&inside, hues, theme);
         if self.mesh.drawn.is_empty() {
             let text = match context.selected() {
                 None => "Select a bone to see its curves",
@@ -211,35 +246,42 @@ impl Curves {
                 Some(_) => "The selected bone has no keys in this take",
             };
             let font = FontId::proportional(11.0);
-            let galley = inside.layout_no_wrap(text.to_owned(), font, theme.faint);
+            let galley = inside.layout_no_wrap(text.to_owned(), font, theme.weak);
             let place = Align2::CENTER_CENTER.anchor_size(canvas.center(), galley.size());
             // A background keeps the text legible over the grid.
-            inside.rect_filled(place.expand2(egui::vec2(4.0, 2.0)), 3, theme.sunken.gamma_multiply(0.9));
-            inside.galley(place.min, galley, theme.faint);
+            inside.rect_filled(place.expand2(egui::vec2(4.0, 2.0)), 3, theme.sunken);
+            inside.galley(place.min, galley, theme.weak);
         }
 
-        self.scrub.show(ui, head, "Time track of the curves", &time, context, requests);
+        self.scrub.show(ui, head, "Time track of the curves", time, context, requests);
         self.values(ui, strip, &response, &value);
-        self.wheel(ui, &response, &time, &value, requests);
-        let panned = dope::pan(ui, &response, &time, requests);
+        self.wheel(ui, &response, time, &value, requests);
+        let panned = dope::pan(ui, &response, time, requests);
         if panned != 0.0 {
             self.look_at(value.window.panned(f64::from(panned) / value.per_unit()));
         }
         let curve_canvas = CurveCanvas {
             curves: &self.mesh.drawn,
             drawn,
-            time: &time,
-            value: &value,
+            time,
+            scales,
             components: self.chosen.components,
             tangents: &self.tangents,
             context,
         };
+        let pointer = response.hover_pos().filter(|_| !self.drag.is_busy());
+        let under = pointer.and_then(|pointer| curve_canvas.curve_at(pointer));
+        let hovered = under.map(|under| (under.curve.id, under.component));
+        if hovered != self.hovered && !self.drag.is_busy() {
+            self.hovered = hovered;
+            ui.ctx().request_repaint();
+        }
         self.drag.update(ui, &response, &curve_canvas, requests);
         if !self.drag.is_busy() {
             response.context_menu(|ui| dope::key_menu(ui, context, requests));
         }
-        dope::time_bar(ui, canvas, &time, &drawn.take, requests);
-        dope::playhead(&painter, head, rect.bottom(), &time, context, theme);
+        dope::time_bar(ui, canvas, time, &drawn.take, requests);
+        dope::playhead(&painter, head, rect.bottom(), time, context, theme);
     }
 
     /// Shows a range of values that the user chose.
@@ -291,14 +333,15 @@ impl Curves {
     }
 
     /// Extends the range of values until it contains the handles of the selected keys.
-    fn fit_handles(&mut self, drawn: &Drawn, time: &TimeScale, value: &mut ValueScale) {
+    fn fit_handles(&mut self, drawn: &Drawn, time: &TimeScale, scales: &mut CurveScales) {
         /// Distance of a handle from the edge, points.
         const MARGIN: f32 = 6.0;
         self.fits_handles = false;
         // In a larger range tangents are flatter, and their handles are elsewhere.
         for _ in 0..8 {
             let curves: Vec<_> = self.shown.curves().cloned().collect();
-            self.tangents.update(&curves, drawn, time, value, self.chosen.components);
+            self.tangents.update(&curves, drawn, time, scales, self.chosen.components);
+            let value = &mut scales.view;
             let Some(handles) = self.tangents.bounds().map(|bounds| bounds.expand(MARGIN)) else { return };
             if value.rect.y_range().contains(handles.top()) && value.rect.y_range().contains(handles.bottom())
             {

@@ -2,11 +2,13 @@
 
 use super::axis::ValueScale;
 use super::curve::{Curve, CurveNumbers, Extent};
+use super::hues::CurveHues;
+use super::scales::CurveScales;
 use super::shown::ShownCurves;
 use crate::panels::dope::Pen;
 use crate::panels::keys::columns::gallop;
 use crate::panels::keys::intervals::{Intervals, keys_between};
-use crate::panels::keys::{Drawn, TimeScale};
+use crate::panels::keys::{ChannelId, Drawn, TimeScale};
 use crate::panels::theme::Theme;
 use dragonfly_anim::data::Interpolation;
 use egui::epaint::{PathShape, TessellationOptions, Tessellator};
@@ -28,7 +30,9 @@ pub(super) struct CurveMesh {
 struct CurveMeshKey {
     drawn: Drawn,
     version: u64,
-    scales: (TimeScale, ValueScale),
+    scales: (TimeScale, CurveScales),
+    hues: CurveHues,
+    solo: Option<(ChannelId, usize)>,
     components: u8,
     pixels_per_point: f32,
     dark: bool,
@@ -49,7 +53,10 @@ pub(super) struct CurveLook<'a> {
     pub(super) shown: &'a ShownCurves,
     pub(super) drawn: &'a Drawn,
     pub(super) time: &'a TimeScale,
-    pub(super) value: &'a ValueScale,
+    pub(super) scales: &'a CurveScales,
+    pub(super) hues: &'a CurveHues,
+    /// The curve and the component that is drawn strongly, while all others are faint.
+    pub(super) solo: Option<(ChannelId, usize)>,
     /// A bit for each component that is shown.
     pub(super) components: u8,
     pub(super) theme: &'a Theme,
@@ -58,7 +65,12 @@ pub(super) struct CurveLook<'a> {
 /// The target that curves are drawn into.
 struct Canvas<'a> {
     time: &'a TimeScale,
-    value: &'a ValueScale,
+    /// The area of all curves.
+    rect: Rect,
+    /// The mappings of the curve that is drawn.
+    scales: [ValueScale; 4],
+    hues: &'a CurveHues,
+    solo: Option<(ChannelId, usize)>,
     mesh: Mesh,
     tessellator: Tessellator,
     points: [Vec<Pos2>; 4],
@@ -74,11 +86,13 @@ pub(super) fn color(theme: &Theme, component: usize) -> Color32 {
 impl CurveMesh {
     /// Draws the curves.
     pub(super) fn paint(&mut self, painter: &Painter, look: &CurveLook<'_>) {
-        let CurveLook { shown, drawn, time, value, components, theme } = *look;
+        let CurveLook { shown, drawn, time, scales, hues, solo, components, theme } = *look;
         let made_of = CurveMeshKey {
             drawn: drawn.clone(),
             version: shown.version(),
-            scales: (*time, *value),
+            scales: (*time, scales.clone()),
+            hues: hues.clone(),
+            solo,
             components,
             pixels_per_point: painter.pixels_per_point(),
             dark: theme.dark,
@@ -91,13 +105,16 @@ impl CurveMesh {
     }
 
     fn rebuild(&mut self, look: &CurveLook<'_>, pixels_per_point: f32) {
-        let CurveLook { shown, drawn, time, value, components, theme } = *look;
+        let CurveLook { shown, drawn, time, scales, hues, solo, components, theme } = *look;
         self.drawn.clear();
         let options = TessellationOptions::default();
         let count = shown.curves().count();
         let mut canvas = Canvas {
             time,
-            value,
+            rect: scales.view.rect,
+            scales: [scales.view; 4],
+            hues,
+            solo,
             sample: SAMPLES[usize::from(count > FEW)],
             // Overwritten in its memory, unless the last frame is still drawn.
             mesh: Arc::try_unwrap(std::mem::take(&mut self.mesh)).unwrap_or_default(),
@@ -108,6 +125,7 @@ impl CurveMesh {
         canvas.mesh.vertices.clear();
         for curve in shown.curves() {
             let chosen = drawn.selection.of(curve.id);
+            canvas.scales = scales.all(curve.id);
             let strength = if count > 6 { 0.7 } else { 1.0 };
             canvas.curve(curve, components, theme, strength);
             canvas.dots(curve, components, chosen, theme, 1.0 / pixels_per_point);
@@ -122,15 +140,25 @@ impl CurveMeshKey {
         let (a, b) = (&self.drawn, &other.drawn);
         Arc::ptr_eq(&a.take, &b.take)
             && a.selection.same(&b.selection)
-            && (self.version, self.scales, self.components, self.dark)
-                == (other.version, other.scales, other.components, other.dark)
+            && (self.version, self.components, self.dark, self.solo)
+                == (other.version, other.components, other.dark, other.solo)
+            && (&self.scales, &self.hues) == (&other.scales, &other.hues)
             && self.pixels_per_point == other.pixels_per_point
     }
 }
 
 impl Canvas<'_> {
     fn rect(&self) -> Rect {
-        self.value.rect
+        self.rect
+    }
+
+    /// Returns the color of a component of a curve.
+    fn color(&self, curve: &Curve, component: usize, theme: &Theme) -> Color32 {
+        /// Strength of curves that are not under the pointer.
+        const FAINT: f32 = 0.22;
+        let is_faint = self.solo.is_some_and(|solo| solo != (curve.id, component));
+        let color = self.hues.color(theme, curve.id.0, component);
+        if is_faint { color.gamma_multiply(FAINT) } else { color }
     }
 
     /// Returns the visible keys, and one more on each side.
@@ -152,9 +180,10 @@ impl Canvas<'_> {
         if dense {
             return self.bands(curve, components, theme, strength);
         }
-        self.sample(curve, keys);
+        self.sample(curve, keys.clone());
+        self.dashes(curve, keys, components, theme, strength);
         for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
-            let color = color(theme, at).gamma_multiply(strength);
+            let color = self.color(curve, at, theme).gamma_multiply(strength);
             let points = std::mem::take(&mut self.points[at]);
             let line = PathShape::line(points, Stroke::new(1.4, color));
             self.tessellator.tessellate_path(&line, &mut self.mesh);
@@ -162,23 +191,48 @@ impl Canvas<'_> {
         }
     }
 
-    /// Samples all components from edge to edge.
+    /// Draws the values before the first key and after the last one: they are no part of the curve, and a game may repeat it instead.
+    fn dashes(
+        &mut self,
+        curve: &Curve,
+        keys: std::ops::Range<usize>,
+        components: u8,
+        theme: &Theme,
+        strength: f32,
+    ) {
+        /// Length of a dash and of the gap after it, points.
+        const DASH: f32 = 4.0;
+        let (rect, times) = (self.rect(), curve.times());
+        let before = (keys.start == 0).then(|| (rect.left(), self.time.x_of(times[0]), 0));
+        let last = times.len() - 1;
+        let after = (keys.end > last).then(|| (self.time.x_of(times[last]), rect.right(), last));
+        for (from, to, key) in before.into_iter().chain(after) {
+            let numbers = curve.key(key);
+            for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+                let color = self.color(curve, at, theme).gamma_multiply(strength * 0.8);
+                let y = self.scales[at].y_of(numbers[at]);
+                let mut x = from.max(rect.left());
+                while x < to {
+                    let end = (x + DASH).min(to);
+                    let dash = Rect::from_min_max(pos2(x, y - 0.6), pos2(end, y + 0.6));
+                    if rect.y_range().contains(y) {
+                        self.mesh.add_colored_rect(dash, color);
+                    }
+                    x += 2.0 * DASH;
+                }
+            }
+        }
+    }
+
+    /// Samples all components from the first to the last of these keys.
     fn sample(&mut self, curve: &Curve, keys: std::ops::Range<usize>) {
         let (rect, width) = (self.rect(), curve.width());
         self.points.iter_mut().for_each(Vec::clear);
         let times = curve.times();
-        let mut near = curve.key(keys.start);
-        let first = self.time.x_of(times[keys.start]);
-        if first > rect.left() {
-            self.push(rect.left(), near, width);
-        }
         for key in keys.clone() {
             let (x, numbers) = (self.time.x_of(times[key]), curve.key(key));
             self.push(x, numbers, width);
             let Some(&next) = times.get(key + 1).filter(|_| key + 1 < keys.end) else {
-                if x < rect.right() {
-                    self.push(rect.right(), numbers, width);
-                }
                 break;
             };
             let end = self.time.x_of(next);
@@ -190,7 +244,7 @@ impl Canvas<'_> {
                 }
                 _ if curve.is_straight() => {}
                 _ => {
-                    near = numbers;
+                    let mut near = numbers;
                     let mut at = (x + self.sample).max(rect.left() - self.sample);
                     while at < end.min(rect.right() + self.sample) {
                         near = curve.at(self.time.time_at(at), near);
@@ -204,7 +258,7 @@ impl Canvas<'_> {
 
     fn push(&mut self, x: f32, numbers: CurveNumbers, width: usize) {
         for (at, points) in self.points.iter_mut().enumerate().take(width) {
-            points.push(pos2(x, self.value.y_of(numbers[at])));
+            points.push(pos2(x, self.scales[at].y_of(numbers[at])));
         }
     }
 
@@ -222,12 +276,8 @@ impl Canvas<'_> {
             if extent.low[0] <= extent.high[0] {
                 let joined = last.map_or(extent, |last| joined(&extent, &last));
                 for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
-                    self.column(
-                        x,
-                        joined.low[at],
-                        joined.high[at],
-                        color(theme, at).gamma_multiply(strength * 0.85),
-                    );
+                    let color = self.color(curve, at, theme).gamma_multiply(strength * 0.85);
+                    self.column(x, at, [joined.low[at], joined.high[at]], color);
                 }
                 last = Some(extent);
             }
@@ -235,8 +285,9 @@ impl Canvas<'_> {
         }
     }
 
-    fn column(&mut self, x: f32, low: f32, high: f32, color: Color32) {
-        let (top, bottom) = (self.value.y_of(high), self.value.y_of(low));
+    fn column(&mut self, x: f32, component: usize, [low, high]: [f32; 2], color: Color32) {
+        let scale = &self.scales[component];
+        let (top, bottom) = (scale.y_of(high), scale.y_of(low));
         let thin = (1.2 - (bottom - top)).max(0.0) / 2.0;
         let rect = Rect::from_min_max(pos2(x, top - thin), pos2(x + 1.0, bottom + thin));
         if rect.intersects(self.rect()) {
@@ -256,12 +307,13 @@ impl Canvas<'_> {
             let (x, numbers) = (self.time.x_of(curve.times()[key]), curve.key(key));
             let selected = curve.is_chosen(key, chosen);
             for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
-                let center = pos2(x, self.value.y_of(numbers[at]));
+                let center = pos2(x, self.scales[at].y_of(numbers[at]));
                 if bounds.contains(center) {
                     // A selected key keeps the color of its axis: several may be side by side.
                     let (edge, rim) = if selected { (theme.text, 2.0) } else { (theme.sunken, 1.0) };
                     pen.diamond(&mut self.mesh, center, RADIUS + rim, edge);
-                    pen.diamond(&mut self.mesh, center, RADIUS, color(theme, at));
+                    let color = self.color(curve, at, theme);
+                    pen.diamond(&mut self.mesh, center, RADIUS, color);
                 }
             }
         }

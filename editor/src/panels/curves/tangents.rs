@@ -2,7 +2,8 @@
 
 use super::axis::ValueScale;
 use super::curve::{Curve, Slopes};
-use super::paint::color;
+use super::hues::CurveHues;
+use super::scales::CurveScales;
 use crate::panels::keys::intervals::keys_between;
 use crate::panels::keys::{ChannelId, Drawn, TimeScale};
 use crate::panels::theme::Theme;
@@ -43,9 +44,10 @@ impl Tangents {
         curves: &[Arc<Curve>],
         drawn: &Drawn,
         time: &TimeScale,
-        value: &ValueScale,
+        scales: &CurveScales,
         components: u8,
     ) {
+        let value = &scales.view;
         self.handles.clear();
         let mut keys = 0;
         for curve in curves {
@@ -58,6 +60,7 @@ impl Tangents {
             {
                 continue;
             }
+            let scales = scales.all(curve.id);
             for key in in_sight.take(4096).filter(|&key| curve.is_chosen(key, chosen)) {
                 let Some(slopes) = curve.slopes(key) else { continue };
                 keys += 1;
@@ -65,11 +68,14 @@ impl Tangents {
                     return self.handles.clear();
                 }
                 for component in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
-                    let center =
-                        egui::pos2(time.x_of(curve.times()[key]), value.y_of(curve.key(key)[component]));
+                    let center = egui::pos2(
+                        time.x_of(curve.times()[key]),
+                        scales[component].y_of(curve.key(key)[component]),
+                    );
                     for arrive in [true, false] {
                         let slope = if arrive { slopes.arrive } else { slopes.leave }[component];
-                        let way = direction(slope, time, value) * if arrive { -LENGTH } else { LENGTH };
+                        let way = direction(slope, time, &scales[component])
+                            * if arrive { -LENGTH } else { LENGTH };
                         let end = center + way;
                         self.handles.push(TangentHandle {
                             id: curve.id,
@@ -86,9 +92,9 @@ impl Tangents {
         }
     }
 
-    pub(super) fn paint(&self, painter: &Painter, theme: &Theme) {
+    pub(super) fn paint(&self, painter: &Painter, hues: &CurveHues, theme: &Theme) {
         for handle in &self.handles {
-            let color = color(theme, handle.component);
+            let color = hues.color(theme, handle.id.0, handle.component);
             painter.line_segment([handle.center, handle.end], Stroke::new(1.0, color.gamma_multiply(0.7)));
             painter.circle(handle.end, 3.5, theme.sunken, Stroke::new(1.4, color));
         }

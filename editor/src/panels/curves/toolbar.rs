@@ -5,6 +5,7 @@ use super::curve::Curve;
 use super::form::RotationForm;
 use super::paint::color;
 use super::shown::bit;
+use super::view_menu;
 use crate::panels::command_button::command_button;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
@@ -79,7 +80,9 @@ pub(super) fn show(
         for component in 0..width {
             let on = chosen.components & (1 << component) != 0;
             let name = component_name(component);
-            let tone = color(Theme::of(ui), component);
+            // The curves of several bones have the colors of the bones.
+            let is_one = curves.iter().all(|curve| curve.id.0 == curves[0].id.0);
+            let tone = if is_one { color(Theme::of(ui), component) } else { Theme::of(ui).text };
             let label = format!("Component {name}");
             if letter_button(ui, name, &label, on, Some(tone))
                 .on_hover_text(format!("Shows or hides {name}"))
@@ -92,6 +95,7 @@ pub(super) fn show(
         form(ui, chosen, context, requests);
         divider(ui);
         between(ui, curves, context, requests);
+        view_menu::show(ui, context, requests);
         if icon_button(ui, Icon::Fit, "Fit the curves", false)
             .on_hover_text(
                 "Fit the curves\nShows all values, and the selected keys or the whole take\n\

@@ -43,34 +43,62 @@ impl ValueKey {
     }
 }
 
-/// Returns the angles that keys have after `by` was added to one component; `curves` are the curves before.
-pub(super) fn given_angles(
-    curves: &[Arc<Curve>],
-    keys: &[ValueKey],
+/// A change of one component of keys.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum ValueChange {
+    /// Adds this.
+    Add(f32),
+    /// Multiplies by this.
+    Multiply(f32),
+    /// Gives all keys this value.
+    Set(f32),
+}
+
+impl ValueChange {
+    /// Returns a number after the change.
+    pub(super) fn of(self, number: f32) -> f32 {
+        match self {
+            Self::Add(by) => number + by,
+            Self::Multiply(by) => number * by,
+            Self::Set(to) => to,
+        }
+    }
+}
+
+/// Returns the angles that keys have after a change of one component; `curves` are the curves before.
+pub(super) fn given_angles<'a>(
+    curves: &'a [Arc<Curve>],
+    keys: &'a [ValueKey],
     component: usize,
-    by: f32,
-) -> impl Iterator<Item = Request> {
+    change: ValueChange,
+) -> impl Iterator<Item = Request> + 'a {
     let turns = curves.iter().filter(|curve| curve.id.1 == Property::Rotation);
     turns.map(move |curve| {
         let keys = keys.iter().filter(|key| key.id == curve.id);
         let given = keys.map(|key| {
             let mut numbers = key.numbers;
-            numbers[component.min(3)] += by;
+            let number = &mut numbers[component.min(3)];
+            *number = change.of(*number);
             (key.time, numbers)
         });
         Request::Angles(GivenCurve::new(curve.id, curve.form(), Some(Arc::clone(curve)), given.collect()))
     })
 }
 
-/// Returns the edit that adds `by` to one component of keys; none without keys.
-pub(super) fn value_edit(take: TakeRef, keys: &[ValueKey], component: usize, by: f32) -> Option<Edit> {
-    if !by.is_finite() || component > 3 {
+/// Returns the edit that changes one component of keys; none without keys, and if a value were not finite.
+pub(super) fn value_edit(
+    take: TakeRef,
+    keys: &[ValueKey],
+    component: usize,
+    change: ValueChange,
+) -> Option<Edit> {
+    if component > 3 || !keys.iter().all(|key| change.of(key.numbers[component]).is_finite()) {
         return None;
     }
     let mut at: BTreeMap<u32, PoseAt> = BTreeMap::new();
     for key in keys {
         let mut numbers = key.numbers;
-        numbers[component] += by;
+        numbers[component] = change.of(numbers[component]);
         let there =
             at.entry(key.time.to_bits()).or_insert_with(|| PoseAt { time: key.time, poses: Vec::new() });
         there.poses.push(key.pose(numbers));

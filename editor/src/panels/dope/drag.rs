@@ -263,7 +263,7 @@ impl Sheet<'_> {
     /// Returns the key under the pointer.
     fn key_at(&self, pointer: Pos2) -> Option<DopeKey> {
         let Self { areas, rows, scale, drawn, scroll, .. } = *self;
-        if !areas.canvas.contains(pointer) {
+        if !areas.canvas.contains(pointer) || self.context.keys.draws_box() {
             return None;
         }
         let at = ((pointer.y - areas.canvas.top() + scroll) / ROW).floor();

@@ -3,14 +3,11 @@
 use super::drag::DopeDrag;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
+use crate::panels::key_aim::{INTERPOLATIONS, TANGENTS};
 use crate::panels::menu::item;
 use crate::panels::request::Request;
 use dragonfly_document::Change;
 use egui::{Button, Response, Ui};
-
-/// The commands for tangents.
-const TANGENTS: [Id; 5] =
-    [Id::TangentsAuto, Id::TangentsClamped, Id::TangentsFlat, Id::TangentsLinear, Id::TangentsUnified];
 
 /// The context menu of keys in the dope sheet.
 #[derive(Debug, Default)]
@@ -48,7 +45,7 @@ pub(in crate::panels) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests:
         item(ui, context, id, false, requests);
     }
     ui.separator();
-    for id in [Id::InterpolateStep, Id::InterpolateLinear, Id::InterpolateSpline] {
+    for id in INTERPOLATIONS {
         item(ui, context, id, false, requests);
     }
     ui.menu_button("Tangents", |ui| {

@@ -23,7 +23,7 @@ impl FieldGesture {
         edit: impl FnOnce(f64) -> Edit,
     ) -> Option<Change> {
         match event {
-            FieldEvent::Nothing | FieldEvent::Touched => None,
+            FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Changed(_) => None,
             FieldEvent::Typed(value) => Some(Change::Edit(edit(value), None)),
             FieldEvent::Dragged(by) => {
                 let (gesture, from) = *self.open.get_or_insert_with(|| (new_gesture(), now));

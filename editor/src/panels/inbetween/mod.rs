@@ -3,6 +3,7 @@
 //! While a slider is dragged, the keys follow; the release makes one step of undo. A slider of an amount returns to its neutral
 //! position then; one of a setting, such as a frequency, stays.
 
+mod error;
 mod row;
 mod tool;
 
@@ -16,8 +17,11 @@ use super::request::Request;
 use super::style::GRID;
 use super::theme::Theme;
 use super::{Panel, PanelPlace, widgets};
+use dragonfly_anim::data::Take;
 use egui::{Align, Button, Layout, Popup, RichText, ScrollArea, Ui};
+use error::DragError;
 use row::Row;
+use std::sync::Arc;
 
 /// The sliders, and the one that is dragged.
 #[derive(Debug, Default)]
@@ -25,6 +29,7 @@ pub struct InBetween {
     /// Settings that were changed: of the tools that keep them.
     settings: Vec<(InBetweenTool, f64)>,
     held: Option<HeldSlider>,
+    error: DragError,
     /// Number of drags so far: each gets other noise.
     drags: u32,
     /// The take toward which keys are blended, if one was chosen.
@@ -38,6 +43,8 @@ struct HeldSlider {
     start: f64,
     value: f64,
     keys: ChosenKeys,
+    /// The take when the drag began.
+    before: Option<Arc<Take>>,
 }
 
 impl Panel for InBetween {
@@ -67,7 +74,10 @@ impl Panel for InBetween {
         ui.add_space(GRID);
         ui.horizontal(|ui| {
             ui.add_space(2.0 * GRID);
-            ui.label(RichText::new(heading(context)).small().color(Theme::of(ui).weak));
+            let before = self.held.as_ref().and_then(|held| held.before.as_ref());
+            let text = before.and_then(|before| self.error.text(before, context));
+            let text = text.unwrap_or_else(|| heading(context));
+            ui.label(RichText::new(text).small().color(Theme::of(ui).weak));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.add_space(2.0 * GRID);
                 self.choose_take(ui, context);
@@ -125,6 +135,8 @@ impl InBetween {
             Some(When::Keys.reason())
         } else if tool == InBetweenTool::Take && self.other(context).is_none() {
             Some("The model has no other take")
+        } else if tool == InBetweenTool::Pose && context.copied_pose.is_none() {
+            Some("Copy a pose first: go to its frame and choose “Copy pose”")
         } else {
             None
         };
@@ -181,7 +193,7 @@ impl InBetween {
     ) {
         let mut push = |request| requests.push(Request::Timeline(request));
         match event {
-            FieldEvent::Nothing | FieldEvent::Touched => {}
+            FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Changed(_) => {}
             FieldEvent::Dragged(by) => {
                 let start = self.held.as_ref().map_or_else(|| self.setting(tool), |held| held.start);
                 if self.held.is_none() {
@@ -190,7 +202,8 @@ impl InBetween {
                     }
                     self.drags += 1;
                     let Some(keys) = ChosenKeys::of(context, self.drags, self.other(context)) else { return };
-                    self.held = Some(HeldSlider { tool, start, value: start, keys });
+                    let before = context.shared_take().cloned();
+                    self.held = Some(HeldSlider { tool, start, value: start, keys, before });
                 }
                 let Some(held) = self.held.as_mut().filter(|held| held.tool == tool) else { return };
                 held.value = tool.within(start + by);

@@ -68,6 +68,7 @@ impl Row {
             locked: self.locked,
             help: tool.help(),
             quiet: self.value == tool.neutral(),
+            relative: false,
         };
         let (by_number, _) = field.show(ui, number);
         if by_number == FieldEvent::Nothing { by_slider } else { by_number }

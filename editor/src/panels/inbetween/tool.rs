@@ -4,10 +4,12 @@ use crate::panels::context::PanelContext;
 use crate::panels::number_slider::SliderScale;
 use crate::panels::number_text::Digits;
 use dragonfly_document::edit::{
-    BlendKeys, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, TakeRef,
+    BlendKeys, BonePose, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, ReduceKeys,
+    RepeatCount, RepeatKeys, RepeatMode, TakeRef, TurnKeys, TurnWay,
 };
 use dragonfly_picture::between;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 /// A tool that changes the values of the selected keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -26,6 +28,8 @@ pub enum InBetweenTool {
     Rest,
     /// Toward another take.
     Take,
+    /// Toward the pose that was copied last.
+    Pose,
     /// The values of earlier or later times.
     Delay,
     /// Random offsets.
@@ -36,6 +40,16 @@ pub enum InBetweenTool {
     Butterworth,
     /// Removal of single peaks.
     Peaks,
+    /// Removal of redundant keys.
+    Reduce,
+    /// Full turns from key to key.
+    Turns,
+    /// The same values again, after the keys or before them.
+    Repeat,
+    /// Cycles that start where the one before ends.
+    RepeatOffset,
+    /// Cycles of which every other runs backwards.
+    RepeatMirror,
 }
 
 /// The selected keys as the edits of the tools name them.
@@ -49,6 +63,8 @@ pub struct ChosenKeys {
     seed: u32,
     /// Another take.
     other: Option<TakeRef>,
+    /// The pose that was copied last.
+    pose: Option<Arc<[BonePose]>>,
 }
 
 impl ChosenKeys {
@@ -66,6 +82,7 @@ impl ChosenKeys {
             frame: context.frame_seconds(),
             seed,
             other: other.map(TakeRef::Index),
+            pose: context.copied_pose.cloned(),
         })
     }
 
@@ -101,6 +118,15 @@ const PERCENT: Number = Number {
     neutral: 0.0,
 };
 
+const COUNT: Number = Number {
+    unit: "×",
+    scale: SliderScale::Linear(10.0),
+    range: [-1000.0, 1000.0],
+    snap: 1.0,
+    digits: 0,
+    neutral: 0.0,
+};
+
 impl InBetweenTool {
     /// All tools in the order of the panel.
     pub const ALL: &[Self] = &[
@@ -111,11 +137,17 @@ impl InBetweenTool {
         Self::Ease,
         Self::Rest,
         Self::Take,
+        Self::Pose,
         Self::Delay,
         Self::Noise,
         Self::Gaussian,
         Self::Butterworth,
         Self::Peaks,
+        Self::Reduce,
+        Self::Turns,
+        Self::Repeat,
+        Self::RepeatOffset,
+        Self::RepeatMirror,
     ];
 
     /// Returns its name on the screen.
@@ -128,11 +160,17 @@ impl InBetweenTool {
             Self::Ease => "Ease",
             Self::Rest => "To rest pose",
             Self::Take => "To take",
+            Self::Pose => "To pose",
             Self::Delay => "Delay",
             Self::Noise => "Noise",
             Self::Gaussian => "Smooth",
             Self::Butterworth => "Low-pass",
             Self::Peaks => "Peaks",
+            Self::Reduce => "Reduce",
+            Self::Turns => "Full turns",
+            Self::Repeat => "Repeat",
+            Self::RepeatOffset => "Repeat on",
+            Self::RepeatMirror => "Mirror",
         }
     }
 
@@ -154,6 +192,9 @@ impl InBetweenTool {
             Self::Take => {
                 "Moves keys toward the values of another take at the same times; negative numbers move them away"
             }
+            Self::Pose => {
+                "Moves keys toward the pose that was copied last, of any frame of any take; negative numbers move them away"
+            }
             Self::Delay => {
                 "Gives keys the values of earlier times (positive) or later times (negative); the keys stay where they are"
             }
@@ -169,6 +210,21 @@ impl InBetweenTool {
             Self::Peaks => {
                 "Replaces keys that are further from the median of 5 keys than this many deviations; smaller numbers replace more"
             }
+            Self::Reduce => {
+                "Removes the selected keys without which no point near any bone moves further than this; the line above shows the number of keys and the largest error"
+            }
+            Self::Turns => {
+                "Turns this many more times around from each selected rotation key to the next; keys are inserted"
+            }
+            Self::Repeat => {
+                "Repeats the selected keys this many times after them; negative numbers before them (cycle)"
+            }
+            Self::RepeatOffset => {
+                "Repeats the selected keys, each time starting where the time before ends; negative numbers before them (cycle with offset)"
+            }
+            Self::RepeatMirror => {
+                "Repeats the selected keys, every other time backwards; negative numbers before them (oscillate)"
+            }
         }
     }
 
@@ -180,7 +236,8 @@ impl InBetweenTool {
             | Self::Neighbor
             | Self::Ease
             | Self::Rest
-            | Self::Take => PERCENT,
+            | Self::Take
+            | Self::Pose => PERCENT,
             Self::Delay => Number {
                 unit: "fr",
                 scale: SliderScale::Linear(10.0),
@@ -213,6 +270,16 @@ impl InBetweenTool {
                 digits: 1,
                 neutral: 6.0,
             },
+            Self::Reduce => Number {
+                unit: "mm",
+                scale: SliderScale::Upward(10.0),
+                range: [0.0, 10_000.0],
+                snap: 0.5,
+                digits: 2,
+                neutral: 0.0,
+            },
+            Self::Turns => Number { range: [-100.0, 100.0], ..COUNT },
+            Self::Repeat | Self::RepeatOffset | Self::RepeatMirror => COUNT,
             Self::Peaks => Number {
                 unit: "σ",
                 scale: SliderScale::Around { middle: 3.0, factor: 10.0 },
@@ -248,7 +315,13 @@ impl InBetweenTool {
     /// Returns the nearest number that is allowed.
     pub(super) fn within(self, value: f64) -> f64 {
         let [least, most] = self.number().range;
+        let value = if self.is_count() { value.round() } else { value };
         between(value, least, most)
+    }
+
+    /// Whether its number is a whole number.
+    fn is_count(self) -> bool {
+        matches!(self, Self::Turns | Self::Repeat | Self::RepeatOffset | Self::RepeatMirror)
     }
 
     /// Returns the step to which a drag with Ctrl snaps.
@@ -275,7 +348,30 @@ impl InBetweenTool {
     pub fn edit(self, value: f64, chosen: &ChosenKeys) -> Option<Edit> {
         let seconds = (value * f64::from(chosen.frame)) as f32;
         let amount = value.abs();
+        let repeat = |mode| {
+            let ChosenKeys { take, keys, .. } = chosen.clone();
+            let count = |sign: f64| RepeatCount::Times((value.round() * sign).max(0.0) as u32);
+            let edit = RepeatKeys { take, keys, mode, before: count(-1.0), after: count(1.0) };
+            (!edit.keys.is_empty()).then_some(Edit::RepeatKeys(edit))
+        };
         Some(match self {
+            // No turn and no cycle leaves the keys as they are.
+            Self::Reduce if value == 0.0 => chosen.blend(KeyTarget::Rest, 0.0),
+            Self::Reduce => {
+                let ChosenKeys { take, keys, .. } = chosen.clone();
+                Edit::ReduceKeys(ReduceKeys { take, keys, tolerance: value as f32, unit: 1000.0 })
+            }
+            Self::Turns | Self::Repeat | Self::RepeatOffset | Self::RepeatMirror if value.round() == 0.0 => {
+                chosen.blend(KeyTarget::Rest, 0.0)
+            }
+            Self::Turns => {
+                let ChosenKeys { take, keys, .. } = chosen.clone();
+                let way = TurnWay::Full { turns: value.round() as i32, axis: [0.0, 1.0, 0.0] };
+                Edit::TurnKeys(TurnKeys { take, keys, way })
+            }
+            Self::Repeat => repeat(RepeatMode::Repeat)?,
+            Self::RepeatOffset => repeat(RepeatMode::Offset)?,
+            Self::RepeatMirror => repeat(RepeatMode::Mirror)?,
             Self::Tween => chosen.blend(KeyTarget::Between((0.5 + value / 200.0) as f32), 100.0),
             Self::Push => chosen.blend(KeyTarget::AwayFromLine, value),
             Self::Relax => chosen.blend(KeyTarget::Average, value),
@@ -287,6 +383,7 @@ impl InBetweenTool {
             Self::Take => {
                 chosen.blend(KeyTarget::OtherTake { take: chosen.other.clone()?, later: 0.0 }, value)
             }
+            Self::Pose => chosen.blend(KeyTarget::Pose(chosen.pose.as_deref()?.to_vec()), value),
             Self::Delay => chosen.blend(KeyTarget::Delayed(seconds), 100.0),
             Self::Noise => {
                 let ChosenKeys { take, keys, shapes, seed, .. } = chosen.clone();

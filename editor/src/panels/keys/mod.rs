@@ -1,7 +1,8 @@
 //! Editing of keys, as the timeline and the curves share it: the selected keys, the drag, the part of time that is
 //! shown, markers, flags of bones, and the play range. No function here draws.
 
-pub mod buttonless;
+pub mod aim;
+mod buttonless;
 pub mod channel;
 pub mod clipboard;
 pub mod columns;
@@ -16,6 +17,7 @@ pub mod shift;
 mod units;
 pub mod window;
 
+pub use aim::KeyAim;
 pub use buttonless::{ButtonlessDrag, ButtonlessKind, ButtonlessStart, ButtonlessStep, KeyAxis, KeyPanel};
 pub use channel::ChannelId;
 pub use flags::{BoneFlag, BoneFlags};
@@ -66,6 +68,8 @@ pub struct KeyEditing {
     drag: Option<KeyDrag>,
     /// The drag that follows the pointer without a button.
     buttonless: Option<ButtonlessDrag>,
+    /// Action of the next press over keys, if a command prepared one.
+    aim: Option<KeyAim>,
     /// Whether the timeline or the curves were used last. Then the copy command copies keys.
     has_focus: bool,
     /// Keys that were pasted and are selected once the document has them.
@@ -88,6 +92,7 @@ impl Default for KeyEditing {
             range: None,
             drag: None,
             buttonless: None,
+            aim: None,
             has_focus: false,
             pasted: None,
         }

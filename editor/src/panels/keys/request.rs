@@ -1,6 +1,7 @@
 //! Requests of panels about keys.
 
 use super::ChannelId;
+use super::aim::KeyAim;
 use super::buttonless::ButtonlessStep;
 use super::flags::BoneFlag;
 use super::markers::MarkerAction;
@@ -41,6 +42,8 @@ pub enum KeysRequest {
     Drag(KeyDragOp),
     /// Changes the drag that follows the pointer without a button.
     Buttonless(ButtonlessStep),
+    /// Prepares what the next press over keys does, or nothing.
+    Aim(Option<KeyAim>),
     /// Ends the drag; its edits stay.
     Release,
     /// Cancels the drag; its edits are undone.

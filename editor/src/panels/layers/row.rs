@@ -227,12 +227,13 @@ impl<'a> LayerRow<'a> {
                 "Weight of the layer at all times"
             },
             quiet: self.weight == 1.0,
+            relative: false,
         };
         let (by_number, _) = field.show(ui, number);
         let event = if by_number == FieldEvent::Nothing { by_slider } else { by_number };
         let mut push = |request| requests.push(Request::Timeline(request));
         match event {
-            FieldEvent::Nothing | FieldEvent::Touched => {}
+            FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Changed(_) => {}
             FieldEvent::Dragged(by) => {
                 let start = ui.data_mut(|data| *data.get_temp_mut_or(self.drag(), self.weight));
                 if let Some(edit) = self.weight_edit(context, start + by) {

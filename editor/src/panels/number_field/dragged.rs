@@ -17,8 +17,8 @@ impl NumberField<'_> {
             && !ui.input(|input| input.key_pressed(Key::Escape))
             && typing.text != typing.first
         {
-            match self.read(&typing.text) {
-                Ok(value) => event = FieldEvent::Typed(value),
+            match self.entry(&typing.text) {
+                Ok(entered) => event = entered,
                 Err(reason) => {
                     let refused = RefusedNumber::new(ui, reason, self.value);
                     ui.data_mut(|data| data.insert_temp(id, refused));

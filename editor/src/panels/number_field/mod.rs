@@ -5,9 +5,12 @@
 //! or Escape is pressed.
 
 mod dragged;
+mod relation;
 mod shown;
 mod spoken;
 mod typed;
+
+pub use relation::RelativeNumber;
 
 use super::number_text::Digits;
 use crate::control::expression::{Quantity, evaluate};
@@ -26,7 +29,7 @@ pub struct NumberField<'a> {
     pub id: Id,
     /// Accessible name, such as `Rotation change X`.
     pub name: &'a str,
-    /// Number that is shown; `None` if several bones differ, or there is none.
+    /// Number that is shown; `None` if several bones or keys differ, or there is none.
     pub value: Option<f64>,
     /// Quantity, which decides which units can be typed.
     pub quantity: Quantity,
@@ -48,6 +51,8 @@ pub struct NumberField<'a> {
     pub help: &'a str,
     /// Whether the number is drawn faintly, because it is the default.
     pub quiet: bool,
+    /// Whether texts such as `+5` and `*2` change the number, or the number of each of several keys.
+    pub relative: bool,
 }
 
 /// An action of the user on a field.
@@ -65,6 +70,8 @@ pub enum FieldEvent {
     Cancelled,
     /// The user entered this number.
     Typed(f64),
+    /// The user entered a change of numbers that differ. Only relative fields report it.
+    Changed(RelativeNumber),
 }
 
 /// A text that is being typed.
@@ -155,7 +162,11 @@ impl NumberField<'_> {
 
     /// Returns the value of a text.
     fn read(&self, text: &str) -> Result<f64, String> {
-        let value = evaluate(text, self.quantity).map_err(|error| sentence(&error.to_string()))?;
+        self.checked(evaluate(text, self.quantity).map_err(|error| sentence(&error.to_string()))?)
+    }
+
+    /// Returns the value, or the reason why it is not in the range.
+    fn checked(&self, value: f64) -> Result<f64, String> {
         if !self.range.contains(&value) || !(value as f32).is_finite() {
             let edge = |edge: &f64| Digits::Fitting.text(*edge);
             return Err(format!(

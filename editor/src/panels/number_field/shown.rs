@@ -30,7 +30,8 @@ impl NumberField<'_> {
         }
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         let color = if open && !self.quiet { theme.text } else { theme.weak };
-        let text = self.value.map_or("–".to_owned(), |value| self.digits.text_from(self.grain, value));
+        let none = if self.relative { "mixed" } else { "–" };
+        let text = self.value.map_or(none.to_owned(), |value| self.digits.text_from(self.grain, value));
         let mut right = rect.right() - 5.0;
         if !self.unit.is_empty() && rect.width() > 64.0 + 7.0 * self.unit.chars().count() as f32 {
             let unit = FontId::proportional(style::SMALL);
@@ -49,7 +50,11 @@ impl NumberField<'_> {
         if !self.help.is_empty() {
             ui.colored_label(theme.weak, self.help);
         }
-        let how = "Drag, or click and type: 45/2, pi/4 rad. Shift is finer, Ctrl snaps.";
+        let how = if self.relative {
+            "Drag, or click and type: 45/2, pi/4 rad; +5 adds, -=5 subtracts, *2 multiplies. Shift is finer, Ctrl snaps."
+        } else {
+            "Drag, or click and type: 45/2, pi/4 rad. Shift is finer, Ctrl snaps."
+        };
         ui.colored_label(theme.faint, how);
     }
 

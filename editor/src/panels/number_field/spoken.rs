@@ -13,15 +13,20 @@ impl NumberField<'_> {
             let wanted = input.accesskit_action_requests(self.id, Action::SetValue).last();
             (steps, wanted.and_then(|request| request.data.clone()))
         });
-        let value = match wanted {
-            Some(ActionData::NumericValue(value)) => Some(value).filter(|value| self.range.contains(value)),
-            Some(ActionData::Value(text)) => self.read(&text).ok(),
-            _ => self.value.filter(|_| steps != 0.0).map(|value| self.clamp(value + steps * self.snap)),
+        let typed = |value: f64| FieldEvent::Typed(value);
+        let event = match wanted {
+            Some(ActionData::NumericValue(value)) => {
+                Some(value).filter(|value| self.range.contains(value)).map(typed)
+            }
+            Some(ActionData::Value(text)) => self.entry(&text).ok(),
+            _ => {
+                self.value.filter(|_| steps != 0.0).map(|value| typed(self.clamp(value + steps * self.snap)))
+            }
         };
-        value.map(|value| {
+        if event.is_some() {
             ui.data_mut(|data| data.remove::<Typing>(self.id));
-            FieldEvent::Typed(value)
-        })
+        }
+        event
     }
 
     /// Describes the field to a screen reader.

@@ -28,7 +28,7 @@ impl NumberField<'_> {
         if !enter && !tab {
             return None;
         }
-        let read = self.read(&typing.text);
+        let read = self.entry(&typing.text);
         if let Err(reason) = read {
             typing.refused = Some(reason);
             ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
@@ -39,7 +39,7 @@ impl NumberField<'_> {
             ui.memory_mut(|memory| memory.surrender_focus(self.id));
         }
         ui.data_mut(|data| data.remove::<Typing>(self.id));
-        read.ok().filter(|_| typing.text != typing.first).map(FieldEvent::Typed)
+        read.ok().filter(|_| typing.text != typing.first)
     }
 
     /// Draws the field with focus.
@@ -100,12 +100,10 @@ impl NumberField<'_> {
         let theme = Theme::of(ui);
         let (text, color) = match &typing.refused {
             Some(reason) => (reason.clone(), theme.error),
-            None if typing.text == typing.first || typing.text.trim().parse::<f64>().is_ok() => return,
-            None => match self.read(&typing.text) {
-                Ok(value) => {
-                    (format!("= {}{}", exact(value, self.grain.max(1e-6)), self.suffix()), theme.weak)
-                }
-                Err(_) => return,
+            None if typing.text == typing.first || self.is_plain(&typing.text) => return,
+            None => match self.entry_text(&typing.text) {
+                Some(text) => (text, theme.weak),
+                None => return,
             },
         };
         egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), self.id.with("hint"), response.rect)

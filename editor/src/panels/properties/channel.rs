@@ -259,6 +259,7 @@ impl ChannelTable<'_> {
             locked: self.locked,
             help: &help,
             quiet: spot.column == Column::Change && value == Some(unchanged(spot, index)),
+            relative: false,
         };
         let (event, response) = field.show(ui, rect);
         response.context_menu(|ui| edit_scope_menu::entries(ui, self.context, requests));

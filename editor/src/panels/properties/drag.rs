@@ -203,7 +203,7 @@ impl FieldDrag {
         requests: &mut Vec<Request>,
     ) -> Result<(), &'static str> {
         match event {
-            FieldEvent::Nothing => {}
+            FieldEvent::Nothing | FieldEvent::Changed(_) => {}
             FieldEvent::Touched => stop(context, requests),
             FieldEvent::Dragged(by) => {
                 if self.held.is_none() && !context.playback.playing && by != 0.0 {

@@ -97,7 +97,7 @@ impl TimeSheet {
                     }
                 }
                 FieldEvent::Released => self.trim_from = None,
-                FieldEvent::Nothing | FieldEvent::Touched => {}
+                FieldEvent::Nothing | FieldEvent::Touched | FieldEvent::Changed(_) => {}
             }
         }
         let shorter = range[0] > start || range[1] < end;
@@ -145,6 +145,7 @@ fn number(
         locked,
         help: "",
         quiet: false,
+        relative: false,
     };
     let frames = NumberField {
         id: Id::unique(("time of a take in frames", name)),

@@ -45,6 +45,9 @@ pub(super) const TABLE: PresetKeys = &[
 /// The dope sheet and the graph editor.
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const OVER_KEYS: PresetKeys = &[
+    (Id::BoxSelectKeys, &[key(NONE, Key::B)]),
+    (Id::InterpolationMenu, &[key(NONE, Key::T)]),
+    (Id::TangentMenu, &[key(NONE, Key::V)]),
     (Id::MoveKeysNow, &[key(NONE, Key::G)]),
     (Id::ScaleKeysNow, &[key(NONE, Key::S)]),
     (Id::DuplicateKeysNow, &[key(SHIFT, Key::D)]),

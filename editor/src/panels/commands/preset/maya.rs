@@ -41,6 +41,9 @@ pub(super) const TABLE: PresetKeys = &[
 /// The graph editor and the dope sheet.
 #[rustfmt::skip] // A table is read in columns.
 pub(super) const OVER_KEYS: PresetKeys = &[
+    (Id::BoxSelectKeys, &[key(NONE, Key::Q)]),
+    (Id::InterpolationMenu, &[key(NONE, Key::T)]),
+    (Id::TangentMenu, &[key(NONE, Key::V)]),
     (Id::MoveKeysNow, &[key(NONE, Key::W)]),
     (Id::ScaleKeysNow, &[key(NONE, Key::R)]),
     (Id::SelectAllKeys, &[key(CTRL, Key::A)]),

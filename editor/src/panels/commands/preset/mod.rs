@@ -57,4 +57,7 @@ presets! {
 #[rustfmt::skip] // A table is read in columns.
 const OVER_KEYS: PresetKeys = &[
     (Id::SelectAllKeys, &[key(CTRL, Key::A)]),
+    (Id::BoxSelectKeys, &[key(NONE, Key::B)]),
+    (Id::InterpolationMenu, &[key(NONE, Key::T)]),
+    (Id::TangentMenu, &[key(NONE, Key::V)]),
 ];

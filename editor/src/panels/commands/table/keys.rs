@@ -4,7 +4,7 @@ use super::*;
 use crate::panels::actions::clipboard;
 use crate::panels::actions::keys;
 use crate::panels::actions::playback;
-use crate::panels::keys::ButtonlessKind;
+use crate::panels::keys::{ButtonlessKind, KeyAim};
 use dragonfly_document::edit::{KeyInterpolation, KeyTangents};
 
 commands! {
@@ -14,6 +14,9 @@ commands! {
     MoveKeysNow => When::Keys, "Move keys with the mouse", [], "Moves the selected keys with the mouse: X constrains to time, Y to value, digits enter frames or a value, Enter confirms", |w| { keys::drag_now(w, ButtonlessKind::Move); None };
     ScaleKeysNow => When::Keys, "Scale keys with the mouse", [], "Scales the selected keys in time about the playhead with the mouse: digits enter a factor, Enter confirms", |w| { keys::drag_now(w, ButtonlessKind::Scale); None };
     DuplicateKeysNow => When::Keys, "Duplicate keys with the mouse", [], "Moves copies of the selected keys with the mouse: digits enter frames, Enter confirms", |w| { keys::drag_now(w, ButtonlessKind::Duplicate); None };
+    BoxSelectKeys => When::Take, "Box-select keys", [], "Lets the next drag over the timeline or the curves draw a selection box, also where it begins on a key (border select)", |w| { w.keys.set_aim(Some(KeyAim::Box)); None };
+    InterpolationMenu => When::Keys, "Interpolation menu", [], "Opens the interpolations of the selected keys at the pointer (step, linear, spline)", |w| { w.keys.set_aim(Some(KeyAim::InterpolationMenu)); None };
+    TangentMenu => When::Keys, "Tangent menu", [], "Opens the kinds of tangents of the selected keys at the pointer (handle type)", |w| { w.keys.set_aim(Some(KeyAim::TangentMenu)); None };
     DeleteKeys => When::Keys, "Delete keys", [key(NONE, Key::Delete), key(NONE, Key::Backspace)], "Deletes the selected keys", keys::delete;
     DuplicateKeys => When::Keys, "Duplicate keys", [key(CTRL, Key::D), key(SHIFT, Key::D)], "Copies the selected keys to the playhead", keys::duplicate;
     CopyKeys => When::Keys, "Copy keys", [], "Copies the selected keys with their values and tangents; Paste inserts them at the playhead", clipboard::copy_keys;

@@ -15,5 +15,7 @@ commands! {
     ShadeUnlit => When::Always, "Unlit", [key(SHIFT, Key::Num3)], "Shades surfaces with base colors, without lighting", |w| { w.settings.look.shading = Shading::Unlit; None };
     BonesOctahedra => When::Always, "Bones as octahedra", [], "Draws bones as slim octahedra from joint to joint", |w| { w.settings.look.bone_look = BoneLook::Octahedra; None };
     BonesSticks => When::Always, "Bones as sticks", [], "Draws bones as thin sticks with a ball at the joint", |w| { w.settings.look.bone_look = BoneLook::Sticks; None };
+    NormalizeCurves => When::Always, "Normalize curves", [], "Draws each curve from its least to its greatest value (normalized view); numbers stay true", |w| { w.settings.curves.normalized ^= true; None };
+    SoloCurves => When::Always, "Dim other curves under the pointer", [], "Draws all curves but the one under the pointer faintly (solo, isolate)", |w| { w.settings.curves.solo ^= true; None };
     BonesLines => When::Always, "Bones as lines", [], "Draws bones as lines of one pixel", |w| { w.settings.look.bone_look = BoneLook::Lines; None };
 }
