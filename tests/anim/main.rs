@@ -75,6 +75,7 @@ mod support;
 mod tangents;
 mod textbook;
 mod textures;
+mod travel;
 mod trial;
 mod two_takes;
 mod unbound;
