@@ -56,6 +56,7 @@ mod offset;
 mod poses;
 mod reduce;
 mod retarget;
+mod retarget_figure;
 mod rules;
 mod sampling;
 mod save_compact;

@@ -20,7 +20,7 @@ use super::parent_space::ancestors;
 use super::restore::{MotionDirection, apply, keyed};
 use super::{MotionError, RootMotion, RootMotionOptions};
 use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take};
-use crate::inbetween::gaussian;
+use crate::inbetween::{KeyValue, gaussian};
 use crate::retarget::normalized_name;
 use crate::sample::{rest_pose, sample_channel};
 use glam::{Quat, Vec3};
@@ -149,9 +149,14 @@ fn measured(
     bone: BoneIndex,
     options: &TravelOptions,
 ) -> Result<RootMotion, MotionError> {
-    let (mut motion, _) = extract(take, skeleton, bone, options.motion)?;
+    let track = track_of(take, bone);
+    let (translation, rotation) = (unstepped(&track.translation), unstepped(&track.rotation));
+    let unstepped_take = with_track(take, crate::data::Track { translation, rotation, ..track });
+    let (mut motion, _) = extract(&unstepped_take, skeleton, bone, options.motion)?;
     let smooth = options.smooth > 0.0;
-    if !smooth && motion.rotation.is_empty() {
+    let turns = |bone: usize| take.tracks.get(bone).is_some_and(|track| !track.rotation.is_empty());
+    let turned = !motion.rotation.is_empty() || ancestors(skeleton, bone).any(turns);
+    if !smooth && !turned {
         return Ok(motion);
     }
     let frames = frames(take, options.rate).ok_or(MotionError::Rate)?;
@@ -173,7 +178,9 @@ fn measured(
         if !motion.translation.is_empty() {
             motion.translation = Vec3::refined(&motion.translation, Vec3::ZERO, &frames);
         }
-        motion.rotation = Quat::refined(&motion.rotation, Quat::IDENTITY, &frames);
+        if !motion.rotation.is_empty() {
+            motion.rotation = Quat::refined(&motion.rotation, Quat::IDENTITY, &frames);
+        }
     }
     Ok(motion)
 }
@@ -196,7 +203,7 @@ fn frames(take: &Take, rate: f32) -> Option<Vec<f32>> {
 }
 
 /// Returns a linear channel with keys at `frames`, smoothed; an empty channel unchanged.
-fn smoothed<T: crate::inbetween::KeyValue>(
+fn smoothed<T: KeyValue>(
     channel: &Channel<T>,
     frames: &[f32],
     sample: impl Fn(&Channel<T>, f32) -> T,
@@ -230,6 +237,7 @@ fn carried(
     let times =
         union([&motion.translation.times, &motion.rotation.times, &above[..]].map(|times| &times[..]));
     let mut track = track_of(take, bone);
+    (track.translation, track.rotation) = (unstepped(&track.translation), unstepped(&track.rotation));
     if turns {
         track.rotation = keyed(&track.rotation, rest.rotation, &times, motion.rotation.interpolation);
     }
@@ -240,6 +248,26 @@ fn carried(
     };
     track.translation = keyed(&track.translation, rest.translation, &times, kind);
     Ok(with_track(result, apply(take, skeleton, &track, motion, direction)?))
+}
+
+/// Returns a channel of steps that all have the same value within rounding as one linear key: it may then follow a motion between
+/// its keys. Others are returned unchanged; where their steps differ, the bone follows in steps.
+fn unstepped<T: KeyValue>(channel: &Channel<T>) -> Channel<T> {
+    let steps = match channel.interpolation {
+        Interpolation::Step | Interpolation::Closest => true,
+        Interpolation::Linear | Interpolation::CubicSpline => false,
+    };
+    let (&[time, ..], &[value, ..]) = (&channel.times[..], &channel.values[..]) else {
+        return channel.clone();
+    };
+    let same = |other: &T| {
+        let (a, b) = (value.numbers(), other.near(value).numbers());
+        (0..4).all(|lane| (a[lane] - b[lane]).abs() <= 1e-5 * (1.0 + a[lane].abs()))
+    };
+    if steps && channel.values.iter().all(same) {
+        return Channel::new([time], [value], Interpolation::Linear);
+    }
+    channel.clone()
 }
 
 /// Returns the bone that is most likely the hips: the first of a usual name, or else the first bone with keys from which three

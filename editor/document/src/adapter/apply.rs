@@ -84,7 +84,12 @@ fn only_named(
                 let pose = |at: Option<&Arc<PendingAt>>, bone| at.and_then(|at| at.of(bone).copied());
                 bones.find(|bone| !named.contains(bone) && pose(old, *bone) != pose(new, *bone))
             }
-            Op::Morphs(..) | Op::Name(..) | Op::Insert(..) | Op::Remove(_) | Op::Move(..) => None,
+            Op::Morphs(..)
+            | Op::Travel(..)
+            | Op::Name(..)
+            | Op::Insert(..)
+            | Op::Remove(_)
+            | Op::Move(..) => None,
         };
         if let Some(bone) = bone {
             return Err(EditError::Unnamed(bone));

@@ -8,6 +8,7 @@ use super::slot::{ChannelChanges, ChannelContent, KeyContent, TakeId, TakeVersio
 use super::times::SharedTimes;
 use crate::edit::target::Property;
 use dragonfly_anim::data::MorphTrack;
+use dragonfly_anim::motion::RootMotion;
 use std::sync::Arc;
 
 /// The address of a channel.
@@ -35,6 +36,8 @@ pub(crate) enum Op {
     Morphs(TakeId, Vec<MorphTrack>),
     /// Replaces the pending poses at a time; `None` for none.
     Pending(TakeId, f32, Option<Arc<PendingAt>>),
+    /// Replaces the travel that was removed from a take.
+    Travel(TakeId, Vec<Arc<RootMotion>>),
     /// Renames a take.
     Name(TakeId, String),
     /// Inserts a take at an index of the list.
@@ -73,6 +76,10 @@ impl Op {
                 }
                 Self::Pending(_, _, at) => at.as_ref().map_or(0, |at| size_of_val(at.poses.as_slice())),
                 Self::Insert(_, slot) => slot.original.keys() * 16,
+                Self::Travel(_, travel) => travel
+                    .iter()
+                    .map(|motion| 16 * motion.translation.len() + 20 * motion.rotation.len())
+                    .sum(),
                 Self::Name(..) | Self::Remove(_) | Self::Move(..) => 0,
             }
     }
@@ -87,6 +94,7 @@ impl Op {
             Self::Changes(..)
             | Self::AllChanges(..)
             | Self::Pending(..)
+            | Self::Travel(..)
             | Self::Name(..)
             | Self::Insert(..)
             | Self::Remove(_)
@@ -125,6 +133,7 @@ impl ModelAdapter {
                 let before = self.slot_mut(take).set_pending(time, at);
                 Op::Pending(take, time, before)
             }
+            Op::Travel(take, travel) => Op::Travel(take, self.slot_mut(take).set_travel(travel)),
             Op::Name(take, name) => Op::Name(take, self.slot_mut(take).set_name(&name)),
             Op::Insert(index, slot) => {
                 let id = slot.id;

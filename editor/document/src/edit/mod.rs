@@ -38,6 +38,7 @@ mod mirror_take;
 pub(crate) mod mode;
 mod move_keys;
 mod move_take;
+mod move_travel;
 mod noise_keys;
 mod offset_keys;
 mod offset_pose;
@@ -45,9 +46,11 @@ mod over;
 mod paste_keys;
 mod paste_pose;
 pub(crate) mod pose;
+mod remove_travel;
 mod rename_take;
 mod resample_keys;
 mod reset_pose;
+mod restore_travel;
 mod retime_take;
 mod reverse_take;
 mod ripple_keys;
@@ -61,6 +64,7 @@ mod shape_tangents;
 mod snap_keys;
 mod split_take;
 pub(crate) mod target;
+mod travel_parts;
 mod trim_take;
 
 #[doc(hidden)]
@@ -78,6 +82,7 @@ pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope};
 pub use pose::{BonePose, PoseAt};
 pub use shape_tangents::KeyTangents;
 pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
+pub use travel_parts::TravelPart;
 
 use crate::adapter::plan::{PoseMode, Transaction};
 use crate::adapter::{EditError, ModelAdapter};
@@ -123,6 +128,9 @@ edits! {
     "reverse_take" => reverse_take::ReverseTake,
     "retime_take" => retime_take::RetimeTake,
     "mirror_take" => mirror_take::MirrorTake,
+    "move_travel" => move_travel::MoveTravel,
+    "remove_travel" => remove_travel::RemoveTravel,
+    "restore_travel" => restore_travel::RestoreTravel,
     "lock_contacts" => lock_contacts::LockContacts,
     "close_loop" => close_loop::CloseLoop,
 }
@@ -183,6 +191,7 @@ mod tests {
             assert_eq!((a.id, a.origin), (b.id, b.origin), "{context}");
             assert_eq!((&a.original, &a.result), (&b.original, &b.result), "{context}");
             assert_eq!((changes(a), a.pending()), (changes(b), b.pending()), "{context}");
+            assert_eq!(a.travel(), b.travel(), "{context}");
         }
     }
 

@@ -10,6 +10,7 @@ use super::times::SharedTimes;
 use crate::edit::target::{Property, SAME_TIME};
 use channel::{exchange, merge, refresh, replaced, retimed, spliced};
 use dragonfly_anim::data::{Channel, MorphTrack, Take};
+use dragonfly_anim::motion::RootMotion;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -54,6 +55,7 @@ pub struct TakeVersions {
     pub(crate) key_bytes: u64,
     changes: BTreeMap<(u32, Property), Arc<ChannelChanges>>,
     pending: Pending,
+    travel: Vec<Arc<RootMotion>>,
 }
 
 impl TakeVersions {
@@ -66,6 +68,7 @@ impl TakeVersions {
             result: take,
             changes: BTreeMap::new(),
             pending: Vec::new(),
+            travel: Vec::new(),
         }
     }
 
@@ -104,6 +107,16 @@ impl TakeVersions {
     /// Returns the number of pending poses: of bones, summed over all times.
     pub fn pending_poses(&self) -> usize {
         self.pending.iter().map(|at| at.poses.len()).sum()
+    }
+
+    /// Returns the travel that was removed from the take and can be put back, the last removed last.
+    pub fn travel(&self) -> &[Arc<RootMotion>] {
+        &self.travel
+    }
+
+    /// Replaces the removed travel. Returns the previous one.
+    pub(crate) fn set_travel(&mut self, travel: Vec<Arc<RootMotion>>) -> Vec<Arc<RootMotion>> {
+        std::mem::replace(&mut self.travel, travel)
     }
 
     /// Removes all pending poses.
