@@ -242,12 +242,9 @@ fn a_figure_on_its_own_skeleton_moves_as_before_within_a_tenth_of_a_degree() {
 #[test]
 fn a_captured_walk_on_rigs_of_other_proportions_slides_less_than_5_mm_in_contacts() {
     let Some((source, take)) = captured() else { return };
-    let models = dragonfly_kit::skip::models().unwrap();
-    let rigs = [
-        data().join("collection/quaternius_Character4skins.glb"),
-        models.join("gltf/kaykit_Rogue.glb"),
-        data().join("bench/pab.glb"),
-    ];
+    let rigs =
+        ["collection/quaternius_Character4skins.glb", "collection/RobotExpressive.glb", "bench/pab.glb"];
+    let rigs = rigs.map(|path| data().join(path));
     for path in &rigs {
         let target = load(path).animation.skeleton;
         let guess = BindingGuess::of(&source, &target);
@@ -265,20 +262,6 @@ fn a_captured_walk_on_rigs_of_other_proportions_slides_less_than_5_mm_in_contact
             result.slide_before,
             result.slide_after
         );
-        for part in
-            [BodyPart::Hips, BodyPart::UpperLeg, BodyPart::LowerLeg, BodyPart::Foot, BodyPart::UpperArm]
-        {
-            let side = u8::from(part != BodyPart::Hips);
-            let at = |skeleton: &Skeleton, roles: &SkeletonRoles, take: &Take, time: f32| {
-                places(skeleton, take, time)[roles.bones(BoneRole { part, side })[0] as usize]
-            };
-            for time in [-1.0, 3.0] {
-                let (rest, still) = (Take::default(), time < 0.0);
-                let a = at(&source, &guess.source, if still { &rest } else { &take }, time);
-                let b = at(&target, &guess.target, if still { &rest } else { &result.take }, time);
-                println!("  {part:?} at {time}: {:?} {b:?}", a * result.ratio);
-            }
-        }
         assert!(result.contacts.len() >= 6, "{title}");
         assert!(result.slide_before > 5.0, "{title}: nothing to lock");
         assert!(result.slide_after < 5.0, "{title}: {}", result.slide_after);

@@ -20,6 +20,7 @@ mod save_and_open;
 mod save_in_background;
 mod take_tools;
 mod tangents;
+mod travel;
 mod undo;
 
 #[global_allocator]

@@ -64,6 +64,7 @@ mod remembered;
 // The memory of another process can be read there only.
 #[cfg(target_os = "linux")]
 mod render_memory;
+mod retarget_command;
 mod ruler;
 mod saved_pending;
 mod screen;

@@ -7,8 +7,9 @@
 //! to a descendant:   root' = M⁻¹ root      each kept bone:  x' = P'⁻¹ M P' x        P': its parent after
 //! ```
 //!
-//! Kept bones are the lower bone, and the other children of the bones from the upper one down to the parent of the lower
-//! one: so the figure looks the same, and only the bones between move differently. The formulas are those of
+//! On the way up, the kept bones are the children of the upper bone: everything else stays where it was. On the way down, they
+//! are the lower bone, and the other children of the bones from the upper one down to the parent of the lower one: only the
+//! bones between move differently. The formulas are those of
 //! [`extract`](super::extract()) and [`restore`](super::restore()), for a motion that another bone has.
 //!
 //! Between keys a product of interpolated values differs from an interpolated product, so all changed bones get keys at
@@ -100,7 +101,7 @@ pub fn move_travel(
     if is_above(to, from) {
         let motion = motion()?;
         let mut moved = carried(take, take, skeleton, &motion, to, MotionDirection::Restore)?;
-        for bone in kept_bones(skeleton, to, from) {
+        for bone in skeleton.children(Some(to)) {
             moved = carried(take, &moved, skeleton, &motion, bone, MotionDirection::Extract)?;
         }
         Ok(Travel { motion, take: moved })
@@ -117,11 +118,12 @@ pub fn move_travel(
     }
 }
 
-/// Returns the bones that [`move_travel`] between `upper` and `lower` changes: both of them, and the other children of the bones
-/// between.
-pub fn travel_bones(skeleton: &Skeleton, upper: BoneIndex, lower: BoneIndex) -> Vec<BoneIndex> {
-    let mut bones = kept_bones(skeleton, upper, lower);
-    bones.push(upper);
+/// Returns the bones that [`move_travel`] changes.
+pub fn travel_bones(skeleton: &Skeleton, from: BoneIndex, to: BoneIndex) -> Vec<BoneIndex> {
+    // A parent comes before its children.
+    let mut bones: Vec<BoneIndex> =
+        if to < from { skeleton.children(Some(to)).collect() } else { kept_bones(skeleton, from, to) };
+    bones.push(from.min(to));
     bones.sort_unstable();
     bones
 }

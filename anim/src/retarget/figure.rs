@@ -140,8 +140,8 @@ fn transferred(
     let mut result =
         retarget(take, source, target, binding, &RetargetOptions { ratio: Some(ratio), ..transfer });
     let role = |bone: BoneIndex| roles.of.get(bone as usize).copied().flatten();
-    spread(&mut result, source, target, binding, |upper, lower| {
-        role(upper).is_some() && role(upper) == role(lower)
+    spread(&mut result, source, target, binding, |bone, lower| {
+        role(bone).is_some() && role(bone) == role(lower)
     });
     let mut retargeted =
         Retargeted { take: result, ratio, contacts: Vec::new(), slide_before: 0.0, slide_after: 0.0 };

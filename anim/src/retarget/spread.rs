@@ -16,8 +16,8 @@ use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take};
 use crate::sample::sample_channel;
 use glam::{DQuat, Quat};
 
-/// Distributes the bends of all unbound bones between two bound ones of the same chain, where `is_chain` says that both belong to
-/// the same chain.
+/// Distributes the bend of each bound bone over the unbound bones right above it, where `is_chain` says that they and it are of one
+/// chain.
 pub(super) fn spread(
     take: &mut Take,
     source: &Skeleton,
@@ -35,7 +35,8 @@ pub(super) fn spread(
             at = parent_of(target, bone);
         }
         let Some(upper) = at else { continue };
-        if middle.is_empty() || !is_chain(upper as BoneIndex, lower as BoneIndex) {
+        let in_chain = |&bone: &usize| is_chain(bone as BoneIndex, lower as BoneIndex);
+        if middle.is_empty() || !middle.iter().all(in_chain) {
             continue;
         }
         middle.reverse();

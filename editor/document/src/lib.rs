@@ -14,6 +14,7 @@ pub mod adapter;
 mod alike;
 mod base;
 mod beside;
+mod bone_map;
 pub mod bones;
 mod cancel;
 pub mod demo;
@@ -48,6 +49,7 @@ mod unused;
 mod view;
 mod writing;
 
+pub use bone_map::BoneMap;
 pub use cancel::{Cancel, LoadStage, Progress};
 pub use editable::{Editable, WrittenFile, make_folder};
 pub use fault::{FaultInjection, FaultPlan, FaultPoint};

@@ -16,6 +16,7 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 mod add_keys;
+mod add_take;
 mod arbitrary;
 mod blend_keys;
 mod bones;
@@ -67,6 +68,7 @@ pub(crate) mod target;
 mod travel_parts;
 mod trim_take;
 
+pub use add_take::GivenChannel;
 #[doc(hidden)]
 pub use arbitrary::Arbitrary;
 pub use blend_keys::KeyTarget;
@@ -120,6 +122,7 @@ edits! {
     "noise_keys" => noise_keys::NoiseKeys,
     "resample_keys" => resample_keys::ResampleKeys,
     "create_take" => create_take::CreateTake,
+    "add_take" => add_take::AddTake,
     "delete_take" => delete_take::DeleteTake,
     "rename_take" => rename_take::RenameTake,
     "move_take" => move_take::MoveTake,

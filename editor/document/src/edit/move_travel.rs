@@ -50,8 +50,7 @@ impl EditKind for MoveTravel {
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
         let found = [&self.from, &self.to].map(|bone| bone.find_in(skeleton));
         let [Some(from), Some(to)] = found else { return EditedBones::Named(Default::default()) };
-        // A parent comes before its children.
-        EditedBones::Named(travel_bones(skeleton, from.min(to), from.max(to)).into_iter().collect())
+        EditedBones::Named(travel_bones(skeleton, from, to).into_iter().collect())
     }
 
     fn cost(&self, _adapter: &ModelAdapter) -> Option<usize> {

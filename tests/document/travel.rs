@@ -1,0 +1,146 @@
+//! Edits of travel: from the hips to the root, out of the take, and back; and takes that are added with their keys.
+
+use dragonfly_anim::data::{Skeleton, Take, Transform};
+use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+use dragonfly_anim::sample::sample_take;
+use dragonfly_document::BoneMap;
+use dragonfly_document::adapter::{EditError, ModelAdapter, TakeVersions};
+use dragonfly_document::edit::{AddTake, Edit, EditedBones, TakeRef};
+use std::sync::Arc;
+
+fn robot() -> ModelAdapter {
+    let bytes = include_bytes!("../data/collection/RobotExpressive.glb");
+    let model = read("Robot.glb", bytes, &NoFiles, &ReadOptions::default()).expect("the robot").model;
+    ModelAdapter::new(&model.animation)
+}
+
+fn result(model: &ModelAdapter, take: &str) -> Arc<Take> {
+    Arc::clone(&versions(model, take).result)
+}
+
+fn versions<'a>(model: &'a ModelAdapter, take: &str) -> &'a TakeVersions {
+    model.take(&TakeRef::Name(take.to_owned())).expect(take)
+}
+
+fn edit(json: &str) -> Edit {
+    serde_json::from_str(json).expect(json)
+}
+
+fn poses(skeleton: &Skeleton, take: &Take, time: f32) -> Vec<Transform> {
+    let mut poses = vec![Transform::IDENTITY; skeleton.len()];
+    sample_take(Some(take), skeleton, time, &mut poses);
+    poses
+}
+
+/// Returns the largest difference of two takes, lengths relative to the largest.
+fn apart(skeleton: &Skeleton, a: &Take, b: &Take) -> f32 {
+    let mut largest = 0.0_f32;
+    for step in 0..=200 {
+        let time = a.start + a.length * step as f32 / 200.0;
+        for (a, b) in poses(skeleton, a, time).iter().zip(poses(skeleton, b, time)) {
+            let turn = (a.rotation - b.rotation).length().min((a.rotation + b.rotation).length());
+            let moved = a.translation.distance(b.translation) / (1.0 + a.translation.length());
+            largest = largest.max(turn).max(moved).max(a.scale.distance(b.scale));
+        }
+    }
+    largest
+}
+
+#[test]
+fn removed_travel_is_put_back_within_a_ten_thousandth_also_after_other_edits() {
+    let mut model = robot();
+    let before = result(&model, "Walking");
+    let remove = r#"{"edit":"remove_travel","take":"Walking","bone":"Body","parts":["x","z","height","yaw"],"smooth":3}"#;
+    model.apply(&edit(remove)).unwrap();
+    let still = result(&model, "Walking");
+    assert!(apart(model.skeleton(), &before, &still) > 1e-3);
+    assert_eq!(versions(&model, "Walking").travel().len(), 1);
+    // Another bone is edited in between.
+    let nod = r#"{"edit":"set","take":"Walking","time":0.5,"poses":[{"bone":"Neck","rotation":[0.5,0,0,0.8660254]}]}"#;
+    model.apply(&edit(nod)).unwrap();
+    model.apply(&edit(r#"{"edit":"restore_travel","take":"Walking"}"#)).unwrap();
+    let back = result(&model, "Walking");
+    let neck = model.skeleton().find("Neck").unwrap() as usize;
+    assert_ne!(before.tracks[neck], back.tracks[neck]);
+    let mut back = (*back).clone();
+    back.tracks[neck] = before.tracks[neck].clone();
+    let difference = apart(model.skeleton(), &before, &back);
+    assert!(difference < 1e-4, "{difference}");
+    assert!(versions(&model, "Walking").travel().is_empty());
+    let again = model.apply(&edit(r#"{"edit":"restore_travel","take":"Walking"}"#)).unwrap_err();
+    assert!(matches!(again, EditError::Nothing(_)), "{again}");
+}
+
+#[test]
+fn a_moved_travel_changes_only_the_bones_that_the_edit_names() {
+    let mut model = robot();
+    let skeleton = Arc::clone(model.skeleton());
+    let edit = edit(r#"{"edit":"move_travel","take":"Dance","from":"Hips","to":"Bone","parts":["x","z"]}"#);
+    let EditedBones::Named(named) = edit.bones(&skeleton) else { panic!("named bones") };
+    let before = result(&model, "Dance");
+    model.apply(&edit).unwrap();
+    model.check().unwrap();
+    let after = result(&model, "Dance");
+    let mut changed = 0;
+    for (bone, (before, after)) in before.tracks.iter().zip(&after.tracks).enumerate() {
+        if before != after {
+            assert!(named.contains(&(bone as u32)), "{bone}");
+            changed += 1;
+        }
+    }
+    assert!(changed >= 2, "{changed}");
+}
+
+#[test]
+fn travel_without_parts_or_between_branches_is_refused() {
+    let mut model = robot();
+    for (line, wanted) in [
+        (r#"{"edit":"remove_travel","take":"Walking","bone":"Body","parts":[]}"#, "no part of the travel"),
+        (r#"{"edit":"move_travel","take":"Walking","from":"Foot.L","to":"Foot.R"}"#, "different branches"),
+        (r#"{"edit":"remove_travel","take":"Walking","bone":"Body","smooth":-1}"#, "smoothing"),
+        (r#"{"edit":"add_take","name":"a","tracks":[]}"#, "at least one key"),
+        (
+            r#"{"edit":"add_take","name":"a","tracks":[{"bone":"Head","property":"scale","interpolation":"linear","times":[0,1],"values":[1,1,1]}]}"#,
+            "needs 6 numbers",
+        ),
+        (
+            r#"{"edit":"add_take","name":"a","tracks":[{"bone":"Head","property":"scale","interpolation":"linear","times":[1,1],"values":[1,1,1,1,1,1]}]}"#,
+            "same time",
+        ),
+    ] {
+        let error = model.apply(&edit(line)).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{line}: {error}");
+    }
+}
+
+#[test]
+fn a_take_is_added_with_exactly_the_keys_of_another_and_survives_json() {
+    let mut model = robot();
+    let take = result(&model, "Jump");
+    let add = Edit::AddTake(AddTake::of("Jump again".to_owned(), &take));
+    let text = serde_json::to_string(&add).unwrap();
+    let again: Edit = serde_json::from_str(&text).unwrap();
+    assert_eq!(add, again);
+    model.apply(&again).unwrap();
+    model.check().unwrap();
+    let added = result(&model, "Jump again");
+    assert!(apart(model.skeleton(), &take, &added) < 1e-6);
+    assert_eq!(added.keys(), take.keys());
+}
+
+#[test]
+fn a_bone_map_is_the_same_after_writing_and_reading_and_names_what_is_missing() {
+    let model = robot();
+    let skeleton = model.skeleton();
+    let binding = dragonfly_anim::retarget::BindingGuess::of(skeleton, skeleton).binding;
+    let map = BoneMap::of(["a \"b\".glb", "c.glb"], skeleton, skeleton, &binding);
+    let read = BoneMap::parse(&map.to_text()).unwrap();
+    assert_eq!(map, read);
+    assert_eq!(read.binding(skeleton, skeleton).unwrap(), (binding, Vec::new()));
+    let other = r#"{"bone_map":1,"bones":[["Head","Head"],["Tail","Head"],["Neck","Wing"]]}"#;
+    let (binding, missing) = BoneMap::parse(other).unwrap().binding(skeleton, skeleton).unwrap();
+    assert_eq!((binding.bound(), missing), (1, vec!["Tail".to_owned(), "Wing".to_owned()]));
+    assert!(BoneMap::parse(r#"{"bone_map":2,"bones":[]}"#).unwrap_err().contains("newer"));
+    let twice = r#"{"bone_map":1,"bones":[["Head","Head"],["Neck","Head"]]}"#;
+    assert!(BoneMap::parse(twice).unwrap().binding(skeleton, skeleton).unwrap_err().contains("two bones"));
+}
