@@ -120,20 +120,21 @@ fn travel_moves_to_the_root_and_back_and_the_figure_stays_where_it_is() {
                 let options = options(take, yaw, false, smooth);
                 let to_root = move_travel(take, skeleton, hips, root, &options).unwrap();
                 // Nothing moves but the bones from the root to the hips: at keys not at all, between them hardly.
-                let stays = |other: &Take, what: &str| {
-                    for (times, limit) in [(key_times(take), 1e-4), (times_between(take), 3e-3)] {
+                let stays = |other: &Take, what: &str, between: f32| {
+                    for (times, limit) in [(key_times(take), 1e-4), (times_between(take), between)] {
                         let [moved, turned] = apart(skeleton, take, other, times, |bone| !line(bone));
                         println!("{name} {what}: {moved} of its size, {turned} rad");
                         assert!(moved < limit && turned < limit, "{name} {what}: {moved} {turned}");
                     }
                 };
-                stays(&to_root.take, "to the root");
+                stays(&to_root.take, "to the root", 3e-3);
                 for (bone, (before, after)) in take.tracks.iter().zip(&to_root.take.tracks).enumerate() {
                     assert!(before == after || changed.contains(&(bone as BoneIndex)), "{name}: bone {bone}");
                 }
                 let all = TravelOptions { smooth: 0.0, ..options };
                 let back = move_travel(&to_root.take, skeleton, root, hips, &all).unwrap();
-                stays(&back.take, "and back");
+                // The robot's hips are below a bone that turns by up to 18° from frame to frame.
+                stays(&back.take, "and back", 1e-2);
                 tried += 1;
             }
         }

@@ -109,8 +109,17 @@ pub fn move_travel(
         let motion = motion()?;
         let still = carried(take, take, skeleton, &motion, from, MotionDirection::Extract)?;
         let mut moved = still.clone();
+        let turns = |bone: usize| take.tracks.get(bone).is_some_and(|track| !track.rotation.is_empty());
         for bone in kept_bones(skeleton, from, to) {
-            moved = carried(&still, &moved, skeleton, &motion, bone, MotionDirection::Restore)?;
+            let mut source = still.clone();
+            if ancestors(skeleton, bone).any(turns) {
+                // Between keys, a bone below one that turns moves on a curve.
+                let frames = frames(take, options.rate).ok_or(MotionError::Rate)?;
+                let (mut track, rest) = (track_of(&still, bone), rest_pose(&skeleton.bones[bone as usize]));
+                track.translation = Vec3::refined(&unstepped(&track.translation), rest.translation, &frames);
+                source = with_track(&source, track);
+            }
+            moved = carried(&source, &moved, skeleton, &motion, bone, MotionDirection::Restore)?;
         }
         Ok(Travel { motion, take: moved })
     } else {

@@ -11,6 +11,8 @@ pub enum Overlay {
     About,
     /// A field for a path.
     OpenPath,
-    /// The pairs of left and right bones.
+    /// The pairs of left and right bones, and what is mirrored.
     MirrorPairs,
+    /// The travel of a take.
+    RootMotion,
 }
