@@ -127,14 +127,14 @@ fn travel_moves_to_the_root_and_back_and_the_figure_stays_where_it_is() {
                         assert!(moved < limit && turned < limit, "{name} {what}: {moved} {turned}");
                     }
                 };
-                stays(&to_root.take, "to the root", 3e-3);
+                // The robot turns by up to 18° from frame to frame.
+                stays(&to_root.take, "to the root", 3e-2);
                 for (bone, (before, after)) in take.tracks.iter().zip(&to_root.take.tracks).enumerate() {
                     assert!(before == after || changed.contains(&(bone as BoneIndex)), "{name}: bone {bone}");
                 }
                 let all = TravelOptions { smooth: 0.0, ..options };
                 let back = move_travel(&to_root.take, skeleton, root, hips, &all).unwrap();
-                // The robot's hips are below a bone that turns by up to 18° from frame to frame.
-                stays(&back.take, "and back", 1e-2);
+                stays(&back.take, "and back", 3e-2);
                 tried += 1;
             }
         }

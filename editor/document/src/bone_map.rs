@@ -4,7 +4,7 @@
 //! {"bone_map": 1, "source": "walk.glb", "target": "Hero.glb", "bones": [["mixamorig:Hips", "hips"]]}
 //! ```
 //!
-//! Each pair is a bone of the source and the bone of the target that it moves.
+//! Each pair is a bone of the source and the bone of the target that it moves. The second bone of a name is `name #2`.
 
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_anim::retarget::SkeletonBinding;
@@ -33,9 +33,7 @@ impl BoneMap {
     /// Returns the map of a binding. Bones without a name are left out.
     pub fn of(titles: [&str; 2], source: &Skeleton, target: &Skeleton, binding: &SkeletonBinding) -> Self {
         let pair = |(bone, from): (usize, &Option<BoneIndex>)| {
-            let from = &source.bones.get((*from)? as usize)?.name;
-            let to = &target.bones.get(bone)?.name;
-            (!from.is_empty() && !to.is_empty()).then(|| [from.clone(), to.clone()])
+            Some([written(source, (*from)?)?, written(target, bone as BoneIndex)?])
         };
         let bones = binding.source_of.iter().enumerate().filter_map(pair).collect();
         Self { bone_map: VERSION, source: titles[0].to_owned(), target: titles[1].to_owned(), bones }
@@ -80,7 +78,7 @@ impl BoneMap {
     ) -> Result<(SkeletonBinding, Vec<String>), String> {
         let (mut pairs, mut missing) = (Vec::new(), Vec::new());
         for [from, to] in &self.bones {
-            match (source.find(from), target.find(to)) {
+            match (found(source, from), found(target, to)) {
                 (Some(from), Some(to)) => pairs.push((from, to)),
                 (found, _) => missing.push(if found.is_none() { from.clone() } else { to.clone() }),
             }
@@ -88,4 +86,22 @@ impl BoneMap {
         let binding = SkeletonBinding::from_map(source, target, &pairs).map_err(|error| error.to_string())?;
         Ok((binding, missing))
     }
+}
+
+/// Returns the name of a bone with the number that tells it from earlier bones of the name; `None` for one without a name.
+fn written(skeleton: &Skeleton, bone: BoneIndex) -> Option<String> {
+    let name = &skeleton.bones.get(bone as usize)?.name;
+    let number = skeleton.bones[..=bone as usize].iter().filter(|other| other.name == *name).count();
+    let text = if number > 1 { format!("{name} #{number}") } else { name.clone() };
+    (!name.is_empty()).then_some(text)
+}
+
+/// Returns the bone of a written name.
+fn found(skeleton: &Skeleton, text: &str) -> Option<BoneIndex> {
+    let exact = skeleton.find(text);
+    exact.or_else(|| {
+        let (name, number) = text.rsplit_once(" #")?;
+        let same = (0..).zip(&skeleton.bones).filter(|(_, bone)| bone.name == name);
+        same.map(|(bone, _)| bone).nth(number.parse::<usize>().ok()?.checked_sub(1)?)
+    })
 }

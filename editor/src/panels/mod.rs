@@ -53,6 +53,8 @@ pub mod posed;
 pub mod prompts;
 pub mod properties;
 pub mod request;
+mod retarget;
+pub mod retarget_source;
 mod root_motion;
 pub mod ruler;
 mod search_field;

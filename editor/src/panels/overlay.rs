@@ -13,6 +13,8 @@ pub enum Overlay {
     OpenPath,
     /// The pairs of left and right bones, and what is mirrored.
     MirrorPairs,
+    /// Takes of another model for the open one.
+    Retarget,
     /// The travel of a take.
     RootMotion,
 }

@@ -6,6 +6,7 @@ use super::overlay_title;
 use super::palette::Palette;
 use super::prompts::Overlay;
 use super::request::Request;
+use super::retarget::RetargetDialog;
 use super::root_motion::RootMotion;
 use super::shortcuts::ShortcutSheet;
 use super::style::GRID;
@@ -24,6 +25,7 @@ pub struct Overlays {
     shown: Option<Overlay>,
     root_motion: RootMotion,
     mirror: MirrorDialog,
+    retarget: RetargetDialog,
 }
 
 impl Overlays {
@@ -53,6 +55,7 @@ impl Overlays {
             Overlay::Shortcuts => self.shortcuts.show(ui, context, requests),
             Overlay::About => about(ui, context, requests),
             Overlay::MirrorPairs => self.mirror.show(ui, context, requests),
+            Overlay::Retarget => self.retarget.show(ui, context, requests),
             Overlay::RootMotion => self.root_motion.show(ui, context, requests),
             Overlay::OpenPath => self.open_path(ui, fresh, requests),
         });
