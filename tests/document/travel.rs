@@ -2,10 +2,13 @@
 
 use dragonfly_anim::data::{Skeleton, Take, Transform};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+use dragonfly_anim::retarget::{BindingGuess, FigureOptions};
 use dragonfly_anim::sample::sample_take;
-use dragonfly_document::BoneMap;
 use dragonfly_document::adapter::{EditError, ModelAdapter, TakeVersions};
 use dragonfly_document::edit::{AddTake, Edit, EditedBones, TakeRef};
+use dragonfly_document::{BoneMap, Change, DocumentMessage, DocumentReply, MapFile, RetargetOrder, Source};
+use dragonfly_kit::document::test_document::{TestDocument, same_takes};
+use dragonfly_kit::folder::{Folder, data};
 use std::sync::Arc;
 
 fn robot() -> ModelAdapter {
@@ -134,7 +137,7 @@ fn a_take_is_added_with_exactly_the_keys_of_another_and_survives_json() {
 fn a_bone_map_is_the_same_after_writing_and_reading_and_names_what_is_missing() {
     let model = robot();
     let skeleton = model.skeleton();
-    let binding = dragonfly_anim::retarget::BindingGuess::of(skeleton, skeleton).binding;
+    let binding = BindingGuess::of(skeleton, skeleton).binding;
     let map = BoneMap::of(["a \"b\".glb", "c.glb"], skeleton, skeleton, &binding);
     let read = BoneMap::parse(&map.to_text()).unwrap();
     assert_eq!(map, read);
@@ -145,4 +148,45 @@ fn a_bone_map_is_the_same_after_writing_and_reading_and_names_what_is_missing() 
     assert!(BoneMap::parse(r#"{"bone_map":2,"bones":[]}"#).unwrap_err().contains("newer"));
     let twice = r#"{"bone_map":1,"bones":[["Head","Head"],["Neck","Head"]]}"#;
     assert!(BoneMap::parse(twice).unwrap().binding(skeleton, skeleton).unwrap_err().contains("two bones"));
+}
+
+#[test]
+fn a_take_of_another_file_becomes_one_edit_of_the_open_document_and_undo_removes_it() {
+    let folder = Folder::new("retarget-document");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    let before = document.open(&data("collection/quaternius_Character4skins.glb"));
+    document.send(DocumentMessage::ReadSource(Source::File(data("bench/pab.glb"))));
+    let source = document.wait_for_reply(|reply| match reply {
+        DocumentReply::SourceRead(source) => Some(Arc::clone(source)),
+        _ => None,
+    });
+    let (from, to) = (&source.model.animation.skeleton, &before.loaded.model.animation.skeleton);
+    let binding = BindingGuess::of(from, to).binding;
+    let pairs =
+        (0..).zip(&binding.source_of).filter_map(|(to, from)| Some((from.as_ref().copied()?, to))).collect();
+    let options = FigureOptions::default();
+    document.send(DocumentMessage::Retarget(RetargetOrder { take: 0, pairs, options }));
+    let after = document.wait_for_view(|view| view.takes.len() > before.takes.len());
+    assert_eq!((after.takes.last().unwrap().name.as_str(), after.history.done), ("walk", 1));
+    document.change(Change::Undo);
+    same_takes(&document.view(), &before);
+    // The map goes to a file and back.
+    let path = folder.join("map.json");
+    let map = BoneMap::of(["pab.glb", "quaternius.glb"], from, to, &binding);
+    document.send(DocumentMessage::MapFile(MapFile::Write(path.clone(), map.clone())));
+    document.wait_for_reply(|reply| {
+        matches!(reply, DocumentReply::Notice(text) if text.starts_with("Wrote")).then_some(())
+    });
+    document.send(DocumentMessage::MapFile(MapFile::Read(path)));
+    let read = document.wait_for_reply(|reply| match reply {
+        DocumentReply::MapRead(map) => Some(map.clone()),
+        _ => None,
+    });
+    assert_eq!(read, map);
+    document.send(DocumentMessage::MapFile(MapFile::Read(folder.join("no.json"))));
+    let refused = document.wait_for_reply(|reply| match reply {
+        DocumentReply::Refused(reason) => Some(reason.clone()),
+        _ => None,
+    });
+    assert!(refused.contains("no.json"), "{refused}");
 }

@@ -74,6 +74,7 @@ mod stdio;
 mod stdio_journal;
 mod store_full;
 mod take_commands;
+mod take_dialogs;
 mod takes_panel;
 mod timeline_curves;
 mod timeline_keyboard;

@@ -5,7 +5,7 @@ use super::style::ROW;
 use super::theme::Theme;
 use super::widgets;
 use dragonfly_anim::data::BoneIndex;
-use egui::{Align, Button, Layout, Popup, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Align, Button, Layout, Popup, Response, RichText, ScrollArea, TextEdit, Ui};
 
 /// The names among which a bone is chosen.
 pub(super) struct BoneChoice<'a> {
@@ -26,11 +26,8 @@ impl BoneChoice<'_> {
         let text = chosen.map_or(self.none.unwrap_or("Choose a bone"), name);
         let color = if chosen.is_some() { Theme::of(ui).text } else { Theme::of(ui).weak };
         let text = widgets::cut_in_middle(ui, text, self.width - 16.0, &egui::TextStyle::Body);
-        let button =
-            Button::new(RichText::new(text).color(color)).min_size(egui::vec2(self.width, ROW - 4.0));
-        let layout = Layout::left_to_right(Align::Center).with_main_align(Align::Min);
-        let button =
-            ui.allocate_ui_with_layout(egui::vec2(self.width, ROW), layout, |ui| ui.add(button)).inner;
+        let button = Button::new(RichText::new(text).color(color));
+        let button = add_left(ui, button, self.width);
         let shown = chosen.map_or(self.none.unwrap_or("no bone"), name).to_owned();
         let button = button.on_hover_text(format!("{}\n{shown}", self.label));
         let mut picked = None;
@@ -61,6 +58,13 @@ impl BoneChoice<'_> {
         });
         picked
     }
+}
+
+/// Draws a button of this width with its text at the left.
+pub(super) fn add_left(ui: &mut Ui, button: Button<'_>, width: f32) -> Response {
+    let layout = Layout::left_to_right(Align::Center).with_main_align(Align::Min);
+    let size = egui::vec2(width, ROW);
+    ui.allocate_ui_with_layout(size, layout, |ui| ui.add(button.min_size(egui::vec2(width, ROW - 4.0)))).inner
 }
 
 /// Returns the names of the bones of the open model.

@@ -1,7 +1,7 @@
 //! The dialog that mirrors a take: the mirror pairs of bones with the evidence for each, which can be corrected, and what is
 //! mirrored.
 
-use super::bone_choice::{BoneChoice, names};
+use super::bone_choice::{BoneChoice, add_left, names};
 use super::context::PanelContext;
 use super::overlay_title;
 use super::request::Request;
@@ -61,14 +61,16 @@ impl MirrorDialog {
             self.corrections.retain(|pair| !pair.contains(&left));
             self.corrections.push([left, right]);
         }
+        ui.add_space(GRID);
+        ui.horizontal(|ui| self.scope(ui, context));
         ui.horizontal(|ui| {
+            self.mirror(ui, context, requests);
             let able = !self.corrections.is_empty();
             let reset = ui.add_enabled(able, Button::new("Guess again"));
             if reset.clicked() {
                 self.corrections.clear();
             }
             widgets::hint_beside(&reset, "Removes all corrections");
-            self.mirror(ui, context, requests);
         });
         let now = guessed.corrected(&self.corrections);
         if let Some((_, _, pairs)) = &mut self.found {
@@ -103,8 +105,7 @@ impl MirrorDialog {
                     let selected = both.iter().all(|&bone| context.selection.contains(bone));
                     let text = widgets::cut_in_middle(ui, &names[left as usize], 170.0, &TextStyle::Body);
                     let name = format!("{}, {reason}", names[left as usize]);
-                    let button = Button::selectable(selected, text).min_size(egui::vec2(190.0, ROW - 4.0));
-                    let button = ui.add(button).on_hover_text(name);
+                    let button = add_left(ui, Button::selectable(selected, text), 190.0).on_hover_text(name);
                     if button.clicked() {
                         requests.push(Request::SelectBones(both, Choice::Replace));
                     }
@@ -125,8 +126,8 @@ impl MirrorDialog {
         corrected
     }
 
-    /// Draws what is mirrored, and the button.
-    fn mirror(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    /// Draws what is mirrored.
+    fn scope(&mut self, ui: &mut Ui, context: &PanelContext<'_>) {
         for (side, title) in [
             (None, "Both sides"),
             (Some(BodySide::Left), "Left to right"),
@@ -139,6 +140,11 @@ impl MirrorDialog {
             .on_hover_text("Only selected bones\nMirrors only the motion of the selected bones");
         ui.add_enabled(range.is_some(), egui::Checkbox::new(&mut self.only_range, "Play range"))
             .on_hover_text("Only the play range\nMirrors only the motion in the play range");
+    }
+
+    /// Draws the button.
+    fn mirror(&self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let (selected, range) = (context.selection.bones(), context.keys.range());
         let take = context.take_ref();
         let button = ui.add_enabled(take.is_some(), Button::new("Mirror take"));
         let Some(take) = take.filter(|_| button.clicked()) else { return };

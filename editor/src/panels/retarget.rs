@@ -1,6 +1,6 @@
 //! The dialog for retargeting: a file, its takes, and the bones of both models side by side.
 
-use super::bone_choice::{BoneChoice, names};
+use super::bone_choice::{BoneChoice, add_left, names};
 use super::context::PanelContext;
 use super::overlay_title;
 use super::request::{FileAction, Request};
@@ -136,8 +136,8 @@ impl RetargetDialog {
                     let name = &target_names[bone];
                     let selected = context.selection.contains(bone as BoneIndex);
                     let text = widgets::cut_in_middle(ui, name, width - 16.0, &TextStyle::Body);
-                    let button = Button::selectable(selected, text).min_size(vec2(width, ROW - 4.0));
-                    if ui.add(button).on_hover_text(name).clicked() {
+                    let button = Button::selectable(selected, text);
+                    if add_left(ui, button, width).on_hover_text(name).clicked() {
                         requests.push(Request::SelectBones(vec![bone as BoneIndex], Choice::Replace));
                     }
                     let label = format!("The bone that moves {name}");

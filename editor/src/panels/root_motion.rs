@@ -14,7 +14,7 @@ use dragonfly_anim::motion::{guess_hips, guess_root};
 use dragonfly_anim::sample::{rest_pose, sample_track};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{BoneRef, Edit, MoveTravel, RemoveTravel, RestoreTravel, TakeRef, TravelPart};
-use egui::{Button, DragValue, Painter, Pos2, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
+use egui::{Button, DragValue, Painter, Pos2, Rect, RichText, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 use glam::{Mat4, Vec3};
 use std::sync::Arc;
 
@@ -208,6 +208,7 @@ impl RootMotion {
         let (rect, response) = ui.allocate_exact_size(vec2(SIZE[0], SIZE[1]), Sense::hover());
         let painter = ui.painter_at(rect);
         painter.rect_filled(rect, 4.0, theme.sunken);
+        painter.rect_stroke(rect, 4.0, Stroke::new(1.0, theme.line), StrokeKind::Inside);
         path.draw(&painter, rect, theme);
         let way = path.way();
         let text = format!(
@@ -233,9 +234,9 @@ impl RootMotion {
                 }
             }
             ui.add_space(GRID);
+            let label = ui.label("Smooth");
             let field = DragValue::new(&mut self.smooth).range(0.0..=100.0).speed(0.1).max_decimals(1);
-            let field = ui.add(field);
-            let label = ui.label("frames smooth");
+            let field = ui.add(field.suffix(" frames"));
             field.labelled_by(label.id).on_hover_text("Standard deviation of the smoothing\nWhat it removes, such as the sway of the hips, stays in the bone");
         });
     }
