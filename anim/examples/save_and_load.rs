@@ -18,7 +18,7 @@ fn turning() -> ModelData {
     let keys = [Quat::IDENTITY, Quat::from_rotation_z(FRAC_PI_2)];
     let rotation = Channel::new([0.0, 1.0], keys, Interpolation::Linear);
     let tracks = vec![Track { bone: 0, rotation, ..Track::default() }];
-    let take = Take { name: "turn".to_owned(), start: 0.0, length: 1.0, tracks, morphs: Vec::new() };
+    let take = Take { name: "turn".to_owned(), start: 0.0, length: 1.0, tracks, ..Take::default() };
     let mut model = ModelData::default();
     model.animation.skeleton = Skeleton { bones: vec![bone] }.into();
     model.animation.takes = vec![take.into()];

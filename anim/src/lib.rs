@@ -58,6 +58,7 @@
 //! | from keys to poses, to matrices, to vertices: the *open path* | [`sample`], [`animation`], [`skin`], [`evaluator`] |
 //! | the same for eight bones at once: the *fast path* | [`fast`] |
 //! | blending, additive layers, masks, cross-fades | [`blend`] |
+//! | layers over a take, and the one take that they give | [`layers`] |
 //! | rotate or move single bones on top of an animation | [`additional`] |
 //! | attach objects to bones (sockets) | [`attach`] |
 //! | inverse kinematics, with joint limits | [`ik`], [`joint`] |
@@ -118,6 +119,8 @@ pub mod ik;
 pub mod inbetween;
 #[doc(alias("joint limits", "constraints"))]
 pub mod joint;
+#[doc(alias("animation layer", "additive layer"))]
+pub mod layers;
 #[doc(alias("LOD", "level of detail"))]
 pub mod level;
 pub mod limits;

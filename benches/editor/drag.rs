@@ -107,7 +107,7 @@ fn tree(bones: u32, seconds: u32, keys_per_second: u32) -> LoadedModel {
     };
     let tracks = (0..bones).map(track).collect();
     let take =
-        Take { name: "Sway".to_owned(), start: 0.0, length: seconds as f32, tracks, morphs: Vec::new() };
+        Take { name: "Sway".to_owned(), start: 0.0, length: seconds as f32, tracks, ..Take::default() };
     let skeleton = Arc::new(Skeleton { bones: (0..bones).map(bone).collect() });
     let model = Arc::new(ModelData {
         animation: AnimationData { skeleton, takes: vec![Arc::new(take)] },

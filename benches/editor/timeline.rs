@@ -291,7 +291,7 @@ fn view(length: f32) -> View {
         start: 0.0,
         length,
         tracks: tracks.collect(),
-        morphs: Vec::new(),
+        ..Take::default()
     };
     let animation = AnimationData {
         skeleton: Arc::new(Skeleton { bones: bones.collect() }),

@@ -76,7 +76,7 @@ impl ModelSize {
     fn take(self, times: &Arc<[f32]>, name: &str, track: impl FnMut(u32) -> Track) -> Take {
         let length = times.last().copied().unwrap_or(0.0);
         let tracks = (0..self.bones as u32).map(track).collect();
-        Take { name: name.to_owned(), start: 0.0, length, tracks, morphs: Vec::new() }
+        Take { name: name.to_owned(), start: 0.0, length, tracks, ..Take::default() }
     }
 
     /// Returns a spine with limbs: the parent of every bone is one of the three before it.

@@ -21,7 +21,7 @@ fn turn(bones: usize, angle: f32) -> Take {
     let mut tracks: Vec<Track> = (0..bones as u32).map(|bone| Track { bone, ..Track::default() }).collect();
     let rotations = vec![Quat::IDENTITY, Quat::from_rotation_z(angle)];
     tracks[0].rotation = Channel::new(vec![0.0, 1.0], rotations, Interpolation::Linear);
-    Take { name: "turn".to_owned(), start: 0.0, length: 1.0, tracks, morphs: Vec::new() }
+    Take { name: "turn".to_owned(), start: 0.0, length: 1.0, tracks, ..Take::default() }
 }
 
 #[test]

@@ -242,7 +242,7 @@ pub(crate) fn same_takes(before: &ModelData, asked: &[EditedTake], after: &Model
     assert_eq!(asked.len(), after.animation.takes.len());
     for (asked, got) in asked.iter().zip(&after.animation.takes) {
         let is_empty = asked.take.tracks.iter().all(Track::is_empty) && asked.take.morphs.is_empty();
-        assert_eq!(asked.take.name, got.name);
+        assert_eq!((&asked.take.name, &asked.take.extras), (&got.name, &got.extras));
         if !is_empty {
             same_take(before, &asked.take, after, got);
         }

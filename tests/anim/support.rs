@@ -38,7 +38,7 @@ pub(crate) fn take(tracks: Vec<Track>) -> Take {
     let (start, length) = if start <= end { (start, end - start) } else { (0.0, 0.0) };
     let tracks =
         tracks.into_iter().enumerate().map(|(index, track)| Track { bone: index as u32, ..track }).collect();
-    Take { name: "take".to_owned(), start, length, tracks, morphs: Vec::new() }
+    Take { name: "take".to_owned(), start, length, tracks, ..Take::default() }
 }
 
 /// Returns a skeleton with takes.

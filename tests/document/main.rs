@@ -11,6 +11,7 @@ mod images;
 mod inbetween;
 mod journal_later;
 mod keeping;
+mod layers;
 mod limits;
 mod many_bones;
 mod offset_keys;

@@ -1,7 +1,8 @@
 //! Saving and reopening preserves every key of every take to the bit.
 
 use crate::undo::{any_edit, same_take};
-use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_anim::layers::LayerSettings;
+use dragonfly_document::adapter::{ModelAdapter, TakeVersions};
 use dragonfly_document::edit::BoneRef;
 use dragonfly_kit::folder::{Folder, data};
 
@@ -118,6 +119,10 @@ pub(crate) fn assert_opens_again(path: &Path, skeleton: &Skeleton, adapter: &Mod
     let now: Vec<_> = adapter.results().collect();
     let then = &again.model.animation.takes;
     assert_eq!(now.len(), then.len(), "{context}: takes");
+    let layers = ModelAdapter::new(&again.model.animation);
+    for (now, then) in adapter.slots().iter().zip(layers.slots()) {
+        assert_same_layers(now, then, &format!("{context}, take {:?}", now.original.name));
+    }
     for (now, then) in now.into_iter().zip(then) {
         // A take that animates nothing is saved with one key that keeps a bone at rest.
         if now.keys() == 0 {
@@ -127,6 +132,22 @@ pub(crate) fn assert_opens_again(path: &Path, skeleton: &Skeleton, adapter: &Mod
         let (now, then) = (with_keys(now, skeleton), with_keys(then, &again.model.animation.skeleton));
         let difference = || difference(&now, &then);
         assert!(same_take(&now, &then), "{context}, take {:?}: {}", now.name, difference());
+    }
+}
+
+/// Asserts that a take has the same layers with the same keys, to the bit.
+#[track_caller]
+fn assert_same_layers(now: &TakeVersions, then: &TakeVersions, context: &str) {
+    assert_eq!(now.layers().len(), then.layers().len(), "{context}: layers");
+    for (now, then) in now.layers().iter().zip(then.layers()) {
+        let mut settings = LayerSettings::clone(&now.settings);
+        settings.bones.clone_from(&then.settings.bones);
+        assert_eq!(settings, *then.settings, "{context}");
+        let moved = |take: &Take| -> Vec<String> {
+            let tracks = take.tracks.iter().filter(|track| !track.is_empty());
+            tracks.map(|track| format!("{:?}", (&track.translation, &track.rotation, &track.scale))).collect()
+        };
+        assert_eq!(moved(&now.keys.result), moved(&then.keys.result), "{context}");
     }
 }
 

@@ -103,7 +103,7 @@ impl CompressedTake {
             start: clock.start,
             length: clock.length,
             tracks,
-            morphs: Vec::new(),
+            ..Take::default()
         }
     }
 

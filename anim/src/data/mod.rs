@@ -4,6 +4,7 @@
 
 mod bone;
 mod channel;
+mod extras;
 mod geometry;
 mod material;
 mod model;
@@ -12,6 +13,7 @@ mod transform;
 
 pub use bone::{Bone, BoneIndex, Skeleton, Skin};
 pub use channel::{Channel, Interpolation};
+pub use extras::TakeExtras;
 pub use geometry::{Influence, MAX_INFLUENCES, Mesh, MeshInstance, MorphTarget, Primitive, Vertex, Vertices};
 pub use material::{AlphaMode, Filter, Image, Material, Metallic, Phong, TextureRef, TextureTransform, Wrap};
 pub use model::{AnimationData, ModelData};

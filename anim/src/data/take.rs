@@ -1,6 +1,6 @@
 //! Takes: named animations, with one track per bone.
 
-use super::{BoneIndex, Channel, Transform};
+use super::{BoneIndex, Channel, TakeExtras, Transform};
 use glam::{Quat, Vec3};
 
 /// The pose of one bone at one time, assembled from a track's columns (thesis §3.1.2).
@@ -79,6 +79,8 @@ pub struct Take {
     pub tracks: Vec<Track>,
     /// Morph weights, only for meshes with animated weights.
     pub morphs: Vec<MorphTrack>,
+    /// Data that a program keeps with the take: layers, contacts, events.
+    pub extras: TakeExtras,
 }
 
 impl Take {

@@ -104,7 +104,7 @@ impl AttachedFeet {
             tracks[foot].translation = Channel::new(times, translations, Interpolation::Linear);
             tracks[foot].rotation = Channel::new(times, rotations, Interpolation::Linear);
         }
-        Take { name: take.name.clone(), start: take.start, length: take.length, tracks, morphs: Vec::new() }
+        Take { tracks, morphs: Vec::new(), ..take.clone() }
     }
 }
 

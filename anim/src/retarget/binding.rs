@@ -129,6 +129,6 @@ pub fn rebind(take: &Take, binding: &SkeletonBinding) -> Take {
         start: take.start,
         length: take.length,
         tracks: binding.source_of.iter().enumerate().map(track).collect(),
-        morphs: Vec::new(),
+        ..Take::default()
     }
 }

@@ -77,7 +77,7 @@ pub fn retarget(
         start: take.start,
         length: take.length,
         tracks: (0..target.len()).map(track).collect(),
-        morphs: Vec::new(),
+        ..Take::default()
     }
 }
 

@@ -65,7 +65,7 @@ pub fn bend() -> Take {
         start: 0.0,
         length: 1.0,
         tracks: vec![Track::default(), Track { bone: 1, rotation, ..Track::default() }],
-        morphs: Vec::new(),
+        ..Take::default()
     }
 }
 

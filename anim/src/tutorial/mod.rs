@@ -154,7 +154,7 @@
 //!         Track { bone: 0, ..Track::default() },
 //!         Track { bone: 1, rotation: quarter_turn(), ..Track::default() },
 //!     ],
-//!     morphs: Vec::new(),
+//!     ..Take::default()
 //! };
 //!
 //! assert_eq!((bend.keys(), bend.moving_tracks()), (2, 1));

@@ -2,9 +2,10 @@
 //! history started.
 //!
 //! Numbers are little-endian; a list is its length (4 bytes) and its elements. Data that is read is validated as far
-//! as the rest of the program relies on it.
+//! as the rest of the program relies on it. After the takes come the extras of those that have some: the index of the
+//! take, and its names and texts.
 
-use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Take, Track};
+use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Take, TakeExtras, Track};
 use glam::{Quat, Vec3};
 use std::sync::Arc;
 
@@ -33,19 +34,34 @@ pub(super) fn write(takes: &[Arc<Take>]) -> Vec<u8> {
             floats(&mut out, morph.weights.iter().copied());
         }
     }
+    let extras = takes.iter().enumerate().filter(|(_, take)| !take.extras.is_empty());
+    for (index, take) in extras {
+        length(&mut out, index);
+        length(&mut out, take.extras.iter().count());
+        for text in take.extras.iter().flat_map(|(name, text)| [name, text]) {
+            length(&mut out, text.len());
+            out.extend(text.as_bytes());
+        }
+    }
     out
 }
 
 /// Reads takes; `None` where these are not the bytes of takes of `bones` bones.
 pub(super) fn read(bytes: &[u8], bones: usize) -> Option<Vec<Arc<Take>>> {
     let mut from = TakesReader(bytes);
-    let takes = (0..from.length()?).map(|_| take(&mut from, bones).map(Arc::new)).collect::<Option<_>>()?;
-    from.0.is_empty().then_some(takes)
+    let mut takes = (0..from.length()?).map(|_| take(&mut from, bones)).collect::<Option<Vec<Take>>>()?;
+    while !from.0.is_empty() {
+        let extras = &mut takes.get_mut(from.number()? as usize)?.extras;
+        for _ in 0..from.length()? {
+            let name = from.text()?;
+            extras.set(name, Some(Arc::from(from.text()?)));
+        }
+    }
+    Some(takes.into_iter().map(Arc::new).collect())
 }
 
 fn take(from: &mut TakesReader<'_>, bones: usize) -> Option<Take> {
-    let count = from.length()?;
-    let name = std::str::from_utf8(from.bytes(count)?).ok()?.to_owned();
+    let name = from.text()?.to_owned();
     let [start, length] = [from.float()?, from.float()?];
     let tracks = (0..from.length()?)
         .map(|_| {
@@ -60,7 +76,7 @@ fn take(from: &mut TakesReader<'_>, bones: usize) -> Option<Take> {
     let in_order = tracks.iter().enumerate().all(|(place, track)| track.bone as usize == place);
     let morphs = (0..from.length()?).map(|_| from.morph()).collect::<Option<_>>()?;
     let fits = in_order && tracks.len() == bones && start.is_finite() && length.is_finite();
-    fits.then_some(Take { name, start, length, tracks, morphs })
+    fits.then_some(Take { name, start, length, tracks, morphs, extras: TakeExtras::default() })
 }
 
 fn length(out: &mut Vec<u8>, length: usize) {
@@ -103,6 +119,11 @@ impl<'a> TakesReader<'a> {
     fn length(&mut self) -> Option<usize> {
         let length = self.number()? as usize;
         (length <= self.0.len()).then_some(length)
+    }
+
+    fn text(&mut self) -> Option<&'a str> {
+        let count = self.length()?;
+        std::str::from_utf8(self.bytes(count)?).ok()
     }
 
     fn float(&mut self) -> Option<f32> {
@@ -174,6 +195,8 @@ mod tests {
         };
         let first = Arc::make_mut(&mut takes[0]);
         first.name = "Gähnen 😴".to_owned();
+        first.extras.set("layers", Some(Arc::from(r#"{"version": 1}"#)));
+        first.extras.set("ä", Some(Arc::from("[]")));
         first.morphs.push(morph(Interpolation::CubicSpline, &weights));
         first.morphs.push(morph(Interpolation::Closest, &Arc::from([1.0, 2.0])));
         let back = read(&write(&takes), bones).unwrap();

@@ -107,11 +107,9 @@ impl Editable {
 
     /// Returns what saving the takes of `adapter` would write.
     pub fn plan(&self, adapter: &ModelAdapter) -> Result<SavePlan, ExportError> {
-        let takes: Vec<EditedTake> = adapter
-            .slots()
-            .iter()
-            .map(|slot| EditedTake { origin: self.place(slot), take: Arc::clone(&slot.result) })
-            .collect();
+        let takes = adapter.slots().iter().zip(adapter.saved_takes());
+        let takes: Vec<EditedTake> =
+            takes.map(|(slot, take)| EditedTake { origin: self.place(slot), take }).collect();
         self.file.plan(&self.on_disk, &takes)
     }
 
@@ -304,7 +302,7 @@ impl Editable {
         self.file = Arc::new(file.map_err(|error| error.to_string())?);
         self.beside.extend(door.map(|door| door.stamps()).unwrap_or_default());
         let skeleton = Arc::clone(&self.model.animation.skeleton);
-        let animation = AnimationData { skeleton, takes: adapter.results().cloned().collect() };
+        let animation = AnimationData { skeleton, takes: adapter.saved_takes() };
         self.on_disk = Arc::new(ModelData { animation, ..ModelData::clone(&self.model) });
         self.places = Some(places(adapter));
         Ok(())

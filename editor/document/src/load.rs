@@ -1,6 +1,7 @@
 //! Opens a model for the window and for the command line: reads its bytes, imports its data, surveys its images.
 //! Loading reports its progress and can be cancelled.
 
+use super::adapter::unused_layers;
 use super::beside::ReadOnce;
 use super::images::ImageSurvey;
 use super::import;
@@ -126,6 +127,7 @@ impl<'a> Read<'a> {
         check(cancel)?;
         let import::ImportedModel { model, format, mut warnings, memory } = imported;
         let model = Arc::new(model);
+        warnings.extend(unused_layers(&model.animation));
         let first = model.animation.takes.first().map(|take| take.start);
         let bounds = bounds_of_pose(&model, first.map(|_| 0), first.unwrap_or(0.0));
         progress(Progress { stage: LoadStage::Decoding, done: 0.5 });

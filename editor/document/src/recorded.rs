@@ -92,8 +92,7 @@ impl Snapshot {
         let base = if edited.is_cut() {
             let mut first = edited.clone();
             first.go_to(0);
-            let takes: Vec<_> = first.adapter().results().cloned().collect();
-            Some(base::write(&takes))
+            Some(base::write(&first.adapter().saved_takes()))
         } else {
             base.map(base::write)
         };

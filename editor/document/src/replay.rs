@@ -157,5 +157,5 @@ impl Replay<'_> {
 }
 
 fn takes_of(edited: &Edited) -> Vec<(TakeId, Arc<Take>)> {
-    edited.adapter().slots().iter().map(|slot| (slot.id, Arc::clone(&slot.result))).collect()
+    edited.adapter().slots().iter().map(|slot| (slot.id, Arc::clone(slot.shown()))).collect()
 }

@@ -13,7 +13,9 @@ use dragonfly_anim::inbetween::gaussian;
 use dragonfly_anim::motion::{guess_hips, guess_root};
 use dragonfly_anim::sample::{rest_pose, sample_track};
 use dragonfly_document::Change;
-use dragonfly_document::edit::{BoneRef, Edit, MoveTravel, RemoveTravel, RestoreTravel, TakeRef, TravelPart};
+use dragonfly_document::edit::{
+    BoneRef, Edit, MoveTravel, RemoveTravel, RestoreTravel, TRAVEL, TakeRef, TravelPart,
+};
 use egui::{Button, DragValue, Painter, Pos2, Rect, RichText, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 use glam::{Mat4, Vec3};
 use std::sync::Arc;
@@ -151,12 +153,8 @@ impl RootMotion {
         let name = context.bone_name(travelling);
         ui.label(RichText::new(format!("{name} travels")).small().color(theme.weak));
         let take_ref = TakeRef::Index(shown);
-        let kept = context.slot().map_or(0, |slot| slot.travel().len());
+        let kept = context.slot().is_some_and(|slot| slot.original.extras.get(TRAVEL).is_some());
         self.buttons(ui, (hips, travelling), kept, &take_ref, context.frame_rate as f32, requests);
-        if kept > 0 {
-            let text = "Removed travel is kept until the document is closed; it is not in the saved file.";
-            ui.label(RichText::new(text).small().color(theme.weak));
-        }
     }
 
     fn bones(&mut self, ui: &mut Ui, context: &PanelContext<'_>, skeleton: &Skeleton) {
@@ -256,7 +254,7 @@ impl RootMotion {
         &self,
         ui: &mut Ui,
         (hips, travelling): (BoneIndex, BoneIndex),
-        kept: usize,
+        kept: bool,
         take: &TakeRef,
         rate: f32,
         requests: &mut Vec<Request>,
@@ -288,13 +286,13 @@ impl RootMotion {
             ),
             (
                 "In place",
-                "Removes the travel, and keeps it so that it can be put back",
+                "Removes the travel, and keeps it with the take so that it can be put back",
                 chosen.then_some(Edit::RemoveTravel(in_place)),
             ),
             (
                 "Put back",
                 "Puts back the travel that was removed last",
-                (kept > 0).then(|| Edit::RestoreTravel(RestoreTravel { take: take.clone() })),
+                kept.then(|| Edit::RestoreTravel(RestoreTravel { take: take.clone() })),
             ),
         ];
         ui.horizontal(|ui| {

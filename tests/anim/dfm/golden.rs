@@ -64,7 +64,7 @@ pub(crate) fn model() -> ModelData {
         start: 0.0,
         length: 2.0,
         tracks: vec![Track::default(), knee],
-        morphs: Vec::new(),
+        ..Take::default()
     };
     ModelData {
         name: "leg".to_owned(),

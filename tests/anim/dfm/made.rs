@@ -209,6 +209,7 @@ impl RandomModels {
                 .enumerate()
                 .map(|(instance, &targets)| self.morph(instance, targets))
                 .collect(),
+            ..Take::default()
         }
     }
 

@@ -23,3 +23,5 @@ pub const DFM_VALUE: &str = "DFM_VALUE";
 pub const DFM_TEXT: &str = "DFM_TEXT";
 /// The file was written by a newer version; unknown content was left out.
 pub const DFM_NEWER: &str = "DFM_NEWER";
+/// The format has no room for the extras of a take.
+pub const DFM_EXTRAS: &str = "DFM_EXTRAS";

@@ -22,8 +22,8 @@ pub use error::WriteError;
 pub use part::VERSION;
 
 use super::{
-    ByteBudget, ExportError, Format, ImportContext, ImportError, NoFiles, ReadOptions, WholeFile,
-    WriteSupport,
+    ByteBudget, ExportError, Format, ImportContext, ImportError, NoFiles, Place, ReadOptions, Warning,
+    WholeFile, WriteSupport,
 };
 use crate::data::{AnimationData, ModelData};
 use part::ENDING_MAGIC;
@@ -79,9 +79,18 @@ fn import(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, Import
     read_model(bytes, context, true)
 }
 
-/// Writes the whole file; the format represents everything that a model contains.
+/// Writes the whole file; the format represents everything that a model contains, but not the extras of its takes.
 fn export(model: &ModelData) -> Result<WholeFile, ExportError> {
-    Ok(WholeFile { bytes: write(model)?, lost: Vec::new() })
+    let takes = model.animation.takes.iter().enumerate().filter(|(_, take)| !take.extras.is_empty());
+    let lost = takes.map(|(number, take)| {
+        let names: Vec<&str> = take.extras.iter().map(|(name, _)| name).collect();
+        Warning {
+            place: Place::Pointer(format!("/takes/{number}")),
+            code: code::DFM_EXTRAS,
+            text: format!("take \"{}\": this format has no room for its {}", take.name, names.join(", ")),
+        }
+    });
+    Ok(WholeFile { bytes: write(model)?, lost: lost.collect() })
 }
 
 /// Detects the size of a vertex, at byte 8, or the ending.

@@ -200,7 +200,8 @@ pub(super) fn read(
             morphs.push(morph);
         }
         reader.limit("keys", keys, KEYS)?;
-        takes.push(Arc::new(Take { name, start: record.start, length: record.length, tracks, morphs }));
+        let (start, length) = (record.start, record.length);
+        takes.push(Arc::new(Take { name, start, length, tracks, morphs, ..Take::default() }));
     }
     Ok(takes)
 }

@@ -3,6 +3,7 @@
 use super::accessor::{ElementFormat, GltfDocument, invalid, unresolved};
 use super::check as code;
 use super::document::NO_NODE;
+use super::extras;
 use super::keys::{self, SamplerTimes, SamplerValues};
 use super::scene::SceneLayout;
 use crate::data::{Channel, MorphTrack, Take, Track};
@@ -88,6 +89,10 @@ impl TakeReader<'_> {
         }
         let (start, end) = take.range_of_keys().unwrap_or((0.0, 0.0));
         (take.start, take.length) = (start, end - start);
+        if let Some(text) = &animation.extras {
+            take.extras =
+                extras::read(self.document.context, &Place::Pointer(format!("{path}/extras")), text.get())?;
+        }
         Ok(take)
     }
 

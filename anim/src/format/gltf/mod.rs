@@ -14,6 +14,7 @@ mod buffer;
 pub mod check;
 mod document;
 mod extension;
+mod extras;
 mod glb;
 mod graph;
 mod image;

@@ -75,18 +75,17 @@ fn only_named(
             | Op::Times(place, _)
             | Op::Replace(place, _) => (!named.contains(&place.bone)).then_some(place.bone),
             Op::Pending(take, time, _) => {
-                let [old, new] = [before, after].map(|adapter| {
-                    let slot = adapter.slots.iter().find(|slot| slot.id == *take);
-                    slot.and_then(|slot| slot.pending_at(*time))
-                });
+                let [old, new] = [before, after]
+                    .map(|adapter| adapter.slot(*take).and_then(|slot| slot.pending_at(*time)));
                 let poses = [old, new].into_iter().flatten().flat_map(|at| &at.poses);
                 let mut bones = poses.map(|pose| pose.bone);
                 let pose = |at: Option<&Arc<PendingAt>>, bone| at.and_then(|at| at.of(bone).copied());
                 bones.find(|bone| !named.contains(bone) && pose(old, *bone) != pose(new, *bone))
             }
             Op::Morphs(..)
-            | Op::Travel(..)
+            | Op::Layers(..)
             | Op::Name(..)
+            | Op::Extras(..)
             | Op::Insert(..)
             | Op::Remove(_)
             | Op::Move(..) => None,

@@ -4,9 +4,10 @@ use super::ModelAdapter;
 use super::change::{KeyChange, triple};
 use super::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use super::pending::PendingPose;
-use super::slot::{TakeVersions, extent};
+use super::slot::{LayerVersions, TakeVersions, extent};
 use crate::edit::target::{Property, SAME_TIME};
-use dragonfly_anim::data::Take;
+use dragonfly_anim::data::{Skeleton, Take};
+use dragonfly_anim::layers::flatten;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -25,10 +26,11 @@ impl ModelAdapter {
     /// numbers are finite, start and length are those of the keys, takes are unique.
     pub fn check(&self) -> Result<(), BrokenInvariant> {
         for (take, slot) in self.slots.iter().enumerate() {
-            let found = slot_is_right(slot).and_then(|()| {
-                let twice = self.slots[..take].iter().any(|other| other.id == slot.id);
-                if twice { Err(format!("{:?} is there twice", slot.id)) } else { Ok(()) }
-            });
+            let found =
+                slot_is_right(slot).and_then(|()| layers_are_right(slot, &self.skeleton)).and_then(|()| {
+                    let twice = self.slots[..take].iter().any(|other| other.id == slot.id);
+                    if twice { Err(format!("{:?} is there twice", slot.id)) } else { Ok(()) }
+                });
             found.map_err(|what| BrokenInvariant { take, what })?;
         }
         Ok(())
@@ -46,6 +48,7 @@ fn slot_is_right(slot: &TakeVersions) -> CheckResult {
     let unchanged = slot.changed().next().is_none();
     ensure(unchanged == Arc::ptr_eq(original, result), || "an unchanged take is its original".to_owned())?;
     ensure(original.name == result.name, || "the names differ".to_owned())?;
+    ensure(original.extras == result.extras, || "the extras differ".to_owned())?;
     ensure(original.tracks.len() == result.tracks.len(), || "the tracks differ".to_owned())?;
     ensure(original.morphs == result.morphs, || "the morph tracks differ".to_owned())?;
     for take in [original, result] {
@@ -68,6 +71,24 @@ fn slot_is_right(slot: &TakeVersions) -> CheckResult {
         channel_is_right::<ScaleChannel>(slot, result, bone, Property::Scale)?;
     }
     Ok(())
+}
+
+/// Checks the keys of the layers, and that the take that is shown is the one that they give.
+fn layers_are_right(slot: &TakeVersions, skeleton: &Skeleton) -> CheckResult {
+    for layer in slot.layers() {
+        slot_is_right(&layer.keys)?;
+        let same = layer.keys.original.tracks.len() == slot.original.tracks.len();
+        ensure(same && layer.keys.layers().is_empty(), || "a layer is not one of its take".to_owned())?;
+        ensure(layer.keys.pending().is_empty(), || "a layer has pending poses".to_owned())?;
+    }
+    if slot.layers().is_empty() {
+        return ensure(Arc::ptr_eq(slot.shown(), &slot.result), || {
+            "a take without layers is its result".to_owned()
+        });
+    }
+    let layers: Vec<_> = slot.layers().iter().map(LayerVersions::flat).collect();
+    let flat = flatten(&slot.result, &layers, skeleton);
+    ensure(flat == **slot.shown(), || "what is shown is not what the layers give".to_owned())
 }
 
 fn pending_is_right(slot: &TakeVersions) -> CheckResult {

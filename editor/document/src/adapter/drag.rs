@@ -41,6 +41,10 @@ impl ValueDrag {
     /// Starts after `edit`, which `inverse` undoes; `None` where later edits may do more than set values.
     pub(crate) fn of(adapter: &ModelAdapter, edit: &Edit, inverse: &Inverse) -> Option<Self> {
         let (time, poses, _) = edit.values()?;
+        // The take that layers give is computed after each edit.
+        if !adapter.base(edit.take()?).ok()?.layers().is_empty() {
+            return None;
+        }
         let mut held: Vec<HeldKey> = Vec::new();
         for op in &inverse.0 {
             match op {

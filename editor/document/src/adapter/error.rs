@@ -1,7 +1,7 @@
 //! The reason why an edit cannot be applied.
 
 use super::key_bytes::KEY_BYTES;
-use crate::edit::target::{BoneRef, Property, TakeRef};
+use crate::edit::target::{BoneRef, LayerRef, Property, TakeRef};
 use dragonfly_anim::inbetween::UniformTimes;
 use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 use std::fmt;
@@ -130,6 +130,31 @@ pub enum EditError {
     /// A take cannot be sampled.
     #[error(transparent)]
     Frames(#[from] dragonfly_anim::frames::FramesError),
+    /// The edit is not possible on a layer.
+    #[error("\"{0}\" is not possible in a layer; choose the take itself")]
+    OnLayer(&'static str),
+    /// The edit is not possible on a take with layers.
+    #[error("\"{0}\" is not possible in a take with layers; merge them first")]
+    HasLayers(&'static str),
+    /// The edit is for a layer.
+    #[error("\"{0}\" needs a layer, such as {{\"take\": \"Walk\", \"layer\": 0}}")]
+    NeedsLayer(&'static str),
+    /// The layer does nothing, so no key in it could give the pose.
+    #[error("the layer \"{0}\" is muted")]
+    MutedLayer(String),
+    /// The bone is not in the mask of the layer.
+    #[error("bone {bone} is not in the mask of the layer \"{layer}\"")]
+    Masked {
+        /// Index of the bone.
+        bone: u32,
+        /// Name of the layer.
+        layer: String,
+    },
+    /// No key of the layer gives the pose.
+    #[error(
+        "no key of the layer \"{0}\" gives this pose: its weight is 0 there, or a layer above it hides it"
+    )]
+    HiddenByLayer(String),
     /// The edit would change nothing.
     #[error("{0}")]
     Nothing(&'static str),
@@ -143,6 +168,12 @@ impl fmt::Display for Quoted<'_, TakeRef> {
         match self.0 {
             TakeRef::Index(index) => write!(out, "{index}"),
             TakeRef::Name(name) => write!(out, "{name:?}"),
+            TakeRef::Layer { take, layer: LayerRef::Index(layer) } => {
+                write!(out, "{}, layer {layer}", Quoted(&**take))
+            }
+            TakeRef::Layer { take, layer: LayerRef::Name(layer) } => {
+                write!(out, "{}, layer {layer:?}", Quoted(&**take))
+            }
         }
     }
 }

@@ -3,6 +3,7 @@
 use crate::edit::target::Property;
 use dragonfly_anim::data::{Channel, Track, Transform};
 use dragonfly_anim::inbetween::KeyValue;
+use dragonfly_anim::layers::{LayerRule, RotationRule, ScaleRule, TranslationRule};
 use dragonfly_anim::offset::{AddedTranslation, KeyOffset, ParentRotation, ScaleFactors};
 use dragonfly_anim::sample::Value;
 use glam::{Quat, Vec3};
@@ -18,6 +19,8 @@ pub(crate) trait ChannelKind {
     const IDENTITY: ChannelNumbers;
     /// An offset of many keys.
     type Offset: KeyOffset<Value = Self::Value>;
+    /// The rule by which layers change it.
+    type Rule: LayerRule<Value = Self::Value>;
 
     fn channel(track: &Track) -> &Channel<Self::Value>;
     fn channel_mut(track: &mut Track) -> &mut Channel<Self::Value>;
@@ -74,6 +77,7 @@ impl ChannelKind for TranslationChannel {
     type Value = Vec3;
     const IDENTITY: ChannelNumbers = [0.0; 4];
     type Offset = AddedTranslation;
+    type Rule = TranslationRule;
 
     fn channel(track: &Track) -> &Channel<Vec3> {
         &track.translation
@@ -130,6 +134,7 @@ impl ChannelKind for RotationChannel {
     type Value = Quat;
     const IDENTITY: ChannelNumbers = [0.0, 0.0, 0.0, 1.0];
     type Offset = ParentRotation;
+    type Rule = RotationRule;
 
     fn channel(track: &Track) -> &Channel<Quat> {
         &track.rotation
@@ -179,6 +184,7 @@ impl ChannelKind for ScaleChannel {
     type Value = Vec3;
     const IDENTITY: ChannelNumbers = [1.0, 1.0, 1.0, 0.0];
     type Offset = ScaleFactors;
+    type Rule = ScaleRule;
 
     fn channel(track: &Track) -> &Channel<Vec3> {
         &track.scale

@@ -9,7 +9,8 @@ use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 impl ModelAdapter {
     /// Returns the size of the keys of all takes in bytes.
     pub(crate) fn key_bytes(&self) -> u64 {
-        self.slots.iter().map(|slot| slot.key_bytes).sum()
+        let layers = self.slots.iter().flat_map(|slot| slot.layers()).map(|layer| layer.keys.key_bytes);
+        self.slots.iter().map(|slot| slot.key_bytes).chain(layers).sum()
     }
 
     /// Checks that an edit, which changed the keys of the takes `touched`, can be saved. A document that was over a limit when it was
@@ -19,10 +20,9 @@ impl ModelAdapter {
         if bytes > KEY_BYTES && bytes > before.key_bytes() {
             return Err(EditError::TooLarge { bytes });
         }
-        for slot in self.slots.iter().filter(|slot| touched.contains(&slot.id)) {
-            let old = before.slots.iter().find(|old| old.id == slot.id);
-            times_within(slot, old.map(|old| &**old))?;
-            let longest = slot.original.tracks.iter().flat_map(|track| {
+        for slot in touched.iter().filter_map(|take| self.slot(*take)) {
+            times_within(slot, before.slot(slot.id).map(|old| &**old))?;
+            let longest = slot.shown().tracks.iter().flat_map(|track| {
                 [track.translation.times.len(), track.rotation.times.len(), track.scale.times.len()]
             });
             if let Some(keys) = longest.max().filter(|&keys| keys > KEYS_PER_CHANNEL) {

@@ -23,6 +23,7 @@ mod drag;
 mod error;
 mod key_bytes;
 pub(crate) mod kind;
+mod layer_record;
 mod limits;
 mod name;
 pub(crate) mod op;
@@ -38,9 +39,10 @@ pub(crate) use drag::ValueDrag;
 pub use error::EditError;
 pub use key_bytes::KEY_BYTES;
 pub use kind::ChannelNumbers;
+pub(crate) use layer_record::{LAYERS, unused_layers};
 pub use name::take_name;
 pub use pending::{Pending, PendingAt, PendingPose};
-pub use slot::{ChannelChanges, TakeId, TakeVersions};
+pub use slot::{ChannelChanges, LayerVersions, TakeId, TakeVersions};
 
 use crate::edit::target::{BoneRef, TakeRef};
 use dragonfly_anim::data::{AnimationData, Skeleton, Take};
@@ -66,12 +68,17 @@ impl ModelAdapter {
                 Arc::new(TakeVersions::unchanged(TakeId(index as u32), Some(index), Arc::clone(take)))
             })
             .collect();
-        Self { skeleton: Arc::clone(&animation.skeleton), next: slots.len() as u32, slots }
+        let skeleton = Arc::clone(&animation.skeleton);
+        let mut adapter = Self { skeleton, next: slots.len() as u32, slots };
+        adapter.restore_layers();
+        adapter
     }
 
     /// The takes of a model as they were in another adapter.
     pub(crate) fn of_slots(skeleton: &Arc<Skeleton>, slots: &[Arc<TakeVersions>]) -> Self {
-        let next = slots.iter().map(|slot| slot.id.0 + 1).max().unwrap_or_default();
+        let layers = slots.iter().flat_map(|slot| slot.layers()).map(|layer| layer.keys.id);
+        let ids = slots.iter().map(|slot| slot.id).chain(layers);
+        let next = ids.map(|id| id.0 + 1).max().unwrap_or_default();
         Self { skeleton: Arc::clone(skeleton), slots: slots.to_vec(), next }
     }
 
@@ -85,9 +92,9 @@ impl ModelAdapter {
         &self.slots
     }
 
-    /// Returns the results in their order: the takes that are shown and saved.
+    /// Returns the takes that are shown, in their order: the results with their layers.
     pub fn results(&self) -> impl Iterator<Item = &Arc<Take>> {
-        self.slots.iter().map(|slot| &slot.result)
+        self.slots.iter().map(|slot| slot.shown())
     }
 
     /// Returns the number of pending poses of all takes, which are in no key and in no saved file.
@@ -104,8 +111,46 @@ impl ModelAdapter {
         let found = match take {
             TakeRef::Index(index) => self.slots.get(*index),
             TakeRef::Name(name) => self.slots.iter().find(|slot| slot.original.name == *name),
+            TakeRef::Layer { layer, .. } => {
+                let layers = self.base(take)?.layers();
+                layer.find_in(layers).map(|index| &layers[index].keys)
+            }
         };
         found.ok_or_else(|| EditError::NoTake(take.clone()))
+    }
+
+    /// Returns the take of a reference; that of a layer is the take below it.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::NoTake`].
+    pub fn base(&self, take: &TakeRef) -> Result<&Arc<TakeVersions>, EditError> {
+        match take {
+            TakeRef::Index(_) | TakeRef::Name(_) => self.take(take),
+            TakeRef::Layer { take, .. } => match **take {
+                TakeRef::Index(_) | TakeRef::Name(_) => self.take(take),
+                TakeRef::Layer { .. } => Err(EditError::NoTake(TakeRef::clone(take))),
+            },
+        }
+    }
+
+    /// Returns the index of a take in the list, and that of its layer where it is one.
+    pub(crate) fn place_of(&self, take: TakeId) -> Option<(usize, Option<usize>)> {
+        let own = self.slots.iter().position(|slot| slot.id == take).map(|index| (index, None));
+        own.or_else(|| {
+            let mut slots = self.slots.iter().enumerate();
+            slots.find_map(|(index, slot)| {
+                let layer = slot.layers().iter().position(|layer| layer.keys.id == take)?;
+                Some((index, Some(layer)))
+            })
+        })
+    }
+
+    /// Returns the take or layer with this identifier.
+    pub(crate) fn slot(&self, take: TakeId) -> Option<&Arc<TakeVersions>> {
+        let (index, layer) = self.place_of(take)?;
+        let slot = &self.slots[index];
+        layer.map_or(Some(slot), |layer| slot.layers().get(layer).map(|layer| &layer.keys))
     }
 
     /// Returns the index of the bone of a reference.

@@ -4,11 +4,10 @@ use super::ModelAdapter;
 use super::change::KeyChange;
 use super::kind::AnyChannel;
 use super::pending::PendingAt;
-use super::slot::{ChannelChanges, ChannelContent, KeyContent, TakeId, TakeVersions};
+use super::slot::{ChannelChanges, ChannelContent, KeyContent, LayerVersions, TakeId, TakeVersions};
 use super::times::SharedTimes;
 use crate::edit::target::Property;
 use dragonfly_anim::data::MorphTrack;
-use dragonfly_anim::motion::RootMotion;
 use std::sync::Arc;
 
 /// The address of a channel.
@@ -36,10 +35,12 @@ pub(crate) enum Op {
     Morphs(TakeId, Vec<MorphTrack>),
     /// Replaces the pending poses at a time; `None` for none.
     Pending(TakeId, f32, Option<Arc<PendingAt>>),
-    /// Replaces the travel that was removed from a take.
-    Travel(TakeId, Vec<Arc<RootMotion>>),
+    /// Replaces the layers of a take.
+    Layers(TakeId, Vec<LayerVersions>),
     /// Renames a take.
     Name(TakeId, String),
+    /// Replaces a text of the extras of a take; `None` for none.
+    Extras(TakeId, String, Option<Arc<str>>),
     /// Inserts a take at an index of the list.
     Insert(usize, Arc<TakeVersions>),
     /// Removes a take.
@@ -76,10 +77,10 @@ impl Op {
                 }
                 Self::Pending(_, _, at) => at.as_ref().map_or(0, |at| size_of_val(at.poses.as_slice())),
                 Self::Insert(_, slot) => slot.original.keys() * 16,
-                Self::Travel(_, travel) => travel
-                    .iter()
-                    .map(|motion| 16 * motion.translation.len() + 20 * motion.rotation.len())
-                    .sum(),
+                Self::Layers(_, layers) => {
+                    layers.iter().map(|layer| 256 + layer.keys.original.keys() * 16).sum()
+                }
+                Self::Extras(_, _, text) => text.as_ref().map_or(0, |text| text.len()),
                 Self::Name(..) | Self::Remove(_) | Self::Move(..) => 0,
             }
     }
@@ -90,12 +91,12 @@ impl Op {
     pub(crate) fn keys_of(&self) -> Option<TakeId> {
         match self {
             Self::Splice(place, ..) | Self::Times(place, _) | Self::Replace(place, _) => Some(place.take),
-            Self::Morphs(take, _) => Some(*take),
+            Self::Morphs(take, _) | Self::Layers(take, _) => Some(*take),
             Self::Changes(..)
             | Self::AllChanges(..)
             | Self::Pending(..)
-            | Self::Travel(..)
             | Self::Name(..)
+            | Self::Extras(..)
             | Self::Insert(..)
             | Self::Remove(_)
             | Self::Move(..) => None,
@@ -133,8 +134,12 @@ impl ModelAdapter {
                 let before = self.slot_mut(take).set_pending(time, at);
                 Op::Pending(take, time, before)
             }
-            Op::Travel(take, travel) => Op::Travel(take, self.slot_mut(take).set_travel(travel)),
             Op::Name(take, name) => Op::Name(take, self.slot_mut(take).set_name(&name)),
+            Op::Layers(take, layers) => Op::Layers(take, self.slot_mut(take).set_layers(layers)),
+            Op::Extras(take, name, text) => {
+                let before = self.slot_mut(take).set_extras(&name, text);
+                Op::Extras(take, name, before)
+            }
             Op::Insert(index, slot) => {
                 let id = slot.id;
                 self.slots.insert(index.min(self.slots.len()), slot);
@@ -153,10 +158,16 @@ impl ModelAdapter {
         }
     }
 
-    /// Computes start and length of takes whose keys have changed, if they still exist.
+    /// Computes start and length of takes whose keys have changed, if they still exist, and puts layers over the takes below them.
     pub(crate) fn measure(&mut self, takes: &[TakeId]) {
-        for slot in self.slots.iter_mut().filter(|slot| takes.contains(&slot.id)) {
-            Arc::make_mut(slot).measure();
+        for &take in takes {
+            if self.place_of(take).is_some() {
+                self.slot_mut(take).measure();
+            }
+        }
+        let skeleton = Arc::clone(&self.skeleton);
+        for slot in self.slots.iter_mut().filter(|slot| slot.is_flat_outdated()) {
+            Arc::make_mut(slot).flatten(&skeleton);
         }
     }
 
@@ -168,7 +179,16 @@ impl ModelAdapter {
     }
 
     fn slot_mut(&mut self, take: TakeId) -> &mut TakeVersions {
-        let index = self.index_of(take);
-        Arc::make_mut(&mut self.slots[index])
+        let Some((index, layer)) = self.place_of(take) else {
+            unreachable!("an operation names a take that is not there: {take:?}");
+        };
+        let slot = Arc::make_mut(&mut self.slots[index]);
+        match layer {
+            None => slot,
+            Some(layer) => match slot.layer_mut(layer) {
+                Some(keys) => keys,
+                None => unreachable!("layer {layer} was found in the take"),
+            },
+        }
     }
 }

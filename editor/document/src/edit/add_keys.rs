@@ -1,6 +1,6 @@
 //! Adds keys (thesis §2.2.2.4).
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BoneRef, EditedBones, Example, NewKey, Property, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::kind::with_kind;
@@ -36,6 +36,8 @@ impl EditKind for AddKeys {
         json: r#"{"edit":"add_keys","take":"Walk","time":0.25,"bones":["Head"],"value":"current"}"#,
         description: "Adds keys of the head that keep the motion; \"predecessor\" copies the keys before.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Add keys"

@@ -50,7 +50,7 @@ impl AddTake {
             let mut given = |property, times: &[f32], interpolation, values: Vec<f32>| {
                 if !times.is_empty() {
                     let bone = BoneRef::Index(track.bone);
-                    let interpolation = interpolation_of(interpolation);
+                    let interpolation = KeyInterpolation::of(interpolation);
                     tracks.push(GivenChannel {
                         bone,
                         property,
@@ -195,14 +195,5 @@ impl EditKind for AddTake {
 
     fn allowed(&self, adapter: &ModelAdapter) -> Result<(), EditError> {
         take_name(adapter.slots(), &self.name, None)
-    }
-}
-
-/// Returns the interpolation as edits name it. The nearest key, which only some formats have, becomes the key before.
-fn interpolation_of(interpolation: Interpolation) -> KeyInterpolation {
-    match interpolation {
-        Interpolation::Step | Interpolation::Closest => KeyInterpolation::Step,
-        Interpolation::Linear => KeyInterpolation::Linear,
-        Interpolation::CubicSpline => KeyInterpolation::CubicSpline,
     }
 }

@@ -1,6 +1,6 @@
 //! Random parts of edits, for property tests.
 
-use super::{BonePose, BoneRef, EDITS, Edit, KeySet, Property, TakeRef};
+use super::{BonePose, BoneRef, EDITS, Edit, KeySet, LayerRef, Property, TakeRef};
 
 /// A source of random edits for a model with a number of takes and some bones.
 pub struct Arbitrary<'a> {
@@ -69,9 +69,18 @@ impl<'a> Arbitrary<'a> {
         if self.flag() { Some(make(self)) } else { None }
     }
 
-    /// One of the takes.
+    /// One of the takes, or a layer that it may have.
     pub(super) fn take(&mut self) -> TakeRef {
+        if self.below(4) == 0 {
+            return self.layer();
+        }
         TakeRef::Index(self.below(self.takes))
+    }
+
+    /// A layer that a take may or may not have.
+    pub(super) fn layer(&mut self) -> TakeRef {
+        let take = Box::new(TakeRef::Index(self.below(self.takes)));
+        TakeRef::Layer { take, layer: LayerRef::Index(self.below(2)) }
     }
 
     /// A name that a take may or may not have already.

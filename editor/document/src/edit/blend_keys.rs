@@ -1,6 +1,6 @@
 //! Moves the values of keys between or beyond those of their neighbors.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BonePose, EditedBones, Example, KeySet, TakeRef, cost};
 use crate::adapter::kind::ChannelKind;
 use crate::adapter::op::ChannelAddress;
@@ -71,6 +71,8 @@ impl EditKind for BlendKeys {
         json: r#"{"edit":"blend_keys","take":"Walk","keys":[{"bones":["Head"],"at":[0.5]}],"toward":{"between":0.5},"factor":1}"#,
         description: "Moves the head's key at 0.5 s to the middle between its neighbors.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         match self.toward {
@@ -209,7 +211,7 @@ impl ValueTool for BlendKeys {
         chosen: &[u32],
     ) -> Result<Option<Vec<K::Value>>, EditError> {
         let slot = work.slot(address.take);
-        let mut constant = rest::<K>(work, address.bone);
+        let mut constant = rest::<K>(work, address);
         if let KeyTarget::Pose(poses) = &self.toward {
             let of_bone = |pose: &&BonePose| work.bone(&pose.bone) == Ok(address.bone);
             let Some(pose) = poses.iter().rfind(of_bone) else { return Ok(None) };

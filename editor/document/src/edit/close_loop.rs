@@ -1,7 +1,7 @@
 //! Closes a loop.
 
 use super::contact_span::named;
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BoneRef, ContactSpan, EditedBones, Example, TakeRef};
 use crate::adapter::plan::{Transaction, rewrite};
 use crate::adapter::{EditError, ModelAdapter};
@@ -38,6 +38,8 @@ impl EditKind for CloseLoop {
         json: r#"{"edit":"close_loop","take":"Walk","frames":8,"travel":"Hips"}"#,
         description: "Lets the last 8 frames lead into the start; the hips go on walking.",
     };
+
+    const LAYERS: LayerUse = LayerUse::NoLayers;
 
     fn label(&self) -> &'static str {
         "Close loop"

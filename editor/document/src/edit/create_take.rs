@@ -47,10 +47,9 @@ impl EditKind for CreateTake {
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let source = self.copy.as_ref().map(|take| work.take(take)).transpose()?;
-        let id = work.new_id();
         let (slot, next) = match source {
             Some(source) => {
-                let mut slot = work.slot(source).copied(id);
+                let mut slot = work.copy_of(source);
                 // A pending pose belongs to one take only.
                 slot.forget_pending();
                 (slot, work.index(source) + 1)
@@ -60,9 +59,10 @@ impl EditKind for CreateTake {
                 if take.keys() == 0 {
                     return Err(EditError::Nothing("a model without bones has no rest pose"));
                 }
-                (TakeVersions::unchanged(id, None, take), work.takes())
+                (TakeVersions::unchanged(work.new_id(), None, take), work.takes())
             }
         };
+        let id = slot.id;
         work.perform(Op::Insert(self.at.unwrap_or(next), Arc::new(slot)));
         work.perform(Op::Name(id, self.name.clone()));
         Ok(())

@@ -1,6 +1,6 @@
 //! Deletes keys (thesis §2.2.2.4).
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, KeySet, SAME_TIME, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, finite, morph};
@@ -28,6 +28,8 @@ impl EditKind for DeleteKeys {
         json: r#"{"edit":"delete_keys","take":"Walk","keys":[{"bones":["Head"],"from":0.2,"to":0.4}]}"#,
         description: "Deletes the head's keys from 0.2 s to 0.4 s.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Delete keys"

@@ -1,6 +1,6 @@
 //! Discards pending poses.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef, cost};
 use crate::adapter::plan::{Transaction, pending};
 use crate::adapter::{EditError, ModelAdapter};
@@ -28,6 +28,8 @@ impl EditKind for DropPending {
         description: "Discards all pending poses of the head.",
     };
 
+    const LAYERS: LayerUse = LayerUse::Any;
+
     fn label(&self) -> &'static str {
         "Discard pending poses"
     }
@@ -45,7 +47,7 @@ impl EditKind for DropPending {
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
-        let take = work.take(&self.take)?;
+        let take = work.base(&self.take)?;
         for at in pending::selected(work, take, self.time, &self.bones)? {
             pending::remove(work, take, &at);
         }

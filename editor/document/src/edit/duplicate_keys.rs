@@ -1,6 +1,6 @@
 //! Copies keys to other times.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, KeySet, SAME_TIME, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{KeyMove, Transaction, finite, timing::move_keys};
@@ -25,6 +25,8 @@ impl EditKind for DuplicateKeys {
         json: r#"{"edit":"duplicate_keys","take":"Walk","keys":[{"bones":["Head"],"at":[0]}],"by":1}"#,
         description: "Copies the head's first keys to one second later.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Duplicate keys"

@@ -1,6 +1,6 @@
 //! Smooths the curves of keys, and removes peaks.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef, cost};
 use crate::adapter::kind::ChannelKind;
 use crate::adapter::op::ChannelAddress;
@@ -60,6 +60,8 @@ impl EditKind for FilterKeys {
         json: r#"{"edit":"filter_keys","take":"Walk","keys":[{"bones":["Head"]}],"filter":{"butterworth":{"cutoff":6,"order":2}}}"#,
         description: "Removes tremble above 6 Hz from the head.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         match self.filter {
@@ -169,7 +171,7 @@ impl ValueTool for FilterKeys {
         chosen: &[u32],
     ) -> Result<Option<Vec<K::Value>>, EditError> {
         let slot = work.slot(address.take);
-        let rest = rest::<K>(work, address.bone);
+        let rest = rest::<K>(work, address);
         let Some(track) = slot.result.tracks.get(address.bone as usize) else { return Ok(None) };
         let sample = |time: f32| sample_channel(K::channel(track), rest, time);
         self.filtered(slot.times(address.bone, address.property), values, chosen, sample)

@@ -1,6 +1,6 @@
 //! Keys pending poses.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, with_kind};
 use crate::adapter::op::ChannelAddress;
@@ -34,6 +34,8 @@ impl EditKind for KeyPending {
         description: "Keys the pending poses at 0.5 s.",
     };
 
+    const LAYERS: LayerUse = LayerUse::Any;
+
     fn label(&self) -> &'static str {
         "Key pending poses"
     }
@@ -51,8 +53,8 @@ impl EditKind for KeyPending {
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
-        let take = work.take(&self.take)?;
-        for at in pending::selected(work, take, self.time, &self.bones)? {
+        let (take, base) = (work.take(&self.take)?, work.base(&self.take)?);
+        for at in pending::selected(work, base, self.time, &self.bones)? {
             for pose in &at.poses {
                 for property in Property::ALL {
                     if let Some(value) = pose.get(property) {
@@ -61,7 +63,7 @@ impl EditKind for KeyPending {
                     }
                 }
             }
-            pending::remove(work, take, &at);
+            pending::remove(work, base, &at);
         }
         Ok(())
     }

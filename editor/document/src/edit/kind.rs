@@ -14,6 +14,9 @@ pub(crate) trait EditKind: Sized {
     /// The edit as a line of JSON, with a description; for help texts and tests.
     const EXAMPLE: Example;
 
+    /// Whether it can be applied to layers and to takes with layers.
+    const LAYERS: LayerUse = LayerUse::TakeOnly;
+
     /// Returns the name of the edit for the history and the undo command, in a few words.
     fn label(&self) -> &'static str;
 
@@ -74,6 +77,39 @@ pub(crate) trait EditKind: Sized {
     }
 }
 
+/// Whether an edit changes layers, takes with layers, or only other takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LayerUse {
+    /// The take of the edit may be a layer.
+    Any,
+    /// The take may have layers, but is none.
+    TakeOnly,
+    /// The take is and has no layer.
+    NoLayers,
+    /// The take is a layer.
+    LayerOnly,
+}
+
+impl LayerUse {
+    /// Checks whether an edit with this name may change that take.
+    pub(crate) fn allows(
+        self,
+        adapter: &ModelAdapter,
+        take: Option<&TakeRef>,
+        label: &'static str,
+    ) -> Result<(), EditError> {
+        let Some(take) = take else { return Ok(()) };
+        let is_layer = matches!(take, TakeRef::Layer { .. });
+        match self {
+            Self::Any => Ok(()),
+            Self::TakeOnly | Self::NoLayers if is_layer => Err(EditError::OnLayer(label)),
+            Self::NoLayers if !adapter.take(take)?.layers().is_empty() => Err(EditError::HasLayers(label)),
+            Self::LayerOnly if !is_layer => Err(EditError::NeedsLayer(label)),
+            Self::TakeOnly | Self::NoLayers | Self::LayerOnly => Ok(()),
+        }
+    }
+}
+
 /// Name, example and generator of one kind of edit.
 #[derive(Clone, Copy, Debug)]
 pub struct EditInfo {
@@ -131,6 +167,8 @@ macro_rules! edits {
 
             /// Applies it as operations on a document.
             pub(crate) fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+                let layers = match self { $(Self::$Kind(_) => <$Kind as EditKind>::LAYERS,)* };
+                layers.allows(work.adapter(), self.take(), self.label())?;
                 match self { $(Self::$Kind(edit) => edit.plan(work),)* }
             }
 

@@ -1,7 +1,7 @@
 //! Locks feet to the ground.
 
 use super::contact_span::{detected, named};
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, ContactSpan, EditedBones, Example, TakeRef};
 use crate::adapter::plan::{Transaction, rewrite};
 use crate::adapter::{EditError, ModelAdapter};
@@ -39,6 +39,8 @@ impl EditKind for LockContacts {
         json: r#"{"edit":"lock_contacts","take":"Walk","contacts":[{"bone":"Foot.L","from":0.2,"to":0.5}],"ease":4}"#,
         description: "Holds the left foot still from 0.2 s to 0.5 s, and fades over 4 frames.",
     };
+
+    const LAYERS: LayerUse = LayerUse::NoLayers;
 
     fn label(&self) -> &'static str {
         "Lock contacts"

@@ -1,6 +1,6 @@
 //! Mirrors a take.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::target::BoneFinder;
 use super::{Arbitrary, BoneRef, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::plan::{Transaction, finite, rewrite};
@@ -69,6 +69,8 @@ impl EditKind for MirrorTake {
         json: r#"{"edit":"mirror_take","take":"Walk"}"#,
         description: "Mirrors the take: what the left side did, the right side does.",
     };
+
+    const LAYERS: LayerUse = LayerUse::NoLayers;
 
     fn label(&self) -> &'static str {
         "Mirror take"

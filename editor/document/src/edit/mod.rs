@@ -16,6 +16,7 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 mod add_keys;
+mod add_layer;
 mod add_take;
 mod arbitrary;
 mod blend_keys;
@@ -26,18 +27,23 @@ mod copied;
 mod cost;
 mod create_take;
 mod delete_keys;
+mod delete_layer;
 mod delete_take;
 mod drop_pending;
 mod duplicate_keys;
 mod examples;
 mod filter_keys;
+mod kept_travel;
+mod key_layer_weight;
 mod key_pending;
 mod kind;
 mod lines;
 mod lock_contacts;
+mod merge_layers;
 mod mirror_take;
 pub(crate) mod mode;
 mod move_keys;
+mod move_layer;
 mod move_take;
 mod move_travel;
 mod noise_keys;
@@ -56,7 +62,9 @@ mod retime_take;
 mod reverse_take;
 mod ripple_keys;
 mod scale_keys;
+mod set_extras;
 mod set_interpolation;
+mod set_layer;
 mod set_pending;
 mod set_pose;
 mod set_poses;
@@ -77,13 +85,14 @@ pub use contact_span::ContactSpan;
 pub use copied::{CopiedChannel, CopiedKey};
 pub use examples::Example;
 pub use filter_keys::CurveFilter;
+pub use kept_travel::TRAVEL;
 pub use kind::EditInfo;
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
-pub use mode::{KeyInterpolation, NewKey, ResetTo};
+pub use mode::{KeyInterpolation, LayerKind, NewKey, ResetTo};
 pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope};
 pub use pose::{BonePose, PoseAt};
 pub use shape_tangents::KeyTangents;
-pub use target::{BoneRef, KeySet, Property, SAME_TIME, TakeRef};
+pub use target::{BoneRef, KeySet, LayerRef, Property, SAME_TIME, TakeRef};
 pub use travel_parts::TravelPart;
 
 use crate::adapter::plan::{PoseMode, Transaction};
@@ -124,6 +133,7 @@ edits! {
     "create_take" => create_take::CreateTake,
     "add_take" => add_take::AddTake,
     "delete_take" => delete_take::DeleteTake,
+    "set_extras" => set_extras::SetExtras,
     "rename_take" => rename_take::RenameTake,
     "move_take" => move_take::MoveTake,
     "split_take" => split_take::SplitTake,
@@ -135,6 +145,12 @@ edits! {
     "remove_travel" => remove_travel::RemoveTravel,
     "restore_travel" => restore_travel::RestoreTravel,
     "lock_contacts" => lock_contacts::LockContacts,
+    "add_layer" => add_layer::AddLayer,
+    "delete_layer" => delete_layer::DeleteLayer,
+    "set_layer" => set_layer::SetLayer,
+    "key_layer_weight" => key_layer_weight::KeyLayerWeight,
+    "move_layer" => move_layer::MoveLayer,
+    "merge_layers" => merge_layers::MergeLayers,
     "close_loop" => close_loop::CloseLoop,
 }
 
@@ -176,6 +192,11 @@ mod tests {
             r#"{"edit":"set","take":0,"time":1,"poses":[{"bone":0,"scale":[2,1,1]},{"bone":2,"translation":[0,0,1]}]}"#,
             r#"{"edit":"set_interpolation","take":0,"bones":[0],"interpolation":"cubic_spline"}"#,
             r#"{"edit":"create_take","name":"run","copy":0}"#,
+            r#"{"edit":"add_layer","take":0,"name":"up"}"#,
+            r#"{"edit":"add_layer","take":0,"name":"pose","kind":"override","bones":[0,1,4]}"#,
+            r#"{"edit":"set","take":{"take":0,"layer":0},"time":0.2,"poses":[{"bone":0,"translation":[0,3,0]}]}"#,
+            r#"{"edit":"set","take":{"take":0,"layer":"pose"},"time":0.7,"poses":[{"bone":1,"rotation":[0,1,0,0]}]}"#,
+            r#"{"edit":"key_layer_weight","take":{"take":0,"layer":1},"time":0.6,"weight":0.5}"#,
             r#"{"edit":"pend","take":0,"time":0.3,"poses":[{"bone":1,"translation":[0,2,0]}]}"#,
         ] {
             model.apply(&serde_json::from_str(line).expect("an edit")).expect(line);
@@ -194,7 +215,20 @@ mod tests {
             assert_eq!((a.id, a.origin), (b.id, b.origin), "{context}");
             assert_eq!((&a.original, &a.result), (&b.original, &b.result), "{context}");
             assert_eq!((changes(a), a.pending()), (changes(b), b.pending()), "{context}");
-            assert_eq!(a.travel(), b.travel(), "{context}");
+            assert_eq!((a.shown(), a.layers().len()), (b.shown(), b.layers().len()), "{context}");
+            for (a, b) in a.layers().iter().zip(b.layers()) {
+                assert_eq!((&a.settings, a.keys.id), (&b.settings, b.keys.id), "{context}");
+                assert_eq!(
+                    (&a.keys.original, &a.keys.result),
+                    (&b.keys.original, &b.keys.result),
+                    "{context}"
+                );
+                assert_eq!(
+                    (changes(&a.keys), a.keys.pending()),
+                    (changes(&b.keys), b.keys.pending()),
+                    "{context}"
+                );
+            }
         }
     }
 

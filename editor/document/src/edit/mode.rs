@@ -1,5 +1,7 @@
 //! Options of edits.
 
+use dragonfly_anim::data::Interpolation;
+use dragonfly_anim::layers::LayerMode;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -35,6 +37,46 @@ pub enum KeyInterpolation {
     Linear,
     /// A cubic spline with tangents. A channel without tangents gets ones that make it smooth.
     CubicSpline,
+}
+
+/// How a layer changes the values below it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LayerKind {
+    /// Its keys are offsets in parent space.
+    #[default]
+    Additive,
+    /// Its keys are poses, which replace the values below.
+    Override,
+}
+
+impl From<LayerKind> for LayerMode {
+    fn from(kind: LayerKind) -> Self {
+        match kind {
+            LayerKind::Additive => Self::Additive,
+            LayerKind::Override => Self::Override,
+        }
+    }
+}
+
+impl From<LayerMode> for LayerKind {
+    fn from(mode: LayerMode) -> Self {
+        match mode {
+            LayerMode::Additive => Self::Additive,
+            LayerMode::Override => Self::Override,
+        }
+    }
+}
+
+impl KeyInterpolation {
+    /// Returns the interpolation as edits name it. The nearest key, which only some formats have, becomes the key before.
+    pub(crate) fn of(interpolation: Interpolation) -> Self {
+        match interpolation {
+            Interpolation::Step | Interpolation::Closest => Self::Step,
+            Interpolation::Linear => Self::Linear,
+            Interpolation::CubicSpline => Self::CubicSpline,
+        }
+    }
 }
 
 impl From<KeyInterpolation> for dragonfly_anim::data::Interpolation {

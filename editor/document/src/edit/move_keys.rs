@@ -1,6 +1,6 @@
 //! Moves keys in time.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{KeyMove, Transaction, finite, timing::move_keys};
@@ -25,6 +25,8 @@ impl EditKind for MoveKeys {
         json: r#"{"edit":"move_keys","take":"Walk","keys":[{"at":[0.5]}],"by":0.1}"#,
         description: "Moves all keys at 0.5 s by 0.1 s.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Move keys"

@@ -1,6 +1,6 @@
 //! Adds noise to keys.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, KeySet, Property, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, RotationChannel, TranslationChannel};
 use crate::adapter::op::ChannelAddress;
@@ -47,6 +47,8 @@ impl EditKind for NoiseKeys {
         json: r#"{"edit":"noise_keys","take":"Walk","keys":[{"bones":["Head"],"properties":["rotation"]}],"rotation":2,"frequency":4,"seed":1}"#,
         description: "Makes the head tremble by up to 2° about each axis.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Add noise to keys"

@@ -1,6 +1,6 @@
 //! Offsets many keys at once.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::set_pose::pose_label;
 use super::{Arbitrary, BonePose, BoneRef, EditedBones, Example, OffsetFalloff, OffsetScope, TakeRef, cost};
 use crate::adapter::plan::{Transaction, offset};
@@ -44,6 +44,8 @@ impl EditKind for OffsetKeys {
         json: r#"{"edit":"offset_keys","take":"Walk","poses":[{"bone":"Arm.L","rotation":[0,0,0.1736482,0.9848078]}],"over":"take"}"#,
         description: "Raises the left arm by 20° in the whole take.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         pose_label(&self.poses)

@@ -1,6 +1,6 @@
 //! Moves, rotates and scales bones on top of their pose.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::set_pose::pose_label;
 use super::{Arbitrary, BonePose, EditedBones, Example, TakeRef, cost};
 use crate::adapter::plan::{PoseMode, Transaction, pose};
@@ -31,6 +31,8 @@ impl EditKind for OffsetPose {
         json: r#"{"edit":"offset","take":0,"time":0.5,"poses":[{"bone":3,"translation":[0,0.1,0]}]}"#,
         description: "Lifts the fourth bone by 10 cm.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         pose_label(&self.poses)

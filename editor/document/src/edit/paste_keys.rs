@@ -1,6 +1,6 @@
 //! Pastes copied keys.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{
     Arbitrary, CopiedChannel, CopiedKey, EditedBones, Example, KeyInterpolation, Property, SAME_TIME, TakeRef,
 };
@@ -39,6 +39,8 @@ impl EditKind for PasteKeys {
         json: r#"{"edit":"paste_keys","take":"Walk","time":1,"channels":[{"bone":"Head","property":"rotation","interpolation":"linear","keys":[{"after":0,"value":[0,0,0,1]},{"after":0.25,"value":[0,0.2588190,0,0.9659258]}]}]}"#,
         description: "Pastes two keys of the head, at 1 s and at 1.25 s.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Paste keys"

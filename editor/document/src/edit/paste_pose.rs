@@ -1,6 +1,6 @@
 //! Pastes a copied pose.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::target::BoneFinder;
 use super::{
     Arbitrary, BonePose, BoneRef, EditedBones, Example, OffsetFalloff, OffsetKeys, OffsetScope, SetPending,
@@ -8,16 +8,15 @@ use super::{
 };
 use crate::adapter::kind::{ChannelKind, RotationChannel, ScaleChannel, TranslationChannel};
 use crate::adapter::plan::{
-    Transaction, key_time,
+    Transaction, key_time, layer,
     pose::{rotation, vector},
-    rest,
 };
 use crate::adapter::{EditError, ModelAdapter, TakeId};
 use crate::bones::MirrorPairs;
 use crate::posing::mirror::Mirror;
 use dragonfly_anim::data::Channel;
 use dragonfly_anim::data::Skeleton;
-use dragonfly_anim::sample::sample_channel;
+use dragonfly_anim::sample::{rest_pose, sample_channel};
 use glam::{Quat, Vec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -55,6 +54,8 @@ impl EditKind for PastePose {
         json: r#"{"edit":"paste","take":"Walk","time":1,"poses":[{"bone":"Hand.L","rotation":[0,0.2588190,0,0.9659258]}],"mirrored":true}"#,
         description: "Gives the right hand the pose of the left one, mirrored.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         if self.mirrored { "Paste pose mirrored" } else { "Paste pose" }
@@ -154,13 +155,15 @@ fn changed<K: ChannelKind>(
     value: Option<K::Value>,
 ) -> Option<K::Value> {
     let value = value?;
-    let slot = work.slot(take);
+    let (slot, base) = (work.slot(take), work.slot(layer::base_of(work, take)));
     let channel: &Channel<K::Value> = K::channel(slot.result.tracks.get(bone as usize)?);
-    let waits = slot.pending_at(time).is_some_and(|at| at.of(bone).is_some());
+    let waits = base.pending_at(time).is_some_and(|at| at.of(bone).is_some());
     if !channel.is_empty() || waits {
         return Some(value);
     }
-    let shown = K::numbers(sample_channel(channel, rest::<K>(work, bone), time));
+    let seen = K::channel(base.shown().tracks.get(bone as usize)?);
+    let rest = K::of(&rest_pose(work.skeleton().bones.get(bone as usize)?));
+    let shown = K::numbers(sample_channel(seen, rest, time));
     let near = |sign: f32| {
         let pairs = shown.iter().zip(K::numbers(value));
         pairs.into_iter().all(|(shown, value)| (shown - sign * value).abs() <= 1e-5 * (1.0 + shown.abs()))

@@ -1,5 +1,6 @@
 //! Puts a take in place.
 
+use super::kept_travel::{TRAVEL, kept_travel, travel_text};
 use super::kind::EditKind;
 use super::travel_parts::travel_options;
 use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef, TravelPart};
@@ -12,7 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Puts a take in place: removes the travel of a bone. The document keeps it until it is closed, for `restore_travel`.
+/// Puts a take in place: removes the travel of a bone. It is kept in the extras of the take, for `restore_travel`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RemoveTravel {
@@ -62,9 +63,9 @@ impl EditKind for RemoveTravel {
         if !rewrite::channels(work, id, &travel.take)? {
             return Err(EditError::Nothing("the bone does not travel"));
         }
-        let mut kept = work.slot(id).travel().to_vec();
-        kept.push(Arc::new(travel.motion));
-        work.perform(Op::Travel(id, kept));
+        let mut kept = kept_travel(&work.slot(id).original.extras);
+        kept.push(travel.motion);
+        work.perform(Op::Extras(id, TRAVEL.to_owned(), travel_text(&kept)));
         Ok(())
     }
 

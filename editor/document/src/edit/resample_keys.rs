@@ -1,6 +1,6 @@
 //! Replaces keys by keys on whole frames.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, KeySet, SAME_TIME, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::kind::{ChannelKind, with_kind};
@@ -42,6 +42,8 @@ impl EditKind for ResampleKeys {
         json: r#"{"edit":"resample_keys","take":"Walk","keys":[{"bones":["Head"]}],"rate":24,"every":2}"#,
         description: "Gives the head a key on every second frame of 24 per second.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         if self.every == 1 { "Bake keys to frames" } else { "Resample keys" }

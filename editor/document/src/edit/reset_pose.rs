@@ -1,6 +1,6 @@
 //! Resets keys to the original or to the rest pose.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BoneRef, EditedBones, Example, Property, ResetTo, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, with_kind};
 use crate::adapter::op::{ChannelAddress, Op};
@@ -35,6 +35,8 @@ impl EditKind for ResetPose {
         description: "Restores the original rotation of the head at the key at 0.5 s.",
     };
 
+    const LAYERS: LayerUse = LayerUse::Any;
+
     fn label(&self) -> &'static str {
         match self.to {
             ResetTo::Original => "Reset to original",
@@ -59,7 +61,8 @@ impl EditKind for ResetPose {
         finite("a time", self.time)?;
         let addresses = work.channels(take, (&self.bones, &self.properties))?;
         let channels: Vec<_> = addresses.iter().map(|address| (address.bone, address.property)).collect();
-        let mut found = pending::overwritten(work, take, self.time, &channels);
+        let base = work.base(&self.take)?;
+        let mut found = pending::overwritten(work, base, self.time, &channels);
         for address in addresses {
             let times = work.slot(take).times(address.bone, address.property);
             let Ok(key) = key_at(times, self.time) else { continue };
@@ -83,6 +86,6 @@ fn to_rest<K: ChannelKind>(
     address: ChannelAddress,
     key: usize,
 ) -> Result<(), EditError> {
-    let rest = rest::<K>(work, address.bone);
+    let rest = rest::<K>(work, address);
     pose::change_key::<K>(work, address, key, |_| rest)
 }

@@ -1,5 +1,6 @@
 //! Puts removed travel back.
 
+use super::kept_travel::{TRAVEL, kept_travel, travel_text};
 use super::kind::EditKind;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::op::Op;
@@ -45,11 +46,11 @@ impl EditKind for RestoreTravel {
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let id = work.take(&self.take)?;
         let take = Arc::clone(&work.slot(id).result);
-        let mut kept = work.slot(id).travel().to_vec();
+        let mut kept = kept_travel(&work.slot(id).original.extras);
         let motion = kept.pop().ok_or(EditError::Nothing("no travel was removed from this take"))?;
         let restored = put_back(&take, work.skeleton(), &motion)?;
         rewrite::channels(work, id, &restored)?;
-        work.perform(Op::Travel(id, kept));
+        work.perform(Op::Extras(id, TRAVEL.to_owned(), travel_text(&kept)));
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Inserts or removes time.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{KeyMove, Transaction, finite, key_time, morph, pending, timing::move_positions};
@@ -26,6 +26,8 @@ impl EditKind for RippleKeys {
         json: r#"{"edit":"ripple","take":"Walk","from":0.5,"by":0.25}"#,
         description: "Inserts a quarter of a second at 0.5 s.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Ripple"

@@ -1,6 +1,6 @@
 //! Scales the times of keys.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{KeyMove, Transaction, finite, timing::move_keys};
@@ -27,6 +27,8 @@ impl EditKind for ScaleKeys {
         json: r#"{"edit":"scale_keys","take":"Walk","keys":[{"from":0,"to":1}],"about":0,"factor":2}"#,
         description: "Slows the first second down to half speed.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Scale keys"

@@ -1,6 +1,6 @@
 //! Sets the interpolation of channels.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BoneRef, EditedBones, Example, KeyInterpolation, Property, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::change::{KeyChange, add, put, subtract};
@@ -39,6 +39,8 @@ impl EditKind for SetInterpolation {
         json: r#"{"edit":"set_interpolation","take":"Walk","bones":["Head"],"interpolation":"cubic_spline"}"#,
         description: "Makes the head move smoothly through its keys.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Set interpolation"

@@ -1,6 +1,6 @@
 //! Sets pending poses.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::set_pose::pose_label;
 use super::{Arbitrary, BonePose, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::PendingAt;
@@ -35,6 +35,8 @@ impl EditKind for SetPending {
         description: "Shows the head rotated by 30° at 0.5 s, without a key.",
     };
 
+    const LAYERS: LayerUse = LayerUse::Any;
+
     fn label(&self) -> &'static str {
         match pose_label(&self.poses) {
             "Move" => "Move (pending)",
@@ -57,7 +59,7 @@ impl EditKind for SetPending {
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
-        let take = work.take(&self.take)?;
+        let take = work.base(&self.take)?;
         key_time(self.time, work.slot(take))?;
         let mut at = match work.slot(take).pending_at(self.time) {
             Some(at) => PendingAt::clone(at),

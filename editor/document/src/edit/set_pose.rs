@@ -1,6 +1,6 @@
 //! Sets the pose of bones at a time.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BonePose, EditedBones, Example, TakeRef, cost};
 use crate::adapter::plan::{PoseMode, Transaction, pose};
 use crate::adapter::{EditError, ModelAdapter};
@@ -29,6 +29,8 @@ impl EditKind for SetPose {
         json: r#"{"edit":"set","take":"Walk","time":0.5,"poses":[{"bone":"Head","rotation":[0,0.2588190,0,0.9659258]}]}"#,
         description: "Rotates the head 30° about the y axis of its parent at 0.5 s, exactly.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         pose_label(&self.poses)

@@ -1,6 +1,6 @@
 //! Sets poses at several times.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::set_pose::pose_label;
 use super::{Arbitrary, EditedBones, Example, PoseAt, TakeRef, cost};
 use crate::adapter::plan::{PoseMode, Transaction, pose};
@@ -28,6 +28,8 @@ impl EditKind for SetPoses {
         json: r#"{"edit":"set_many","take":"Walk","at":[{"time":0.25,"poses":[{"bone":"Head","translation":[0,1,0]}]},{"time":0.5,"poses":[{"bone":"Head","translation":[0,1.1,0]}]}]}"#,
         description: "Sets the position of the head at 0.25 s and at 0.5 s, in one step.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         self.at.first().map_or("Pose", |at| pose_label(&at.poses))

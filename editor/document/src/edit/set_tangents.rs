@@ -1,6 +1,6 @@
 //! Sets the tangents of a key.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::change::KeyChange;
 use crate::adapter::kind::{ChannelKind, ChannelNumbers, with_kind};
@@ -37,6 +37,8 @@ impl EditKind for SetTangents {
         json: r#"{"edit":"set_tangents","take":"Walk","time":0.5,"bone":"Head","property":"translation","in":[0,1,0],"out":[0,1,0]}"#,
         description: "Sets both tangents of a key of a cubic spline.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Set tangents"

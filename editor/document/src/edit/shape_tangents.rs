@@ -1,6 +1,6 @@
 //! Computes the tangents of keys from the keys around them.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::set_interpolation::become_interpolation;
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef, cost};
 use crate::adapter::change::{KeyChange, Triple};
@@ -58,6 +58,8 @@ impl EditKind for ShapeTangents {
         json: r#"{"edit":"shape_tangents","take":"Walk","keys":[{"bones":["Head"],"from":0,"to":1}],"kind":"clamped"}"#,
         description: "Makes the head move smoothly through the keys of the first second, without overshooting them.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         match self.kind {

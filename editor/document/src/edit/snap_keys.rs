@@ -1,6 +1,6 @@
 //! Moves keys to whole frames.
 
-use super::kind::EditKind;
+use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{KeyMove, Transaction, timing::move_keys};
@@ -25,6 +25,8 @@ impl EditKind for SnapKeys {
         json: r#"{"edit":"snap_keys","take":"Walk","keys":[{}],"rate":30}"#,
         description: "Moves all keys to whole frames.",
     };
+
+    const LAYERS: LayerUse = LayerUse::Any;
 
     fn label(&self) -> &'static str {
         "Snap keys to frames"

@@ -52,8 +52,8 @@ impl EditKind for SplitTake {
         if !(time > start + SAME_TIME && time < end - SAME_TIME) {
             return Err(EditError::Outside { time, start, end });
         }
-        let id = work.new_id();
-        let second = work.slot(take).copied(id);
+        let second = work.copy_of(take);
+        let id = second.id;
         let next = work.index(take) + 1;
         work.perform(Op::Insert(next, Arc::new(second)));
         work.perform(Op::Name(id, self.name.clone()));

@@ -1,13 +1,14 @@
 //! References of an edit: to a take, to bones, to channels, to keys.
 
+use crate::adapter::LayerVersions;
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
-/// A take, by its index in the list or by its name. A name that several takes share means the first of them.
+/// A take, by its index in the list or by its name, or a layer of it. A name that several takes share means the first of them.
 ///
-/// In JSON a number or a string.
+/// In JSON a number, a string, or an object.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum TakeRef {
@@ -15,6 +16,35 @@ pub enum TakeRef {
     Index(usize),
     /// Its name.
     Name(String),
+    /// A layer of a take: `{"take": "Walk", "layer": "Arm up"}`.
+    Layer {
+        /// The take below it, by index or name.
+        take: Box<TakeRef>,
+        /// The layer.
+        layer: LayerRef,
+    },
+}
+
+/// A layer of a take, by its index, from 0 for the lowest, or by its name. A name that several layers share means the lowest of them.
+///
+/// In JSON a number or a string.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum LayerRef {
+    /// Index in the list of layers as it is now, from 0 for the lowest.
+    Index(usize),
+    /// Its name.
+    Name(String),
+}
+
+impl LayerRef {
+    /// Returns the index of the layer; `None` where the take does not have it.
+    pub fn find_in(&self, layers: &[LayerVersions]) -> Option<usize> {
+        match self {
+            Self::Index(index) => Some(*index).filter(|&index| index < layers.len()),
+            Self::Name(name) => layers.iter().position(|layer| layer.settings.name == *name),
+        }
+    }
 }
 
 /// A bone, by its index or by its name. A name that several bones share means the first of them.

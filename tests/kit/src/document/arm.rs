@@ -81,7 +81,7 @@ fn bend() -> Take {
         start: 0.0,
         length: LENGTH,
         tracks: (0..BONES as u32).map(track).collect(),
-        morphs: Vec::new(),
+        ..Take::default()
     }
 }
 

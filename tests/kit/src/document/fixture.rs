@@ -63,7 +63,7 @@ pub fn take(name: &str, skeleton: &Skeleton, length: f32, keys: usize) -> Take {
         }
         track
     });
-    Take { name: name.to_owned(), start: 0.0, length, tracks: tracks.collect(), morphs: Vec::new() }
+    Take { name: name.to_owned(), start: 0.0, length, tracks: tracks.collect(), ..Take::default() }
 }
 
 /// Returns a view with bones, takes, a material and a warning.

@@ -124,7 +124,7 @@ pub fn chain(count: u32, step: Vec3, end: impl Fn(u32) -> Transform) -> Animatio
         start: 0.0,
         length: 1.0,
         tracks: (0..count).map(track).collect(),
-        morphs: Vec::new(),
+        ..Take::default()
     };
     AnimationData { skeleton: Arc::new(Skeleton { bones: bones.collect() }), takes: vec![Arc::new(take)] }
 }

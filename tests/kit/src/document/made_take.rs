@@ -44,6 +44,7 @@ pub fn animation(random: &mut Random) -> AnimationData {
         length,
         tracks,
         morphs,
+        ..Take::default()
     };
     let morph = MorphTrack {
         instance: 0,

@@ -3,12 +3,14 @@
 use super::channels::{Action, ChannelEdit};
 use super::document::{ChannelTarget, FileAnimation, SourceDocument};
 use super::error::SaveError;
+use super::extras;
 use super::json::list::{ListEdit, edit};
 use super::json::patch::TextPatch;
 use super::json::style::{Fresh, JsonStyle};
 use super::json::token::quoted;
 use super::json::tree::{JsonKind, ValueId};
 use super::needs::{NeedId, Needs};
+use crate::data::TakeExtras;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -53,6 +55,8 @@ enum ChannelDraft {
 pub(super) struct Draft {
     /// New name, if it changes.
     pub(super) name: Option<String>,
+    /// New extras, if they change.
+    pub(super) extras: Option<TakeExtras>,
     removed: Vec<ValueId>,
     channels: Vec<ChannelDraft>,
     pub(super) samplers: Vec<SamplerDraft>,
@@ -170,6 +174,9 @@ impl Draft {
                 None => members.inserted.push((None, style.member("name", &Fresh::string(name), &spot))),
             }
         }
+        if let Some(new) = &self.extras {
+            patches.extend(extras::patch(document, animation.id, new, &mut members, style, pointer));
+        }
         patches.extend(edit(json, animation.id, &members, style, &spot, &format!("{pointer}/name")));
         if !self.removed.is_empty() || !self.channels.is_empty() {
             let id = list("channels")?;
@@ -223,6 +230,9 @@ impl Draft {
         let mut members = Vec::new();
         if let Some(name) = self.name.as_ref().filter(|name| !name.is_empty()) {
             members.push(("name", Fresh::string(name)));
+        }
+        if let Some(extras) = self.extras.as_ref().filter(|extras| !extras.is_empty()) {
+            members.push(("extras", extras::fresh(extras)));
         }
         let new = self.channels.iter().filter_map(|channel| match channel {
             ChannelDraft::New(target, sampler) => Some((*target, *sampler)),

@@ -16,6 +16,8 @@ pub enum TakeChange {
     Renamed,
     /// The take gets another position in the list.
     Moved,
+    /// The extras of the take change: layers, contacts, events.
+    Extras,
 }
 
 /// Change of a channel.
@@ -91,6 +93,9 @@ pub struct Changes {
     /// Nodes, with their names, that no take animates any more and that are no joint of a skin. They stay in the file
     /// and are shown at rest; a file that is opened again has no bone for them.
     pub bones_lost: Vec<(u32, String)>,
+    /// Takes whose extras cannot be kept: another program uses the `extras` of the animation for a text or
+    /// a number.
+    pub extras_lost: Vec<String>,
     /// Written accessors.
     pub accessors: Vec<WrittenAccessor>,
     /// Changed tokens of the JSON text, in the order of the text.
@@ -159,6 +164,7 @@ impl Changes {
             &self.channels,
             |c| json!({"take": c.take, "node": c.node, "bone": c.bone, "path": c.path, "change": word(&c.change)}),
         );
+        list(&mut out, "extrasLost", &self.extras_lost, |name| json!(name));
         list(&mut out, "files", &self.files, |name| json!(name));
         list(&mut out, "filesLeft", &self.files_left, |name| json!(name));
         list(&mut out, "nodes", &self.nodes, |node| json!(node));
@@ -220,6 +226,13 @@ impl fmt::Display for Changes {
             writeln!(
                 f,
                 "\"{name}\" (node {node}): no take animates it any more; the saved file has no bone for it"
+            )?;
+        }
+        for name in &self.extras_lost {
+            writeln!(
+                f,
+                "take \"{}\": its extras are no object, so layers, contacts and events are not kept",
+                one_line(name)
             )?;
         }
         for a in &self.accessors {

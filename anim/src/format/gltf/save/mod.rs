@@ -29,6 +29,7 @@
 //! | start and length of a take | not stored: they are those of its keys |
 //! | a bone that is not a joint and that no take animates any more | its node, at rest; the saved file has no bone for it ([`Changes::bones_lost`]) |
 //! | a channel of a node with a matrix | the matrix becomes translation, rotation and scale |
+//! | extras, where the `extras` of the animation are no object | left out, see [`Changes::extras_lost`] |
 //! | key times below zero | themselves, although glTF forbids them; the importer keeps them with a warning |
 //! | rotations that are not of unit length | [`SaveError::Keys`] |
 //! | neighboring rotations in different hemispheres, or of unit length except for rounding | their bits; the importer negates and normalizes them |
@@ -80,6 +81,7 @@ mod container;
 mod document;
 mod draw;
 mod error;
+mod extras;
 mod json;
 mod mark;
 mod needs;

@@ -8,6 +8,7 @@ use super::columns::shape_width;
 use super::document::{FileAnimation, SourceDocument, TargetPath};
 use super::draw::Draw;
 use super::error::SaveError;
+use super::extras::are_closed;
 use super::json::style::Fresh;
 use super::json::token::number;
 use super::mark::MARK;
@@ -17,7 +18,7 @@ use super::order::write_animations;
 use super::planned::{Plan, TakeDraft};
 use super::reuse::{Granted, RoomRequest, SavedSlot, grant, slots};
 use super::source::SourceFile;
-use crate::data::ModelData;
+use crate::data::{ModelData, TakeExtras};
 use crate::format::EditedTake;
 use std::collections::{HashMap, HashSet};
 
@@ -109,7 +110,9 @@ fn take_draft(
         None => Some(take.name.clone()),
     };
     let animation = base.map(|base| base.1);
-    let draft = Draft::of(document, animation, &edits, name, &|accessor| ours.contains(&accessor), needs);
+    let mut draft = Draft::of(document, animation, &edits, name, &|accessor| ours.contains(&accessor), needs);
+    let before = base.map(|base| &base.0.extras);
+    draft.extras = (before.unwrap_or(&TakeExtras::default()) != &take.extras).then(|| take.extras.clone());
     Ok(TakeDraft { base: now.origin, is_copy, name: take.name.clone(), edits, draft })
 }
 
@@ -335,6 +338,13 @@ fn describe(changes: &mut Changes, document: &SourceDocument<'_>, takes: &[TakeD
             }
         }
         let animation = take.base.and_then(|base| document.animations.get(base));
+        if take.draft.extras.is_some() && base.is_some() {
+            let closed = animation.is_some_and(|animation| are_closed(document.json, animation.id));
+            match closed {
+                true => changes.extras_lost.push(take.name.clone()),
+                false => changes.takes.push((take.name.clone(), TakeChange::Extras)),
+            }
+        }
         for edit in &take.edits {
             let was_there = animation.is_some_and(|animation| animation.channel(edit.target).is_some());
             let change = match (&edit.action, was_there) {

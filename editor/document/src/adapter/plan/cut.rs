@@ -4,13 +4,16 @@ use super::super::kind::{ChannelKind, with_kind};
 use super::super::op::{ChannelAddress, Op};
 use super::super::slot::{KeyContent, TakeId};
 use super::keys::current;
-use super::{EditError, Transaction, morph, pending};
+use super::{EditError, Transaction, layer, morph, pending};
 use crate::edit::SAME_TIME;
 
-/// Deletes everything outside two times, in all channels.
+/// Deletes everything outside two times, in all channels, also those of its layers.
 pub(crate) fn cut(work: &mut Transaction, take: TakeId, from: f32, to: f32) -> Result<(), EditError> {
     for address in work.channels(take, (&[], &[]))? {
         with_kind!(address.property, channel::<K>(work, address, from, to));
+    }
+    for layer in layer::ids(work, take) {
+        cut(work, layer, from, to)?;
     }
     let inside = |time: f32| time >= from - SAME_TIME && time <= to + SAME_TIME;
     pending::remap(work, take, |time| inside(time).then_some(time));

@@ -4,7 +4,7 @@ use super::super::change::{KeyChange, Triple};
 use super::super::kind::{ChannelKind, ChannelNumbers};
 use super::super::op::{ChannelAddress, Op};
 use super::super::slot::{KeyContent, TakeVersions};
-use super::{Transaction, rest};
+use super::{Transaction, layer, rest};
 use crate::edit::NewKey;
 use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::mix::hermite_slope;
@@ -35,7 +35,7 @@ pub(crate) fn current<K: ChannelKind>(
     address: ChannelAddress,
     time: f32,
 ) -> KeyContent {
-    let rest = rest::<K>(work, address.bone);
+    let rest = layer::below::<K>(work, address, time).unwrap_or_else(|| rest::<K>(work, address));
     let shown = |channel: &Channel<K::Value>| -> Triple {
         let [arrive, leave] = slopes::<K>(channel, time);
         [arrive, K::numbers(K::as_key(sample_channel(channel, rest, time))), leave]

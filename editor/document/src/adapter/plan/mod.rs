@@ -6,6 +6,7 @@ pub(crate) mod arrange;
 mod chosen;
 pub(crate) mod cut;
 pub(crate) mod keys;
+pub(crate) mod layer;
 pub(crate) mod morph;
 pub(crate) mod offset;
 pub(crate) mod pending;
@@ -29,6 +30,7 @@ use super::times::SharedTimes;
 use super::{EditError, ModelAdapter};
 use crate::edit::target::{BoneRef, Property, TakeRef};
 use dragonfly_anim::data::{Bone, Channel, Skeleton};
+use dragonfly_anim::layers::{LayerMode, LayerRule};
 use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -102,6 +104,11 @@ impl Transaction {
         self.perform(Op::Replace(address, Box::new(content)));
     }
 
+    /// Returns the document as it is so far.
+    pub(crate) fn adapter(&self) -> &ModelAdapter {
+        &self.adapter
+    }
+
     pub(crate) fn take(&self, take: &TakeRef) -> Result<TakeId, EditError> {
         self.adapter.take(take).map(|slot| slot.id)
     }
@@ -112,7 +119,21 @@ impl Transaction {
 
     /// Returns the take as it is so far.
     pub(crate) fn slot(&self, take: TakeId) -> &Arc<TakeVersions> {
-        &self.adapter.slots[self.index(take)]
+        match self.adapter.slot(take) {
+            Some(slot) => slot,
+            None => unreachable!("an edit names a take that is not there: {take:?}"),
+        }
+    }
+
+    /// Returns the take of a reference; that of a layer is the take below it.
+    pub(crate) fn base(&self, take: &TakeRef) -> Result<TakeId, EditError> {
+        self.adapter.base(take).map(|slot| slot.id)
+    }
+
+    /// Returns a copy of a take with identifiers of its own.
+    pub(crate) fn copy_of(&mut self, take: TakeId) -> TakeVersions {
+        let slot = Arc::clone(self.slot(take));
+        slot.copied(&mut || self.adapter.new_id())
     }
 
     pub(crate) fn bone(&self, bone: &BoneRef) -> Result<u32, EditError> {
@@ -195,7 +216,12 @@ pub(crate) fn list<T>(items: usize) -> Result<Vec<T>, EditError> {
     Ok(list)
 }
 
-/// Returns the rest value of a channel.
-pub(crate) fn rest<K: ChannelKind>(work: &Transaction, bone: u32) -> K::Value {
-    K::of(&dragonfly_anim::sample::rest_pose(work.skeleton_bone(bone)))
+/// Returns the rest value of a channel; that of an additive layer is the offset that changes nothing.
+pub(crate) fn rest<K: ChannelKind>(work: &Transaction, address: ChannelAddress) -> K::Value {
+    match layer::mode(work, address.take) {
+        Some(LayerMode::Additive) => <K::Rule as LayerRule>::IDENTITY,
+        Some(LayerMode::Override) | None => {
+            K::of(&dragonfly_anim::sample::rest_pose(work.skeleton_bone(address.bone)))
+        }
+    }
 }

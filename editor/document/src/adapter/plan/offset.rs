@@ -182,7 +182,7 @@ impl OffsetPlan {
         let slot = work.slot(self.take);
         let pending = slot.pending_at(time).and_then(|at| at.of(address.bone)?.get(address.property));
         pending.map(K::value).unwrap_or_else(|| {
-            let rest = rest::<K>(work, address.bone);
+            let rest = rest::<K>(work, address);
             let track = slot.result.tracks.get(address.bone as usize);
             track.map_or(rest, |track| K::as_key(sample_channel(K::channel(track), rest, time)))
         })

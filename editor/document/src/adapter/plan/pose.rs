@@ -6,7 +6,7 @@ use super::super::op::{ChannelAddress, Op};
 use super::super::slot::KeyContent;
 use super::keys::insert;
 use super::pending::overwritten;
-use super::{EditError, Transaction, finite, key_at, key_time, unstep};
+use super::{EditError, Transaction, finite, key_at, key_time, layer, unstep};
 use crate::edit::mode::NewKey;
 use crate::edit::pose::BonePose;
 use crate::edit::target::{Property, TakeRef};
@@ -71,7 +71,7 @@ pub(crate) fn pose_bones(
         let given = Property::ALL.into_iter().zip(given).filter(|(_, given)| *given);
         touched.extend(given.map(|(property, _)| (bone, property)));
     }
-    overwritten(work, take, time, &touched);
+    overwritten(work, layer::base_of(work, take), time, &touched);
     if !touched.is_empty() { Ok(()) } else { Err(EditError::Nothing("no pose is given")) }
 }
 
@@ -88,15 +88,22 @@ pub(crate) fn pose_channel<K: ChannelKind>(
         unstep::channel::<K>(work, address);
     }
     // An offset applies on top of the pose that is shown.
-    let pending =
-        work.slot(address.take).pending_at(time).and_then(|at| at.of(address.bone)?.get(address.property));
+    let pending = work
+        .slot(layer::base_of(work, address.take))
+        .pending_at(time)
+        .and_then(|at| at.of(address.bone)?.get(address.property));
+    let key_of_layer = layer::key_for::<K>(work, address, time, |shown| match mode {
+        PoseMode::Set => wanted,
+        PoseMode::Offset => K::offset(pending.map_or(shown, K::value), wanted),
+    })?;
     let key = match key_at(work.slot(address.take).times(address.bone, address.property), time) {
         Ok(key) => key,
         Err(_) => insert::<K>(work, address, time, NewKey::Current),
     };
-    change_key::<K>(work, address, key, |now| match mode {
-        PoseMode::Set => wanted,
-        PoseMode::Offset => K::offset(pending.map_or(now, K::value), wanted),
+    change_key::<K>(work, address, key, |now| match (key_of_layer, mode) {
+        (Some(key), _) => key,
+        (None, PoseMode::Set) => wanted,
+        (None, PoseMode::Offset) => K::offset(pending.map_or(now, K::value), wanted),
     })
 }
 

@@ -4,7 +4,7 @@ use super::super::kind::{ChannelKind, ChannelValue, with_kind};
 use super::super::op::{ChannelAddress, Op};
 use super::super::slot::{ChannelContent, TakeId};
 use super::arrange::stretched;
-use super::{EditError, Transaction, finite, morph, pending};
+use super::{EditError, Transaction, finite, layer, morph, pending};
 use crate::edit::SAME_TIME;
 use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::Value;
@@ -27,10 +27,14 @@ impl TimeMap {
     }
 }
 
-/// Moves every key of a take by a map of times.
+/// Moves every key of a take and of its layers by a map of times.
 pub(crate) fn apply(work: &mut Transaction, take: TakeId, map: TimeMap) -> Result<(), EditError> {
     for address in work.channels(take, (&[], &[]))? {
         with_kind!(address.property, channel::<K>(work, address, map))?;
+    }
+    layer::remap(work, take, |time| map.at(time));
+    for layer in layer::ids(work, take) {
+        apply(work, layer, map)?;
     }
     for at in work.slot(take).pending() {
         finite("a time", map.at(at.time))?;

@@ -58,7 +58,7 @@ fn of_channel<K: ChannelKind>(
 ) -> Result<(), EditError> {
     let slot = Arc::clone(work.slot(address.take));
     let Some(channel) = slot.result.tracks.get(address.bone as usize).map(K::channel) else { return Ok(()) };
-    let rest = rest::<K>(work, address.bone);
+    let rest = rest::<K>(work, address);
     let mut values: Vec<K::Value> =
         (0..channel.len()).map(|key| channel.value(key).map_or(rest, |value| value.healed(rest))).collect();
     let Some(wanted) = tool.bone_values::<K>(work, address, &values, chosen)? else { return Ok(()) };

@@ -1,6 +1,7 @@
 //! One take in its three forms: original, changes, result.
 
 mod channel;
+mod layers;
 
 use super::change::{KeyChange, Triple, triple};
 use super::key_bytes::key_bytes;
@@ -10,9 +11,10 @@ use super::times::SharedTimes;
 use crate::edit::target::{Property, SAME_TIME};
 use channel::{exchange, merge, refresh, replaced, retimed, spliced};
 use dragonfly_anim::data::{Channel, MorphTrack, Take};
-use dragonfly_anim::motion::RootMotion;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+pub use layers::LayerVersions;
 
 /// Identifies a take among all takes that its document has or had.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
@@ -49,13 +51,15 @@ pub struct TakeVersions {
     pub origin: Option<usize>,
     /// The take as it was read. Keys that are created or deleted are created or deleted in it, too.
     pub original: Arc<Take>,
-    /// Original + changes: the take that is shown and saved.
+    /// Original + changes, without layers. Shown and saved is [`Self::shown`].
     pub result: Arc<Take>,
     /// Size of its keys in bytes.
     pub(crate) key_bytes: u64,
     changes: BTreeMap<(u32, Property), Arc<ChannelChanges>>,
     pending: Pending,
-    travel: Vec<Arc<RootMotion>>,
+    layers: Vec<LayerVersions>,
+    /// The result with all layers over it; `None` without layers.
+    flat: Option<layers::FlatTake>,
 }
 
 impl TakeVersions {
@@ -68,13 +72,18 @@ impl TakeVersions {
             result: take,
             changes: BTreeMap::new(),
             pending: Vec::new(),
-            travel: Vec::new(),
+            layers: Vec::new(),
+            flat: None,
         }
     }
 
-    /// Returns a copy of the take, including its pending poses, with another identifier. The copy is not from the file.
-    pub(crate) fn copied(&self, id: TakeId) -> Self {
-        Self { id, origin: None, ..self.clone() }
+    /// Returns a copy of the take, including its pending poses and layers, with other identifiers. The copy is not from the file.
+    pub(crate) fn copied(&self, new_id: &mut impl FnMut() -> TakeId) -> Self {
+        let mut copy = Self { id: new_id(), origin: None, ..self.clone() };
+        for layer in &mut copy.layers {
+            layer.keys = Arc::new(TakeVersions { id: new_id(), ..TakeVersions::clone(&layer.keys) });
+        }
+        copy
     }
 
     /// Returns the changes of a channel.
@@ -107,16 +116,6 @@ impl TakeVersions {
     /// Returns the number of pending poses: of bones, summed over all times.
     pub fn pending_poses(&self) -> usize {
         self.pending.iter().map(|at| at.poses.len()).sum()
-    }
-
-    /// Returns the travel that was removed from the take and can be put back, the last removed last.
-    pub fn travel(&self) -> &[Arc<RootMotion>] {
-        &self.travel
-    }
-
-    /// Replaces the removed travel. Returns the previous one.
-    pub(crate) fn set_travel(&mut self, travel: Vec<Arc<RootMotion>>) -> Vec<Arc<RootMotion>> {
-        std::mem::replace(&mut self.travel, travel)
     }
 
     /// Removes all pending poses.
@@ -260,6 +259,13 @@ impl TakeVersions {
     pub(crate) fn set_name(&mut self, name: &str) -> String {
         let before = self.original.name.clone();
         self.both(|take| take.name = name.to_owned());
+        before
+    }
+
+    /// Replaces a text of the extras; `None` removes it. Returns the previous one.
+    pub(crate) fn set_extras(&mut self, name: &str, text: Option<Arc<str>>) -> Option<Arc<str>> {
+        let mut before = None;
+        self.both(|take| before = take.extras.set(name, text.clone()));
         before
     }
 

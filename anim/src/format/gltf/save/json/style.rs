@@ -9,7 +9,7 @@ use super::tree::{Json, JsonKind, ValueId};
 pub(in super::super) enum Fresh<'a> {
     /// A token as it is.
     Raw(String),
-    Object(Vec<(&'static str, Fresh<'a>)>),
+    Object(Vec<(&'a str, Fresh<'a>)>),
     Array(Vec<Fresh<'a>>),
     /// An array of that many objects or arrays. Each is made when it is written, so that hundreds of thousands need no memory.
     Items(usize, Box<dyn Fn(usize) -> Fresh<'a> + 'a>),
@@ -158,7 +158,8 @@ impl JsonStyle {
             match value {
                 Fresh::Object(members) => {
                     let (name, value) = &members[number];
-                    out.push_str(&format!("\"{name}\"{}", self.colon));
+                    out.push_str(&super::token::quoted(name));
+                    out.push_str(&self.colon);
                     self.put(value, &deeper, inner, inner, out);
                 }
                 Fresh::Array(items) => self.put(&items[number], &deeper, inner, inner, out),

@@ -1,0 +1,90 @@
+//! Adds a layer to a take, or a copy of one.
+
+use super::kind::{EditKind, LayerUse};
+use super::{Arbitrary, BoneRef, EditedBones, Example, LayerKind, LayerRef, TakeRef};
+use crate::adapter::plan::{Transaction, layer};
+use crate::adapter::{EditError, LayerVersions};
+use dragonfly_anim::data::Skeleton;
+use dragonfly_anim::layers::LayerSettings;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Adds a layer over a take. Its keys change what is seen; those of the take stay as they are.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AddLayer {
+    /// The take.
+    pub take: TakeRef,
+    /// Name of the layer.
+    pub name: String,
+    /// How the layer changes the values below; a copy has that of its source.
+    #[serde(default)]
+    pub kind: LayerKind,
+    /// The bones that it may move; all where empty. A copy has those of its source.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bones: Vec<BoneRef>,
+    /// Index of the new layer, from 0 for the lowest; without it, the layer is the highest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<usize>,
+    /// A layer of this take of which the new one is a copy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub copy: Option<LayerRef>,
+}
+
+impl EditKind for AddLayer {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"add_layer","take":"Walk","name":"Arm up","kind":"additive","bones":["Arm"]}"#,
+        description: "Adds a layer; its keys are edited with {\"take\": \"Walk\", \"layer\": \"Arm up\"} as the take.",
+    };
+    const LAYERS: LayerUse = LayerUse::TakeOnly;
+
+    fn label(&self) -> &'static str {
+        if self.copy.is_some() { "Duplicate layer" } else { "Add layer" }
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        Some(&self.take)
+    }
+
+    fn bones(&self, _skeleton: &Skeleton) -> EditedBones {
+        EditedBones::WholeTake
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        let take = work.take(&self.take)?;
+        let name = layer::name(&self.name)?;
+        let new = match &self.copy {
+            Some(source) => {
+                let layers = work.slot(take).layers();
+                let found = source.find_in(layers).ok_or(EditError::Nothing("there is no such layer"))?;
+                let LayerVersions { settings, keys } = layers[found].clone();
+                let settings = LayerSettings { name, ..LayerSettings::clone(&settings) };
+                LayerVersions { settings: Arc::new(settings), keys: Arc::new(work.copy_of(keys.id)) }
+            }
+            None => {
+                let bones = layer::mask(work, &self.bones)?;
+                let color = layer::COLORS[work.slot(take).layers().len() % layer::COLORS.len()];
+                let settings =
+                    LayerSettings { name, mode: self.kind.into(), bones, color, ..LayerSettings::default() };
+                layer::empty(work, take, settings)
+            }
+        };
+        layer::replace(work, take, |layers| {
+            layers.insert(self.at.unwrap_or(layers.len()).min(layers.len()), new)
+        })
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        let copy = from.flag().then(|| LayerRef::Index(from.below(2)));
+        let kind = from.choice([LayerKind::Additive, LayerKind::Override]);
+        Self {
+            take: from.take(),
+            name: from.name(),
+            kind,
+            bones: from.bones(),
+            at: from.optional(|from| from.below(3)),
+            copy,
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Merges a layer with the one below it, or all layers into their take.
+
+use super::kind::{EditKind, LayerUse};
+use super::{Arbitrary, EditedBones, Example, Property, TakeRef};
+use crate::adapter::kind::{ChannelKind, with_kind};
+use crate::adapter::plan::{Transaction, layer, rewrite};
+use crate::adapter::{EditError, LayerVersions};
+use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take, Track};
+use dragonfly_anim::layers::{
+    LayerChannel, LayerMode, LayerRule, LayerSettings, flatten, flatten_channel, played,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Merges a layer into what lies below it, which shows the same. Where the edit names a take, all its layers become keys of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MergeLayers {
+    /// The layer to merge with the one below it, the lowest one with the take; or the take, to merge all.
+    pub take: TakeRef,
+}
+
+impl EditKind for MergeLayers {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"merge_layers","take":"Walk"}"#,
+        description: "Makes the take what is seen of it with its layers, which are gone then.",
+    };
+    const LAYERS: LayerUse = LayerUse::Any;
+
+    fn label(&self) -> &'static str {
+        if matches!(self.take, TakeRef::Layer { .. }) { "Merge layer down" } else { "Merge all layers" }
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        Some(&self.take)
+    }
+
+    fn bones(&self, _skeleton: &Skeleton) -> EditedBones {
+        EditedBones::WholeTake
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        if !matches!(self.take, TakeRef::Layer { .. }) {
+            let take = work.take(&self.take)?;
+            let count = work.slot(take).layers().len();
+            return if count > 0 {
+                into_take(work, take, count)
+            } else {
+                Err(EditError::Nothing("the take has no layers"))
+            };
+        }
+        let (base, index) = layer::place(work, &self.take)?;
+        let layers = work.slot(base).layers();
+        if !played(layers.iter().map(|layer| &*layer.settings))[index] {
+            return Err(EditError::Nothing("a layer that does nothing cannot be merged"));
+        }
+        if index == 0 {
+            return into_take(work, base, 1);
+        }
+        let (lower, upper) = (&layers[index - 1], &layers[index]);
+        let (settings, take) = merged(work.skeleton(), lower, upper)?;
+        let mut merged = layer::empty(work, base, settings);
+        Arc::make_mut(&mut merged.keys).set_keys(take);
+        layer::replace(work, base, |layers| {
+            layers.splice(index - 1..=index, [merged]);
+        })
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        Self { take: if from.flag() { from.layer() } else { from.take() } }
+    }
+}
+
+/// Makes the lowest `count` layers keys of their take.
+fn into_take(work: &mut Transaction, take: crate::adapter::TakeId, count: usize) -> Result<(), EditError> {
+    let slot = work.slot(take);
+    let layers: Vec<_> = slot.layers()[..count].iter().map(LayerVersions::flat).collect();
+    let flat = flatten(&slot.result, &layers, work.skeleton());
+    layer::replace(work, take, |layers| {
+        layers.drain(..count);
+    })?;
+    rewrite::channels(work, take, &flat)?;
+    Ok(())
+}
+
+/// Returns the settings and the keys of one layer that does what two do.
+fn merged(
+    skeleton: &Skeleton,
+    lower: &LayerVersions,
+    upper: &LayerVersions,
+) -> Result<(LayerSettings, Take), EditError> {
+    let (low, high) = (&lower.settings, &upper.settings);
+    if low.is_muted || high.is_muted || low.is_solo != high.is_solo {
+        return Err(EditError::Nothing("a muted layer, or a solo one with another, cannot be merged"));
+    }
+    let is_whole = |settings: &LayerSettings| settings.weights.is_empty() && settings.weight == 1.0;
+    match (low.mode, high.mode) {
+        (LayerMode::Additive, LayerMode::Additive) => {}
+        (LayerMode::Override, LayerMode::Override) if is_whole(low) && is_whole(high) => {}
+        (LayerMode::Override, LayerMode::Override) => {
+            return Err(EditError::Nothing("layers of poses can be merged where their weights are 1"));
+        }
+        _ => {
+            return Err(EditError::Nothing(
+                "layers of offsets and of poses can only be merged into the take",
+            ));
+        }
+    }
+    let mut take = Take { tracks: lower.keys.result.tracks.clone(), ..Take::default() };
+    for bone in 0..take.tracks.len().min(skeleton.len()) as u32 {
+        for property in Property::ALL {
+            with_kind!(property, merged_channel::<K>(&mut take.tracks[bone as usize], bone, lower, upper));
+        }
+    }
+    let settings =
+        LayerSettings { weight: 1.0, weights: Vec::new(), bones: None, ..LayerSettings::clone(low) };
+    Ok((settings, take))
+}
+
+fn merged_channel<K: ChannelKind>(
+    track: &mut Track,
+    bone: u32,
+    lower: &LayerVersions,
+    upper: &LayerVersions,
+) {
+    let none = Channel::default();
+    let keys = |layer: &'_ LayerVersions| -> Channel<K::Value> {
+        let track = layer.keys.result.tracks.get(bone as usize).filter(|_| layer.settings.moves(bone));
+        track.map_or(none.clone(), |track| K::channel(track).clone())
+    };
+    let (low, high) = (keys(lower), keys(upper));
+    let merged = match lower.settings.mode {
+        LayerMode::Override if high.is_empty() => low,
+        LayerMode::Override => high,
+        LayerMode::Additive => {
+            let layers = [
+                LayerChannel { settings: &lower.settings, keys: &low },
+                LayerChannel { settings: &upper.settings, keys: &high },
+            ];
+            let start: Arc<[f32]> = Arc::from([0.0]);
+            let identity = Channel::new(start, [<K::Rule as LayerRule>::IDENTITY], Interpolation::Linear);
+            // A channel without keys would add a key at 0 s where all layers begin later.
+            let base = if low.len().max(high.len()) > 1 { &none } else { &identity };
+            flatten_channel::<K::Rule>(base, &layers, <K::Rule as LayerRule>::IDENTITY)
+                .unwrap_or(none.clone())
+        }
+    };
+    *K::channel_mut(track) = merged;
+}
