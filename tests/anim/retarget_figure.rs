@@ -87,11 +87,11 @@ fn bvh(text: &str, step: usize) -> (Skeleton, Take) {
     (Skeleton { bones }, take(tracks))
 }
 
-/// Returns a walk that was captured from a person: CMU subject 1, trial 1, at 30 frames per second.
+/// Returns motion capture: CMU subject 1, trial 1, at 30 frames per second.
 fn captured() -> Option<(Skeleton, Take)> {
     let text = std::fs::read_to_string(dragonfly_kit::skip::models()?.join("bvh/cmu_01_01.bvh")).unwrap();
     let (mut skeleton, take) = bvh(&text, 4);
-    // The rest pose stands above the origin, not in it.
+    // The rest pose is moved up, so that the feet are near the ground.
     skeleton.bones[0].rest.translation = Vec3::new(0.0, 17.0, 0.0);
     Some((skeleton, take))
 }

@@ -6,8 +6,10 @@ use dragonfly_anim::retarget::{BindingGuess, FigureOptions};
 use dragonfly_anim::sample::sample_take;
 use dragonfly_document::adapter::{EditError, ModelAdapter, TakeVersions};
 use dragonfly_document::edit::{AddTake, Edit, EditedBones, TRAVEL, TakeRef};
-use dragonfly_document::{BoneMap, Change, DocumentMessage, DocumentReply, MapFile, RetargetOrder, Source};
-use dragonfly_kit::document::test_document::{TestDocument, same_takes};
+use dragonfly_document::{
+    BoneMap, Change, DocumentMessage, DocumentReply, MapFile, RetargetOrder, SaveTo, Source,
+};
+use dragonfly_kit::document::test_document::{TestDocument, fox, same_takes};
 use dragonfly_kit::folder::{Folder, data};
 use std::sync::Arc;
 
@@ -189,4 +191,26 @@ fn a_take_of_another_file_becomes_one_edit_of_the_open_document_and_undo_removes
         _ => None,
     });
     assert!(refused.contains("no.json"), "{refused}");
+}
+
+#[test]
+fn removed_travel_is_saved_with_the_take_and_put_back_after_opening_again() {
+    let folder = Folder::new("travel-saved");
+    let path = fox(&folder);
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    let before = document.open(&path);
+    let remove =
+        r#"{"edit":"remove_travel","take":"Run","bone":"b_Hip_01","parts":["x","z","height","yaw"]}"#;
+    document.edit(edit(remove));
+    document.wait_for_view(|view| view.history.done == 1);
+    document.save(SaveTo::Own);
+    document.end();
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    let still = document.open(&path);
+    let skeleton = Arc::clone(&before.loaded.model.animation.skeleton);
+    assert!(apart(&skeleton, &before.takes[2], &still.takes[2]) > 1e-3);
+    document.edit(edit(r#"{"edit":"restore_travel","take":"Run"}"#));
+    let back = document.wait_for_view(|view| view.history.done == 1);
+    let difference = apart(&skeleton, &before.takes[2], &back.takes[2]);
+    assert!(difference < 1e-4, "{difference}");
 }

@@ -29,7 +29,7 @@ use glam::{Quat, Vec3};
 /// Largest number of frames of a motion.
 const MOST_FRAMES: f64 = 1e6;
 
-/// What to extract, and how smooth the motion is.
+/// Options of extraction: the parts, and the smoothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TravelOptions {
     /// The parts of the movement.

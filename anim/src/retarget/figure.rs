@@ -13,10 +13,10 @@ use crate::frames::{FramesError, TakeFrames, frame_rate};
 use crate::motion::{Axis, guess_hips};
 use crate::sample::rest_pose;
 
-/// Height of the hips of a person, meters: what thresholds of contacts are measured in.
+/// Height of the hips of a grown man, meters; the thresholds of contacts are for a figure of this size.
 const HIPS: f32 = 0.95;
 
-/// What a figure keeps.
+/// Options for a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FigureOptions {
     /// Whether feet stay where they touch the ground.

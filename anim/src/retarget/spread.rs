@@ -16,8 +16,8 @@ use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take};
 use crate::sample::sample_channel;
 use glam::{DQuat, Quat};
 
-/// Distributes the bend of each bound bone over the unbound bones right above it, where `is_chain` says that they and it are of one
-/// chain.
+/// Distributes the bend of each bound bone over the unbound bones right above it, where `is_chain` returns true for both:
+/// they are of one chain.
 pub(super) fn spread(
     take: &mut Take,
     source: &Skeleton,

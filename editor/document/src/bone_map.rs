@@ -88,7 +88,7 @@ impl BoneMap {
     }
 }
 
-/// Returns the name of a bone with the number that tells it from earlier bones of the name; `None` for one without a name.
+/// Returns the name of a bone with its number among the bones of the name; `None` for one without a name.
 fn written(skeleton: &Skeleton, bone: BoneIndex) -> Option<String> {
     let name = &skeleton.bones.get(bone as usize)?.name;
     let number = skeleton.bones[..=bone as usize].iter().filter(|other| other.name == *name).count();

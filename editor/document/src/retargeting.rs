@@ -25,11 +25,11 @@ pub struct RetargetOrder {
     pub take: usize,
     /// Bones of the source and of the open model.
     pub pairs: Vec<(BoneIndex, BoneIndex)>,
-    /// What the figure keeps.
+    /// Options for the figure.
     pub options: FigureOptions,
 }
 
-/// What is done with a file of a bone map.
+/// An action with a file of a bone map.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MapFile {
     /// Reads it.

@@ -143,7 +143,7 @@ fn unused_name(adapter: &ModelAdapter, name: &str) -> String {
     (1..=adapter.slots().len() + 1).map(numbered).find(|name| !is_used(name)).unwrap_or_default()
 }
 
-/// What was mapped, and the new takes.
+/// The mapped bones, and the new takes.
 #[derive(Serialize)]
 struct RetargetReport {
     conventions: [Option<&'static str>; 2],

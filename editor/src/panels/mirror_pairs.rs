@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// Width of the dialog, points.
 const WIDTH: f32 = 560.0;
 
-/// What was chosen in the dialog.
+/// State of the dialog: the corrections and the options.
 #[derive(Debug, Default)]
 pub(super) struct MirrorDialog {
     /// The skeleton, its guessed pairs, and those with the corrections.

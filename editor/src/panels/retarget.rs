@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// Width of the dialog, points.
 const WIDTH: f32 = 620.0;
 
-/// What was typed and chosen in the dialog.
+/// State of the dialog: the typed paths, the map and the options.
 #[derive(Debug)]
 pub(super) struct RetargetDialog {
     path: String,

@@ -25,7 +25,7 @@ const POINTS: usize = 400;
 /// Width of the dialog and height of the path, points.
 const SIZE: [f32; 2] = [380.0, 190.0];
 
-/// What was chosen in the dialog.
+/// State of the dialog: the bones and the options.
 #[derive(Debug)]
 pub(super) struct RootMotion {
     /// The skeleton for which bones were chosen.
@@ -43,7 +43,7 @@ impl Default for RootMotion {
     }
 }
 
-/// What the path is computed from: the generation of the view, the take, bone, and the smoothing in hundredths of a frame.
+/// Inputs of the path: the generation of the view, the take, bone, and the smoothing in hundredths of a frame.
 type PathKey = (u64, usize, BoneIndex, u32);
 
 /// Positions of a bone over a take.
