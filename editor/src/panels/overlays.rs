@@ -7,7 +7,7 @@ use super::palette::Palette;
 use super::prompts::Overlay;
 use super::request::Request;
 use super::retarget::RetargetDialog;
-use super::root_motion::RootMotion;
+use super::root_motion::RootMotionDialog;
 use super::shortcuts::ShortcutSheet;
 use super::style::GRID;
 use super::theme::Theme;
@@ -23,7 +23,7 @@ pub struct Overlays {
     path: String,
     shortcuts: ShortcutSheet,
     shown: Option<Overlay>,
-    root_motion: RootMotion,
+    root_motion: RootMotionDialog,
     mirror: MirrorDialog,
     retarget: RetargetDialog,
 }

@@ -27,24 +27,24 @@ const SIZE: [f32; 2] = [380.0, 190.0];
 
 /// State of the dialog: the bones and the options.
 #[derive(Debug)]
-pub(super) struct RootMotion {
+pub(super) struct RootMotionDialog {
     /// The skeleton for which bones were chosen.
     skeleton: Option<Arc<Skeleton>>,
     hips: Option<BoneIndex>,
     root: Option<BoneIndex>,
     parts: Vec<TravelPart>,
     smooth: f32,
-    path: Option<(PathKey, Arc<GroundPath>)>,
+    path: Option<(GroundPathKey, Arc<GroundPath>)>,
 }
 
-impl Default for RootMotion {
+impl Default for RootMotionDialog {
     fn default() -> Self {
         Self { skeleton: None, hips: None, root: None, parts: TravelPart::usual(), smooth: 0.0, path: None }
     }
 }
 
 /// Inputs of the path: the generation of the view, the take, bone, and the smoothing in hundredths of a frame.
-type PathKey = (u64, usize, BoneIndex, u32);
+type GroundPathKey = (u64, usize, BoneIndex, u32);
 
 /// Positions of a bone over a take.
 #[derive(Debug)]
@@ -127,7 +127,7 @@ impl GroundPath {
     }
 }
 
-impl RootMotion {
+impl RootMotionDialog {
     /// Draws the dialog.
     pub(super) fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         ui.set_width(SIZE[0]);
