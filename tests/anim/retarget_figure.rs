@@ -14,6 +14,9 @@ use dragonfly_anim::retarget::{
 };
 use glam::{Quat, Vec3};
 
+/// Times, positions and rotations of a joint.
+type JointMotion = (Vec<f32>, Vec<Vec3>, Vec<Quat>);
+
 /// Reads the skeleton and the motion of a BVH file, every `step`-th frame.
 fn bvh(text: &str, step: usize) -> (Skeleton, Take) {
     let mut words = text.split_whitespace();
@@ -53,7 +56,7 @@ fn bvh(text: &str, step: usize) -> (Skeleton, Take) {
     let frames: usize = words.next().unwrap().parse().unwrap();
     assert_eq!([words.next(), words.next()], [Some("Frame"), Some("Time:")]);
     let seconds: f32 = words.next().unwrap().parse().unwrap();
-    let mut tracks: Vec<(Vec<f32>, Vec<Vec3>, Vec<Quat>)> = vec![Default::default(); bones.len()];
+    let mut tracks: Vec<JointMotion> = vec![Default::default(); bones.len()];
     for frame in 0..frames {
         for (bone, names) in channels.iter().enumerate() {
             let (mut moved, mut turned) = (Vec3::ZERO, Quat::IDENTITY);
@@ -74,7 +77,7 @@ fn bvh(text: &str, step: usize) -> (Skeleton, Take) {
             }
         }
     }
-    let track = |(bone, (times, moved, turned)): (usize, (Vec<f32>, Vec<Vec3>, Vec<Quat>))| Track {
+    let track = |(bone, (times, moved, turned)): (usize, JointMotion)| Track {
         bone: bone as u32,
         translation: match channels[bone].len() {
             6 => Channel::new(times.clone(), moved, Interpolation::Linear),

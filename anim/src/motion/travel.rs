@@ -245,8 +245,7 @@ fn carried(
     }
     let rest = rest_pose(&skeleton.bones[bone as usize]);
     let above = times_above(take, skeleton, bone);
-    let times =
-        union([&motion.translation.times, &motion.rotation.times, &above[..]].map(|times| &times[..]));
+    let times = union([&motion.translation.times[..], &motion.rotation.times, &above]);
     let mut track = track_of(take, bone);
     (track.translation, track.rotation) = (unstepped(&track.translation), unstepped(&track.rotation));
     if turns {
