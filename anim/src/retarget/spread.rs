@@ -13,6 +13,7 @@
 use super::SkeletonBinding;
 use super::rest::{RestPose, parent_of, source_of};
 use crate::data::{BoneIndex, Channel, Interpolation, Skeleton, Take};
+use crate::inbetween::KeyValue;
 use crate::sample::sample_channel;
 use glam::{DQuat, Quat};
 
@@ -69,8 +70,7 @@ fn bend(take: &mut Take, target: &Skeleton, rest: &RestPose, line: &[BoneIndex])
     };
     let turned = |time: f32, index: usize| {
         let bend = bend_at(time);
-        let bend = if bend.w < 0.0 { -bend } else { bend };
-        DQuat::IDENTITY.slerp(bend, shares[index + 1]) * below[index]
+        Quat::mix(Quat::IDENTITY, bend.as_quat(), shares[index + 1]).as_dquat() * below[index]
     };
     let mut tracks: Vec<(usize, Vec<f32>, Vec<DQuat>)> = Vec::new();
     for (index, &bone) in middle.iter().enumerate() {

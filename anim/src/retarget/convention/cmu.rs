@@ -1,7 +1,7 @@
 //! Motion capture of the Carnegie Mellon database and other BVH files.
 
-use super::BodyPart::*;
-use super::Convention;
+use super::part::BodyPart::*;
+use super::part::Convention;
 
 pub(super) const CONVENTION: Convention = Convention {
     name: "CMU",

@@ -1,7 +1,7 @@
 //! Usual names of rigs that follow no convention.
 
-use super::BodyPart::*;
-use super::Convention;
+use super::part::BodyPart::*;
+use super::part::Convention;
 
 pub(super) const CONVENTION: Convention = Convention {
     name: "usual names",

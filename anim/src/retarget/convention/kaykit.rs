@@ -1,7 +1,7 @@
 //! KayKit characters: `upperarm.l`, `lowerleg.r`.
 
-use super::BodyPart::*;
-use super::Convention;
+use super::part::BodyPart::*;
+use super::part::Convention;
 
 pub(super) const CONVENTION: Convention = Convention {
     name: "KayKit",

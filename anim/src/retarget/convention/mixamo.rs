@@ -1,7 +1,7 @@
 //! Mixamo and other rigs with the names of HumanIK: `mixamorig:LeftUpLeg`.
 
-use super::BodyPart::*;
-use super::Convention;
+use super::part::BodyPart::*;
+use super::part::Convention;
 
 pub(super) const CONVENTION: Convention = Convention {
     name: "Mixamo",

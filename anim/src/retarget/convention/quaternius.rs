@@ -1,7 +1,7 @@
 //! Quaternius characters: `UpperArm.L`, `Abdomen`, `Torso`.
 
-use super::BodyPart::*;
-use super::Convention;
+use super::part::BodyPart::*;
+use super::part::Convention;
 
 pub(super) const CONVENTION: Convention = Convention {
     name: "Quaternius",

@@ -1,7 +1,7 @@
 //! Rigify: the deform bones (`DEF-upper_arm.L`), the original ones (`ORG-`), and the metarig.
 
-use super::BodyPart::*;
-use super::Convention;
+use super::part::BodyPart::*;
+use super::part::Convention;
 
 pub(super) const CONVENTION: Convention = Convention {
     name: "Rigify",

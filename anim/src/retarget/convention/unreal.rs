@@ -1,7 +1,7 @@
 //! The mannequins of Unreal: `upperarm_l`, `calf_r`.
 
-use super::BodyPart::*;
-use super::Convention;
+use super::part::BodyPart::*;
+use super::part::Convention;
 
 pub(super) const CONVENTION: Convention = Convention {
     name: "Unreal mannequin",

@@ -1,7 +1,7 @@
 //! VRM: the names of its humanoid bones, and those that VRoid gives to its joints (`J_Bip_L_UpperArm`).
 
-use super::BodyPart::*;
-use super::Convention;
+use super::part::BodyPart::*;
+use super::part::Convention;
 
 pub(super) const CONVENTION: Convention = Convention {
     name: "VRM humanoid",
