@@ -1,7 +1,7 @@
 //! The jobs of the document: it continues to work while a file is read or a folder is searched, and survives an importer that
 //! panics.
 
-use super::retargeting::RetargetNews;
+use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
 use super::{LoadError, Loader, OpenedModel, Progress, Source};
 use dragonfly_runtime::{Address, Job, JobContext};

@@ -1,6 +1,6 @@
 //! The messages that other threads send to the document, and its replies.
 
-use super::retargeting::{MapFile, RetargetOrder};
+use super::retarget_order::{MapFile, RetargetOrder};
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
 use super::scan::Decision;
 use super::{BoneMap, LoadedModel, Offer, Progress, Source, View};

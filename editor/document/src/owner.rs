@@ -6,7 +6,7 @@ use super::job::{JobNews, start_loading, start_search};
 use super::message::DocumentReply;
 use super::open::Open;
 use super::receivers::{ChangeReceiver, DocumentWorker, JobReceiver, MessageReceiver};
-use super::retargeting::Retargeting;
+use super::retarget_order::Retargeting;
 use super::running_save::{Deferred, RunningSave};
 use super::saving::{SaveOrder, Then};
 use super::scan::{Decision, RecoveryScan};
