@@ -75,24 +75,6 @@ pub(super) fn cases() -> Vec<PictureCase> {
         Some(Overlay::Palette),
     );
     cases.push(PictureCase { act: Box::new(types), ..nothing });
-    // The bones of two models side by side: here of the same one.
-    let both = case(
-        "overlays/retarget-with-a-source".to_owned(),
-        vec2(720.0, 560.0),
-        Typical,
-        Some(Overlay::Retarget),
-    );
-    let bench = Box::new(|| {
-        let mut bench = Typical.bench();
-        for panel in dragonfly::panels::all() {
-            bench.desk.toggle_panel(panel.id());
-        }
-        bench.state.show_overlay(Some(Overlay::Retarget));
-        let loaded = bench.state.read().view.map(|view| std::sync::Arc::clone(&view.loaded));
-        bench.state.source_read(loaded.expect("a model"));
-        bench
-    });
-    cases.push(PictureCase { bench, ..both });
     // A file that is held over the window; the hint fills it.
     let holds = |window: &mut Window| window.input_mut().hovered_files.push(egui::HoveredFile::default());
     let drop = case("overlays/drop-a-file".to_owned(), vec2(480.0, 240.0), Typical, None);
