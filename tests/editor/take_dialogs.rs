@@ -1,12 +1,11 @@
 //! The dialogs for root motion, mirroring and retargeting send the edits that they show.
 
 use crate::timeline_rig::Animator;
+use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::prompts::Overlay;
-use dragonfly::panels::{Effect, FileAction, Request};
 use dragonfly_document::bones::BodySide;
 use dragonfly_document::edit::{BoneRef, Edit, TRAVEL, TravelPart};
-use dragonfly_document::{BoneMap, DocumentMessage};
 use dragonfly_kit::document::fixture;
 use egui_kittest::kittest::Queryable;
 
@@ -66,26 +65,4 @@ fn without_a_source_the_dialog_for_retargeting_has_only_a_field_for_its_path() {
     animator.harness.run_steps(2);
     assert!(animator.harness.query_by_label("Read").is_some());
     assert!(animator.harness.query_by_label("Add take").is_none());
-}
-
-#[test]
-fn the_bones_of_both_models_are_side_by_side_and_the_take_is_ordered_with_the_corrected_map() {
-    let mut animator = Animator::new(fixture::full());
-    animator.request(Request::Command(Id::Retarget));
-    let source = fixture::full().loaded;
-    animator.harness.state_mut().state.source_read(source);
-    animator.steps(3);
-    assert!(animator.harness.query_by_label("Bone of the file that moves it").is_some());
-    let bones = &fixture::full().loaded.model.animation.skeleton.bones;
-    let [first, last] = [&bones[0].name, &bones[bones.len() - 1].name];
-    let text = format!(r#"{{"bone_map":1,"bones":[["{first}","{last}"]]}}"#);
-    animator.harness.state_mut().state.map_read(BoneMap::parse(&text).expect("a map"));
-    click(&mut animator, "Add take");
-    let sent = animator.harness.state().effects.iter().find_map(|effect| match effect {
-        Effect::File(FileAction::Send(DocumentMessage::Retarget(order))) => Some(order.clone()),
-        _ => None,
-    });
-    let order = sent.expect("an order");
-    assert_eq!((order.take, order.pairs), (0, vec![(0, bones.len() as u32 - 1)]));
-    assert!(order.options.contacts);
 }
