@@ -21,6 +21,7 @@ mod save_and_open;
 mod save_in_background;
 mod take_tools;
 mod tangents;
+mod travel;
 mod turns_and_cycles;
 mod undo;
 

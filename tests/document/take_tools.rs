@@ -7,6 +7,7 @@ use dragonfly_anim::frames::TakeFrames;
 use dragonfly_anim::motion::Axis;
 use dragonfly_anim::sample::sample_take;
 use dragonfly_document::adapter::{EditError, ModelAdapter};
+use dragonfly_document::bones::MirrorPairs;
 use dragonfly_document::edit::{Edit, EditedBones};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -181,4 +182,53 @@ fn edits_that_cannot_be_carried_out_say_why() {
         let error = wrong(line, &mut model).to_string();
         assert!(error.contains(wanted), "{line}: {error}");
     }
+}
+
+#[test]
+fn one_side_is_mirrored_to_the_other_and_the_rest_stays_bit_for_bit() {
+    let mut model = fox();
+    let skeleton = Arc::clone(model.skeleton());
+    let pairs = MirrorPairs::of(&skeleton);
+    let before = Arc::clone(&model.slots()[1].result);
+    let after = applied(&mut model, r#"{"edit":"mirror_take","take":"Walk","side":"left"}"#);
+    let mut changed = 0;
+    for (was, is) in before.tracks.iter().zip(&after.tracks) {
+        let is_right = pairs.pairs.iter().any(|pair| pair.right == was.bone);
+        assert!(is_right || was == is, "bone {}", was.bone);
+        changed += usize::from(was != is);
+    }
+    assert!(changed > 5, "{changed}");
+    // The right side has the mirrored motion of the left one: the left one gets its own motion back.
+    let back = model.apply(&edit(r#"{"edit":"mirror_take","take":"Walk","side":"right"}"#)).map(|_| ());
+    let back = back.map_or_else(|_| Arc::clone(&after), |()| Arc::clone(&model.slots()[1].result));
+    assert!(apart(&skeleton, &after, &back, times(&after)) < 1e-6);
+}
+
+#[test]
+fn corrected_pairs_are_followed_by_the_mirrored_take() {
+    let skeleton = Arc::clone(fox().skeleton());
+    let bone = |name: &str| skeleton.find(name).expect(name);
+    let [left, right, tail] = ["b_LeftFoot02_018", "b_RightFoot01_021", "b_Tail01_012"].map(bone);
+    let pairs = MirrorPairs::of(&skeleton).corrected(&[[left, right], [tail, bone("b_Tail02_013")]]);
+    assert_eq!((pairs.partner(left), pairs.partner(right)), (Some(right), Some(left)));
+    assert_eq!(pairs.partner(bone("b_LeftFoot01_017")), None);
+    assert_eq!(pairs.mirror_of(bone("b_LeftFoot01_017")), None, "its counterpart is in another pair now");
+    assert_eq!(pairs.mirror_of(tail), Some(bone("b_Tail02_013")));
+    let listed = |one| pairs.pairs.iter().filter(|pair| pair.left == one || pair.right == one).count();
+    assert_eq!((listed(left), listed(right), listed(tail)), (1, 1, 1));
+    let middle = MirrorPairs::of(&skeleton).corrected(&[[left, left]]);
+    assert_eq!(middle.mirror_of(left), Some(left));
+    assert_eq!(MirrorPairs::of(&skeleton).corrected(&[]), MirrorPairs::of(&skeleton));
+    let mut model = fox();
+    let before = Arc::clone(&model.slots()[1].result);
+    let line = r#"{"edit":"mirror_take","take":"Walk","bones":["b_Tail01_012"],"pairs":[["b_Tail01_012","b_Tail02_013"]]}"#;
+    let after = applied(&mut model, line);
+    let changed: Vec<u32> = before
+        .tracks
+        .iter()
+        .zip(&after.tracks)
+        .filter(|(was, is)| was != is)
+        .map(|(was, _)| was.bone)
+        .collect();
+    assert_eq!(changed, [bone("b_Tail02_013")]);
 }

@@ -68,6 +68,7 @@ mod remembered;
 // The memory of another process can be read there only.
 #[cfg(target_os = "linux")]
 mod render_memory;
+mod retarget_command;
 mod ruler;
 mod saved_pending;
 mod screen;
@@ -77,6 +78,7 @@ mod stdio;
 mod stdio_journal;
 mod store_full;
 mod take_commands;
+mod take_dialogs;
 mod takes_panel;
 mod timeline_curves;
 mod timeline_keyboard;

@@ -26,10 +26,14 @@ mod extract;
 mod keys;
 mod parent_space;
 mod restore;
+mod travel;
 
 pub use curve::RootMotion;
 pub use extract::{extract, in_place};
 pub use restore::restore;
+pub use travel::{
+    Travel, TravelOptions, guess_hips, guess_root, move_travel, put_back, take_travel, travel_bones,
+};
 
 use crate::data::BoneIndex;
 #[cfg(doc)]
@@ -93,4 +97,17 @@ pub enum MotionError {
         /// Time in the take.
         milliseconds: i64,
     },
+    /// Neither of the two bones is above the other.
+    #[error(
+        "travel moves only between a bone and one above it: bones {from} and {to} are in different branches"
+    )]
+    NotInLine {
+        /// The bone that travels.
+        from: BoneIndex,
+        /// The bone that was to travel.
+        to: BoneIndex,
+    },
+    /// The frame rate is not a positive number, or the take has more than a million frames.
+    #[error("the motion cannot be sampled at this frame rate")]
+    Rate,
 }

@@ -43,7 +43,12 @@ pub fn restore(take: &Take, skeleton: &Skeleton, motion: &RootMotion) -> Result<
 }
 
 /// Returns `channel` with keys at `times`; one without keys gets the interpolation `kind`.
-fn keyed<T: Refine>(channel: &Channel<T>, rest: T, times: &[f32], kind: Interpolation) -> Channel<T> {
+pub(super) fn keyed<T: Refine>(
+    channel: &Channel<T>,
+    rest: T,
+    times: &[f32],
+    kind: Interpolation,
+) -> Channel<T> {
     if !channel.is_empty() {
         return T::refined(channel, rest, times);
     }

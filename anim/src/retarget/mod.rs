@@ -4,7 +4,9 @@
 //! A [`SkeletonBinding`] assigns bones of one skeleton to bones of another. With it,
 //!
 //! * [`rebind`] copies the tracks unchanged: correct for another surface on the same skeleton;
-//! * [`retarget`] also compensates for another rest pose and other proportions: correct for rigs of equal topology.
+//! * [`retarget`] also compensates for another rest pose and other proportions: correct for rigs of equal topology;
+//! * [`retarget_figure`] also distributes bends over chains of different length and keeps the contacts of feet, for a binding
+//!   that [`BindingGuess`] found or a user corrected.
 //!
 //! # The formula
 //!
@@ -59,16 +61,24 @@
 //! so a figure whose walk is in a bone above the hips walks as far, times `k`, where only the hips are bound. `p_s` is
 //! sampled at the key times of all contributing channels, and between where bones turn or channels are curved.
 
+mod attach;
 mod binding;
+mod convention;
+mod figure;
+mod guess;
 mod names;
 mod relative_position;
 mod rest;
 mod rotation;
 mod sample_times;
+mod spread;
 mod transfer;
 mod translation;
 
 pub use binding::{BindError, SkeletonBinding, rebind};
+pub use convention::{BodyPart, BoneRole, SkeletonRoles};
+pub use figure::{FigureError, FigureOptions, Retargeted, retarget_figure};
+pub use guess::BindingGuess;
 pub use names::normalized_name;
 pub use rest::{SAME_SHAPE, height_ratio, leg_ratio};
 pub use transfer::{RetargetOptions, retarget};

@@ -1,6 +1,7 @@
 //! The jobs of the document: it continues to work while a file is read or a folder is searched, and survives an importer that
 //! panics.
 
+use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
 use super::{LoadError, Loader, OpenedModel, Progress, Source};
 use dragonfly_runtime::{Address, Job, JobContext};
@@ -17,6 +18,8 @@ pub(super) enum JobNews {
     SaveStep(u64),
     /// The result of a search for unsaved work.
     Scanned(RecoveryScan),
+    /// The result of a job for takes of another model.
+    Retarget(RetargetNews),
 }
 
 /// Starts loading `source` in a job, whose news reach the document with `ticket`. Dropping the job cancels it without

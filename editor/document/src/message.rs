@@ -1,8 +1,9 @@
 //! The messages that other threads send to the document, and its replies.
 
+use super::retarget_order::{MapFile, RetargetOrder};
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
 use super::scan::Decision;
-use super::{LoadedModel, Offer, Progress, Source, View};
+use super::{BoneMap, LoadedModel, Offer, Progress, Source, View};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -34,6 +35,12 @@ pub enum DocumentMessage {
     LookAtFile,
     /// Searches for unsaved work of earlier sessions, and replies also if there is none.
     Search,
+    /// Reads another model, whose takes are wanted for the open one. The reply is [`DocumentReply::SourceRead`].
+    ReadSource(Source),
+    /// Computes a take of that model for the open one, and adds it.
+    Retarget(RetargetOrder),
+    /// Reads or writes a bone map.
+    MapFile(MapFile),
     /// The user's decision about unsaved work of an earlier session.
     Decide(Box<Offer>, Decision),
     /// The present path of the file that unsaved work belongs to. If it is that file, the work is restored there.
@@ -84,6 +91,10 @@ pub enum DocumentReply {
     OtherFile(Box<Offer>, PathBuf),
     /// The user searched for unsaved work, and there is none.
     NothingToOffer,
+    /// The model whose takes are wanted was read.
+    SourceRead(Arc<LoadedModel>),
+    /// A bone map was read.
+    MapRead(BoneMap),
     /// A message for the status line.
     Notice(String),
     /// A warning for the status line.

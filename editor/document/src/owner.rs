@@ -6,6 +6,7 @@ use super::job::{JobNews, start_loading, start_search};
 use super::message::DocumentReply;
 use super::open::Open;
 use super::receivers::{ChangeReceiver, DocumentWorker, JobReceiver, MessageReceiver};
+use super::retarget_order::Retargeting;
 use super::running_save::{Deferred, RunningSave};
 use super::saving::{SaveOrder, Then};
 use super::scan::{Decision, RecoveryScan};
@@ -52,7 +53,9 @@ pub struct Document {
     /// The messages that wait for its end, in order.
     pub(super) deferred: VecDeque<Deferred>,
     tickets: u64,
-    load: Loader,
+    pub(super) load: Loader,
+    /// Takes of another model for the open one.
+    pub(super) retargeting: Retargeting,
     pub(super) autosave: Option<Autosave>,
     /// Unsaved work of the open file that awaits a decision of the user.
     pub(super) waiting: Option<Recoverable>,
@@ -131,6 +134,7 @@ impl Document {
                 deferred: VecDeque::new(),
                 tickets: 0,
                 load: setup.load,
+                retargeting: Retargeting::default(),
                 autosave: setup.autosave.clone(),
                 waiting: None,
                 scan: None,

@@ -51,6 +51,9 @@ impl Document {
                 self.searched = true;
                 self.search();
             }
+            DocumentMessage::ReadSource(source) => self.read_source(source, self.load),
+            DocumentMessage::Retarget(order) => self.retarget(order),
+            DocumentMessage::MapFile(file) => self.map_file(file),
             DocumentMessage::Decide(offer, decision) => self.decide(*offer, decision),
             DocumentMessage::FoundAt(offer, path) => self.found_at(*offer, path),
         }
@@ -83,6 +86,7 @@ impl Receiver for JobReceiver {
             JobNews::Loaded(ticket, loaded) => document.finish_loading(ticket, loaded),
             JobNews::SaveStep(ticket) => document.save_step(ticket, thread.now()),
             JobNews::Scanned(scan) => document.offer(scan),
+            JobNews::Retarget(news) => document.retarget_news(news, thread.now()),
         }
     }
 }

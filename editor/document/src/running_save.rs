@@ -45,7 +45,12 @@ enum Waits {
 
 fn waits(message: &DocumentMessage) -> Waits {
     match message {
-        DocumentMessage::CancelLoading | DocumentMessage::Plan(_) | DocumentMessage::Search => Waits::No,
+        DocumentMessage::CancelLoading
+        | DocumentMessage::Plan(_)
+        | DocumentMessage::Search
+        | DocumentMessage::ReadSource(_)
+        | DocumentMessage::Retarget(_)
+        | DocumentMessage::MapFile(_) => Waits::No,
         DocumentMessage::Save(_) | DocumentMessage::LookAtFile => Waits::Alone,
         DocumentMessage::Open { .. }
         | DocumentMessage::Revert

@@ -80,6 +80,8 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::NothingToOffer => {
             state.say(MessageSeverity::Info, "There is no unsaved work of an earlier run");
         }
+        DocumentReply::SourceRead(source) => state.source_read(source),
+        DocumentReply::MapRead(map) => state.map_read(map),
         DocumentReply::Notice(text) => state.say(MessageSeverity::Info, text),
         DocumentReply::Warning(text) => state.say(MessageSeverity::Warning, text),
         DocumentReply::Lost => {

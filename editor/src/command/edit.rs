@@ -135,9 +135,9 @@ struct EditReport {
 }
 
 #[derive(Serialize)]
-struct Written {
-    path: String,
-    bytes: usize,
+pub(super) struct Written {
+    pub(super) path: String,
+    pub(super) bytes: usize,
 }
 
 fn list(json: bool) -> Result<(), Failure> {
@@ -191,7 +191,7 @@ fn unused_of(output: &Path) -> Result<Vec<String>, Failure> {
 }
 
 /// Writes the files of the plan. Returns their paths and sizes.
-fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, Failure> {
+pub(super) fn save(editable: &Editable, plan: &SavePlan, output: &Path) -> Result<Vec<Written>, Failure> {
     if output == Path::new("-") && editable.needs_others(plan) {
         return Err(Failure::input("-", "the model consists of several files; give -o the path of a file"));
     }

@@ -20,6 +20,7 @@ mod pose;
 mod progress;
 mod quiet;
 mod render;
+mod retarget;
 mod run_command;
 mod stdio;
 mod table;
@@ -59,6 +60,7 @@ subcommands! {
     Explain => explain::ExplainArguments,
     Render => render::RenderArguments,
     Edit => edit::EditArguments,
+    Retarget => retarget::RetargetArguments,
     Demo => demo::DemoArguments,
 }
 
@@ -77,6 +79,8 @@ Examples:
                                     print every step that leads to the pose of a bone
   dragonfly edit Fox.glb --edits changes.jsonl -o Fox2.glb
                                     apply edits without a window; the rest of the file is unchanged
+  dragonfly retarget Walk.glb Hero.glb -o Hero2.glb
+                                    put takes of one figure on another
   dragonfly --commands              list the commands of the editor with their shortcuts
 
 FILE can be `demo:` for the built-in model.

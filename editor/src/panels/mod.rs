@@ -9,6 +9,7 @@
 //! A new panel is a file here and a line in [`all`]. A new command is a row in [`commands::TABLE`].
 
 mod actions;
+mod bone_choice;
 mod bone_menu;
 mod buttonless_keys;
 mod camera_state;
@@ -55,6 +56,9 @@ pub mod posed;
 pub mod prompts;
 pub mod properties;
 pub mod request;
+mod retarget;
+pub mod retarget_source;
+mod root_motion;
 pub mod ruler;
 mod search_field;
 mod selected_bones;

@@ -16,8 +16,17 @@ use std::sync::Arc;
 /// Maximum number of points of a path: a longer take is shown more coarsely.
 const MOST: usize = 2000;
 
+/// The bone of a path, and where the path is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathOf {
+    /// The bone.
+    pub bone: BoneIndex,
+    /// Whether the path is on the ground below the bone, without keys that could be dragged.
+    pub ground: bool,
+}
+
 /// The inputs of a path: generation of the view, take, bone, frame rate, version of the flags of bones.
-type PathSource = (u64, usize, BoneIndex, u32, u64);
+type PathSource = (u64, usize, PathOf, u32, u64);
 
 /// The path, its keys, and poses at the times of its keys.
 #[derive(Debug, Default)]
@@ -62,27 +71,31 @@ impl MotionPath {
         &mut self,
         view: &View,
         take: usize,
-        bone: BoneIndex,
+        of: PathOf,
         frame_rate: u32,
         flags: &BoneFlags,
     ) -> bool {
-        let source = (view.generation, take, bone, frame_rate, flags.version());
+        let source = (view.generation, take, of, frame_rate, flags.version());
+        let PathOf { bone, ground } = of;
         if self.source == Some(source) {
             return false;
         }
         let takes = self.posed.takes(view);
         let Some(shown) = takes.get(take) else { return false };
         let chain = JointChain::of(view, take, shown, bone);
+        let joint = |time: f32| {
+            let place = chain.joint(time);
+            if ground { Vec3::new(place.x, 0.0, place.z) } else { place }
+        };
         let rate = frame_rate.max(1) as f32;
         let frames = (shown.length * rate).max(0.0);
         let step = (frames / MOST as f32).ceil().max(1.0) / rate;
         // If the length is a whole number of frames except for rounding, the last frame is included.
         let count = (shown.length / step + 1e-3).max(0.0) as usize + 1;
         let times = (0..count.min(MOST + 1)).map(|index| shown.start + index as f32 * step);
-        let points =
-            times.map(|time| (time, chain.joint(time))).filter(|point| point.1.is_finite()).collect();
+        let points = times.map(|time| (time, joint(time))).filter(|point| point.1.is_finite()).collect();
         let key_times = shown.tracks.iter().find(|track| track.bone == bone).map(Track::key_times);
-        let times = key_times.unwrap_or_default();
+        let times = key_times.filter(|_| !ground).unwrap_or_default();
         self.keys.clear();
         // More keys would overlap on the screen.
         self.keys.extend(times.iter().take(MOST).map(|&time| PathKey { time, place: chain.joint(time) }));

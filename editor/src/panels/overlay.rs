@@ -11,6 +11,10 @@ pub enum Overlay {
     About,
     /// A field for a path.
     OpenPath,
-    /// The pairs of left and right bones.
+    /// The pairs of left and right bones, and what is mirrored.
     MirrorPairs,
+    /// Takes of another model for the open one.
+    Retarget,
+    /// The travel of a take.
+    RootMotion,
 }

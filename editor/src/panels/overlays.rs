@@ -1,10 +1,13 @@
 //! Overlays drawn over the panels: command palette, shortcut sheet, about, path field.
 
 use super::context::PanelContext;
+use super::mirror_pairs::MirrorDialog;
 use super::overlay_title;
 use super::palette::Palette;
 use super::prompts::Overlay;
 use super::request::Request;
+use super::retarget::RetargetDialog;
+use super::root_motion::RootMotionDialog;
 use super::shortcuts::ShortcutSheet;
 use super::style::GRID;
 use super::theme::Theme;
@@ -20,6 +23,9 @@ pub struct Overlays {
     path: String,
     shortcuts: ShortcutSheet,
     shown: Option<Overlay>,
+    root_motion: RootMotionDialog,
+    mirror: MirrorDialog,
+    retarget: RetargetDialog,
 }
 
 impl Overlays {
@@ -39,11 +45,18 @@ impl Overlays {
         if overlay == Overlay::Palette {
             modal = modal.area(Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, 72.0)));
         }
+        if overlay == Overlay::RootMotion {
+            // Beside the path that the viewport shows, which nothing dims.
+            modal = modal.backdrop_color(egui::Color32::TRANSPARENT);
+            modal = modal.area(Modal::default_area(id).anchor(Align2::RIGHT_CENTER, vec2(-24.0, 0.0)));
+        }
         let response = modal.show(ui.ctx(), |ui| match overlay {
             Overlay::Palette => self.palette.show(ui, fresh, context, requests),
             Overlay::Shortcuts => self.shortcuts.show(ui, context, requests),
             Overlay::About => about(ui, context, requests),
-            Overlay::MirrorPairs => super::mirror_pairs::show(ui, context, requests),
+            Overlay::MirrorPairs => self.mirror.show(ui, context, requests),
+            Overlay::Retarget => self.retarget.show(ui, context, requests),
+            Overlay::RootMotion => self.root_motion.show(ui, context, requests),
             Overlay::OpenPath => self.open_path(ui, fresh, requests),
         });
         if response.should_close() {

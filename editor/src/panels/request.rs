@@ -170,7 +170,11 @@ impl FileAction {
     pub(super) fn spares_drag(&self) -> bool {
         match self {
             Self::Send(
-                DocumentMessage::LookAtFile | DocumentMessage::Search | DocumentMessage::CancelLoading,
+                DocumentMessage::LookAtFile
+                | DocumentMessage::Search
+                | DocumentMessage::CancelLoading
+                | DocumentMessage::ReadSource(_)
+                | DocumentMessage::MapFile(_),
             )
             | Self::Stay => true,
             Self::Send(_)

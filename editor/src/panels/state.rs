@@ -14,9 +14,10 @@ use super::workspace::Workspace;
 use crate::control::InputEvent;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{NotSaved, Offer, SaveOrder, SavedFile, View};
+use dragonfly_document::{BoneMap, LoadedModel, NotSaved, Offer, SaveOrder, SavedFile, View};
 use egui::{Context, Pos2, RawInput};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Everything that the panels show.
@@ -112,6 +113,16 @@ impl State {
     /// Sets the bone under the pointer in the viewport. Returns whether it changed.
     pub fn set_pointed(&mut self, bone: Option<BoneIndex>) -> bool {
         self.workspace.bones.set_pointed(bone)
+    }
+
+    /// Shows the model whose takes are wanted, in the dialog for retargeting.
+    pub fn source_read(&mut self, source: Arc<LoadedModel>) {
+        self.workspace.retarget.set_source(source);
+    }
+
+    /// Shows a bone map that was read, in the dialog for retargeting.
+    pub fn map_read(&mut self, map: BoneMap) {
+        self.workspace.retarget.set_map(map);
     }
 
     /// Asks a question after those that are already waiting.

@@ -13,6 +13,7 @@ use super::open_model::OpenModel;
 use super::player::Player;
 use super::posed::PoseCache;
 use super::prompts::Prompts;
+use super::retarget_source::RetargetSource;
 use super::selected_bones::SelectedBones;
 use super::selection_steps::{SelectionState, SelectionSteps};
 use super::settings::Settings;
@@ -59,6 +60,8 @@ pub(super) struct Workspace {
     pub(super) dragging: Dragging,
     /// Questions and overlays.
     pub(super) prompts: Prompts,
+    /// The model whose takes are wanted for the open one.
+    pub(super) retarget: RetargetSource,
     /// Messages of the status line.
     pub(super) status: Status,
     /// Settings that are remembered between runs.
@@ -89,6 +92,7 @@ impl Workspace {
             camera: CameraState::default(),
             dragging: Dragging::default(),
             prompts: Prompts::default(),
+            retarget: RetargetSource::default(),
             status: Status::default(),
             settings,
             marks: Marks::default(),
@@ -124,6 +128,7 @@ impl Workspace {
             tools: &self.tools,
             dragging: &self.dragging,
             settings: &self.settings,
+            retarget: &self.retarget,
             status: &self.status,
             prompts: &self.prompts,
             overlay: self.prompts.overlay(),

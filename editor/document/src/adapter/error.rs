@@ -124,6 +124,9 @@ pub enum EditError {
     /// A loop cannot be closed.
     #[error(transparent)]
     Close(#[from] dragonfly_anim::loops::CloseError),
+    /// Travel cannot be removed, moved or put back.
+    #[error(transparent)]
+    Travel(#[from] dragonfly_anim::motion::MotionError),
     /// A take cannot be sampled.
     #[error(transparent)]
     Frames(#[from] dragonfly_anim::frames::FramesError),

@@ -120,6 +120,48 @@ impl MirrorPairs {
         self.unpaired.sort_unstable_by_key(|alone| alone.bone);
     }
 
+    /// Returns the pairs with corrections: each left and right bone, in the order of the corrections, is a pair instead of what it
+    /// was before. A bone that is paired with itself is in the middle. Bones that do not exist are left out.
+    pub fn corrected(mut self, corrections: &[[BoneIndex; 2]]) -> Self {
+        let exists = |bone: &BoneIndex| (*bone as usize) < self.partners.len();
+        let corrections: Vec<[BoneIndex; 2]> =
+            corrections.iter().filter(|pair| pair.iter().all(exists)).copied().collect();
+        for &[left, right] in &corrections {
+            for bone in [left, right] {
+                if let Some(old) = self.partner(bone) {
+                    self.partners[old as usize] = None;
+                }
+                self.partners[bone as usize] = None;
+                self.middle[bone as usize] = left == right;
+            }
+            if left != right {
+                self.partners[left as usize] = Some(right);
+                self.partners[right as usize] = Some(left);
+                self.pairs
+                    .retain(|pair| ![pair.left, pair.right].iter().any(|bone| [left, right].contains(bone)));
+                self.pairs.push(MirrorPair { left, right, guess: MirrorGuess::Chosen });
+            }
+        }
+        if corrections.is_empty() {
+            return self;
+        }
+        let sides: HashMap<BoneIndex, BodySide> = (self.pairs.iter())
+            .flat_map(|pair| [(pair.left, BodySide::Left), (pair.right, BodySide::Right)])
+            .chain(self.unpaired.iter().filter_map(|alone| Some((alone.bone, alone.side?))))
+            .collect();
+        let partners = &self.partners;
+        self.pairs.retain(|pair| partners[pair.left as usize] == Some(pair.right));
+        self.pairs.sort_unstable_by_key(|pair| pair.left);
+        let alone = (0..partners.len()).filter(|&bone| partners[bone].is_none());
+        self.unpaired = alone
+            .map(|bone| Unpaired {
+                bone: bone as BoneIndex,
+                side: sides.get(&(bone as BoneIndex)).copied().filter(|_| !self.middle[bone]),
+            })
+            .collect();
+        self
+    }
+
     /// Returns the other bone of the pair; `None` for an unpaired bone.
     pub fn partner(&self, bone: BoneIndex) -> Option<BoneIndex> {
         self.partners.get(bone as usize).copied().flatten()
@@ -167,7 +209,7 @@ fn keys(name: &str, words: &[SideWord], guess: MirrorGuess) -> Vec<(String, Body
             };
             keys.map(cut).collect()
         }
-        MirrorGuess::Place => Vec::new(),
+        MirrorGuess::Place | MirrorGuess::Chosen => Vec::new(),
         MirrorGuess::Glued => {
             let glued = glued_side_words(name);
             words.iter().chain(&glued).map(|word| (without(word, true), word.side)).collect()

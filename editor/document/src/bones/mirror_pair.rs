@@ -1,9 +1,12 @@
 //! A mirror pair: a left and a right bone, and the reason for it.
 
 use dragonfly_anim::data::BoneIndex;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// A side of the body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum BodySide {
     /// Left, usually of the character.
     Left,
@@ -26,6 +29,8 @@ pub enum MirrorGuess {
     Glued,
     /// Their positions are symmetric; their names disagree or name only the side.
     Place,
+    /// The user chose it.
+    Chosen,
 }
 
 impl MirrorGuess {
@@ -41,6 +46,7 @@ impl MirrorGuess {
             Self::Numbers => "by name, except for a number",
             Self::Glued => "by a side inside another word",
             Self::Place => "by mirrored positions",
+            Self::Chosen => "chosen",
         }
     }
 }

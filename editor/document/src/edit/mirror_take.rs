@@ -5,7 +5,7 @@ use super::target::BoneFinder;
 use super::{Arbitrary, BoneRef, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::plan::{Transaction, finite, rewrite};
 use crate::adapter::{EditError, ModelAdapter};
-use crate::bones::MirrorPairs;
+use crate::bones::{BodySide, MirrorPairs};
 use crate::posing::mirror::Mirror;
 use crate::posing::mirror_take::{MirrorRange, mirrored_take};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
@@ -14,8 +14,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Mirrors a take, or a range of it: each side of the body gets the motion of the other. Pairs of bones are guessed from their names
-/// and positions, as for mirrored poses.
+/// Mirrors a take, or a range of it: each side of the body gets the motion of the other, or one side that of the other. Pairs of bones
+/// are guessed from their names and positions, as for mirrored poses, and can be corrected.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MirrorTake {
@@ -24,6 +24,12 @@ pub struct MirrorTake {
     /// The bones whose motion is mirrored: their mirror bones get it, and nothing else changes. All where empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bones: Vec<BoneRef>,
+    /// The side whose motion the other side gets; both sides and the middle where absent. Bones in the middle stay as they are then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side: Option<BodySide>,
+    /// Corrections of the guessed pairs: a left and a right bone; the same bone twice is in the middle.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<[BoneRef; 2]>,
     /// Seconds; the start of the take by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<f32>,
@@ -36,8 +42,25 @@ impl MirrorTake {
     /// Returns the bones that get the motion of others; none where all do.
     fn targets(&self, skeleton: &Skeleton, pairs: &MirrorPairs) -> Vec<BoneIndex> {
         let mut finder = BoneFinder::new(skeleton);
-        let named = self.bones.iter().filter_map(|bone| finder.find(bone));
-        named.filter_map(|bone| pairs.mirror_of(bone)).collect()
+        let named: Vec<BoneIndex> = self.bones.iter().filter_map(|bone| finder.find(bone)).collect();
+        let Some(side) = self.side else {
+            return named.into_iter().filter_map(|bone| pairs.mirror_of(bone)).collect();
+        };
+        let is_named = |bone: &BoneIndex| self.bones.is_empty() || named.contains(bone);
+        let both = pairs.pairs.iter().map(|pair| match side {
+            BodySide::Left => (pair.left, pair.right),
+            BodySide::Right => (pair.right, pair.left),
+        });
+        both.filter(|(from, _)| is_named(from)).map(|(_, to)| to).collect()
+    }
+
+    /// Returns the guessed pairs with the corrections; bones that do not exist are left out.
+    fn pairs(&self, skeleton: &Skeleton) -> MirrorPairs {
+        let mut finder = BoneFinder::new(skeleton);
+        let found =
+            self.pairs.iter().filter_map(|[left, right]| Some([finder.find(left)?, finder.find(right)?]));
+        let corrections: Vec<[BoneIndex; 2]> = found.collect();
+        MirrorPairs::of(skeleton).corrected(&corrections)
     }
 }
 
@@ -58,10 +81,10 @@ impl EditKind for MirrorTake {
     }
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
-        if self.bones.is_empty() {
+        if self.bones.is_empty() && self.side.is_none() {
             return EditedBones::All;
         }
-        EditedBones::Named(self.targets(skeleton, &MirrorPairs::of(skeleton)).into_iter().collect())
+        EditedBones::Named(self.targets(skeleton, &self.pairs(skeleton)).into_iter().collect())
     }
 
     fn cost(&self, _adapter: &ModelAdapter) -> Option<usize> {
@@ -71,12 +94,12 @@ impl EditKind for MirrorTake {
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let id = work.take(&self.take)?;
         let take = Arc::clone(&work.slot(id).result);
-        for bone in &self.bones {
+        for bone in self.bones.iter().chain(self.pairs.iter().flatten()) {
             work.bone(bone)?;
         }
-        let mirror = Mirror::of(work.skeleton());
+        let mirror = Mirror::with(work.skeleton(), self.pairs(work.skeleton()));
         let targets = self.targets(work.skeleton(), &mirror.pairs);
-        if targets.is_empty() && !self.bones.is_empty() {
+        if targets.is_empty() && (self.side.is_some() || !self.bones.is_empty()) {
             return Err(EditError::Nothing("none of the bones has a mirror bone"));
         }
         let range = self.range(take.start, take.end(), 1.0 / frame_rate(&take))?;
@@ -93,7 +116,9 @@ impl EditKind for MirrorTake {
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let (start, end) = (from.optional(Arbitrary::time), from.optional(Arbitrary::time));
-        Self { take: from.take(), bones: from.bones(), from: start, to: end }
+        let side = from.optional(|from| from.choice([BodySide::Left, BodySide::Right]));
+        let pairs = if from.below(3) == 0 { vec![[from.bone(), from.bone()]] } else { Vec::new() };
+        Self { take: from.take(), bones: from.bones(), side, pairs, from: start, to: end }
     }
 }
 

@@ -17,6 +17,7 @@
 
 mod add_keys;
 mod add_layer;
+mod add_take;
 mod arbitrary;
 mod blend_keys;
 mod bones;
@@ -32,6 +33,7 @@ mod drop_pending;
 mod duplicate_keys;
 mod examples;
 mod filter_keys;
+mod kept_travel;
 mod key_layer_weight;
 mod key_pending;
 mod kind;
@@ -43,6 +45,7 @@ pub(crate) mod mode;
 mod move_keys;
 mod move_layer;
 mod move_take;
+mod move_travel;
 mod noise_keys;
 mod offset_keys;
 mod offset_pose;
@@ -51,10 +54,12 @@ mod paste_keys;
 mod paste_pose;
 pub(crate) mod pose;
 mod reduce_keys;
+mod remove_travel;
 mod rename_take;
 mod repeat_keys;
 mod resample_keys;
 mod reset_pose;
+mod restore_travel;
 mod retime_take;
 mod reverse_take;
 mod ripple_keys;
@@ -71,10 +76,12 @@ mod shape_tangents;
 mod snap_keys;
 mod split_take;
 pub(crate) mod target;
+mod travel_parts;
 mod trim_take;
 mod turn_keys;
 
 pub use add_layer::LAYER_COLORS;
+pub use add_take::GivenChannel;
 #[doc(hidden)]
 pub use arbitrary::Arbitrary;
 pub use blend_keys::KeyTarget;
@@ -83,6 +90,7 @@ pub use contact_span::ContactSpan;
 pub use copied::{CopiedChannel, CopiedKey};
 pub use examples::Example;
 pub use filter_keys::CurveFilter;
+pub use kept_travel::TRAVEL;
 pub use kind::EditInfo;
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use mode::{KeyInterpolation, LayerKind, NewKey, ResetTo};
@@ -92,6 +100,7 @@ pub use repeat_keys::{RepeatCount, RepeatMode};
 pub use set_many_tangents::TangentsAt;
 pub use shape_tangents::KeyTangents;
 pub use target::{BoneRef, KeySet, LayerRef, Property, SAME_TIME, TakeRef};
+pub use travel_parts::TravelPart;
 pub use turn_keys::TurnWay;
 
 use crate::adapter::plan::{PoseMode, Transaction};
@@ -134,6 +143,7 @@ edits! {
     "turn_keys" => turn_keys::TurnKeys,
     "repeat_keys" => repeat_keys::RepeatKeys,
     "create_take" => create_take::CreateTake,
+    "add_take" => add_take::AddTake,
     "delete_take" => delete_take::DeleteTake,
     "set_extras" => set_extras::SetExtras,
     "rename_take" => rename_take::RenameTake,
@@ -143,6 +153,9 @@ edits! {
     "reverse_take" => reverse_take::ReverseTake,
     "retime_take" => retime_take::RetimeTake,
     "mirror_take" => mirror_take::MirrorTake,
+    "move_travel" => move_travel::MoveTravel,
+    "remove_travel" => remove_travel::RemoveTravel,
+    "restore_travel" => restore_travel::RestoreTravel,
     "lock_contacts" => lock_contacts::LockContacts,
     "add_layer" => add_layer::AddLayer,
     "delete_layer" => delete_layer::DeleteLayer,

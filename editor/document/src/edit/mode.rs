@@ -1,5 +1,6 @@
 //! Options of edits.
 
+use dragonfly_anim::data::Interpolation;
 use dragonfly_anim::layers::LayerMode;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -63,6 +64,17 @@ impl From<LayerMode> for LayerKind {
         match mode {
             LayerMode::Additive => Self::Additive,
             LayerMode::Override => Self::Override,
+        }
+    }
+}
+
+impl KeyInterpolation {
+    /// Returns the interpolation as edits name it. The nearest key, which only some formats have, becomes the key before.
+    pub(crate) fn of(interpolation: Interpolation) -> Self {
+        match interpolation {
+            Interpolation::Step | Interpolation::Closest => Self::Step,
+            Interpolation::Linear => Self::Linear,
+            Interpolation::CubicSpline => Self::CubicSpline,
         }
     }
 }

@@ -30,7 +30,11 @@ struct BoneStance {
 impl Mirror {
     /// Finds the pairs and the mirror plane of a skeleton. Takes time in proportion to its bones.
     pub fn of(skeleton: &Skeleton) -> Self {
-        let pairs = MirrorPairs::of(skeleton);
+        Self::with(skeleton, MirrorPairs::of(skeleton))
+    }
+
+    /// Finds the mirror plane of a skeleton with these pairs.
+    pub fn with(skeleton: &Skeleton, pairs: MirrorPairs) -> Self {
         let Stance { to_root, plane, .. } = Stance::of(skeleton, &pairs.pairs);
         let stance = |(index, bone): (usize, &dragonfly_anim::data::Bone)| {
             let parent = bone.parent.and_then(|parent| to_root.get(parent as usize)).copied();

@@ -88,7 +88,7 @@ pub(in crate::panels) fn mirror(workspace: &mut Workspace, of_bones: bool) -> Op
     let bones = selected.map(|&bone| BoneRef::Index(bone)).collect();
     let range = workspace.keys.range();
     let (from, to) = (range.map(|[from, _]| from), range.map(|[_, to]| to));
-    Some(edit(Edit::MirrorTake(MirrorTake { take, bones, from, to })))
+    Some(edit(Edit::MirrorTake(MirrorTake { take, bones, side: None, pairs: Vec::new(), from, to })))
 }
 
 /// Closes the loop of the take that is shown: what follows the playhead leads into the start.

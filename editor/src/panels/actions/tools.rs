@@ -2,9 +2,12 @@
 
 use super::{ik, locks, playback};
 use crate::control::Catch;
+use crate::panels::motion_path::PathOf;
+use crate::panels::overlay::Overlay;
 use crate::panels::status::MessageSeverity;
 use crate::panels::tool_state::PlacedGizmo;
 use crate::panels::workspace::Workspace;
+use dragonfly_anim::motion::guess_hips;
 use dragonfly_picture::gizmo::{GizmoSettings, GizmoSpace, Tool};
 use std::time::Instant;
 
@@ -84,11 +87,18 @@ pub(super) fn sync_gizmo(workspace: &mut Workspace) {
 
 /// Computes the motion path again where something changed that it is computed from.
 pub(super) fn update_path(workspace: &mut Workspace) {
-    let source = workspace.model.view().zip(workspace.player.take()).zip(workspace.bones.active());
-    let changed = match source.filter(|_| workspace.settings.tools.path) {
+    // The dialog for root motion shows the way of the hips on the ground.
+    let ground = workspace.prompts.overlay() == Some(Overlay::RootMotion);
+    let view = workspace.model.view();
+    let bone = match view.filter(|_| ground) {
+        Some(view) => guess_hips(&view.loaded.model.animation.skeleton),
+        None => workspace.bones.active(),
+    };
+    let source = view.zip(workspace.player.take()).zip(bone);
+    let changed = match source.filter(|_| ground || workspace.settings.tools.path) {
         Some(((view, take), bone)) => {
             let (rate, flags) = (workspace.frame_rate.get(), workspace.keys.flags());
-            workspace.tools.path_mut().update(view, take, bone, rate, flags)
+            workspace.tools.path_mut().update(view, take, PathOf { bone, ground }, rate, flags)
         }
         None => workspace.tools.path_mut().clear(),
     };

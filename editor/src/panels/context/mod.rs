@@ -15,6 +15,7 @@ use super::layer_choice::LayerChoice;
 use super::open_model::Loading;
 use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
+use super::retarget_source::RetargetSource;
 use super::settings::Settings;
 use super::status::Status;
 use super::take_list::TakeListState;
@@ -86,6 +87,8 @@ pub struct PanelContext<'a> {
     pub dragging: &'a Dragging,
     /// Settings that are remembered between runs.
     pub settings: &'a Settings,
+    /// The model whose takes are wanted for the open one.
+    pub retarget: &'a RetargetSource,
     /// Messages of the status line.
     pub status: &'a Status,
     /// Questions and overlays.

@@ -73,6 +73,13 @@ impl Transaction {
         if bytes > KEY_BYTES { Err(EditError::TooLarge { bytes }) } else { Ok(()) }
     }
 
+    /// Checks that a take with this many keys may be added.
+    pub(crate) fn room_for_take(&mut self, keys: usize) -> Result<(), EditError> {
+        self.added += 16 * keys as u64;
+        let bytes = self.adapter.key_bytes() + self.added;
+        if bytes > KEY_BYTES { Err(EditError::TooLarge { bytes }) } else { Ok(()) }
+    }
+
     pub(crate) fn perform(&mut self, op: Op) {
         if let Some(take) = op.keys_of()
             && !self.touched.contains(&take)

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::panels::actions::takes;
+use crate::panels::prompts::Overlay;
 
 commands! {
     NewTake => When::Model, "New take", [], "Creates a take that contains the rest pose", takes::create;
@@ -16,6 +17,9 @@ commands! {
     ReverseTake => When::Take, "Reverse take", [], "Reverses the take in time", takes::reverse;
     MirrorTake => When::Take, "Mirror take", [], "Mirrors the take, or the play range of it: each side of the body gets the motion of the other (flip, swap sides)", |w| takes::mirror(w, false);
     MirrorBonesInTake => When::BoneInTake, "Mirror motion of bones", [], "Gives the motion of the selected bones in the take, or in the play range, to those of the other side", |w| takes::mirror(w, true);
+    MirrorDialog => When::Take, "Mirror…", [], "Mirrors the take, selected bones or the play range, both sides or one to the other, with the pairs of bones to correct", |w| { w.prompts.show(Some(Overlay::MirrorPairs)); None };
+    RootMotion => When::Take, "Root motion…", [], "Shows the path on the ground, and moves travel between hips and root, out of the take and back (in place, root bone)", |w| { w.prompts.show(Some(Overlay::RootMotion)); None };
+    Retarget => When::Model, "Retarget from file…", [], "Adds a take of another figure's file, with its bones mapped to those of this one (import animation, mocap)", |w| { w.prompts.show(Some(Overlay::Retarget)); None };
     CloseLoop => When::Take, "Close loop from here", [], "Changes the take from the playhead to its end so that it leads into its start (cycle, seamless)", takes::close_loop;
     LockContacts => When::Take, "Lock feet in contacts", [], "Holds feet where they touch the ground, so that they do not slide; feet are found by name, contacts by height and speed (plant, foot slide)", takes::lock_contacts;
 }

@@ -1,0 +1,199 @@
+//! Adds a take with given keys.
+
+use super::kind::EditKind;
+use super::{Arbitrary, BoneRef, EditedBones, Example, KeyInterpolation, Property, TakeRef};
+use crate::adapter::op::Op;
+use crate::adapter::plan::{Transaction, finite};
+use crate::adapter::slot::{TakeVersions, extent};
+use crate::adapter::{EditError, ModelAdapter, take_name};
+use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take, Track};
+use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
+use glam::{Quat, Vec3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Adds a take with the keys given here, for example one that was retargeted from another model. Bones without keys rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AddTake {
+    /// Its name.
+    pub name: String,
+    /// The channels, at most one of each property of a bone.
+    pub tracks: Vec<GivenChannel>,
+    /// Index in the list; last where absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<usize>,
+}
+
+/// The keys of one channel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GivenChannel {
+    /// The bone.
+    pub bone: BoneRef,
+    /// The channel.
+    pub property: Property,
+    /// The interpolation between the keys.
+    pub interpolation: KeyInterpolation,
+    /// Seconds, ascending.
+    pub times: Vec<f32>,
+    /// The values, three numbers for each key, for rotations four; for splines in-tangent, value and out-tangent of each key.
+    pub values: Vec<f32>,
+}
+
+impl AddTake {
+    /// Returns the edit that adds `take`, without its morph tracks.
+    pub fn of(name: String, take: &Take) -> Self {
+        let mut tracks = Vec::new();
+        for track in &take.tracks {
+            let mut given = |property, times: &[f32], interpolation, values: Vec<f32>| {
+                if !times.is_empty() {
+                    let bone = BoneRef::Index(track.bone);
+                    let interpolation = KeyInterpolation::of(interpolation);
+                    tracks.push(GivenChannel {
+                        bone,
+                        property,
+                        interpolation,
+                        times: times.to_vec(),
+                        values,
+                    });
+                }
+            };
+            let vector =
+                |channel: &Channel<Vec3>| channel.values.iter().flat_map(|value| value.to_array()).collect();
+            let moved = &track.translation;
+            given(Property::Translation, &moved.times, moved.interpolation, vector(moved));
+            let turned = &track.rotation;
+            let numbers = turned.values.iter().flat_map(|value| value.to_array()).collect();
+            given(Property::Rotation, &turned.times, turned.interpolation, numbers);
+            let scaled = &track.scale;
+            given(Property::Scale, &scaled.times, scaled.interpolation, vector(scaled));
+        }
+        Self { name, tracks, at: None }
+    }
+}
+
+impl GivenChannel {
+    /// Checks times and numbers.
+    fn check(&self) -> Result<(), EditError> {
+        let ascending = self.times.windows(2).all(|pair| pair[0] < pair[1]);
+        for &time in &self.times {
+            finite("the time", time)?;
+            if time < 0.0 {
+                return Err(EditError::BeforeZero(time));
+            }
+            if time > CLIP_SECONDS {
+                return Err(EditError::TooLate(time));
+            }
+        }
+        if !ascending {
+            return Err(EditError::TooShort);
+        }
+        if self.times.len() > KEYS_PER_CHANNEL {
+            return Err(EditError::TooManyKeys { keys: self.times.len() });
+        }
+        let each = if self.property == Property::Rotation { 4 } else { 3 };
+        let per_key = if Interpolation::from(self.interpolation) == Interpolation::CubicSpline {
+            3 * each
+        } else {
+            each
+        };
+        let wanted = self.times.len() * per_key;
+        if self.values.len() != wanted {
+            return Err(EditError::Count {
+                what: "the values of a channel",
+                wanted,
+                given: self.values.len(),
+            });
+        }
+        self.values.iter().try_for_each(|&number| finite("a value", number).map(|_| ()))
+    }
+
+    fn vectors(&self) -> Channel<Vec3> {
+        let values: Vec<Vec3> = self.values.chunks_exact(3).map(Vec3::from_slice).collect();
+        Channel::new(self.times.clone(), values, Interpolation::from(self.interpolation))
+    }
+
+    fn rotations(&self) -> Result<Channel<Quat>, EditError> {
+        let mut values: Vec<Quat> = self.values.chunks_exact(4).map(Quat::from_slice).collect();
+        let spline = Interpolation::from(self.interpolation) == Interpolation::CubicSpline;
+        // Of a spline, every third from the second is a value; the others are tangents.
+        let (first, step) = if spline { (1, 3) } else { (0, 1) };
+        for value in values.iter_mut().skip(first).step_by(step) {
+            if value.length_squared() < 1e-12 {
+                return Err(EditError::NoRotation);
+            }
+            if (value.length_squared() - 1.0).abs() > 1e-6 {
+                *value = value.normalize();
+            }
+        }
+        Ok(Channel::new(self.times.clone(), values, Interpolation::from(self.interpolation)))
+    }
+}
+
+impl EditKind for AddTake {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"add_take","name":"Nod","tracks":[{"bone":"Head","property":"rotation","interpolation":"linear","times":[0,0.5],"values":[0,0,0,1,0.2588190,0,0,0.9659258]}]}"#,
+        description: "Adds a take in which the head turns.",
+    };
+
+    fn label(&self) -> &'static str {
+        "Add take"
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        None
+    }
+
+    fn bones(&self, _skeleton: &Skeleton) -> EditedBones {
+        EditedBones::WholeTake
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        let mut take = Take { name: self.name.clone(), ..Take::default() };
+        take.tracks =
+            (0..work.skeleton().len() as u32).map(|bone| Track { bone, ..Track::default() }).collect();
+        for given in &self.tracks {
+            let bone = work.bone(&given.bone)?;
+            given.check()?;
+            let track = &mut take.tracks[bone as usize];
+            match given.property {
+                Property::Translation => track.translation = given.vectors(),
+                Property::Rotation => track.rotation = given.rotations()?,
+                Property::Scale => track.scale = given.vectors(),
+            }
+        }
+        if take.keys() == 0 {
+            return Err(EditError::LastKey);
+        }
+        (take.start, take.length) = extent(&take);
+        work.room_for_take(take.keys())?;
+        let id = work.new_id();
+        let slot = TakeVersions::unchanged(id, None, Arc::new(take));
+        work.perform(Op::Insert(self.at.unwrap_or(work.takes()), Arc::new(slot)));
+        work.perform(Op::Name(id, self.name.clone()));
+        Ok(())
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        let tracks = (0..from.below(3)).map(|_| {
+            let property = from.property();
+            let times: Vec<f32> = (0..1 + from.below(4)).map(|key| key as f32 * 0.25).collect();
+            let each = if property == Property::Rotation { 4 } else { 3 };
+            let count = times.len() * each;
+            let (bone, values) = (from.bone(), from.numbers(count));
+            GivenChannel { bone, property, interpolation: KeyInterpolation::Linear, times, values }
+        });
+        let tracks = tracks.collect();
+        Self { name: from.name(), tracks, at: from.optional(|from| from.below(4)) }
+    }
+
+    fn take_title(&self, _adapter: &ModelAdapter) -> Option<String> {
+        Some(self.name.clone())
+    }
+
+    fn allowed(&self, adapter: &ModelAdapter) -> Result<(), EditError> {
+        take_name(adapter.slots(), &self.name, None)
+    }
+}

@@ -1,0 +1,87 @@
+//! Takes of another model for the open one: orders, results, and the computation.
+
+use super::LoadedModel;
+use super::bone_map::BoneMap;
+use crate::adapter::ModelAdapter;
+use crate::edit::AddTake;
+use dragonfly_anim::data::BoneIndex;
+use dragonfly_anim::retarget::{FigureOptions, SkeletonBinding, retarget_figure};
+use dragonfly_runtime::Job;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The largest bone map that is read, bytes.
+const MAP_BYTES: u64 = 16 << 20;
+
+/// A take of the source for the open model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RetargetOrder {
+    /// Index of the take in the source.
+    pub take: usize,
+    /// Bones of the source and of the open model.
+    pub pairs: Vec<(BoneIndex, BoneIndex)>,
+    /// Options for the figure.
+    pub options: FigureOptions,
+}
+
+/// An action with a file of a bone map.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MapFile {
+    /// Reads it.
+    Read(PathBuf),
+    /// Writes it; a file of the name is replaced.
+    Write(PathBuf, BoneMap),
+}
+
+/// The source of takes, and the jobs for it.
+#[derive(Default)]
+pub(super) struct Retargeting {
+    pub(super) source: Option<Arc<LoadedModel>>,
+    /// The last job; dropping it cancels it.
+    pub(super) job: Option<Job>,
+}
+
+/// The result of a job.
+#[derive(Debug)]
+pub(super) enum RetargetNews {
+    /// The source was read.
+    Source(Result<Arc<LoadedModel>, String>),
+    /// A take was computed, with a sentence about it.
+    Take(Result<(Box<AddTake>, String), String>),
+    /// A map was read.
+    Map(Result<BoneMap, String>),
+    /// A map was written.
+    Written(Result<PathBuf, String>),
+}
+
+/// Reads a bone map.
+pub(super) fn read_map(path: &std::path::Path) -> Result<BoneMap, String> {
+    let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+    let bytes = super::read_file(path, MAP_BYTES).map_err(|error| told(&error))?;
+    let text = String::from_utf8(bytes).map_err(|error| told(&error))?;
+    BoneMap::parse(&text).map_err(|error| told(&error))
+}
+
+/// Returns the edit that adds the take, and a sentence about it.
+pub(super) fn computed(
+    source: &LoadedModel,
+    adapter: &ModelAdapter,
+    order: &RetargetOrder,
+) -> Result<(Box<AddTake>, String), String> {
+    let animation = &source.model.animation;
+    let take = animation.takes.get(order.take).ok_or("the source has no such take")?;
+    let (from, to) = (&*animation.skeleton, &**adapter.skeleton());
+    let binding = SkeletonBinding::from_map(from, to, &order.pairs).map_err(|error| error.to_string())?;
+    let done =
+        retarget_figure(take, from, to, &binding, &order.options).map_err(|error| error.to_string())?;
+    let is_used = |name: &str| adapter.slots().iter().any(|slot| slot.original.name == name);
+    let base = if take.name.trim().is_empty() { "Take" } else { &take.name };
+    let numbered = |number: usize| if number == 1 { base.to_owned() } else { format!("{base} {number}") };
+    let name = (1..=adapter.slots().len() + 1).map(numbered).find(|name| !is_used(name)).unwrap_or_default();
+    let feet = match done.contacts.len() {
+        0 => String::new(),
+        count => format!(", {count} contacts of feet within {:.1} mm", done.slide_after),
+    };
+    let text = format!("Added {name}: {} bones move{feet}", binding.bound());
+    Ok((Box::new(AddTake::of(name, &done.take)), text))
+}

@@ -1,0 +1,235 @@
+//! The dialog for retargeting: a file, its takes, and the bones of both models side by side.
+
+use super::bone_choice::{BoneChoice, add_left, names};
+use super::context::PanelContext;
+use super::overlay_title;
+use super::request::{FileAction, Request};
+use super::style::{GRID, ROW};
+use super::theme::Theme;
+use super::widgets;
+use dragonfly_anim::data::{BoneIndex, Skeleton};
+use dragonfly_anim::retarget::{BindingGuess, FigureOptions, SkeletonBinding};
+use dragonfly_document::bones::Choice;
+use dragonfly_document::{BoneMap, DocumentMessage, LoadedModel, MapFile, RetargetOrder, Source};
+use egui::{Button, Key, Popup, RichText, ScrollArea, TextEdit, TextStyle, Ui, vec2};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Width of the dialog, points.
+const WIDTH: f32 = 620.0;
+
+/// State of the dialog: the typed paths, the map and the options.
+#[derive(Debug)]
+pub(super) struct RetargetDialog {
+    path: String,
+    map_path: String,
+    /// The models between which bones are mapped, and their guess.
+    models: Option<(Arc<LoadedModel>, Arc<Skeleton>, BindingGuess)>,
+    /// The map that was applied.
+    map: Option<Arc<BoneMap>>,
+    /// For each bone of the open model the bone of the source that moves it.
+    source_of: Vec<Option<BoneIndex>>,
+    take: usize,
+    contacts: bool,
+}
+
+impl Default for RetargetDialog {
+    fn default() -> Self {
+        Self {
+            path: String::new(),
+            map_path: String::new(),
+            models: None,
+            map: None,
+            source_of: Vec::new(),
+            take: 0,
+            contacts: true,
+        }
+    }
+}
+
+impl RetargetDialog {
+    /// Draws the dialog.
+    pub(super) fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        ui.set_width(WIDTH);
+        overlay_title::show(ui, "Retarget from file", requests);
+        let theme = Theme::of(ui);
+        let Some(loaded) = context.loaded() else {
+            ui.label(RichText::new("Open the model that is to get the take first").color(theme.weak));
+            return;
+        };
+        let path = path_field(ui, &mut self.path, "Path of the model with the take", &["Read"]);
+        if let Some((_, path)) = path {
+            send(requests, DocumentMessage::ReadSource(Source::File(path)));
+        }
+        let Some(source) = context.retarget.source() else {
+            let text = "The bones of both models appear here. Names of Mixamo, Unreal, VRM, Rigify, CMU, KayKit and Quaternius are known.";
+            ui.label(RichText::new(text).small().color(theme.weak));
+            return;
+        };
+        self.adopt(context, source, &loaded.model.animation.skeleton);
+        self.heading(ui, source);
+        self.rows(ui, context, source, requests);
+        self.map_row(ui, context, source, requests);
+        self.last_row(ui, source, requests);
+    }
+
+    /// Guesses the map of new models, and applies a map that was read.
+    fn adopt(&mut self, context: &PanelContext<'_>, source: &Arc<LoadedModel>, target: &Arc<Skeleton>) {
+        let known = |(from, to, _): &(Arc<LoadedModel>, Arc<Skeleton>, BindingGuess)| {
+            Arc::ptr_eq(from, source) && Arc::ptr_eq(to, target)
+        };
+        if !self.models.as_ref().is_some_and(known) {
+            let guess = BindingGuess::of(&source.model.animation.skeleton, target);
+            self.source_of.clone_from(&guess.binding.source_of);
+            self.models = Some((Arc::clone(source), Arc::clone(target), guess));
+            (self.take, self.map) = (0, None);
+        }
+        let map = context.retarget.map();
+        let new = map.filter(|map| !self.map.as_ref().is_some_and(|applied| Arc::ptr_eq(applied, map)));
+        if let Some(map) = new {
+            if let Ok((binding, _)) = map.binding(&source.model.animation.skeleton, target) {
+                self.source_of = binding.source_of;
+            }
+            self.map = Some(Arc::clone(map));
+        }
+    }
+
+    fn heading(&self, ui: &mut Ui, source: &LoadedModel) {
+        let Some((_, _, guess)) = &self.models else { return };
+        let convention = |name: Option<&'static str>| name.unwrap_or("no known convention");
+        let bound = self.source_of.iter().flatten().count();
+        let facts = [
+            format!("{} ({})", source.title, convention(guess.source.convention)),
+            format!("this model ({})", convention(guess.target.convention)),
+            format!("{bound} of {} move", widgets::count(self.source_of.len(), "bone", "bones")),
+        ];
+        ui.label(RichText::new(widgets::dot_separated(&facts)).small().color(Theme::of(ui).weak));
+        ui.add_space(GRID);
+    }
+
+    /// Draws one row for each bone of the open model: its name, and the bone of the source.
+    fn rows(
+        &mut self,
+        ui: &mut Ui,
+        context: &PanelContext<'_>,
+        source: &LoadedModel,
+        requests: &mut Vec<Request>,
+    ) {
+        let theme = Theme::of(ui);
+        let target_names = names(context);
+        let bones = &source.model.animation.skeleton.bones;
+        let source_names: Vec<String> = bones.iter().map(|bone| bone.name.clone()).collect();
+        let width = 0.5 * WIDTH - 40.0;
+        ui.horizontal(|ui| {
+            for title in ["Bone of this model", "Bone of the file that moves it"] {
+                ui.add_sized(
+                    vec2(width, ROW),
+                    egui::Label::new(RichText::new(title).small().color(theme.weak)).halign(egui::Align::Min),
+                );
+            }
+        });
+        let area = ScrollArea::vertical().max_height(11.0 * ROW).auto_shrink([false, true]);
+        area.show_rows(ui, ROW, target_names.len().min(self.source_of.len()), |ui, shown| {
+            for bone in shown {
+                ui.horizontal(|ui| {
+                    ui.set_height(ROW);
+                    let name = &target_names[bone];
+                    let selected = context.selection.contains(bone as BoneIndex);
+                    let text = widgets::cut_in_middle(ui, name, width - 16.0, &TextStyle::Body);
+                    let button = Button::selectable(selected, text);
+                    if add_left(ui, button, width).on_hover_text(name).clicked() {
+                        requests.push(Request::SelectBones(vec![bone as BoneIndex], Choice::Replace));
+                    }
+                    let label = format!("The bone that moves {name}");
+                    let choice =
+                        BoneChoice { names: &source_names, none: Some("rests"), label: &label, width };
+                    if let Some(chosen) = choice.show(ui, self.source_of[bone]) {
+                        self.source_of[bone] = chosen;
+                    }
+                });
+            }
+        });
+    }
+
+    fn map_row(
+        &mut self,
+        ui: &mut Ui,
+        context: &PanelContext<'_>,
+        source: &LoadedModel,
+        requests: &mut Vec<Request>,
+    ) {
+        let Some((_, target, guess)) = &self.models else { return };
+        let pressed = path_field(ui, &mut self.map_path, "Path of a bone map", &["Load map", "Save map"]);
+        let skeleton = &source.model.animation.skeleton;
+        if let Some((button, path)) = pressed {
+            let file = if button == 0 {
+                MapFile::Read(path)
+            } else {
+                let binding = SkeletonBinding { source_of: self.source_of.clone(), ..guess.binding.clone() };
+                let own = context.loaded().map_or("", |loaded| &loaded.title);
+                MapFile::Write(path, BoneMap::of([&source.title, own], skeleton, target, &binding))
+            };
+            send(requests, DocumentMessage::MapFile(file));
+        }
+    }
+
+    fn last_row(&mut self, ui: &mut Ui, source: &LoadedModel, requests: &mut Vec<Request>) {
+        let takes = &source.model.animation.takes;
+        let name = |take: usize| takes.get(take).map_or("no take", |take| take.name.as_str()).to_owned();
+        ui.horizontal(|ui| {
+            let text = widgets::shortened(&format!("Take: {}", name(self.take)));
+            let button = ui.add_enabled(!takes.is_empty(), Button::new(text));
+            Popup::menu(&button).show(|ui| {
+                ScrollArea::vertical().max_height(10.0 * ROW).show(ui, |ui| {
+                    for take in 0..takes.len() {
+                        if ui.add(Button::selectable(take == self.take, name(take))).clicked() {
+                            self.take = take;
+                        }
+                    }
+                });
+            });
+            ui.checkbox(&mut self.contacts, "Keep contacts")
+                .on_hover_text("Keep contacts\nFeet stay where they touch the ground");
+            let guess = ui.button("Guess again");
+            widgets::hint_beside(&guess, "Replaces the map by the guess from names");
+            if let Some((_, _, found)) = self.models.as_ref().filter(|_| guess.clicked()) {
+                self.source_of.clone_from(&found.binding.source_of);
+            }
+            let pairs: Vec<(BoneIndex, BoneIndex)> = (0..)
+                .zip(&self.source_of)
+                .filter_map(|(to, from)| Some((from.as_ref().copied()?, to)))
+                .collect();
+            let able = self.take < takes.len() && !pairs.is_empty();
+            if ui.add_enabled(able, Button::new("Add take")).clicked() {
+                let options = FigureOptions { contacts: self.contacts, ..FigureOptions::default() };
+                send(requests, DocumentMessage::Retarget(RetargetOrder { take: self.take, pairs, options }));
+            }
+        });
+    }
+}
+
+fn send(requests: &mut Vec<Request>, message: DocumentMessage) {
+    requests.push(Request::Answer(FileAction::Send(message)));
+}
+
+/// Draws a field for a path with buttons. Returns the index of the pressed button and the path; Enter presses the first.
+fn path_field(ui: &mut Ui, text: &mut String, name: &str, buttons: &[&str]) -> Option<(usize, PathBuf)> {
+    let mut pressed = None;
+    ui.horizontal(|ui| {
+        let width = WIDTH - 90.0 * buttons.len() as f32;
+        let field =
+            TextEdit::singleline(text).hint_text(name).desired_width(width).font(TextStyle::Monospace);
+        let field = ui.add(field).accessible_name(name);
+        if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
+            pressed = Some(0);
+        }
+        let able = !text.trim().is_empty();
+        for (index, title) in buttons.iter().enumerate() {
+            if ui.add_enabled(able, Button::new(*title)).clicked() {
+                pressed = Some(index);
+            }
+        }
+    });
+    let path = text.trim().trim_matches('"');
+    pressed.filter(|_| !path.is_empty()).map(|button| (button, PathBuf::from(path)))
+}

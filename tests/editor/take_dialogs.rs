@@ -1,0 +1,68 @@
+//! The dialogs for root motion, mirroring and retargeting send the edits that they show.
+
+use crate::timeline_rig::Animator;
+use dragonfly::panels::Request;
+use dragonfly::panels::commands::Id;
+use dragonfly::panels::prompts::Overlay;
+use dragonfly_document::bones::BodySide;
+use dragonfly_document::edit::{BoneRef, Edit, TRAVEL, TravelPart};
+use dragonfly_kit::document::fixture;
+use egui_kittest::kittest::Queryable;
+
+/// Clicks the button with this label.
+fn click(animator: &mut Animator, label: &str) {
+    animator.steps(2);
+    let at = animator.harness.get_by_label(label).rect().center();
+    animator.click(at);
+    animator.steps(2);
+}
+
+#[test]
+fn travel_is_removed_and_put_back_by_the_buttons_of_the_dialog() {
+    let mut animator = Animator::new(fixture::full());
+    animator.request(Request::Command(Id::RootMotion));
+    assert_eq!(animator.harness.state().state.read().overlay, Some(Overlay::RootMotion));
+    let take = |animator: &Animator| animator.edited.adapter().slots()[0].clone();
+    let before = take(&animator);
+    // The path is on the ground, and has no keys to drag.
+    let path = animator.harness.state().state.read().tools.path().look().cloned().expect("a path");
+    assert!(path.keys.is_empty() && path.points.iter().all(|(_, place)| place.y == 0.0));
+    click(&mut animator, "In place");
+    let Some(Edit::RemoveTravel(edit)) = animator.edits().last().copied() else { panic!("no edit") };
+    assert_eq!(edit.parts, TravelPart::usual());
+    assert!(take(&animator).original.extras.get(TRAVEL).is_some());
+    click(&mut animator, "Put back");
+    assert!(matches!(animator.edits()[..], [Edit::RemoveTravel(_), Edit::RestoreTravel(_)]));
+    assert!(take(&animator).original.extras.get(TRAVEL).is_none());
+    for (was, is) in before.result.tracks.iter().zip(&take(&animator).result.tracks) {
+        for key in 0..was.translation.len() {
+            let time = was.translation.times[key];
+            let is = dragonfly_anim::sample::sample_channel(&is.translation, glam::Vec3::ZERO, time);
+            assert!(was.translation.value(key).unwrap().distance(is) < 1e-4, "bone {}, key {key}", was.bone);
+        }
+    }
+}
+
+#[test]
+fn one_side_is_mirrored_to_the_other_by_the_dialog() {
+    let mut animator = Animator::new(fixture::full());
+    animator.request(Request::Command(Id::MirrorDialog));
+    click(&mut animator, "Left to right");
+    animator.request(Request::Select(Some(3)));
+    click(&mut animator, "Selected bones");
+    click(&mut animator, "Mirror take");
+    let Some(Edit::MirrorTake(edit)) = animator.edits().last().copied() else {
+        panic!("no edit: {}", animator.said())
+    };
+    assert_eq!((edit.side, &edit.bones[..]), (Some(BodySide::Left), &[BoneRef::Index(3)][..]));
+    assert!(edit.pairs.is_empty());
+}
+
+#[test]
+fn without_a_source_the_dialog_for_retargeting_has_only_a_field_for_its_path() {
+    let mut animator = Animator::new(fixture::full());
+    animator.request(Request::Command(Id::Retarget));
+    animator.harness.run_steps(2);
+    assert!(animator.harness.query_by_label("Read").is_some());
+    assert!(animator.harness.query_by_label("Add take").is_none());
+}
