@@ -204,6 +204,8 @@ mod tests {
             r#"{"edit":"set","take":0,"time":1,"poses":[{"bone":0,"scale":[2,1,1]},{"bone":2,"translation":[0,0,1]}]}"#,
             r#"{"edit":"set_interpolation","take":0,"bones":[0],"interpolation":"cubic_spline"}"#,
             r#"{"edit":"create_take","name":"run","copy":0}"#,
+            r#"{"edit":"set","take":1,"time":1,"poses":[{"bone":0,"translation":[0,2,1]}]}"#,
+            r#"{"edit":"remove_travel","take":1,"bone":0,"parts":["height"],"smooth":0.0}"#,
             r#"{"edit":"add_layer","take":0,"name":"up"}"#,
             r#"{"edit":"add_layer","take":0,"name":"pose","kind":"override","bones":[0,1,4]}"#,
             r#"{"edit":"set","take":{"take":0,"layer":0},"time":0.2,"poses":[{"bone":0,"translation":[0,3,0]}]}"#,
