@@ -1,4 +1,4 @@
-//! What a program keeps with a take comes back from the file, and the `extras` of other programs keep their bytes.
+//! Data that a program keeps with a take comes back from the file, and the `extras` of other programs keep their bytes.
 
 use crate::fixture::Fixture;
 use crate::save_support::{OpenedFile, json_of, take_mut};

@@ -87,7 +87,7 @@ fn a_dry_run_reports_what_would_change_and_writes_nothing() {
     let before: Vec<_> =
         std::fs::read_dir(folder.path()).unwrap().flatten().map(|entry| entry.file_name()).collect();
     let said = run(["edit", &fox(), "--edits", &edits, "--dry-run"]).expect(0);
-    assert!(said.text().starts_with("1 channel of 1 bone in 1 take, "), "{}", said.text());
+    assert!(said.text().starts_with("1 take changed\n1 channel of 1 bone in 1 take, "), "{}", said.text());
     for word in ["take \"Run\", \"b_Head_05\"", "accessor", "bytes appended", "will be written"] {
         assert!(said.text().contains(word), "{word} is missing in\n{}", said.text());
     }

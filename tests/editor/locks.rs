@@ -178,7 +178,7 @@ fn edits_of_the_whole_take_include_locked_bones() {
 }
 
 /// Edits of whole takes: they include locked bones, see [`edits_of_the_whole_take_include_locked_bones`].
-const OF_WHOLE_TAKES: [&str; 8] = [
+const OF_WHOLE_TAKES: [&str; 16] = [
     "create_take",
     "delete_take",
     "rename_take",
@@ -187,6 +187,14 @@ const OF_WHOLE_TAKES: [&str; 8] = [
     "trim_take",
     "reverse_take",
     "retime_take",
+    "add_take",
+    "set_extras",
+    "add_layer",
+    "delete_layer",
+    "set_layer",
+    "key_layer_weight",
+    "move_layer",
+    "merge_layers",
 ];
 
 /// Returns a model of three bones with two takes and a pending pose.
@@ -199,6 +207,12 @@ fn small_model() -> ModelAdapter {
     let mut model = ModelAdapter::new(&view.loaded.model.animation);
     let poses = vec![turned(1), turned(LEFT)];
     model.apply(&Edit::SetPending(SetPending { take: TakeRef::Index(0), time: 0.3, poses })).expect("bones");
+    for line in [
+        r#"{"edit":"add_layer","take":0,"name":"Up"}"#,
+        r#"{"edit":"set","take":{"take":0,"layer":0},"time":0.3,"poses":[{"bone":1,"translation":[0,3,0]}]}"#,
+    ] {
+        model.apply(&serde_json::from_str(line).expect("an edit")).expect(line);
+    }
     model
 }
 
@@ -209,7 +223,8 @@ fn no_kind_of_edit_changes_a_locked_bone_unless_it_changes_the_whole_take() {
     let names: Vec<BoneRef> = (0..skeleton.len() as u32).map(BoneRef::Index).collect();
     let state = |slot: &TakeVersions, bone: u32| {
         let poses = slot.pending().iter().filter_map(|at| Some((at.time, *at.of(bone)?)));
-        (slot.result.tracks.get(bone as usize).cloned(), poses.collect::<Vec<_>>())
+        let tracks = [&slot.result, slot.shown()].map(|take| take.tracks.get(bone as usize).cloned());
+        (tracks, poses.collect::<Vec<_>>())
     };
     let mut random = Random::new(seed(43));
     for locked in 0..skeleton.len() as u32 {
@@ -238,8 +253,9 @@ fn no_kind_of_edit_changes_a_locked_bone_unless_it_changes_the_whole_take() {
                     );
                 }
             }
-            // There is no spline whose tangents could be set.
-            let none = kind.name == "set_tangents" || OF_WHOLE_TAKES.contains(&kind.name);
+            // There is no spline whose tangents could be set, and no travel to put back.
+            let none = ["set_tangents", "set_many_tangents", "restore_travel"].contains(&kind.name)
+                || OF_WHOLE_TAKES.contains(&kind.name);
             assert!(refused + applied > 0 || none, "no {} applies", kind.name);
         }
     }

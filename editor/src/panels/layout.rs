@@ -63,7 +63,7 @@ impl Layout {
     }
 
     /// Reads the text of a layout file; a damaged one gives the default layout. A panel that the file does not have, because it is
-    /// newer than the file, becomes a tab beside the panels with which it is by default.
+    /// newer than the file, becomes a tab of the panels with which it is by default.
     pub fn parse(text: &str, panels: &[Box<dyn Panel>]) -> Self {
         let stored =
             serde_json::from_str::<StoredLayout>(text).ok().filter(|stored| stored.version == VERSION);
@@ -129,7 +129,7 @@ fn linear(direction: LinearDir, shares: &[(TileId, f32)]) -> Tile<Pane> {
     Tile::Container(Container::Linear(linear))
 }
 
-/// Adds a panel that the tree does not have as a tab beside one of its neighbors in the default layout. Returns whether it was
+/// Adds a panel that the tree does not have as a tab next to one of its neighbors in the default layout. Returns whether it was
 /// added.
 fn add_newer(tree: &mut Tree<Pane>, panel: &dyn Panel, panels: &[Box<dyn Panel>]) -> bool {
     if tree.tiles.find_pane(&Pane(panel.id().to_owned())).is_some() {

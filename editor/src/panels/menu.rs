@@ -34,7 +34,7 @@ pub fn show(
         ui.menu_button("Take", |ui| {
             list(ui, context, &[Category::Takes], requests);
             ui.separator();
-            ui.menu_button("Layers", |ui| list(ui, context, &[Category::Layers], requests));
+            submenu(ui, "Layers", |ui| list(ui, context, &[Category::Layers], requests));
         });
         ui.menu_button("View", |ui| view(ui, context, panels, requests));
         ui.menu_button("Help", |ui| list(ui, context, &[Category::Help], requests));
@@ -61,6 +61,15 @@ fn scrolled(ui: &mut Ui, entries: impl FnOnce(&mut Ui)) {
 
 /// Width at the left of the entries, where a check mark is, points.
 const GUTTER: f32 = 20.0;
+
+/// Draws a button that opens a menu, with its title below those of the other entries.
+fn submenu<R>(ui: &mut Ui, title: impl Into<egui::WidgetText>, entries: impl FnOnce(&mut Ui) -> R) {
+    ui.scope(|ui| {
+        ui.spacing_mut().button_padding.x += GUTTER;
+        let title: egui::WidgetText = title.into();
+        ui.menu_button(title, entries);
+    });
+}
 
 /// Draws an entry: title and shortcut, with a check mark before the title and the title in the accent color if `on`.
 pub(super) fn item(ui: &mut Ui, context: &PanelContext<'_>, id: Id, on: bool, requests: &mut Vec<Request>) {
@@ -147,7 +156,7 @@ fn keys(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let smooth = inbetweens.iter().position(|command| command.id == Id::SmoothKeys).unwrap_or_default();
     for (title, commands) in [("In-between", &inbetweens[..smooth]), ("Smooth, bake", &inbetweens[smooth..])]
     {
-        ui.menu_button(title, |ui| {
+        submenu(ui, title, |ui| {
             for command in commands {
                 item(ui, context, command.id, false, requests);
                 let ends_group = [
@@ -177,7 +186,7 @@ fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         };
         // The switch next to auto-key has the same entries.
         if command.id == Id::NextEditScope {
-            ui.menu_button("Edits apply to", |ui| edit_scope_menu::all_entries(ui, context, requests));
+            submenu(ui, "Edits apply to", |ui| edit_scope_menu::all_entries(ui, context, requests));
             ui.separator();
         }
         if edit_scope_menu::COMMANDS.contains(&command.id) {
@@ -197,7 +206,7 @@ fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
 fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     item(ui, context, Id::Open, false, requests);
     item(ui, context, Id::OpenPath, false, requests);
-    ui.menu_button("Open recent", |ui| {
+    submenu(ui, "Open recent", |ui| {
         if context.settings.recent.is_empty() {
             ui.add_enabled(false, Button::new("No recent files").frame(false));
         }
@@ -233,7 +242,7 @@ fn view(
     panels: &[(&'static str, &'static str, bool)],
     requests: &mut Vec<Request>,
 ) {
-    ui.menu_button("Panels", |ui| {
+    submenu(ui, "Panels", |ui| {
         for &(id, title, shown) in panels {
             let title =
                 RichText::new(title).color(if shown { Theme::of(ui).accent } else { Theme::of(ui).text });
@@ -244,7 +253,7 @@ fn view(
         ui.separator();
         item(ui, context, Id::ResetLayout, false, requests);
     });
-    ui.menu_button("Camera", |ui| list(ui, context, &[Category::Camera], requests));
+    submenu(ui, "Camera", |ui| list(ui, context, &[Category::Camera], requests));
     ui.separator();
     let look = &context.settings.look;
     item(ui, context, Id::ToggleGrid, look.grid, requests);
@@ -252,31 +261,31 @@ fn view(
     item(ui, context, Id::ToggleSurface, look.surface, requests);
     item(ui, context, Id::ToggleSkeleton, context.shows_skeleton(), requests);
     item(ui, context, Id::ToggleXRay, look.bones_in_front, requests);
-    ui.menu_button("Bones", |ui| {
+    submenu(ui, "Bones", |ui| {
         item(ui, context, Id::BonesOctahedra, look.bone_look == BoneLook::Octahedra, requests);
         item(ui, context, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
         item(ui, context, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
     });
-    ui.menu_button("Curves", |ui| {
+    submenu(ui, "Curves", |ui| {
         item(ui, context, Id::NormalizeCurves, context.settings.curves.normalized, requests);
         item(ui, context, Id::SoloCurves, context.settings.curves.solo, requests);
     });
     let hand = &context.settings.tools;
     item(ui, context, Id::TogglePath, hand.path, requests);
-    ui.menu_button("Ghosts", |ui| ghosts(ui, context, requests));
-    ui.menu_button("Shading", |ui| {
+    submenu(ui, "Ghosts", |ui| ghosts(ui, context, requests));
+    submenu(ui, "Shading", |ui| {
         item(ui, context, Id::ShadeMaterial, look.shading == Shading::Material, requests);
         item(ui, context, Id::ShadeClay, look.shading == Shading::Clay, requests);
         item(ui, context, Id::ShadeUnlit, look.shading == Shading::Unlit, requests);
     });
     ui.separator();
-    ui.menu_button("Theme", |ui| {
+    submenu(ui, "Theme", |ui| {
         let theme = context.settings.theme;
         item(ui, context, Id::ThemeSystem, theme == ThemeChoice::System, requests);
         item(ui, context, Id::ThemeDark, theme == ThemeChoice::Dark, requests);
         item(ui, context, Id::ThemeLight, theme == ThemeChoice::Light, requests);
     });
-    ui.menu_button("Interface size", |ui| {
+    submenu(ui, "Interface size", |ui| {
         item(ui, context, Id::ScaleUp, false, requests);
         item(ui, context, Id::ScaleDown, false, requests);
         item(ui, context, Id::ScaleReset, false, requests);

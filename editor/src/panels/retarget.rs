@@ -203,6 +203,7 @@ impl RetargetDialog {
             if ui.add_enabled(able, Button::new("Add take")).clicked() {
                 let options = FigureOptions { contacts: self.contacts, ..FigureOptions::default() };
                 send(requests, DocumentMessage::Retarget(RetargetOrder { take: self.take, pairs, options }));
+                requests.push(Request::Overlay(None));
             }
         });
     }

@@ -1,4 +1,4 @@
-//! The data that this program keeps in the `extras` of an animation: written as one member, beside those of others.
+//! The data that this program keeps in the `extras` of an animation: written as one member; those of others stay.
 
 use super::super::extras::EXTRAS_MEMBER;
 use super::document::SourceDocument;
