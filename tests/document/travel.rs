@@ -185,6 +185,16 @@ fn a_take_of_another_file_becomes_one_edit_of_the_open_document_and_undo_removes
         _ => None,
     });
     assert_eq!(read, map);
+    // A model whose path was typed by mistake is not overwritten.
+    let model = folder.join("model.glb");
+    std::fs::write(&model, "glTF").unwrap();
+    document.send(DocumentMessage::MapFile(MapFile::Write(model.clone(), map)));
+    let refused = document.wait_for_reply(|reply| match reply {
+        DocumentReply::Refused(reason) => Some(reason.clone()),
+        _ => None,
+    });
+    assert!(refused.contains("is no bone map"), "{refused}");
+    assert_eq!(std::fs::read_to_string(model).unwrap(), "glTF");
     document.send(DocumentMessage::MapFile(MapFile::Read(folder.join("no.json"))));
     let refused = document.wait_for_reply(|reply| match reply {
         DocumentReply::Refused(reason) => Some(reason.clone()),

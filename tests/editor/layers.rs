@@ -52,8 +52,11 @@ fn a_new_layer_is_active_and_a_pose_becomes_its_key_and_not_one_of_the_take() {
     assert_eq!(layers(&animator), [("Layer".to_owned(), 1)]);
     assert!(Arc::ptr_eq(&before, &animator.edited.adapter().slots()[0].result));
     assert_eq!(shown_keys(&animator), 1);
-    // The pose that is seen is the one that was asked for.
     let panels = animator.harness.state().state.read();
+    let take = &panels.shown_take().expect("a take").name;
+    let caption = format!("Shown take: {take}  ·  layer Layer");
+    assert!(animator.harness.query_by_label(&caption).is_some());
+    // The pose that is seen is the one that was asked for.
     let track = &panels.shown_take().expect("a take").tracks[3];
     let seen = sample_channel(&track.rotation, glam::Quat::IDENTITY, panels.time());
     assert!(seen.angle_between(glam::Quat::from_rotation_y(0.4)) < 1e-3, "{seen}");

@@ -81,6 +81,7 @@ mod take_commands;
 mod take_dialogs;
 mod takes_panel;
 mod timeline_curves;
+mod timeline_filters;
 mod timeline_keyboard;
 mod timeline_many;
 mod timeline_markers;

@@ -62,6 +62,15 @@ pub(super) fn read_map(path: &std::path::Path) -> Result<BoneMap, String> {
     BoneMap::parse(&text).map_err(|error| told(&error))
 }
 
+/// Writes a bone map. A file that is no bone map, for example a model whose path was typed, is not overwritten.
+pub(super) fn write_map(path: &std::path::Path, map: &BoneMap) -> Result<(), String> {
+    if path.exists() && read_map(path).is_err() {
+        return Err(format!("{} exists and is no bone map: choose another name", path.display()));
+    }
+    let written = dragonfly_store::replace(path, map.to_text().as_bytes());
+    written.map(|_| ()).map_err(|error| format!("{}: {error}", path.display()))
+}
+
 /// Returns the edit that adds the take, and a sentence about it.
 pub(super) fn computed(
     source: &LoadedModel,

@@ -3,7 +3,7 @@
 use super::job::JobNews;
 use super::message::DocumentReply;
 use super::owner::Document;
-use super::retarget_order::{MapFile, RetargetNews, RetargetOrder, computed, read_map};
+use super::retarget_order::{MapFile, RetargetNews, RetargetOrder, computed, read_map, write_map};
 use super::{Change, Loader, Source};
 use crate::edit::Edit;
 use crate::text::sentence;
@@ -46,13 +46,7 @@ impl Document {
             "bone map",
             move |_| match file {
                 MapFile::Read(path) => RetargetNews::Map(read_map(&path)),
-                MapFile::Write(path, map) => {
-                    let written = dragonfly_store::replace(&path, map.to_text().as_bytes());
-                    RetargetNews::Written(match written {
-                        Ok(_) => Ok(path),
-                        Err(error) => Err(format!("{}: {error}", path.display())),
-                    })
-                }
+                MapFile::Write(path, map) => RetargetNews::Written(write_map(&path, &map).map(|()| path)),
             },
             |panic| RetargetNews::Map(Err(panic.to_owned())),
         );

@@ -110,6 +110,7 @@ fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], reques
         let on = match command.id {
             Id::ToggleSnap => context.keys.snap(),
             Id::ToggleRulerSeconds => context.keys.ruler_in_seconds(),
+            Id::ListChangedBones => context.keys.only_changed(),
             Id::ToggleCurl => context.settings.tools.curl,
             Id::ToggleGhosts => context.settings.tools.ghosts.shown,
             Id::TogglePath => context.settings.tools.path,

@@ -10,12 +10,12 @@ use super::menu::outline_fields;
 use super::request::Request;
 use super::ruler;
 use super::settings::SPEEDS;
-use super::style::{CONTROL, GRID};
+use super::style::{self, CONTROL, GRID};
 use super::theme::Theme;
 use super::widgets::{icon_button, quiet_button, text_width};
 use crate::control::expression::{Quantity, evaluate};
 use dragonfly_picture::playback::{LATEST, Repeat};
-use egui::{Align, Button, DragValue, Layout, RichText, TextStyle, Ui, vec2};
+use egui::{Align, Button, DragValue, FontId, Layout, RichText, TextStyle, Ui, vec2};
 
 /// Draws the bar.
 pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
@@ -167,9 +167,11 @@ fn frame_rate(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Reques
 }
 
 /// Smallest width of the field for the frame.
-const FRAME: f32 = 48.0;
+const FRAME: f32 = 50.0;
+/// Size of the number of the frame, which is what animators count in, points.
+const FRAME_DIGITS: f32 = 16.0;
 /// Smallest width of the field for the time.
-const TIME: f32 = 72.0;
+const TIME: f32 = 62.0;
 
 /// Returns the width of a number field with this text.
 fn field_width(ui: &Ui, text: &str) -> f32 {
@@ -185,7 +187,10 @@ fn time(ui: &mut Ui, context: &PanelContext<'_>, room: Room, requests: &mut Vec<
     let last = format!("/ {}", ruler::frame_of(start + length, rate));
     // Long numbers need the room of the last frame's number themselves.
     let fields = [format!("{frame}"), format!("{:.3} s", context.time())].map(|text| field_width(ui, &text));
-    let needed = fields[0].max(FRAME) + fields[1].max(TIME) + text_width(ui, &last, &TextStyle::Monospace);
+    // The frame is large, the time small.
+    let frame_width = (fields[0] * FRAME_DIGITS / style::NUMBER).max(FRAME);
+    let time_width = (fields[1] * style::SMALL / style::NUMBER).max(TIME);
+    let needed = frame_width + time_width + text_width(ui, &last, &TextStyle::Monospace);
     if ui.available_width() > needed + 3.0 * ui.spacing().item_spacing.x {
         ui.label(RichText::new(last).monospace().color(theme.weak));
     }
@@ -194,7 +199,11 @@ fn time(ui: &mut Ui, context: &PanelContext<'_>, room: Room, requests: &mut Vec<
         .speed(0.2)
         .update_while_editing(false)
         .custom_parser(number);
-    let response = ui.add_sized(vec2(FRAME, CONTROL), field).accessible_name("Frame");
+    let large = |ui: &mut Ui| {
+        ui.style_mut().override_font_id = Some(FontId::monospace(FRAME_DIGITS));
+        ui.add_sized(vec2(FRAME, CONTROL), field).accessible_name("Frame")
+    };
+    let response = ui.scope(large).inner;
     if response
         .on_hover_text(
             "Frame\nDrag, or click to type an expression such as 3*30+12; frames after the end are allowed",
@@ -214,7 +223,11 @@ fn time(ui: &mut Ui, context: &PanelContext<'_>, room: Room, requests: &mut Vec<
         .suffix(" s")
         .update_while_editing(false)
         .custom_parser(number);
-    let response = ui.add_sized(vec2(TIME, CONTROL), field).accessible_name("Time");
+    let small = |ui: &mut Ui| {
+        ui.style_mut().override_font_id = Some(FontId::monospace(style::SMALL));
+        ui.add_sized(vec2(TIME, CONTROL), field).accessible_name("Time")
+    };
+    let response = ui.scope(small).inner;
     if response.on_hover_text("Time in seconds\nDrag, or click to type an expression such as 45/30").changed()
     {
         requests.push(Request::Seek(seconds));

@@ -59,7 +59,7 @@ const TABLE: &[MenuRow] = &[
     ("views", VIEWPORT, Click(&["Views"]), &[Typical], NOTHING),
     ("axes", VIEWPORT, Click(&["Axes: "]), &[Typical], NOTHING),
     ("pivot", VIEWPORT, Click(&["Pivot: "]), &[Typical], NOTHING),
-    ("ik", VIEWPORT, Click(&["IK chain: "]), &[Typical], NOTHING),
+    ("ik", VIEWPORT, Click(&["IK", "IK chain: "]), &[Typical], NOTHING),
     ("bone", "hierarchy", Right("antenna_left"), &[Typical], NOTHING),
     ("take-row", "takes", Right("hover"), &[Typical], NOTHING),
     (

@@ -81,6 +81,13 @@ pub(in crate::panels) fn cancel_or_deselect(workspace: &mut Workspace) -> Option
     None
 }
 
+/// Lists only bones whose keys are not those of the file, or all again. Keys that are not listed any more are deselected.
+pub(in crate::panels) fn toggle_only_changed(workspace: &mut Workspace) {
+    workspace.keys.toggle_only_changed();
+    let listed = workspace.read().listed_bones();
+    workspace.keys.deselect_all_but(&listed);
+}
+
 /// Deletes the selected keys.
 pub(in crate::panels) fn delete(workspace: &mut Workspace) -> Option<Effect> {
     let panels = workspace.read();

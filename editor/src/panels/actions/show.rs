@@ -5,6 +5,7 @@ use crate::panels::change_summary;
 use crate::panels::marks::{BoneMarks, RecalledMarks};
 use crate::panels::workspace::Workspace;
 use dragonfly_document::View;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Starts a frame: computes what the panels read.
@@ -121,5 +122,7 @@ fn recall_marks(workspace: &mut Workspace) {
 
 /// Sets the lowest usual frame rate that the keys of the model fit.
 fn guess_frame_rate(workspace: &mut Workspace) {
-    workspace.frame_rate.guess(workspace.model.takes());
+    // Without layers, which have keys between frames where they are merged into what is seen.
+    let takes: Vec<_> = workspace.model.slots().iter().map(|slot| Arc::clone(&slot.result)).collect();
+    workspace.frame_rate.guess(&takes);
 }

@@ -2,12 +2,23 @@
 
 use super::PanelContext;
 use crate::panels::keys::{Drawn, Marker, channel};
-use dragonfly_anim::data::BoneIndex;
+use dragonfly_anim::data::{BoneIndex, Channel, Track};
 use dragonfly_picture::between;
+use std::sync::Arc;
 
 /// A key closer to the time shown than this counts as the key at that time, and is not the next or previous one;
 /// seconds.
 const NEAR: f32 = 1e-4;
+
+/// Returns whether two tracks have the same keys. Columns that they share are not compared key by key.
+fn same_keys(a: &Track, b: &Track) -> bool {
+    fn same<T: PartialEq>(a: &Channel<T>, b: &Channel<T>) -> bool {
+        a.interpolation == b.interpolation
+            && (Arc::ptr_eq(&a.times, &b.times) || a.times == b.times)
+            && (Arc::ptr_eq(&a.values, &b.values) || a.values == b.values)
+    }
+    same(&a.translation, &b.translation) && same(&a.rotation, &b.rotation) && same(&a.scale, &b.scale)
+}
 
 impl<'a> PanelContext<'a> {
     /// Returns the keys as they are to be drawn now; `None` if no take is shown.
@@ -54,15 +65,32 @@ impl<'a> PanelContext<'a> {
         self.keys.only_selected() && self.selected().is_some()
     }
 
+    /// Returns the bones whose keys are not those of the take in the file, ascending; `None` where bones are listed whether
+    /// they are changed or not. All bones of a take that is in no file are changed.
+    pub(in crate::panels) fn changed_bones(&self) -> Option<Vec<BoneIndex>> {
+        if !self.keys.only_changed() {
+            return None;
+        }
+        let (slot, shown) = (self.slot()?, self.shown_take()?);
+        let opened = slot.origin.and_then(|origin| self.loaded()?.model.animation.takes.get(origin));
+        let is_changed = |track: &&Track| {
+            let before = opened.and_then(|take| take.tracks.get(track.bone as usize));
+            before.is_none_or(|before| !same_keys(before, track))
+        };
+        Some(shown.tracks.iter().filter(is_changed).map(|track| track.bone).collect())
+    }
+
     /// Returns the bones that the timeline lists, in the order of the tree: those with keys, of these the selected ones where
     /// only they are listed, and those whose names contain the filter.
     pub fn listed_bones(&self) -> Vec<BoneIndex> {
         let Some(take) = self.take() else { return Vec::new() };
         let only = self.lists_only_selected();
+        let changed = self.changed_bones();
         let filter = self.keys.filter().to_lowercase();
         let lists = self.keys.lists(self.selection);
         let listed = |&bone: &BoneIndex| {
             (!only || lists(bone))
+                && changed.as_ref().is_none_or(|changed| changed.binary_search(&bone).is_ok())
                 && channel::channels(take, bone).next().is_some()
                 && (filter.is_empty() || self.bone_name(bone).to_lowercase().contains(&filter))
         };

@@ -104,6 +104,8 @@ pub(super) fn nothing(painter: &Painter, sheet: &Sheet<'_>) {
     let Sheet { areas, context, theme, .. } = *sheet;
     let text = if !context.keys.filter().is_empty() {
         "No bone with keys matches the filter"
+    } else if context.keys.only_changed() {
+        "No bone in the list has other keys than the file"
     } else {
         match (context.lists_only_selected(), context.layer().is_some()) {
             (true, false) => "The selected bones have no keys in this take",

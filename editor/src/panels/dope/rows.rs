@@ -50,6 +50,7 @@ struct RowsKey {
     signature: u64,
     selected: Vec<BoneIndex>,
     only_selected: bool,
+    changed: Option<Vec<BoneIndex>>,
     filter: String,
     toggled: usize,
 }
@@ -72,11 +73,13 @@ impl DopeRows {
         if self.made_of.as_ref().is_some_and(|made_of| made_of.model != model) {
             self.toggled.clear();
         }
+        let changed = context.changed_bones();
         let same = self.made_of.as_ref().is_some_and(|made_of| {
             made_of.model == model
                 && made_of.signature == signature
                 && made_of.selected == context.selection.bones()
                 && made_of.only_selected == context.keys.only_selected()
+                && made_of.changed == changed
                 && made_of.filter == context.keys.filter()
                 && made_of.toggled == self.toggled.len()
         });
@@ -88,6 +91,7 @@ impl DopeRows {
             signature,
             selected: context.selection.bones().to_vec(),
             only_selected: context.keys.only_selected(),
+            changed,
             filter: context.keys.filter().to_owned(),
             toggled: self.toggled.len(),
         });

@@ -50,6 +50,8 @@ pub struct KeyEditing {
     snap: bool,
     /// Whether only the selected bones are listed, if any are selected.
     only_selected: bool,
+    /// Whether only bones are listed whose keys are not those of the file.
+    only_changed: bool,
     /// Whether the ruler has seconds instead of frames.
     seconds: bool,
     /// Bones that were listed when one of their rows was clicked, and the selection that this made: the other bones stay
@@ -82,6 +84,7 @@ impl Default for KeyEditing {
             selection: KeySelection::default(),
             snap: true,
             only_selected: true,
+            only_changed: false,
             seconds: false,
             kept: None,
             filter: String::new(),
@@ -142,6 +145,16 @@ impl KeyEditing {
     /// Sets whether moved keys go to whole frames.
     pub fn set_snap(&mut self, snap: bool) {
         self.snap = snap;
+    }
+
+    /// Returns whether only bones are listed whose keys are not those of the file.
+    pub fn only_changed(&self) -> bool {
+        self.only_changed
+    }
+
+    /// Lists only bones whose keys are not those of the file, or all again.
+    pub(super) fn toggle_only_changed(&mut self) {
+        self.only_changed = !self.only_changed;
     }
 
     /// Returns whether only the selected bones are listed, if any are selected.

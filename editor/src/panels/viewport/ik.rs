@@ -12,10 +12,13 @@ use crate::panels::widgets::{count, focus_ring, hint_beside};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, CornerRadius, FontId, Response, Sense, Ui, WidgetInfo};
 
-/// Draws three buttons, one above the other.
+/// Draws two buttons, one above the other, and between them the length of the chain while IK is on.
 pub(super) fn tools(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     column_button(ui, Icon::Ik, Id::ToggleIk, context.ik.on, requests);
-    length(ui, context, requests);
+    // The length means nothing while bones do not follow.
+    if context.ik.on {
+        length(ui, context, requests);
+    }
     let pinned = context.selected().is_some_and(|bone| context.is_pinned(bone));
     column_button(ui, Icon::Pin, Id::Pin, pinned, requests);
 }

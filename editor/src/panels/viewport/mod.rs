@@ -17,6 +17,7 @@ use super::{Panel, PanelPlace, widgets};
 use egui::accesskit::Role;
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, pos2};
+use std::borrow::Cow;
 
 /// The viewport and its overlays. Mouse input in it goes to the controls of the scene ([`crate::control::ViewportTools`])
 /// before the panels get it.
@@ -68,11 +69,17 @@ fn caption(ui: &Ui, rect: Rect, right: f32, context: &PanelContext<'_>) {
         Some(take) => context.digest.takes.get(take).map_or("", |take| take.name.as_str()),
         None => "Rest pose",
     };
+    // The layer whose keys are edited.
+    let layer = context.layer().and_then(|layer| context.layers().get(layer));
+    let take = match layer {
+        Some(layer) => Cow::Owned(format!("{take}  ·  layer {}", layer.settings.name)),
+        None => Cow::Borrowed(take),
+    };
     let at = pos2(rect.left() + 14.0, rect.top() + 12.0);
     let width = right - at.x - 12.0;
     let bottom = name(ui, at, width, &view.file.title, "model", (style::BODY, theme.text));
     if rect.width() > 640.0 {
-        name(ui, pos2(at.x, bottom + 2.0), width, take, "take", (style::SMALL, theme.weak));
+        name(ui, pos2(at.x, bottom + 2.0), width, &take, "take", (style::SMALL, theme.weak));
     }
 }
 

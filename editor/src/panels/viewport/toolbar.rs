@@ -49,10 +49,17 @@ pub(super) fn toolbar(
     command_button(ui, Icon::Bone, Id::ToggleSkeleton, context.shows_skeleton(), requests);
     if wide {
         divider(ui);
-        command_button(ui, Icon::Lines, Id::BonesLines, look.bone_look == BoneLook::Lines, requests);
-        command_button(ui, Icon::Sticks, Id::BonesSticks, look.bone_look == BoneLook::Sticks, requests);
-        let on = look.bone_look == BoneLook::Octahedra;
-        command_button(ui, Icon::Octahedra, Id::BonesOctahedra, on, requests);
+        // No bone has a shape while none is drawn.
+        let shown = context.shows_skeleton();
+        ui.add_enabled_ui(shown, |ui| {
+            for (icon, id, shape) in [
+                (Icon::Lines, Id::BonesLines, BoneLook::Lines),
+                (Icon::Sticks, Id::BonesSticks, BoneLook::Sticks),
+                (Icon::Octahedra, Id::BonesOctahedra, BoneLook::Octahedra),
+            ] {
+                command_button(ui, icon, id, shown && look.bone_look == shape, requests);
+            }
+        });
         divider(ui);
         command_button(ui, Icon::Unlit, Id::ShadeUnlit, look.shading == Shading::Unlit, requests);
         command_button(ui, Icon::Clay, Id::ShadeClay, look.shading == Shading::Clay, requests);

@@ -13,8 +13,8 @@ use crate::panels::widgets::{hint_beside, icon_button};
 use dragonfly_picture::gizmo::{GizmoSpace, Pivot, Tool};
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2, vec2};
 
-/// Draws the toolbar and returns its area. A low viewport gets two columns, a narrow one fewer buttons, and a very low
-/// one none: keys and menus have all of them.
+/// Draws the toolbar and returns its area. A low viewport gets two columns; where that is not enough, a menu has the buttons that do
+/// not fit.
 pub(super) fn toolbar(
     ui: &mut Ui,
     rect: Rect,
@@ -28,10 +28,13 @@ pub(super) fn toolbar(
     let height = |buttons: f32, dividers: f32| {
         buttons * 24.0 + dividers * 7.0 + (buttons + dividers - 1.0) * 2.0 + 2.0 * GRID
     };
-    let heights = [height(11.0, 3.0), height(9.0, 2.0), height(6.0, 1.0), height(4.0, 0.0)];
+    // All but the first have a button for the rest.
+    let ik = if context.ik.on { 3.0 } else { 2.0 };
+    let heights =
+        [height(8.0 + ik, 3.0), height(7.0 + ik, 2.0), height(7.0, 1.0), height(5.0, 0.0), height(1.0, 0.0)];
     let fits = heights.iter().position(|&height| height <= room).filter(|_| rect.width() >= 240.0)?;
     let two = matches!(fits, 1 | 2) && rect.width() >= 320.0;
-    let (width, high) = if two { (58.0, heights[2]) } else { (32.0, heights[fits]) };
+    let (width, high) = if two { (58.0, height(6.0, 1.0)) } else { (32.0, heights[fits]) };
     let at = Rect::from_min_size(pos2(rect.left() + 10.0, top), vec2(width, high));
     glass(ui, at);
     let mut column = |left: f32, salt: &str| {
@@ -43,12 +46,7 @@ pub(super) fn toolbar(
     };
     let (mut first, mut second) = (column(0.0, "hand"), two.then(|| column(26.0, "hand, second")));
     let ui = &mut first;
-    for (icon, id, tool) in [
-        (Icon::Select, Id::ToolSelect, None),
-        (Icon::Move, Id::ToolMove, Some(Tool::Move)),
-        (Icon::Rotate, Id::ToolRotate, Some(Tool::Rotate)),
-        (Icon::Scale, Id::ToolScale, Some(Tool::Scale)),
-    ] {
+    for (icon, id, tool) in HANDS.into_iter().filter(|_| fits <= 3) {
         column_button(ui, icon, id, hand.tool == tool, requests);
     }
     if fits <= 2 {
@@ -73,7 +71,43 @@ pub(super) fn toolbar(
         column_button(ui, Icon::Ghosts, Id::ToggleGhosts, hand.ghosts.shown, requests);
         column_button(ui, Icon::Path, Id::TogglePath, hand.path, requests);
     }
+    if fits > 0 && !two {
+        rest(ui, context, fits, requests);
+    }
     Some(at)
+}
+
+/// The tools that a drag in the viewport uses.
+const HANDS: [(Icon, Id, Option<Tool>); 4] = [
+    (Icon::Select, Id::ToolSelect, None),
+    (Icon::Move, Id::ToolMove, Some(Tool::Move)),
+    (Icon::Rotate, Id::ToolRotate, Some(Tool::Rotate)),
+    (Icon::Scale, Id::ToolScale, Some(Tool::Scale)),
+];
+
+/// Draws the button with the menu of the tools that do not fit.
+fn rest(ui: &mut Ui, context: &PanelContext<'_>, fits: usize, requests: &mut Vec<Request>) {
+    let hand = &context.settings.tools;
+    let response = icon_button(ui, Icon::Down, "More tools", false);
+    egui::Popup::menu(&response).align(egui::RectAlign::RIGHT_START).show(|ui| {
+        ui.set_width(190.0);
+        for (_, id, tool) in HANDS.into_iter().filter(|_| fits > 3) {
+            menu::item(ui, context, id, hand.tool == tool, requests);
+        }
+        if fits > 2 {
+            menu::item(ui, context, Id::NextSpace, false, requests);
+            for (id, _, pivot) in PIVOTS {
+                menu::item(ui, context, id, pivot == Some(hand.pivot), requests);
+            }
+        }
+        if fits > 1 {
+            menu::item(ui, context, Id::ToggleIk, context.ik.on, requests);
+            menu::item(ui, context, Id::Pin, false, requests);
+        }
+        menu::item(ui, context, Id::ToggleGhosts, hand.ghosts.shown, requests);
+        menu::item(ui, context, Id::TogglePath, hand.path, requests);
+    });
+    hint_beside(&response, "More tools");
 }
 
 const SPACES: [(Id, Option<GizmoSpace>, Option<Pivot>); 4] = [

@@ -17,6 +17,7 @@ commands! {
     BoxSelectKeys => When::Take, "Box-select keys", [], "Lets the next drag over the timeline or the curves draw a selection box, also where it begins on a key (border select)", |w| { w.keys.set_aim(Some(KeyAim::Box)); None };
     InterpolationMenu => When::Keys, "Interpolation menu", [], "Opens the interpolations of the selected keys at the pointer (step, linear, spline)", |w| { w.keys.set_aim(Some(KeyAim::InterpolationMenu)); None };
     TangentMenu => When::Keys, "Tangent menu", [], "Opens the kinds of tangents of the selected keys at the pointer (handle type)", |w| { w.keys.set_aim(Some(KeyAim::TangentMenu)); None };
+    ListChangedBones => When::Take, "List only changed bones", [], "Lists only bones whose keys are not those of the file in the timeline (filter, modified)", |w| { keys::toggle_only_changed(w); None };
     DeleteKeys => When::Keys, "Delete keys", [key(NONE, Key::Delete), key(NONE, Key::Backspace)], "Deletes the selected keys", keys::delete;
     DuplicateKeys => When::Keys, "Duplicate keys", [key(CTRL, Key::D), key(SHIFT, Key::D)], "Copies the selected keys to the playhead", keys::duplicate;
     CopyKeys => When::Keys, "Copy keys", [], "Copies the selected keys with their values and tangents; Paste inserts them at the playhead", clipboard::copy_keys;
