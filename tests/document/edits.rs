@@ -2,12 +2,14 @@
 
 use dragonfly_anim::data::{Interpolation, Take, Transform};
 use dragonfly_anim::sample::sample_take;
+use dragonfly_document::PoseChange;
 use dragonfly_document::adapter::{EditError, ModelAdapter};
 use dragonfly_document::edit::{
     AddKeys, BonePose, DeleteKeys, DeleteTake, Edit, KeyInterpolation, KeySet, MoveKeys, NewKey, OffsetPose,
     Property, ResetPose, ResetTo, RetimeTake, ReverseTake, RippleKeys, ScaleKeys, SetInterpolation, SetPose,
     SetTangents, SnapKeys, SplitTake, TakeRef, TrimTake,
 };
+use dragonfly_document::history::{Edited, Gesture};
 use dragonfly_kit::document::made_take::{animation, bone, model, pose, walk};
 use dragonfly_kit::random::Random;
 use glam::{Quat, Vec3};
@@ -418,4 +420,37 @@ fn invalid_numbers_and_missing_targets_are_refused_and_nothing_changes() {
         assert!(!error.to_string().is_empty());
         assert!(Arc::ptr_eq(&model.slots()[0], &before), "{edit:?} changed something");
     }
+}
+
+#[test]
+fn the_amount_of_a_step_is_the_difference_that_it_makes_also_while_it_is_dragged() {
+    let mut edited = Edited::new(model(3));
+    let set = |degrees: f32| {
+        let turn = Quat::from_rotation_z(degrees.to_radians()).to_array();
+        let json = format!(
+            r#"{{"edit":"set","take":0,"time":0.5,"poses":[{{"bone":0,"rotation":[{},{},{},{}]}}]}}"#,
+            turn[0], turn[1], turn[2], turn[3]
+        );
+        serde_json::from_str::<Edit>(&json).expect("an edit")
+    };
+    let amount = |edited: &Edited| {
+        let (steps, done) = edited.steps();
+        let amount = steps[done - 1].amount.expect("a step with an amount");
+        assert_eq!(amount.time, Some(0.5));
+        match amount.change {
+            Some(PoseChange::Rotation(by)) => by.to_scaled_axis().z.to_degrees(),
+            other => panic!("{other:?}"),
+        }
+    };
+    edited.apply(set(10.0), None).unwrap();
+    // A drag to 40° in three moves, measured from its start.
+    for degrees in [15.0, 30.0, 40.0] {
+        edited.apply(set(degrees), Some(Gesture(7))).unwrap();
+        assert!((amount(&edited) - (degrees - 10.0)).abs() < 1e-3, "{degrees}: {}", amount(&edited));
+    }
+    assert!(edited.undo());
+    assert!(
+        (edited.steps().0[1].amount.unwrap().time.unwrap() - 0.5).abs() < 1e-6,
+        "undone, it keeps its text"
+    );
 }

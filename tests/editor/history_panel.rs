@@ -11,20 +11,20 @@ fn window() -> Window {
     bench.state.execute(Request::Select(Some(3)));
     let mut window = bench.window();
     type_into(&mut window, "Translation result X", "1", Key::Enter);
-    type_into(&mut window, "Translation result Y", "2", Key::Enter);
+    type_into(&mut window, "Translation result X", "1.5", Key::Enter);
     type_into(&mut window, "Scale result X", "3", Key::Enter);
     window.get_by_label("History").click();
     window.run_steps(4);
     window
 }
 
-const MOVE: &str = "Move, rib_00_left_middle  ·  Survey";
-const SCALE: &str = "Scale, rib_00_left_middle  ·  Survey";
+const MOVE: &str = "Move X +0.5 m, rib_00_left_middle  ·  Survey  ·  frame 0";
+const SCALE: &str = "Scale X ×3, rib_00_left_middle  ·  Survey  ·  frame 0";
 
 #[test]
-fn the_list_names_each_edit_and_its_target() {
+fn the_list_names_each_edit_its_amount_its_target_and_its_frame() {
     let mut window = window();
-    assert_eq!(window.query_all_by_label(MOVE).count(), 2);
+    assert_eq!(window.query_all_by_label(MOVE).count(), 1);
     assert!(
         window.get_by_label(SCALE).accesskit_node().is_selected() == Some(true)
             || window.get_by_label(SCALE).accesskit_node().toggled().is_some()

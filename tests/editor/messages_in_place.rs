@@ -1,6 +1,7 @@
 //! Messages where the user looks: information that passes, an empty viewport that is explained, a gizmo that cannot
 //! be dragged, the folder of a file that is saved.
 
+use crate::timeline_rig::Animator;
 use crate::workbench::Workbench;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::dialogs::{PlaceQuestion, Question};
@@ -39,6 +40,39 @@ fn an_information_passes_after_some_seconds_a_warning_later_and_an_error_stays()
     state.say(MessageSeverity::Error, "Not saved");
     assert_eq!(shown(&mut state, 60).as_deref(), Some("Not saved"));
     assert_eq!(shown(&mut state, 9_000).as_deref(), Some("Not saved"));
+}
+
+#[test]
+fn a_warning_is_shown_at_the_pointer_for_some_seconds_and_an_information_is_not() {
+    let mut window = Workbench::new(Some(fixture::full())).window();
+    let pointer = egui::pos2(300.0, 250.0);
+    window.event(egui::Event::PointerMoved(pointer));
+    window.run_steps(3);
+    let start = Instant::now();
+    let shown = |window: &mut crate::workbench::Window, text: &str, seconds: u64| {
+        window.state_mut().state.begin_frame(start + Duration::from_secs(seconds));
+        window.run_steps(2);
+        let texts = window.query_all_by_label(text);
+        let near = texts.map(|node| node.rect()).find(|rect| rect.distance_to_pos(pointer) < 60.0);
+        near.is_some()
+    };
+    window.state_mut().state.say(MessageSeverity::Info, "Copied");
+    assert!(!shown(&mut window, "Copied", 1));
+    window.state_mut().state.say(MessageSeverity::Warning, "The bone is locked");
+    assert!(shown(&mut window, "The bone is locked", 2));
+    assert!(shown(&mut window, "The bone is locked", 6));
+    assert!(!shown(&mut window, "The bone is locked", 7), "after five seconds it is in the status line only");
+    // Another one at the lower right corner stays inside the window.
+    let screen = window.ctx.content_rect();
+    window.event(egui::Event::PointerMoved(screen.max - egui::vec2(4.0, 4.0)));
+    window.run_steps(2);
+    window.state_mut().state.say(MessageSeverity::Error, "Not saved: the disk is full");
+    window.state_mut().state.begin_frame(start + Duration::from_secs(8));
+    window.run_steps(3);
+    let inside = |rect: egui::Rect| screen.contains_rect(rect) && rect.height() > 8.0;
+    let count =
+        window.query_all_by_label("Not saved: the disk is full").filter(|node| inside(node.rect())).count();
+    assert_eq!(count, 1);
 }
 
 #[test]
@@ -103,4 +137,22 @@ fn the_size_of_the_window_is_remembered_within_the_limits_of_the_screen() {
             "{size:?}"
         );
     }
+}
+
+#[test]
+fn another_interpolation_tells_how_far_it_moves_bones_and_in_which_frame() {
+    let mut animator = Animator::with_bone(3);
+    animator.request(Request::Command(Id::SelectAllKeys));
+    animator.request(Request::Command(Id::InterpolateStep));
+    let state = &animator.harness.state().state;
+    let text = state.read().status.last().expect("a message").text.clone();
+    // A step channel holds each key until the next one, so the bone is behind by up to the turn between two keys.
+    let take = state.read().take().expect("a take");
+    let values = &take.tracks[3].rotation.values;
+    let turns = values.windows(2).map(|pair| pair[0].angle_between(pair[1]).to_degrees());
+    let most = turns.fold(0.0, f32::max);
+    let told = text.split(" · ").last().and_then(|part| part.split('°').next());
+    let told: f32 = told.and_then(|number| number.trim().parse().ok()).unwrap_or_else(|| panic!("{text}"));
+    assert!(told > 0.3 * most && told <= most + 0.01, "{text}: {most}");
+    assert!(text.contains(" mm ") && text.contains(" frame "), "{text}");
 }

@@ -88,3 +88,45 @@ fn undo_of_an_edit_in_another_take_leaves_the_selection_of_keys() {
     animator.request(Request::Command(Id::Undo));
     assert_eq!(animator.selected(), count);
 }
+
+#[test]
+fn with_undo_of_selections_undo_goes_back_through_selections_and_steps_in_their_order() {
+    let mut animator = three_keys();
+    let undo = |animator: &mut Animator| animator.request(Request::Command(Id::Undo));
+    let redo = |animator: &mut Animator| animator.request(Request::Command(Id::Redo));
+    animator.request(Request::Command(Id::UndoSelections));
+    animator.request(Request::Select(Some(5)));
+    animator.request(Request::Select(Some(6)));
+    animator.request(Request::Command(Id::Key));
+    animator.request(Request::Select(Some(7)));
+    let steps =
+        |animator: &Animator| animator.harness.state().state.read().view.map(|view| view.history.done);
+    assert_eq!((bones(&animator), steps(&animator)), (vec![7], Some(1)));
+    undo(&mut animator);
+    assert_eq!((bones(&animator), steps(&animator)), (vec![6], Some(1)), "a selection first");
+    undo(&mut animator);
+    assert_eq!((bones(&animator), steps(&animator)), (vec![6], Some(0)), "then the step");
+    undo(&mut animator);
+    assert_eq!(bones(&animator), [5]);
+    undo(&mut animator);
+    assert_eq!((bones(&animator), selected(&animator)), (vec![3], vec![3, 4, 5]));
+    for (bone, done) in [(5, 0), (6, 0), (6, 1), (7, 1)] {
+        redo(&mut animator);
+        assert_eq!((bones(&animator), steps(&animator)), (vec![bone], Some(done)));
+    }
+    // A new selection forgets those that were undone, and a new step those after it.
+    undo(&mut animator);
+    animator.request(Request::Select(Some(8)));
+    redo(&mut animator);
+    assert_eq!(bones(&animator), [8]);
+}
+
+#[test]
+fn without_undo_of_selections_undo_takes_back_steps_alone() {
+    let mut animator = three_keys();
+    animator.request(Request::Command(Id::KeysLater));
+    animator.request(Request::Select(Some(5)));
+    animator.request(Request::Select(Some(6)));
+    animator.request(Request::Command(Id::Undo));
+    assert_eq!((bones(&animator), selected(&animator)), (vec![3], vec![3, 4, 5]));
+}

@@ -3,6 +3,7 @@
 use super::about::about;
 use super::adapter::{EditError, Inverse, ModelAdapter, ValueDrag};
 use super::edit::Edit;
+use super::step_amount::{PoseBefore, StepAmount};
 use std::collections::VecDeque;
 use std::mem::discriminant;
 use std::sync::Arc;
@@ -25,6 +26,10 @@ pub struct HistoryStep {
     pub gesture: Option<Gesture>,
     /// Names of bones and take, at the time of the edit.
     pub about: Arc<str>,
+    /// The amount by which it moves a bone; `None` where it neither sets nor offsets poses.
+    pub amount: Option<StepAmount>,
+    /// The pose before the step, from which the amount is measured.
+    before: Option<PoseBefore>,
     /// Undoes the step where it is applied, and redoes it where it is undone.
     inverse: Inverse,
     /// Size of the inverse in bytes, about, when the step was made.
@@ -105,6 +110,7 @@ impl Edited {
         {
             done?;
             if let Some(step) = self.steps.back_mut() {
+                step.amount = StepAmount::of(&self.adapter, &edit, step.before);
                 step.edit = edit;
             }
             // The saved state is not the present one any more.
@@ -122,7 +128,9 @@ impl Edited {
             Some(step) => Arc::clone(&step.about),
             None => about(&adapter, &edit),
         };
+        let before = PoseBefore::of(&adapter, &edit);
         let inverse = adapter.apply(&edit)?;
+        let amount = StepAmount::of(&adapter, &edit, before);
         self.adapter = adapter;
         if goes_on {
             self.forget_after(self.done - 1);
@@ -136,7 +144,7 @@ impl Edited {
         self.drag = gesture.and_then(|_| ValueDrag::of(&self.adapter, &edit, &inverse));
         let bytes = inverse.bytes();
         self.bytes += bytes;
-        self.steps.push_back(HistoryStep { edit, gesture, about, inverse, bytes });
+        self.steps.push_back(HistoryStep { edit, gesture, about, amount, before, inverse, bytes });
         self.done = self.steps.len();
         self.forget_oldest();
         Ok(())

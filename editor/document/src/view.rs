@@ -3,6 +3,7 @@
 use super::adapter::{ModelAdapter, PendingAt, TakeVersions};
 use super::history::Edited;
 use super::images::ImageSurvey;
+use super::step_amount::StepAmount;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Take, Track};
 use dragonfly_anim::format::Format;
@@ -31,12 +32,16 @@ pub struct LoadedModel {
 }
 
 /// The history, for the menu and for the list of the history.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct HistoryView {
     /// Label of each step, the first one first.
     pub steps: Vec<&'static str>,
     /// Bones and take of each step; empty where unknown.
     pub about: Vec<Arc<str>>,
+    /// Time and amount of each step; `None` where it neither sets nor offsets poses.
+    pub amounts: Vec<Option<StepAmount>>,
+    /// Whether it is told how far the last applied step moves bones.
+    pub told_difference: bool,
     /// Number of steps that are applied; the others can be redone.
     pub done: usize,
     /// Whether nothing is unsaved.
@@ -51,7 +56,11 @@ impl HistoryView {
         let (steps, done) = edited.steps();
         let labels: Vec<_> = steps.iter().map(|step| step.edit.label()).collect();
         let about = steps.iter().map(|step| Arc::clone(&step.about)).collect();
-        Self { steps: labels, about, done, saved: edited.is_saved(), saved_at: edited.saved() }
+        let amounts = steps.iter().map(|step| step.amount).collect();
+        let last = done.checked_sub(1).and_then(|last| steps.get(last));
+        let told_difference = last.is_some_and(|step| step.edit.tells_difference());
+        let (saved, saved_at) = (edited.is_saved(), edited.saved());
+        Self { steps: labels, about, amounts, told_difference, done, saved, saved_at }
     }
 
     /// Returns the last unsaved step as a sentence; `None` where nothing is unsaved.

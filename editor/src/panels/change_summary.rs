@@ -2,11 +2,12 @@
 //! when it is redone.
 
 use super::count_text::{count, grouped};
+use super::difference_text::difference_text;
 use dragonfly_document::{HistoryView, View};
 use std::sync::Arc;
 
 /// Describes what leads from one view of a model to a newer one; `None` if nothing was done, or a gesture continues.
-pub(super) fn describe_change(old: &View, new: &View) -> Option<String> {
+pub(super) fn describe_change(old: &View, new: &View, frame_rate: u32) -> Option<String> {
     let (before, now) = (&*old.history, &*new.history);
     if same_steps(before, now) {
         let (few, many) = (before.done.min(now.done), before.done.max(now.done));
@@ -26,7 +27,8 @@ pub(super) fn describe_change(old: &View, new: &View) -> Option<String> {
         return Some(format!("Cancelled: {}", step(before, gone)));
     }
     let last = now.done.checked_sub(1)?;
-    Some([Some(step(now, last)), keys(old, new)].into_iter().flatten().collect::<Vec<_>>().join("  ·  "))
+    let parts = [Some(step(now, last)), keys(old, new), difference(old, new, frame_rate)];
+    Some(parts.into_iter().flatten().collect::<Vec<_>>().join("  ·  "))
 }
 
 /// Describes how many keys were overwritten when keys were moved, duplicated or pasted; `None` if none were. The take
@@ -45,8 +47,8 @@ pub(super) fn describe_replaced(view: &View, before: usize, brought: usize, now:
     )
 }
 
-/// Whether both contain the same steps, however many of them are done.
-fn same_steps(before: &HistoryView, now: &HistoryView) -> bool {
+/// Returns whether both contain the same steps, however many of them are done.
+pub(super) fn same_steps(before: &HistoryView, now: &HistoryView) -> bool {
     before.steps.len() == now.steps.len() && before.about.last().map(address) == now.about.last().map(address)
 }
 
@@ -63,6 +65,17 @@ fn step(history: &HistoryView, at: usize) -> String {
         Some(about) if !about.is_empty() => format!("{label}  ·  {about}"),
         _ => label.to_owned(),
     }
+}
+
+/// Returns how far the last step moves bones, where it is one of which that is told.
+fn difference(old: &View, new: &View, frame_rate: u32) -> Option<String> {
+    if !new.history.told_difference || old.slots.len() != new.slots.len() {
+        return None;
+    }
+    let mut both = old.slots.iter().zip(new.slots.iter());
+    let (before, now) = both.find(|(before, now)| !Arc::ptr_eq(before, now))?;
+    let skeleton = &new.loaded.model.animation.skeleton;
+    difference_text((before.shown(), now.shown()), skeleton, frame_rate)
 }
 
 /// Returns how many keys were added or deleted, if the takes are the same ones.

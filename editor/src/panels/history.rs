@@ -5,6 +5,7 @@ use super::commands::Id;
 use super::context::PanelContext;
 use super::icons::Icon;
 use super::request::Request;
+use super::step_text;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::{Panel, PanelPlace, widgets};
@@ -48,7 +49,7 @@ impl Panel for History {
         }
         area.show_rows(ui, ROW, history.steps.len() + 1, |ui, range| {
             for done in range {
-                if row(ui, history, done).clicked() && done != history.done {
+                if row(ui, history, (done, context.frame_rate)).clicked() && done != history.done {
                     requests.push(Request::Change(Change::GoTo(done)));
                 }
             }
@@ -81,18 +82,15 @@ fn buttons(ui: &mut Ui, context: &PanelContext<'_>, history: &HistoryView, reque
 }
 
 /// Draws the row of the state after `done` steps.
-fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
+fn row(ui: &mut Ui, history: &HistoryView, (done, frame_rate): (usize, u32)) -> egui::Response {
     let theme = Theme::of(ui);
     let (label, about) = match done.checked_sub(1) {
-        None => ("Opened", ""),
-        Some(step) => (
-            history.steps.get(step).copied().unwrap_or_default(),
-            history.about.get(step).map_or("", |about| &**about),
-        ),
+        None => ("Opened".to_owned(), String::new()),
+        Some(step) => step_text::step_text(history, step, frame_rate),
     };
     let (here, ahead, saved) = (done == history.done, done > history.done, history.saved_at == Some(done));
-    let mut name = label.to_owned();
-    for (is, word) in [(!about.is_empty(), about), (ahead, "undone"), (saved && done > 0, "saved")] {
+    let mut name = label.clone();
+    for (is, word) in [(!about.is_empty(), about.as_str()), (ahead, "undone"), (saved && done > 0, "saved")] {
         if is {
             name.push_str(", ");
             name.push_str(word);
@@ -111,10 +109,10 @@ fn row(ui: &mut Ui, history: &HistoryView, done: usize) -> egui::Response {
         right -= 20.0;
     }
     let text = Rect::from_min_max(pos2(rect.left() + 12.0, rect.top()), pos2(right, rect.bottom()));
-    let end = widgets::text_in(ui, text, label, &TextStyle::Body, color);
+    let end = widgets::text_in(ui, text, &label, &TextStyle::Body, color);
     if !about.is_empty() && right - end > 40.0 {
         let text = Rect::from_min_max(pos2(end + 8.0, rect.top()), pos2(right, rect.bottom()));
-        widgets::text_in(ui, text, about, &TextStyle::Small, weak);
+        widgets::text_in(ui, text, &about, &TextStyle::Small, weak);
     }
     let action = match () {
         () if here => "Current state",

@@ -108,6 +108,7 @@ pub(super) fn item(ui: &mut Ui, context: &PanelContext<'_>, id: Id, on: bool, re
 fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], requests: &mut Vec<Request>) {
     for command in categories.iter().flat_map(|category| commands::of(*category)) {
         let on = match command.id {
+            Id::UndoSelections => context.settings.undo_selections,
             Id::ToggleSnap => context.keys.snap(),
             Id::ToggleRulerSeconds => context.keys.ruler_in_seconds(),
             Id::ListChangedBones => context.keys.only_changed(),
@@ -125,7 +126,7 @@ fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], reques
 
 /// The last entries of groups in long menus.
 const GROUP_ENDS: &[Id] = &[
-    Id::Redo,
+    Id::UndoSelections,
     // Select
     Id::InvertSelection,
     Id::ShrinkSelection,

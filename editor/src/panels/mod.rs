@@ -20,6 +20,7 @@ pub mod context;
 mod count_text;
 pub mod curves;
 pub mod dialogs;
+mod difference_text;
 pub mod digest;
 mod dope;
 mod drag;
@@ -63,18 +64,21 @@ pub mod ruler;
 mod search_field;
 mod selected_bones;
 mod selection_steps;
+mod selection_trail;
 pub mod settings;
 mod shortcuts;
 pub mod side_files;
 pub mod state;
 pub mod status;
 pub mod status_line;
+mod step_text;
 pub mod style;
 mod tab;
 pub mod take_list;
 pub mod takes;
 pub mod theme;
 pub mod timeline;
+mod toast;
 pub mod tool_drag;
 pub mod tool_state;
 mod transport;
@@ -113,6 +117,7 @@ pub struct Desk {
     layout: Layout,
     overlays: overlays::Overlays,
     dialogs: dialogs::Dialogs,
+    toast: toast::Toast,
 }
 
 impl Desk {
@@ -120,7 +125,8 @@ impl Desk {
     pub fn new(layout: &str) -> Self {
         let panels = all();
         let layout = Layout::parse(layout, &panels);
-        Self { panels, layout, overlays: overlays::Overlays::default(), dialogs: dialogs::Dialogs::default() }
+        let (overlays, dialogs) = (overlays::Overlays::default(), dialogs::Dialogs::default());
+        Self { panels, layout, overlays, dialogs, toast: toast::Toast::default() }
     }
 
     /// Returns the layout as the text of a layout file, if it changed since the last call.
@@ -166,6 +172,7 @@ impl Desk {
         key_aim::show(ui, context, requests);
         self.overlays.show(ui, context, requests);
         self.dialogs.show(ui, context, requests);
+        self.toast.show(ui, context);
     }
 }
 

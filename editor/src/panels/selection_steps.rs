@@ -9,7 +9,7 @@ use dragonfly_document::history::Gesture;
 use std::collections::VecDeque;
 
 /// The selected bones and keys at one moment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct SelectionState {
     /// The selected bones in the order of selection.
     pub(super) bones: Vec<BoneIndex>,

@@ -233,6 +233,8 @@ pub struct Settings {
     pub keys: KeySettings,
     /// Whether a changed pose becomes a key at once.
     pub auto_key: bool,
+    /// Whether undo includes selections of bones and keys.
+    pub undo_selections: bool,
     /// Size of the falloff of edits.
     pub falloff: FalloffSettings,
     /// Whether each save first shows what it will change.
@@ -258,6 +260,7 @@ impl Default for Settings {
             speed: 1.0,
             keys: KeySettings::default(),
             auto_key: true,
+            undo_selections: false,
             falloff: FalloffSettings::default(),
             show_changes: false,
             recent: Vec::new(),

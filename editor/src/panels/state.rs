@@ -198,8 +198,10 @@ impl State {
 
     /// Returns when the time display or the status line must be drawn again, if they must.
     pub fn next_display(&self) -> Option<Duration> {
-        let message = self.workspace.status.shown_for().filter(|left| !left.is_zero());
-        [self.workspace.player.next_display(), message].into_iter().flatten().min()
+        [self.workspace.player.next_display(), self.workspace.status.next_change()]
+            .into_iter()
+            .flatten()
+            .min()
     }
 
     /// Returns the markers and marks as the text of their files.

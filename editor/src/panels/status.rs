@@ -43,6 +43,8 @@ pub struct Status {
 const INFO_SHOWN: Duration = Duration::from_secs(6);
 /// Time for which a warning is shown.
 const WARNING_SHOWN: Duration = Duration::from_secs(20);
+/// Time for which a warning or an error is also shown at the pointer.
+const TOAST_SHOWN: Duration = Duration::from_secs(5);
 
 /// Maximum number of messages that are kept.
 const KEPT: usize = 200;
@@ -113,6 +115,29 @@ impl Status {
         let (said, since) = self.shown?;
         let age = self.now?.saturating_duration_since(since);
         (said == self.said).then(|| limit.saturating_sub(age))
+    }
+
+    /// Returns the newest message while it is shown at the pointer, as a warning or an error is for some seconds, with its number.
+    pub(super) fn toast(&self) -> Option<(u64, &StatusMessage)> {
+        self.toast_left().filter(|left| !left.is_zero())?;
+        Some((self.said, self.last()?))
+    }
+
+    /// Returns the time after which the newest message is no longer shown at the pointer; `None` if it is none to be shown there.
+    pub(super) fn toast_left(&self) -> Option<Duration> {
+        match self.last()?.level {
+            MessageSeverity::Info => return None,
+            MessageSeverity::Warning | MessageSeverity::Error => {}
+        }
+        let (said, since) = self.shown?;
+        let age = self.now?.saturating_duration_since(since);
+        (said == self.said).then(|| TOAST_SHOWN.saturating_sub(age))
+    }
+
+    /// Returns the time after which the display of messages changes; `None` where it stays as it is.
+    pub(super) fn next_change(&self) -> Option<Duration> {
+        let times = [self.shown_for(), self.toast_left()];
+        times.into_iter().flatten().filter(|left| !left.is_zero()).min()
     }
 
     /// Returns the newest message.

@@ -121,11 +121,13 @@ fn message(ui: &mut Ui, context: &PanelContext<'_>) {
     });
 }
 
-fn sentence(line: &StatusMessage) -> String {
+/// Returns the text of a message, with the number of times that it was added in a row.
+pub(super) fn sentence(line: &StatusMessage) -> String {
     if line.times > 1 { format!("{} ({} times)", line.text, line.times) } else { line.text.clone() }
 }
 
-fn tone(level: MessageSeverity, theme: &Theme) -> (Icon, Color32) {
+/// Returns the icon and the color of a severity.
+pub(super) fn tone(level: MessageSeverity, theme: &Theme) -> (Icon, Color32) {
     match level {
         MessageSeverity::Info => (Icon::Info, theme.weak),
         MessageSeverity::Warning => (Icon::Warning, theme.warning),

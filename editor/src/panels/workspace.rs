@@ -16,6 +16,7 @@ use super::prompts::Prompts;
 use super::retarget_source::RetargetSource;
 use super::selected_bones::SelectedBones;
 use super::selection_steps::{SelectionState, SelectionSteps};
+use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
 use super::status::{MessageSeverity, Status};
 use super::take_list::TakeListState;
@@ -42,6 +43,8 @@ pub(super) struct Workspace {
     pub(super) keys: KeyEditing,
     /// The selections around the steps of the history.
     pub(super) selections: SelectionSteps,
+    /// The selections between the steps of the history.
+    pub(super) trail: SelectionTrail,
     /// The angles that were given to rotation keys.
     pub(super) given: GivenAngles,
     /// The pose that was copied last.
@@ -83,6 +86,7 @@ impl Workspace {
             bones: SelectedBones::default(),
             keys: KeyEditing::of(settings.timeline),
             selections: SelectionSteps::default(),
+            trail: SelectionTrail::default(),
             given: GivenAngles::default(),
             copied_pose: None,
             takes: TakeListState::default(),
@@ -110,6 +114,7 @@ impl Workspace {
             selection: self.bones.selection(),
             hidden: self.bones.hidden(),
             pins: self.bones.pins(),
+            trail: &self.trail,
             hovered: self.bones.hovered(),
             pointed: self.bones.pointed(),
             pointer: self.bones.pointer(),
@@ -141,6 +146,13 @@ impl Workspace {
     pub(super) fn selection_state(&self) -> SelectionState {
         let take = self.read().key_slot().map(|slot| slot.id);
         SelectionState { bones: self.bones.bones().to_vec(), keys: self.keys.selection().clone(), take }
+    }
+
+    /// Returns whether exactly these bones and keys are selected.
+    pub(super) fn is_selected(&self, selection: &SelectionState) -> bool {
+        selection.bones == self.bones.bones()
+            && selection.keys == *self.keys.selection()
+            && selection.take == self.read().key_slot().map(|slot| slot.id)
     }
 
     /// Selects the bones and keys that were selected before; the keys only if their take is shown.

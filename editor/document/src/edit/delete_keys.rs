@@ -31,6 +31,8 @@ impl EditKind for DeleteKeys {
 
     const LAYERS: LayerUse = LayerUse::Any;
 
+    const TELLS_DIFFERENCE: bool = true;
+
     fn label(&self) -> &'static str {
         "Delete keys"
     }

@@ -17,6 +17,10 @@ pub(crate) trait EditKind: Sized {
     /// Whether it can be applied to layers and to takes with layers.
     const LAYERS: LayerUse = LayerUse::TakeOnly;
 
+    /// Whether it is told how far it moves bones: it keeps the poses at the keys as they are, or nearly, and changes the motion
+    /// between them.
+    const TELLS_DIFFERENCE: bool = false;
+
     /// Returns the name of the edit for the history and the undo command, in a few words.
     fn label(&self) -> &'static str;
 
@@ -72,6 +76,11 @@ pub(crate) trait EditKind: Sized {
     /// Returns the time and the poses of an edit that does nothing but give values. Repeated ones of one drag are then applied
     /// in place, see [`crate::adapter::ValueDrag`].
     fn values(&self) -> Option<(f32, &[BonePose], PoseMode)> {
+        None
+    }
+
+    /// Returns the offsets of an edit that moves bones at many keys; for the list of the history.
+    fn offsets(&self) -> Option<&[BonePose]> {
         None
     }
 }
@@ -189,6 +198,16 @@ macro_rules! edits {
             /// Returns the time and the poses of an edit that does nothing but give values.
             pub(crate) fn values(&self) -> Option<(f32, &[BonePose], PoseMode)> {
                 match self { $(Self::$Kind(edit) => edit.values(),)* }
+            }
+
+            /// Returns whether it is told how far it moves bones.
+            pub(crate) fn tells_difference(&self) -> bool {
+                match self { $(Self::$Kind(_) => <$Kind as EditKind>::TELLS_DIFFERENCE,)* }
+            }
+
+            /// Returns the offsets of an edit that moves bones at many keys.
+            pub(crate) fn offsets(&self) -> Option<&[BonePose]> {
+                match self { $(Self::$Kind(edit) => edit.offsets(),)* }
             }
         }
 

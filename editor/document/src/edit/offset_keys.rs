@@ -75,6 +75,10 @@ impl EditKind for OffsetKeys {
         })
     }
 
+    fn offsets(&self) -> Option<&[BonePose]> {
+        Some(&self.poses)
+    }
+
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         offset::offset_keys(work, self)
     }

@@ -41,6 +41,8 @@ impl EditKind for ReduceKeys {
         description: "Removes the keys of the head without which nothing moves by more than 1 mm.",
     };
 
+    const TELLS_DIFFERENCE: bool = true;
+
     fn label(&self) -> &'static str {
         "Reduce keys"
     }

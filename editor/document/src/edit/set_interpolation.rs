@@ -42,6 +42,8 @@ impl EditKind for SetInterpolation {
 
     const LAYERS: LayerUse = LayerUse::Any;
 
+    const TELLS_DIFFERENCE: bool = true;
+
     fn label(&self) -> &'static str {
         "Set interpolation"
     }

@@ -28,6 +28,8 @@ impl EditKind for SnapKeys {
 
     const LAYERS: LayerUse = LayerUse::Any;
 
+    const TELLS_DIFFERENCE: bool = true;
+
     fn label(&self) -> &'static str {
         "Snap keys to frames"
     }

@@ -24,6 +24,7 @@ pub(super) mod scope;
 pub(super) mod show;
 pub(super) mod takes;
 pub(super) mod tools;
+pub(super) mod undo;
 
 use super::request::Effect;
 use dragonfly_document::Change;

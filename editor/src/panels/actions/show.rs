@@ -1,6 +1,6 @@
 //! The start of a frame, and a newer view of the document.
 
-use super::{drags, framing, keys, layers, playback, scope, tools};
+use super::{drags, framing, keys, layers, playback, scope, tools, undo};
 use crate::panels::change_summary;
 use crate::panels::marks::{BoneMarks, RecalledMarks};
 use crate::panels::workspace::Workspace;
@@ -18,6 +18,7 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
         workspace.keys.reserve_margin(&take, workspace.player.time());
     }
     workspace.keys.deselect_unlisted(workspace.bones.selection());
+    undo::follow_selection(workspace);
     let playback = workspace.player.playback();
     workspace.posed.set_running(playback.moves(now));
     let keys = workspace.read().shown_keys();
@@ -41,16 +42,21 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
         note_marks(workspace);
         workspace.model.replace(view);
         workspace.selections.open(done);
+        workspace.trail.clear();
         return show_model(workspace);
     }
     let before = workspace.model.replace(view);
     playback::follow_take(workspace, before.as_ref());
     keys::keep_markers(workspace, before.as_ref());
     layers::follow_layers(workspace, before.as_ref());
-    if let Some((old, new)) = before.as_ref().zip(workspace.model.view())
-        && let Some(summary) = change_summary::describe_change(old, new)
-    {
-        workspace.status.remark(summary);
+    if let Some((old, new)) = before.as_ref().zip(workspace.model.view()) {
+        if !change_summary::same_steps(&old.history, &new.history) {
+            let kept = old.history.done.min(new.history.done.saturating_sub(1));
+            workspace.trail.forget_after(kept);
+        }
+        if let Some(summary) = change_summary::describe_change(old, new, workspace.frame_rate.get()) {
+            workspace.status.remark(summary);
+        }
     }
     drags::settle_keys(workspace);
     playback::keep_take(workspace);

@@ -22,6 +22,7 @@ pub use when::When;
 
 use super::context::PanelContext;
 use super::key_canvases;
+use super::selection_trail::WalkDirection;
 use egui::{Key, Modifiers, Popup};
 use std::borrow::Cow;
 
@@ -90,14 +91,11 @@ pub fn get(id: Id) -> &'static Command {
 /// Returns the title of a command as menus show it: undo and redo with the step that they are about.
 pub fn title(panels: &PanelContext<'_>, id: Id) -> Cow<'static, str> {
     let title = get(id).title;
-    let [undo, redo] = panels.view.map_or([None, None], |view| view.history.labels());
-    let label = if id == Id::Undo {
-        undo
-    } else if id == Id::Redo {
-        redo
-    } else {
-        None
-    };
+    let ways = [(Id::Undo, WalkDirection::Back), (Id::Redo, WalkDirection::Forward)];
+    let label = ways.iter().position(|(own, _)| *own == id).and_then(|at| {
+        let history = &panels.view?.history;
+        if panels.trail.leads(history.done, ways[at].1) { Some("selection") } else { history.labels()[at] }
+    });
     label.map_or(Cow::Borrowed(title), |label| Cow::Owned(format!("{title} {label}")))
 }
 

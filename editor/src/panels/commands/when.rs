@@ -2,6 +2,7 @@
 //! the reason.
 
 use crate::panels::context::PanelContext;
+use crate::panels::selection_trail::WalkDirection;
 use crate::panels::window_status::DeviceStatus;
 
 /// A condition under which a command can be run.
@@ -65,8 +66,12 @@ impl When {
             Self::Pending => panels.pending_times().next().is_some(),
             Self::Pinned => pinned,
             Self::PinnedInTake => pinned && take,
-            Self::Undo => history.is_some_and(|history| history.done > 0),
-            Self::Redo => history.is_some_and(|history| history.done < history.steps.len()),
+            Self::Undo => history.is_some_and(|history| {
+                history.done > 0 || panels.trail.leads(history.done, WalkDirection::Back)
+            }),
+            Self::Redo => history.is_some_and(|history| {
+                history.done < history.steps.len() || panels.trail.leads(history.done, WalkDirection::Forward)
+            }),
             Self::Unsaved => history.is_some_and(|history| !history.saved),
             Self::Loading => panels.loading.is_some(),
             Self::Paused => matches!(panels.window.device(), DeviceStatus::Paused { .. }),

@@ -16,6 +16,7 @@ use super::open_model::Loading;
 use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
 use super::retarget_source::RetargetSource;
+use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
 use super::status::Status;
 use super::take_list::TakeListState;
@@ -51,6 +52,8 @@ pub struct PanelContext<'a> {
     pub hidden: &'a HiddenBones,
     /// The pinned bones.
     pub pins: &'a [BoneIndex],
+    /// The selections between the steps of the history.
+    pub trail: &'a SelectionTrail,
     /// The bone whose row is under the pointer.
     pub hovered: Option<BoneIndex>,
     /// The bone under the pointer in the viewport.
