@@ -1,6 +1,8 @@
 //! The distance between two takes, compared with distances and angles computed by hand.
 
-use dragonfly_anim::compare::{LONGEST_GAP, MOST_SAMPLES, compare_takes, pair_bones, sample_times};
+use dragonfly_anim::compare::{
+    LONGEST_GAP, MOST_SAMPLES, compare_at, compare_takes, pair_bones, sample_times,
+};
 use dragonfly_anim::data::{Bone, Channel, Interpolation, MorphTrack, Skeleton, Take, Track, Transform};
 use glam::{Mat4, Quat, Vec3};
 
@@ -117,4 +119,20 @@ fn samples_are_dense_and_bounded() {
     }
     let empty = Take::default();
     assert_eq!(sample_times(&empty, &empty, 0), [0.0]);
+}
+
+#[test]
+fn the_difference_over_time_is_the_chord_at_each_time() {
+    let skeleton = skeleton(&["root", "arm", "hand"]);
+    let (still, turned) = (turn(3, 0.0), turn(3, 0.8));
+    let profile = compare_at((&skeleton, &still), (&skeleton, &turned), vec![0.0, 0.25, 0.5, 1.0]);
+    assert_eq!(profile.times, [0.0, 0.25, 0.5, 1.0]);
+    for (at, angle) in [0.0_f32, 0.2, 0.4, 0.8].into_iter().enumerate() {
+        // The hand is 2 from the root.
+        let chord = 4.0 * (angle / 2.0).sin();
+        assert!((profile.distances[at] - chord).abs() < 1e-5, "{at}: {}", profile.distances[at]);
+        assert!((profile.angles[at] - angle).abs() < 1e-5, "{at}: {}", profile.angles[at]);
+    }
+    assert_eq!(profile.bones[2].distance.time, 1.0);
+    assert!(compare_at((&skeleton, &still), (&skeleton, &turned), Vec::new()).distances.is_empty());
 }

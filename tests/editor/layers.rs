@@ -175,3 +175,37 @@ fn whole_takes_are_edited_as_takes_while_a_layer_is_active() {
     );
     assert_eq!(animator.edited.adapter().slots()[0].layers()[1].settings.name, "Override");
 }
+
+#[test]
+fn offsets_are_pasted_into_additive_layers_only_and_poses_never() {
+    let mut animator = animator();
+    let key_text = |animator: &mut Animator| {
+        animator.request(Request::Command(Id::SelectAllKeys));
+        animator.request(Request::Command(Id::CopyKeys));
+        let effects = &animator.harness.state().effects;
+        let copied = effects.iter().rev().find_map(|effect| match effect {
+            dragonfly::panels::Effect::Copy(text) => Some(text.clone()),
+            _ => None,
+        });
+        copied.expect("a text")
+    };
+    let paste = |animator: &mut Animator, text: &str| {
+        let before = animator.edited.steps().1;
+        animator.request(Request::PastePose { text: text.to_owned(), mirrored: false });
+        let said = animator.harness.state().state.read().status.last().map(|line| line.text.clone());
+        (animator.edited.steps().1 - before, said.unwrap_or_default())
+    };
+    let offsets = key_text(&mut animator);
+    let layer = animator.harness.state().state.read().layers()[0].keys.id;
+    animator.request(Request::ChooseLayer(None));
+    let (steps, said) = paste(&mut animator, &offsets);
+    assert_eq!(steps, 0);
+    assert!(said.contains("offsets of an additive layer"), "{said}");
+    let poses = key_text(&mut animator);
+    animator.request(Request::ChooseLayer(Some(layer)));
+    let (steps, said) = paste(&mut animator, &poses);
+    assert_eq!(steps, 0);
+    assert!(said.contains("are poses"), "{said}");
+    animator.request(Request::Seek(0.75));
+    assert_eq!(paste(&mut animator, &offsets).0, 1, "into the layer they are of");
+}

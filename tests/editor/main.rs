@@ -16,6 +16,7 @@ mod curves_look;
 mod curves_typed;
 mod curves_unrolled;
 mod curves_view;
+mod differences;
 mod drag;
 mod echo;
 mod edit_command;

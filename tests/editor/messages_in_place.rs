@@ -146,7 +146,7 @@ fn another_interpolation_tells_how_far_it_moves_bones_and_in_which_frame() {
     animator.request(Request::Command(Id::InterpolateStep));
     let state = &animator.harness.state().state;
     let text = state.read().status.last().expect("a message").text.clone();
-    // A step channel holds each key until the next one, so the bone is behind by up to the turn between two keys.
+    // A step channel holds each key until the next one, so the largest error is nearly the turn between two keys.
     let take = state.read().take().expect("a take");
     let values = &take.tracks[3].rotation.values;
     let turns = values.windows(2).map(|pair| pair[0].angle_between(pair[1]).to_degrees());

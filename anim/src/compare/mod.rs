@@ -8,9 +8,11 @@
 //! between the two rotations to the root. Both are zero, exactly, for takes with equal keys.
 
 mod pairs;
+mod profile;
 mod times;
 
 pub use pairs::{BonePairs, pair_bones};
+pub use profile::{DifferenceProfile, compare_at};
 pub use times::{LONGEST_GAP, MOST_SAMPLES, sample_times};
 
 use crate::animation::to_root;
@@ -99,31 +101,14 @@ impl<'a> Posed<'a> {
 /// Takes time in proportion to bones × samples; with very many bones fewer samples between keys are taken, so that the
 /// product stays below [`MOST_SAMPLES`].
 pub fn compare_takes(first: (&Skeleton, &Take), second: (&Skeleton, &Take)) -> TakeDifference {
-    let pairs = pair_bones(first.0, second.0);
     let times = sample_times(first.1, second.1, first.0.len().max(second.0.len()));
     let range = [times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0)];
-    let (mut a, mut b) = (Posed::new(first.0, first.1), Posed::new(second.0, second.1));
-    let none = Peak { value: 0.0, time: range[0] };
-    let mut bones: Vec<BoneDifference> = pairs
-        .both
-        .iter()
-        .map(|&(first, second)| BoneDifference { first, second, distance: none, angle: none })
-        .collect();
-    let mut weight = none;
+    let mut weight = Peak { value: 0.0, time: range[0] };
     let mut weights = Weights::of(first.1, second.1);
     for &time in &times {
-        a.at(time);
-        b.at(time);
-        for bone in &mut bones {
-            let (one, other) = (&a.to_root[bone.first as usize], &b.to_root[bone.second as usize]);
-            if one == other {
-                continue;
-            }
-            bone.distance.raise(one.w_axis.truncate().distance(other.w_axis.truncate()), time);
-            bone.angle.raise(angle_between(one, other), time);
-        }
         weight.raise(weights.difference(first.1, second.1, time), time);
     }
+    let bones = compare_at(first, second, times).bones;
     TakeDifference { bones, weight, range }
 }
 

@@ -40,8 +40,8 @@ pub struct HistoryView {
     pub about: Vec<Arc<str>>,
     /// Time and amount of each step; `None` where it neither sets nor offsets poses.
     pub amounts: Vec<Option<StepAmount>>,
-    /// Whether it is told how far the last applied step moves bones.
-    pub told_difference: bool,
+    /// Whether the status line shows how far the last applied step moves bones.
+    pub shows_difference: bool,
     /// Number of steps that are applied; the others can be redone.
     pub done: usize,
     /// Whether nothing is unsaved.
@@ -58,9 +58,9 @@ impl HistoryView {
         let about = steps.iter().map(|step| Arc::clone(&step.about)).collect();
         let amounts = steps.iter().map(|step| step.amount).collect();
         let last = done.checked_sub(1).and_then(|last| steps.get(last));
-        let told_difference = last.is_some_and(|step| step.edit.tells_difference());
+        let shows_difference = last.is_some_and(|step| step.edit.shows_difference());
         let (saved, saved_at) = (edited.is_saved(), edited.saved());
-        Self { steps: labels, about, amounts, told_difference, done, saved, saved_at }
+        Self { steps: labels, about, amounts, shows_difference, done, saved, saved_at }
     }
 
     /// Returns the last unsaved step as a sentence; `None` where nothing is unsaved.

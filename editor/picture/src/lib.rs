@@ -57,8 +57,8 @@ pub use appearance_sender::AppearanceSender;
 pub use between::between;
 pub use connection::{Connection, TargetWindow};
 pub use control::{
-    GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance, IkLook, PathAppearance,
-    PathLook,
+    ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance,
+    IkLook, PathAppearance, PathLook,
 };
 pub use device::{Device, DeviceListener, DeviceParameters, DeviceState};
 pub use error::GraphicsError;

@@ -8,8 +8,8 @@ use dragonfly_picture::camera::Camera;
 use dragonfly_picture::gizmo::RoleColors;
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{
-    AppearanceSender, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, GraphicsHandle,
-    IkAppearance, Look, PathAppearance,
+    AppearanceSender, ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook,
+    GraphicsHandle, IkAppearance, Look, PathAppearance,
 };
 use std::sync::Arc;
 
@@ -95,6 +95,9 @@ impl GraphicsSync {
         sender.update(graphics, |ghosts: &mut GhostAppearance| {
             ghosts.skins = state.settings.tools.ghosts.skin;
             state.ghost_times(&mut ghosts.times);
+        });
+        sender.update(graphics, |compared: &mut ComparedAppearance| {
+            compared.take = state.compared_take().cloned();
         });
         sender.update(graphics, |IkAppearance(ik)| {
             if !state.shows_ik(ik.as_ref()) {

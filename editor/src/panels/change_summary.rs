@@ -67,9 +67,9 @@ fn step(history: &HistoryView, at: usize) -> String {
     }
 }
 
-/// Returns how far the last step moves bones, where it is one of which that is told.
+/// Returns how far the last step moves bones, where it is a step for which that is shown.
 fn difference(old: &View, new: &View, frame_rate: u32) -> Option<String> {
-    if !new.history.told_difference || old.slots.len() != new.slots.len() {
+    if !new.history.shows_difference || old.slots.len() != new.slots.len() {
         return None;
     }
     let mut both = old.slots.iter().zip(new.slots.iter());

@@ -1,6 +1,7 @@
 //! The menu bar.
 
 use super::commands::{self, Category, Id};
+use super::compared::CompareWith;
 use super::context::PanelContext;
 use super::edit_scope_menu;
 use super::icons::Icon;
@@ -108,6 +109,7 @@ pub(super) fn item(ui: &mut Ui, context: &PanelContext<'_>, id: Id, on: bool, re
 fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], requests: &mut Vec<Request>) {
     for command in categories.iter().flat_map(|category| commands::of(*category)) {
         let on = match command.id {
+            Id::CompareOpened => context.compared == CompareWith::Opened,
             Id::UndoSelections => context.settings.undo_selections,
             Id::ToggleSnap => context.keys.snap(),
             Id::ToggleRulerSeconds => context.keys.ruler_in_seconds(),

@@ -16,11 +16,13 @@ mod camera_state;
 mod change_summary;
 mod command_button;
 pub mod commands;
+pub mod compared;
 pub mod context;
 mod count_text;
 pub mod curves;
 pub mod dialogs;
 mod difference_text;
+pub mod differences;
 pub mod digest;
 mod dope;
 mod drag;
@@ -108,6 +110,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<timeline::TimelinePanel>::default(),
         Box::<curves::Curves>::default(),
         Box::<inbetween::InBetween>::default(),
+        Box::<differences::Differences>::default(),
     ]
 }
 

@@ -2,6 +2,7 @@
 
 use super::commands::id::Id;
 use super::commands::key_settings::KeySettings;
+use super::compared::CompareWith;
 use super::curves::given::GivenCurve;
 use super::curves::look::CurvesLook;
 use super::edit_scope::FalloffSettings;
@@ -52,6 +53,8 @@ pub enum Request {
     ShowTake(Option<usize>),
     /// Makes a layer active, whose keys are then shown and edited, or the take itself.
     ChooseLayer(Option<TakeId>),
+    /// Compares the take that is shown with another one.
+    CompareWith(CompareWith),
     /// Goes to this time, seconds.
     Seek(f32),
     /// Sets the speed of playback, seconds of the take per second.

@@ -1,6 +1,7 @@
 //! Everything that panels show and commands change: one owner for each part.
 
 use super::camera_state::CameraState;
+use super::compared::CompareWith;
 use super::context::PanelContext;
 use super::curves::given::GivenAngles;
 use super::dragging::Dragging;
@@ -53,6 +54,8 @@ pub(super) struct Workspace {
     pub(super) takes: TakeListState,
     /// The layer whose keys are shown and edited.
     pub(super) layers: LayerChoice,
+    /// What the take that is shown is compared with.
+    pub(super) compared: CompareWith,
     /// The tools of the viewport.
     pub(super) tools: ToolState,
     /// The keys that edits of poses are for.
@@ -91,6 +94,7 @@ impl Workspace {
             copied_pose: None,
             takes: TakeListState::default(),
             layers: LayerChoice::default(),
+            compared: CompareWith::default(),
             tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
             over: EditOver::default(),
             camera: CameraState::default(),
@@ -128,6 +132,7 @@ impl Workspace {
             copied_pose: self.copied_pose.as_ref(),
             takes: &self.takes,
             layer_choice: self.layers,
+            compared: self.compared,
             camera: *self.camera.camera(),
             viewport: self.camera.viewport(),
             tools: &self.tools,

@@ -4,12 +4,13 @@ use super::series::{self, Crop, PictureCase};
 use super::states::Fullness::{self, Crowded, Empty, Typical};
 use crate::workbench::{Window, Workbench, type_into};
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::compared::CompareWith;
 use dragonfly::panels::keys::KeysRequest;
 use dragonfly::panels::open_model::Loading;
 use dragonfly::panels::window_status::DeviceStatus;
 use dragonfly::panels::{self, Request, style};
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::Property;
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, Property, SetPose, TakeRef};
 use dragonfly_document::{Change, LoadStage, Progress, View};
 use egui::{Key, vec2};
 use egui_kittest::kittest::Queryable;
@@ -37,6 +38,7 @@ panels! {
     "timeline", [720.0, 220.0], the_timeline_panel_looks_as_stored;
     "curves", [520.0, 220.0], the_curves_panel_looks_as_stored;
     "inbetween", [520.0, 220.0], the_inbetween_panel_looks_as_stored;
+    "differences", [520.0, 220.0], the_differences_panel_looks_as_stored;
 }
 
 /// Returns a window in which all panels but one are hidden.
@@ -140,6 +142,15 @@ fn more() -> Vec<PictureCase> {
             for id in [Id::EditSelectedKeys, Id::ToggleFalloff] {
                 state.execute(Request::Command(id));
             }
+        }),
+        case("differences-moved", "differences", Typical, |window| {
+            window.state_mut().state.execute(Request::CompareWith(CompareWith::Opened));
+            let turn = glam::Quat::from_rotation_z(0.4).to_array();
+            let (bone, rotation) = (BoneRef::Index(2), Some(turn));
+            let pose = BonePose { bone, translation: None, rotation, scale: None };
+            let (take, time) = (TakeRef::Index(0), 0.25);
+            let edit = Edit::SetPose(SetPose { take, time, poses: vec![pose], unstep: true });
+            window.state_mut().change(Change::Edit(edit, None));
         }),
         case("inbetween-keys", "inbetween", Typical, |window| {
             window.state_mut().state.execute(Request::Command(Id::SelectAllKeys));

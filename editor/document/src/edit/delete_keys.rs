@@ -31,7 +31,7 @@ impl EditKind for DeleteKeys {
 
     const LAYERS: LayerUse = LayerUse::Any;
 
-    const TELLS_DIFFERENCE: bool = true;
+    const SHOWS_DIFFERENCE: bool = true;
 
     fn label(&self) -> &'static str {
         "Delete keys"

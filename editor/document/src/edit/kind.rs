@@ -17,9 +17,9 @@ pub(crate) trait EditKind: Sized {
     /// Whether it can be applied to layers and to takes with layers.
     const LAYERS: LayerUse = LayerUse::TakeOnly;
 
-    /// Whether it is told how far it moves bones: it keeps the poses at the keys as they are, or nearly, and changes the motion
+    /// Whether the status line shows how far it moves bones: it keeps the poses at the keys as they are, or nearly, and changes the motion
     /// between them.
-    const TELLS_DIFFERENCE: bool = false;
+    const SHOWS_DIFFERENCE: bool = false;
 
     /// Returns the name of the edit for the history and the undo command, in a few words.
     fn label(&self) -> &'static str;
@@ -200,9 +200,9 @@ macro_rules! edits {
                 match self { $(Self::$Kind(edit) => edit.values(),)* }
             }
 
-            /// Returns whether it is told how far it moves bones.
-            pub(crate) fn tells_difference(&self) -> bool {
-                match self { $(Self::$Kind(_) => <$Kind as EditKind>::TELLS_DIFFERENCE,)* }
+            /// Returns whether the status line shows how far it moves bones.
+            pub(crate) fn shows_difference(&self) -> bool {
+                match self { $(Self::$Kind(_) => <$Kind as EditKind>::SHOWS_DIFFERENCE,)* }
             }
 
             /// Returns the offsets of an edit that moves bones at many keys.

@@ -41,7 +41,7 @@ impl EditKind for ReduceKeys {
         description: "Removes the keys of the head without which nothing moves by more than 1 mm.",
     };
 
-    const TELLS_DIFFERENCE: bool = true;
+    const SHOWS_DIFFERENCE: bool = true;
 
     fn label(&self) -> &'static str {
         "Reduce keys"

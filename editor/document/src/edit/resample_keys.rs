@@ -45,7 +45,7 @@ impl EditKind for ResampleKeys {
 
     const LAYERS: LayerUse = LayerUse::Any;
 
-    const TELLS_DIFFERENCE: bool = true;
+    const SHOWS_DIFFERENCE: bool = true;
 
     fn label(&self) -> &'static str {
         if self.every == 1 { "Bake keys to frames" } else { "Resample keys" }

@@ -42,7 +42,7 @@ impl EditKind for SetInterpolation {
 
     const LAYERS: LayerUse = LayerUse::Any;
 
-    const TELLS_DIFFERENCE: bool = true;
+    const SHOWS_DIFFERENCE: bool = true;
 
     fn label(&self) -> &'static str {
         "Set interpolation"

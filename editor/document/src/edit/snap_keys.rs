@@ -28,7 +28,7 @@ impl EditKind for SnapKeys {
 
     const LAYERS: LayerUse = LayerUse::Any;
 
-    const TELLS_DIFFERENCE: bool = true;
+    const SHOWS_DIFFERENCE: bool = true;
 
     fn label(&self) -> &'static str {
         "Snap keys to frames"

@@ -4,12 +4,14 @@
 //! A new control is a file here with its component, and a line in the list of `all` below. Its data, if it has any, is an
 //! [`Appearance`](crate::Appearance) declared in its file, which the main thread sets.
 
+mod compared;
 mod component;
 mod ghosts;
 mod gizmo;
 mod ik;
 mod path;
 
+pub use compared::ComparedAppearance;
 pub use component::{ControlFrame, GraphicComponent};
 pub use ghosts::GhostAppearance;
 pub use gizmo::{GizmoAppearance, GizmoDragAppearance, GizmoLook};
@@ -28,6 +30,7 @@ pub struct SceneControls {
 fn all() -> Vec<Box<dyn GraphicComponent>> {
     vec![
         Box::<ghosts::GhostsGraphic>::default(),
+        Box::<compared::ComparedGraphic>::default(),
         Box::<path::PathGraphic>::default(),
         Box::<ik::IkGraphic>::default(),
         Box::<gizmo::GizmoGraphic>::default(),

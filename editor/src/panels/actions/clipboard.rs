@@ -2,11 +2,12 @@
 
 use super::{edit, keys, locks, pose};
 use crate::panels::count_text::{count, grouped};
-use crate::panels::keys::clipboard::{self, MOST, Pasted};
+use crate::panels::keys::clipboard::{self, CopiedValues, MOST, Pasted};
 use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{BoneIndex, Take};
+use dragonfly_anim::layers::LayerMode;
 use dragonfly_document::edit::{BoneRef, CopiedChannel, Edit, PasteKeys};
 use dragonfly_document::posing;
 use std::sync::Arc;
@@ -46,7 +47,17 @@ fn keys_text(workspace: &mut Workspace, verb: &str) -> Option<String> {
         return None;
     }
     workspace.say(MessageSeverity::Info, format!("{verb} {}", count(number, "key", "keys")));
-    Some(clipboard::to_text(channels))
+    Some(clipboard::to_text(channels, values_of_keys(workspace)))
+}
+
+/// Returns what the values of the keys are that are shown and edited.
+fn values_of_keys(workspace: &Workspace) -> CopiedValues {
+    let panels = workspace.read();
+    let layer = panels.layer().and_then(|layer| panels.layers().get(layer));
+    match layer.map(|layer| layer.settings.mode) {
+        Some(LayerMode::Additive) => CopiedValues::Offsets,
+        Some(LayerMode::Override) | None => CopiedValues::Poses,
+    }
 }
 
 /// Pastes the pose, or the keys, in a text of the clipboard; any other text is refused with a message.
@@ -55,7 +66,20 @@ pub(super) fn paste(workspace: &mut Workspace, text: &str, mirrored: bool) -> Op
         return pose::paste(workspace, poses, mirrored);
     }
     match clipboard::from_text(text) {
-        Some(channels) if !mirrored => return paste_keys(workspace, channels),
+        Some((channels, values)) if !mirrored && values == values_of_keys(workspace) => {
+            return paste_keys(workspace, channels);
+        }
+        Some((_, values)) if !mirrored => {
+            let text = match values {
+                CopiedValues::Offsets => {
+                    "The copied keys are offsets of an additive layer: paste them into an additive layer"
+                }
+                CopiedValues::Poses => {
+                    "The copied keys are poses, and the active layer adds offsets: paste them into the take or an override layer"
+                }
+            };
+            workspace.say(MessageSeverity::Warning, text);
+        }
         Some(_) => {
             let text = "The clipboard contains keys; only poses can be pasted mirrored";
             workspace.say(MessageSeverity::Info, text);

@@ -2,6 +2,7 @@
 
 use super::{drags, framing, keys, layers, playback, scope, tools, undo};
 use crate::panels::change_summary;
+use crate::panels::compared::CompareWith;
 use crate::panels::marks::{BoneMarks, RecalledMarks};
 use crate::panels::workspace::Workspace;
 use dragonfly_document::View;
@@ -43,6 +44,7 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
         workspace.model.replace(view);
         workspace.selections.open(done);
         workspace.trail.clear();
+        workspace.compared = CompareWith::Nothing;
         return show_model(workspace);
     }
     let before = workspace.model.replace(view);

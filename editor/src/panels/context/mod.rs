@@ -6,6 +6,7 @@ mod layer;
 mod pose;
 mod scope;
 
+use super::compared::CompareWith;
 use super::curves::given::GivenAngles;
 use super::digest::Digest;
 use super::dragging::Dragging;
@@ -80,6 +81,8 @@ pub struct PanelContext<'a> {
     pub takes: &'a TakeListState,
     /// The layer whose keys are shown and edited.
     pub layer_choice: LayerChoice,
+    /// What the take that is shown is compared with.
+    pub compared: CompareWith,
     /// The camera.
     pub camera: Camera,
     /// The viewport, points.

@@ -78,23 +78,37 @@ struct Text {
     /// The kind of text: "keys".
     dragonfly: String,
     version: u32,
+    #[serde(default)]
+    values: CopiedValues,
     channels: Vec<CopiedChannel>,
 }
 
-/// Returns the text of keys.
-pub fn to_text(channels: Vec<CopiedChannel>) -> String {
-    // Plain data can always be serialized.
-    serde_json::to_string(&Text { dragonfly: "keys".to_owned(), version: 1, channels }).unwrap_or_default()
+/// Meaning of the values of copied keys.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CopiedValues {
+    /// Poses, of a take or an override layer.
+    #[default]
+    Poses,
+    /// Offsets, of an additive layer.
+    Offsets,
 }
 
-/// Returns the keys in a text; `None` if it is anything else.
-pub fn from_text(text: &str) -> Option<Vec<CopiedChannel>> {
+/// Returns the text of keys.
+pub fn to_text(channels: Vec<CopiedChannel>, values: CopiedValues) -> String {
+    // Plain data can always be serialized.
+    serde_json::to_string(&Text { dragonfly: "keys".to_owned(), version: 1, values, channels })
+        .unwrap_or_default()
+}
+
+/// Returns the keys in a text and what their values are; `None` if it is anything else.
+pub fn from_text(text: &str) -> Option<(Vec<CopiedChannel>, CopiedValues)> {
     if text.len() > LONGEST {
         return None;
     }
     let text: Text = serde_json::from_str(text.trim()).ok()?;
     let some = text.channels.iter().any(|channel| !channel.keys.is_empty());
-    (text.dragonfly == "keys" && text.version == 1 && some).then_some(text.channels)
+    (text.dragonfly == "keys" && text.version == 1 && some).then_some((text.channels, text.values))
 }
 
 /// Returns the selected keys of a take, with their distances to the first.

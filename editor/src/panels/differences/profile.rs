@@ -1,0 +1,93 @@
+//! The differences of two takes, computed when one of them changes.
+
+use crate::panels::context::PanelContext;
+use dragonfly_anim::compare::{BoneDifference, DifferenceProfile, compare_at};
+use dragonfly_anim::data::Take;
+use std::sync::Arc;
+
+/// Largest number of bones times times that are compared in a frame.
+const MOST: usize = 200_000;
+/// Smallest and largest number of times.
+const TIMES: (usize, usize) = (16, 480);
+/// Smaller distances (scene units) and angles (radians) count as equal: rounding.
+const EQUAL: (f32, f32) = (1e-6, 1e-5);
+
+/// The differences that are shown.
+#[derive(Debug, Default)]
+pub(super) struct ShownProfile {
+    of: Option<(Arc<Take>, Arc<Take>, u32)>,
+    profile: DifferenceProfile,
+    /// Indices of the pairs of bones that differ, the one with the largest distance first.
+    order: Vec<usize>,
+}
+
+impl ShownProfile {
+    /// Compares `now` with `other` at each frame of the longer one, or at fewer times where there are many frames or bones.
+    pub(super) fn update(&mut self, now: &Arc<Take>, other: &Arc<Take>, context: &PanelContext<'_>) {
+        let rate = context.frame_rate;
+        let is_same = |(a, b, with): &(Arc<Take>, Arc<Take>, u32)| {
+            Arc::ptr_eq(a, now) && Arc::ptr_eq(b, other) && *with == rate
+        };
+        let Some(view) = context.view.filter(|_| !self.of.as_ref().is_some_and(is_same)) else { return };
+        let skeleton = &view.loaded.model.animation.skeleton;
+        let most = (MOST / skeleton.len().max(1)).clamp(TIMES.0, TIMES.1);
+        let range = [now.start.min(other.start), now.end().max(other.end())];
+        self.profile = compare_at((skeleton, now), (skeleton, other), times(range, rate, most));
+        let bones = &self.profile.bones;
+        let differs = |&at: &usize| bones[at].distance.value > EQUAL.0 || bones[at].angle.value > EQUAL.1;
+        self.order = (0..bones.len()).filter(differs).collect();
+        self.order.sort_by(|&a, &b| bones[b].distance.value.total_cmp(&bones[a].distance.value));
+        self.of = Some((Arc::clone(now), Arc::clone(other), rate));
+    }
+
+    /// Returns whether no bone differs.
+    pub(super) fn is_equal(&self) -> bool {
+        self.order.is_empty()
+    }
+
+    /// Returns the number of bones that differ.
+    pub(super) fn rows(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Returns the bone of a row.
+    pub(super) fn bone(&self, row: usize) -> Option<&BoneDifference> {
+        self.profile.bones.get(*self.order.get(row)?)
+    }
+
+    /// Returns each time, seconds, with the largest distance then, scene units.
+    pub(super) fn distances(&self) -> impl ExactSizeIterator<Item = (f32, f32)> + '_ {
+        self.profile.times.iter().copied().zip(self.profile.distances.iter().copied())
+    }
+
+    /// Returns the largest distance and angle as text.
+    pub(super) fn summary(&self, frame_rate: u32) -> Option<String> {
+        let far = self.bone(0)?.distance;
+        let angle = self.profile.angles.iter().copied().fold(0.0, f32::max).to_degrees();
+        let frame = (f64::from(far.time) * f64::from(frame_rate)).round();
+        Some(format!("up to {:.2} mm at frame {frame}, {angle:.2}°", far.value * 1000.0))
+    }
+}
+
+/// Returns the times of all frames in the range, or `most` times at even distances where there are more frames.
+fn times([start, end]: [f32; 2], rate: u32, most: usize) -> Vec<f32> {
+    let rate = f64::from(rate.max(1));
+    let frames = ((f64::from(end) - f64::from(start)) * rate).round().max(0.0) as usize + 1;
+    let count = frames.min(most);
+    let step = if count > 1 { (f64::from(end) - f64::from(start)) / (count - 1) as f64 } else { 0.0 };
+    (0..count).map(|at| (f64::from(start) + step * at as f64) as f32).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_frame_is_compared_and_of_a_long_take_some_times_at_even_distances() {
+        assert_eq!(times([0.0, 0.5], 8, 100), [0.0, 0.125, 0.25, 0.375, 0.5]);
+        assert_eq!(times([1.0, 1.0], 30, 100), [1.0]);
+        let long = times([-1.0, 600.0], 30, 480);
+        assert_eq!((long.len(), long[0], long[479]), (480, -1.0, 600.0));
+        assert_eq!(times([0.0, f32::MAX], 480, 16).len(), 16);
+    }
+}
