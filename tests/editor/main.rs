@@ -81,6 +81,7 @@ mod store_full;
 mod take_commands;
 mod take_dialogs;
 mod takes_panel;
+mod tasks;
 mod timeline_curves;
 mod timeline_filters;
 mod timeline_keyboard;

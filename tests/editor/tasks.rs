@@ -1,0 +1,252 @@
+//! Daily tasks of an animator, done with mouse and keyboard alone, in at most as many actions as in Blender.
+//!
+//! An action is a click, a drag, a chord of keys or a typed value. The numbers for Blender are from daily practice, with default
+//! settings and shortcuts.
+
+use crate::timeline_rig::Animator;
+use dragonfly::panels::commands::{KeySettings, Preset};
+use dragonfly_anim::data::Take;
+use dragonfly_kit::document::fixture;
+use egui::{Event, Key, Modifiers, vec2};
+use egui_kittest::kittest::Queryable;
+use glam::Quat;
+use std::sync::Arc;
+
+/// A user whose actions are counted.
+struct Hand {
+    animator: Animator,
+    actions: usize,
+}
+
+/// The name of the bone that is edited, and its index.
+const BONE: (&str, u32) = ("rib_00_left_middle", 3);
+
+impl Hand {
+    fn new() -> Self {
+        Self { animator: Animator::new(fixture::full()), actions: 0 }
+    }
+
+    fn chord(&mut self, modifiers: Modifiers, key: Key) {
+        self.actions += 1;
+        self.animator.harness.key_press_modifiers(modifiers, key);
+        self.animator.steps(3);
+    }
+
+    fn click(&mut self, label: &str) {
+        self.actions += 1;
+        self.animator.harness.get_by_label(label).click();
+        self.animator.steps(3);
+    }
+
+    /// Clicks an entry of a menu, whose label begins with its title; a shortcut follows it.
+    fn menu(&mut self, menu: &str, entry: &str) {
+        self.click(menu);
+        self.actions += 1;
+        let entries = self.animator.harness.query_all_by_label_contains(entry);
+        entries.last().unwrap_or_else(|| panic!("no entry {entry}")).click();
+        self.animator.steps(3);
+    }
+
+    fn typed(&mut self, field: &str, value: &str) {
+        self.actions += 1;
+        self.animator.harness.get_by_label(field).click();
+        self.animator.steps(2);
+        self.animator.harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        self.animator.steps(1);
+        self.animator.harness.event(Event::Text(value.to_owned()));
+        self.animator.steps(2);
+        self.animator.harness.key_press(Key::Enter);
+        self.animator.steps(3);
+    }
+
+    /// Selects the bone in the list, as a click on its skin does.
+    fn select_bone(&mut self) {
+        self.click(BONE.0);
+        assert_eq!(self.animator.harness.state().state.read().selection.bones(), [BONE.1]);
+    }
+
+    fn take(&self, index: usize) -> Arc<Take> {
+        Arc::clone(&self.animator.edited.adapter().slots()[index].result)
+    }
+
+    /// Copies, and pastes what was copied with a chord: the tests have no clipboard of a desktop.
+    fn copy(&mut self) -> String {
+        self.actions += 1;
+        self.animator.harness.event(Event::Copy);
+        self.animator.steps(3);
+        let effects = &self.animator.harness.state().effects;
+        let copied = effects.iter().rev().find_map(|effect| match effect {
+            dragonfly::panels::Effect::Copy(text) => Some(text.clone()),
+            _ => None,
+        });
+        copied.expect("something was copied")
+    }
+
+    fn paste(&mut self, text: String, mirrored: bool) {
+        self.actions += 1;
+        self.animator.request(dragonfly::panels::Request::PastePose { text, mirrored });
+    }
+
+    #[track_caller]
+    fn takes_at_most(&self, in_blender: usize) {
+        assert!(self.actions <= in_blender, "{} actions, {in_blender} in Blender", self.actions);
+    }
+}
+
+#[test]
+fn playing_changing_the_take_and_undo_are_one_action_each() {
+    let mut hand = Hand::new();
+    let read = |hand: &Hand| {
+        let context = hand.animator.harness.state().state.read();
+        (context.playback.moves(context.now), context.playback.take)
+    };
+    hand.chord(Modifiers::NONE, Key::Space);
+    assert!(read(&hand).0);
+    hand.chord(Modifiers::NONE, Key::PageDown);
+    assert_eq!(read(&hand).1, Some(1));
+    hand.takes_at_most(1 + 3);
+}
+
+#[test]
+fn a_bone_is_rotated_by_a_typed_number_in_two_actions() {
+    let mut hand = Hand::new();
+    hand.select_bone();
+    hand.typed("Rotation change X", "30");
+    hand.takes_at_most(3);
+    assert_eq!(hand.animator.edited.steps().1, 1);
+}
+
+#[test]
+fn an_arm_is_raised_over_the_whole_take_in_four_actions_exactly() {
+    let mut hand = Hand::new();
+    let before = hand.take(0);
+    hand.select_bone();
+    hand.click("Edits apply to: This frame");
+    hand.actions += 1;
+    hand.animator.harness.get_by_label_contains("Edit whole take").click();
+    hand.animator.steps(3);
+    hand.typed("Rotation change X", "20");
+    hand.takes_at_most(5);
+    let after = hand.take(0);
+    let [before, after] = [before, after].map(|take| take.tracks[BONE.1 as usize].rotation.clone());
+    let wanted = Quat::from_rotation_x(20_f32.to_radians());
+    for (old, new) in before.values.iter().zip(after.values.iter()) {
+        assert!((*new * old.inverse()).angle_between(wanted) < 1e-3);
+    }
+}
+
+#[test]
+fn a_jittering_curve_is_smoothed_in_three_actions_with_the_choice_of_the_bone() {
+    let mut hand = Hand::new();
+    hand.select_bone();
+    let before = hand.take(0);
+    hand.chord(Modifiers::COMMAND | Modifiers::SHIFT, Key::A);
+    hand.chord(Modifiers::ALT, Key::O);
+    // Blender: Alt+O over a graph editor that shows the selected keys.
+    hand.takes_at_most(1 + 2);
+    assert_ne!(
+        before.tracks[BONE.1 as usize].rotation.values,
+        hand.take(0).tracks[BONE.1 as usize].rotation.values
+    );
+}
+
+#[test]
+fn a_loop_is_closed_in_three_actions_and_ends_in_its_first_pose() {
+    let mut hand = Hand::new();
+    hand.chord(Modifiers::NONE, Key::Home);
+    hand.menu("Take", "Close loop from here");
+    hand.takes_at_most(4);
+    let take = hand.take(0);
+    for track in &take.tracks {
+        if let (Some(first), Some(last)) =
+            (track.rotation.value(0), track.rotation.value(track.rotation.len() - 1))
+        {
+            assert!(first.angle_between(last) < 2e-3, "bone {}", track.bone);
+        }
+    }
+}
+
+#[test]
+fn a_pose_is_copied_to_another_take_in_three_actions_and_mirrored_in_two() {
+    let mut hand = Hand::new();
+    hand.select_bone();
+    let chosen = hand.actions;
+    let text = hand.copy();
+    hand.chord(Modifiers::NONE, Key::PageDown);
+    hand.paste(text.clone(), false);
+    assert_eq!(hand.actions - chosen, 3);
+    hand.takes_at_most(6 + chosen);
+    assert_eq!(hand.animator.edited.steps().1, 1);
+    let before = hand.actions;
+    let _copied = hand.copy();
+    hand.paste(text, true);
+    assert!(hand.actions - before <= 2);
+}
+
+#[test]
+fn ghosts_and_the_motion_path_are_one_action_each() {
+    let mut hand = Hand::new();
+    hand.select_bone();
+    hand.chord(Modifiers::SHIFT, Key::G);
+    hand.chord(Modifiers::SHIFT, Key::P);
+    hand.takes_at_most(1 + 3 + 4);
+    let tools = &hand.animator.harness.state().state.read().settings.tools;
+    assert!(tools.ghosts.shown && tools.path);
+}
+
+#[test]
+fn keys_are_selected_moved_duplicated_and_deleted_with_one_or_two_actions_each() {
+    let mut hand = Hand::new();
+    hand.select_bone();
+    let animator = &mut hand.animator;
+    let (from, to) = (animator.at(animator.key(3) - 0.04, 4), animator.at(animator.key(5) + 0.04, 2));
+    animator.drag(from, to);
+    animator.release(to);
+    assert_eq!(animator.selected(), 3, "a box is one drag");
+    let at = animator.at(animator.key(4), 2);
+    let by = vec2(animator.at(animator.key(1), 0).x - animator.at(0.0, 0).x, 0.0);
+    animator.drag(at, at + by);
+    animator.release(at + by);
+    assert_eq!(animator.edited.steps().1, 1, "a move is one drag");
+    let before = hand.take(0).keys();
+    hand.chord(Modifiers::NONE, Key::Delete);
+    assert_eq!(hand.take(0).keys(), before - 3);
+    hand.chord(Modifiers::COMMAND, Key::Z);
+    assert_eq!(hand.take(0).keys(), before);
+    hand.takes_at_most(1 + 1 + 1);
+}
+
+#[test]
+fn a_bone_is_found_by_name_in_three_actions() {
+    let mut hand = Hand::new();
+    hand.chord(Modifiers::COMMAND, Key::F);
+    hand.actions += 1;
+    hand.animator.harness.event(Event::Text("left_mid".to_owned()));
+    hand.animator.steps(3);
+    hand.chord(Modifiers::NONE, Key::Enter);
+    hand.takes_at_most(3);
+    let context = hand.animator.harness.state().state.read();
+    let bone = context.selected().expect("a bone");
+    assert!(context.bone_name(bone).contains("left_mid"));
+}
+
+#[test]
+fn rotating_30_degrees_about_z_takes_the_four_keystrokes_of_blender() {
+    let mut hand = Hand::new();
+    let keys = KeySettings { preset: Preset::Blender, ..KeySettings::default() };
+    hand.animator.request(dragonfly::panels::Request::Keys(keys));
+    hand.select_bone();
+    let chosen = hand.actions;
+    // The pointer is over the viewport.
+    let center = hand.animator.harness.state().state.read().viewport.center();
+    hand.animator.move_to(center);
+    hand.chord(Modifiers::NONE, Key::R);
+    hand.chord(Modifiers::NONE, Key::Z);
+    hand.actions += 1;
+    for digit in [Key::Num3, Key::Num0] {
+        hand.animator.harness.key_press(digit);
+        hand.animator.steps(1);
+    }
+    hand.chord(Modifiers::NONE, Key::Enter);
+    assert_eq!(hand.actions - chosen, 4);
+}
