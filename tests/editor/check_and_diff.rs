@@ -161,3 +161,34 @@ fn wrong_thresholds_are_an_input_error_that_names_them() {
         assert!(outcome.stderr.contains(wanted), "{content}: {}", outcome.stderr);
     }
 }
+
+#[test]
+fn the_picture_of_a_difference_shows_both_models_from_one_camera_and_the_bars_where_they_differ() {
+    let folder = Folder::new("diff-picture");
+    // One pose of the head, in the second half of the take.
+    let turn = r#"{"edit":"offset","take":"Survey","time":2.5,"poses":[{"bone":"b_Head_05","rotation":[0,0,0.38,0.92]},{"bone":"b_Neck_04","rotation":[0,0,0.38,0.92]}]}"#;
+    let other = edited(&folder, "Fox4.glb", turn);
+    let picture = folder.join("diff.png");
+    let run_it = |a: &Path, b: &Path| run(["diff", text(a), text(b), "--picture", text(&picture)]);
+    let outcome = run_it(&fox(), &other).expect(1);
+    assert!(outcome.text().contains("b_Head_05"), "the text is printed, too: {}", outcome.text());
+    let drawn = image::open(&picture).expect("a PNG file").into_rgba8();
+    assert_eq!(drawn.dimensions(), (1604, 820));
+    let half = |left: u32| image::imageops::crop_imm(&drawn, left, 0, 800, 720).to_image();
+    let (left, right) = (half(0), half(804));
+    let differing = left.pixels().zip(right.pixels()).filter(|(a, b)| a != b).count();
+    // The head alone differs: the camera is the same.
+    assert!((500..150_000).contains(&differing), "{differing} pixels differ");
+    // Red bars are where the head is turned, around 2.5 s of 3.42 s, and none at the start.
+    let red = |columns: std::ops::Range<u32>| {
+        let pixels = columns.flat_map(|x| (724..819).map(move |y| (x, y)));
+        pixels.filter(|&(x, y)| matches!(drawn.get_pixel(x, y).0, [200..=255, 0..=110, 0..=80, 255])).count()
+    };
+    let middle = (1604.0 * 2.5 / 3.416_667) as u32;
+    assert!(red(middle - 12..middle + 12) > 100, "{}", red(middle - 12..middle + 12));
+    assert_eq!(red(0..400), 0);
+    // Without a difference there is no picture.
+    std::fs::remove_file(&picture).expect("removed");
+    run_it(&fox(), &fox()).expect(0);
+    assert!(!picture.exists());
+}

@@ -17,6 +17,17 @@ pub struct DifferenceProfile {
     pub bones: Vec<BoneDifference>,
 }
 
+impl DifferenceProfile {
+    /// Returns how much the takes differ at each time, 0 to 1: the distance as a part of the largest one, or the angle where no joint moves,
+    /// as when only bones without children turn.
+    pub fn parts(&self) -> impl ExactSizeIterator<Item = f32> + Clone + '_ {
+        let most = |values: &[f32]| values.iter().copied().fold(0.0, f32::max);
+        let values = if most(&self.distances) > 0.0 { &self.distances } else { &self.angles };
+        let most = most(values).max(f32::MIN_POSITIVE);
+        values.iter().map(move |value| (value / most).clamp(0.0, 1.0))
+    }
+}
+
 /// Compares `first` with `second`, each on its own skeleton, at `times` (seconds, ascending). Bones are paired by name; distances and
 /// angles are measured as in [`compare_takes`](super::compare_takes).
 ///

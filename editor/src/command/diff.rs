@@ -2,15 +2,19 @@
 
 use super::Failure;
 use super::choice::{finite, load, plain, source};
+use super::diff_picture::{PicturedTake, draw};
 use super::info::named;
-use super::output::{print, print_json};
+use super::output::{self, print, print_json};
 use super::run_command::RunCommand;
 use super::table::{Side, Table, count};
-use dragonfly_anim::compare::{BoneDifference, Peak, TakeDifference, compare_takes, pair_bones};
+use super::tell;
+use dragonfly_anim::compare::{BoneDifference, Peak, TakeDifference, compare_at, compare_takes, pair_bones};
 use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
+use dragonfly_document::LoadedModel;
 use serde::Serialize;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Bones listed for a take in the text; the JSON has all of them.
 const BONES_SHOWN: usize = 5;
@@ -18,6 +22,8 @@ const BONES_SHOWN: usize = 5;
 const ANGLE_TOLERANCE: f32 = 0.01;
 /// Smaller differences of a morph weight count as equal.
 const WEIGHT_TOLERANCE: f32 = 1e-4;
+/// Number of times in the strip of the picture.
+const COLUMNS: usize = 401;
 /// Millimeters in a unit of the scene, which is a meter.
 const MILLIMETERS: f32 = 1000.0;
 
@@ -26,7 +32,7 @@ const MILLIMETERS: f32 = 1000.0;
 #[command(after_help = "\
 Takes and bones are paired by name. Distances are between joints in scene space, where a unit counts as a meter; angles\n\
 are between rotations in scene space. Exit code 1: a take or bone has no counterpart, or a difference is above the tolerance.\n\n\
-Examples:\n  dragonfly diff Fox.glb Fox2.glb\n  dragonfly diff Fox.glb Fox2.glb --tolerance 0.5 --json")]
+Examples:\n  dragonfly diff Fox.glb Fox2.glb\n  dragonfly diff Fox.glb Fox2.glb --tolerance 0.5 --json\n  dragonfly diff Fox.glb Fox2.glb --picture diff.png")]
 pub(super) struct DiffArguments {
     /// A model, or `demo:` for the built-in dragonfly
     #[arg(value_name = "A")]
@@ -43,6 +49,10 @@ pub(super) struct DiffArguments {
     /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
+    /// PNG file to write where something moves: both models side by side at the time of their largest difference, and the difference over time
+    /// below; `-` is standard output
+    #[arg(long, value_name = "out.png")]
+    picture: Option<PathBuf>,
 }
 
 impl RunCommand for DiffArguments {
@@ -51,13 +61,61 @@ impl RunCommand for DiffArguments {
         let second = load(&source(&self.second))?;
         let titles = [first.title.clone(), second.title.clone()];
         let difference = FileDifference::of(titles, &first.model, &second.model, self.tolerance, self.angle);
-        if self.json {
+        if let Some(path) = &self.picture {
+            write_picture(path, [first, second], &difference)?;
+        }
+        if self.picture.as_deref() == Some(Path::new("-")) {
+            // The picture is the output.
+        } else if self.json {
             print_json(&difference)?;
         } else {
             print(|out| difference.write(out))?;
         }
         if difference.differs { Err(Failure::Difference) } else { Ok(()) }
     }
+}
+
+/// Writes the picture of the take with the largest distance, unless no joint moves.
+fn write_picture(path: &Path, files: [LoadedModel; 2], difference: &FileDifference) -> Result<(), Failure> {
+    // Where no joint moves, the take with the largest angle.
+    let size = |take: &&DiffTake| {
+        let largest = |of: fn(&DiffBone) -> f32| take.bones.iter().map(of).fold(-1.0, f32::max);
+        [largest(|bone| bone.distance_mm.value), largest(|bone| bone.angle_degrees.value)]
+    };
+    let worst = difference.takes.iter().max_by(|a, b| {
+        let [a, b] = [size(a), size(b)];
+        a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
+    });
+    let Some((take, bone)) = worst.and_then(|take| Some((take, take.bones.first()?))) else {
+        tell(format_args!("no picture: no bone differs"));
+        return Ok(());
+    };
+    let side = |loaded: LoadedModel| {
+        let takes = &loaded.model.animation.takes;
+        let index = takes.iter().position(|other| other.name == take.name).unwrap_or(0);
+        PicturedTake { loaded: Arc::new(loaded), take: index }
+    };
+    let sides = files.map(side);
+    let profile = {
+        let of = |side: &PicturedTake| Arc::clone(&side.loaded.model.animation.takes[side.take]);
+        let takes = sides.each_ref().map(of);
+        let skeletons = sides.each_ref().map(|side| &*side.loaded.model.animation.skeleton);
+        let start = takes[0].start.min(takes[1].start);
+        let end = takes[0].end().max(takes[1].end());
+        let step = (end - start) / (COLUMNS - 1) as f32;
+        let even = (0..COLUMNS).map(|at| start + step * at as f32).collect();
+        compare_at((skeletons[0], &takes[0]), (skeletons[1], &takes[1]), even)
+    };
+    let most_turned =
+        take.bones.iter().max_by(|a, b| a.angle_degrees.value.total_cmp(&b.angle_degrees.value));
+    let turned = most_turned.map_or(0.0, |bone| bone.angle_degrees.time);
+    let time = if bone.distance_mm.value > 0.0 { bone.distance_mm.time } else { turned };
+    let png = draw(&sides, &profile, time)?;
+    output::write_file(path, &png)?;
+    if path != Path::new("-") {
+        tell(format_args!("wrote {}", path.display()));
+    }
+    Ok(())
 }
 
 /// The comparison of two files.
@@ -199,7 +257,8 @@ impl DiffTake {
         if !self.differs {
             return Ok(());
         }
-        writeln!(out, "take {}: {} differ", named(&self.name), count(self.bones.len(), "bone", "bones"))?;
+        let verb = if self.bones.len() == 1 { "differs" } else { "differ" };
+        writeln!(out, "take {}: {} {verb}", named(&self.name), count(self.bones.len(), "bone", "bones"))?;
         let [[start, end], [other_start, other_end]] = self.ranges;
         if [start, end] != [other_start, other_end] {
             writeln!(out, "  range {start:.3}–{end:.3} s and {other_start:.3}–{other_end:.3} s")?;

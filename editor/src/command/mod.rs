@@ -9,6 +9,7 @@ mod choice;
 mod command_list;
 mod demo;
 mod diff;
+mod diff_picture;
 mod edit;
 mod explain;
 mod failure;

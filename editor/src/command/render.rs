@@ -118,7 +118,8 @@ fn tell_warnings(title: &str, warnings: &[String]) {
     }
 }
 
-fn refusal(error: GraphicsError) -> Failure {
+/// Returns the failure for an error of the graphics.
+pub(super) fn refusal(error: GraphicsError) -> Failure {
     match error {
         GraphicsError::PictureSize { .. } => Failure::input("--size", error),
         other => no_graphics(&other.to_string()),

@@ -55,9 +55,24 @@ impl ShownProfile {
         self.profile.bones.get(*self.order.get(row)?)
     }
 
-    /// Returns each time, seconds, with the largest distance then, scene units.
-    pub(super) fn distances(&self) -> impl ExactSizeIterator<Item = (f32, f32)> + '_ {
-        self.profile.times.iter().copied().zip(self.profile.distances.iter().copied())
+    /// Returns the times, seconds, ascending.
+    pub(super) fn times(&self) -> &[f32] {
+        &self.profile.times
+    }
+
+    /// Returns how much the takes differ at each time, 0 to 1.
+    pub(super) fn parts(&self) -> impl ExactSizeIterator<Item = f32> + '_ {
+        self.profile.parts()
+    }
+
+    /// Returns the difference at the time nearest to `time`, as text.
+    pub(super) fn text_at(&self, time: f32, frame_rate: u32) -> Option<String> {
+        let near =
+            |(_, a): &(usize, &f32), (_, b): &(usize, &f32)| (*a - time).abs().total_cmp(&(*b - time).abs());
+        let (at, nearest) = self.profile.times.iter().enumerate().min_by(near)?;
+        let frame = (f64::from(*nearest) * f64::from(frame_rate)).round();
+        let (distance, angle) = (self.profile.distances.get(at)?, self.profile.angles.get(at)?);
+        Some(format!("Frame {frame}: {:.2} mm, {:.2}°", distance * 1000.0, angle.to_degrees()))
     }
 
     /// Returns the largest distance and angle as text.

@@ -27,16 +27,11 @@ pub(super) fn show(
     });
     let painter = ui.painter();
     painter.rect_filled(rect, f32::from(RADIUS), theme.sunken);
-    let mut points = profile.distances();
-    let Some((start, _)) = points.next() else { return };
-    let end = points.last().map_or(start, |(time, _)| time);
+    let (Some(&start), Some(&end)) = (profile.times().first(), profile.times().last()) else { return };
     let ruler = Ruler { left: rect.left(), width: rect.width(), start, length: end - start };
-    let count = profile.distances().len();
-    let most = profile.distances().map(|(_, distance)| distance).fold(0.0, f32::max).max(f32::MIN_POSITIVE);
-    let step = rect.width() / count as f32;
-    for (at, (_, distance)) in profile.distances().enumerate() {
+    let step = rect.width() / profile.times().len() as f32;
+    for (at, part) in profile.parts().enumerate() {
         let left = rect.left() + step * at as f32;
-        let part = (distance / most).clamp(0.0, 1.0);
         // Height and color both say how large it is, for eyes that see few colors.
         let top = rect.bottom() - rect.height() * (0.08 + 0.92 * part);
         let bar = Rect::from_min_max(pos2(left, top), pos2(left + step, rect.bottom()));
@@ -50,12 +45,8 @@ pub(super) fn show(
     if let Some(time) = pointed.filter(|_| response.is_pointer_button_down_on() || response.clicked()) {
         requests.push(Request::Seek(time));
     }
-    if let Some(time) = pointed {
-        let near = |(a, _): &(f32, f32), (b, _): &(f32, f32)| (a - time).abs().total_cmp(&(b - time).abs());
-        if let Some((at, distance)) = profile.distances().min_by(near) {
-            let frame = (f64::from(at) * f64::from(context.frame_rate)).round();
-            response.on_hover_text(format!("Frame {frame}: {:.2} mm", distance * 1000.0));
-        }
+    if let Some(text) = pointed.and_then(|time| profile.text_at(time, context.frame_rate)) {
+        response.on_hover_text(text);
     }
 }
 
