@@ -34,6 +34,7 @@ pub fn show(
         ui.menu_button("Take", |ui| {
             list(ui, context, &[Category::Takes], requests);
             ui.separator();
+            submenu(ui, "Contacts", |ui| list(ui, context, &[Category::Contacts], requests));
             submenu(ui, "Layers", |ui| list(ui, context, &[Category::Layers], requests));
         });
         ui.menu_button("View", |ui| view(ui, context, panels, requests));

@@ -27,6 +27,7 @@ pub mod dragging;
 pub mod echo;
 pub mod edit_scope;
 mod edit_scope_menu;
+pub mod foot_contacts;
 mod frame_rate;
 pub mod hierarchy;
 pub mod history;

@@ -199,7 +199,8 @@ impl State {
     /// Returns when the time display or the status line must be drawn again, if they must.
     pub fn next_display(&self) -> Option<Duration> {
         let message = self.workspace.status.shown_for().filter(|left| !left.is_zero());
-        [self.workspace.player.next_display(), message].into_iter().flatten().min()
+        let measuring = self.workspace.contacts.is_measuring().then_some(Duration::ZERO);
+        [self.workspace.player.next_display(), message, measuring].into_iter().flatten().min()
     }
 
     /// Returns the markers and marks as the text of their files.

@@ -5,6 +5,7 @@ use super::context::PanelContext;
 use super::curves::given::GivenAngles;
 use super::dragging::Dragging;
 use super::edit_scope::EditOver;
+use super::foot_contacts::FootContacts;
 use super::frame_rate::FrameRate;
 use super::keys::KeyEditing;
 use super::layer_choice::LayerChoice;
@@ -42,6 +43,8 @@ pub(super) struct Workspace {
     pub(super) keys: KeyEditing,
     /// The selections around the steps of the history.
     pub(super) selections: SelectionSteps,
+    /// The contacts of the take that is shown.
+    pub(super) contacts: FootContacts,
     /// The angles that were given to rotation keys.
     pub(super) given: GivenAngles,
     /// The pose that was copied last.
@@ -83,6 +86,7 @@ impl Workspace {
             bones: SelectedBones::default(),
             keys: KeyEditing::of(settings.timeline),
             selections: SelectionSteps::default(),
+            contacts: FootContacts::default(),
             given: GivenAngles::default(),
             copied_pose: None,
             takes: TakeListState::default(),
@@ -119,6 +123,7 @@ impl Workspace {
             now: self.player.now(),
             frame_rate: self.frame_rate.get(),
             keys: &self.keys,
+            contacts: &self.contacts,
             given: &self.given,
             copied_pose: self.copied_pose.as_ref(),
             takes: &self.takes,

@@ -29,6 +29,7 @@ mod create_take;
 mod delete_keys;
 mod delete_layer;
 mod delete_take;
+mod detect_contacts;
 mod drop_pending;
 mod duplicate_keys;
 mod examples;
@@ -64,6 +65,7 @@ mod retime_take;
 mod reverse_take;
 mod ripple_keys;
 mod scale_keys;
+mod set_contacts;
 mod set_extras;
 mod set_interpolation;
 mod set_layer;
@@ -157,6 +159,8 @@ edits! {
     "remove_travel" => remove_travel::RemoveTravel,
     "restore_travel" => restore_travel::RestoreTravel,
     "lock_contacts" => lock_contacts::LockContacts,
+    "detect_contacts" => detect_contacts::DetectContacts,
+    "set_contacts" => set_contacts::SetContacts,
     "add_layer" => add_layer::AddLayer,
     "delete_layer" => delete_layer::DeleteLayer,
     "set_layer" => set_layer::SetLayer,

@@ -10,6 +10,7 @@ use super::curves::given::GivenAngles;
 use super::digest::Digest;
 use super::dragging::Dragging;
 use super::edit_scope::EditOver;
+use super::foot_contacts::FootContacts;
 use super::keys::KeyEditing;
 use super::layer_choice::LayerChoice;
 use super::open_model::Loading;
@@ -69,6 +70,8 @@ pub struct PanelContext<'a> {
     pub frame_rate: u32,
     /// Selection and drag of keys, flags, markers, the play range.
     pub keys: &'a KeyEditing,
+    /// The contacts of the take that is shown.
+    pub contacts: &'a FootContacts,
     /// The angles that were given to rotation keys.
     pub given: &'a GivenAngles,
     /// The pose that was copied last; `None` if none of this model was.

@@ -3,6 +3,7 @@
 
 mod areas;
 mod buttonless;
+mod contacts;
 mod drag;
 mod fade;
 mod gutter;
@@ -46,6 +47,7 @@ pub(super) struct Dope {
     drag: DopeDrag,
     head: head::Head,
     markers: markers::MarkerLane,
+    contacts: contacts::ContactLane,
     menu: menu::KeyMenu,
     filter: String,
 }
@@ -99,6 +101,7 @@ impl Dope {
         self.menu.show(&canvas, &self.drag, context, requests);
         self.head.show(ui, &sheet, requests);
         self.markers.show(ui, &sheet, requests);
+        self.contacts.show(ui, &sheet, requests);
         overlay::pending(&painter, &sheet);
         overlay::playhead(&painter, &sheet);
         let toggled = gutter::show(ui, &sheet, requests);

@@ -21,5 +21,4 @@ commands! {
     RootMotion => When::Take, "Root motion…", [], "Shows the path on the ground, and moves travel between hips and root, out of the take and back (in place, root bone)", |w| { w.prompts.show(Some(Overlay::RootMotion)); None };
     Retarget => When::Model, "Retarget from file…", [], "Adds a take of another figure's file, with its bones mapped to those of this one (import animation, mocap)", |w| { w.prompts.show(Some(Overlay::Retarget)); None };
     CloseLoop => When::Take, "Close loop from here", [], "Changes the take from the playhead to its end so that it leads into its start (cycle, seamless)", takes::close_loop;
-    LockContacts => When::Take, "Lock feet in contacts", [], "Holds feet where they touch the ground, so that they do not slide; feet are found by name, contacts by height and speed (plant, foot slide)", takes::lock_contacts;
 }
