@@ -14,6 +14,8 @@ mod chains;
 mod check;
 mod compare;
 mod compressed;
+mod contact_labels;
+mod contact_track;
 mod contacts;
 mod cross_fades;
 mod cycles;

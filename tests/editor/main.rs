@@ -80,6 +80,7 @@ mod store_full;
 mod take_commands;
 mod take_dialogs;
 mod takes_panel;
+mod timeline_contacts;
 mod timeline_curves;
 mod timeline_filters;
 mod timeline_keyboard;
