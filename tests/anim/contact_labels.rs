@@ -13,7 +13,7 @@ struct Agreement {
     both: usize,
     missed: usize,
     extra: usize,
-    /// Contacts labelled and found.
+    /// Numbers of contacts labelled and found.
     spans: [usize; 2],
 }
 
@@ -28,7 +28,7 @@ fn agreement(foot: &Value, rate: f32) -> Agreement {
         .map(|place| Vec3::from_slice(&numbers(place)))
         .collect();
     let count = places.len();
-    let times = (0..count).map(|frame| frame as f32 / rate).collect();
+    let times: Vec<f32> = (0..count).map(|frame| frame as f32 / rate).collect();
     let track = Track { translation: Channel::new(times, places, Interpolation::Linear), ..Track::default() };
     let skeleton = Skeleton { bones: vec![bone("Foot", None, Vec3::ZERO)] };
     let frames = TakeFrames::of(&take(vec![track]), &skeleton, rate).expect("frames");
@@ -51,11 +51,12 @@ fn agreement(foot: &Value, rate: f32) -> Agreement {
     agreement
 }
 
-/// File, foot, and the largest numbers of frames that are missed and that are extra.
+/// Each file, and for its feet the largest numbers of frames that are missed and that are extra. The dancer taps the floor for three
+/// to five frames at a time, which is too short for a contact.
 const CAPTURES: [(&str, [[usize; 2]; 2]); 3] = [
-    (include_str!("../data/contacts/cmu_01_01.json"), [[20, 20], [20, 20]]),
-    (include_str!("../data/contacts/fair1_dab.json"), [[20, 20], [20, 20]]),
-    (include_str!("../data/contacts/pybvh_example.json"), [[3, 3], [3, 3]]),
+    (include_str!("../data/contacts/cmu_01_01.json"), [[1, 1], [2, 4]]),
+    (include_str!("../data/contacts/fair1_dab.json"), [[11, 2], [12, 0]]),
+    (include_str!("../data/contacts/pybvh_example.json"), [[0, 2], [0, 2]]),
 ];
 
 #[test]
@@ -66,8 +67,7 @@ fn contacts_found_in_captures_are_those_labelled_by_hand() {
         for (foot, [missed, extra]) in capture["feet"].as_array().expect("feet").iter().zip(allowed) {
             let found = agreement(foot, rate);
             let name = format!("{} {}", capture["source"], foot["bone"]);
-            println!("{name}: {found:?}");
-            assert!(found.missed <= missed && found.extra <= extra, "{name}: {found:?}");
+            assert!(found.both > 30 && found.missed <= missed && found.extra <= extra, "{name}: {found:?}");
         }
     }
 }

@@ -52,6 +52,7 @@ mod lenient;
 mod levels;
 mod limited_chains;
 mod lint;
+mod loop_shift;
 mod loops;
 mod made;
 mod masks;

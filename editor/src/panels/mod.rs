@@ -39,6 +39,8 @@ pub mod keys;
 pub mod layer_choice;
 pub mod layers;
 pub mod layout;
+mod loop_dialog;
+mod loop_search;
 pub mod marks;
 pub mod menu;
 mod mirror_pairs;

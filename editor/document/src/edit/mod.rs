@@ -75,6 +75,7 @@ mod set_pose;
 mod set_poses;
 mod set_tangents;
 mod shape_tangents;
+mod shift_loop;
 mod snap_keys;
 mod split_take;
 pub(crate) mod target;
@@ -168,6 +169,7 @@ edits! {
     "move_layer" => move_layer::MoveLayer,
     "merge_layers" => merge_layers::MergeLayers,
     "close_loop" => close_loop::CloseLoop,
+    "shift_loop" => shift_loop::ShiftLoop,
 }
 
 #[cfg(test)]
