@@ -60,7 +60,7 @@ const CAPTURES: [(&str, [[usize; 2]; 2]); 3] = [
 ];
 
 #[test]
-fn contacts_found_in_captures_are_those_labelled_by_hand() {
+fn contacts_found_in_captures_agree_with_labels_set_manually() {
     for (text, allowed) in CAPTURES {
         let capture: Value = serde_json::from_str(text).expect("a capture");
         let rate = capture["rate"].as_f64().expect("a rate") as f32;

@@ -20,6 +20,7 @@ mod old_journals;
 mod savable;
 mod save_and_open;
 mod save_in_background;
+mod take_check;
 mod take_tools;
 mod tangents;
 mod travel;

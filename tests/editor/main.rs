@@ -83,6 +83,7 @@ mod takes_panel;
 mod timeline_contacts;
 mod timeline_curves;
 mod timeline_filters;
+mod timeline_findings;
 mod timeline_keyboard;
 mod timeline_many;
 mod timeline_markers;

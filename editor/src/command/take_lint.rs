@@ -43,7 +43,8 @@ pub(super) fn defects(
     for take in &animation.takes {
         let rate = thresholds.rate.unwrap_or_else(|| frame_rate(take));
         let given = stored_contacts(&take.extras, skeleton);
-        let limits = LintThresholds { given, ..thresholds.limits.clone() };
+        let mut limits = thresholds.limits.clone();
+        limits.given = given;
         let found = lint_take(take, skeleton, rate, &limits)
             .map_err(|error| Failure::Input(format!("take {}: {error}", plain(&take.name))))?;
         defects.extend(found.into_iter().map(|finding| TakeDefect {

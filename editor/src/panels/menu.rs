@@ -115,6 +115,7 @@ fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], reques
             Id::ToggleCurl => context.settings.tools.curl,
             Id::ToggleGhosts => context.settings.tools.ghosts.shown,
             Id::TogglePath => context.settings.tools.path,
+            Id::ToggleProblems => context.findings.is_on(),
             _ => false,
         };
         item(ui, context, command.id, on, requests);

@@ -74,6 +74,7 @@ pub mod status;
 pub mod status_line;
 pub mod style;
 mod tab;
+pub mod take_findings;
 pub mod take_list;
 pub mod takes;
 pub mod theme;

@@ -19,6 +19,7 @@ use super::selected_bones::SelectedBones;
 use super::selection_steps::{SelectionState, SelectionSteps};
 use super::settings::Settings;
 use super::status::{MessageSeverity, Status};
+use super::take_findings::TakeFindings;
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
@@ -45,6 +46,8 @@ pub(super) struct Workspace {
     pub(super) selections: SelectionSteps,
     /// The contacts of the take that is shown.
     pub(super) contacts: FootContacts,
+    /// The problems of the take that is shown.
+    pub(super) findings: TakeFindings,
     /// The angles that were given to rotation keys.
     pub(super) given: GivenAngles,
     /// The pose that was copied last.
@@ -87,6 +90,7 @@ impl Workspace {
             keys: KeyEditing::of(settings.timeline),
             selections: SelectionSteps::default(),
             contacts: FootContacts::default(),
+            findings: TakeFindings::default(),
             given: GivenAngles::default(),
             copied_pose: None,
             takes: TakeListState::default(),
@@ -124,6 +128,7 @@ impl Workspace {
             frame_rate: self.frame_rate.get(),
             keys: &self.keys,
             contacts: &self.contacts,
+            findings: &self.findings,
             given: &self.given,
             copied_pose: self.copied_pose.as_ref(),
             takes: &self.takes,

@@ -22,7 +22,7 @@ pub struct ShiftLoop {
     pub take: TakeRef,
     /// Seconds by which keys become later; negative for earlier.
     pub by: f32,
-    /// The bone that travels: it goes on where it was.
+    /// The bone that travels: its way is not interrupted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub travel: Option<BoneRef>,
     /// Frames per second of the keys that replace splines; by default the lowest usual rate that fits the keys of the take.

@@ -19,6 +19,7 @@ use super::prompts::{Overlay, Prompts, Question};
 use super::retarget_source::RetargetSource;
 use super::settings::Settings;
 use super::status::Status;
+use super::take_findings::TakeFindings;
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
@@ -72,6 +73,8 @@ pub struct PanelContext<'a> {
     pub keys: &'a KeyEditing,
     /// The contacts of the take that is shown.
     pub contacts: &'a FootContacts,
+    /// The problems of the take that is shown.
+    pub findings: &'a TakeFindings,
     /// The angles that were given to rotation keys.
     pub given: &'a GivenAngles,
     /// The pose that was copied last; `None` if none of this model was.

@@ -6,6 +6,7 @@ mod buttonless;
 mod contacts;
 mod drag;
 mod fade;
+mod findings;
 mod gutter;
 mod head;
 mod markers;
@@ -100,6 +101,7 @@ impl Dope {
         self.scroll = (self.scroll + self.drag.update(ui, &canvas, &sheet, requests)).max(0.0);
         self.menu.show(&canvas, &self.drag, context, requests);
         self.head.show(ui, &sheet, requests);
+        findings::show(ui, &sheet, requests);
         self.markers.show(ui, &sheet, requests);
         self.contacts.show(ui, &sheet, requests);
         overlay::pending(&painter, &sheet);
