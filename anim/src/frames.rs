@@ -82,18 +82,17 @@ impl TakeFrames {
         Ok(Self::at(take, skeleton, rate, (0..frames).map(at).collect()))
     }
 
-    /// Samples only the first two and the last two frames, as the table of a take of four frames: all that the gap of a loop
-    /// depends on.
+    /// Samples only the first two frames and the last two, as the table of a take of four frames: all that the gap of a loop
+    /// depends on. The last one is at the end of the take, also where that is between two frames.
     ///
     /// # Errors
     ///
     /// As [`Self::of`], but a take may be of any length.
     pub fn ends(take: &Take, skeleton: &Skeleton, rate: f32) -> Result<Self, FramesError> {
-        let last = f64::from(finite(take.length).max(0.0)) * f64::from(rate) + OFF_FRAME;
+        let last = f64::from(finite(take.length).max(0.0)) * f64::from(rate);
         if !(rate.is_finite() && rate > 0.0 && last >= 4.0) {
             return Self::of(take, skeleton, rate);
         }
-        let last = last.floor();
         let at = |frame: f64| (f64::from(finite(take.start)) + frame / f64::from(rate)) as f32;
         Ok(Self::at(take, skeleton, rate, [0.0, 1.0, last - 1.0, last].map(at).into()))
     }

@@ -19,7 +19,12 @@ struct Agreement {
 
 fn agreement(foot: &Value, rate: f32) -> Agreement {
     let numbers = |value: &Value| -> Vec<f32> {
-        value.as_array().expect("a list").iter().map(|number| number.as_f64().expect("a number") as f32).collect()
+        value
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|number| number.as_f64().expect("a number") as f32)
+            .collect()
     };
     let places: Vec<Vec3> = foot["positions"]
         .as_array()
@@ -39,8 +44,7 @@ fn agreement(foot: &Value, rate: f32) -> Agreement {
     for frame in 0..count {
         let time = frame as f32 / rate;
         let is_labelled = labels.iter().any(|span| (span[0]..=span[1]).contains(&(frame as f32)));
-        let is_found =
-            found.contacts().iter().any(|span| time >= span.from - 1e-3 && time <= span.to + 1e-3);
+        let is_found = found.contacts().iter().any(|span| time >= span.from - 1e-3 && time <= span.to + 1e-3);
         match (is_labelled, is_found) {
             (true, true) => agreement.both += 1,
             (true, false) => agreement.missed += 1,

@@ -48,7 +48,10 @@ fn contacts_of_some_bones_are_replaced_and_the_others_stay() {
 
 #[test]
 fn contacts_follow_retiming_reversing_and_cutting() {
-    assert_eq!(spans(&track().remapped(|time| 1.0 + 2.0 * time)), [(2, 1.0, 2.0), (2, 4.0, 5.0), (5, 2.0, 3.0)]);
+    assert_eq!(
+        spans(&track().remapped(|time| 1.0 + 2.0 * time)),
+        [(2, 1.0, 2.0), (2, 4.0, 5.0), (5, 2.0, 3.0)]
+    );
     assert_eq!(spans(&track().remapped(|time| 2.0 - time)), [(2, 0.0, 0.5), (2, 1.5, 2.0), (5, 1.0, 1.5)]);
     assert_eq!(spans(&track().between(0.25, 1.75)), [(2, 0.25, 0.5), (2, 1.5, 1.75), (5, 0.5, 1.0)]);
     assert_eq!(spans(&track().between(0.5, 0.5)), []);
@@ -88,7 +91,8 @@ fn swing() -> (Skeleton, Take) {
         bones: vec![bone("Hips", None, Vec3::Y), bone("Foot", Some(0), Vec3::new(0.0, -0.9, 0.1))],
     };
     let times: Vec<f32> = (0..61).map(|frame| frame as f32 / 30.0).collect();
-    let turns: Vec<Quat> = (0..61).map(|frame| Quat::from_rotation_x(0.01 * (frame * frame % 7) as f32)).collect();
+    let turns: Vec<Quat> =
+        (0..61).map(|frame| Quat::from_rotation_x(0.01 * (frame * frame % 7) as f32)).collect();
     let track = Track { rotation: Channel::new(times, turns, Interpolation::Linear), ..Track::default() };
     (skeleton, take(vec![track, Track::default()]))
 }

@@ -55,11 +55,15 @@ fn with_contacts() -> ModelAdapter {
 #[test]
 fn contacts_are_stored_as_readable_json_and_an_undo_removes_them() {
     let mut model = model();
-    let line = format!(r#"{{"edit":"set_contacts","take":"Walk","contacts":[{{"bone":"{LEFT}","from":0.25,"to":0.5}}]}}"#);
+    let line = format!(
+        r#"{{"edit":"set_contacts","take":"Walk","contacts":[{{"bone":"{LEFT}","from":0.25,"to":0.5}}]}}"#
+    );
     let undo = model.apply(&edit(&line)).expect("applied");
     let text = model.slots()[1].result.extras.get(CONTACTS).expect("a text").to_string();
-    let node = model.skeleton().bones[model.skeleton().find(LEFT).expect("a bone") as usize].node.expect("a node");
-    let wanted = format!(r#"{{"version":1,"bones":[{{"bone":"{LEFT}","node":{node},"spans":[[0.25,0.5]]}}]}}"#);
+    let node =
+        model.skeleton().bones[model.skeleton().find(LEFT).expect("a bone") as usize].node.expect("a node");
+    let wanted =
+        format!(r#"{{"version":1,"bones":[{{"bone":"{LEFT}","node":{node},"spans":[[0.25,0.5]]}}]}}"#);
     assert_eq!(text, wanted);
     assert!(model.apply(&edit(&line)).is_err(), "it has them already");
     assert_eq!(edit(&line).bones(model.skeleton()), EditedBones::WholeTake);
@@ -77,7 +81,10 @@ fn a_text_that_is_no_record_of_contacts_counts_as_none() {
         r#"{"version":1,"bones":[{"bone":"nobody","spans":[[0,1]]}]}"#,
         r#"{"version":1,"bones":[{"bone":"b_Hip_01","spans":[[1,0],[3,3]]}]}"#,
     ] {
-        apply(&mut model, &format!(r#"{{"edit":"set_extras","take":"Walk","name":"contacts","value":{value}}}"#));
+        apply(
+            &mut model,
+            &format!(r#"{{"edit":"set_extras","take":"Walk","name":"contacts","value":{value}}}"#),
+        );
         assert_eq!(spans(&model, 1), [], "{value}");
         apply(&mut model.clone(), r#"{"edit":"reverse_take","take":"Walk"}"#);
     }
@@ -87,22 +94,22 @@ fn a_text_that_is_no_record_of_contacts_counts_as_none() {
 fn contacts_follow_edits_of_time() {
     let length = model().slots()[1].result.length;
     for (line, wanted) in [
-        (r#"{"edit":"reverse_take","take":"Walk"}"#.to_owned(), [
-            (LEFT, length - 0.2, length - 0.1),
-            (RIGHT, length - 0.6, length - 0.4),
-        ]),
-        (format!(r#"{{"edit":"retime_take","take":"Walk","start":1,"length":{}}}"#, 2.0 * length), [
-            (LEFT, 1.2, 1.4),
-            (RIGHT, 1.8, 2.2),
-        ]),
-        (r#"{"edit":"trim_take","take":"Walk","from":0.15,"to":0.5,"to_start":true}"#.to_owned(), [
-            (LEFT, 0.0, 0.05),
-            (RIGHT, 0.25, 0.35),
-        ]),
-        (r#"{"edit":"ripple","take":"Walk","from":0.3,"by":0.5}"#.to_owned(), [
-            (LEFT, 0.1, 0.2),
-            (RIGHT, 0.9, 1.1),
-        ]),
+        (
+            r#"{"edit":"reverse_take","take":"Walk"}"#.to_owned(),
+            [(LEFT, length - 0.2, length - 0.1), (RIGHT, length - 0.6, length - 0.4)],
+        ),
+        (
+            format!(r#"{{"edit":"retime_take","take":"Walk","start":1,"length":{}}}"#, 2.0 * length),
+            [(LEFT, 1.2, 1.4), (RIGHT, 1.8, 2.2)],
+        ),
+        (
+            r#"{"edit":"trim_take","take":"Walk","from":0.15,"to":0.5,"to_start":true}"#.to_owned(),
+            [(LEFT, 0.0, 0.05), (RIGHT, 0.25, 0.35)],
+        ),
+        (
+            r#"{"edit":"ripple","take":"Walk","from":0.3,"by":0.5}"#.to_owned(),
+            [(LEFT, 0.1, 0.2), (RIGHT, 0.9, 1.1)],
+        ),
         (r#"{"edit":"mirror_take","take":"Walk"}"#.to_owned(), [(LEFT, 0.4, 0.6), (RIGHT, 0.1, 0.2)]),
     ] {
         let before = with_contacts();
@@ -138,16 +145,18 @@ fn contacts_of_named_bones_are_replaced_and_those_of_others_stay() {
     assert_eq!(model.slots()[1].result.extras.get(CONTACTS), None);
     for (line, reason) in [
         (r#"{"edit":"set_contacts","take":"Walk"}"#, "already"),
-        (r#"{"edit":"set_contacts","take":"Walk","contacts":[{"bone":0,"from":1,"to":0}]}"#, "before the start"),
+        (
+            r#"{"edit":"set_contacts","take":"Walk","contacts":[{"bone":0,"from":1,"to":0}]}"#,
+            "before the start",
+        ),
         (r#"{"edit":"set_contacts","take":"Walk","bones":["nobody"]}"#, "no bone"),
         (r#"{"edit":"detect_contacts","take":"Walk","meters_per_unit":0}"#, "unit"),
     ] {
         let error = model.apply(&edit(line)).expect_err(line).to_string();
         assert!(error.contains(reason), "{line}: {error}");
     }
-    let many: Vec<String> = (0..10_001)
-        .map(|index| format!(r#"{{"bone":0,"from":{index},"to":{}.5}}"#, index))
-        .collect();
+    let many: Vec<String> =
+        (0..10_001).map(|index| format!(r#"{{"bone":0,"from":{index},"to":{}.5}}"#, index)).collect();
     let line = format!(r#"{{"edit":"set_contacts","take":"Walk","contacts":[{}]}}"#, many.join(","));
     assert!(model.apply(&edit(&line)).expect_err("too many").to_string().contains("10,000"));
 }
@@ -198,8 +207,7 @@ fn feet_are_locked_in_the_stored_contacts() {
 
 #[test]
 fn a_closed_loop_holds_the_stored_contacts_and_a_reduction_keeps_them() {
-    let shifted =
-        r#"{"edit":"offset","take":"Walk","time":0,"poses":[{"bone":"b_Hip_01","rotation":[0,0,0.05,0.9987]}]}"#;
+    let shifted = r#"{"edit":"offset","take":"Walk","time":0,"poses":[{"bone":"b_Hip_01","rotation":[0,0,0.05,0.9987]}]}"#;
     let contact = |model: &ModelAdapter| {
         let bone = model.skeleton().find(RIGHT).expect("a bone");
         Contact { bone, from: 0.7, to: 0.85 }

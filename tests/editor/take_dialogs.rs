@@ -73,7 +73,7 @@ fn a_loop_is_closed_shifted_and_found_by_the_dialog() {
     animator.request(Request::Command(Id::LoopDialog));
     assert_eq!(animator.harness.state().state.read().overlay, Some(Overlay::Loop));
     let rate = animator.harness.state().state.read().frame_rate as f32;
-    click(&mut animator, "Close");
+    click(&mut animator, "Close loop");
     let Some(Edit::CloseLoop(edit)) = animator.edits().last().copied() else { panic!("no edit") };
     assert_eq!((edit.frames, edit.rate, edit.contacts.len()), (8, Some(rate), 0));
     assert!(animator.harness.query_by_label("The end leads into the start").is_some());
@@ -93,7 +93,8 @@ fn a_loop_is_closed_shifted_and_found_by_the_dialog() {
     animator.steps(20);
     let found = animator.harness.query_all_by_label_contains("mm apart").count();
     assert!(found > 1, "{found}");
-    let first = animator.harness.query_all_by_label_contains("mm apart").next().expect("a loop").rect().center();
+    let first =
+        animator.harness.query_all_by_label_contains("mm apart").next().expect("a loop").rect().center();
     animator.click(first);
     let range = animator.harness.state().state.read().keys.range().expect("a play range");
     assert!(range[1] - range[0] > 0.45, "{range:?}");

@@ -97,7 +97,8 @@ impl SlideMeter {
 
 /// Returns the position of a bone in scene space; the origin for a bone that does not exist.
 fn joint(take: &Take, skeleton: &Skeleton, bone: BoneIndex, time: f32) -> Vec3 {
-    let parent = |&bone: &BoneIndex| skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
+    let parent =
+        |&bone: &BoneIndex| skeleton.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
     let mut to_root = Mat4::IDENTITY;
     // From the bone up: each parent is multiplied on the left.
     for index in std::iter::successors(Some(bone), parent) {

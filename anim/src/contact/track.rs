@@ -16,8 +16,9 @@ pub struct ContactTrack {
 impl ContactTrack {
     /// Returns the track of these contacts, which may be in any order.
     pub fn of(contacts: impl IntoIterator<Item = Contact>) -> Self {
-        let is_contact =
-            |contact: &Contact| contact.from.is_finite() && contact.to.is_finite() && contact.from < contact.to;
+        let is_contact = |contact: &Contact| {
+            contact.from.is_finite() && contact.to.is_finite() && contact.from < contact.to
+        };
         let mut sorted: Vec<Contact> = contacts.into_iter().filter(is_contact).collect();
         sorted.sort_by(|a, b| a.bone.cmp(&b.bone).then(a.from.total_cmp(&b.from)));
         let mut joined: Vec<Contact> = Vec::with_capacity(sorted.len());
@@ -85,10 +86,11 @@ impl ContactTrack {
 
     /// Returns the track with each contact given to the bone that `other` returns; `None` leaves it where it is.
     pub fn mirrored(&self, other: impl Fn(BoneIndex) -> Option<BoneIndex>) -> Self {
-        Self::of(self.contacts.iter().map(|contact| Contact {
-            bone: other(contact.bone).unwrap_or(contact.bone),
-            ..*contact
-        }))
+        Self::of(
+            self.contacts
+                .iter()
+                .map(|contact| Contact { bone: other(contact.bone).unwrap_or(contact.bone), ..*contact }),
+        )
     }
 
     /// Returns the track of a take that repeats from `start` over `length` seconds, after its keys moved around the loop by `by`

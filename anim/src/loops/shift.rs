@@ -93,7 +93,8 @@ pub fn shift_loop(take: &Take, skeleton: &Skeleton, settings: &ShiftSettings) ->
         });
         track.rotation =
             window.channel(&track.rotation, |channel, key| sample_channel(channel, rest.rotation, key.old));
-        track.scale = window.channel(&track.scale, |channel, key| sample_channel(channel, rest.scale, key.old));
+        track.scale =
+            window.channel(&track.scale, |channel, key| sample_channel(channel, rest.scale, key.old));
     }
     for (morph, before) in shifted.morphs.iter_mut().zip(&take.morphs) {
         *morph = window.morph(before);

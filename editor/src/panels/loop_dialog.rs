@@ -142,9 +142,8 @@ impl LoopDialog {
     fn list(&self, ui: &mut Ui, context: &PanelContext<'_>) {
         let theme = Theme::of(ui);
         let Some(gaps) = &self.gaps else { return };
-        let is_seen = |gap: &BoneLoopGap| {
-            1000.0 * gap.position > SMALL[0] || gap.rotation.to_degrees() > SMALL[1]
-        };
+        let is_seen =
+            |gap: &BoneLoopGap| 1000.0 * gap.position > SMALL[0] || gap.rotation.to_degrees() > SMALL[1];
         let seen = gaps.worst.iter().filter(|gap| is_seen(gap)).count();
         let text = match (gaps.is_short, seen) {
             (true, _) => "The last frame is missing: the take repeats if it goes on for one frame".to_owned(),
@@ -183,7 +182,7 @@ impl LoopDialog {
     fn close(&mut self, ui: &mut Ui, take: &TakeRef, rate: u32, requests: &mut Vec<Request>) {
         let travel = self.travel.map(BoneRef::Index);
         ui.horizontal(|ui| {
-            let button = ui.button("Close");
+            let button = ui.button("Close loop");
             widgets::hint_beside(
                 &button,
                 "Changes the last frames so that they lead into the start; feet stay in the contacts of the take",

@@ -29,7 +29,12 @@ pub(in crate::panels) fn detect(workspace: &mut Workspace) -> Option<Effect> {
     // A selected bone that is no foot is selected for another reason, unless no bone is called a foot.
     let chosen: Vec<BoneIndex> =
         selected.into_iter().filter(|bone| named.is_empty() || named.contains(bone)).collect();
-    Some(edit(Edit::DetectContacts(DetectContacts { take, bones: refs(&chosen), meters_per_unit: 1.0, rate })))
+    Some(edit(Edit::DetectContacts(DetectContacts {
+        take,
+        bones: refs(&chosen),
+        meters_per_unit: 1.0,
+        rate,
+    })))
 }
 
 /// Adds a contact of each selected bone over the play range.

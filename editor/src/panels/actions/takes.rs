@@ -5,8 +5,8 @@ use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{
-    BoneRef, CloseLoop, CreateTake, DeleteTake, Edit, MirrorTake, MoveTake, ReverseTake,
-    SplitTake, TakeRef, TrimTake,
+    BoneRef, CloseLoop, CreateTake, DeleteTake, Edit, MirrorTake, MoveTake, ReverseTake, SplitTake, TakeRef,
+    TrimTake,
 };
 
 /// Creates an empty take.

@@ -52,7 +52,8 @@ impl DopeAreas {
         let head = lane(all.top(), RULER);
         let findings = lane(head.bottom(), super::findings::height(context.take_findings().len()));
         let markers = lane(findings.bottom(), if context.markers().is_empty() { 0.0 } else { MARKERS });
-        let contacts = lane(markers.bottom(), super::contacts::height(context.contacts.track().bones().len()));
+        let contacts =
+            lane(markers.bottom(), super::contacts::height(context.contacts.track().bones().len()));
         let bar = lane(contacts.bottom(), BAR);
         let below = all.bottom().max(bar.bottom());
         Self {

@@ -17,8 +17,8 @@ use dragonfly_document::edit::{BoneRef, ContactSpan, Edit, SetContacts};
 use dragonfly_picture::between;
 use egui::accesskit::Role;
 use egui::{
-    Button, CornerRadius, CursorIcon, PointerButton, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui,
-    WidgetInfo, pos2,
+    Button, CornerRadius, CursorIcon, PointerButton, Rect, Response, Sense, Stroke, StrokeKind, TextStyle,
+    Ui, WidgetInfo, pos2,
 };
 
 /// Height of the row of a bone.
@@ -91,7 +91,11 @@ impl ContactLane {
         }
         let whole = Rect::from_min_max(pos2(areas.all.left(), lane.top()), lane.max);
         ui.painter().rect_filled(whole, CornerRadius::ZERO, theme.bar);
-        ui.painter().hline(whole.x_range(), whole.top() + 0.5, Stroke::new(1.0, theme.line.gamma_multiply(0.5)));
+        ui.painter().hline(
+            whole.x_range(),
+            whole.top() + 0.5,
+            Stroke::new(1.0, theme.line.gamma_multiply(0.5)),
+        );
         let step = lane.height() / bones.len() as f32;
         for (at, &bone) in bones.iter().enumerate() {
             let top = lane.top() + at as f32 * step;
@@ -124,7 +128,11 @@ impl ContactLane {
             let color = if is_selected(contact) { theme.accent } else { theme.weak };
             let response = (in_sight.len() <= MOST_BARS).then(|| interact(ui, bar, row, contact, context));
             let lit = response.as_ref().is_some_and(|response| response.hovered()) || held.is_some();
-            painter.rect_filled(bar, CornerRadius::same(2), color.gamma_multiply(if lit { 0.75 } else { 0.45 }));
+            painter.rect_filled(
+                bar,
+                CornerRadius::same(2),
+                color.gamma_multiply(if lit { 0.75 } else { 0.45 }),
+            );
             painter.rect_stroke(bar, CornerRadius::same(2), Stroke::new(1.0, color), StrokeKind::Inside);
             if let Some(response) = response {
                 self.act(ui, &response, bar, contact, sheet, requests);
@@ -198,11 +206,11 @@ fn name(ui: &Ui, rect: Rect, bone: u32, context: &PanelContext<'_>, requests: &m
     let response = ui.interact(rect, ui.scope_id().with(("contacts of", bone)), Sense::click());
     let name = context.bone_name(bone);
     let selected = context.selection.contains(bone);
-    response.widget_info(|| {
-        WidgetInfo::selected(Role::ListItem, true, selected, format!("Contacts of {name}"))
-    });
+    response
+        .widget_info(|| WidgetInfo::selected(Role::ListItem, true, selected, format!("Contacts of {name}")));
     let color = if selected { theme.accent } else { theme.weak };
-    let text = Rect::from_min_max(pos2(rect.left() + 28.0, rect.top()), pos2(rect.right() - 6.0, rect.bottom()));
+    let text =
+        Rect::from_min_max(pos2(rect.left() + 28.0, rect.top()), pos2(rect.right() - 6.0, rect.bottom()));
     if rect.height() > 9.0 {
         widgets::text_in(ui, text, &name, &TextStyle::Small, color);
     }
@@ -210,16 +218,14 @@ fn name(ui: &Ui, rect: Rect, bone: u32, context: &PanelContext<'_>, requests: &m
         let choice = choice_of(ui.input(|input| input.modifiers));
         requests.push(Request::SelectBones(vec![bone], choice));
     }
-    response.on_hover_text(format!("{name}: when it is in contact with the ground\nClick to select the bone"));
+    response
+        .on_hover_text(format!("{name}: when it is in contact with the ground\nClick to select the bone"));
 }
 
 fn bar_of(contact: &Contact, row: Rect, scale: &TimeScale) -> Rect {
     let (left, right) = (scale.x_of(contact.from), scale.x_of(contact.to));
     let margin = if row.height() > 9.0 { 2.0 } else { 1.0 };
-    Rect::from_min_max(
-        pos2(left, row.top() + margin),
-        pos2(right.max(left + 2.0), row.bottom() - margin),
-    )
+    Rect::from_min_max(pos2(left, row.top() + margin), pos2(right.max(left + 2.0), row.bottom() - margin))
 }
 
 /// Returns the part of a bar at `x`: a narrow bar is moved as a whole by its middle third.

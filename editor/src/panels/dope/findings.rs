@@ -8,7 +8,9 @@ use crate::panels::ruler::frame_of;
 use crate::panels::theme::Theme;
 use dragonfly_anim::lint::{LintFinding, LintRule};
 use dragonfly_document::Change;
-use dragonfly_document::edit::{BoneRef, CurveFilter, Edit, FilterKeys, KeySet, ReduceKeys, TurnKeys, TurnWay};
+use dragonfly_document::edit::{
+    BoneRef, CurveFilter, Edit, FilterKeys, KeySet, ReduceKeys, TurnKeys, TurnWay,
+};
 use egui::accesskit::Role;
 use egui::{
     Button, CornerRadius, CursorIcon, PointerButton, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
@@ -92,12 +94,16 @@ fn fix(finding: &LintFinding, context: &PanelContext<'_>) -> Option<(String, Req
     let keys = || vec![KeySet { bones: vec![BoneRef::Index(finding.bone)], ..KeySet::default() }];
     let edit = |title: String, edit: Edit| Some((title, Request::Change(Change::Edit(edit, None))));
     let filter = |filter: CurveFilter| {
-        Edit::FilterKeys(FilterKeys { take: take.clone(), keys: keys(), shapes: Vec::new(), filter, rate: None })
+        Edit::FilterKeys(FilterKeys {
+            take: take.clone(),
+            keys: keys(),
+            shapes: Vec::new(),
+            filter,
+            rate: None,
+        })
     };
     match finding.rule {
-        LintRule::FootSlide => {
-            Some(("Lock feet in contacts".to_owned(), Request::Command(Id::LockContacts)))
-        }
+        LintRule::FootSlide => Some(("Lock feet in contacts".to_owned(), Request::Command(Id::LockContacts))),
         LintRule::LoopGap => Some(("Loop…".to_owned(), Request::Command(Id::LoopDialog))),
         LintRule::Jitter => {
             edit(format!("Smooth {name} (6 Hz)"), filter(CurveFilter::Butterworth { cutoff: 6.0, order: 2 }))

@@ -21,6 +21,6 @@ commands! {
     RootMotion => When::Take, "Root motion…", [], "Shows the path on the ground, and moves travel between hips and root, out of the take and back (in place, root bone)", |w| { w.prompts.show(Some(Overlay::RootMotion)); None };
     Retarget => When::Model, "Retarget from file…", [], "Adds a take of another figure's file, with its bones mapped to those of this one (import animation, mocap)", |w| { w.prompts.show(Some(Overlay::Retarget)); None };
     LoopDialog => When::Take, "Loop…", [], "Shows how far the end of the take is from its start, bone by bone; closes the loop, moves its start, and finds loops in a long take (cycle, seamless, phase)", |w| { w.prompts.show(Some(Overlay::Loop)); None };
-    ToggleProblems => When::Take, "Mark problems", [], "Marks jitter, foot slide, jumps, flips and keys without need on the timeline, with a fix in the menu of each mark (lint, check)", |w| { w.findings.toggle(); None };
     CloseLoop => When::Take, "Close loop from here", [], "Changes the take from the playhead to its end so that it leads into its start (cycle, seamless)", takes::close_loop;
+    ToggleProblems => When::Take, "Mark problems", [], "Marks jitter, foot slide, jumps, flips and keys without need on the timeline, with a fix in the menu of each mark (lint, check)", |w| { w.findings.toggle(); None };
 }
