@@ -77,7 +77,7 @@ fn a_text_that_is_no_record_of_contacts_counts_as_none() {
     for value in [
         r#""text""#,
         "[1]",
-        r#"{"version":2,"bones":[]}"#,
+        r#"{"version":2,"bones":[{"bone":"b_Hip_01","spans":[[0,1]]}]}"#,
         r#"{"version":1,"bones":[{"bone":"nobody","spans":[[0,1]]}]}"#,
         r#"{"version":1,"bones":[{"bone":"b_Hip_01","spans":[[1,0],[3,3]]}]}"#,
     ] {
