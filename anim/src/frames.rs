@@ -79,7 +79,27 @@ impl TakeFrames {
             return Err(FramesError::TooMany { frames, bones });
         }
         let at = |frame: usize| (f64::from(start) + frame as f64 / f64::from(rate)) as f32;
-        let times: Vec<f32> = (0..frames).map(at).collect();
+        Ok(Self::at(take, skeleton, rate, (0..frames).map(at).collect()))
+    }
+
+    /// Samples only the first two frames and the last two, as the table of a take of four frames: all that the gap of a loop
+    /// depends on. The last one is at the end of the take, also where that is between two frames.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::of`], but a take may be of any length.
+    pub fn ends(take: &Take, skeleton: &Skeleton, rate: f32) -> Result<Self, FramesError> {
+        let last = f64::from(finite(take.length).max(0.0)) * f64::from(rate);
+        if !(rate.is_finite() && rate > 0.0 && last >= 4.0) {
+            return Self::of(take, skeleton, rate);
+        }
+        let at = |frame: f64| (f64::from(finite(take.start)) + frame / f64::from(rate)) as f32;
+        Ok(Self::at(take, skeleton, rate, [0.0, 1.0, last - 1.0, last].map(at).into()))
+    }
+
+    /// Samples a take at these times.
+    fn at(take: &Take, skeleton: &Skeleton, rate: f32, times: Vec<f32>) -> Self {
+        let (frames, bones) = (times.len(), skeleton.len());
         let mut poses = vec![Transform::IDENTITY; frames * bones];
         let mut positions = Vec::with_capacity(frames * bones);
         let mut matrices = vec![Mat4::IDENTITY; bones];
@@ -89,7 +109,7 @@ impl TakeFrames {
             to_root(skeleton, row, &mut matrices);
             positions.extend(matrices.iter().map(|matrix| matrix.w_axis.truncate()));
         }
-        Ok(Self { rate, bones, times, poses, positions })
+        Self { rate, bones, times, poses, positions }
     }
 
     /// Returns the number of frames; at least one.

@@ -1,6 +1,7 @@
 //! Tests of the document crate, one module for each guarantee.
 
 mod beside;
+mod contacts;
 mod document_ended;
 mod document_writer;
 mod documents;
@@ -19,6 +20,7 @@ mod old_journals;
 mod savable;
 mod save_and_open;
 mod save_in_background;
+mod take_check;
 mod take_tools;
 mod tangents;
 mod travel;

@@ -178,7 +178,7 @@ fn edits_of_the_whole_take_include_locked_bones() {
 }
 
 /// Edits of whole takes: they include locked bones, see [`edits_of_the_whole_take_include_locked_bones`].
-const OF_WHOLE_TAKES: [&str; 16] = [
+const OF_WHOLE_TAKES: [&str; 19] = [
     "create_take",
     "delete_take",
     "rename_take",
@@ -189,6 +189,9 @@ const OF_WHOLE_TAKES: [&str; 16] = [
     "retime_take",
     "add_take",
     "set_extras",
+    "detect_contacts",
+    "set_contacts",
+    "shift_loop",
     "add_layer",
     "delete_layer",
     "set_layer",

@@ -1,4 +1,4 @@
-//! The dialogs for root motion, mirroring and retargeting send the edits that they show.
+//! The dialogs for root motion, loops, mirroring and retargeting send the edits that they show.
 
 use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
@@ -65,4 +65,42 @@ fn without_a_source_the_dialog_for_retargeting_has_only_a_field_for_its_path() {
     animator.harness.run_steps(2);
     assert!(animator.harness.query_by_label("Read").is_some());
     assert!(animator.harness.query_by_label("Add take").is_none());
+}
+
+#[test]
+fn a_loop_is_closed_shifted_and_found_by_the_dialog() {
+    let mut animator = Animator::new(fixture::full());
+    animator.request(Request::Command(Id::LoopDialog));
+    assert_eq!(animator.harness.state().state.read().overlay, Some(Overlay::Loop));
+    let rate = animator.harness.state().state.read().frame_rate as f32;
+    click(&mut animator, "Close loop");
+    let Some(Edit::CloseLoop(edit)) = animator.edits().last().copied() else { panic!("no edit") };
+    assert_eq!((edit.frames, edit.rate, edit.contacts.len()), (8, Some(rate), 0));
+    assert!(animator.harness.query_by_label("The end leads into the start").is_some());
+    let edits = animator.edits().len();
+    click(&mut animator, "Shift");
+    assert_eq!(animator.edits().len(), edits, "by 0 frames");
+    let field = animator.harness.get_by_label("all keys by").rect().right_center() + egui::vec2(30.0, 0.0);
+    animator.click(field);
+    animator.harness.event(egui::Event::Text("6".to_owned()));
+    animator.steps(1);
+    animator.harness.key_press(egui::Key::Enter);
+    animator.steps(2);
+    click(&mut animator, "Shift");
+    let Some(Edit::ShiftLoop(edit)) = animator.edits().last().copied() else { panic!("no edit") };
+    assert!((edit.by - 6.0 / rate).abs() < 1e-6, "{}", edit.by);
+    click(&mut animator, "Find loops");
+    animator.steps(20);
+    let found = animator.harness.query_all_by_label_contains("mm apart").count();
+    assert!(found > 1, "{found}");
+    let first =
+        animator.harness.query_all_by_label_contains("mm apart").next().expect("a loop").rect().center();
+    animator.click(first);
+    let range = animator.harness.state().state.read().keys.range().expect("a play range");
+    assert!(range[1] - range[0] > 0.45, "{range:?}");
+    let edits = animator.edits().len();
+    let trim = animator.harness.query_all_by_label("Trim").next().expect("a button").rect().center();
+    animator.click(trim);
+    let Some(Edit::TrimTake(edit)) = animator.edits().last().copied() else { panic!("no edit") };
+    assert_eq!((animator.edits().len(), [edit.from, edit.to]), (edits + 1, range));
 }

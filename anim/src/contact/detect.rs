@@ -1,7 +1,7 @@
 //! Detection of contacts from height and speed, with hysteresis.
 //!
 //! With `p(f)` the position of the bone at frame `f`, `up` the unit vector that points up, `r` the frame rate and `g` the
-//! height of the bone when it stands:
+//! height of the bone when it stands, by default the 1st percentile of its heights:
 //!
 //! ```text
 //! h(f) = p(f) · up − g                                height above the ground
@@ -33,8 +33,8 @@ pub struct ContactThresholds {
     pub leave_speed: f32,
     /// Shortest contact, seconds.
     pub least: f32,
-    /// Height of the ground in the model's unit. `None`: the lowest position of each bone in the take, so that an ankle needs no
-    /// height of its own.
+    /// Height of the ground in the model's unit. `None`: the lowest height of each bone in the take, without a hundredth of its frames, so
+    /// that an ankle needs no height of its own.
     pub ground: Option<f32>,
     /// The axis that points up.
     pub up: Axis,
@@ -91,8 +91,7 @@ enum ContactLevel {
 fn levels(frames: &TakeFrames, bone: BoneIndex, thresholds: &ContactThresholds) -> Vec<ContactLevel> {
     let (up, unit) = (thresholds.up.to_vec3(), thresholds.meters_per_unit);
     let height = |frame: usize| frames.position(frame, bone).dot(up);
-    let lowest = || (0..frames.len()).map(height).fold(f32::INFINITY, f32::min);
-    let ground = thresholds.ground.unwrap_or_else(lowest);
+    let ground = thresholds.ground.unwrap_or_else(|| lowest((0..frames.len()).map(height)));
     let level = |frame: usize| {
         let height = (height(frame) - ground) * unit;
         let speed = frames.velocity(frame, bone).length() * unit;
@@ -107,6 +106,16 @@ fn levels(frames: &TakeFrames, bone: BoneIndex, thresholds: &ContactThresholds) 
         }
     };
     (0..frames.len()).map(level).collect()
+}
+
+/// Share of the frames that may be below the ground: a capture often begins with a frame in another pose.
+const BELOW: f32 = 0.01;
+
+/// Returns the height that all but a hundredth of `heights` reach; the lowest of fewer than a hundred.
+fn lowest(heights: impl Iterator<Item = f32>) -> f32 {
+    let mut heights: Vec<f32> = heights.collect();
+    heights.sort_by(f32::total_cmp);
+    heights.get((heights.len() as f32 * BELOW) as usize).copied().unwrap_or(0.0)
 }
 
 /// Returns the first and last frame of each run without a free frame that contains a touching one.

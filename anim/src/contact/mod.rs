@@ -4,7 +4,9 @@
 //! |---|---|
 //! | [`detect_contacts`] | the intervals in which bones are in contact with the ground |
 //! | [`contact_slide`], [`take_slide`] | how far bones slide while they are in contact |
+//! | [`SlideMeter`] | the contact that slides fastest, measured in steps |
 //! | [`lock_contacts`] | a take in which they do not slide |
+//! | [`ContactTrack`] | the contacts of a take: edited, retimed, cut and mirrored with it |
 //!
 //! A contact is the same [`Contact`] that key reduction respects, so detected contacts can be given to
 //! [`crate::reduce::Contacts::given`]. Detection reads a take sampled at its frame rate ([`crate::frames`]). Contacts are
@@ -14,10 +16,14 @@
 mod detect;
 mod feet;
 mod lock;
+mod meter;
 mod slide;
+mod track;
 
 pub use crate::reduce::Contact;
 pub use detect::{ContactThresholds, detect_contacts};
 pub use feet::{feet_by_name, limb_of};
 pub use lock::{LockError, LockSettings, LockedTake, lock_contacts};
+pub use meter::{SlideMeter, SlideSpeed};
 pub use slide::{ContactSlide, TakeSlide, contact_slide, take_slide};
+pub use track::ContactTrack;

@@ -13,7 +13,7 @@
 //! frame. A pose that is wrong for one frame is two pops, of which the first is reported.
 
 use super::{LintReport, LintThresholds};
-use crate::contact::{detect_contacts, feet_by_name, take_slide};
+use crate::contact::{Contact, detect_contacts, feet_by_name, take_slide};
 use crate::data::{BoneIndex, Skeleton};
 use crate::frames::TakeFrames;
 use crate::loops::loop_gaps;
@@ -66,12 +66,19 @@ pub(super) fn foot_slide(
     thresholds: &LintThresholds,
     add: LintReport<'_>,
 ) {
-    let contacts = &thresholds.contacts;
-    for foot in feet_by_name(skeleton) {
-        let found = detect_contacts(frames, &[foot], contacts);
-        let slide = take_slide(frames, &found, contacts.up, contacts.meters_per_unit);
-        let time = found.first().map_or(0.0, |contact| contact.from);
-        add(foot, time, slide.millimeters_per_second());
+    let (settings, given) = (&thresholds.contacts, &thresholds.given);
+    let feet = if given.is_empty() { feet_by_name(skeleton) } else { given.bones() };
+    for foot in feet {
+        let found = match given.is_empty() {
+            true => detect_contacts(frames, &[foot], settings),
+            false => given.of_bone(foot).to_vec(),
+        };
+        let slide = |contacts: &[Contact]| {
+            let slide = take_slide(frames, contacts, settings.up, settings.meters_per_unit);
+            slide.millimeters_per_second()
+        };
+        let worst = found.iter().max_by(|a, b| slide(&[**a]).total_cmp(&slide(&[**b])));
+        add(foot, worst.map_or(0.0, |contact| contact.from), slide(&found));
     }
 }
 

@@ -1,6 +1,6 @@
 //! The rules of the lint of takes, their units and their thresholds.
 
-use crate::contact::ContactThresholds;
+use crate::contact::{ContactThresholds, ContactTrack};
 
 /// A defect that the lint of takes looks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -73,6 +73,8 @@ pub struct LintThresholds {
     limits: [Option<f32>; LintRule::ALL.len()],
     /// Thresholds of contacts, for foot slide; its `meters_per_unit` and its axis hold for all rules.
     pub contacts: ContactThresholds,
+    /// The contacts of the take, for foot slide. Where there are none, those of bones called feet are found.
+    pub given: ContactTrack,
     /// Height of the floor in the model's unit.
     pub floor: f32,
     /// Tolerance within which a key is predicted by its neighbors: meters for translations, about half the angle in radians for
@@ -94,7 +96,13 @@ impl Default for LintThresholds {
             LintRule::SpareKeys => Some(50.0),
             LintRule::Outside => Some(1.0),
         });
-        Self { limits, contacts: ContactThresholds::default(), floor: 0.0, key_tolerance: 1e-5 }
+        Self {
+            limits,
+            contacts: ContactThresholds::default(),
+            given: ContactTrack::default(),
+            floor: 0.0,
+            key_tolerance: 1e-5,
+        }
     }
 }
 

@@ -57,50 +57,117 @@ pub struct FoundLoop {
 
 /// Returns the loop with the lowest cost, the longest of equal ones; `None` where the take is shorter than the shortest loop.
 pub fn find_loop(frames: &TakeFrames, search: &LoopSearch) -> Option<FoundLoop> {
-    let least = ((search.least * frames.rate()).ceil().max(1.0)) as usize;
-    let most = ((search.most * frames.rate()).floor()).max(0.0) as usize;
-    let count = frames.len();
-    if count <= least || most < least || frames.bones() == 0 {
-        return None;
-    }
-    let table = Features::of(frames, search);
-    let mut stride = 1;
-    while (count / stride).pow(2) / 2 > MOST_PAIRS {
-        stride += 1;
-    }
-    let allowed = |first: usize, last: usize| last < count && (least..=most).contains(&(last - first));
-    let mut best: Vec<FoundLoop> = Vec::new();
-    for first in (0..count).step_by(stride) {
-        for last in (first + least..count).step_by(stride).filter(|&last| allowed(first, last)) {
-            insert(&mut best, table.found(first, last));
+    let mut finder = LoopFinder::new(frames, search, 0);
+    finder.step(usize::MAX);
+    finder.found().first().copied()
+}
+
+/// A search for loops in progress, so that a program can search a long take without a pause.
+#[derive(Clone, Debug)]
+pub struct LoopFinder {
+    table: Features,
+    least: usize,
+    most: usize,
+    /// Number of frames within which two loops count as the same one.
+    near: usize,
+    stride: usize,
+    /// The next pair of the grid; `None` when the grid was searched.
+    next: Option<(usize, usize)>,
+    best: Vec<FoundLoop>,
+}
+
+impl LoopFinder {
+    /// Begins a search. Of loops whose ends are both within `near` frames of those of a better one, only that one is found.
+    pub fn new(frames: &TakeFrames, search: &LoopSearch, near: usize) -> Self {
+        let least = ((search.least * frames.rate()).ceil().max(1.0)) as usize;
+        let most = ((search.most * frames.rate()).floor()).max(0.0) as usize;
+        let count = frames.len();
+        let mut stride = 1;
+        while (count / stride).pow(2) / 2 > MOST_PAIRS {
+            stride += 1;
+        }
+        let is_possible = count > least && most >= least && frames.bones() > 0;
+        Self {
+            table: Features::of(frames, search),
+            least,
+            most,
+            near,
+            stride,
+            next: is_possible.then_some((0, least)),
+            best: Vec::new(),
         }
     }
-    if stride > 1 {
-        for coarse in best.clone() {
+
+    /// Compares at most `pairs` pairs of frames. Returns whether the search is complete.
+    pub fn step(&mut self, pairs: usize) -> bool {
+        let count = self.table.len();
+        for _ in 0..pairs {
+            let Some((first, last)) = self.next else { return true };
+            if last < count && last - first <= self.most {
+                self.insert(first, last);
+                self.next = Some((first, last + self.stride));
+                continue;
+            }
+            let first = first + self.stride;
+            self.next = (first + self.least < count).then_some((first, first + self.least));
+            if self.next.is_none() {
+                self.refine();
+            }
+        }
+        self.next.is_none()
+    }
+
+    /// Returns the loops found so far, at most 16, the lowest cost first, of equal ones the longest.
+    pub fn found(&self) -> &[FoundLoop] {
+        &self.best
+    }
+
+    /// Compares all frames around the best pairs of the grid.
+    fn refine(&mut self) {
+        if self.stride == 1 {
+            return;
+        }
+        let stride = self.stride;
+        for coarse in self.best.clone() {
             for first in coarse.first.saturating_sub(stride)..=coarse.first + stride {
-                let around = coarse.last.saturating_sub(stride).max(first)..=coarse.last + stride;
-                for last in around.filter(|&last| allowed(first, last)) {
-                    insert(&mut best, table.found(first, last));
+                for last in coarse.last.saturating_sub(stride).max(first)..=coarse.last + stride {
+                    let is_allowed =
+                        last < self.table.len() && (self.least..=self.most).contains(&(last - first));
+                    if is_allowed {
+                        self.insert(first, last);
+                    }
                 }
             }
         }
     }
-    best.first().copied()
-}
 
-/// Inserts a loop in a list of the best, the lowest cost first, of equal ones the longest.
-fn insert(best: &mut Vec<FoundLoop>, found: FoundLoop) {
-    let length = |found: &FoundLoop| found.last - found.first;
-    let at = best.partition_point(|other| {
-        other.cost.total_cmp(&found.cost).then(length(&found).cmp(&length(other))).is_le()
-    });
-    if at < REFINED {
-        best.insert(at, found);
-        best.truncate(REFINED);
+    /// Inserts a loop in the list of the best.
+    fn insert(&mut self, first: usize, last: usize) {
+        let found = FoundLoop { first, last, cost: self.table.cost(first, last) };
+        let length = |found: &FoundLoop| found.last - found.first;
+        let order = |a: &FoundLoop, b: &FoundLoop| a.cost.total_cmp(&b.cost).then(length(b).cmp(&length(a)));
+        let at = self.best.partition_point(|other| order(other, &found).is_le());
+        if at >= REFINED {
+            return;
+        }
+        let near = self.near;
+        let is_near =
+            |other: &FoundLoop| other.first.abs_diff(first) <= near && other.last.abs_diff(last) <= near;
+        if self.best[..at].iter().any(is_near) {
+            return;
+        }
+        self.best.insert(at, found);
+        let mut index = 0;
+        self.best.retain(|other| {
+            index += 1;
+            index <= at + 1 || !is_near(other)
+        });
+        self.best.truncate(REFINED);
     }
 }
 
 /// Positions and weighted velocities of all bones at all frames.
+#[derive(Clone, Debug)]
 struct Features {
     bones: usize,
     rows: Vec<[Vec3; 2]>,
@@ -123,8 +190,9 @@ impl Features {
         Self { bones: frames.bones(), rows }
     }
 
-    fn found(&self, first: usize, last: usize) -> FoundLoop {
-        FoundLoop { first, last, cost: self.cost(first, last) }
+    /// Returns the number of frames.
+    fn len(&self) -> usize {
+        self.rows.len() / self.bones.max(1)
     }
 
     fn cost(&self, first: usize, last: usize) -> f32 {

@@ -3,6 +3,7 @@
 
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
+use super::take_check::CheckedTake;
 use super::{LoadError, Loader, OpenedModel, Progress, Source};
 use dragonfly_runtime::{Address, Job, JobContext};
 use dragonfly_store::Autosave;
@@ -20,6 +21,8 @@ pub(super) enum JobNews {
     Scanned(RecoveryScan),
     /// The result of a job for takes of another model.
     Retarget(RetargetNews),
+    /// The defects of a take.
+    Checked(Result<CheckedTake, String>),
 }
 
 /// Starts loading `source` in a job, whose news reach the document with `ticket`. Dropping the job cancels it without

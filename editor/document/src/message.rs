@@ -3,6 +3,7 @@
 use super::retarget_order::{MapFile, RetargetOrder};
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
 use super::scan::Decision;
+use super::take_check::{CheckedTake, TakeCheck};
 use super::{BoneMap, LoadedModel, Offer, Progress, Source, View};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
@@ -41,6 +42,8 @@ pub enum DocumentMessage {
     Retarget(RetargetOrder),
     /// Reads or writes a bone map.
     MapFile(MapFile),
+    /// Checks a take for defects. The reply is [`DocumentReply::Checked`].
+    CheckTake(TakeCheck),
     /// The user's decision about unsaved work of an earlier session.
     Decide(Box<Offer>, Decision),
     /// The present path of the file that unsaved work belongs to. If it is that file, the work is restored there.
@@ -95,6 +98,8 @@ pub enum DocumentReply {
     SourceRead(Arc<LoadedModel>),
     /// A bone map was read.
     MapRead(BoneMap),
+    /// A take was checked.
+    Checked(CheckedTake),
     /// A message for the status line.
     Notice(String),
     /// A warning for the status line.

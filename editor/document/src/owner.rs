@@ -56,6 +56,8 @@ pub struct Document {
     pub(super) load: Loader,
     /// Takes of another model for the open one.
     pub(super) retargeting: Retargeting,
+    /// The check of a take; dropping it cancels it.
+    pub(super) checking: Option<Job>,
     pub(super) autosave: Option<Autosave>,
     /// Unsaved work of the open file that awaits a decision of the user.
     pub(super) waiting: Option<Recoverable>,
@@ -135,6 +137,7 @@ impl Document {
                 tickets: 0,
                 load: setup.load,
                 retargeting: Retargeting::default(),
+                checking: None,
                 autosave: setup.autosave.clone(),
                 waiting: None,
                 scan: None,

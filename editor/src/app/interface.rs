@@ -367,6 +367,7 @@ impl Interface {
             self.state.side_files().read_markers(&text);
         }
         self.state.begin_frame(now);
+        self.effects.extend(self.state.wanted_check());
         let (steps, faults) = (self.steps(), &self.faults);
         let mut passes = 0;
         let (desk, state) = (&mut self.desk, self.state.read());

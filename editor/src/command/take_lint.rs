@@ -6,6 +6,7 @@ use dragonfly_anim::data::AnimationData;
 use dragonfly_anim::frames::frame_rate;
 use dragonfly_anim::lint::{LintRule, LintThresholds, lint_take};
 use dragonfly_anim::motion::Axis;
+use dragonfly_document::adapter::stored_contacts;
 use serde::Serialize;
 use serde_json::Value;
 use std::io::{self, Write};
@@ -41,7 +42,10 @@ pub(super) fn defects(
     let mut defects = Vec::new();
     for take in &animation.takes {
         let rate = thresholds.rate.unwrap_or_else(|| frame_rate(take));
-        let found = lint_take(take, skeleton, rate, &thresholds.limits)
+        let given = stored_contacts(&take.extras, skeleton);
+        let mut limits = thresholds.limits.clone();
+        limits.given = given;
+        let found = lint_take(take, skeleton, rate, &limits)
             .map_err(|error| Failure::Input(format!("take {}: {error}", plain(&take.name))))?;
         defects.extend(found.into_iter().map(|finding| TakeDefect {
             take: take.name.clone(),

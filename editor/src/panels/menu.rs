@@ -35,6 +35,7 @@ pub fn show(
         ui.menu_button("Take", |ui| {
             list(ui, context, &[Category::Takes], requests);
             ui.separator();
+            submenu(ui, "Contacts", |ui| list(ui, context, &[Category::Contacts], requests));
             submenu(ui, "Layers", |ui| list(ui, context, &[Category::Layers], requests));
         });
         ui.menu_button("View", |ui| view(ui, context, panels, requests));
@@ -117,6 +118,7 @@ fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], reques
             Id::ToggleCurl => context.settings.tools.curl,
             Id::ToggleGhosts => context.settings.tools.ghosts.shown,
             Id::TogglePath => context.settings.tools.path,
+            Id::ToggleProblems => context.findings.is_on(),
             _ => false,
         };
         item(ui, context, command.id, on, requests);

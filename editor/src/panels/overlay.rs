@@ -17,4 +17,6 @@ pub enum Overlay {
     Retarget,
     /// The travel of a take.
     RootMotion,
+    /// The gap of a take that repeats.
+    Loop,
 }

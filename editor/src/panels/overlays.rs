@@ -1,6 +1,7 @@
 //! Overlays drawn over the panels: command palette, shortcut sheet, about, path field.
 
 use super::context::PanelContext;
+use super::loop_dialog::LoopDialog;
 use super::mirror_pairs::MirrorDialog;
 use super::overlay_title;
 use super::palette::Palette;
@@ -25,6 +26,7 @@ pub struct Overlays {
     shown: Option<Overlay>,
     root_motion: RootMotionDialog,
     mirror: MirrorDialog,
+    loops: LoopDialog,
     retarget: RetargetDialog,
 }
 
@@ -45,8 +47,8 @@ impl Overlays {
         if overlay == Overlay::Palette {
             modal = modal.area(Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, 72.0)));
         }
-        if overlay == Overlay::RootMotion {
-            // Beside the path that the viewport shows, which nothing dims.
+        if matches!(overlay, Overlay::RootMotion | Overlay::Loop) {
+            // Beside the figure in the viewport, which nothing dims.
             modal = modal.backdrop_color(egui::Color32::TRANSPARENT);
             modal = modal.area(Modal::default_area(id).anchor(Align2::RIGHT_CENTER, vec2(-24.0, 0.0)));
         }
@@ -57,6 +59,7 @@ impl Overlays {
             Overlay::MirrorPairs => self.mirror.show(ui, context, requests),
             Overlay::Retarget => self.retarget.show(ui, context, requests),
             Overlay::RootMotion => self.root_motion.show(ui, context, requests),
+            Overlay::Loop => self.loops.show(ui, context, requests),
             Overlay::OpenPath => self.open_path(ui, fresh, requests),
         });
         if response.should_close() {

@@ -177,7 +177,8 @@ impl FileAction {
                 | DocumentMessage::Search
                 | DocumentMessage::CancelLoading
                 | DocumentMessage::ReadSource(_)
-                | DocumentMessage::MapFile(_),
+                | DocumentMessage::MapFile(_)
+                | DocumentMessage::CheckTake(_),
             )
             | Self::Stay => true,
             Self::Send(_)

@@ -9,12 +9,13 @@ use super::request::{Effect, Request};
 use super::settings::Settings;
 use super::side_files::SideFiles;
 use super::status::MessageSeverity;
+use super::take_findings;
 use super::window_status::WindowStatus;
 use super::workspace::Workspace;
 use crate::control::InputEvent;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{BoneMap, LoadedModel, NotSaved, Offer, SaveOrder, SavedFile, View};
+use dragonfly_document::{BoneMap, CheckedTake, LoadedModel, NotSaved, Offer, SaveOrder, SavedFile, View};
 use egui::{Context, Pos2, RawInput};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -51,6 +52,17 @@ impl State {
     pub fn end_frame(&mut self) {
         self.workspace.bones.hover(None);
         self.workspace.prompts.set_find(false);
+    }
+
+    /// Returns the request to check the take that is shown for problems, once for each of its states while problems are shown.
+    pub fn wanted_check(&mut self) -> Option<Effect> {
+        let (take, effect) = take_findings::check(&self.workspace.read())?;
+        self.workspace.findings.request(&take).then_some(effect)
+    }
+
+    /// Shows the problems of a take that was checked.
+    pub fn checked(&mut self, checked: CheckedTake) {
+        self.workspace.findings.set_checked(checked);
     }
 
     /// Sets the moment that the panels show.
@@ -198,10 +210,9 @@ impl State {
 
     /// Returns when the time display or the status line must be drawn again, if they must.
     pub fn next_display(&self) -> Option<Duration> {
-        [self.workspace.player.next_display(), self.workspace.status.next_change()]
-            .into_iter()
-            .flatten()
-            .min()
+        let message = self.workspace.status.next_change();
+        let measuring = self.workspace.contacts.is_measuring().then_some(Duration::ZERO);
+        [self.workspace.player.next_display(), message, measuring].into_iter().flatten().min()
     }
 
     /// Returns the markers and marks as the text of their files.

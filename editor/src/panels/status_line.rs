@@ -22,6 +22,7 @@ pub fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>
         ui.add_space(GRID);
         unrecorded(ui, context);
         pending(ui, context, requests);
+        foot_slide(ui, context, requests);
         message(ui, context);
     });
 }
@@ -71,6 +72,30 @@ fn pending(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>)
         let now = context.time();
         let next = context.pending_times().find(|&time| time > now + SAME_TIME);
         requests.extend(next.or(context.pending_times().next()).map(Request::Seek));
+    }
+    ui.add_space(2.0 * GRID);
+}
+
+/// Speed of a foot in contact from which on it is seen to slide, millimeters per second: as in the check of takes.
+const SLIDES: f32 = 50.0;
+
+/// Shows how fast the worst foot slides in its contact; a click goes there.
+fn foot_slide(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    let Some(worst) = context.contacts.worst() else { return };
+    let theme = Theme::of(ui);
+    let speed = worst.millimeters_per_second;
+    let color = if speed > SLIDES { theme.warning } else { theme.weak };
+    let text = format!("Foot slide {speed:.0} mm/s");
+    let (name, contact) = (context.bone_name(worst.contact.bone), worst.contact);
+    let hint = format!(
+        "{name} slides most of all feet in contact with the ground: from {:.3} s to {:.3} s\n\
+         “Lock feet in contacts” holds it\nClick to go there",
+        contact.from, contact.to
+    );
+    let button = egui::Button::new(RichText::new(text).small().color(color)).frame(false);
+    if ui.add(button).on_hover_text(hint).clicked() {
+        requests.push(Request::Select(Some(contact.bone)));
+        requests.push(Request::Seek(contact.from));
     }
     ui.add_space(2.0 * GRID);
 }

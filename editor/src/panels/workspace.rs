@@ -6,6 +6,7 @@ use super::context::PanelContext;
 use super::curves::given::GivenAngles;
 use super::dragging::Dragging;
 use super::edit_scope::EditOver;
+use super::foot_contacts::FootContacts;
 use super::frame_rate::FrameRate;
 use super::keys::KeyEditing;
 use super::layer_choice::LayerChoice;
@@ -20,6 +21,7 @@ use super::selection_steps::{SelectionState, SelectionSteps};
 use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
 use super::status::{MessageSeverity, Status};
+use super::take_findings::TakeFindings;
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
@@ -46,6 +48,10 @@ pub(super) struct Workspace {
     pub(super) selections: SelectionSteps,
     /// The selections between the steps of the history.
     pub(super) trail: SelectionTrail,
+    /// The contacts of the take that is shown.
+    pub(super) contacts: FootContacts,
+    /// The problems of the take that is shown.
+    pub(super) findings: TakeFindings,
     /// The angles that were given to rotation keys.
     pub(super) given: GivenAngles,
     /// The pose that was copied last.
@@ -90,6 +96,8 @@ impl Workspace {
             keys: KeyEditing::of(settings.timeline),
             selections: SelectionSteps::default(),
             trail: SelectionTrail::default(),
+            contacts: FootContacts::default(),
+            findings: TakeFindings::default(),
             given: GivenAngles::default(),
             copied_pose: None,
             takes: TakeListState::default(),
@@ -128,6 +136,8 @@ impl Workspace {
             now: self.player.now(),
             frame_rate: self.frame_rate.get(),
             keys: &self.keys,
+            contacts: &self.contacts,
+            findings: &self.findings,
             given: &self.given,
             copied_pose: self.copied_pose.as_ref(),
             takes: &self.takes,

@@ -31,6 +31,7 @@ overlays! {
     Overlay::OpenPath => "open-path", vec2(640.0, 320.0), [Typical], "the field is the same whatever is open";
     Overlay::MirrorPairs => "mirror-pairs", vec2(640.0, 480.0), [Empty, Typical, Crowded], "";
     Overlay::Retarget => "retarget", vec2(720.0, 560.0), [Empty, Typical, Crowded], "";
+    Overlay::Loop => "loop", vec2(640.0, 560.0), [Empty, Typical, Crowded], "";
     Overlay::RootMotion => "root-motion", vec2(640.0, 480.0), [Empty, Typical, Crowded], "";
 }
 

@@ -8,10 +8,10 @@ use dragonfly::panels::compared::CompareWith;
 use dragonfly::panels::keys::KeysRequest;
 use dragonfly::panels::open_model::Loading;
 use dragonfly::panels::window_status::DeviceStatus;
-use dragonfly::panels::{self, Request, style};
+use dragonfly::panels::{self, Effect, FileAction, Request, style};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, Property, SetPose, TakeRef};
-use dragonfly_document::{Change, LoadStage, Progress, View};
+use dragonfly_document::{Change, DocumentMessage, LoadStage, Progress, View};
 use egui::{Key, vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -129,6 +129,23 @@ fn more() -> Vec<PictureCase> {
         case("timeline-marks", "timeline", Typical, |window| {
             for id in [Id::AddMarker, Id::SelectAllKeys, Id::RangeFromHere] {
                 window.state_mut().state.execute(Request::Command(id));
+            }
+        }),
+        case("timeline-contacts", "timeline", Typical, |window| {
+            for line in [
+                r#"{"edit":"set_contacts","take":0,"contacts":[{"bone":4,"from":0.05,"to":0.35},{"bone":4,"from":0.6,"to":0.9},{"bone":7,"from":0.3,"to":0.7}]}"#,
+                r#"{"edit":"resample_keys","take":0,"keys":[{"bones":[4]}],"rate":120}"#,
+            ] {
+                let edit = serde_json::from_str(line).expect(line);
+                window.state_mut().change(Change::Edit(edit, None));
+            }
+            let state = &mut window.state_mut().state;
+            state.execute(Request::Command(Id::AddMarker));
+            state.execute(Request::Command(Id::ToggleProblems));
+            if let Some(Effect::File(FileAction::Send(DocumentMessage::CheckTake(check)))) =
+                state.wanted_check()
+            {
+                state.checked(check.run().expect("findings"));
             }
         }),
         case("timeline-whole-take", "timeline", Typical, |window| {

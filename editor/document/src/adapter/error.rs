@@ -124,6 +124,9 @@ pub enum EditError {
     /// A loop cannot be closed.
     #[error(transparent)]
     Close(#[from] dragonfly_anim::loops::CloseError),
+    /// A loop cannot be shifted.
+    #[error(transparent)]
+    Shift(#[from] dragonfly_anim::loops::ShiftError),
     /// Travel cannot be removed, moved or put back.
     #[error(transparent)]
     Travel(#[from] dragonfly_anim::motion::MotionError),

@@ -13,6 +13,7 @@
 //! the take stays as it was read.
 
 use super::kind::{ChannelKind, with_kind};
+use super::record_bone::{RecordBone, RecordBones};
 use super::slot::{LayerVersions, TakeVersions};
 use super::{KEY_BYTES, ModelAdapter, TakeId};
 use crate::edit::LayerKind;
@@ -43,18 +44,10 @@ struct LayersRecord {
     layers: Vec<LayerRecord>,
 }
 
-/// A bone, by its name and, because names may occur twice, by its node in the file.
-#[derive(Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
-struct LayerBone {
-    bone: String,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    node: Option<u32>,
-}
-
 #[derive(Serialize, Deserialize)]
 struct ChannelRecord {
     #[serde(flatten)]
-    bone: LayerBone,
+    bone: RecordBone,
     path: Property,
     interpolation: InterpolationRecord,
     times: usize,
@@ -68,7 +61,7 @@ struct LayerRecord {
     weight: f32,
     weights: Vec<(f32, f32)>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    bones: Option<Vec<LayerBone>>,
+    bones: Option<Vec<RecordBone>>,
     muted: bool,
     solo: bool,
     color: [u8; 3],
@@ -180,7 +173,7 @@ fn layer_record(layer: &LayerVersions, skeleton: &Skeleton, numbers: &mut Number
             ));
         }
     }
-    let name = |bone: &u32| LayerBone::of(skeleton, *bone);
+    let name = |bone: &u32| RecordBone::of(skeleton, *bone);
     LayerRecord {
         name: settings.name.clone(),
         kind: settings.mode.into(),
@@ -191,33 +184,6 @@ fn layer_record(layer: &LayerVersions, skeleton: &Skeleton, numbers: &mut Number
         solo: settings.is_solo,
         color: settings.color,
         keys,
-    }
-}
-
-impl LayerBone {
-    fn of(skeleton: &Skeleton, bone: u32) -> Option<Self> {
-        let found = skeleton.bones.get(bone as usize)?;
-        Some(Self { bone: found.name.clone(), node: found.node })
-    }
-}
-
-/// Finds the bones of records in a skeleton.
-struct LayerBones<'a>(HashMap<(&'a str, Option<u32>), u32>);
-
-impl<'a> LayerBones<'a> {
-    fn of(skeleton: &'a Skeleton) -> Self {
-        let mut found = HashMap::new();
-        for (index, bone) in skeleton.bones.iter().enumerate() {
-            found.entry((bone.name.as_str(), bone.node)).or_insert(index as u32);
-            // The first bone of a name, for a file in which another program has renumbered the nodes.
-            found.entry((bone.name.as_str(), None)).or_insert(index as u32);
-        }
-        Self(found)
-    }
-
-    fn find(&self, record: &LayerBone) -> Option<u32> {
-        let name = record.bone.as_str();
-        self.0.get(&(name, record.node)).or_else(|| self.0.get(&(name, None))).copied()
     }
 }
 
@@ -256,7 +222,7 @@ fn written<K: ChannelKind>(
     let width = width(property);
     let values = channel.values.iter().flat_map(|value| K::numbers(*value).into_iter().take(width));
     Some(ChannelRecord {
-        bone: LayerBone::of(skeleton, bone)?,
+        bone: RecordBone::of(skeleton, bone)?,
         path: property,
         interpolation: channel.interpolation.into(),
         times: numbers.index(channel.times.iter().copied()),
@@ -285,7 +251,7 @@ fn restored(
     base.extras.set(LAYERS, None);
     let numbers: Vec<SharedNumbers> =
         record.numbers.iter().map(|text| SharedNumbers::of(text)).collect::<Option<_>>()?;
-    let bones = LayerBones::of(skeleton);
+    let bones = RecordBones::of(skeleton);
     let keys = |records: &[ChannelRecord], tracks: &mut [Track]| -> Option<()> {
         for record in records {
             let bone = bones.find(&record.bone)?;
@@ -320,7 +286,7 @@ fn restored(
     with_layers.adopt_flat(&read, &|made, read| is_near(made, read)).then_some(with_layers)
 }
 
-fn settings_of(record: &LayerRecord, all: &LayerBones<'_>) -> Option<LayerSettings> {
+fn settings_of(record: &LayerRecord, all: &RecordBones<'_>) -> Option<LayerSettings> {
     let bones = record.bones.as_ref().map(|names| {
         let mut bones = names.iter().map(|name| all.find(name)).collect::<Option<Vec<_>>>()?;
         bones.sort_unstable();

@@ -19,6 +19,7 @@
 mod apply;
 pub(crate) mod change;
 mod check;
+mod contact_record;
 mod drag;
 mod error;
 mod key_bytes;
@@ -29,12 +30,14 @@ mod name;
 pub(crate) mod op;
 mod pending;
 pub(crate) mod plan;
+mod record_bone;
 pub(crate) mod slot;
 mod times;
 
 pub use apply::Inverse;
 pub use change::KeyChange;
 pub use check::BrokenInvariant;
+pub use contact_record::{CONTACTS, MOST_CONTACTS, stored_contacts};
 pub(crate) use drag::ValueDrag;
 pub use error::EditError;
 pub use key_bytes::KEY_BYTES;

@@ -1,6 +1,6 @@
 //! Closes a loop.
 
-use super::contact_span::named;
+use super::contact_span::{named, stored_of_limbs};
 use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BoneRef, ContactSpan, EditedBones, Example, TakeRef};
 use crate::adapter::plan::{Transaction, rewrite};
@@ -25,7 +25,7 @@ pub struct CloseLoop {
     /// The bone that travels: its way on the ground stays as it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub travel: Option<BoneRef>,
-    /// Contacts of feet that are held.
+    /// Contacts of feet that are held. Where empty, those stored with the take.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<ContactSpan>,
     /// Frames per second; by default the lowest usual rate that fits the keys of the take.
@@ -62,7 +62,10 @@ impl EditKind for CloseLoop {
         let take = Arc::clone(&work.slot(id).result);
         let rate = self.rate.unwrap_or_else(|| frame_rate(&take));
         let travel = self.travel.as_ref().map(|bone| work.bone(bone)).transpose()?;
-        let contacts = named(work, &self.contacts)?;
+        let mut contacts = named(work, &self.contacts)?;
+        if contacts.is_empty() {
+            contacts = stored_of_limbs(work, id);
+        }
         let settings = CloseSettings { rate, frames: self.frames, travel, up: Axis::Y };
         let closed = close_loop(&take, work.skeleton(), &contacts, &settings)?;
         if rewrite::channels(work, id, &closed)? {

@@ -1,10 +1,10 @@
 //! Contacts as edits name them.
 
 use super::{Arbitrary, BoneRef};
-use crate::adapter::EditError;
-use crate::adapter::plan::{Transaction, finite};
-use dragonfly_anim::contact::{Contact, ContactThresholds, detect_contacts, feet_by_name};
-use dragonfly_anim::data::Take;
+use crate::adapter::plan::{Transaction, contacts, finite};
+use crate::adapter::{EditError, TakeId};
+use dragonfly_anim::contact::{Contact, ContactThresholds, detect_contacts, limb_of};
+use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_anim::frames::TakeFrames;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,9 +40,21 @@ pub(super) fn named(work: &Transaction, spans: &[ContactSpan]) -> Result<Vec<Con
     spans.iter().map(contact).collect()
 }
 
-/// Returns the contacts of the feet of a take, found with the usual thresholds.
-pub(super) fn detected(work: &Transaction, take: &Take, rate: f32) -> Result<Vec<Contact>, EditError> {
+/// Returns the contacts of bones of a take, found from height and speed.
+pub(super) fn detected(
+    work: &Transaction,
+    take: &Take,
+    bones: &[BoneIndex],
+    rate: f32,
+    thresholds: &ContactThresholds,
+) -> Result<Vec<Contact>, EditError> {
     let frames = TakeFrames::of(take, work.skeleton(), rate)?;
-    let feet = feet_by_name(work.skeleton());
-    Ok(detect_contacts(&frames, &feet, &ContactThresholds::default()))
+    Ok(detect_contacts(&frames, bones, thresholds))
+}
+
+/// Returns the contacts stored with a take of bones that have a limb, which can be held.
+pub(super) fn stored_of_limbs(work: &Transaction, take: TakeId) -> Vec<Contact> {
+    let track = contacts::stored(work, take);
+    let has_limb = |contact: &&Contact| limb_of(work.skeleton(), contact.bone).is_some();
+    track.contacts().iter().filter(has_limb).copied().collect()
 }

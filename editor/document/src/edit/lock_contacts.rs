@@ -1,11 +1,11 @@
 //! Locks feet to the ground.
 
-use super::contact_span::{detected, named};
+use super::contact_span::{detected, named, stored_of_limbs};
 use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, ContactSpan, EditedBones, Example, TakeRef};
 use crate::adapter::plan::{Transaction, rewrite};
 use crate::adapter::{EditError, ModelAdapter};
-use dragonfly_anim::contact::{LockSettings, feet_by_name, limb_of, lock_contacts};
+use dragonfly_anim::contact::{ContactThresholds, LockSettings, feet_by_name, limb_of, lock_contacts};
 use dragonfly_anim::data::Skeleton;
 use dragonfly_anim::frames::frame_rate;
 use schemars::JsonSchema;
@@ -19,7 +19,8 @@ use std::sync::Arc;
 pub struct LockContacts {
     /// The take.
     pub take: TakeRef,
-    /// The contacts. Where empty, those of bones whose names say that they are feet, found from height and speed.
+    /// The contacts. Where empty, those of bones whose names say that they are feet: as they are stored with the take, or else found
+    /// from height and speed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<ContactSpan>,
     /// Number of frames over which the correction fades before and after a contact.
@@ -65,11 +66,16 @@ impl EditKind for LockContacts {
         let id = work.take(&self.take)?;
         let take = Arc::clone(&work.slot(id).result);
         let rate = self.rate.unwrap_or_else(|| frame_rate(&take));
-        let contacts = if self.contacts.is_empty() {
-            detected(work, &take, rate)?
-        } else {
-            named(work, &self.contacts)?
-        };
+        let mut contacts = named(work, &self.contacts)?;
+        let feet = feet_by_name(work.skeleton());
+        if contacts.is_empty() {
+            // Locks of bones ask the edit, which knows no others than feet.
+            contacts = stored_of_limbs(work, id);
+            contacts.retain(|contact| feet.contains(&contact.bone));
+        }
+        if contacts.is_empty() {
+            contacts = detected(work, &take, &feet, rate, &ContactThresholds::default())?;
+        }
         if contacts.is_empty() {
             return Err(EditError::Nothing("no foot is in contact with the ground"));
         }

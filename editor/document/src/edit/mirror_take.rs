@@ -3,7 +3,7 @@
 use super::kind::{EditKind, LayerUse};
 use super::target::BoneFinder;
 use super::{Arbitrary, BoneRef, EditedBones, Example, SAME_TIME, TakeRef};
-use crate::adapter::plan::{Transaction, finite, rewrite};
+use crate::adapter::plan::{Transaction, contacts, finite, rewrite};
 use crate::adapter::{EditError, ModelAdapter};
 use crate::bones::{BodySide, MirrorPairs};
 use crate::posing::mirror::Mirror;
@@ -108,6 +108,9 @@ impl EditKind for MirrorTake {
             "a range of a channel with tangents cannot be mirrored: make it linear first, or mirror the whole take",
         ))?;
         if rewrite::channels(work, id, &mirrored)? {
+            if range.is_none() && self.side.is_none() && self.bones.is_empty() {
+                contacts::follow(work, id, |track| track.mirrored(|bone| mirror.pairs.mirror_of(bone)))?;
+            }
             Ok(())
         } else {
             Err(EditError::Nothing("the take is its own mirror image"))

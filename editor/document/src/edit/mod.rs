@@ -29,6 +29,7 @@ mod create_take;
 mod delete_keys;
 mod delete_layer;
 mod delete_take;
+mod detect_contacts;
 mod drop_pending;
 mod duplicate_keys;
 mod examples;
@@ -64,6 +65,7 @@ mod retime_take;
 mod reverse_take;
 mod ripple_keys;
 mod scale_keys;
+mod set_contacts;
 mod set_extras;
 mod set_interpolation;
 mod set_layer;
@@ -73,6 +75,7 @@ mod set_pose;
 mod set_poses;
 mod set_tangents;
 mod shape_tangents;
+mod shift_loop;
 mod snap_keys;
 mod split_take;
 pub(crate) mod target;
@@ -157,6 +160,8 @@ edits! {
     "remove_travel" => remove_travel::RemoveTravel,
     "restore_travel" => restore_travel::RestoreTravel,
     "lock_contacts" => lock_contacts::LockContacts,
+    "detect_contacts" => detect_contacts::DetectContacts,
+    "set_contacts" => set_contacts::SetContacts,
     "add_layer" => add_layer::AddLayer,
     "delete_layer" => delete_layer::DeleteLayer,
     "set_layer" => set_layer::SetLayer,
@@ -164,6 +169,7 @@ edits! {
     "move_layer" => move_layer::MoveLayer,
     "merge_layers" => merge_layers::MergeLayers,
     "close_loop" => close_loop::CloseLoop,
+    "shift_loop" => shift_loop::ShiftLoop,
 }
 
 #[cfg(test)]

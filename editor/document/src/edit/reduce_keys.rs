@@ -3,16 +3,17 @@
 use super::kind::EditKind;
 use super::{Arbitrary, EditedBones, Example, KeySet, Property, TakeRef};
 use crate::adapter::op::Op;
-use crate::adapter::plan::Transaction;
+use crate::adapter::plan::{Transaction, contacts};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
-use dragonfly_anim::reduce::{ReduceSettings, reduce};
+use dragonfly_anim::reduce::{Contacts, ReduceSettings, reduce};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Removes those of the selected keys without which no point near any bone moves further than a tolerance, in the space of the scene.
-/// The keys that stay keep their times and values. In contacts with the ground the tolerance is a tenth of a millimeter.
+/// The keys that stay keep their times and values. In contacts, those that are
+/// stored with the take and those of bones that hardly move, the tolerance is a tenth of a millimeter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReduceKeys {
@@ -73,7 +74,10 @@ impl EditKind for ReduceKeys {
         let chosen = work.keys(take, &self.keys)?;
         let result = Arc::clone(&work.slot(take).result);
         let (tolerance, millimeters_per_unit) = (self.tolerance, self.unit);
-        let settings = ReduceSettings { tolerance, millimeters_per_unit, ..ReduceSettings::default() };
+        let given = contacts::stored(work, take).contacts().to_vec();
+        let contacts = Contacts { given, ..Contacts::default() };
+        let settings =
+            ReduceSettings { tolerance, millimeters_per_unit, contacts, ..ReduceSettings::default() };
         let reduced = reduce(&result, work.skeleton(), &settings)
             .map_err(|_| EditError::Nothing("the take is too long to be reduced as a whole"))?;
         let mut any = false;

@@ -24,6 +24,8 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
     workspace.posed.set_running(playback.moves(now));
     let keys = workspace.read().shown_keys();
     workspace.model.update_digest(keys, workspace.bones.active());
+    let (view, rate) = (workspace.model.view(), workspace.frame_rate.get());
+    workspace.contacts.update(view, playback.take, rate);
     if let Some(view) = workspace.model.view() {
         workspace.posed.hold_still(workspace.keys.flags(), view);
         workspace.tools.path_mut().hold_still(workspace.keys.flags(), view);

@@ -5,8 +5,8 @@ use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{
-    BoneRef, CloseLoop, CreateTake, DeleteTake, Edit, LockContacts, MirrorTake, MoveTake, ReverseTake,
-    SplitTake, TakeRef, TrimTake,
+    BoneRef, CloseLoop, CreateTake, DeleteTake, Edit, MirrorTake, MoveTake, ReverseTake, SplitTake, TakeRef,
+    TrimTake,
 };
 
 /// Creates an empty take.
@@ -105,16 +105,6 @@ pub(in crate::panels) fn close_loop(workspace: &mut Workspace) -> Option<Effect>
     let (rate, frames) = (Some(panels.frame_rate as f32), frames as u32);
     Some(edit(Edit::CloseLoop(CloseLoop { take, frames, travel: None, contacts: Vec::new(), rate })))
 }
-
-/// Locks the feet of the take that is shown in their contacts with the ground.
-pub(in crate::panels) fn lock_contacts(workspace: &mut Workspace) -> Option<Effect> {
-    let (take, _) = shown(workspace)?;
-    let rate = Some(workspace.read().frame_rate as f32);
-    Some(edit(Edit::LockContacts(LockContacts { take, contacts: Vec::new(), ease: EASE, rate })))
-}
-
-/// Number of frames over which the correction of a locked foot fades.
-const EASE: u32 = 4;
 
 /// Returns the take that is shown and its name.
 fn shown(workspace: &Workspace) -> Option<(TakeRef, String)> {

@@ -22,6 +22,8 @@ pub enum When {
     LayerAndBone,
     /// The take that is shown has layers.
     Layers,
+    /// The take that is shown has contacts.
+    Contacts,
     /// A bone is selected.
     Bone,
     /// A bone is selected and a take is shown.
@@ -60,6 +62,7 @@ impl When {
             Self::Layer => panels.layer().is_some(),
             Self::LayerAndBone => panels.layer().is_some() && bone,
             Self::Layers => !panels.layers().is_empty(),
+            Self::Contacts => !panels.contacts.track().is_empty(),
             Self::Bone => bone,
             Self::BoneInTake => bone && take,
             Self::Keys => take && !panels.keys.selection().is_empty(),
@@ -88,6 +91,7 @@ impl When {
             Self::Layer => "No layer is active",
             Self::LayerAndBone => "Requires an active layer and a selected bone",
             Self::Layers => "The take has no layers",
+            Self::Contacts => "The take has no contacts: detect or add some first",
             Self::Bone => "No bone is selected",
             Self::BoneInTake => "Requires a selected bone and a take",
             Self::Keys => "No key is selected",

@@ -3,6 +3,7 @@
 use super::PanelContext;
 use crate::panels::keys::{Drawn, Marker, channel};
 use dragonfly_anim::data::{BoneIndex, Channel, Track};
+use dragonfly_anim::lint::LintFinding;
 use dragonfly_picture::between;
 use std::sync::Arc;
 
@@ -29,6 +30,11 @@ impl<'a> PanelContext<'a> {
     /// Returns the markers of the take that is shown.
     pub fn markers(&self) -> &'a [Marker] {
         self.slot().map_or(&[], |slot| self.keys.markers().of(slot.id))
+    }
+
+    /// Returns the problems of the take that is shown.
+    pub fn take_findings(&self) -> &'a [LintFinding] {
+        self.shown_take().map_or(&[], |take| self.findings.of(take))
     }
 
     /// Returns the duration of a frame, seconds.

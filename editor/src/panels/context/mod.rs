@@ -11,6 +11,7 @@ use super::curves::given::GivenAngles;
 use super::digest::Digest;
 use super::dragging::Dragging;
 use super::edit_scope::EditOver;
+use super::foot_contacts::FootContacts;
 use super::keys::KeyEditing;
 use super::layer_choice::LayerChoice;
 use super::open_model::Loading;
@@ -20,6 +21,7 @@ use super::retarget_source::RetargetSource;
 use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
 use super::status::Status;
+use super::take_findings::TakeFindings;
 use super::take_list::TakeListState;
 use super::tool_state::ToolState;
 use super::window_status::WindowStatus;
@@ -73,6 +75,10 @@ pub struct PanelContext<'a> {
     pub frame_rate: u32,
     /// Selection and drag of keys, flags, markers, the play range.
     pub keys: &'a KeyEditing,
+    /// The contacts of the take that is shown.
+    pub contacts: &'a FootContacts,
+    /// The problems of the take that is shown.
+    pub findings: &'a TakeFindings,
     /// The angles that were given to rotation keys.
     pub given: &'a GivenAngles,
     /// The pose that was copied last; `None` if none of this model was.

@@ -14,6 +14,10 @@ pub(super) struct DopeAreas {
     pub(super) head: Rect,
     /// The lane of markers; without height if there are none.
     pub(super) markers: Rect,
+    /// The lane of problems; without height if there are none.
+    pub(super) findings: Rect,
+    /// The lane of contacts; without height if there are none.
+    pub(super) contacts: Rect,
     /// The bar over the selected keys.
     pub(super) bar: Rect,
     /// The names of the rows.
@@ -46,14 +50,19 @@ impl DopeAreas {
             )
         };
         let head = lane(all.top(), RULER);
-        let markers = lane(head.bottom(), if context.markers().is_empty() { 0.0 } else { MARKERS });
-        let bar = lane(markers.bottom(), BAR);
+        let findings = lane(head.bottom(), super::findings::height(context.take_findings().len()));
+        let markers = lane(findings.bottom(), if context.markers().is_empty() { 0.0 } else { MARKERS });
+        let contacts =
+            lane(markers.bottom(), super::contacts::height(context.contacts.track().bones().len()));
+        let bar = lane(contacts.bottom(), BAR);
         let below = all.bottom().max(bar.bottom());
         Self {
             all,
             tools: Rect::from_min_max(all.min, pos2(left, head.bottom())),
             head,
             markers,
+            findings,
+            contacts,
             bar,
             names: Rect::from_min_max(pos2(all.left(), bar.bottom()), pos2(left, below)),
             canvas: Rect::from_min_max(pos2(left, bar.bottom()), pos2(all.right(), below)),

@@ -3,8 +3,10 @@
 
 mod areas;
 mod buttonless;
+mod contacts;
 mod drag;
 mod fade;
+mod findings;
 mod gutter;
 mod head;
 mod markers;
@@ -46,6 +48,7 @@ pub(super) struct Dope {
     drag: DopeDrag,
     head: head::Head,
     markers: markers::MarkerLane,
+    contacts: contacts::ContactLane,
     menu: menu::KeyMenu,
     filter: String,
 }
@@ -98,7 +101,9 @@ impl Dope {
         self.scroll = (self.scroll + self.drag.update(ui, &canvas, &sheet, requests)).max(0.0);
         self.menu.show(&canvas, &self.drag, context, requests);
         self.head.show(ui, &sheet, requests);
+        findings::show(ui, &sheet, requests);
         self.markers.show(ui, &sheet, requests);
+        self.contacts.show(ui, &sheet, requests);
         overlay::pending(&painter, &sheet);
         overlay::playhead(&painter, &sheet);
         let toggled = gutter::show(ui, &sheet, requests);

@@ -4,10 +4,10 @@ use super::super::kind::{ChannelKind, with_kind};
 use super::super::op::{ChannelAddress, Op};
 use super::super::slot::{KeyContent, TakeId};
 use super::keys::current;
-use super::{EditError, Transaction, layer, morph, pending};
+use super::{EditError, Transaction, contacts, layer, morph, pending};
 use crate::edit::SAME_TIME;
 
-/// Deletes everything outside two times, in all channels, also those of its layers.
+/// Deletes everything outside two times, in all channels, also those of its layers, and in its contacts.
 pub(crate) fn cut(work: &mut Transaction, take: TakeId, from: f32, to: f32) -> Result<(), EditError> {
     for address in work.channels(take, (&[], &[]))? {
         with_kind!(address.property, channel::<K>(work, address, from, to));
@@ -17,6 +17,7 @@ pub(crate) fn cut(work: &mut Transaction, take: TakeId, from: f32, to: f32) -> R
     }
     let inside = |time: f32| time >= from - SAME_TIME && time <= to + SAME_TIME;
     pending::remap(work, take, |time| inside(time).then_some(time));
+    contacts::follow(work, take, |track| track.between(from, to))?;
     let slot = work.slot(take);
     if !slot.original.morphs.is_empty() {
         let morphs = slot.original.morphs.iter().map(|track| morph::between(track, from, to)).collect();

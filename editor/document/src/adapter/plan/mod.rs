@@ -4,6 +4,7 @@
 
 pub(crate) mod arrange;
 mod chosen;
+pub(crate) mod contacts;
 pub(crate) mod cut;
 pub(crate) mod keys;
 pub(crate) mod layer;

@@ -25,6 +25,7 @@ macro_rules! commands {
 }
 
 mod camera;
+mod contacts;
 mod edit;
 mod file;
 mod help;
@@ -54,6 +55,7 @@ pub const TABLE: &[(Category, &[Command])] = &[
     (Category::Keys, keys::COMMANDS),
     (Category::InBetween, inbetween::COMMANDS),
     (Category::Takes, takes::COMMANDS),
+    (Category::Contacts, contacts::COMMANDS),
     (Category::Layers, layers::COMMANDS),
     (Category::Selection, selection::COMMANDS),
     (Category::Tools, tools::COMMANDS),

@@ -22,6 +22,7 @@ commands! {
     MirrorDialog => When::Take, "Mirror…", [], "Mirrors the take, selected bones or the play range, both sides or one to the other, with the pairs of bones to correct", |w| { w.prompts.show(Some(Overlay::MirrorPairs)); None };
     RootMotion => When::Take, "Root motion…", [], "Shows the path on the ground, and moves travel between hips and root, out of the take and back (in place, root bone)", |w| { w.prompts.show(Some(Overlay::RootMotion)); None };
     Retarget => When::Model, "Retarget from file…", [], "Adds a take of another figure's file, with its bones mapped to those of this one (import animation, mocap)", |w| { w.prompts.show(Some(Overlay::Retarget)); None };
+    LoopDialog => When::Take, "Loop…", [], "Shows how far the end of the take is from its start, bone by bone; closes the loop, moves its start, and finds loops in a long take (cycle, seamless, phase)", |w| { w.prompts.show(Some(Overlay::Loop)); None };
     CloseLoop => When::Take, "Close loop from here", [], "Changes the take from the playhead to its end so that it leads into its start (cycle, seamless)", takes::close_loop;
-    LockContacts => When::Take, "Lock feet in contacts", [], "Holds feet where they touch the ground, so that they do not slide; feet are found by name, contacts by height and speed (plant, foot slide)", takes::lock_contacts;
+    ToggleProblems => When::Take, "Mark problems", [], "Marks jitter, foot slide, jumps, flips and keys without need on the timeline, with a fix in the menu of each mark (lint, check)", |w| { w.findings.toggle(); None };
 }

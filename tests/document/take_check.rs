@@ -1,0 +1,33 @@
+//! A take is checked for defects in a job, and the reply has the defects.
+
+use dragonfly_anim::lint::{LintThresholds, lint_take};
+use dragonfly_document::{DocumentMessage, DocumentReply, TakeCheck};
+use dragonfly_kit::document::test_document::{TestDocument, fox};
+use dragonfly_kit::folder::Folder;
+use std::sync::Arc;
+
+#[test]
+fn a_checked_take_has_the_defects_that_the_command_line_reports() {
+    let folder = Folder::new("take-check");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    let view = document.open(&fox(&folder));
+    let (take, skeleton) = (Arc::clone(&view.takes[2]), Arc::clone(&view.loaded.model.animation.skeleton));
+    let wanted = lint_take(&take, &skeleton, 24.0, &LintThresholds::default()).expect("a table");
+    assert!(!wanted.is_empty());
+    document.send(DocumentMessage::CheckTake(TakeCheck {
+        take: Arc::clone(&take),
+        skeleton: Arc::clone(&skeleton),
+        rate: 24.0,
+    }));
+    let checked = document.wait_for_reply(|reply| match reply {
+        DocumentReply::Checked(checked) => Some(checked.clone()),
+        _ => None,
+    });
+    assert!(Arc::ptr_eq(&checked.take, &take) && checked.findings == wanted);
+    document.send(DocumentMessage::CheckTake(TakeCheck { take, skeleton, rate: 0.0 }));
+    let refused = document.wait_for_reply(|reply| match reply {
+        DocumentReply::Refused(reason) => Some(reason.clone()),
+        _ => None,
+    });
+    assert!(refused.contains("not a frame rate"), "{refused}");
+}
