@@ -64,6 +64,7 @@ mod search_field;
 mod selected_bones;
 mod selection_steps;
 pub mod settings;
+pub mod shape_keys;
 mod shortcuts;
 pub mod side_files;
 pub mod state;
@@ -100,6 +101,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<layers::Layers>::default(),
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
+        Box::<shape_keys::ShapeKeys>::default(),
         Box::<history::History>::default(),
         Box::<timeline::TimelinePanel>::default(),
         Box::<curves::Curves>::default(),
