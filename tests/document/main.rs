@@ -19,6 +19,7 @@ mod old_journals;
 mod savable;
 mod save_and_open;
 mod save_in_background;
+mod shape_keys;
 mod take_tools;
 mod tangents;
 mod travel;

@@ -1,6 +1,7 @@
 //! The jobs of the document: it continues to work while a file is read or a folder is searched, and survives an importer that
 //! panics.
 
+use super::pose_library::PoseFolder;
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
 use super::{LoadError, Loader, OpenedModel, Progress, Source};
@@ -20,6 +21,8 @@ pub(super) enum JobNews {
     Scanned(RecoveryScan),
     /// The result of a job for takes of another model.
     Retarget(RetargetNews),
+    /// The folder of the pose library after an order.
+    Poses(Result<PoseFolder, String>),
 }
 
 /// Starts loading `source` in a job, whose news reach the document with `ticket`. Dropping the job cancels it without

@@ -5,6 +5,7 @@ use super::handle::DocumentHandle;
 use super::job::{JobNews, start_loading, start_search};
 use super::message::DocumentReply;
 use super::open::Open;
+use super::pose_files::PoseFiles;
 use super::receivers::{ChangeReceiver, DocumentWorker, JobReceiver, MessageReceiver};
 use super::retarget_order::Retargeting;
 use super::running_save::{Deferred, RunningSave};
@@ -56,6 +57,8 @@ pub struct Document {
     pub(super) load: Loader,
     /// Takes of another model for the open one.
     pub(super) retargeting: Retargeting,
+    /// Orders for the pose library.
+    pub(super) pose_files: PoseFiles,
     pub(super) autosave: Option<Autosave>,
     /// Unsaved work of the open file that awaits a decision of the user.
     pub(super) waiting: Option<Recoverable>,
@@ -135,6 +138,7 @@ impl Document {
                 tickets: 0,
                 load: setup.load,
                 retargeting: Retargeting::default(),
+                pose_files: PoseFiles::default(),
                 autosave: setup.autosave.clone(),
                 waiting: None,
                 scan: None,

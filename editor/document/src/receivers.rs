@@ -54,6 +54,7 @@ impl Document {
             DocumentMessage::ReadSource(source) => self.read_source(source, self.load),
             DocumentMessage::Retarget(order) => self.retarget(order),
             DocumentMessage::MapFile(file) => self.map_file(file),
+            DocumentMessage::Poses(order) => self.pose_order(order),
             DocumentMessage::Decide(offer, decision) => self.decide(*offer, decision),
             DocumentMessage::FoundAt(offer, path) => self.found_at(*offer, path),
         }
@@ -87,6 +88,7 @@ impl Receiver for JobReceiver {
             JobNews::SaveStep(ticket) => document.save_step(ticket, thread.now()),
             JobNews::Scanned(scan) => document.offer(scan),
             JobNews::Retarget(news) => document.retarget_news(news, thread.now()),
+            JobNews::Poses(news) => document.poses_news(news),
         }
     }
 }

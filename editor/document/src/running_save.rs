@@ -50,7 +50,8 @@ fn waits(message: &DocumentMessage) -> Waits {
         | DocumentMessage::Search
         | DocumentMessage::ReadSource(_)
         | DocumentMessage::Retarget(_)
-        | DocumentMessage::MapFile(_) => Waits::No,
+        | DocumentMessage::MapFile(_)
+        | DocumentMessage::Poses(_) => Waits::No,
         DocumentMessage::Save(_) | DocumentMessage::LookAtFile => Waits::Alone,
         DocumentMessage::Open { .. }
         | DocumentMessage::Revert

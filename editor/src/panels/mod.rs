@@ -52,7 +52,9 @@ pub mod overlays;
 mod palette;
 pub mod panel;
 mod player;
+pub mod pose_library;
 pub mod posed;
+mod poses;
 pub mod prompts;
 pub mod properties;
 pub mod request;
@@ -62,7 +64,9 @@ mod root_motion;
 pub mod ruler;
 mod search_field;
 mod selected_bones;
+pub mod selection_sets;
 mod selection_steps;
+mod set_chips;
 pub mod settings;
 pub mod shape_keys;
 mod shortcuts;
@@ -106,6 +110,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<timeline::TimelinePanel>::default(),
         Box::<curves::Curves>::default(),
         Box::<inbetween::InBetween>::default(),
+        Box::<poses::Poses>::default(),
     ]
 }
 

@@ -8,6 +8,7 @@ use super::edit_scope::FalloffSettings;
 use super::keys::request::KeysRequest;
 use super::overlay::Overlay;
 use super::properties::look::PropertiesLook;
+use super::selection_sets::SetAction;
 use super::settings::GhostSettings;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::adapter::TakeId;
@@ -15,6 +16,7 @@ use dragonfly_document::bones::Choice;
 use dragonfly_document::{Change, DocumentMessage, Offer, Source, Then};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::OwnedRegion;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A request of a panel.
@@ -94,6 +96,10 @@ pub enum Request {
     PropertiesLook(PropertiesLook),
     /// Sets how curves are shown.
     CurvesLook(CurvesLook),
+    /// Sets the folder of the pose library.
+    PoseFolder(PathBuf),
+    /// Changes the selection sets, or selects bones by them.
+    Sets(SetAction),
 }
 
 /// An action that only the application around the panels can carry out.
@@ -174,7 +180,8 @@ impl FileAction {
                 | DocumentMessage::Search
                 | DocumentMessage::CancelLoading
                 | DocumentMessage::ReadSource(_)
-                | DocumentMessage::MapFile(_),
+                | DocumentMessage::MapFile(_)
+                | DocumentMessage::Poses(_),
             )
             | Self::Stay => true,
             Self::Send(_)

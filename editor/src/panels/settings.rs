@@ -243,6 +243,9 @@ pub struct Settings {
     pub properties: PropertiesLook,
     /// How curves are shown.
     pub curves: CurvesLook,
+    /// Folder of the pose library, if one was chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose_folder: Option<PathBuf>,
 }
 
 impl Default for Settings {
@@ -263,6 +266,7 @@ impl Default for Settings {
             recent: Vec::new(),
             properties: PropertiesLook::default(),
             curves: CurvesLook::default(),
+            pose_folder: None,
         }
     }
 }

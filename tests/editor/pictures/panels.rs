@@ -37,6 +37,7 @@ panels! {
     "history", [300.0, 250.0], the_history_panel_looks_as_stored;
     "timeline", [720.0, 220.0], the_timeline_panel_looks_as_stored;
     "curves", [520.0, 220.0], the_curves_panel_looks_as_stored;
+    "poses", [520.0, 220.0], the_poses_panel_looks_as_stored;
     "inbetween", [520.0, 220.0], the_inbetween_panel_looks_as_stored;
 }
 

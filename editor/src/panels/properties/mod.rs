@@ -26,6 +26,7 @@ use egui::{
     Align, Align2, Label, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, WidgetInfo, pos2,
 };
 use keys::Keyed;
+pub(super) use drag::stop as pause;
 pub use look::PropertiesLook;
 use model::fact;
 use parts::NumberForm;

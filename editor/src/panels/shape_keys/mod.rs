@@ -229,7 +229,7 @@ fn heading(
 fn key_button(ui: &mut Ui, context: &PanelContext<'_>, shown: &ShownMesh<'_>, requests: &mut Vec<Request>) {
     let mesh = shown.mesh.name();
     let (icon, label, now) = if shown.is_keyed() {
-        (Icon::KeyHere, format!("Delete the shape keys’ key of {mesh}"), "a key at this time")
+        (Icon::KeyHere, format!("Delete the key of the shape keys of {mesh}"), "a key at this time")
     } else if shown.is_animated() {
         (Icon::KeyElsewhere, format!("Add a key of the shape keys of {mesh}"), "no key at this time")
     } else {
