@@ -16,6 +16,7 @@ mod limits;
 mod many_bones;
 mod offset_keys;
 mod old_journals;
+mod pose_library;
 mod savable;
 mod save_and_open;
 mod save_in_background;

@@ -32,8 +32,11 @@ fn shape_keys_have_the_names_of_the_file() {
     let (editable, _) = cube();
     let shapes = ModelShapes::of(&editable.model);
     let [mesh] = shapes.meshes() else { panic!("{shapes:?}") };
-    assert_eq!((mesh.name(), mesh.shapes()), ("Cube", &["thin".to_owned(), "angle".to_owned()][..]));
-    assert_eq!(mesh.rest(), [0.0, 0.0]);
+    assert_eq!((mesh.name(), mesh.rest()), ("Cube", &[0.0, 0.0][..]));
+    assert_eq!(mesh.shapes(), ["Shape 1", "Shape 2"], "the file has no names");
+    let robot = ModelShapes::of(&open(&data("collection/RobotExpressive.glb")).model);
+    let named = robot.meshes().iter().find(|mesh| mesh.shapes().len() == 3).expect("a face");
+    assert_eq!(named.shapes(), ["Angry", "Surprised", "Sad"]);
 }
 
 #[test]
@@ -42,7 +45,7 @@ fn a_weight_between_keys_becomes_a_key_that_keeps_the_other_weights() {
     let before = track(&adapter);
     // Halfway between two keys, the first weight was their mean, the second 0.
     let time = (before.times[1] + before.times[2]) / 2.0;
-    apply(&mut adapter, &format!(r#"{{"edit":"set_shapes","take":0,"time":{time},"shapes":[{{"shape":"angle","weight":0.6}}]}}"#));
+    apply(&mut adapter, &format!(r#"{{"edit":"set_shapes","take":0,"time":{time},"shapes":[{{"shape":"Shape 2","weight":0.6}}]}}"#));
     let after = track(&adapter);
     assert_eq!(after.times.len(), 128);
     assert!((after.times[2] - time).abs() < 1e-6);
@@ -62,7 +65,7 @@ fn a_mesh_that_a_take_does_not_animate_gets_its_first_key_with_its_own_weights()
     let (_, mut adapter) = cube();
     apply(&mut adapter, r#"{"edit":"create_take","name":"Smile"}"#);
     let take = adapter.slots().len() - 1;
-    let set = format!(r#"{{"edit":"set_shapes","take":{take},"time":0.5,"shapes":[{{"shape":"angle","weight":1}}]}}"#);
+    let set = format!(r#"{{"edit":"set_shapes","take":{take},"time":0.5,"shapes":[{{"shape":"Shape 2","weight":1}}]}}"#);
     let undo = adapter.apply(&edit(&set)).expect("a shape key");
     let new = &adapter.slots()[take].result.morphs;
     assert_eq!((new[0].targets, &new[0].times[..], &new[0].weights[..]), (2, &[0.5][..], &[0.0, 1.0][..]));
@@ -89,7 +92,7 @@ fn a_key_of_a_spline_between_others_leaves_its_curve_as_it_is() {
     (take.start, take.length) = (0.0, 1.0);
     let shapes = adapter.shapes().clone();
     adapter = ModelAdapter::new(&animation).with_shapes(shapes);
-    apply(&mut adapter, r#"{"edit":"set_shapes","take":0,"time":0.5,"shapes":[{"shape":"angle","weight":0.5}]}"#);
+    apply(&mut adapter, r#"{"edit":"set_shapes","take":0,"time":0.5,"shapes":[{"shape":"Shape 2","weight":0.5}]}"#);
     let after = track(&adapter);
     // Hermite at 1/2: value p0/2 + p1/2 + (m0 - m1)/8 = 0.5 + 0.25; slope 1.5 (p1 - p0) - (m0 + m1)/4 = 1.5 - 0.5.
     assert_eq!(after.weights[6..12], [1.0, 1.5, 0.75, 0.5, 1.0, 1.5]);
@@ -158,10 +161,10 @@ fn the_saved_file_has_the_weights_and_every_byte_that_was_not_edited() {
     let folder = Folder::new("shape-keys-saved");
     let (mut editable, mut adapter) = cube();
     for line in [
-        r#"{"edit":"set_shapes","take":0,"time":0.05,"shapes":[{"shape":"thin","weight":0.75}]}"#,
+        r#"{"edit":"set_shapes","take":0,"time":0.05,"shapes":[{"shape":"Shape 1","weight":0.75}]}"#,
         r#"{"edit":"create_take","name":"Smile"}"#,
-        r#"{"edit":"set_shapes","take":"Smile","time":0,"shapes":[{"shape":"angle","weight":0.25}]}"#,
-        r#"{"edit":"set_shapes","take":"Smile","time":1,"shapes":[{"shape":"angle","weight":1}]}"#,
+        r#"{"edit":"set_shapes","take":"Smile","time":0,"shapes":[{"shape":"Shape 2","weight":0.25}]}"#,
+        r#"{"edit":"set_shapes","take":"Smile","time":1,"shapes":[{"shape":"Shape 2","weight":1}]}"#,
     ] {
         apply(&mut adapter, line);
     }

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// Largest file that is read, bytes: enough for ten thousand bones.
 const FILE_BYTES: u64 = 4 << 20;
 /// Largest number of poses of a folder.
-pub const POSES: usize = 1000;
+const POSES: usize = 1000;
 /// Size of all poses of a folder, bytes.
 const FOLDER_BYTES: u64 = 128 << 20;
 /// End of the names of the files.

@@ -54,7 +54,7 @@ pub mod panel;
 mod player;
 pub mod pose_library;
 pub mod posed;
-mod poses;
+pub mod poses;
 pub mod prompts;
 pub mod properties;
 pub mod request;

@@ -75,7 +75,7 @@ fn menu(
     set: &SelectionSet,
     requests: &mut Vec<Request>,
 ) {
-    let id = ui.id().with(("name of set", at));
+    let id = ui.scope_id().with(("name of set", at));
     let mut name = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| set.name.clone());
     let field = ui.add(TextEdit::singleline(&mut name).desired_width(150.0)).accessible_name("Name of the set");
     if field.changed() {

@@ -168,7 +168,7 @@ impl<'a> PanelContext<'a> {
         self.question().is_none() && !self.dragging.is_open() && self.keys.buttonless().is_none()
     }
 
-    /// Returns the folder of the pose library: the one that was chosen, else the program's own.
+    /// Returns the folder of the pose library: the one that was chosen, or the program's own.
     pub fn pose_folder(&self) -> Option<&'a Path> {
         self.settings.pose_folder.as_deref().or(self.poses.usual())
     }

@@ -26,7 +26,7 @@ pub(super) struct Card<'a> {
     pub(super) amount: Option<f32>,
 }
 
-/// What the user did with a card.
+/// An action of the user on a card.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum CardEvent {
     Nothing,

@@ -224,7 +224,7 @@ impl Poses {
             CardEvent::Cancelled => push(KeysRequest::Cancel),
         }
         response.context_menu(|ui| {
-            let mut entry = |ui: &mut Ui, title: &str, able: bool| {
+            let entry = |ui: &mut Ui, title: &str, able: bool| {
                 let clicked = ui.add_enabled(able, Button::new(title).frame_when_inactive(false)).clicked();
                 if clicked {
                     ui.close();

@@ -8,7 +8,7 @@ use dragonfly_document::ShapeMesh;
 use dragonfly_document::bones::MirrorPairs;
 use dragonfly_document::edit::{DeleteKeys, Edit, MeshRef, SAME_TIME, SetShapes, ShapeRef, ShapeWeight};
 
-/// What does not change between frames: the order of the rows, and the shape keys of the other side.
+/// The order of the rows and the shape keys of the other side, which do not change between frames.
 #[derive(Clone, Debug)]
 pub(super) struct ShapeList {
     /// Indices of the shape keys by group, and in a group in the order of the file.
