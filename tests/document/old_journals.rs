@@ -128,7 +128,7 @@ fn edits_of_shape_keys_of_every_version_are_replayed() {
     let track = &view.takes[0].morphs[0];
     // Keys at 0.05 s and 6 s are set, that at 6 s goes to 7 s and is copied to 8 s.
     assert_eq!(track.times.len(), 127 + 3);
-    assert_eq!(track.times[127..], [7.0, 8.0]);
+    assert_eq!(track.times[128..], [7.0, 8.0]);
     assert_eq!(track.weights[2 * 2..2 * 2 + 2], [0.75, 0.25]);
     assert_eq!(track.weights[2 * 129..], [0.5, 1.0]);
 }

@@ -11,7 +11,12 @@ use std::path::Path;
 
 fn pose(bone: &str, height: f32) -> BonePose {
     let bone = BoneRef::Name(bone.to_owned());
-    BonePose { bone, translation: Some([0.0, height, 0.0]), rotation: Some([0.0, 0.0, 0.0, 1.0]), scale: None }
+    BonePose {
+        bone,
+        translation: Some([0.0, height, 0.0]),
+        rotation: Some([0.0, 0.0, 0.0, 1.0]),
+        scale: None,
+    }
 }
 
 fn fist() -> StoredPose {
@@ -90,7 +95,9 @@ fn a_file_that_is_no_pose_is_neither_replaced_nor_deleted() {
     document.send(save(&library, None, fist()));
     let read = poses(&mut document);
     assert_eq!((names(&read), read.problems.len()), (vec![("Fist.pose.json", "Fist")], 3), "{read:?}");
-    for name in ["model.pose.json", "newer.pose.json", "keys.pose.json", "notes.txt", "../poses/Fist.pose.json"] {
+    for name in
+        ["model.pose.json", "newer.pose.json", "keys.pose.json", "notes.txt", "../poses/Fist.pose.json"]
+    {
         let before = std::fs::read(library.join(name)).expect("a file");
         document.send(save(&library, Some(name), fist()));
         document.wait_for_warning("pose");

@@ -45,7 +45,12 @@ fn a_weight_between_keys_becomes_a_key_that_keeps_the_other_weights() {
     let before = track(&adapter);
     // Halfway between two keys, the first weight was their mean, the second 0.
     let time = (before.times[1] + before.times[2]) / 2.0;
-    apply(&mut adapter, &format!(r#"{{"edit":"set_shapes","take":0,"time":{time},"shapes":[{{"shape":"Shape 2","weight":0.6}}]}}"#));
+    apply(
+        &mut adapter,
+        &format!(
+            r#"{{"edit":"set_shapes","take":0,"time":{time},"shapes":[{{"shape":"Shape 2","weight":0.6}}]}}"#
+        ),
+    );
     let after = track(&adapter);
     assert_eq!(after.times.len(), 128);
     assert!((after.times[2] - time).abs() < 1e-6);
@@ -55,7 +60,12 @@ fn a_weight_between_keys_becomes_a_key_that_keeps_the_other_weights() {
     assert_eq!((&after.weights[..4], &after.weights[6..]), (&before.weights[..4], &before.weights[4..]));
     // At a key, only the given weight changes.
     let at = before.times[3];
-    apply(&mut adapter, &format!(r#"{{"edit":"set_shapes","take":0,"time":{at},"shapes":[{{"mesh":"Cube","shape":0,"weight":-2}}]}}"#));
+    apply(
+        &mut adapter,
+        &format!(
+            r#"{{"edit":"set_shapes","take":0,"time":{at},"shapes":[{{"mesh":"Cube","shape":0,"weight":-2}}]}}"#
+        ),
+    );
     let changed = track(&adapter);
     assert_eq!((changed.times.len(), changed.weights[8], changed.weights[9]), (128, -2.0, after.weights[9]));
 }
@@ -65,7 +75,9 @@ fn a_mesh_that_a_take_does_not_animate_gets_its_first_key_with_its_own_weights()
     let (_, mut adapter) = cube();
     apply(&mut adapter, r#"{"edit":"create_take","name":"Smile"}"#);
     let take = adapter.slots().len() - 1;
-    let set = format!(r#"{{"edit":"set_shapes","take":{take},"time":0.5,"shapes":[{{"shape":"Shape 2","weight":1}}]}}"#);
+    let set = format!(
+        r#"{{"edit":"set_shapes","take":{take},"time":0.5,"shapes":[{{"shape":"Shape 2","weight":1}}]}}"#
+    );
     let undo = adapter.apply(&edit(&set)).expect("a shape key");
     let new = &adapter.slots()[take].result.morphs;
     assert_eq!((new[0].targets, &new[0].times[..], &new[0].weights[..]), (2, &[0.5][..], &[0.0, 1.0][..]));
@@ -92,7 +104,10 @@ fn a_key_of_a_spline_between_others_leaves_its_curve_as_it_is() {
     (take.start, take.length) = (0.0, 1.0);
     let shapes = adapter.shapes().clone();
     adapter = ModelAdapter::new(&animation).with_shapes(shapes);
-    apply(&mut adapter, r#"{"edit":"set_shapes","take":0,"time":0.5,"shapes":[{"shape":"Shape 2","weight":0.5}]}"#);
+    apply(
+        &mut adapter,
+        r#"{"edit":"set_shapes","take":0,"time":0.5,"shapes":[{"shape":"Shape 2","weight":0.5}]}"#,
+    );
     let after = track(&adapter);
     // Hermite at 1/2: value p0/2 + p1/2 + (m0 - m1)/8 = 0.5 + 0.25; slope 1.5 (p1 - p0) - (m0 + m1)/4 = 1.5 - 0.5.
     assert_eq!(after.weights[6..12], [1.0, 1.5, 0.75, 0.5, 1.0, 1.5]);
@@ -103,21 +118,33 @@ fn keys_of_shape_keys_are_moved_copied_scaled_and_snapped() {
     let (_, mut adapter) = cube();
     let before = track(&adapter);
     let last = before.times[126];
-    apply(&mut adapter, &format!(r#"{{"edit":"move_keys","take":0,"keys":[],"shapes":[[{last},{last}]],"by":0.5}}"#));
+    apply(
+        &mut adapter,
+        &format!(r#"{{"edit":"move_keys","take":0,"keys":[],"shapes":[[{last},{last}]],"by":0.5}}"#),
+    );
     let moved = track(&adapter);
     assert_eq!((moved.times[126], &moved.weights), (last + 0.5, &before.weights));
     apply(&mut adapter, r#"{"edit":"duplicate_keys","take":0,"keys":[],"shapes":[[0.0,0.04]],"by":10}"#);
     let copied = track(&adapter);
-    assert_eq!((copied.times.len(), copied.times[127], copied.times[128]), (129, 10.0, before.times[1] + 10.0));
+    assert_eq!(
+        (copied.times.len(), copied.times[127], copied.times[128]),
+        (129, 10.0, before.times[1] + 10.0)
+    );
     assert_eq!(copied.weights[254..], before.weights[..4]);
-    apply(&mut adapter, r#"{"edit":"scale_keys","take":0,"keys":[],"shapes":[[9.0,11.0]],"about":10,"factor":-3}"#);
+    apply(
+        &mut adapter,
+        r#"{"edit":"scale_keys","take":0,"keys":[],"shapes":[[9.0,11.0]],"about":10,"factor":-3}"#,
+    );
     let scaled = track(&adapter);
     assert_eq!((scaled.times[128], &scaled.weights[254..]), (10.0, &[before.weights[2], 0.0, 0.0, 0.0][..]));
     assert!((scaled.times[127] - 9.9).abs() < 1e-4, "{}", scaled.times[127]);
     apply(&mut adapter, r#"{"edit":"snap_keys","take":0,"keys":[],"shapes":[[9.0,9.95]],"rate":4}"#);
     // 9.9 s is nearest to 10 s, where a key is overwritten.
     let snapped = track(&adapter);
-    assert_eq!((snapped.times.len(), snapped.times[127], snapped.weights[254]), (128, 10.0, before.weights[2]));
+    assert_eq!(
+        (snapped.times.len(), snapped.times[127], snapped.weights[254]),
+        (128, 10.0, before.weights[2])
+    );
 }
 
 #[test]
@@ -125,7 +152,10 @@ fn a_moved_key_overwrites_the_one_at_its_new_time() {
     let (_, mut adapter) = cube();
     let before = track(&adapter);
     let by = before.times[2] - before.times[1];
-    apply(&mut adapter, &format!(r#"{{"edit":"move_keys","take":0,"keys":[],"shapes":[[0.03,0.04]],"by":{by}}}"#));
+    apply(
+        &mut adapter,
+        &format!(r#"{{"edit":"move_keys","take":0,"keys":[],"shapes":[[0.03,0.04]],"by":{by}}}"#),
+    );
     let after = track(&adapter);
     assert_eq!(after.times.len(), 126);
     assert_eq!(after.weights[2..4], before.weights[2..4]);
@@ -137,7 +167,9 @@ fn a_wrong_edit_of_shape_keys_is_refused_with_the_reason() {
     let (_, mut adapter) = cube();
     let mut refused = |line: &str| adapter.apply(&edit(line)).map(drop).expect_err(line);
     let set = |shape: &str, weight: &str| {
-        format!(r#"{{"edit":"set_shapes","take":0,"time":0.5,"shapes":[{{"shape":{shape},"weight":{weight}}}]}}"#)
+        format!(
+            r#"{{"edit":"set_shapes","take":0,"time":0.5,"shapes":[{{"shape":{shape},"weight":{weight}}}]}}"#
+        )
     };
     assert_eq!(refused(&set("\"frown\"", "1")), EditError::NoShape(ShapeRef::Name("frown".to_owned())));
     assert_eq!(refused(&set("2", "1")).to_string(), "there is no shape key 2");

@@ -32,7 +32,10 @@ fn animator() -> Animator {
     let poses = vec![turned(BONES[0].1, 1.0), turned(BONES[1].1, 0.5)];
     let folder = PoseFolder {
         folder: PathBuf::from("poses"),
-        poses: vec![file("Wide", &["chest", "calm"], poses), file("Tail up", &["tail"], vec![turned("tail", 1.0)])],
+        poses: vec![
+            file("Wide", &["chest", "calm"], poses),
+            file("Tail up", &["tail"], vec![turned("tail", 1.0)]),
+        ],
         problems: Vec::new(),
     };
     state.poses_read(folder);
@@ -167,7 +170,8 @@ fn poses_are_found_by_name_and_tag() {
     let shown =
         |animator: &Animator| ["Wide", "Tail up"].map(|name| animator.harness.query_by_label(name).is_some());
     assert_eq!(shown(&animator), [true, true]);
-    for (text, expected) in [("CALM", [true, false]), ("tail", [false, true]), ("chest tail", [false, false])] {
+    for (text, expected) in [("CALM", [true, false]), ("tail", [false, true]), ("chest tail", [false, false])]
+    {
         let field = animator.harness.get_by_label("Find a pose").rect().center();
         animator.click(field);
         animator.hold(egui::Modifiers::COMMAND);
@@ -194,7 +198,10 @@ fn a_pose_gets_another_name_and_tags_in_its_file() {
     animator.steps(3);
     let Some(PoseOrder::Save { file, pose, .. }) = orders(&animator).pop() else { panic!("not saved") };
     assert_eq!(file.as_deref(), Some("Wide.pose.json"));
-    assert_eq!((pose.name.as_str(), pose.tags), ("Wide", ["chest", "calm", "open"].map(str::to_owned).to_vec()));
+    assert_eq!(
+        (pose.name.as_str(), pose.tags),
+        ("Wide", ["chest", "calm", "open"].map(str::to_owned).to_vec())
+    );
     assert_eq!(pose.poses.len(), 2);
 }
 

@@ -5,7 +5,9 @@ use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::shape_keys::ShapeGroup;
-use dragonfly_anim::data::{Interpolation, Mesh, MeshInstance, ModelData, MorphTarget, MorphTrack, Primitive};
+use dragonfly_anim::data::{
+    Interpolation, Mesh, MeshInstance, ModelData, MorphTarget, MorphTrack, Primitive,
+};
 use dragonfly_document::images::ImageSurvey;
 use dragonfly_document::{LoadedModel, View};
 use dragonfly_kit::document::fixture;
@@ -16,17 +18,28 @@ use std::sync::Arc;
 const FACE: [&str; 4] = ["jawOpen", "eyeBlinkLeft", "eyeBlinkRight", ""];
 
 /// Returns a model whose first take has 41 keys of shape keys as well: the weight of the first goes from 0 to 1.
-pub(crate) fn with_shapes() -> View {
-    let view = fixture::full();
+fn with_shapes() -> View {
+    with_names(&FACE)
+}
+
+/// Returns the same model with shape keys of other names.
+pub(crate) fn with_names(names: &[&str]) -> View {
+    let (count, view) = (names.len(), fixture::full());
     let mut model = ModelData::clone(&view.loaded.model);
     let take = Arc::make_mut(&mut model.animation.takes[0]);
     let times: Arc<[f32]> = take.tracks[3].rotation.times.clone();
-    let weights = (0..times.len()).flat_map(|key| [key as f32 / 40.0, 0.25, 0.0, 0.0]).collect();
-    take.morphs =
-        vec![MorphTrack { instance: 0, targets: 4, times, weights, interpolation: Interpolation::Linear }];
-    let targets = FACE.map(|name| MorphTarget { name: name.to_owned(), ..MorphTarget::default() });
-    let primitive = Primitive { morph_targets: targets.into(), ..Primitive::default() };
-    let rest = vec![0.0, 0.0, 0.0, 0.125];
+    let weight = |key: usize, shape: usize| match shape {
+        0 => key as f32 / 40.0,
+        1 => 0.25,
+        _ => 0.0,
+    };
+    let weights = (0..times.len()).flat_map(|key| (0..count).map(move |shape| weight(key, shape))).collect();
+    let (targets, interpolation) = (count as u32, Interpolation::Linear);
+    take.morphs = vec![MorphTrack { instance: 0, targets, times, weights, interpolation }];
+    let target = |name: &&str| MorphTarget { name: (*name).to_owned(), ..MorphTarget::default() };
+    let primitive = Primitive { morph_targets: names.iter().map(target).collect(), ..Primitive::default() };
+    let mut rest = vec![0.0; count];
+    rest[count - 1] = 0.125;
     model.meshes =
         vec![Mesh { name: "Face".to_owned(), primitives: vec![primitive], morph_weights: rest.clone() }];
     model.instances = vec![MeshInstance {
@@ -164,7 +177,11 @@ fn a_typed_weight_becomes_a_key_at_the_playhead_and_expressions_are_computed() {
     assert_eq!((left, right, last), (0.25, 0.75, 0.0));
     assert_eq!(shape_keys(&animator), 42);
     type_weight(&mut animator, "Shape 4", "-0.5");
-    assert_eq!(weights_at(&animator, 1.0).map(|weights| weights[3]), Some(-0.5), "a shape key without a name");
+    assert_eq!(
+        weights_at(&animator, 1.0).map(|weights| weights[3]),
+        Some(-0.5),
+        "a shape key without a name"
+    );
     assert_eq!((shape_keys(&animator), animator.edited.steps().1), (42, 2));
     animator.request(Request::Command(Id::Undo));
     animator.request(Request::Command(Id::Undo));

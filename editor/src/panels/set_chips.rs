@@ -68,16 +68,11 @@ fn chip(ui: &mut Ui, context: &PanelContext<'_>, set: &SelectionSet) -> Response
 }
 
 /// Draws the context menu of a chip.
-fn menu(
-    ui: &mut Ui,
-    context: &PanelContext<'_>,
-    at: usize,
-    set: &SelectionSet,
-    requests: &mut Vec<Request>,
-) {
+fn menu(ui: &mut Ui, context: &PanelContext<'_>, at: usize, set: &SelectionSet, requests: &mut Vec<Request>) {
     let id = ui.scope_id().with(("name of set", at));
     let mut name = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| set.name.clone());
-    let field = ui.add(TextEdit::singleline(&mut name).desired_width(150.0)).accessible_name("Name of the set");
+    let field =
+        ui.add(TextEdit::singleline(&mut name).desired_width(150.0)).accessible_name("Name of the set");
     if field.changed() {
         ui.data_mut(|data| data.insert_temp(id, name.clone()));
     }

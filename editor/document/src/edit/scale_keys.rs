@@ -55,7 +55,9 @@ impl EditKind for ScaleKeys {
             return Err(EditError::Number { what: "the factor", value: factor });
         }
         let scaled = KeyMove { copy: false, stretch: factor };
-        move_keys(work, &self.take, (&self.keys, &self.shapes), scaled, |time| about + (time - about) * factor)
+        move_keys(work, &self.take, (&self.keys, &self.shapes), scaled, |time| {
+            about + (time - about) * factor
+        })
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {

@@ -58,6 +58,11 @@ impl EditKind for SnapKeys {
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        Self { take: from.take(), keys: from.keys(), shapes: from.shapes(), rate: from.choice([8.0, 24.0, 30.0]) }
+        Self {
+            take: from.take(),
+            keys: from.keys(),
+            shapes: from.shapes(),
+            rate: from.choice([8.0, 24.0, 30.0]),
+        }
     }
 }

@@ -80,7 +80,10 @@ pub fn stick_figure(skeleton: &Skeleton, poses: &[BonePose]) -> Vec<StickLine> {
         return Vec::new();
     }
     let fitted = |at: Vec2| ((at - (low + high) / 2.0) / size + Vec2::splat(0.5)).to_array();
-    lines.into_iter().map(|(from, to, posed)| StickLine { from: fitted(from), to: fitted(to), posed }).collect()
+    lines
+        .into_iter()
+        .map(|(from, to, posed)| StickLine { from: fitted(from), to: fitted(to), posed })
+        .collect()
 }
 
 /// Returns a pose between a transform (0) and a pose (1). Parts that the pose does not give stay absent. Rotations take the shorter way.

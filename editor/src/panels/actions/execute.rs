@@ -2,7 +2,9 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
-use super::{bones, clipboard, drags, files, framing, keys, layers, locks, look, playback, scope, sets, takes};
+use super::{
+    bones, clipboard, drags, files, framing, keys, layers, locks, look, playback, scope, sets, takes,
+};
 use crate::panels::commands;
 use crate::panels::keys::KeysRequest;
 use crate::panels::request::{Effect, FileAction, Request};

@@ -167,7 +167,15 @@ impl KeySelection {
     /// Returns the selected intervals of the keys of morph targets, with ends that edits can name.
     pub fn finite_shapes(&self, take: &Take) -> Vec<[f32; 2]> {
         let [first, last] = take.range_of_keys().map_or([0.0; 2], |(first, last)| [first, last]);
-        let end = |time: f32| if time.is_finite() { time } else if time < 0.0 { first } else { last };
+        let end = |time: f32| {
+            if time.is_finite() {
+                time
+            } else if time < 0.0 {
+                first
+            } else {
+                last
+            }
+        };
         self.shapes.stretches().iter().map(|stretch| stretch.map(end)).collect()
     }
 

@@ -8,8 +8,8 @@ use dragonfly_document::PoseFile;
 use dragonfly_document::posing::StickLine;
 use egui::accesskit::Role;
 use egui::{
-    Color32, CornerRadius, CursorIcon, Id, PointerButton, Rect, Response, Sense, Stroke, StrokeKind, TextStyle,
-    Ui, WidgetInfo, pos2, vec2,
+    Color32, CornerRadius, CursorIcon, Id, PointerButton, Rect, Response, Sense, Stroke, StrokeKind,
+    TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 
 /// Size of a card, points.
@@ -105,7 +105,12 @@ impl Card<'_> {
         };
         let painter = ui.painter();
         painter.rect_filled(rect, CornerRadius::same(RADIUS), fill);
-        painter.rect_stroke(rect, CornerRadius::same(RADIUS), Stroke::new(1.0, theme.line), StrokeKind::Inside);
+        painter.rect_stroke(
+            rect,
+            CornerRadius::same(RADIUS),
+            Stroke::new(1.0, theme.line),
+            StrokeKind::Inside,
+        );
         widgets::focus_ring(ui, response, rect);
         let side = rect.width() - 4.0 * GRID;
         let picture = Rect::from_min_size(rect.min + vec2(2.0 * GRID, GRID), vec2(side, side));
@@ -125,7 +130,8 @@ impl Card<'_> {
             );
             painter.rect_filled(bar, CornerRadius::same(1), theme.accent);
         }
-        let text = Rect::from_min_max(pos2(rect.left() + GRID, picture.bottom() + 2.0), rect.max - vec2(GRID, 2.0));
+        let text =
+            Rect::from_min_max(pos2(rect.left() + GRID, picture.bottom() + 2.0), rect.max - vec2(GRID, 2.0));
         let name = widgets::cut_in_middle(ui, &self.file.pose.name, text.width(), &TextStyle::Small);
         widgets::text_in(ui, text, &name, &TextStyle::Small, theme.text);
     }

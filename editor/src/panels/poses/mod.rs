@@ -21,6 +21,9 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// Height of the row with the name and the tags of the chosen pose, points.
+const DETAILS: f32 = 34.0;
+
 /// The pose library.
 #[derive(Debug, Default)]
 pub struct Poses {
@@ -78,10 +81,16 @@ impl Panel for Poses {
         let Some(folder) = folder else {
             return widgets::empty(ui, "No folder", "Type the path of a folder for poses above");
         };
+        // Below the cards, so that they stay where they are when one is chosen by the first click of a double click.
+        let below = if self.chosen.is_some() { DETAILS } else { 0.0 };
+        let height = (ui.available_height() - below).max(0.0);
+        ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
+            ui.set_min_height(height);
+            self.cards(ui, context, folder, requests);
+        });
         if let Some(chosen) = self.chosen.take() {
             self.chosen = details(ui, context, folder, chosen, requests);
         }
-        self.cards(ui, context, folder, requests);
     }
 }
 
@@ -150,13 +159,7 @@ impl Poses {
         });
     }
 
-    fn cards(
-        &mut self,
-        ui: &mut Ui,
-        context: &PanelContext<'_>,
-        folder: &Path,
-        requests: &mut Vec<Request>,
-    ) {
+    fn cards(&mut self, ui: &mut Ui, context: &PanelContext<'_>, folder: &Path, requests: &mut Vec<Request>) {
         let poses = found(context, &self.query);
         if poses.is_empty() {
             return if context.poses.folder().poses.is_empty() {
@@ -261,7 +264,8 @@ fn details(
         ui.add_space(2.0 * GRID);
         let width = ((ui.available_width() - 260.0) / 2.0).max(60.0);
         let mut entered = false;
-        for (text, hint) in [(&mut chosen.name, "Name of the pose"), (&mut chosen.tags, "Tags, with commas")] {
+        for (text, hint) in [(&mut chosen.name, "Name of the pose"), (&mut chosen.tags, "Tags, with commas")]
+        {
             let field = ui.add(TextEdit::singleline(text).hint_text(hint).desired_width(width));
             let field = field.accessible_name(hint);
             entered |= field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));

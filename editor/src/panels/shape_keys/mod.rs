@@ -191,38 +191,34 @@ fn heading(
     requests: &mut Vec<Request>,
 ) {
     let mesh = shown.mesh.name();
-    ui.allocate_ui_with_layout(
-        vec2(ui.available_width(), ROW),
-        Layout::right_to_left(Align::Center),
-        |ui| {
-            ui.add_space(2.0 * GRID);
-            ui.spacing_mut().item_spacing.x = 0.0;
-            let more = widgets::icon_button(ui, Icon::Down, &format!("More for the shape keys of {mesh}"), false);
-            Popup::menu(&more.on_hover_text("Reset, mirror")).show(|ui| {
-                let entry = |ui: &mut Ui, title: &str, help: &str, edit: Option<Edit>| {
-                    let able = edit.is_some() && locked(context, shown).is_none();
-                    let button = ui.add_enabled(able, Button::new(title).frame_when_inactive(false));
-                    if button.on_hover_text(help).clicked() {
-                        request(edit, &mut *requests);
-                        ui.close();
-                    }
-                };
-                let (mut reset, mut mirror) = (None, None);
-                if context.take().is_some() {
-                    (reset, mirror) = (shown.reset(context), shown.mirror(context, list));
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), ROW), Layout::right_to_left(Align::Center), |ui| {
+        ui.add_space(2.0 * GRID);
+        ui.spacing_mut().item_spacing.x = 0.0;
+        let more = widgets::icon_button(ui, Icon::Down, &format!("More for the shape keys of {mesh}"), false);
+        Popup::menu(&more.on_hover_text("Reset, mirror")).show(|ui| {
+            let entry = |ui: &mut Ui, title: &str, help: &str, edit: Option<Edit>| {
+                let able = edit.is_some() && locked(context, shown).is_none();
+                let button = ui.add_enabled(able, Button::new(title).frame_when_inactive(false));
+                if button.on_hover_text(help).clicked() {
+                    request(edit, &mut *requests);
+                    ui.close();
                 }
-                ui.set_min_width(160.0);
-                let mut entry = entry;
-                entry(ui, "Reset all", "Gives all shape keys of the mesh their weights in the file", reset);
-                entry(ui, "Mirror", "Exchanges the weights of left and right shape keys", mirror);
-            });
-            key_button(ui, context, shown, requests);
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.add_space(2.0 * GRID);
-                ui.add(egui::Label::new(RichText::new(mesh).color(Theme::of(ui).text)).truncate());
-            });
-        },
-    );
+            };
+            let (mut reset, mut mirror) = (None, None);
+            if context.take().is_some() {
+                (reset, mirror) = (shown.reset(context), shown.mirror(context, list));
+            }
+            ui.set_min_width(160.0);
+            let mut entry = entry;
+            entry(ui, "Reset all", "Gives all shape keys of the mesh their weights in the file", reset);
+            entry(ui, "Mirror", "Exchanges the weights of left and right shape keys", mirror);
+        });
+        key_button(ui, context, shown, requests);
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            ui.add_space(2.0 * GRID);
+            ui.add(egui::Label::new(RichText::new(mesh).color(Theme::of(ui).text)).truncate());
+        });
+    });
 }
 
 /// Draws the button that shows whether there is a key, and adds or deletes it.

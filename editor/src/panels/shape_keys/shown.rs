@@ -101,9 +101,8 @@ impl<'a> ShownMesh<'a> {
 
     /// Returns the edit that exchanges the weights of left and right shape keys.
     pub(super) fn mirror(&self, context: &PanelContext<'_>, list: &ShapeList) -> Option<Edit> {
-        let swapped = list.pairs().flat_map(|[left, right]| {
-            [(left, self.weights[right]), (right, self.weights[left])]
-        });
+        let swapped =
+            list.pairs().flat_map(|[left, right]| [(left, self.weights[right]), (right, self.weights[left])]);
         self.set(context, &swapped.collect::<Vec<_>>())
     }
 }

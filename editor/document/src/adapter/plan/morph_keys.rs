@@ -66,8 +66,9 @@ pub(crate) fn move_weights(
         let times = track.times.iter().enumerate();
         let slot = work.slot(take);
         let chosen = times.filter(|(_, time)| inside(**time));
-        let chosen: Vec<(usize, f32)> =
-            chosen.map(|(key, &time)| Ok((key, key_time(to(time), slot)?))).collect::<Result<_, EditError>>()?;
+        let chosen: Vec<(usize, f32)> = chosen
+            .map(|(key, &time)| Ok((key, key_time(to(time), slot)?)))
+            .collect::<Result<_, EditError>>()?;
         if chosen.is_empty() {
             continue;
         }
