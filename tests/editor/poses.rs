@@ -1,6 +1,7 @@
 //! The panel of the pose library: saves the pose of the selected bones, applies and blends poses, and finds them by name and tag.
 
 use crate::timeline_rig::Animator;
+use crate::workbench::Workbench;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::{Effect, FileAction, Request};
@@ -66,11 +67,16 @@ fn near(angle: Option<f32>, wanted: f32) -> bool {
     angle.is_some_and(|angle| (angle - wanted).abs() < 1e-4)
 }
 
-fn double_click(animator: &mut Animator, name: &str) {
+/// Chooses an entry of the context menu of a pose.
+fn choose(animator: &mut Animator, name: &str, entry: &str) {
     let at = animator.harness.get_by_label(name).rect().center();
-    animator.click(at);
-    animator.click(at);
-    animator.steps(2);
+    animator.move_to(at);
+    for pressed in [true, false] {
+        animator.button(at, egui::PointerButton::Secondary, pressed);
+    }
+    animator.steps(3);
+    animator.harness.get_by_label(entry).click();
+    animator.steps(4);
 }
 
 #[test]
@@ -95,29 +101,58 @@ fn the_panel_reads_its_folder_once_and_saves_the_pose_of_the_selected_bones() {
 }
 
 #[test]
-fn a_double_click_applies_a_pose_to_the_selected_bones_as_one_step() {
+fn a_pose_is_applied_to_the_selected_bones_as_one_step() {
     let mut animator = animator();
     animator.request(Request::Select(Some(BONES[0].0)));
-    double_click(&mut animator, "Wide");
+    choose(&mut animator, "Wide", "Apply");
     assert!(near(angle(&animator, 3), 1.0), "{:?}", angle(&animator, 3));
     assert_eq!((angle(&animator, 6), animator.edited.steps().1), (None, 1));
     animator.request(Request::Command(Id::Undo));
     animator.request(Request::Select(None));
-    double_click(&mut animator, "Wide");
+    choose(&mut animator, "Wide", "Apply");
     assert!(near(angle(&animator, 3), 1.0) && near(angle(&animator, 6), 0.5), "all bones of the pose");
     assert_eq!(animator.edited.steps().1, 1);
+}
+
+#[test]
+fn a_double_click_applies_a_pose() {
+    let mut window = Workbench::full().window();
+    let state = &mut window.state_mut().state;
+    state.set_usual_pose_folder(Some(PathBuf::from("poses")));
+    let poses = vec![file("Wide", &[], vec![turned(BONES[0].1, 1.0)])];
+    state.poses_read(PoseFolder { folder: PathBuf::from("poses"), poses, problems: Vec::new() });
+    window.get_by_label("Poses").click();
+    window.run_steps(3);
+    let pos = window.get_by_label("Wide").rect().center();
+    window.event(egui::Event::PointerMoved(pos));
+    for pressed in [true, false, true, false] {
+        let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
+        window.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
+    }
+    window.run_steps(3);
+    eprintln!("DEBUG {:?} {:?} {:?} {:?}", window.state().refused, window.state().changes, window.query_by_label("Name of the pose").is_some(), window.state().state.read().status.last().map(|line| line.text.clone()));
+    let [_, _, z, w] = window.state().pose(3).rotation.to_array();
+    assert!(near(Some(2.0 * z.atan2(w)), 1.0), "{z} {w}");
+}
+
+#[test]
+fn a_deleted_pose_is_deleted_in_its_folder() {
+    let mut animator = animator();
+    choose(&mut animator, "Tail up", "Delete pose");
+    let (folder, file) = (PathBuf::from("poses"), "Tail up.pose.json".to_owned());
+    assert_eq!(orders(&animator).pop(), Some(PoseOrder::Delete { folder, file }));
 }
 
 #[test]
 fn a_locked_bone_keeps_its_pose_and_without_auto_key_the_pose_is_pending() {
     let mut animator = animator();
     animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 3, true)));
-    double_click(&mut animator, "Wide");
+    choose(&mut animator, "Wide", "Apply");
     assert_eq!(angle(&animator, 3), None);
     assert!(near(angle(&animator, 6), 0.5));
     animator.request(Request::Command(Id::Undo));
     animator.request(Request::Command(Id::AutoKey));
-    double_click(&mut animator, "Wide");
+    choose(&mut animator, "Wide", "Apply");
     assert_eq!((angle(&animator, 6), animator.edited.adapter().pending_poses()), (None, 1));
 }
 

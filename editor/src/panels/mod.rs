@@ -105,12 +105,12 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<layers::Layers>::default(),
         Box::<viewport::Viewport>::default(),
         Box::<properties::Properties>::default(),
-        Box::<shape_keys::ShapeKeys>::default(),
         Box::<history::History>::default(),
         Box::<timeline::TimelinePanel>::default(),
         Box::<curves::Curves>::default(),
         Box::<inbetween::InBetween>::default(),
         Box::<poses::Poses>::default(),
+        Box::<shape_keys::ShapeKeys>::default(),
     ]
 }
 

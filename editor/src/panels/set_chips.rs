@@ -8,7 +8,8 @@ use super::theme::Theme;
 use super::widgets;
 use egui::accesskit::Role;
 use egui::{
-    Button, Color32, CornerRadius, Key, Response, Sense, TextEdit, TextStyle, Ui, WidgetInfo, pos2, vec2,
+    Button, Color32, CornerRadius, Frame, Key, Margin, Response, Sense, TextEdit, TextStyle, Ui, WidgetInfo,
+    pos2, vec2,
 };
 
 /// Height of a chip, points.
@@ -21,9 +22,14 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
     if context.sets.list().is_empty() {
         return;
     }
+    let margin = Margin::symmetric(2 * GRID as i8, 0);
+    Frame::NONE.inner_margin(margin).show(ui, |ui| chips(ui, context, requests));
+    ui.add_space(GRID);
+}
+
+fn chips(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(GRID, GRID);
-        ui.add_space(2.0 * GRID);
         for (at, set) in context.sets.list().iter().enumerate() {
             let response = chip(ui, context, set);
             if response.clicked() {
@@ -38,7 +44,6 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<R
             response.context_menu(|ui| menu(ui, context, at, set, requests));
         }
     });
-    ui.add_space(GRID);
 }
 
 /// Draws a chip: a dot in the color of the set, and its name.

@@ -34,11 +34,11 @@ panels! {
     "layers", [250.0, 250.0], the_layers_panel_looks_as_stored;
     "viewport", [720.0, 400.0], the_viewport_panel_looks_as_stored;
     "properties", [300.0, 520.0], the_properties_panel_looks_as_stored;
-    "shapes", [300.0, 520.0], the_shape_keys_panel_looks_as_stored;
     "history", [300.0, 250.0], the_history_panel_looks_as_stored;
     "timeline", [720.0, 220.0], the_timeline_panel_looks_as_stored;
     "curves", [520.0, 220.0], the_curves_panel_looks_as_stored;
     "poses", [520.0, 220.0], the_poses_panel_looks_as_stored;
+    "shapes", [520.0, 220.0], the_shape_keys_panel_looks_as_stored;
     "inbetween", [520.0, 220.0], the_inbetween_panel_looks_as_stored;
 }
 

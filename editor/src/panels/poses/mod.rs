@@ -76,8 +76,10 @@ impl Panel for Poses {
             self.asked = Some(folder.to_owned());
             send(requests, PoseOrder::Read(folder.to_owned()));
         }
-        self.folder_row(ui, context, folder, requests);
-        search_field::show(ui, &mut self.query, "Find a pose", false);
+        ui.columns(2, |columns| {
+            self.folder_row(&mut columns[0], context, folder, requests);
+            search_field::show(&mut columns[1], &mut self.query, "Find a pose", false);
+        });
         let Some(folder) = folder else {
             return widgets::empty(ui, "No folder", "Type the path of a folder for poses above");
         };
@@ -181,8 +183,11 @@ impl Poses {
                 });
             }
             for problem in &context.poses.folder().problems {
-                let text = widgets::shortened(problem);
-                ui.label(RichText::new(text).small().color(Theme::of(ui).warning));
+                ui.horizontal(|ui| {
+                    ui.add_space(2.0 * GRID);
+                    let text = widgets::shortened(problem);
+                    ui.label(RichText::new(text).small().color(Theme::of(ui).warning));
+                });
             }
         });
     }

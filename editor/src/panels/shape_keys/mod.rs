@@ -46,7 +46,7 @@ impl Panel for ShapeKeys {
     }
 
     fn place(&self) -> PanelPlace {
-        PanelPlace::Right
+        PanelPlace::BelowRight
     }
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
@@ -103,6 +103,40 @@ fn locked(context: &PanelContext<'_>, shown: &ShownMesh<'_>) -> Option<&'static 
     waits.then_some("Auto-key is off: add a key of this mesh at the playhead first")
 }
 
+/// Smallest width of two columns, points.
+const TWO_COLUMNS: f32 = 440.0;
+
+/// An item of the list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum ShapeItem {
+    /// The title of a group.
+    Caption(ShapeGroup),
+    /// A shape key.
+    Row(usize),
+}
+
+/// Returns the items of the list. A single group has no caption.
+fn items(rows: &[(ShapeGroup, usize)]) -> Vec<ShapeItem> {
+    let has_groups = rows.iter().any(|(group, _)| *group != rows[0].0);
+    let mut items = Vec::new();
+    let mut last = None;
+    for &(group, shape) in rows {
+        if has_groups && last != Some(group) {
+            last = Some(group);
+            items.push(ShapeItem::Caption(group));
+        }
+        items.push(ShapeItem::Row(shape));
+    }
+    items
+}
+
+fn caption(ui: &mut Ui, group: ShapeGroup) {
+    ui.horizontal(|ui| {
+        ui.add_space(2.0 * GRID);
+        widgets::caption(ui, group.title());
+    });
+}
+
 impl ShapeKeys {
     fn mesh(
         &mut self,
@@ -114,30 +148,55 @@ impl ShapeKeys {
     ) {
         let locked = locked(context, shown);
         heading(ui, context, shown, list, requests);
-        let has_groups = rows.iter().any(|(group, _)| *group != rows[0].0);
-        let mut last = None;
-        for &(group, shape) in rows {
-            if has_groups && last != Some(group) {
-                last = Some(group);
-                ui.horizontal(|ui| {
-                    ui.add_space(2.0 * GRID);
-                    widgets::caption(ui, group.title());
+        let items = items(rows);
+        let width = ui.available_width();
+        let columns = if width >= TWO_COLUMNS && items.len() > 1 { 2 } else { 1 };
+        let mut first = items.len().div_ceil(columns);
+        // A caption is above its first row.
+        if matches!(items.get(first.wrapping_sub(1)), Some(ShapeItem::Caption(_))) {
+            first -= 1;
+        }
+        let (left, right) = items.split_at(first);
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            for column in [left, right].into_iter().filter(|column| !column.is_empty()) {
+                ui.vertical(|ui| {
+                    ui.set_width(width / columns as f32);
+                    for item in column {
+                        match *item {
+                            ShapeItem::Caption(group) => caption(ui, group),
+                            ShapeItem::Row(shape) => {
+                                self.row(ui, context, shown, (list, shape), locked, requests);
+                            }
+                        }
+                    }
                 });
             }
-            let row = ShapeRow {
-                instance: shown.mesh.instance(),
-                shape,
-                mesh: shown.mesh.name(),
-                name: &shown.mesh.shapes()[shape],
-                weight: f64::from(shown.weights[shape]),
-                rest: f64::from(shown.mesh.rest()[shape]),
-                locked,
-            };
-            let (event, name) = row.show(ui);
-            self.apply(event, &row, context, shown, requests);
-            Popup::context_menu(&name).show(|ui| row_menu(ui, context, shown, (list, shape), requests));
-        }
+        });
         ui.add_space(2.0 * GRID);
+    }
+
+    fn row(
+        &mut self,
+        ui: &mut Ui,
+        context: &PanelContext<'_>,
+        shown: &ShownMesh<'_>,
+        (list, shape): (&ShapeList, usize),
+        locked: Option<&'static str>,
+        requests: &mut Vec<Request>,
+    ) {
+        let row = ShapeRow {
+            instance: shown.mesh.instance(),
+            shape,
+            mesh: shown.mesh.name(),
+            name: &shown.mesh.shapes()[shape],
+            weight: f64::from(shown.weights[shape]),
+            rest: f64::from(shown.mesh.rest()[shape]),
+            locked,
+        };
+        let (event, name) = row.show(ui);
+        self.apply(event, &row, context, shown, requests);
+        Popup::context_menu(&name).show(|ui| row_menu(ui, context, shown, (list, shape), requests));
     }
 
     /// Requests what the user did with a slider or a number.
