@@ -1,7 +1,7 @@
 //! The pose library: poses in files that people read and share; a file that is no pose is never replaced or deleted.
 
 use dragonfly_anim::data::{Bone, Skeleton, Transform};
-use dragonfly_document::edit::{BonePose, BoneRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, EditedBones};
 use dragonfly_document::posing::{blended_pose, clipboard, stick_figure};
 use dragonfly_document::{DocumentMessage, DocumentReply, PoseFolder, PoseOrder, StoredPose};
 use dragonfly_kit::document::test_document::TestDocument;
@@ -55,6 +55,13 @@ fn a_saved_pose_is_a_readable_file_that_can_also_be_pasted() {
     assert_eq!(json["poses"][0]["bone"], "hand.L");
     assert_eq!(json["poses"][0]["translation"], serde_json::json!([0.0, 0.5, 0.0]));
     assert_eq!(clipboard::from_text(&text), Some(vec![pose("hand.L", 0.5)]));
+    // The poses are those that edits take.
+    for name in ["paste", "set"] {
+        let edit = serde_json::json!({"edit": name, "take": 0, "time": 0.5, "poses": json["poses"]});
+        let edit: Edit = serde_json::from_value(edit).expect(name);
+        let skeleton = Skeleton { bones: vec![bone("hand.L", None, Vec3::ZERO)] };
+        assert_eq!(edit.bones(&skeleton), EditedBones::Named([0].into()), "{name}");
+    }
 }
 
 #[test]

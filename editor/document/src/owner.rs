@@ -5,7 +5,7 @@ use super::handle::DocumentHandle;
 use super::job::{JobNews, start_loading, start_search};
 use super::message::DocumentReply;
 use super::open::Open;
-use super::pose_files::PoseFiles;
+use super::pose_library::PoseFiles;
 use super::receivers::{ChangeReceiver, DocumentWorker, JobReceiver, MessageReceiver};
 use super::retarget_order::Retargeting;
 use super::running_save::{Deferred, RunningSave};

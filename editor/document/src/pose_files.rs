@@ -6,14 +6,6 @@ use super::owner::Document;
 use super::pose_library::{PoseFolder, PoseOrder};
 use crate::text::sentence;
 use dragonfly_runtime::Job;
-use std::collections::VecDeque;
-
-/// The orders that wait, and the job that carries one out.
-#[derive(Default)]
-pub(super) struct PoseFiles {
-    waiting: VecDeque<PoseOrder>,
-    job: Option<Job>,
-}
 
 impl Document {
     /// Carries out an order after those before it.

@@ -5,10 +5,13 @@
 //!  "poses": [{"bone": "hand.L", "translation": [0, 0, 0], "rotation": [0, 0, 0, 1], "scale": [1, 1, 1]}]}
 //! ```
 //!
-//! The text is that of a copied pose with a name and tags, so a file can also be pasted.
+//! The text is that of a copied pose with a name and tags, so a file can also be pasted. Its `poses` are those of the edits `paste`
+//! and `set`, which `dragonfly edit` and `--stdio` apply.
 
 use crate::edit::BonePose;
+use dragonfly_runtime::Job;
 use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
 /// Largest file that is read, bytes: enough for ten thousand bones.
@@ -113,6 +116,13 @@ pub enum PoseOrder {
         /// The file.
         file: String,
     },
+}
+
+/// The orders that wait, and the job that carries one out.
+#[derive(Default)]
+pub(super) struct PoseFiles {
+    pub(super) waiting: VecDeque<PoseOrder>,
+    pub(super) job: Option<Job>,
 }
 
 impl PoseOrder {

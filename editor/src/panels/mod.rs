@@ -109,7 +109,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<timeline::TimelinePanel>::default(),
         Box::<curves::Curves>::default(),
         Box::<inbetween::InBetween>::default(),
-        Box::<poses::Poses>::default(),
+        Box::<poses::PosesPanel>::default(),
         Box::<shape_keys::ShapeKeys>::default(),
     ]
 }

@@ -3,6 +3,7 @@
 use crate::edit::{BonePose, BoneRef};
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::{Skeleton, Transform};
+use dragonfly_anim::sample::mix::slerp;
 use dragonfly_anim::sample::rest_pose;
 use glam::{Mat4, Quat, Vec2, Vec3};
 use std::collections::HashMap;
@@ -93,7 +94,7 @@ pub fn blended_pose(from: &Transform, to: &BonePose, amount: f32) -> BonePose {
     let rotation = |to: [f32; 4]| {
         let to = Quat::from_array(to);
         let to = if to.length_squared() > 1e-12 { to.normalize() } else { from.rotation };
-        from.rotation.slerp(to, amount).to_array()
+        slerp(from.rotation, to, amount).to_array()
     };
     // At the ends, the values are those given, to the bit.
     if amount == 1.0 {

@@ -26,7 +26,7 @@ const DETAILS: f32 = 34.0;
 
 /// The pose library.
 #[derive(Debug, Default)]
-pub struct Poses {
+pub struct PosesPanel {
     query: String,
     /// The folder that the document was asked to read.
     asked: Option<PathBuf>,
@@ -50,7 +50,7 @@ struct ChosenPose {
     tags: String,
 }
 
-impl Panel for Poses {
+impl Panel for PosesPanel {
     fn id(&self) -> &'static str {
         "poses"
     }
@@ -116,7 +116,7 @@ fn found<'a>(context: &PanelContext<'a>, query: &str) -> Vec<&'a PoseFile> {
     poses.filter(|file| words.iter().all(|word| has(&file.pose, word))).collect()
 }
 
-impl Poses {
+impl PosesPanel {
     /// Draws the path of the folder, and the button that saves the pose.
     fn folder_row(
         &mut self,
