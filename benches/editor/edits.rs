@@ -112,12 +112,25 @@ fn of_a_rig(bench: &mut FigureBench) {
                 edited.apply(edit(run as f32), Some(Gesture(1))).expect("all keys can be moved");
             });
         };
-        drag("move", &|run| Edit::MoveKeys(MoveKeys { take: take(), keys: all(), by: 0.01 + run * 0.25 }));
+        drag("move", &|run| {
+            Edit::MoveKeys(MoveKeys { take: take(), keys: all(), shapes: Vec::new(), by: 0.01 + run * 0.25 })
+        });
         drag("scale", &|run| {
-            Edit::ScaleKeys(ScaleKeys { take: take(), keys: all(), about: 0.0, factor: 0.9 + run * 0.02 })
+            Edit::ScaleKeys(ScaleKeys {
+                take: take(),
+                keys: all(),
+                shapes: Vec::new(),
+                about: 0.0,
+                factor: 0.9 + run * 0.02,
+            })
         });
         drag("duplicate", &|run| {
-            Edit::DuplicateKeys(DuplicateKeys { take: take(), keys: all(), by: 0.003 + run * 0.25 })
+            Edit::DuplicateKeys(DuplicateKeys {
+                take: take(),
+                keys: all(),
+                shapes: Vec::new(),
+                by: 0.003 + run * 0.25,
+            })
         });
         drag("ripple", &|run| {
             Edit::RippleKeys(RippleKeys { take: take(), from: 0.0, by: 0.01 + run * 0.25 })
@@ -133,13 +146,13 @@ pub(crate) fn run(bench: &mut FigureBench) {
         let keys = chosen();
         measure(bench, "drag_100_000_keys", name, 9, |run| {
             let by = 0.01 + run as f32 * 0.25;
-            let edit = Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by });
+            let edit = Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), shapes: Vec::new(), by });
             edited.apply(edit, Some(Gesture(1))).expect("keys at the end move freely");
         });
         let mut edited = Edited::new(ModelAdapter::new(data));
         measure(bench, "move_100_000_keys_among_others", name, 5, |run| {
             let by = -10.0 - run as f32;
-            let edit = Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by });
+            let edit = Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), shapes: Vec::new(), by });
             edited.apply(edit, Some(Gesture(1))).expect("keys move among others");
         });
     }
@@ -147,8 +160,12 @@ pub(crate) fn run(bench: &mut FigureBench) {
     let mut edited = Edited::new(ModelAdapter::new(&same));
     let keys = one_by_one();
     measure(bench, "drag_100_000_keys", "named one by one", 5, |run| {
-        let edit =
-            Edit::MoveKeys(MoveKeys { take: take(), keys: keys.clone(), by: 0.01 + run as f32 * 0.25 });
+        let edit = Edit::MoveKeys(MoveKeys {
+            take: take(),
+            keys: keys.clone(),
+            shapes: Vec::new(),
+            by: 0.01 + run as f32 * 0.25,
+        });
         edited.apply(edit, Some(Gesture(1))).expect("keys at the end move freely");
     });
     // The whole take is larger than what can be saved, so that a new key would be refused.

@@ -107,8 +107,12 @@ fn a_mouse_move_in_a_drag_allocates_a_constant_amount() {
 fn an_edit_of_all_bones_allocates_in_proportion_to_their_number() {
     let bytes = |bones: u32| {
         let mut edited = Edited::new(ModelAdapter::new(&model(bones, 10)));
-        let edit =
-            Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys: vec![KeySet::default()], by: 0.5 });
+        let edit = Edit::MoveKeys(MoveKeys {
+            take: TakeRef::Index(0),
+            keys: vec![KeySet::default()],
+            shapes: Vec::new(),
+            by: 0.5,
+        });
         let (count, done) = counting::count(|| edited.apply(edit, Some(Gesture(1))));
         done.unwrap();
         count.bytes
@@ -134,7 +138,12 @@ fn moving_a_hundred_thousand_keys_causes_no_visible_delay() {
     let quickest = (0..5)
         .map(|step| {
             let by = 0.01 + step as f32 * 0.1;
-            let edit = Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys: keys.clone(), by });
+            let edit = Edit::MoveKeys(MoveKeys {
+                take: TakeRef::Index(0),
+                keys: keys.clone(),
+                shapes: Vec::new(),
+                by,
+            });
             let begin = Instant::now();
             edited.apply(edit, Some(Gesture(1))).unwrap();
             begin.elapsed()

@@ -237,7 +237,7 @@ fn moved_keys_overwrite_keys_at_the_same_time() {
     let mut model = model(8);
     let values = model.slots()[0].original.tracks[0].translation.values.clone();
     let keys = vec![KeySet { bones: vec![bone("root")], at: Some(vec![0.25]), ..KeySet::default() }];
-    model.apply(&Edit::MoveKeys(MoveKeys { take: walk(), keys, by: 0.25 })).unwrap();
+    model.apply(&Edit::MoveKeys(MoveKeys { take: walk(), keys, shapes: Vec::new(), by: 0.25 })).unwrap();
     model.check().unwrap();
     let channel = &model.slots()[0].original.tracks[0].translation;
     assert_eq!(&channel.times[..4], [0.0, 0.125, 0.375, 0.5]);
@@ -406,10 +406,26 @@ fn invalid_numbers_and_missing_targets_are_refused_and_nothing_changes() {
             poses: vec![translation(0.0)],
             unstep: false,
         }),
-        Edit::MoveKeys(MoveKeys { take: walk(), keys: vec![KeySet::default()], by: -0.5 }),
-        Edit::MoveKeys(MoveKeys { take: walk(), keys: Vec::new(), by: 0.5 }),
-        Edit::ScaleKeys(ScaleKeys { take: walk(), keys: vec![KeySet::default()], about: 0.0, factor: 0.0 }),
-        Edit::SnapKeys(SnapKeys { take: walk(), keys: vec![KeySet::default()], rate: 0.0 }),
+        Edit::MoveKeys(MoveKeys {
+            take: walk(),
+            keys: vec![KeySet::default()],
+            shapes: Vec::new(),
+            by: -0.5,
+        }),
+        Edit::MoveKeys(MoveKeys { take: walk(), keys: Vec::new(), shapes: Vec::new(), by: 0.5 }),
+        Edit::ScaleKeys(ScaleKeys {
+            take: walk(),
+            keys: vec![KeySet::default()],
+            shapes: Vec::new(),
+            about: 0.0,
+            factor: 0.0,
+        }),
+        Edit::SnapKeys(SnapKeys {
+            take: walk(),
+            keys: vec![KeySet::default()],
+            shapes: Vec::new(),
+            rate: 0.0,
+        }),
         Edit::SplitTake(SplitTake { take: walk(), time: 1.0, name: String::new() }),
         Edit::TrimTake(TrimTake { take: walk(), from: 0.5, to: 0.25, to_start: false }),
         Edit::RetimeTake(RetimeTake { take: walk(), start: None, length: Some(1e-9) }),

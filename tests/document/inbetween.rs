@@ -284,6 +284,7 @@ fn a_filter_of_keys_far_apart_with_a_high_sample_rate_is_refused() {
     let late = Edit::MoveKeys(dragonfly_document::edit::MoveKeys {
         take: walk(),
         keys: keys("hand.R", 0.5, 1.0),
+        shapes: Vec::new(),
         by: 80_000.0,
     });
     model.apply(&late).expect("a valid time");

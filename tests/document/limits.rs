@@ -14,7 +14,8 @@ fn keys_that_are_doubled_again_and_again_are_refused_at_a_limit_that_is_named() 
     let mut by = 0.000_37;
     for _ in 0..30 {
         let keys = vec![KeySet::default()];
-        let edit = Edit::DuplicateKeys(DuplicateKeys { take: TakeRef::Index(0), keys, by });
+        let edit =
+            Edit::DuplicateKeys(DuplicateKeys { take: TakeRef::Index(0), keys, shapes: Vec::new(), by });
         let before = edited.adapter().slots()[0].original.keys();
         let (memory, done) = peak(|| edited.ask(edit, None));
         match done {

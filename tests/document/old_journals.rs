@@ -18,10 +18,25 @@ fn first_edits() -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
+/// Returns the edits of shape keys in the first vocabulary. Each of them changes something in AnimatedMorphCube.
+fn first_shape_edits() -> Vec<String> {
+    let text = fs::read_to_string(data("journals/shape-edits-1.jsonl")).unwrap();
+    text.lines().map(str::to_owned).collect()
+}
+
 /// Opens Fox with a journal that contains these records, and recovers the given number of steps.
 fn recovered(name: &str, records: &[(u8, &[u8])], steps: usize) -> (TestDocument, View) {
     let folder = Folder::new(name);
     let path = fox(&folder);
+    recovered_for(folder, path, records, steps)
+}
+
+fn recovered_for(
+    folder: Folder,
+    path: std::path::PathBuf,
+    records: &[(u8, &[u8])],
+    steps: usize,
+) -> (TestDocument, View) {
     let autosave = folder.join("autosave");
     fs::create_dir_all(autosave.join("journals")).unwrap();
     fs::write(autosave.join("journals/old.journal"), forged_with(&header(&path), 1, records)).unwrap();
@@ -103,6 +118,22 @@ fn edits_of_every_version_are_replayed() {
 }
 
 #[test]
+fn edits_of_shape_keys_of_every_version_are_replayed() {
+    let folder = Folder::new("old-shape-edits");
+    let path = folder.join("AnimatedMorphCube.glb");
+    fs::copy(data("gltf/AnimatedMorphCube.glb"), &path).unwrap();
+    let records: Vec<Vec<u8>> = first_shape_edits().iter().map(|edit| recorded(edit)).collect();
+    let records: Vec<(u8, &[u8])> = records.iter().map(|record| (2, &record[..])).collect();
+    let (_, view) = recovered_for(folder, path, &records, records.len());
+    let track = &view.takes[0].morphs[0];
+    // Keys at 0.05 s and 6 s are set, that at 6 s goes to 7 s and is copied to 8 s.
+    assert_eq!(track.times.len(), 127 + 3);
+    assert_eq!(track.times[128..], [7.0, 8.0]);
+    assert_eq!(track.weights[2 * 2..2 * 2 + 2], [0.75, 0.25]);
+    assert_eq!(track.weights[2 * 129..], [0.5, 1.0]);
+}
+
+#[test]
 fn a_snapshot_of_every_version_is_restored() {
     let (edits, all) = (first_edits().join(","), first_edits().len());
     let about = r#"{"version":1}"#;
@@ -119,11 +150,11 @@ fn every_edit_type_occurs_in_the_stored_records() {
     let kind = |json: &str| {
         serde_json::from_str::<serde_json::Value>(json).unwrap()["edit"].as_str().unwrap().to_owned()
     };
-    let kept: Vec<String> = first_edits().iter().map(|edit| kind(edit)).collect();
+    let kept: Vec<String> = first_edits().iter().chain(&first_shape_edits()).map(|edit| kind(edit)).collect();
     for kind in EDITS {
         assert!(kept.contains(&kind.name.to_owned()), "{} is not in edits-1.jsonl", kind.name);
     }
-    for edit in first_edits() {
+    for edit in first_edits().into_iter().chain(first_shape_edits()) {
         let value: serde_json::Value = serde_json::from_str(&edit).unwrap();
         let again = serde_json::to_value(serde_json::from_value::<Edit>(value.clone()).unwrap()).unwrap();
         for (field, was) in value.as_object().unwrap() {

@@ -65,7 +65,7 @@ fn edit_and_save(model: &Path, folder: &Path, number: u64, each: usize) -> usize
         (0..editable.model.animation.skeleton.len() as u32).map(BoneRef::Index).collect();
     let mut accepted = 0;
     for kind in EDITS {
-        let mut edited = Edited::new(ModelAdapter::new(&editable.model.animation));
+        let mut edited = Edited::new(ModelAdapter::of(&editable.model));
         let mut changed = false;
         for _ in 0..each {
             let takes = edited.adapter().slots().len().max(1);

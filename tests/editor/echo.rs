@@ -32,7 +32,7 @@ fn set_slowly(x: f32, gesture: Option<Gesture>) -> Change {
 /// Returns a change that moves all keys of the first take.
 fn move_keys(by: f32, gesture: Option<Gesture>) -> Change {
     let keys = vec![KeySet::default()];
-    Change::Edit(Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys, by }), gesture)
+    Change::Edit(Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys, shapes: Vec::new(), by }), gesture)
 }
 
 /// Returns the start of the first take.

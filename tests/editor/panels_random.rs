@@ -163,7 +163,7 @@ fn any_text_is_a_name_or_is_refused_and_changes_nothing() {
     println!("seed {seed}");
     let mut random = Random::new(seed);
     let view = fixture::full();
-    let mut edited = Edited::new(ModelAdapter::new(&view.loaded.model.animation));
+    let mut edited = Edited::new(ModelAdapter::of(&view.loaded.model));
     let mut kept = 0;
     for _ in 0..10_000 {
         let name = nasty::any(&mut random);

@@ -27,7 +27,7 @@ pub(crate) struct Animator {
 
 impl Animator {
     pub(crate) fn new(view: View) -> Self {
-        let edited = Edited::new(ModelAdapter::new(&view.loaded.model.animation));
+        let edited = Edited::new(ModelAdapter::of(&view.loaded.model));
         let bench = Bench::new(Some(view.clone()));
         let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
         harness.run_steps(4);

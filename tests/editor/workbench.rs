@@ -35,7 +35,7 @@ impl Workbench {
         state
             .window_mut()
             .set_device(DeviceStatus::Ready { adapter: "llvmpipe (LLVM 15.0.6), Vulkan".to_owned() });
-        let edited = view.as_ref().map(|view| Edited::new(ModelAdapter::new(&view.loaded.model.animation)));
+        let edited = view.as_ref().map(|view| Edited::new(ModelAdapter::of(&view.loaded.model)));
         if let Some(view) = view {
             state.show(view);
             state.pause();

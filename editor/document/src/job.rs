@@ -1,6 +1,7 @@
 //! The jobs of the document: it continues to work while a file is read or a folder is searched, and survives an importer that
 //! panics.
 
+use super::pose_library::PoseFolder;
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
 use super::take_check::CheckedTake;
@@ -23,6 +24,8 @@ pub(super) enum JobNews {
     Retarget(RetargetNews),
     /// The defects of a take.
     Checked(Result<CheckedTake, String>),
+    /// The folder of the pose library after an order.
+    Poses(Result<PoseFolder, String>),
 }
 
 /// Starts loading `source` in a job, whose news reach the document with `ticket`. Dropping the job cancels it without

@@ -1,5 +1,6 @@
 //! The messages that other threads send to the document, and its replies.
 
+use super::pose_library::{PoseFolder, PoseOrder};
 use super::retarget_order::{MapFile, RetargetOrder};
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
 use super::scan::Decision;
@@ -44,6 +45,8 @@ pub enum DocumentMessage {
     MapFile(MapFile),
     /// Checks a take for defects. The reply is [`DocumentReply::Checked`].
     CheckTake(TakeCheck),
+    /// Reads or changes the folder of the pose library. The reply is [`DocumentReply::Poses`].
+    Poses(PoseOrder),
     /// The user's decision about unsaved work of an earlier session.
     Decide(Box<Offer>, Decision),
     /// The present path of the file that unsaved work belongs to. If it is that file, the work is restored there.
@@ -100,6 +103,8 @@ pub enum DocumentReply {
     MapRead(BoneMap),
     /// A take was checked.
     Checked(CheckedTake),
+    /// The poses of a folder.
+    Poses(PoseFolder),
     /// A message for the status line.
     Notice(String),
     /// A warning for the status line.

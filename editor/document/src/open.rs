@@ -57,7 +57,7 @@ impl Open {
         let file = FileView { title: loaded.title.clone(), path: loaded.path.clone() };
         let source = loaded.path.is_none().then_some(Source::BuiltIn);
         let mut open = Self {
-            edited: Edited::new(ModelAdapter::new(&loaded.model.animation)),
+            edited: Edited::new(ModelAdapter::of(&loaded.model)),
             loaded: Arc::new(loaded),
             history: Arc::default(),
             editable,

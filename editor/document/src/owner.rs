@@ -5,6 +5,7 @@ use super::handle::DocumentHandle;
 use super::job::{JobNews, start_loading, start_search};
 use super::message::DocumentReply;
 use super::open::Open;
+use super::pose_library::PoseFiles;
 use super::receivers::{ChangeReceiver, DocumentWorker, JobReceiver, MessageReceiver};
 use super::retarget_order::Retargeting;
 use super::running_save::{Deferred, RunningSave};
@@ -58,6 +59,8 @@ pub struct Document {
     pub(super) retargeting: Retargeting,
     /// The check of a take; dropping it cancels it.
     pub(super) checking: Option<Job>,
+    /// Orders for the pose library.
+    pub(super) pose_files: PoseFiles,
     pub(super) autosave: Option<Autosave>,
     /// Unsaved work of the open file that awaits a decision of the user.
     pub(super) waiting: Option<Recoverable>,
@@ -138,6 +141,7 @@ impl Document {
                 load: setup.load,
                 retargeting: Retargeting::default(),
                 checking: None,
+                pose_files: PoseFiles::default(),
                 autosave: setup.autosave.clone(),
                 waiting: None,
                 scan: None,

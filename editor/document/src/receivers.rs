@@ -55,6 +55,7 @@ impl Document {
             DocumentMessage::Retarget(order) => self.retarget(order),
             DocumentMessage::MapFile(file) => self.map_file(file),
             DocumentMessage::CheckTake(check) => self.check_take(check),
+            DocumentMessage::Poses(order) => self.pose_order(order),
             DocumentMessage::Decide(offer, decision) => self.decide(*offer, decision),
             DocumentMessage::FoundAt(offer, path) => self.found_at(*offer, path),
         }
@@ -89,6 +90,7 @@ impl Receiver for JobReceiver {
             JobNews::Scanned(scan) => document.offer(scan),
             JobNews::Retarget(news) => document.retarget_news(news, thread.now()),
             JobNews::Checked(result) => document.checked(result),
+            JobNews::Poses(news) => document.poses_news(news),
         }
     }
 }

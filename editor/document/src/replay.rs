@@ -6,6 +6,7 @@ use super::base;
 use super::edit::VERSION;
 use super::history::Edited;
 use super::recorded::{EditsOrigin, Recorded, Snapshot, built_in_hash};
+use super::shapes::ModelShapes;
 use dragonfly_anim::data::{AnimationData, ModelData, Take};
 use dragonfly_store::JournalEntry;
 use std::collections::HashMap;
@@ -53,7 +54,7 @@ pub(super) fn replay(model: &ModelData, entries: &[JournalEntry]) -> Replayed {
     let mut replay = Replay {
         model,
         replayed: Replayed {
-            edited: Edited::new(ModelAdapter::new(&model.animation)),
+            edited: Edited::new(ModelAdapter::of(model)),
             base: None,
             at_save: None,
             stopped: None,
@@ -135,7 +136,8 @@ impl Replay<'_> {
         self.replayed.base = base.map(|_| takes.clone().into());
         let skeleton = Arc::clone(&animation.skeleton);
         let edited = &mut self.replayed.edited;
-        *edited = Edited::new(ModelAdapter::new(&AnimationData { skeleton, takes }));
+        let adapter = ModelAdapter::new(&AnimationData { skeleton, takes });
+        *edited = Edited::new(adapter.with_shapes(ModelShapes::of(self.model)));
         for edit in snapshot.steps {
             edited.apply(edit, None).map_err(|error| error.to_string())?;
         }

@@ -51,7 +51,8 @@ fn waits(message: &DocumentMessage) -> Waits {
         | DocumentMessage::ReadSource(_)
         | DocumentMessage::Retarget(_)
         | DocumentMessage::MapFile(_)
-        | DocumentMessage::CheckTake(_) => Waits::No,
+        | DocumentMessage::CheckTake(_)
+        | DocumentMessage::Poses(_) => Waits::No,
         DocumentMessage::Save(_) | DocumentMessage::LookAtFile => Waits::Alone,
         DocumentMessage::Open { .. }
         | DocumentMessage::Revert

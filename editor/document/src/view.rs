@@ -3,6 +3,7 @@
 use super::adapter::{ModelAdapter, PendingAt, TakeVersions};
 use super::history::Edited;
 use super::images::ImageSurvey;
+use super::shapes::ModelShapes;
 use super::step_amount::StepAmount;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Take, Track};
@@ -118,6 +119,8 @@ pub struct View {
     pub takes: Arc<[Arc<Take>]>,
     /// The same takes with their originals and changes.
     pub slots: Arc<[Arc<TakeVersions>]>,
+    /// The shape keys of the model.
+    pub shapes: ModelShapes,
     /// The history.
     pub history: Arc<HistoryView>,
     /// The file of the document.
@@ -129,7 +132,7 @@ pub struct View {
 impl View {
     /// Returns the view of `loaded` without changes.
     pub fn opened(generation: u64, loaded: Arc<LoadedModel>) -> Self {
-        let edited = Edited::new(ModelAdapter::new(&loaded.model.animation));
+        let edited = Edited::new(ModelAdapter::of(&loaded.model));
         let history = Arc::new(HistoryView { saved: true, saved_at: Some(0), ..HistoryView::default() });
         let file = Arc::new(FileView { title: loaded.title.clone(), path: loaded.path.clone() });
         Self::of(generation, loaded, edited.adapter(), history, file)
@@ -144,14 +147,15 @@ impl View {
         file: Arc<FileView>,
     ) -> Self {
         let takes = adapter.results().cloned().collect();
-        let slots = adapter.slots().into();
-        Self { generation, answered: 0, loaded, takes, slots, history, file, is_unrecorded: false }
+        let (slots, shapes) = (adapter.slots().into(), adapter.shapes().clone());
+        Self { generation, answered: 0, loaded, takes, slots, shapes, history, file, is_unrecorded: false }
     }
 
     /// Returns a copy of the takes of this view, to be edited apart from the document. The copy is cheap: everything
     /// large is shared.
     pub fn edited(&self) -> Edited {
-        Edited::new(ModelAdapter::of_slots(&self.loaded.model.animation.skeleton, &self.slots))
+        let adapter = ModelAdapter::of_slots(&self.loaded.model.animation.skeleton, &self.slots);
+        Edited::new(adapter.with_shapes(self.shapes.clone()))
     }
 
     /// Returns this view with the takes of `edited`. A sender shows it until the document has answered change `number`.

@@ -83,6 +83,7 @@ impl Interface {
         let saved = settings.clone();
         let mut state = State::new(settings, now);
         state.side_files().read_marks(&store.read(marks::FILE));
+        state.set_usual_pose_folder(store.poses());
         Self {
             desktop_scale: window.scale_factor(),
             size: window.inner_size().into(),

@@ -83,6 +83,7 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::SourceRead(source) => state.source_read(source),
         DocumentReply::MapRead(map) => state.map_read(map),
         DocumentReply::Checked(checked) => state.checked(checked),
+        DocumentReply::Poses(folder) => state.poses_read(folder),
         DocumentReply::Notice(text) => state.say(MessageSeverity::Info, text),
         DocumentReply::Warning(text) => state.say(MessageSeverity::Warning, text),
         DocumentReply::Lost => {

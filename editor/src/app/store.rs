@@ -26,6 +26,11 @@ impl Store {
         Self { folder: folder.or_else(usual) }
     }
 
+    /// Returns the folder of the pose library that is used if none was chosen.
+    pub fn poses(&self) -> Option<PathBuf> {
+        Some(self.folder.as_ref()?.join("poses"))
+    }
+
     /// Returns the text of a file; empty when there is none or it cannot be read.
     pub fn read(&self, name: &str) -> String {
         let Some(folder) = &self.folder else { return String::new() };

@@ -60,7 +60,7 @@ impl RunCommand for EditArguments {
         let Some(file) = &self.file else { return Err(Failure::input("FILE", "is missing")) };
         let editable = Editable::open(&source(file), &Cancel::default())?;
         let edits = self.edits.as_deref().map(read_edits).transpose()?.unwrap_or_default();
-        let mut adapter = ModelAdapter::new(&editable.model.animation);
+        let mut adapter = ModelAdapter::of(&editable.model);
         for (line, edit) in &edits {
             adapter
                 .allows(edit)

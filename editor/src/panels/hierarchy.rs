@@ -67,6 +67,7 @@ impl Panel for Hierarchy {
             return widgets::empty(ui, "No bones", "This model has no skeleton");
         }
         let entered = search_field::show(ui, &mut self.query, "Find a bone", context.find);
+        super::set_chips::show(ui, context, requests);
         let rows = self.visible(context);
         if entered {
             let found = self.best(context, &rows);

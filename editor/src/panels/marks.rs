@@ -1,8 +1,9 @@
 //! Marks of bones, remembered for each file: which bones are muted, soloed, locked and pinned, and towards which bone elbows
-//! bend; and the frame rate that was chosen for the file. They are stored with the program's settings and never in the model's file.
+//! bend; selection sets; and the frame rate that was chosen for the file. They are stored with the program's settings and never in the model's file.
 
 use super::keys::channel::BoneNames;
 use super::keys::{BoneFlag, BoneFlags};
+use super::selection_sets::{SelectionSet, SelectionSets};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_document::View;
 use dragonfly_document::edit::BoneRef;
@@ -29,6 +30,17 @@ struct FileMarks {
     pole: Option<BoneRef>,
     #[serde(skip_serializing_if = "Option::is_none")]
     frame_rate: Option<u32>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    sets: Vec<SetMarks>,
+}
+
+/// A selection set as it is stored.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+struct SetMarks {
+    name: String,
+    color: [u8; 3],
+    bones: Vec<BoneRef>,
 }
 
 impl FileMarks {
@@ -64,6 +76,8 @@ struct Noted {
     pins: Vec<BoneIndex>,
     pole: Option<BoneIndex>,
     frame_rate: Option<u32>,
+    /// Version of the selection sets.
+    sets: u64,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -106,6 +120,8 @@ pub(super) struct BoneMarks<'a> {
     pub(super) pole: Option<BoneIndex>,
     /// The frame rate that was chosen for the file.
     pub(super) frame_rate: Option<u32>,
+    /// The selection sets.
+    pub(super) sets: &'a SelectionSets,
 }
 
 /// Marks that were found again for a model.
@@ -119,6 +135,8 @@ pub(super) struct RecalledMarks {
     pub(super) pole: Option<BoneIndex>,
     /// The frame rate that was chosen for the file.
     pub(super) frame_rate: Option<u32>,
+    /// The selection sets.
+    pub(super) sets: Vec<SelectionSet>,
 }
 
 impl Marks {
@@ -130,8 +148,15 @@ impl Marks {
     /// Notes the marks of the model that is open, if they changed.
     pub(super) fn note(&mut self, view: &View, now: BoneMarks<'_>) {
         let same = |noted: &Noted| {
-            (&noted.path, noted.version, &noted.pins[..], noted.pole, noted.frame_rate)
-                == (&view.file.path, now.flags.version(), now.pins, now.pole, now.frame_rate)
+            (&noted.path, noted.version, &noted.pins[..], noted.pole, noted.frame_rate, noted.sets)
+                == (
+                    &view.file.path,
+                    now.flags.version(),
+                    now.pins,
+                    now.pole,
+                    now.frame_rate,
+                    now.sets.version(),
+                )
         };
         if self.noted.as_ref().is_some_and(same) {
             return;
@@ -161,12 +186,18 @@ impl Marks {
         };
         let path = view.file.key();
         let marks = self.files.iter().find(|file| file.path == path)?;
+        let set = |set: &SetMarks| SelectionSet {
+            name: set.name.clone(),
+            color: set.color,
+            bones: set.bones.iter().filter_map(index).collect(),
+        };
         let of = |flag| marks.flag(flag).iter().filter_map(index).map(move |bone| (flag, bone));
         Some(RecalledMarks {
             flags: BoneFlag::ALL.into_iter().flat_map(of).collect(),
             pins: marks.pins.iter().filter_map(index).collect(),
             pole: marks.pole.as_ref().and_then(index),
             frame_rate: marks.frame_rate,
+            sets: marks.sets.iter().map(set).filter(|set| !set.bones.is_empty()).collect(),
         })
     }
 
@@ -177,17 +208,24 @@ impl Marks {
 }
 
 impl Noted {
-    fn of(view: &View, BoneMarks { flags, pins, pole, frame_rate }: BoneMarks<'_>) -> Self {
+    fn of(view: &View, now: BoneMarks<'_>) -> Self {
+        let BoneMarks { flags, pins, pole, frame_rate, sets } = now;
         let path = view.file.path.clone();
-        Self { path, version: flags.version(), pins: pins.to_vec(), pole, frame_rate }
+        let sets = sets.version();
+        Self { path, version: flags.version(), pins: pins.to_vec(), pole, frame_rate, sets }
     }
 }
 
 impl FileMarks {
     /// Returns the marks of a model as they are stored.
     fn of(path: String, skeleton: &Skeleton, now: BoneMarks<'_>) -> Self {
-        let BoneMarks { flags, pins, pole, frame_rate } = now;
+        let BoneMarks { flags, pins, pole, frame_rate, sets } = now;
         let names = BoneNames::of(skeleton);
+        let set = |set: &SelectionSet| SetMarks {
+            name: set.name.clone(),
+            color: set.color,
+            bones: set.bones.iter().map(|&bone| names.reference(bone)).collect(),
+        };
         let list = |flag| flags.of(flag).map(|bone| names.reference(bone)).collect();
         Self {
             path,
@@ -197,6 +235,7 @@ impl FileMarks {
             pins: pins.iter().map(|&bone| names.reference(bone)).collect(),
             pole: pole.map(|bone| names.reference(bone)),
             frame_rate,
+            sets: sets.list().iter().map(set).collect(),
         }
     }
 }

@@ -27,7 +27,12 @@ pub fn show(
         ui.add_space(GRID);
         ui.menu_button("File", |ui| file(ui, context, requests));
         ui.menu_button("Edit", |ui| list(ui, context, &[Category::Edit], requests));
-        ui.menu_button("Select", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Selection], requests)));
+        ui.menu_button("Select", |ui| {
+            scrolled(ui, |ui| {
+                list(ui, context, &[Category::Selection], requests);
+                sets(ui, context, requests);
+            });
+        });
         ui.menu_button("Pose", |ui| scrolled(ui, |ui| pose(ui, context, requests)));
         ui.menu_button("Tools", |ui| scrolled(ui, |ui| list(ui, context, &[Category::Tools], requests)));
         ui.menu_button("Play", |ui| list(ui, context, &[Category::Playback], requests));
@@ -135,6 +140,7 @@ const GROUP_ENDS: &[Id] = &[
     Id::InvertSelection,
     Id::ShrinkSelection,
     Id::ExtendMirror,
+    Id::RemoveFromSelectionSet,
     Id::ShowAll,
     Id::LockBones,
     // Tools
@@ -155,6 +161,23 @@ const GROUP_ENDS: &[Id] = &[
     Id::ToggleRulerSeconds,
     Id::NextMarker,
 ];
+
+/// Draws an entry for each selection set, which selects its bones.
+fn sets(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    if context.sets.list().is_empty() {
+        return;
+    }
+    ui.separator();
+    submenu(ui, "Selection sets", |ui| {
+        for (at, set) in context.sets.list().iter().enumerate() {
+            let name = super::widgets::shortened(&set.name);
+            if ui.add(Button::new(name).frame_when_inactive(false)).clicked() {
+                requests.push(Request::Sets(super::selection_sets::SetAction::Select(at)));
+                ui.close();
+            }
+        }
+    });
+}
 
 /// Draws the commands for keys: those that change values in two menus of their own.
 fn keys(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {

@@ -58,7 +58,9 @@ pub mod overlays;
 mod palette;
 pub mod panel;
 mod player;
+pub mod pose_library;
 pub mod posed;
+pub mod poses;
 pub mod prompts;
 pub mod properties;
 pub mod request;
@@ -68,9 +70,12 @@ mod root_motion;
 pub mod ruler;
 mod search_field;
 mod selected_bones;
+pub mod selection_sets;
 mod selection_steps;
 mod selection_trail;
+mod set_chips;
 pub mod settings;
+pub mod shape_keys;
 mod shortcuts;
 pub mod side_files;
 pub mod state;
@@ -115,6 +120,8 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<curves::Curves>::default(),
         Box::<inbetween::InBetween>::default(),
         Box::<differences::Differences>::default(),
+        Box::<poses::PosesPanel>::default(),
+        Box::<shape_keys::ShapeKeys>::default(),
     ]
 }
 

@@ -9,6 +9,7 @@ use super::edit_scope::FalloffSettings;
 use super::keys::request::KeysRequest;
 use super::overlay::Overlay;
 use super::properties::look::PropertiesLook;
+use super::selection_sets::SetAction;
 use super::settings::GhostSettings;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::adapter::TakeId;
@@ -16,6 +17,7 @@ use dragonfly_document::bones::Choice;
 use dragonfly_document::{Change, DocumentMessage, Offer, Source, Then};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::OwnedRegion;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A request of a panel.
@@ -97,6 +99,10 @@ pub enum Request {
     PropertiesLook(PropertiesLook),
     /// Sets how curves are shown.
     CurvesLook(CurvesLook),
+    /// Sets the folder of the pose library.
+    PoseFolder(PathBuf),
+    /// Changes the selection sets, or selects bones by them.
+    Sets(SetAction),
 }
 
 /// An action that only the application around the panels can carry out.
@@ -178,7 +184,8 @@ impl FileAction {
                 | DocumentMessage::CancelLoading
                 | DocumentMessage::ReadSource(_)
                 | DocumentMessage::MapFile(_)
-                | DocumentMessage::CheckTake(_),
+                | DocumentMessage::CheckTake(_)
+                | DocumentMessage::Poses(_),
             )
             | Self::Stay => true,
             Self::Send(_)

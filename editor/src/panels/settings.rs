@@ -245,6 +245,9 @@ pub struct Settings {
     pub properties: PropertiesLook,
     /// How curves are shown.
     pub curves: CurvesLook,
+    /// Folder of the pose library, if one was chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose_folder: Option<PathBuf>,
 }
 
 impl Default for Settings {
@@ -266,6 +269,7 @@ impl Default for Settings {
             recent: Vec::new(),
             properties: PropertiesLook::default(),
             curves: CurvesLook::default(),
+            pose_folder: None,
         }
     }
 }

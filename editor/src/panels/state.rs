@@ -15,7 +15,9 @@ use super::workspace::Workspace;
 use crate::control::InputEvent;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{BoneMap, CheckedTake, LoadedModel, NotSaved, Offer, SaveOrder, SavedFile, View};
+use dragonfly_document::{
+    BoneMap, CheckedTake, LoadedModel, NotSaved, Offer, PoseFolder, SaveOrder, SavedFile, View,
+};
 use egui::{Context, Pos2, RawInput};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -135,6 +137,16 @@ impl State {
     /// Shows a bone map that was read, in the dialog for retargeting.
     pub fn map_read(&mut self, map: BoneMap) {
         self.workspace.retarget.set_map(map);
+    }
+
+    /// Shows the poses of the library.
+    pub fn poses_read(&mut self, folder: PoseFolder) {
+        self.workspace.poses.set_folder(folder);
+    }
+
+    /// Sets the folder of the pose library that is used if none was chosen.
+    pub fn set_usual_pose_folder(&mut self, folder: Option<PathBuf>) {
+        self.workspace.poses.set_usual(folder);
     }
 
     /// Asks a question after those that are already waiting.

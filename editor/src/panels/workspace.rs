@@ -13,10 +13,12 @@ use super::layer_choice::LayerChoice;
 use super::marks::Marks;
 use super::open_model::OpenModel;
 use super::player::Player;
+use super::pose_library::PoseLibrary;
 use super::posed::PoseCache;
 use super::prompts::Prompts;
 use super::retarget_source::RetargetSource;
 use super::selected_bones::SelectedBones;
+use super::selection_sets::SelectionSets;
 use super::selection_steps::{SelectionState, SelectionSteps};
 use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
@@ -42,6 +44,8 @@ pub(super) struct Workspace {
     pub(super) frame_rate: FrameRate,
     /// Selected, hidden and pinned bones.
     pub(super) bones: SelectedBones,
+    /// The selection sets of the model.
+    pub(super) sets: SelectionSets,
     /// Selection and drag of keys, flags, markers, the play range.
     pub(super) keys: KeyEditing,
     /// The selections around the steps of the history.
@@ -74,6 +78,8 @@ pub(super) struct Workspace {
     pub(super) prompts: Prompts,
     /// The model whose takes are wanted for the open one.
     pub(super) retarget: RetargetSource,
+    /// The pose library.
+    pub(super) poses: PoseLibrary,
     /// Messages of the status line.
     pub(super) status: Status,
     /// Settings that are remembered between runs.
@@ -93,6 +99,7 @@ impl Workspace {
             player: Player::new(settings.speed, settings.repeat, now),
             frame_rate: FrameRate::default(),
             bones: SelectedBones::default(),
+            sets: SelectionSets::default(),
             keys: KeyEditing::of(settings.timeline),
             selections: SelectionSteps::default(),
             trail: SelectionTrail::default(),
@@ -109,6 +116,7 @@ impl Workspace {
             dragging: Dragging::default(),
             prompts: Prompts::default(),
             retarget: RetargetSource::default(),
+            poses: PoseLibrary::default(),
             status: Status::default(),
             settings,
             marks: Marks::default(),
@@ -148,6 +156,8 @@ impl Workspace {
             tools: &self.tools,
             dragging: &self.dragging,
             settings: &self.settings,
+            poses: &self.poses,
+            sets: &self.sets,
             retarget: &self.retarget,
             status: &self.status,
             prompts: &self.prompts,

@@ -7,11 +7,14 @@ use dragonfly::panels::commands::Id;
 use dragonfly::panels::compared::CompareWith;
 use dragonfly::panels::keys::KeysRequest;
 use dragonfly::panels::open_model::Loading;
+use dragonfly::panels::selection_sets::SetAction;
 use dragonfly::panels::window_status::DeviceStatus;
 use dragonfly::panels::{self, Effect, FileAction, Request, style};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{BonePose, BoneRef, Edit, Property, SetPose, TakeRef};
-use dragonfly_document::{Change, DocumentMessage, LoadStage, Progress, View};
+use dragonfly_document::{
+    Change, DocumentMessage, LoadStage, PoseFile, PoseFolder, Progress, StoredPose, View,
+};
 use egui::{Key, vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -37,6 +40,8 @@ panels! {
     "history", [300.0, 250.0], the_history_panel_looks_as_stored;
     "timeline", [720.0, 220.0], the_timeline_panel_looks_as_stored;
     "curves", [520.0, 220.0], the_curves_panel_looks_as_stored;
+    "poses", [520.0, 220.0], the_poses_panel_looks_as_stored;
+    "shapes", [520.0, 220.0], the_shape_keys_panel_looks_as_stored;
     "inbetween", [520.0, 220.0], the_inbetween_panel_looks_as_stored;
     "differences", [520.0, 220.0], the_differences_panel_looks_as_stored;
 }
@@ -102,6 +107,62 @@ fn more() -> Vec<PictureCase> {
             }
             let chosen = window.state().state.read().layers()[0].keys.id;
             window.state_mut().state.execute(Request::ChooseLayer(Some(chosen)));
+        }),
+        case("hierarchy-sets", "hierarchy", Typical, |window| {
+            let state = &mut window.state_mut().state;
+            for (set, (bones, name)) in
+                [(vec![2, 3], "Neck"), (vec![4], "Head"), (vec![5, 6, 7], "Left wing with its feathers")]
+                    .into_iter()
+                    .enumerate()
+            {
+                state.execute(Request::SelectBones(bones, Choice::Replace));
+                state.execute(Request::Command(Id::SaveSelectionSet));
+                state.execute(Request::Sets(SetAction::Rename(set, name.to_owned())));
+            }
+        }),
+        case("shapes-face", "shapes", Typical, |window| {
+            let names = [
+                "jawOpen",
+                "eyeBlinkLeft",
+                "eyeBlinkRight",
+                "eyeLookUpLeft",
+                "browInnerUp",
+                "browDownLeft",
+                "mouthSmileLeft",
+                "mouthSmileRight",
+                "mouthFunnel",
+                "cheekPuff",
+                "noseSneerLeft",
+                "tongueOut",
+                "happy",
+                "aa",
+                "a shape key with a very long name",
+            ];
+            window.state_mut().state.show(crate::shape_keys::with_names(&names));
+            window.state_mut().state.pause();
+            window.state_mut().state.execute(Request::Seek(1.2));
+        }),
+        case("poses-three", "poses", Typical, |window| {
+            let state = &mut window.state_mut().state;
+            state.set_usual_pose_folder(Some("/home/ada/poses".into()));
+            let pose = |name: &str, tags: &[&str], bones: &[(u32, f32)]| {
+                let turned = |&(bone, angle): &(u32, f32)| {
+                    let rotation = Some(glam::Quat::from_rotation_z(angle).to_array());
+                    BonePose { bone: BoneRef::Index(bone), translation: None, rotation, scale: None }
+                };
+                let tags = tags.iter().map(|tag| (*tag).to_owned()).collect();
+                let pose = StoredPose::new(name.to_owned(), tags, bones.iter().map(turned).collect());
+                PoseFile { file: format!("{name}.pose.json"), pose }
+            };
+            let poses = vec![
+                pose("Look up", &["head"], &[(4, 0.5)]),
+                pose("Neck bent to the side", &["neck", "calm"], &[(2, 0.5), (3, 0.5), (4, 0.3)]),
+                pose("Rest", &[], &[(0, 0.0), (1, 0.0)]),
+            ];
+            let problems = vec!["Crow.pose.json: this is no pose".to_owned()];
+            state.poses_read(PoseFolder { folder: "/home/ada/poses".into(), poses, problems });
+            window.run_steps(3);
+            window.get_by_label("Neck bent to the side").click();
         }),
         case("viewport-loading", "viewport", Empty, |window| {
             let progress = Progress { stage: LoadStage::Decoding, done: 0.6 };

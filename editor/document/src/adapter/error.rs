@@ -1,7 +1,7 @@
 //! The reason why an edit cannot be applied.
 
 use super::key_bytes::KEY_BYTES;
-use crate::edit::target::{BoneRef, LayerRef, Property, TakeRef};
+use crate::edit::target::{BoneRef, LayerRef, Property, ShapeRef, TakeRef};
 use dragonfly_anim::inbetween::UniformTimes;
 use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 use std::fmt;
@@ -16,6 +16,9 @@ pub enum EditError {
     /// The bone does not exist.
     #[error("there is no bone {}", Quoted(.0))]
     NoBone(BoneRef),
+    /// No mesh, or not the given one, has the shape key.
+    #[error("there is no shape key {}", Quoted(.0))]
+    NoShape(ShapeRef),
     /// The take has no track for the bone.
     #[error("the take has no track for bone {0}")]
     NoTrack(u32),
@@ -186,6 +189,15 @@ impl fmt::Display for Quoted<'_, BoneRef> {
         match self.0 {
             BoneRef::Index(index) => write!(out, "{index}"),
             BoneRef::Name(name) => write!(out, "{name:?}"),
+        }
+    }
+}
+
+impl fmt::Display for Quoted<'_, ShapeRef> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            ShapeRef::Index(index) => write!(out, "{index}"),
+            ShapeRef::Name(name) => write!(out, "{name:?}"),
         }
     }
 }

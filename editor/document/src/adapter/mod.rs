@@ -47,21 +47,23 @@ pub use name::take_name;
 pub use pending::{Pending, PendingAt, PendingPose};
 pub use slot::{ChannelChanges, LayerVersions, TakeId, TakeVersions};
 
+use crate::ModelShapes;
 use crate::edit::target::{BoneRef, TakeRef};
-use dragonfly_anim::data::{AnimationData, Skeleton, Take};
+use dragonfly_anim::data::{AnimationData, ModelData, Skeleton, Take};
 use std::sync::Arc;
 
 /// The takes of a model in their three forms. A clone is cheap: large data is shared.
 #[derive(Clone, Debug)]
 pub struct ModelAdapter {
     skeleton: Arc<Skeleton>,
+    shapes: ModelShapes,
     slots: Vec<Arc<TakeVersions>>,
     /// Number of the next created take.
     next: u32,
 }
 
 impl ModelAdapter {
-    /// Returns the unchanged takes of a model.
+    /// Returns the unchanged takes of a model without shape keys; see [`Self::with_shapes`].
     pub fn new(animation: &AnimationData) -> Self {
         let slots: Vec<_> = animation
             .takes
@@ -72,9 +74,20 @@ impl ModelAdapter {
             })
             .collect();
         let skeleton = Arc::clone(&animation.skeleton);
-        let mut adapter = Self { skeleton, next: slots.len() as u32, slots };
+        let mut adapter = Self { skeleton, shapes: ModelShapes::default(), next: slots.len() as u32, slots };
         adapter.restore_layers();
         adapter
+    }
+
+    /// Returns the same takes, of a model with these shape keys.
+    #[must_use]
+    pub fn with_shapes(self, shapes: ModelShapes) -> Self {
+        Self { shapes, ..self }
+    }
+
+    /// Returns the unchanged takes of a model.
+    pub fn of(model: &ModelData) -> Self {
+        Self::new(&model.animation).with_shapes(ModelShapes::of(model))
     }
 
     /// The takes of a model as they were in another adapter.
@@ -82,12 +95,17 @@ impl ModelAdapter {
         let layers = slots.iter().flat_map(|slot| slot.layers()).map(|layer| layer.keys.id);
         let ids = slots.iter().map(|slot| slot.id).chain(layers);
         let next = ids.map(|id| id.0 + 1).max().unwrap_or_default();
-        Self { skeleton: Arc::clone(skeleton), slots: slots.to_vec(), next }
+        Self { skeleton: Arc::clone(skeleton), shapes: ModelShapes::default(), slots: slots.to_vec(), next }
     }
 
     /// Returns the skeleton, which no edit changes.
     pub fn skeleton(&self) -> &Arc<Skeleton> {
         &self.skeleton
+    }
+
+    /// Returns the shape keys of the model, which no edit adds or removes.
+    pub fn shapes(&self) -> &ModelShapes {
+        &self.shapes
     }
 
     /// Returns the takes in their order.

@@ -42,6 +42,14 @@ pub(super) fn of_reading(
     Some(columns.saturating_mul(times))
 }
 
+/// Returns the cost of copying the weights of all shape keys of a take.
+pub(super) fn of_shapes(adapter: &ModelAdapter, take: &TakeRef) -> usize {
+    let morphs = adapter.take(take).map_or(&[][..], |slot| &slot.original.morphs);
+    let numbers: usize = morphs.iter().map(|track| track.weights.len()).sum();
+    // A key of a bone has about four numbers.
+    POSE + numbers.div_ceil(4 * COPIED)
+}
+
 fn keys_of_bone(slot: &TakeVersions, bone: u32) -> usize {
     let Some(track) = slot.original.tracks.get(bone as usize) else { return 0 };
     track.translation.len() + track.rotation.len() + track.scale.len()
@@ -89,7 +97,7 @@ mod tests {
     }
 
     fn moved(keys: KeySet) -> Edit {
-        Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys: vec![keys], by: 0.1 })
+        Edit::MoveKeys(MoveKeys { take: TakeRef::Index(0), keys: vec![keys], shapes: Vec::new(), by: 0.1 })
     }
 
     #[test]

@@ -14,8 +14,11 @@ use serde::{Deserialize, Serialize};
 pub struct DuplicateKeys {
     /// The take.
     pub take: TakeRef,
-    /// The keys.
+    /// The keys of bones.
     pub keys: Vec<KeySet>,
+    /// Stretches of time, start and end in seconds, in which keys of shape keys are copied.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shapes: Vec<[f32; 2]>,
     /// Seconds from each key to its copy.
     pub by: f32,
 }
@@ -50,10 +53,10 @@ impl EditKind for DuplicateKeys {
             return Err(EditError::Number { what: "the distance", value: self.by });
         }
         let copied = KeyMove { copy: true, ..KeyMove::PLAIN };
-        move_keys(work, &self.take, &self.keys, copied, |time| time + self.by)
+        move_keys(work, &self.take, (&self.keys, &self.shapes), copied, |time| time + self.by)
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        Self { take: from.take(), keys: from.keys(), by: from.between(-0.2, 0.5) }
+        Self { take: from.take(), keys: from.keys(), shapes: from.shapes(), by: from.between(-0.2, 0.5) }
     }
 }

@@ -73,6 +73,7 @@ mod set_many_tangents;
 mod set_pending;
 mod set_pose;
 mod set_poses;
+mod set_shapes;
 mod set_tangents;
 mod shape_tangents;
 mod shift_loop;
@@ -101,8 +102,9 @@ pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope};
 pub use pose::{BonePose, PoseAt};
 pub use repeat_keys::{RepeatCount, RepeatMode};
 pub use set_many_tangents::TangentsAt;
+pub use set_shapes::ShapeWeight;
 pub use shape_tangents::KeyTangents;
-pub use target::{BoneRef, KeySet, LayerRef, Property, SAME_TIME, TakeRef};
+pub use target::{BoneRef, KeySet, LayerRef, MeshRef, Property, SAME_TIME, ShapeRef, TakeRef};
 pub use travel_parts::TravelPart;
 pub use turn_keys::TurnWay;
 
@@ -170,6 +172,7 @@ edits! {
     "merge_layers" => merge_layers::MergeLayers,
     "close_loop" => close_loop::CloseLoop,
     "shift_loop" => shift_loop::ShiftLoop,
+    "set_shapes" => set_shapes::SetShapes,
 }
 
 #[cfg(test)]
@@ -203,7 +206,8 @@ mod tests {
     /// Two takes with linear and with spline channels, keys at several times, and a pending pose.
     fn model() -> ModelAdapter {
         let skeleton = Arc::new(Skeleton { bones: BONES.map(bone).into() });
-        let mut model = ModelAdapter::new(&AnimationData { skeleton, takes: Vec::new() });
+        let model = ModelAdapter::new(&AnimationData { skeleton, takes: Vec::new() });
+        let mut model = model.with_shapes(crate::shapes::tests::two_meshes());
         for line in [
             r#"{"edit":"create_take","name":"walk"}"#,
             r#"{"edit":"set","take":0,"time":0.5,"poses":[{"bone":0,"translation":[0,1,0]},{"bone":1,"rotation":[1,0,0,0]}]}"#,
@@ -218,6 +222,8 @@ mod tests {
             r#"{"edit":"set","take":{"take":0,"layer":"pose"},"time":0.7,"poses":[{"bone":1,"rotation":[0,1,0,0]}]}"#,
             r#"{"edit":"key_layer_weight","take":{"take":0,"layer":1},"time":0.6,"weight":0.5}"#,
             r#"{"edit":"pend","take":0,"time":0.3,"poses":[{"bone":1,"translation":[0,2,0]}]}"#,
+            r#"{"edit":"set_shapes","take":0,"time":0.3,"shapes":[{"shape":"smile","weight":1}]}"#,
+            r#"{"edit":"set_shapes","take":0,"time":0.77,"shapes":[{"shape":"smile","weight":0}]}"#,
         ] {
             model.apply(&serde_json::from_str(line).expect("an edit")).expect(line);
         }

@@ -14,8 +14,11 @@ use serde::{Deserialize, Serialize};
 pub struct MoveKeys {
     /// The take.
     pub take: TakeRef,
-    /// The keys.
+    /// The keys of bones.
     pub keys: Vec<KeySet>,
+    /// Stretches of time, start and end in seconds, in which keys of shape keys are moved.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shapes: Vec<[f32; 2]>,
     /// Seconds; negative is earlier.
     pub by: f32,
 }
@@ -46,10 +49,10 @@ impl EditKind for MoveKeys {
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         finite("the distance", self.by)?;
-        move_keys(work, &self.take, &self.keys, KeyMove::PLAIN, |time| time + self.by)
+        move_keys(work, &self.take, (&self.keys, &self.shapes), KeyMove::PLAIN, |time| time + self.by)
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        Self { take: from.take(), keys: from.keys(), by: from.between(-0.2, 0.4) }
+        Self { take: from.take(), keys: from.keys(), shapes: from.shapes(), by: from.between(-0.2, 0.4) }
     }
 }

@@ -14,8 +14,11 @@ use serde::{Deserialize, Serialize};
 pub struct ScaleKeys {
     /// The take.
     pub take: TakeRef,
-    /// The keys.
+    /// The keys of bones.
     pub keys: Vec<KeySet>,
+    /// Stretches of time, start and end in seconds, in which keys of shape keys are scaled.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shapes: Vec<[f32; 2]>,
     /// Seconds: the time that stays where it is.
     pub about: f32,
     /// Factor, not zero.
@@ -52,11 +55,13 @@ impl EditKind for ScaleKeys {
             return Err(EditError::Number { what: "the factor", value: factor });
         }
         let scaled = KeyMove { copy: false, stretch: factor };
-        move_keys(work, &self.take, &self.keys, scaled, |time| about + (time - about) * factor)
+        move_keys(work, &self.take, (&self.keys, &self.shapes), scaled, |time| {
+            about + (time - about) * factor
+        })
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let factor = from.choice([0.5, 2.0, -1.0, 0.01]);
-        Self { take: from.take(), keys: from.keys(), about: from.time(), factor }
+        Self { take: from.take(), keys: from.keys(), shapes: from.shapes(), about: from.time(), factor }
     }
 }

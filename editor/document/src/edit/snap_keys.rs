@@ -14,8 +14,11 @@ use serde::{Deserialize, Serialize};
 pub struct SnapKeys {
     /// The take.
     pub take: TakeRef,
-    /// The keys.
+    /// The keys of bones.
     pub keys: Vec<KeySet>,
+    /// Stretches of time, start and end in seconds, in which keys of shape keys are moved to whole frames.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shapes: Vec<[f32; 2]>,
     /// Frames per second, 1 to 1000; frame 0 is at 0 s.
     pub rate: f32,
 }
@@ -53,10 +56,15 @@ impl EditKind for SnapKeys {
         let rate = f64::from(self.rate);
         // A time shortly before 0 s goes to 0, not to -0, which a saved file does not distinguish.
         let nearest = |time: f32| ((f64::from(time) * rate).round() / rate) as f32 + 0.0;
-        move_keys(work, &self.take, &self.keys, KeyMove::PLAIN, nearest)
+        move_keys(work, &self.take, (&self.keys, &self.shapes), KeyMove::PLAIN, nearest)
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        Self { take: from.take(), keys: from.keys(), rate: from.choice([8.0, 24.0, 30.0]) }
+        Self {
+            take: from.take(),
+            keys: from.keys(),
+            shapes: from.shapes(),
+            rate: from.choice([8.0, 24.0, 30.0]),
+        }
     }
 }

@@ -48,6 +48,31 @@ pub enum BoneRef {
     Name(String),
 }
 
+/// A mesh with shape keys, by its index in the list of meshes in the scene or by its name. A name that several meshes share means
+/// the first of them that has the shape key.
+///
+/// In JSON a number or a string.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MeshRef {
+    /// Index in the list of meshes in the scene, from 0.
+    Index(u32),
+    /// Its name.
+    Name(String),
+}
+
+/// A shape key of a mesh, by its index or by its name. A name that several shape keys share means the first of them.
+///
+/// In JSON a number or a string.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ShapeRef {
+    /// Index in the mesh, from 0.
+    Index(u32),
+    /// Its name; that of one without a name is `Shape 1`, counted from 1.
+    Name(String),
+}
+
 impl BoneRef {
     /// Returns the index of the bone in a skeleton; `None` where the skeleton does not have it.
     pub fn find_in(&self, skeleton: &Skeleton) -> Option<BoneIndex> {

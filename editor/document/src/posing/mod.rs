@@ -10,6 +10,8 @@ mod look;
 pub mod mirror;
 pub mod mirror_take;
 mod reach;
+mod stick_figure;
 
 pub use hold::{Goal, IkMode, LONGEST_CHAIN, PoseDragState, poses_of_drag, poses_of_pins};
 pub use look::{forward_of, look_at};
+pub use stick_figure::{StickLine, blended_pose, stick_figure};

@@ -5,7 +5,6 @@ use crate::panels::dragging::Admission;
 use crate::panels::keys::drag::KeyDrag;
 use crate::panels::keys::{ChannelId, KeyDragOp, KeySelection, channel};
 use crate::panels::request::Effect;
-use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::Change;
@@ -179,11 +178,7 @@ pub(in crate::panels) fn drag_keys(workspace: &mut Workspace, op: KeyDragOp) -> 
             | KeyDragOp::Snap(_)
             | KeyDragOp::Edit(_) => panels.keys.selection().clone(),
         };
-        if moving.channels().next().is_none() && !matches!(op, KeyDragOp::Edit(_)) {
-            if !moving.is_empty() {
-                let text = "Keys of shapes can be deleted, but not moved or copied";
-                workspace.say(MessageSeverity::Info, text);
-            }
+        if moving.is_empty() && !matches!(op, KeyDragOp::Edit(_)) {
             return None;
         }
         let gesture = workspace.dragging.new_gesture();

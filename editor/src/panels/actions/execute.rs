@@ -2,7 +2,9 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
-use super::{bones, clipboard, drags, files, framing, keys, layers, locks, look, playback, scope, takes};
+use super::{
+    bones, clipboard, drags, files, framing, keys, layers, locks, look, playback, scope, sets, takes,
+};
 use crate::panels::commands;
 use crate::panels::keys::KeysRequest;
 use crate::panels::request::{Effect, FileAction, Request};
@@ -74,6 +76,8 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Dismiss => return files::dismiss(workspace),
         Request::PropertiesLook(look) => workspace.settings.properties = look,
         Request::CurvesLook(look) => workspace.settings.curves = look.sanitized(),
+        Request::PoseFolder(folder) => workspace.settings.pose_folder = Some(folder),
+        Request::Sets(action) => sets::perform(workspace, &action),
     }
     None
 }

@@ -55,10 +55,6 @@ pub(in crate::panels) fn invert(workspace: &mut Workspace) {
 
 /// Begins to drag the selected keys from where the pointer is, without a button.
 pub(in crate::panels) fn drag_now(workspace: &mut Workspace, kind: ButtonlessKind) {
-    if workspace.read().keys.selection().channels().next().is_none() {
-        return workspace
-            .say(MessageSeverity::Info, "Keys of shapes can be deleted, but not moved or copied");
-    }
     let time = workspace.player.time();
     playback::stop_at(workspace, time);
     workspace.keys.begin_buttonless(kind);
@@ -92,7 +88,7 @@ pub(in crate::panels) fn toggle_only_changed(workspace: &mut Workspace) {
 pub(in crate::panels) fn delete(workspace: &mut Workspace) -> Option<Effect> {
     let panels = workspace.read();
     let (selection, shown) = (panels.keys.selection(), panels.take()?);
-    let (keys, shapes) = (selection.key_sets(shown), selection.shapes().stretches().to_vec());
+    let (keys, shapes) = (selection.key_sets(shown), selection.finite_shapes(shown));
     Some(edit(Edit::DeleteKeys(DeleteKeys { take: panels.take_ref()?, keys, shapes })))
 }
 

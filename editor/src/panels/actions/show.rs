@@ -75,6 +75,7 @@ fn show_model(workspace: &mut Workspace) {
     workspace.tools.drop_drag();
     workspace.bones.reset(workspace.model.bones());
     workspace.tools.set_pole(None);
+    workspace.sets.replace(Vec::new());
     if let Some(view) = workspace.model.view() {
         workspace.keys.open(view.file.key());
     }
@@ -98,6 +99,7 @@ fn marks(workspace: &Workspace) -> BoneMarks<'_> {
         pins: workspace.bones.pins(),
         pole: workspace.tools.ik().pole,
         frame_rate: workspace.frame_rate.chosen(),
+        sets: &workspace.sets,
     }
 }
 
@@ -114,11 +116,12 @@ pub(in crate::panels) fn note_marks(workspace: &mut Workspace) {
 fn recall_marks(workspace: &mut Workspace) {
     let mut remembered = std::mem::take(&mut workspace.marks);
     let recalled = workspace.model.view().and_then(|view| remembered.recall(view));
-    if let Some(RecalledMarks { flags, pins, pole, frame_rate }) = recalled {
+    if let Some(RecalledMarks { flags, pins, pole, frame_rate, sets }) = recalled {
         for (flag, bone) in flags {
             workspace.keys.set_flag(flag, bone, true);
         }
         workspace.bones.set_pins(pins);
+        workspace.sets.replace(sets);
         workspace.tools.set_pole(pole);
         if let Some(rate) = frame_rate {
             workspace.frame_rate.choose(rate);

@@ -15,9 +15,11 @@ use super::foot_contacts::FootContacts;
 use super::keys::KeyEditing;
 use super::layer_choice::LayerChoice;
 use super::open_model::Loading;
+use super::pose_library::PoseLibrary;
 use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
 use super::retarget_source::RetargetSource;
+use super::selection_sets::SelectionSets;
 use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
 use super::status::Status;
@@ -35,6 +37,7 @@ use dragonfly_document::{LoadedModel, View};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::playback::PlaybackClock;
 use egui::{Pos2, Rect};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -101,6 +104,10 @@ pub struct PanelContext<'a> {
     pub settings: &'a Settings,
     /// The model whose takes are wanted for the open one.
     pub retarget: &'a RetargetSource,
+    /// The selection sets of the model.
+    pub sets: &'a SelectionSets,
+    /// The pose library.
+    pub poses: &'a PoseLibrary,
     /// Messages of the status line.
     pub status: &'a Status,
     /// Questions and overlays.
@@ -171,6 +178,11 @@ impl<'a> PanelContext<'a> {
     /// Returns whether keys run commands: no question is shown, and nothing is dragged.
     pub fn takes_shortcuts(&self) -> bool {
         self.question().is_none() && !self.dragging.is_open() && self.keys.buttonless().is_none()
+    }
+
+    /// Returns the folder of the pose library: the one that was chosen, or the program's own.
+    pub fn pose_folder(&self) -> Option<&'a Path> {
+        self.settings.pose_folder.as_deref().or(self.poses.usual())
     }
 
     /// Returns the question that is shown.

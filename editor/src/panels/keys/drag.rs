@@ -99,7 +99,10 @@ impl KeyDrag {
         let change = match (self.op.idle(), &self.sent) {
             (true, None) => return None,
             (true, Some(_)) => Change::Cancel(self.gesture),
-            (false, _) => Change::Edit(self.op.edit(self.take.clone(), &self.keys), Some(self.gesture)),
+            (false, _) => {
+                let shapes = self.moving.finite_shapes(&self.base);
+                Change::Edit(self.op.edit(self.take.clone(), &self.keys, &shapes), Some(self.gesture))
+            }
         };
         self.sent = (!self.op.idle()).then(|| self.op.clone());
         (self.answer, self.refused) = (Outstanding::ToUnsent, false);

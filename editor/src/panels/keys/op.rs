@@ -54,15 +54,19 @@ impl KeyDragOp {
         }
     }
 
-    /// Returns the edit that applies it to `keys` of `take`.
-    pub(super) fn edit(&self, take: TakeRef, keys: &[KeySet]) -> Edit {
-        let keys = || keys.to_vec();
+    /// Returns the edit that applies it to `keys` of `take`, and to its keys of shape keys in the stretches of time `shapes`.
+    pub(super) fn edit(&self, take: TakeRef, keys: &[KeySet], shapes: &[[f32; 2]]) -> Edit {
+        let (keys, shapes) = (|| keys.to_vec(), || shapes.to_vec());
         match *self {
-            Self::Move(by) => Edit::MoveKeys(MoveKeys { take, keys: keys(), by }),
-            Self::Scale { about, factor } => Edit::ScaleKeys(ScaleKeys { take, keys: keys(), about, factor }),
-            Self::Duplicate(by) => Edit::DuplicateKeys(DuplicateKeys { take, keys: keys(), by }),
+            Self::Move(by) => Edit::MoveKeys(MoveKeys { take, keys: keys(), shapes: shapes(), by }),
+            Self::Scale { about, factor } => {
+                Edit::ScaleKeys(ScaleKeys { take, keys: keys(), shapes: shapes(), about, factor })
+            }
+            Self::Duplicate(by) => {
+                Edit::DuplicateKeys(DuplicateKeys { take, keys: keys(), shapes: shapes(), by })
+            }
             Self::Ripple { from, by } => Edit::RippleKeys(RippleKeys { take, from, by }),
-            Self::Snap(rate) => Edit::SnapKeys(SnapKeys { take, keys: keys(), rate }),
+            Self::Snap(rate) => Edit::SnapKeys(SnapKeys { take, keys: keys(), shapes: shapes(), rate }),
             Self::Edit(ref edit) => edit.clone(),
         }
     }

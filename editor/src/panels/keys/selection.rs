@@ -96,8 +96,7 @@ impl KeySelection {
     /// Selects the keys of morph targets between two times in addition; a toggle deselects them if all of them are
     /// selected.
     pub fn choose_shapes(&mut self, take: &Take, stretch: [f32; 2], choice: Choice) {
-        let mut times: Vec<f32> = take.morphs.iter().flat_map(|track| track.times.iter().copied()).collect();
-        times.sort_by(f32::total_cmp);
+        let times = shape_times(take);
         let keys = super::intervals::keys_between(&times, stretch);
         let all = times[keys].iter().all(|&time| self.shapes.holds(time));
         let shapes = Arc::make_mut(&mut self.shapes);
@@ -150,8 +149,34 @@ impl KeySelection {
             moved.tidy(after);
             (!moved.is_empty()).then_some((channel, moved))
         });
-        // Keys of morph targets do not move with those of bones.
-        Self { channels: Arc::new(moved.collect()), shapes: Arc::clone(&self.shapes) }
+        let channels = Arc::new(moved.collect());
+        Self { channels, shapes: Arc::new(self.shifted_shapes(old, new, shift)) }
+    }
+
+    fn shifted_shapes(&self, old: &Take, new: &Take, shift: Shift) -> Intervals {
+        let [before, after] = [old, new].map(shape_times);
+        let mut moved = Intervals::of(self.shapes.stretches().iter().map(|&stretch| shift.stretch(stretch)));
+        if moved.count(&after) != self.shapes.count(&before) {
+            let keys = self.shapes.keys(&before).flatten().map(|key| shift.apply(before[key]));
+            moved = Intervals::singles(keys);
+        }
+        moved.tidy(&after);
+        moved
+    }
+
+    /// Returns the selected intervals of the keys of morph targets, with ends that edits can name.
+    pub fn finite_shapes(&self, take: &Take) -> Vec<[f32; 2]> {
+        let [first, last] = take.range_of_keys().map_or([0.0; 2], |(first, last)| [first, last]);
+        let end = |time: f32| {
+            if time.is_finite() {
+                time
+            } else if time < 0.0 {
+                first
+            } else {
+                last
+            }
+        };
+        self.shapes.stretches().iter().map(|stretch| stretch.map(end)).collect()
     }
 
     /// Returns the same keys after all keys from time `from` on were moved by `by` seconds: `new` is the take with the
@@ -221,4 +246,12 @@ impl KeySelection {
         all.choose(take, channels, WHOLE, Choice::Replace);
         all
     }
+}
+
+/// Returns the times of the keys of all morph targets, ascending.
+fn shape_times(take: &Take) -> Vec<f32> {
+    let mut times: Vec<f32> = take.morphs.iter().flat_map(|track| track.times.iter().copied()).collect();
+    times.sort_by(f32::total_cmp);
+    times.dedup();
+    times
 }

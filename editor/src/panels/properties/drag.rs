@@ -351,7 +351,7 @@ pub(super) fn pair_of(context: &PanelContext<'_>, bone: BoneIndex) -> Option<Pai
 }
 
 /// Pauses playback while numbers are edited.
-fn stop(context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+pub(in crate::panels) fn stop(context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     if context.playback.playing {
         let backwards = context.playback.speed < 0.0;
         requests.push(Request::Command(if backwards { Id::PlayBackwards } else { Id::PlayPause }));

@@ -18,6 +18,7 @@ use super::theme::Theme;
 use super::{Panel, PanelPlace, widgets};
 use channel::ChannelTable;
 use drag::FieldDrag;
+pub(super) use drag::stop as pause;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_anim::joint::EulerOrder;
 use dragonfly_document::edit::{Property, ResetTo};

@@ -9,6 +9,7 @@ pub(crate) mod cut;
 pub(crate) mod keys;
 pub(crate) mod layer;
 pub(crate) mod morph;
+pub(crate) mod morph_keys;
 pub(crate) mod offset;
 pub(crate) mod pending;
 pub(crate) mod pose;
@@ -30,7 +31,7 @@ use super::slot::{ChannelContent, TakeId, TakeVersions};
 use super::times::SharedTimes;
 use super::{EditError, ModelAdapter};
 use crate::edit::target::{BoneRef, Property, TakeRef};
-use dragonfly_anim::data::{Bone, Channel, Skeleton};
+use dragonfly_anim::data::{Bone, Channel, MorphTrack, Skeleton};
 use dragonfly_anim::layers::{LayerMode, LayerRule};
 use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 use std::collections::BTreeSet;
@@ -70,6 +71,18 @@ impl Transaction {
         }
         // A key has its time and at least three numbers.
         self.added += 16 * more as u64;
+        let bytes = self.adapter.key_bytes() + self.added;
+        if bytes > KEY_BYTES { Err(EditError::TooLarge { bytes }) } else { Ok(()) }
+    }
+
+    /// Checks that weights of shape keys may replace those of a track with `old` keys.
+    pub(crate) fn room_for_weights(&mut self, new: &MorphTrack, old: usize) -> Result<(), EditError> {
+        let keys = new.times.len();
+        if keys > KEYS_PER_CHANNEL {
+            return Err(EditError::TooManyKeys { keys });
+        }
+        let width = 4 * (1 + new.weights.len() / keys.max(1));
+        self.added += (keys.saturating_sub(old) * width) as u64;
         let bytes = self.adapter.key_bytes() + self.added;
         if bytes > KEY_BYTES { Err(EditError::TooLarge { bytes }) } else { Ok(()) }
     }

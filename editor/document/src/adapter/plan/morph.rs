@@ -10,7 +10,7 @@ use dragonfly_anim::sample::mix::hermite_slope;
 use dragonfly_anim::sample::{find_keys, sample_morph_weights};
 
 /// Returns the number of floats per key.
-fn per_key(track: &MorphTrack) -> usize {
+pub(super) fn per_key(track: &MorphTrack) -> usize {
     track.targets as usize * if track.interpolation == Interpolation::CubicSpline { 3 } else { 1 }
 }
 
@@ -34,7 +34,7 @@ pub(crate) fn mapped(track: &MorphTrack, to: impl Fn(f32) -> Option<f32>, stretc
 }
 
 /// Appends a key, with its tangents divided by `stretch`; a negative `stretch` also swaps them.
-fn put(weights: &mut Vec<f32>, values: &[f32], track: &MorphTrack, stretch: f32) {
+pub(super) fn put(weights: &mut Vec<f32>, values: &[f32], track: &MorphTrack, stretch: f32) {
     let targets = track.targets as usize;
     if track.interpolation != Interpolation::CubicSpline || values.len() < 3 * targets {
         return weights.extend_from_slice(values);
@@ -75,7 +75,7 @@ pub(crate) fn between(track: &MorphTrack, from: f32, to: f32) -> MorphTrack {
 }
 
 /// Returns the numbers of a new key at `time` that leaves the curves of the track as they are.
-fn key_at(track: &MorphTrack, time: f32) -> Vec<f32> {
+pub(super) fn key_at(track: &MorphTrack, time: f32) -> Vec<f32> {
     let targets = track.targets as usize;
     let mut value = vec![0.0; targets];
     let alone = Take { morphs: vec![track.clone()], ..Take::default() };

@@ -3,8 +3,10 @@
 use super::*;
 use crate::panels::actions::bones;
 use crate::panels::actions::keys;
+use crate::panels::actions::sets;
 use crate::panels::keys::BoneFlag;
 use crate::panels::selected_bones::SelectionCommand;
+use crate::panels::selection_sets::SetAction;
 
 commands! {
     ClearSelection => When::Always, "Deselect all", [key(NONE, Key::Escape)], "Clears the selection", keys::cancel_or_deselect;
@@ -19,6 +21,11 @@ commands! {
     ShrinkSelection => When::Bone, "Shrink selection", [], "Deselects the bones at the edge of the selection: those with a parent or child that is not selected", |w| { bones::command(w, SelectionCommand::Shrink); None };
     SelectMirror => When::Bone, "Select mirrored bones", [key(SHIFT, Key::M)], "Selects the bones on the other side of the body, found by their names", |w| { bones::select_mirror(w, false); None };
     ExtendMirror => When::Bone, "Add mirrored bones to selection", [], "Adds the bones on the other side of the body to the selection", |w| { bones::select_mirror(w, true); None };
+    SaveSelectionSet => When::Bone, "Save selection as set", [], "Saves the selected bones as a selection set, which is listed above the skeleton and kept with the file", |w| { sets::perform(w, &SetAction::Save); None };
+    NextSelectionSet => When::Model, "Select next set", [], "Selects the bones of the next selection set", |w| { sets::select_next(w, true); None }, repeats;
+    PreviousSelectionSet => When::Model, "Select previous set", [], "Selects the bones of the previous selection set", |w| { sets::select_next(w, false); None }, repeats;
+    AddToSelectionSet => When::Bone, "Add bones to set", [], "Adds the selected bones to the selection set that was selected last", |w| { sets::change_last(w, SetAction::AddBones); None };
+    RemoveFromSelectionSet => When::Bone, "Remove bones from set", [], "Removes the selected bones from the selection set that was selected last", |w| { sets::change_last(w, SetAction::RemoveBones); None };
     HideSelected => When::Bone, "Hide bones", [key(NONE, Key::H)], "Hides the selected bones", |w| { bones::command(w, SelectionCommand::Hide); None };
     HideOthers => When::Bone, "Hide other bones", [key(SHIFT, Key::H)], "Hides all bones except the selected ones", |w| { bones::command(w, SelectionCommand::HideOthers); None };
     ShowAll => When::Model, "Show all bones", [key(ALT, Key::H)], "Shows and selects all hidden bones", |w| { bones::command(w, SelectionCommand::ShowAll); None };

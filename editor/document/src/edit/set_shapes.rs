@@ -1,0 +1,111 @@
+//! Sets weights of shape keys at a time.
+
+use super::kind::EditKind;
+use super::{Arbitrary, EditedBones, Example, MeshRef, ShapeRef, TakeRef, cost};
+use crate::adapter::op::Op;
+use crate::adapter::plan::{Transaction, finite, key_time, morph_keys};
+use crate::adapter::{EditError, ModelAdapter};
+use dragonfly_anim::data::Skeleton;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Sets weights of shape keys (morph targets) at a time. Where their mesh has no key there, one is added that keeps the other weights. A
+/// mesh that the take does not animate then has its new weights in the whole take.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SetShapes {
+    /// The take.
+    pub take: TakeRef,
+    /// Seconds.
+    pub time: f32,
+    /// The shape keys with their new weights. Of one that occurs twice, the last weight counts.
+    pub shapes: Vec<ShapeWeight>,
+}
+
+/// A shape key of a mesh, and a weight for it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShapeWeight {
+    /// The mesh; without it, the first mesh that has the shape key.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshRef>,
+    /// The shape key.
+    pub shape: ShapeRef,
+    /// The weight, usually 0 to 1.
+    pub weight: f32,
+}
+
+impl EditKind for SetShapes {
+    const EXAMPLE: Example = Example {
+        json: r#"{"edit":"set_shapes","take":"Talk","time":0.5,"shapes":[{"mesh":"Face","shape":"jawOpen","weight":0.8}]}"#,
+        description: "Opens the jaw of the face by 80 % at 0.5 s.",
+    };
+
+    fn label(&self) -> &'static str {
+        "Set shape keys"
+    }
+
+    fn take(&self) -> Option<&TakeRef> {
+        Some(&self.take)
+    }
+
+    fn bones(&self, _skeleton: &Skeleton) -> EditedBones {
+        // Weights belong to meshes, so no lock of a bone concerns them.
+        EditedBones::Named(Default::default())
+    }
+
+    fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
+        Some(cost::of_shapes(adapter, &self.take))
+    }
+
+    fn detail(&self, _adapter: &ModelAdapter) -> Option<String> {
+        match &self.shapes[..] {
+            [ShapeWeight { shape: ShapeRef::Name(name), .. }] => Some(name.clone()),
+            [] | [_] => None,
+            shapes => Some(format!("{} shape keys", shapes.len())),
+        }
+    }
+
+    fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
+        let take = work.take(&self.take)?;
+        let time = key_time(self.time, work.slot(take))?;
+        let mut weights: BTreeMap<u32, Vec<(usize, f32)>> = BTreeMap::new();
+        for wanted in &self.shapes {
+            let found = work.adapter().shapes().find(wanted.mesh.as_ref(), &wanted.shape);
+            let (mesh, shape) = found.ok_or_else(|| EditError::NoShape(wanted.shape.clone()))?;
+            weights.entry(mesh.instance()).or_default().push((shape, finite("a weight", wanted.weight)?));
+        }
+        if weights.is_empty() {
+            return Err(EditError::Nothing("no shape key is given"));
+        }
+        let mut tracks = work.slot(take).original.morphs.clone();
+        for (instance, weights) in weights {
+            let at = tracks.iter().position(|track| track.instance == instance);
+            let old = at.map(|at| &tracks[at]);
+            let rest = work.adapter().shapes().mesh(instance).map_or(&[][..], |mesh| mesh.rest());
+            let new = morph_keys::with_weights(old, (instance, rest), time, &weights);
+            work.room_for_weights(&new, old.map_or(0, |old| old.times.len()))?;
+            match at {
+                Some(at) => tracks[at] = new,
+                None => tracks.push(new),
+            }
+        }
+        work.perform(Op::Morphs(take, tracks));
+        Ok(())
+    }
+
+    fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        let shapes = (0..from.choice([1, 1, 2])).map(|_| ShapeWeight {
+            mesh: from.optional(|from| MeshRef::Index(from.choice([0, 1, 3]))),
+            shape: if from.flag() {
+                ShapeRef::Index(from.choice([0, 1, 2]))
+            } else {
+                ShapeRef::Name(from.choice(["smile", "blink_L"]).to_owned())
+            },
+            weight: from.between(-0.5, 1.5),
+        });
+        let shapes = shapes.collect();
+        Self { take: from.take(), time: from.time(), shapes }
+    }
+}
