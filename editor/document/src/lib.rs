@@ -17,6 +17,7 @@ mod beside;
 mod bone_map;
 pub mod bones;
 mod cancel;
+mod checking;
 pub mod demo;
 pub mod edit;
 mod editable;

@@ -30,6 +30,12 @@ pub(super) struct DopeAreas {
 pub(in crate::panels) const RULER: f32 = 24.0;
 /// Height of the lane of markers.
 const MARKERS: f32 = 16.0;
+/// Height of the lane of problems.
+const FINDINGS: f32 = 12.0;
+/// Height of the row of a bone in the lane of contacts.
+const CONTACT_ROW: f32 = 14.0;
+/// Largest number of rows of this height: those of more bones become lower.
+const CONTACT_ROWS: usize = 6;
 /// Height of the bar over the selected keys.
 const BAR: f32 = 8.0;
 /// Margin before the start and after the end of the take.
@@ -50,10 +56,10 @@ impl DopeAreas {
             )
         };
         let head = lane(all.top(), RULER);
-        let findings = lane(head.bottom(), super::findings::height(context.take_findings().len()));
+        let findings = lane(head.bottom(), if context.take_findings().is_empty() { 0.0 } else { FINDINGS });
         let markers = lane(findings.bottom(), if context.markers().is_empty() { 0.0 } else { MARKERS });
-        let contacts =
-            lane(markers.bottom(), super::contacts::height(context.contacts.track().bones().len()));
+        let rows = context.contacts.track().bones().len().min(CONTACT_ROWS);
+        let contacts = lane(markers.bottom(), rows as f32 * CONTACT_ROW);
         let bar = lane(contacts.bottom(), BAR);
         let below = all.bottom().max(bar.bottom());
         Self {

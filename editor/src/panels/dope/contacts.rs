@@ -21,19 +21,10 @@ use egui::{
     Ui, WidgetInfo, pos2,
 };
 
-/// Height of the row of a bone.
-const ROW: f32 = 14.0;
-/// Largest height of the lane: rows of many bones become lower.
-const HIGHEST: f32 = 6.0 * ROW;
 /// Width of the ends of a bar that are dragged alone, points.
 const GRIP: f32 = 5.0;
 /// Largest number of bars of a row in sight that can be dragged: more are too small for it.
 const MOST_BARS: usize = 200;
-
-/// Returns the height of the lane for a number of bones.
-pub(super) fn height(bones: usize) -> f32 {
-    (bones as f32 * ROW).min(HIGHEST)
-}
 
 /// The contact that is dragged.
 #[derive(Debug, Default)]

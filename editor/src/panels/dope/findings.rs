@@ -16,15 +16,8 @@ use egui::{
     Button, CornerRadius, CursorIcon, PointerButton, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-/// Height of the lane.
-const LANE: f32 = 12.0;
 /// Largest number of marks in the lane.
 const MOST: usize = 300;
-
-/// Returns the height of the lane for a number of problems.
-pub(super) fn height(problems: usize) -> f32 {
-    if problems == 0 { 0.0 } else { LANE }
-}
 
 /// Draws the marks in sight.
 pub(super) fn show(ui: &Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {

@@ -1,0 +1,32 @@
+//! The job that checks a take for defects: a long take has many poses.
+
+use super::job::JobNews;
+use super::message::DocumentReply;
+use super::owner::Document;
+use super::take_check::{CheckedTake, TakeCheck};
+use crate::text::sentence;
+use dragonfly_runtime::Job;
+
+impl Document {
+    /// Checks a take in a job. The reply is [`DocumentReply::Checked`].
+    pub(super) fn check_take(&mut self, check: TakeCheck) {
+        let begun = Job::start(
+            &self.own,
+            "check",
+            move |_| JobNews::Checked(check.run()),
+            |panic| JobNews::Checked(Err(format!("the take could not be checked: {panic}"))),
+        );
+        match begun {
+            Ok(job) => self.checking = Some(job),
+            Err(error) => self.reply(DocumentReply::Warning(error.to_string())),
+        }
+    }
+
+    /// Handles the result of the check.
+    pub(super) fn checked(&mut self, result: Result<CheckedTake, String>) {
+        self.reply(match result {
+            Ok(checked) => DocumentReply::Checked(checked),
+            Err(reason) => DocumentReply::Refused(sentence(&reason)),
+        });
+    }
+}
