@@ -34,7 +34,7 @@ fn animator() -> Animator {
     let folder = PoseFolder {
         folder: PathBuf::from("poses"),
         poses: vec![
-            file("Wide", &["chest", "calm"], poses),
+            file("Wide", &["chest", "Calm"], poses),
             file("Tail up", &["tail"], vec![turned("tail", 1.0)]),
         ],
         problems: Vec::new(),
@@ -205,7 +205,7 @@ fn poses_are_found_by_name_and_tag() {
     let shown =
         |animator: &Animator| ["Wide", "Tail up"].map(|name| animator.harness.query_by_label(name).is_some());
     assert_eq!(shown(&animator), [true, true]);
-    for (text, expected) in [("CALM", [true, false]), ("tail", [false, true]), ("chest tail", [false, false])]
+    for (text, expected) in [("calm", [true, false]), ("tail", [false, true]), ("chest tail", [false, false])]
     {
         let field = animator.harness.get_by_label("Find a pose").rect().center();
         animator.click(field);
@@ -235,7 +235,7 @@ fn a_pose_gets_another_name_and_tags_in_its_file() {
     assert_eq!(file.as_deref(), Some("Wide.pose.json"));
     assert_eq!(
         (pose.name.as_str(), pose.tags),
-        ("Wide", ["chest", "calm", "open"].map(str::to_owned).to_vec())
+        ("Wide", ["chest", "Calm", "open"].map(str::to_owned).to_vec())
     );
     assert_eq!(pose.poses.len(), 2);
 }
