@@ -1,4 +1,4 @@
-//! Daily tasks of an animator, done with mouse and keyboard alone, in at most as many actions as in Blender.
+//! Daily tasks of an animator, done with mouse and keyboard alone, in no more actions than in Blender.
 //!
 //! An action is a click, a drag, a chord of keys or a typed value. The numbers for Blender are from daily practice, with default
 //! settings and shortcuts.
@@ -13,7 +13,7 @@ use glam::Quat;
 use std::sync::Arc;
 
 /// A user whose actions are counted.
-struct Hand {
+struct User {
     animator: Animator,
     actions: usize,
 }
@@ -21,7 +21,7 @@ struct Hand {
 /// The name of the bone that is edited, and its index.
 const BONE: (&str, u32) = ("rib_00_left_middle", 3);
 
-impl Hand {
+impl User {
     fn new() -> Self {
         Self { animator: Animator::new(fixture::full()), actions: 0 }
     }
@@ -95,39 +95,39 @@ impl Hand {
 
 #[test]
 fn playing_changing_the_take_and_undo_are_one_action_each() {
-    let mut hand = Hand::new();
-    let read = |hand: &Hand| {
-        let context = hand.animator.harness.state().state.read();
+    let mut user = User::new();
+    let read = |user: &User| {
+        let context = user.animator.harness.state().state.read();
         (context.playback.moves(context.now), context.playback.take)
     };
-    hand.chord(Modifiers::NONE, Key::Space);
-    assert!(read(&hand).0);
-    hand.chord(Modifiers::NONE, Key::PageDown);
-    assert_eq!(read(&hand).1, Some(1));
-    hand.takes_at_most(1 + 3);
+    user.chord(Modifiers::NONE, Key::Space);
+    assert!(read(&user).0);
+    user.chord(Modifiers::NONE, Key::PageDown);
+    assert_eq!(read(&user).1, Some(1));
+    user.takes_at_most(1 + 3);
 }
 
 #[test]
 fn a_bone_is_rotated_by_a_typed_number_in_two_actions() {
-    let mut hand = Hand::new();
-    hand.select_bone();
-    hand.typed("Rotation change X", "30");
-    hand.takes_at_most(3);
-    assert_eq!(hand.animator.edited.steps().1, 1);
+    let mut user = User::new();
+    user.select_bone();
+    user.typed("Rotation change X", "30");
+    user.takes_at_most(3);
+    assert_eq!(user.animator.edited.steps().1, 1);
 }
 
 #[test]
 fn an_arm_is_raised_over_the_whole_take_in_four_actions_exactly() {
-    let mut hand = Hand::new();
-    let before = hand.take(0);
-    hand.select_bone();
-    hand.click("Edits apply to: This frame");
-    hand.actions += 1;
-    hand.animator.harness.get_by_label_contains("Edit whole take").click();
-    hand.animator.steps(3);
-    hand.typed("Rotation change X", "20");
-    hand.takes_at_most(5);
-    let after = hand.take(0);
+    let mut user = User::new();
+    let before = user.take(0);
+    user.select_bone();
+    user.click("Edits apply to: This frame");
+    user.actions += 1;
+    user.animator.harness.get_by_label_contains("Edit whole take").click();
+    user.animator.steps(3);
+    user.typed("Rotation change X", "20");
+    user.takes_at_most(5);
+    let after = user.take(0);
     let [before, after] = [before, after].map(|take| take.tracks[BONE.1 as usize].rotation.clone());
     let wanted = Quat::from_rotation_x(20_f32.to_radians());
     for (old, new) in before.values.iter().zip(after.values.iter()) {
@@ -137,26 +137,26 @@ fn an_arm_is_raised_over_the_whole_take_in_four_actions_exactly() {
 
 #[test]
 fn a_jittering_curve_is_smoothed_in_three_actions_with_the_choice_of_the_bone() {
-    let mut hand = Hand::new();
-    hand.select_bone();
-    let before = hand.take(0);
-    hand.chord(Modifiers::COMMAND | Modifiers::SHIFT, Key::A);
-    hand.chord(Modifiers::ALT, Key::O);
+    let mut user = User::new();
+    user.select_bone();
+    let before = user.take(0);
+    user.chord(Modifiers::COMMAND | Modifiers::SHIFT, Key::A);
+    user.chord(Modifiers::ALT, Key::O);
     // Blender: Alt+O over a graph editor that shows the selected keys.
-    hand.takes_at_most(1 + 2);
+    user.takes_at_most(1 + 2);
     assert_ne!(
         before.tracks[BONE.1 as usize].rotation.values,
-        hand.take(0).tracks[BONE.1 as usize].rotation.values
+        user.take(0).tracks[BONE.1 as usize].rotation.values
     );
 }
 
 #[test]
 fn a_loop_is_closed_in_three_actions_and_ends_in_its_first_pose() {
-    let mut hand = Hand::new();
-    hand.chord(Modifiers::NONE, Key::Home);
-    hand.menu("Take", "Close loop from here");
-    hand.takes_at_most(4);
-    let take = hand.take(0);
+    let mut user = User::new();
+    user.chord(Modifiers::NONE, Key::Home);
+    user.menu("Take", "Close loop from here");
+    user.takes_at_most(4);
+    let take = user.take(0);
     for track in &take.tracks {
         if let (Some(first), Some(last)) =
             (track.rotation.value(0), track.rotation.value(track.rotation.len() - 1))
@@ -168,37 +168,37 @@ fn a_loop_is_closed_in_three_actions_and_ends_in_its_first_pose() {
 
 #[test]
 fn a_pose_is_copied_to_another_take_in_three_actions_and_mirrored_in_two() {
-    let mut hand = Hand::new();
-    hand.select_bone();
-    let chosen = hand.actions;
-    let text = hand.copy();
-    hand.chord(Modifiers::NONE, Key::PageDown);
-    hand.paste(text.clone(), false);
-    assert_eq!(hand.actions - chosen, 3);
-    hand.takes_at_most(6 + chosen);
-    assert_eq!(hand.animator.edited.steps().1, 1);
-    let before = hand.actions;
-    let _copied = hand.copy();
-    hand.paste(text, true);
-    assert!(hand.actions - before <= 2);
+    let mut user = User::new();
+    user.select_bone();
+    let chosen = user.actions;
+    let text = user.copy();
+    user.chord(Modifiers::NONE, Key::PageDown);
+    user.paste(text.clone(), false);
+    assert_eq!(user.actions - chosen, 3);
+    user.takes_at_most(6 + chosen);
+    assert_eq!(user.animator.edited.steps().1, 1);
+    let before = user.actions;
+    let _copied = user.copy();
+    user.paste(text, true);
+    assert!(user.actions - before <= 2);
 }
 
 #[test]
 fn ghosts_and_the_motion_path_are_one_action_each() {
-    let mut hand = Hand::new();
-    hand.select_bone();
-    hand.chord(Modifiers::SHIFT, Key::G);
-    hand.chord(Modifiers::SHIFT, Key::P);
-    hand.takes_at_most(1 + 3 + 4);
-    let tools = &hand.animator.harness.state().state.read().settings.tools;
+    let mut user = User::new();
+    user.select_bone();
+    user.chord(Modifiers::SHIFT, Key::G);
+    user.chord(Modifiers::SHIFT, Key::P);
+    user.takes_at_most(1 + 3 + 4);
+    let tools = &user.animator.harness.state().state.read().settings.tools;
     assert!(tools.ghosts.shown && tools.path);
 }
 
 #[test]
 fn keys_are_selected_moved_duplicated_and_deleted_with_one_or_two_actions_each() {
-    let mut hand = Hand::new();
-    hand.select_bone();
-    let animator = &mut hand.animator;
+    let mut user = User::new();
+    user.select_bone();
+    let animator = &mut user.animator;
     let (from, to) = (animator.at(animator.key(3) - 0.04, 4), animator.at(animator.key(5) + 0.04, 2));
     animator.drag(from, to);
     animator.release(to);
@@ -208,45 +208,45 @@ fn keys_are_selected_moved_duplicated_and_deleted_with_one_or_two_actions_each()
     animator.drag(at, at + by);
     animator.release(at + by);
     assert_eq!(animator.edited.steps().1, 1, "a move is one drag");
-    let before = hand.take(0).keys();
-    hand.chord(Modifiers::NONE, Key::Delete);
-    assert_eq!(hand.take(0).keys(), before - 3);
-    hand.chord(Modifiers::COMMAND, Key::Z);
-    assert_eq!(hand.take(0).keys(), before);
-    hand.takes_at_most(1 + 1 + 1);
+    let before = user.take(0).keys();
+    user.chord(Modifiers::NONE, Key::Delete);
+    assert_eq!(user.take(0).keys(), before - 3);
+    user.chord(Modifiers::COMMAND, Key::Z);
+    assert_eq!(user.take(0).keys(), before);
+    user.takes_at_most(1 + 1 + 1);
 }
 
 #[test]
 fn a_bone_is_found_by_name_in_three_actions() {
-    let mut hand = Hand::new();
-    hand.chord(Modifiers::COMMAND, Key::F);
-    hand.actions += 1;
-    hand.animator.harness.event(Event::Text("left_mid".to_owned()));
-    hand.animator.steps(3);
-    hand.chord(Modifiers::NONE, Key::Enter);
-    hand.takes_at_most(3);
-    let context = hand.animator.harness.state().state.read();
+    let mut user = User::new();
+    user.chord(Modifiers::COMMAND, Key::F);
+    user.actions += 1;
+    user.animator.harness.event(Event::Text("left_mid".to_owned()));
+    user.animator.steps(3);
+    user.chord(Modifiers::NONE, Key::Enter);
+    user.takes_at_most(3);
+    let context = user.animator.harness.state().state.read();
     let bone = context.selected().expect("a bone");
     assert!(context.bone_name(bone).contains("left_mid"));
 }
 
 #[test]
 fn rotating_30_degrees_about_z_takes_the_four_keystrokes_of_blender() {
-    let mut hand = Hand::new();
+    let mut user = User::new();
     let keys = KeySettings { preset: Preset::Blender, ..KeySettings::default() };
-    hand.animator.request(dragonfly::panels::Request::Keys(keys));
-    hand.select_bone();
-    let chosen = hand.actions;
+    user.animator.request(dragonfly::panels::Request::Keys(keys));
+    user.select_bone();
+    let chosen = user.actions;
     // The pointer is over the viewport.
-    let center = hand.animator.harness.state().state.read().viewport.center();
-    hand.animator.move_to(center);
-    hand.chord(Modifiers::NONE, Key::R);
-    hand.chord(Modifiers::NONE, Key::Z);
-    hand.actions += 1;
+    let center = user.animator.harness.state().state.read().viewport.center();
+    user.animator.move_to(center);
+    user.chord(Modifiers::NONE, Key::R);
+    user.chord(Modifiers::NONE, Key::Z);
+    user.actions += 1;
     for digit in [Key::Num3, Key::Num0] {
-        hand.animator.harness.key_press(digit);
-        hand.animator.steps(1);
+        user.animator.harness.key_press(digit);
+        user.animator.steps(1);
     }
-    hand.chord(Modifiers::NONE, Key::Enter);
-    assert_eq!(hand.actions - chosen, 4);
+    user.chord(Modifiers::NONE, Key::Enter);
+    assert_eq!(user.actions - chosen, 4);
 }

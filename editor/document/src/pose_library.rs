@@ -212,6 +212,6 @@ fn read_folder(folder: &Path) -> Result<PoseFolder, String> {
             Err(reason) => found.problems.push(format!("{file}: {reason}")),
         }
     }
-    found.poses.sort_by(|a, b| a.pose.name.to_lowercase().cmp(&b.pose.name.to_lowercase()));
+    found.poses.sort_by_key(|found| found.pose.name.to_lowercase());
     Ok(found)
 }

@@ -77,7 +77,7 @@ impl RunCommand for DiffArguments {
 
 /// Writes the picture of the take with the largest distance, unless no joint moves.
 fn write_picture(path: &Path, files: [LoadedModel; 2], difference: &FileDifference) -> Result<(), Failure> {
-    // Where no joint moves, the take with the largest angle.
+    // The take with the largest angle where no joint moves.
     let size = |take: &&DiffTake| {
         let largest = |of: fn(&DiffBone) -> f32| take.bones.iter().map(of).fold(-1.0, f32::max);
         [largest(|bone| bone.distance_mm.value), largest(|bone| bone.angle_degrees.value)]

@@ -46,7 +46,7 @@ pub(super) fn draw(
     let outline: Vec<Vec3> = posed.iter().flat_map(Evaluator::outline).collect();
     camera.frame_points(&outline, width as f32 / height as f32);
     camera.dolly(1.12);
-    let joints = posed.each_ref().map(|posed| joints(posed));
+    let joints = posed.each_ref().map(joints);
     let most = profile.distances.iter().copied().fold(0.0, f32::max).max(f32::MIN_POSITIVE);
     let mut studio = Studio::new().map_err(refusal)?;
     let mut picture = RgbaImage::from_pixel(2 * width + GAP, height + GAP + STRIP, Rgba([24, 26, 28, 255]));
@@ -84,7 +84,7 @@ fn joints(posed: &Evaluator) -> Vec<Vec3> {
     posed.to_root().iter().map(|matrix| matrix.w_axis.truncate()).collect()
 }
 
-/// Returns the pixel at which a point is in a half; `None` where it is behind the camera or too far for the numbers.
+/// Returns the pixel at which a point is in a half; `None` for a point that the camera cannot see or whose numbers are too large.
 fn pixel(camera: &Camera, point: Vec3) -> Option<Vec2> {
     let [width, height] = HALF.map(|side| side as f32);
     let seen = camera.view_from_world().transform_point3(point);

@@ -5,7 +5,7 @@ use dragonfly_anim::data::Take;
 use dragonfly_document::adapter::TakeId;
 use std::sync::Arc;
 
-/// What the take that is shown is compared with.
+/// The choice of the take with which the one shown is compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CompareWith {
     /// Nothing.

@@ -160,6 +160,12 @@ const GROUP_ENDS: &[Id] = &[
     Id::RippleClose,
     Id::ToggleRulerSeconds,
     Id::NextMarker,
+    // Take
+    Id::MoveTakeDown,
+    Id::ReverseTake,
+    Id::CompareOpened,
+    Id::MirrorDialog,
+    Id::Retarget,
 ];
 
 /// Draws an entry for each selection set, which selects its bones.

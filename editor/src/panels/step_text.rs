@@ -36,8 +36,8 @@ fn change_text(change: PoseChange) -> String {
         PoseChange::Rotation(by) => {
             let by = turn(by);
             match along(by) {
-                Some((axis, by)) => format!("{axis} {}°", signed(by)),
-                None => format!("{}°", number(by.length())),
+                Some((axis, by)) => format!("{axis} {}°", signed(rounded(by))),
+                None => format!("{}°", number(rounded(by.length()))),
             }
         }
         PoseChange::Scale(by) => {
@@ -65,6 +65,11 @@ fn along(by: Vec3) -> Option<(char, f32)> {
     (most != 0.0 && sideways <= 2e-3 * most.abs()).then_some((axis, most))
 }
 
+/// Returns degrees to a tenth.
+fn rounded(degrees: f32) -> f32 {
+    (degrees * 10.0).round() / 10.0
+}
+
 fn signed(by: f32) -> String {
     let text = number(by);
     if by > 0.0 { format!("+{text}") } else { text }
@@ -85,6 +90,7 @@ mod tests {
         let turned = |degrees: f32| PoseChange::Rotation(Quat::from_rotation_z(degrees.to_radians()));
         assert_eq!(change_text(turned(20.0)), "Z +20°");
         assert_eq!(change_text(turned(-7.5)), "Z −7.5°");
+        assert_eq!(change_text(turned(8.876)), "Z +8.9°");
         assert_eq!(change_text(turned(270.0)), "Z −90°");
         assert_eq!(change_text(PoseChange::Translation(Vec3::new(0.0, 0.25, 0.0))), "Y +0.25 m");
         assert_eq!(change_text(PoseChange::Scale(Vec3::new(1.0, 1.0, 2.0))), "Z ×2");

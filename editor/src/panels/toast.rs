@@ -1,4 +1,4 @@
-//! A warning or an error beside the pointer, where the user looks, for some seconds. The status line shows it, too.
+//! A warning or an error next to the pointer, where the user looks, for some seconds. The status line shows it, too.
 
 use super::context::PanelContext;
 use super::status_line::{sentence, tone};

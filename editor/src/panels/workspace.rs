@@ -64,7 +64,7 @@ pub(super) struct Workspace {
     pub(super) takes: TakeListState,
     /// The layer whose keys are shown and edited.
     pub(super) layers: LayerChoice,
-    /// What the take that is shown is compared with.
+    /// The choice of the take with which the one shown is compared.
     pub(super) compared: CompareWith,
     /// The tools of the viewport.
     pub(super) tools: ToolState,

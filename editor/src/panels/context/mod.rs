@@ -90,7 +90,7 @@ pub struct PanelContext<'a> {
     pub takes: &'a TakeListState,
     /// The layer whose keys are shown and edited.
     pub layer_choice: LayerChoice,
-    /// What the take that is shown is compared with.
+    /// The choice of the take with which the one shown is compared.
     pub compared: CompareWith,
     /// The camera.
     pub camera: Camera,
