@@ -154,28 +154,32 @@ impl LoopDialog {
         let color = if gaps.is_short || seen > 0 { theme.warning } else { theme.text };
         ui.label(RichText::new(text).color(color));
         ui.add_space(GRID);
-        ScrollArea::vertical().max_height(6.0 * ROW).auto_shrink([false, true]).show(ui, |ui| {
-            Grid::new("gaps").num_columns(4).spacing([3.0 * GRID, 2.0]).striped(true).show(ui, |ui| {
-                for title in ["Bone", "Position", "Velocity", "Rotation"] {
-                    ui.label(RichText::new(title).small().color(theme.faint));
-                }
-                ui.end_row();
-                for gap in gaps.worst.iter().take(seen.max(3)) {
-                    let name = context.bone_name(gap.bone);
-                    let name = widgets::cut_in_middle(ui, &name, 150.0, &egui::TextStyle::Body);
-                    ui.label(name);
-                    let color = if is_seen(gap) { theme.text } else { theme.weak };
-                    for text in [
-                        format!("{:.1} mm", 1000.0 * gap.position),
-                        format!("{:.0} mm/s", 1000.0 * gap.velocity),
-                        format!("{:.1}°", gap.rotation.to_degrees()),
-                    ] {
-                        ui.label(RichText::new(text).color(color));
+        ScrollArea::vertical()
+            .id_salt("gaps of bones")
+            .max_height(6.0 * ROW)
+            .auto_shrink([false, true])
+            .show(ui, |ui| {
+                Grid::new("gaps").num_columns(4).spacing([3.0 * GRID, 2.0]).striped(true).show(ui, |ui| {
+                    for title in ["Bone", "Position", "Velocity", "Rotation"] {
+                        ui.label(RichText::new(title).small().color(theme.faint));
                     }
                     ui.end_row();
-                }
+                    for gap in gaps.worst.iter().take(seen.max(3)) {
+                        let name = context.bone_name(gap.bone);
+                        let name = widgets::cut_in_middle(ui, &name, 150.0, &egui::TextStyle::Body);
+                        ui.label(name);
+                        let color = if is_seen(gap) { theme.text } else { theme.weak };
+                        for text in [
+                            format!("{:.1} mm", 1000.0 * gap.position),
+                            format!("{:.0} mm/s", 1000.0 * gap.velocity),
+                            format!("{:.1}°", gap.rotation.to_degrees()),
+                        ] {
+                            ui.label(RichText::new(text).color(color));
+                        }
+                        ui.end_row();
+                    }
+                });
             });
-        });
         ui.add_space(2.0 * GRID);
     }
 

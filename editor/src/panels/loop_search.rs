@@ -68,29 +68,32 @@ impl LoopCandidates {
             ui.label(RichText::new(text).color(theme.weak));
             return;
         }
-        ScrollArea::vertical().max_height(5.0 * ROW).auto_shrink([false, true]).show(ui, |ui| {
-            for found in search.finder.found() {
-                let range = search.range(found);
-                let frames = range.map(|time| (time * rate as f32).round() as i64);
-                ui.horizontal(|ui| {
-                    let text = format!(
-                        "Frames {} to {}, {:.2} s, {:.1} mm apart",
-                        frames[0],
-                        frames[1],
-                        range[1] - range[0],
-                        1000.0 * found.cost
-                    );
-                    let play = ui.add(Button::new(text).frame_when_inactive(false));
-                    widgets::hint_beside(&play, "Sets the play range to this loop");
-                    ui.add_space(GRID);
-                    let trim = ui.add(Button::new("Trim").small());
-                    widgets::hint_beside(&trim, "Trims the take to this loop");
-                    if play.clicked() || trim.clicked() {
-                        choose(range, trim.clicked());
-                    }
-                });
-            }
-        });
+        ScrollArea::vertical().id_salt("found loops").max_height(5.0 * ROW).auto_shrink([false, true]).show(
+            ui,
+            |ui| {
+                for found in search.finder.found() {
+                    let range = search.range(found);
+                    let frames = range.map(|time| (time * rate as f32).round() as i64);
+                    ui.horizontal(|ui| {
+                        let text = format!(
+                            "Frames {} to {}, {:.2} s, {:.1} mm apart",
+                            frames[0],
+                            frames[1],
+                            range[1] - range[0],
+                            1000.0 * found.cost
+                        );
+                        let play = ui.add(Button::new(text).frame_when_inactive(false));
+                        widgets::hint_beside(&play, "Sets the play range to this loop");
+                        ui.add_space(GRID);
+                        let trim = ui.add(Button::new("Trim").small());
+                        widgets::hint_beside(&trim, "Trims the take to this loop");
+                        if play.clicked() || trim.clicked() {
+                            choose(range, trim.clicked());
+                        }
+                    });
+                }
+            },
+        );
         if !search.is_complete {
             ui.label(RichText::new("Searching…").small().color(theme.weak));
         }
