@@ -1,9 +1,6 @@
-//! The take with which the one shown is compared.
+//! The choice of the take with which the one shown is compared.
 
-use super::context::PanelContext;
-use dragonfly_anim::data::Take;
 use dragonfly_document::adapter::TakeId;
-use std::sync::Arc;
 
 /// The choice of the take with which the one shown is compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -15,19 +12,4 @@ pub enum CompareWith {
     Opened,
     /// Another take of the model.
     Take(TakeId),
-}
-
-impl<'a> PanelContext<'a> {
-    /// Returns the take with which the one shown is compared; `None` where there is no comparison, or that take is gone or was not
-    /// in the file.
-    pub fn compared_take(&self) -> Option<&'a Arc<Take>> {
-        let (view, slot) = (self.view?, self.slot()?);
-        match self.compared {
-            CompareWith::Nothing => None,
-            CompareWith::Opened => view.loaded.model.animation.takes.get(slot.origin?),
-            CompareWith::Take(id) => {
-                view.slots.iter().find(|other| other.id == id).map(|other| other.shown())
-            }
-        }
-    }
 }

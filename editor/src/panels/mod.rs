@@ -119,7 +119,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::<timeline::TimelinePanel>::default(),
         Box::<curves::Curves>::default(),
         Box::<inbetween::InBetween>::default(),
-        Box::<differences::Differences>::default(),
+        Box::<differences::DifferencesPanel>::default(),
         Box::<poses::PosesPanel>::default(),
         Box::<shape_keys::ShapeKeys>::default(),
     ]

@@ -1,5 +1,6 @@
 //! Read access of the panels: references to the owners of the state, and queries that need several of them.
 
+mod compared;
 mod ik;
 mod keys;
 mod layer;

@@ -15,11 +15,11 @@ use profile::ShownProfile;
 
 /// The comparison.
 #[derive(Debug, Default)]
-pub struct Differences {
+pub struct DifferencesPanel {
     profile: ShownProfile,
 }
 
-impl Panel for Differences {
+impl Panel for DifferencesPanel {
     fn id(&self) -> &'static str {
         "differences"
     }
@@ -105,7 +105,7 @@ fn choose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) 
     });
 }
 
-impl Differences {
+impl DifferencesPanel {
     fn row(&self, ui: &mut Ui, context: &PanelContext<'_>, row: usize, requests: &mut Vec<Request>) {
         let Some(bone) = self.profile.bone(row) else { return };
         let theme = Theme::of(ui);
