@@ -7,6 +7,7 @@ mod document_writer;
 mod documents;
 mod edit_cost;
 mod edits;
+mod events;
 mod image_memory;
 mod images;
 mod inbetween;

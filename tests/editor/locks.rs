@@ -178,7 +178,7 @@ fn edits_of_the_whole_take_include_locked_bones() {
 }
 
 /// Edits of whole takes: they include locked bones, see [`edits_of_the_whole_take_include_locked_bones`].
-const OF_WHOLE_TAKES: [&str; 19] = [
+const OF_WHOLE_TAKES: [&str; 20] = [
     "create_take",
     "delete_take",
     "rename_take",
@@ -191,6 +191,7 @@ const OF_WHOLE_TAKES: [&str; 19] = [
     "set_extras",
     "detect_contacts",
     "set_contacts",
+    "set_events",
     "shift_loop",
     "add_layer",
     "delete_layer",

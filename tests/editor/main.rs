@@ -86,6 +86,7 @@ mod takes_panel;
 mod tasks;
 mod timeline_contacts;
 mod timeline_curves;
+mod timeline_events;
 mod timeline_filters;
 mod timeline_findings;
 mod timeline_keyboard;

@@ -66,6 +66,7 @@ mod reverse_take;
 mod ripple_keys;
 mod scale_keys;
 mod set_contacts;
+mod set_events;
 mod set_extras;
 mod set_interpolation;
 mod set_layer;
@@ -79,6 +80,7 @@ mod shape_tangents;
 mod shift_loop;
 mod snap_keys;
 mod split_take;
+mod take_event;
 pub(crate) mod target;
 mod travel_parts;
 mod trim_take;
@@ -104,6 +106,7 @@ pub use repeat_keys::{RepeatCount, RepeatMode};
 pub use set_many_tangents::TangentsAt;
 pub use set_shapes::ShapeWeight;
 pub use shape_tangents::KeyTangents;
+pub use take_event::TakeEvent;
 pub use target::{BoneRef, KeySet, LayerRef, MeshRef, Property, SAME_TIME, ShapeRef, TakeRef};
 pub use travel_parts::TravelPart;
 pub use turn_keys::TurnWay;
@@ -164,6 +167,7 @@ edits! {
     "lock_contacts" => lock_contacts::LockContacts,
     "detect_contacts" => detect_contacts::DetectContacts,
     "set_contacts" => set_contacts::SetContacts,
+    "set_events" => set_events::SetEvents,
     "add_layer" => add_layer::AddLayer,
     "delete_layer" => delete_layer::DeleteLayer,
     "set_layer" => set_layer::SetLayer,

@@ -8,6 +8,7 @@ pub(super) mod bones;
 pub(super) mod clipboard;
 pub(super) mod contacts;
 pub(super) mod drags;
+pub(super) mod events;
 pub(super) mod execute;
 pub(super) mod feed;
 pub(super) mod files;

@@ -1,6 +1,7 @@
 //! The areas of the dope sheet.
 
 use crate::panels::context::PanelContext;
+use dragonfly_document::adapter::EVENTS;
 use egui::{Rect, pos2};
 
 /// The areas of the dope sheet, points.
@@ -14,6 +15,8 @@ pub(super) struct DopeAreas {
     pub(super) head: Rect,
     /// The lane of markers; without height if there are none.
     pub(super) markers: Rect,
+    /// The lane of events; without height if there are none.
+    pub(super) events: Rect,
     /// The lane of problems; without height if there are none.
     pub(super) findings: Rect,
     /// The lane of contacts; without height if there are none.
@@ -28,7 +31,7 @@ pub(super) struct DopeAreas {
 
 /// Height of the ruler.
 pub(in crate::panels) const RULER: f32 = 24.0;
-/// Height of the lane of markers.
+/// Height of the lanes of markers and of events.
 const MARKERS: f32 = 16.0;
 /// Height of the lane of problems.
 const FINDINGS: f32 = 12.0;
@@ -59,7 +62,9 @@ impl DopeAreas {
         let findings = lane(head.bottom(), if context.take_findings().is_empty() { 0.0 } else { FINDINGS });
         let markers = lane(findings.bottom(), if context.markers().is_empty() { 0.0 } else { MARKERS });
         let rows = context.contacts.track().bones().len().min(CONTACT_ROWS);
-        let contacts = lane(markers.bottom(), rows as f32 * CONTACT_ROW);
+        let has_events = context.slot().is_some_and(|slot| slot.result.extras.get(EVENTS).is_some());
+        let events = lane(markers.bottom(), if has_events { MARKERS } else { 0.0 });
+        let contacts = lane(events.bottom(), rows as f32 * CONTACT_ROW);
         let bar = lane(contacts.bottom(), BAR);
         let below = all.bottom().max(bar.bottom());
         Self {
@@ -67,6 +72,7 @@ impl DopeAreas {
             tools: Rect::from_min_max(all.min, pos2(left, head.bottom())),
             head,
             markers,
+            events,
             findings,
             contacts,
             bar,

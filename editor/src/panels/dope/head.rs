@@ -139,6 +139,7 @@ impl Scrub {
         response.context_menu(|ui| {
             for id in [
                 Id::AddMarker,
+                Id::AddEvent,
                 Id::RangeFromHere,
                 Id::RangeToHere,
                 Id::RangeOfKeys,

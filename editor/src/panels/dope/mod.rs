@@ -5,6 +5,8 @@ mod areas;
 mod buttonless;
 mod contacts;
 mod drag;
+mod event_text;
+mod events;
 mod fade;
 mod findings;
 mod gutter;
@@ -48,6 +50,7 @@ pub(super) struct Dope {
     drag: DopeDrag,
     head: head::Head,
     markers: markers::MarkerLane,
+    events: events::EventLane,
     contacts: contacts::ContactLane,
     menu: menu::KeyMenu,
     filter: String,
@@ -103,6 +106,7 @@ impl Dope {
         self.head.show(ui, &sheet, requests);
         findings::show(ui, &sheet, requests);
         self.markers.show(ui, &sheet, requests);
+        self.events.show(ui, &sheet, requests);
         self.contacts.show(ui, &sheet, requests);
         overlay::pending(&painter, &sheet);
         overlay::playhead(&painter, &sheet);

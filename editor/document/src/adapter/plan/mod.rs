@@ -6,6 +6,7 @@ pub(crate) mod arrange;
 mod chosen;
 pub(crate) mod contacts;
 pub(crate) mod cut;
+pub(crate) mod events;
 pub(crate) mod keys;
 pub(crate) mod layer;
 pub(crate) mod morph;

@@ -4,7 +4,7 @@ use super::super::kind::{ChannelKind, ChannelValue, with_kind};
 use super::super::op::{ChannelAddress, Op};
 use super::super::slot::{ChannelContent, TakeId};
 use super::arrange::stretched;
-use super::{EditError, Transaction, contacts, finite, layer, morph, pending};
+use super::{EditError, Transaction, contacts, events, finite, layer, morph, pending};
 use crate::edit::SAME_TIME;
 use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::Value;
@@ -27,7 +27,7 @@ impl TimeMap {
     }
 }
 
-/// Moves every key of a take and of its layers, and its contacts, by a map of times.
+/// Moves every key of a take and of its layers, its contacts and events, by a map of times.
 pub(crate) fn apply(work: &mut Transaction, take: TakeId, map: TimeMap) -> Result<(), EditError> {
     for address in work.channels(take, (&[], &[]))? {
         with_kind!(address.property, channel::<K>(work, address, map))?;
@@ -40,6 +40,7 @@ pub(crate) fn apply(work: &mut Transaction, take: TakeId, map: TimeMap) -> Resul
         finite("a time", map.at(at.time))?;
     }
     pending::remap(work, take, |time| Some(map.at(time)));
+    events::remap(work, take, |time| Some(map.at(time)))?;
     contacts::follow(work, take, |track| track.remapped(|time| map.at(time)))?;
     let slot = work.slot(take);
     if slot.original.morphs.is_empty() {

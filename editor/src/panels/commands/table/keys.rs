@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::panels::actions::clipboard;
+use crate::panels::actions::events;
 use crate::panels::actions::keys;
 use crate::panels::actions::playback;
 use crate::panels::keys::{ButtonlessKind, KeyAim};
@@ -40,6 +41,7 @@ commands! {
     RippleClose => When::Take, "Remove a frame", [key(SHIFT, Key::F5)], "Removes the frame after the playhead, and its keys", |w| keys::ripple(w, -1.0);
     FitKeys => When::Take, "Fit the timeline", [key(SHIFT, Key::Home)], "Zooms the timeline to the selected keys, or to the whole take", |w| { keys::fit_window(w); None };
     ToggleRulerSeconds => When::Always, "Ruler in seconds", [], "Labels the ruler with seconds instead of frames", |w| { w.keys.set_ruler_in_seconds(!w.keys.ruler_in_seconds()); None };
+    AddEvent => When::Take, "Add an event", [], "Adds an event at the playhead, with a name and a payload for games; events are saved in the model's file", events::add_event;
     AddMarker => When::Take, "Add a marker", [key(ALT, Key::M)], "Adds a marker at the playhead; markers are not saved in the model's file", |w| { keys::add_marker(w); None };
     PreviousMarker => When::Take, "Previous marker", [key(SHIFT, Key::PageUp)], "Moves the playhead to the previous marker", |w| { playback::step_marker(w, false); None };
     NextMarker => When::Take, "Next marker", [key(SHIFT, Key::PageDown)], "Moves the playhead to the next marker", |w| { playback::step_marker(w, true); None };

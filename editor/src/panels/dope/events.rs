@@ -1,0 +1,194 @@
+//! The lane of events: each is stored with the take, and games act on it.
+
+use super::event_text::{parsed, text_of};
+use super::head::to_frame;
+use super::sheet::Sheet;
+use crate::panels::context::PanelContext;
+use crate::panels::drag::{DragEvent, PanelDrag, PointerInput};
+use crate::panels::request::Request;
+use crate::panels::theme::Theme;
+use crate::panels::widgets;
+use dragonfly_document::Change;
+use dragonfly_document::adapter::{EVENTS, stored_events};
+use dragonfly_document::edit::{Edit, SetEvents, TakeEvent};
+use dragonfly_picture::between;
+use egui::{
+    Button, CornerRadius, CursorIcon, PointerButton, Rect, Sense, Stroke, TextEdit, TextStyle, Ui,
+    WidgetInfo, pos2, vec2,
+};
+use std::sync::Arc;
+
+/// The events of the take that is shown, and the one that is dragged or edited.
+#[derive(Debug, Default)]
+pub(super) struct EventLane {
+    /// The stored text that the events were read from.
+    of: Option<Arc<str>>,
+    events: Vec<TakeEvent>,
+    /// Index and time, seconds, of the dragged event. It moves when it is released.
+    drag: PanelDrag<(), (usize, f32)>,
+    /// Index of the event whose drag `drag` follows.
+    dragged: Option<usize>,
+    /// Index and text of the event that is edited, and whether the field has had the focus.
+    editing: Option<(usize, String, bool)>,
+}
+
+/// A change of the events.
+enum EventAction {
+    Move(usize, f32),
+    Replace(usize, TakeEvent),
+    Delete(usize),
+}
+
+impl EventLane {
+    /// Draws the lane. A click goes to an event, a drag moves it, a double click edits its name and payload.
+    pub(super) fn show(&mut self, ui: &mut Ui, sheet: &Sheet<'_>, requests: &mut Vec<Request>) {
+        let Sheet { areas, context, .. } = *sheet;
+        let lane = areas.events;
+        let stored = context.slot().and_then(|slot| slot.result.extras.get(EVENTS));
+        let is_read = match (stored, &self.of) {
+            (Some(stored), Some(of)) => Arc::ptr_eq(stored, of),
+            (None, None) => true,
+            (Some(_), None) | (None, Some(_)) => false,
+        };
+        if !is_read {
+            self.events = context.slot().map_or(Vec::new(), |slot| stored_events(&slot.result.extras));
+            *self = Self { of: stored.cloned(), events: std::mem::take(&mut self.events), ..Self::default() };
+        }
+        if lane.height() < 4.0 {
+            return;
+        }
+        ui.painter().rect_filled(lane, CornerRadius::ZERO, Theme::of(ui).bar);
+        let mut action = None;
+        for index in 0..self.events.len() {
+            action = self.event(ui, sheet, index, requests).or(action);
+        }
+        if let Some(action) = self.edit(ui, sheet).or(action)
+            && let Some(edit) = self.changed(action, context)
+        {
+            requests.push(Request::Change(Change::Edit(edit, None)));
+        }
+    }
+
+    fn event(
+        &mut self,
+        ui: &mut Ui,
+        sheet: &Sheet<'_>,
+        index: usize,
+        requests: &mut Vec<Request>,
+    ) -> Option<EventAction> {
+        let Sheet { areas, scale, context, .. } = *sheet;
+        let (lane, theme) = (areas.events, Theme::of(ui));
+        let event = self.events.get(index)?;
+        let held = self.drag.drag().filter(|(held, _)| *held == index);
+        let time = held.map_or(event.time, |(_, time)| *time);
+        let x = scale.x_of(time);
+        let end = self.events.get(index + 1).map_or(f32::INFINITY, |next| scale.x_of(next.time));
+        let right = (x + 64.0).min(end - 5.0).max(x + 6.0);
+        let grip = Rect::from_min_max(pos2(x - 5.0, lane.top()), pos2(right, lane.bottom()));
+        if grip.right() < lane.left() || grip.left() > lane.right() {
+            return None;
+        }
+        let id = ui.scope_id().with(("event", index));
+        let response = ui.interact(grip.intersect(lane), id, Sense::click_and_drag());
+        let name = format!("Event {}", event.name);
+        response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Button, true, name.as_str()));
+        let lit = response.hovered() || response.dragged();
+        let color = if lit { theme.text } else { theme.accent };
+        let painter = ui.painter().with_clip_rect(lane);
+        painter.vline(x, lane.y_range(), Stroke::new(1.0, color));
+        painter.circle_filled(pos2(x, lane.top() + 5.0), 3.5, color);
+        let left = pos2(x + 9.0, lane.top());
+        let place = Rect::from_min_max(left, pos2((end - 6.0).min(lane.right()), lane.bottom()));
+        let text = text_of(event);
+        if place.width() > 12.0 {
+            widgets::text_in(ui, place, &text, &TextStyle::Small, theme.weak);
+        }
+        let hint = format!(
+            "{text}\n{time:.3} s\nClick to move the playhead here, drag to move, double-click to edit name and payload"
+        );
+        let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(hint);
+        if response.clicked_by(PointerButton::Primary) {
+            requests.push(Request::Seek(event.time));
+        }
+        if response.double_clicked() {
+            self.editing = Some((index, text.clone(), false));
+        }
+        let mut action = None;
+        if response.drag_started_by(PointerButton::Primary) {
+            self.drag = PanelDrag::dragging((index, event.time));
+            self.dragged = Some(index);
+        }
+        if self.dragged == Some(index) {
+            let input = PointerInput::of_widget(ui, &response);
+            match self.drag.step(&input, input.primary_down, |_| ()) {
+                DragEvent::Moved(pointer) => {
+                    let snap = context.keys.snap() != input.modifiers.command;
+                    let time = scale.time_at(pointer.x);
+                    self.drag.begin((index, if snap { to_frame(time, context) } else { time }));
+                }
+                DragEvent::Dropped((index, time)) => action = Some(EventAction::Move(index, time)),
+                DragEvent::Cancelled(_)
+                | DragEvent::Nothing
+                | DragEvent::Pressed
+                | DragEvent::Started(_)
+                | DragEvent::Clicked(_) => {}
+            }
+            self.dragged = self.dragged.filter(|_| self.drag.is_busy());
+        }
+        response.context_menu(|ui| {
+            if ui.add(Button::new("Edit event").frame_when_inactive(false)).clicked() {
+                self.editing = Some((index, text.clone(), false));
+                ui.close();
+            }
+            if ui.add(Button::new("Delete event").frame_when_inactive(false)).clicked() {
+                action = Some(EventAction::Delete(index));
+                ui.close();
+            }
+        });
+        action
+    }
+
+    /// Draws the field for name and payload. Returns the action when a valid text is entered.
+    fn edit(&mut self, ui: &mut Ui, sheet: &Sheet<'_>) -> Option<EventAction> {
+        let (index, text, had_focus) = self.editing.as_mut()?;
+        let event = self.events.get(*index)?;
+        let (lane, theme) = (sheet.areas.events, Theme::of(ui));
+        let left = between(sheet.scale.x_of(event.time), lane.left(), lane.right() - 220.0);
+        let rect = Rect::from_min_size(pos2(left, lane.top() - 3.0), vec2(220.0, lane.height() + 6.0));
+        let valid = parsed(text).is_some();
+        let field = TextEdit::singleline(text)
+            .font(TextStyle::Small)
+            .text_color(if valid { theme.text } else { theme.error })
+            .hint_text(r#"step {"foot": "left"}"#);
+        let response = ui.put(rect, field);
+        response.widget_info(|| {
+            WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Name and payload of the event")
+        });
+        if !*had_focus {
+            *had_focus = true;
+            response.request_focus();
+            return None;
+        }
+        let response = response.on_hover_text("A name, then a JSON object if the event has a payload");
+        if !response.lost_focus() {
+            return None;
+        }
+        let (index, text, _) = self.editing.take()?;
+        let kept = !ui.input(|input| input.key_down(egui::Key::Escape));
+        let (name, payload) = parsed(&text).filter(|_| kept)?;
+        Some(EventAction::Replace(index, TakeEvent { time: self.events.get(index)?.time, name, payload }))
+    }
+
+    fn changed(&self, action: EventAction, context: &PanelContext<'_>) -> Option<Edit> {
+        let mut events = self.events.clone();
+        match action {
+            EventAction::Move(index, time) => events.get_mut(index)?.time = time,
+            EventAction::Replace(index, event) => *events.get_mut(index)? = event,
+            EventAction::Delete(index) => {
+                events.remove(index);
+            }
+        }
+        let take = context.shown_take_ref().filter(|_| events != self.events)?;
+        Some(SetEvents { take, events }.into())
+    }
+}
