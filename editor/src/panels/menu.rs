@@ -38,10 +38,12 @@ pub fn show(
         ui.menu_button("Play", |ui| list(ui, context, &[Category::Playback], requests));
         ui.menu_button("Keys", |ui| scrolled(ui, |ui| keys(ui, context, requests)));
         ui.menu_button("Take", |ui| {
-            list(ui, context, &[Category::Takes], requests);
-            ui.separator();
-            submenu(ui, "Contacts", |ui| list(ui, context, &[Category::Contacts], requests));
-            submenu(ui, "Layers", |ui| list(ui, context, &[Category::Layers], requests));
+            scrolled(ui, |ui| {
+                submenu(ui, "Contacts", |ui| list(ui, context, &[Category::Contacts], requests));
+                submenu(ui, "Layers", |ui| list(ui, context, &[Category::Layers], requests));
+                ui.separator();
+                list(ui, context, &[Category::Takes], requests);
+            });
         });
         ui.menu_button("View", |ui| view(ui, context, panels, requests));
         ui.menu_button("Help", |ui| list(ui, context, &[Category::Help], requests));

@@ -11,7 +11,7 @@ use dragonfly::panels::selection_sets::SetAction;
 use dragonfly::panels::window_status::DeviceStatus;
 use dragonfly::panels::{self, Effect, FileAction, Request, style};
 use dragonfly_document::bones::Choice;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, Property, SetPose, TakeRef};
+use dragonfly_document::edit::{BonePose, BoneRef, Edit, Property, SetEvents, SetPose, TakeEvent, TakeRef};
 use dragonfly_document::{
     Change, DocumentMessage, LoadStage, PoseFile, PoseFolder, Progress, StoredPose, View,
 };
@@ -63,7 +63,8 @@ fn panel(id: &'static str, [width, height]: [f32; 2]) -> Vec<PictureCase> {
         crop: Crop::Middle,
         bench: Box::new(move || only(id, fullness)),
         act: Box::new(|_| {}),
-        twice: true,
+        // Two points a pixel differ in nothing that depends on how full a panel is.
+        twice: matches!(fullness, Typical),
     };
     Fullness::ALL.map(case).into()
 }
@@ -220,6 +221,17 @@ fn more() -> Vec<PictureCase> {
             for id in [Id::EditSelectedKeys, Id::ToggleFalloff] {
                 state.execute(Request::Command(id));
             }
+        }),
+        case("timeline-events", "timeline", Typical, |window| {
+            let event = |time: f32, name: &str, payload: Option<serde_json::Value>| TakeEvent {
+                time,
+                name: name.to_owned(),
+                payload,
+            };
+            let step = Some(serde_json::json!({ "foot": "left" }));
+            let events = vec![event(0.25, "step", step), event(1.1, "breath", None)];
+            let edit = SetEvents { take: TakeRef::Index(0), events };
+            window.state_mut().change(Change::Edit(edit.into(), None));
         }),
         case("differences-moved", "differences", Typical, |window| {
             window.state_mut().state.execute(Request::CompareWith(CompareWith::Opened));

@@ -10,6 +10,7 @@ use dragonfly_document::edit::{
 use dragonfly_document::{Cancel, Change, Source, View, load_model};
 use dragonfly_kit::document::fixture;
 use std::sync::{Arc, OnceLock};
+use std::time::Duration;
 
 /// A measure of what there is to show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -135,6 +136,10 @@ fn crowded() -> Workbench {
         let text = format!("message {number} of an importer that found one more thing. ");
         bench.state.say(level, text.repeat(1 + number % 2 * 2));
     }
+    // The last one is no longer shown at the pointer, over what the picture is of.
+    let now = bench.state.read().now;
+    bench.state.begin_frame(now);
+    bench.state.begin_frame(now + Duration::from_secs(60));
     let recent =
         |number| format!("/home/mara/models/animals/{}/{number}.glb", "a folder with a long name").into();
     bench.state.settings_mut().recent = (0..10).map(recent).collect();

@@ -87,7 +87,7 @@ impl ShownProfile {
 /// Returns the times of all frames in the range, or `most` times at even distances where there are more frames.
 fn times([start, end]: [f32; 2], rate: u32, most: usize) -> Vec<f32> {
     let rate = f64::from(rate.max(1));
-    let frames = ((f64::from(end) - f64::from(start)) * rate).round().max(0.0) as usize + 1;
+    let frames = (((f64::from(end) - f64::from(start)) * rate).round().max(0.0) as usize).saturating_add(1);
     let count = frames.min(most);
     let step = if count > 1 { (f64::from(end) - f64::from(start)) / (count - 1) as f64 } else { 0.0 };
     (0..count).map(|at| (f64::from(start) + step * at as f64) as f32).collect()

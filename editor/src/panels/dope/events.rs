@@ -1,10 +1,9 @@
 //! The lane of events: each is stored with the take, and games act on it.
 
 use super::event_text::{parsed, text_of};
-use super::head::to_frame;
+use super::lane_drag::LaneDrag;
 use super::sheet::Sheet;
 use crate::panels::context::PanelContext;
-use crate::panels::drag::{DragEvent, PanelDrag, PointerInput};
 use crate::panels::request::Request;
 use crate::panels::theme::Theme;
 use crate::panels::widgets;
@@ -24,10 +23,7 @@ pub(super) struct EventLane {
     /// The stored text that the events were read from.
     of: Option<Arc<str>>,
     events: Vec<TakeEvent>,
-    /// Index and time, seconds, of the dragged event. It moves when it is released.
-    drag: PanelDrag<(), (usize, f32)>,
-    /// Index of the event whose drag `drag` follows.
-    dragged: Option<usize>,
+    drag: LaneDrag,
     /// Index and text of the event that is edited, and whether the field has had the focus.
     editing: Option<(usize, String, bool)>,
 }
@@ -76,11 +72,10 @@ impl EventLane {
         index: usize,
         requests: &mut Vec<Request>,
     ) -> Option<EventAction> {
-        let Sheet { areas, scale, context, .. } = *sheet;
+        let Sheet { areas, scale, .. } = *sheet;
         let (lane, theme) = (areas.events, Theme::of(ui));
         let event = self.events.get(index)?;
-        let held = self.drag.drag().filter(|(held, _)| *held == index);
-        let time = held.map_or(event.time, |(_, time)| *time);
+        let time = self.drag.time_of(index, event.time);
         let x = scale.x_of(time);
         let end = self.events.get(index + 1).map_or(f32::INFINITY, |next| scale.x_of(next.time));
         let right = (x + 64.0).min(end - 5.0).max(x + 6.0);
@@ -114,26 +109,8 @@ impl EventLane {
             self.editing = Some((index, text.clone(), false));
         }
         let mut action = None;
-        if response.drag_started_by(PointerButton::Primary) {
-            self.drag = PanelDrag::dragging((index, event.time));
-            self.dragged = Some(index);
-        }
-        if self.dragged == Some(index) {
-            let input = PointerInput::of_widget(ui, &response);
-            match self.drag.step(&input, input.primary_down, |_| ()) {
-                DragEvent::Moved(pointer) => {
-                    let snap = context.keys.snap() != input.modifiers.command;
-                    let time = scale.time_at(pointer.x);
-                    self.drag.begin((index, if snap { to_frame(time, context) } else { time }));
-                }
-                DragEvent::Dropped((index, time)) => action = Some(EventAction::Move(index, time)),
-                DragEvent::Cancelled(_)
-                | DragEvent::Nothing
-                | DragEvent::Pressed
-                | DragEvent::Started(_)
-                | DragEvent::Clicked(_) => {}
-            }
-            self.dragged = self.dragged.filter(|_| self.drag.is_busy());
+        if let Some(time) = self.drag.step(ui, sheet, (index, event.time), &response) {
+            action = Some(EventAction::Move(index, time));
         }
         response.context_menu(|ui| {
             if ui.add(Button::new("Edit event").frame_when_inactive(false)).clicked() {

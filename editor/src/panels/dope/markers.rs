@@ -1,9 +1,8 @@
 //! The lane of markers below the ruler.
 
-use super::head::to_frame;
+use super::lane_drag::LaneDrag;
 use super::sheet::Sheet;
 use crate::panels::context::PanelContext;
-use crate::panels::drag::{DragEvent, PanelDrag, PointerInput};
 use crate::panels::keys::{KeysRequest, MarkerAction, TimeScale};
 use crate::panels::request::Request;
 use crate::panels::theme::Theme;
@@ -18,10 +17,7 @@ use egui::{
 #[derive(Debug, Default)]
 pub(super) struct MarkerLane {
     renaming: Option<(usize, String, MarkerNameStage)>,
-    /// Index and time, seconds, of the dragged marker. It moves when it is released, so that the order stays during the drag.
-    drag: PanelDrag<(), (usize, f32)>,
-    /// Index of the marker whose drag `drag` follows.
-    dragged: Option<usize>,
+    drag: LaneDrag,
 }
 
 /// State of the field for a name.
@@ -48,8 +44,7 @@ impl MarkerLane {
         let mut ask = |action: MarkerAction| requests.push(Request::Timeline(KeysRequest::Marker(action)));
         let mut seek = None;
         for (index, marker) in markers.iter().enumerate() {
-            let held = self.drag.drag().filter(|(held, _)| *held == index);
-            let time = held.map_or(marker.time, |(_, time)| *time);
+            let time = self.drag.time_of(index, marker.time);
             let x = scale.x_of(time);
             let end = markers.get(index + 1).map_or(f32::INFINITY, |next| scale.x_of(next.time));
             let grip = Rect::from_min_max(
@@ -90,27 +85,8 @@ impl MarkerLane {
             if response.double_clicked() {
                 self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
             }
-            if response.drag_started_by(PointerButton::Primary) {
-                self.drag = PanelDrag::dragging((index, marker.time));
-                self.dragged = Some(index);
-            }
-            if self.dragged == Some(index) {
-                let input = PointerInput::of_widget(ui, &response);
-                match self.drag.step(&input, input.primary_down, |_| ()) {
-                    DragEvent::Moved(pointer) => {
-                        let snap = context.keys.snap() != input.modifiers.command;
-                        let time = scale.time_at(pointer.x);
-                        let time = if snap { to_frame(time, context) } else { time };
-                        self.drag.begin((index, time));
-                    }
-                    DragEvent::Dropped((index, time)) => ask(MarkerAction::Move(index, time)),
-                    DragEvent::Cancelled(_)
-                    | DragEvent::Nothing
-                    | DragEvent::Pressed
-                    | DragEvent::Started(_)
-                    | DragEvent::Clicked(_) => {}
-                }
-                self.dragged = self.dragged.filter(|_| self.drag.is_busy());
+            if let Some(time) = self.drag.step(ui, sheet, (index, marker.time), &response) {
+                ask(MarkerAction::Move(index, time));
             }
             response.context_menu(|ui| {
                 if ui.add(Button::new("Rename").frame_when_inactive(false)).clicked() {

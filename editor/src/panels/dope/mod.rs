@@ -11,6 +11,7 @@ mod fade;
 mod findings;
 mod gutter;
 mod head;
+mod lane_drag;
 mod markers;
 mod marks;
 mod menu;
