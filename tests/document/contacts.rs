@@ -1,35 +1,19 @@
 //! Contacts that are stored with a take: found, set, kept by edits of time, used by edits of motion, saved with the file.
 
+use crate::fox_edits::{apply, edit, fox_takes};
 use crate::save_and_open::open;
 use dragonfly_anim::contact::{Contact, contact_slide};
 use dragonfly_anim::data::Take;
-use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_anim::frames::TakeFrames;
 use dragonfly_anim::motion::Axis;
 use dragonfly_document::adapter::{CONTACTS, ModelAdapter, stored_contacts};
-use dragonfly_document::edit::{Edit, EditedBones};
+use dragonfly_document::edit::EditedBones;
 use dragonfly_kit::document::test_document::fox;
 use dragonfly_kit::folder::Folder;
 use std::sync::Arc;
 
 const LEFT: &str = "b_LeftFoot01_017";
 const RIGHT: &str = "b_RightFoot01_021";
-
-fn model() -> ModelAdapter {
-    let bytes = include_bytes!("../data/gltf/Fox.glb");
-    let model = read("Fox.glb", bytes, &NoFiles, &ReadOptions::default()).expect("the fox").model;
-    ModelAdapter::new(&model.animation)
-}
-
-fn edit(json: &str) -> Edit {
-    serde_json::from_str(json).expect(json)
-}
-
-#[track_caller]
-fn apply(model: &mut ModelAdapter, json: &str) {
-    model.apply(&edit(json)).unwrap_or_else(|error| panic!("{json}: {error}"));
-    model.check().expect("an invariant");
-}
 
 /// Returns the contacts of a take: foot, start and end.
 fn spans(model: &ModelAdapter, take: usize) -> Vec<(&'static str, f32, f32)> {
@@ -44,7 +28,7 @@ fn spans(model: &ModelAdapter, take: usize) -> Vec<(&'static str, f32, f32)> {
 }
 
 fn with_contacts() -> ModelAdapter {
-    let mut model = model();
+    let mut model = fox_takes();
     let line = format!(
         r#"{{"edit":"set_contacts","take":"Walk","contacts":[{{"bone":"{LEFT}","from":0.1,"to":0.2}},{{"bone":"{RIGHT}","from":0.4,"to":0.6}}]}}"#
     );
@@ -54,7 +38,7 @@ fn with_contacts() -> ModelAdapter {
 
 #[test]
 fn contacts_are_stored_as_readable_json_and_an_undo_removes_them() {
-    let mut model = model();
+    let mut model = fox_takes();
     let line = format!(
         r#"{{"edit":"set_contacts","take":"Walk","contacts":[{{"bone":"{LEFT}","from":0.25,"to":0.5}}]}}"#
     );
@@ -73,7 +57,7 @@ fn contacts_are_stored_as_readable_json_and_an_undo_removes_them() {
 
 #[test]
 fn a_text_that_is_no_record_of_contacts_counts_as_none() {
-    let mut model = model();
+    let mut model = fox_takes();
     for value in [
         r#""text""#,
         "[1]",
@@ -92,7 +76,7 @@ fn a_text_that_is_no_record_of_contacts_counts_as_none() {
 
 #[test]
 fn contacts_follow_edits_of_time() {
-    let length = model().slots()[1].result.length;
+    let length = fox_takes().slots()[1].result.length;
     for (line, wanted) in [
         (
             r#"{"edit":"reverse_take","take":"Walk"}"#.to_owned(),
@@ -213,7 +197,7 @@ fn a_closed_loop_holds_the_stored_contacts_and_a_reduction_keeps_them() {
         Contact { bone, from: 0.7, to: 0.85 }
     };
     let prepared = || {
-        let mut model = model();
+        let mut model = fox_takes();
         apply(&mut model, shifted);
         let line = format!(
             r#"{{"edit":"set_contacts","take":"Walk","contacts":[{{"bone":"{RIGHT}","from":0.7,"to":0.85}}]}}"#

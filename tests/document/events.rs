@@ -1,27 +1,10 @@
 //! Events that are stored with a take: set, kept by edits of time, saved with the file.
 
+use crate::fox_edits::{apply, edit, fox_takes};
 use crate::save_and_open::open;
-use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_document::adapter::{EVENTS, ModelAdapter, stored_events};
-use dragonfly_document::edit::Edit;
 use dragonfly_kit::document::test_document::fox;
 use dragonfly_kit::folder::Folder;
-
-fn model() -> ModelAdapter {
-    let bytes = include_bytes!("../data/gltf/Fox.glb");
-    let model = read("Fox.glb", bytes, &NoFiles, &ReadOptions::default()).expect("the fox").model;
-    ModelAdapter::new(&model.animation)
-}
-
-fn edit(json: &str) -> Edit {
-    serde_json::from_str(json).expect(json)
-}
-
-#[track_caller]
-fn apply(model: &mut ModelAdapter, json: &str) {
-    model.apply(&edit(json)).unwrap_or_else(|error| panic!("{json}: {error}"));
-    model.check().expect("an invariant");
-}
 
 /// Returns names and times in milliseconds of the events of a take.
 fn events(model: &ModelAdapter, take: usize) -> Vec<(String, i32)> {
@@ -32,7 +15,7 @@ fn events(model: &ModelAdapter, take: usize) -> Vec<(String, i32)> {
 const TWO: &str = r#"{"edit":"set_events","take":"Walk","events":[{"time":0.5,"name":"right"},{"time":0.1,"name":"left","payload":{"strength":0.5}}]}"#;
 
 fn with_events() -> ModelAdapter {
-    let mut model = model();
+    let mut model = fox_takes();
     apply(&mut model, TWO);
     model
 }
@@ -43,7 +26,7 @@ fn named(expected: &[(&str, i32)]) -> Vec<(String, i32)> {
 
 #[test]
 fn events_are_stored_as_readable_json_in_order_of_time_and_an_undo_removes_them() {
-    let mut model = model();
+    let mut model = fox_takes();
     let undo = model.apply(&edit(TWO)).expect("applied");
     let text = model.slots()[1].result.extras.get(EVENTS).expect("a text").to_string();
     let wanted = r#"{"version":1,"events":[{"time":0.1,"name":"left","payload":{"strength":0.5}},{"time":0.5,"name":"right"}]}"#;
@@ -81,7 +64,7 @@ fn events_follow_when_the_take_is_retimed_reversed_trimmed_split_and_rippled() {
 
 #[test]
 fn events_without_a_name_with_a_large_payload_or_too_many_are_refused() {
-    let mut model = model();
+    let mut model = fox_takes();
     let mut refused = |events: String| {
         let json = format!(r#"{{"edit":"set_events","take":"Walk","events":[{events}]}}"#);
         model.apply(&edit(&json)).expect_err("refused").to_string()
@@ -95,7 +78,7 @@ fn events_without_a_name_with_a_large_payload_or_too_many_are_refused() {
 
 #[test]
 fn a_text_that_is_no_record_of_events_counts_as_none_and_stays() {
-    let mut model = model();
+    let mut model = fox_takes();
     for value in [r#""text""#, "[1]", r#"{"version":2,"events":[{"time":0,"name":"a"}]}"#] {
         let line = serde_json::json!({"edit": "set_extras", "take": "Walk", "name": EVENTS, "value": serde_json::from_str::<serde_json::Value>(value).expect("JSON")});
         apply(&mut model, &line.to_string());

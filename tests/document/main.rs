@@ -8,6 +8,7 @@ mod documents;
 mod edit_cost;
 mod edits;
 mod events;
+mod fox_edits;
 mod image_memory;
 mod images;
 mod inbetween;

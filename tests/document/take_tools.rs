@@ -1,26 +1,16 @@
 //! Edits of whole takes that compute motion: mirrored takes, locked contacts, closed loops.
 
+use crate::fox_edits::{edit, fox_takes};
 use dragonfly_anim::contact::{Contact, contact_slide};
 use dragonfly_anim::data::{Skeleton, Take, Transform};
-use dragonfly_anim::format::{NoFiles, ReadOptions, read};
 use dragonfly_anim::frames::TakeFrames;
 use dragonfly_anim::motion::Axis;
 use dragonfly_anim::sample::sample_take;
 use dragonfly_document::adapter::{EditError, ModelAdapter};
 use dragonfly_document::bones::MirrorPairs;
-use dragonfly_document::edit::{Edit, EditedBones};
+use dragonfly_document::edit::EditedBones;
 use std::collections::BTreeSet;
 use std::sync::Arc;
-
-fn fox() -> ModelAdapter {
-    let bytes = include_bytes!("../data/gltf/Fox.glb");
-    let model = read("Fox.glb", bytes, &NoFiles, &ReadOptions::default()).expect("the fox").model;
-    ModelAdapter::new(&model.animation)
-}
-
-fn edit(json: &str) -> Edit {
-    serde_json::from_str(json).expect(json)
-}
 
 /// Applies an edit, and checks the invariants. Returns the take that it changed.
 #[track_caller]
@@ -59,7 +49,7 @@ fn times(take: &Take) -> impl Iterator<Item = f32> {
 
 #[test]
 fn a_take_mirrored_twice_is_the_take() {
-    let mut model = fox();
+    let mut model = fox_takes();
     for (index, name) in ["Survey", "Walk", "Run"].into_iter().enumerate() {
         let before = Arc::clone(&model.slots()[index].result);
         let line = format!(r#"{{"edit":"mirror_take","take":"{name}"}}"#);
@@ -73,7 +63,7 @@ fn a_take_mirrored_twice_is_the_take() {
 
 #[test]
 fn a_mirrored_take_puts_each_foot_at_the_mirror_image_of_the_other() {
-    let mut model = fox();
+    let mut model = fox_takes();
     let before = Arc::clone(&model.slots()[1].result);
     let after = applied(&mut model, r#"{"edit":"mirror_take","take":"Walk"}"#);
     let skeleton = Arc::clone(model.skeleton());
@@ -91,9 +81,9 @@ fn a_mirrored_take_puts_each_foot_at_the_mirror_image_of_the_other() {
 
 #[test]
 fn a_mirrored_range_leaves_the_rest_of_the_take_alone() {
-    let mut model = fox();
+    let mut model = fox_takes();
     let before = Arc::clone(&model.slots()[1].result);
-    let whole = applied(&mut fox(), r#"{"edit":"mirror_take","take":"Walk"}"#);
+    let whole = applied(&mut fox_takes(), r#"{"edit":"mirror_take","take":"Walk"}"#);
     let after = applied(&mut model, r#"{"edit":"mirror_take","take":"Walk","from":0.25,"to":0.5}"#);
     let skeleton = model.skeleton();
     let part = |from: f32, to: f32| times(&before).filter(move |time| (from..=to).contains(time));
@@ -106,7 +96,7 @@ fn a_mirrored_range_leaves_the_rest_of_the_take_alone() {
 #[test]
 fn mirrored_bones_give_their_motion_to_their_mirror_bones_only() {
     let line = r#"{"edit":"mirror_take","take":"Walk","bones":["b_LeftForeArm_010"]}"#;
-    let mut model = fox();
+    let mut model = fox_takes();
     let before = Arc::clone(&model.slots()[1].result);
     let after = applied(&mut model, line);
     let right = model.skeleton().find("b_RightForeArm_07").expect("a bone");
@@ -118,7 +108,7 @@ fn mirrored_bones_give_their_motion_to_their_mirror_bones_only() {
 
 #[test]
 fn locked_contacts_slide_less_than_two_millimeters_and_an_undo_restores_the_take() {
-    let mut model = fox();
+    let mut model = fox_takes();
     let before = Arc::clone(&model.slots()[1].result);
     let line = r#"{"edit":"lock_contacts","take":"Walk","contacts":[{"bone":"b_LeftFoot01_017","from":0.2,"to":0.3}],"ease":3}"#;
     let undo = model.apply(&edit(line)).expect("applied");
@@ -137,7 +127,7 @@ fn locked_contacts_slide_less_than_two_millimeters_and_an_undo_restores_the_take
 
 #[test]
 fn a_closed_loop_has_no_gap_and_keeps_the_original_of_its_old_keys() {
-    let mut model = fox();
+    let mut model = fox_takes();
     let shifted =
         r#"{"edit":"offset","take":"Run","time":0,"poses":[{"bone":"b_Hip_01","rotation":[0,0,0.1,0.995]}]}"#;
     applied(&mut model, shifted);
@@ -152,7 +142,7 @@ fn a_closed_loop_has_no_gap_and_keeps_the_original_of_its_old_keys() {
     }
     let slot = &model.slots()[2];
     assert!(slot.changed().count() > 0);
-    let fresh = fox();
+    let fresh = fox_takes();
     let original = &fresh.slots()[2].original;
     for (old, new) in original.tracks.iter().zip(&slot.original.tracks) {
         for (&time, value) in old.rotation.times.iter().zip(old.rotation.values.iter()) {
@@ -165,7 +155,7 @@ fn a_closed_loop_has_no_gap_and_keeps_the_original_of_its_old_keys() {
 
 #[test]
 fn edits_that_cannot_be_carried_out_say_why() {
-    let mut model = fox();
+    let mut model = fox_takes();
     let wrong = |line: &str, model: &mut ModelAdapter| model.apply(&edit(line)).expect_err(line);
     let error = wrong(r#"{"edit":"lock_contacts","take":"Walk"}"#, &mut model);
     assert_eq!(error, EditError::Nothing("no foot is in contact with the ground"));
@@ -186,7 +176,7 @@ fn edits_that_cannot_be_carried_out_say_why() {
 
 #[test]
 fn one_side_is_mirrored_to_the_other_and_the_rest_stays_bit_for_bit() {
-    let mut model = fox();
+    let mut model = fox_takes();
     let skeleton = Arc::clone(model.skeleton());
     let pairs = MirrorPairs::of(&skeleton);
     let before = Arc::clone(&model.slots()[1].result);
@@ -206,7 +196,7 @@ fn one_side_is_mirrored_to_the_other_and_the_rest_stays_bit_for_bit() {
 
 #[test]
 fn corrected_pairs_are_followed_by_the_mirrored_take() {
-    let skeleton = Arc::clone(fox().skeleton());
+    let skeleton = Arc::clone(fox_takes().skeleton());
     let bone = |name: &str| skeleton.find(name).expect(name);
     let [left, right, tail] = ["b_LeftFoot02_018", "b_RightFoot01_021", "b_Tail01_012"].map(bone);
     let pairs = MirrorPairs::of(&skeleton).corrected(&[[left, right], [tail, bone("b_Tail02_013")]]);
@@ -219,7 +209,7 @@ fn corrected_pairs_are_followed_by_the_mirrored_take() {
     let middle = MirrorPairs::of(&skeleton).corrected(&[[left, left]]);
     assert_eq!(middle.mirror_of(left), Some(left));
     assert_eq!(MirrorPairs::of(&skeleton).corrected(&[]), MirrorPairs::of(&skeleton));
-    let mut model = fox();
+    let mut model = fox_takes();
     let before = Arc::clone(&model.slots()[1].result);
     let line = r#"{"edit":"mirror_take","take":"Walk","bones":["b_Tail01_012"],"pairs":[["b_Tail01_012","b_Tail02_013"]]}"#;
     let after = applied(&mut model, line);

@@ -13,7 +13,7 @@ mod times;
 
 pub use pairs::{BonePairs, pair_bones};
 pub use profile::{DifferenceProfile, compare_at};
-pub use times::{LONGEST_GAP, MOST_SAMPLES, sample_times};
+pub use times::{LONGEST_GAP, MOST_SAMPLES, even_times, sample_times};
 
 use crate::animation::to_root;
 use crate::data::{BoneIndex, Skeleton, Take, Transform};
@@ -101,7 +101,16 @@ impl<'a> Posed<'a> {
 /// Takes time in proportion to bones × samples; with very many bones fewer samples between keys are taken, so that the
 /// product stays below [`MOST_SAMPLES`].
 pub fn compare_takes(first: (&Skeleton, &Take), second: (&Skeleton, &Take)) -> TakeDifference {
-    let times = sample_times(first.1, second.1, first.0.len().max(second.0.len()));
+    compare_takes_within(first, second, MOST_SAMPLES)
+}
+
+/// Compares as [`compare_takes`] does, with at most `most` bones × samples, for a program that cannot wait.
+pub fn compare_takes_within(
+    first: (&Skeleton, &Take),
+    second: (&Skeleton, &Take),
+    most: usize,
+) -> TakeDifference {
+    let times = times::sample_times_within(first.1, second.1, first.0.len().max(second.0.len()), most);
     let range = [times.first().copied().unwrap_or(0.0), times.last().copied().unwrap_or(0.0)];
     let mut weight = Peak { value: 0.0, time: range[0] };
     let mut weights = Weights::of(first.1, second.1);

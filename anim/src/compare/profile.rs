@@ -55,17 +55,12 @@ pub fn compare_at(
             if one == other {
                 continue;
             }
-            for (peaks, value) in [
-                (
-                    [&mut bone.distance, &mut distance],
-                    one.w_axis.truncate().distance(other.w_axis.truncate()),
-                ),
-                ([&mut bone.angle, &mut angle], angle_between(one, other)),
-            ] {
-                for peak in peaks {
-                    peak.raise(value, time);
-                }
-            }
+            let (apart, turned) =
+                (one.w_axis.truncate().distance(other.w_axis.truncate()), angle_between(one, other));
+            bone.distance.raise(apart, time);
+            bone.angle.raise(turned, time);
+            distance.raise(apart, time);
+            angle.raise(turned, time);
         }
         distances.push(distance.value);
         angles.push(angle.value);

@@ -11,6 +11,20 @@ pub const MOST_SAMPLES: usize = 50_000_000;
 
 /// Returns the times at which takes with `bones` bones are compared, ascending, without repetition; at least one.
 pub fn sample_times(first: &Take, second: &Take, bones: usize) -> Vec<f32> {
+    sample_times_within(first, second, bones, MOST_SAMPLES)
+}
+
+/// Returns `count` times at even distances, from the start of the earlier take to the end of the later one, ascending; at least one.
+pub fn even_times(first: &Take, second: &Take, count: usize) -> Vec<f32> {
+    let start = f64::from(first.start.min(second.start));
+    let length = f64::from(first.end().max(second.end())) - start;
+    let last = count.max(1) - 1;
+    let step = if last > 0 { length / last as f64 } else { 0.0 };
+    (0..=last).map(|at| (start + step * at as f64) as f32).collect()
+}
+
+/// Returns the times as [`sample_times`] does, for at most `most` bones × samples.
+pub(super) fn sample_times_within(first: &Take, second: &Take, bones: usize, most: usize) -> Vec<f32> {
     let mut keys = Vec::new();
     for take in [first, second] {
         for track in &take.tracks {
@@ -23,7 +37,7 @@ pub fn sample_times(first: &Take, second: &Take, bones: usize) -> Vec<f32> {
     keys.retain(|time| time.is_finite());
     keys.sort_by(f32::total_cmp);
     keys.dedup();
-    let most = (MOST_SAMPLES / bones.max(1)).max(2);
+    let most = (most / bones.max(1)).max(2);
     let steps = |from: f32, to: f32| (((to - from) / LONGEST_GAP).ceil()).clamp(1.0, 1e9) as usize;
     let wanted: usize =
         keys.windows(2).fold(1, |sum: usize, pair| sum.saturating_add(steps(pair[0], pair[1])));

@@ -77,8 +77,9 @@ pub(super) fn foot_slide(
             let slide = take_slide(frames, contacts, settings.up, settings.meters_per_unit);
             slide.millimeters_per_second()
         };
-        let worst = found.iter().max_by(|a, b| slide(&[**a]).total_cmp(&slide(&[**b])));
-        add(foot, worst.map_or(0.0, |contact| contact.from), slide(&found));
+        let speeds = found.iter().map(|contact| (contact.from, slide(&[*contact])));
+        let worst = speeds.max_by(|(_, a), (_, b)| a.total_cmp(b));
+        add(foot, worst.map_or(0.0, |(from, _)| from), slide(&found));
     }
 }
 

@@ -8,7 +8,9 @@ use super::output::{self, print, print_json};
 use super::run_command::RunCommand;
 use super::table::{Side, Table, count};
 use super::tell;
-use dragonfly_anim::compare::{BoneDifference, Peak, TakeDifference, compare_at, compare_takes, pair_bones};
+use dragonfly_anim::compare::{
+    BoneDifference, Peak, TakeDifference, compare_at, compare_takes, even_times, pair_bones,
+};
 use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
 use dragonfly_document::LoadedModel;
 use serde::Serialize;
@@ -96,16 +98,10 @@ fn write_picture(path: &Path, files: [LoadedModel; 2], difference: &FileDifferen
         PicturedTake { loaded: Arc::new(loaded), take: index }
     };
     let sides = files.map(side);
-    let profile = {
-        let of = |side: &PicturedTake| Arc::clone(&side.loaded.model.animation.takes[side.take]);
-        let takes = sides.each_ref().map(of);
-        let skeletons = sides.each_ref().map(|side| &*side.loaded.model.animation.skeleton);
-        let start = takes[0].start.min(takes[1].start);
-        let end = takes[0].end().max(takes[1].end());
-        let step = (end - start) / (COLUMNS - 1) as f32;
-        let even = (0..COLUMNS).map(|at| start + step * at as f32).collect();
-        compare_at((skeletons[0], &takes[0]), (skeletons[1], &takes[1]), even)
-    };
+    let takes = sides.each_ref().map(|side| &*side.loaded.model.animation.takes[side.take]);
+    let skeletons = sides.each_ref().map(|side| &*side.loaded.model.animation.skeleton);
+    let times = even_times(takes[0], takes[1], COLUMNS);
+    let profile = compare_at((skeletons[0], takes[0]), (skeletons[1], takes[1]), times);
     let most_turned =
         take.bones.iter().max_by(|a, b| a.angle_degrees.value.total_cmp(&b.angle_degrees.value));
     let turned = most_turned.map_or(0.0, |bone| bone.angle_degrees.time);

@@ -1,10 +1,12 @@
 //! Text of the largest difference between two states of a take: how far an edit moves bones.
 
-use dragonfly_anim::compare::compare_takes;
+use dragonfly_anim::compare::compare_takes_within;
 use dragonfly_anim::data::{Skeleton, Take};
 
 /// Largest number of keys times bones of a take that is compared in a frame.
 const MOST: usize = 1_000_000;
+/// Largest number of bones times samples of a comparison: about 20 ms.
+const SAMPLES: usize = 200_000;
 
 /// Returns the largest distance and angle with their bones and frames: `12.30 mm Head frame 7 · 4.10° Neck frame 9`. `None`
 /// where the take is too long to be compared in a frame.
@@ -16,7 +18,7 @@ pub(super) fn difference_text(
     if before.keys().max(now.keys()).saturating_mul(skeleton.len()) > MOST {
         return None;
     }
-    let difference = compare_takes((skeleton, before), (skeleton, now));
+    let difference = compare_takes_within((skeleton, before), (skeleton, now), SAMPLES);
     let (far, turned) = (difference.farthest()?, difference.most_turned()?);
     let frame = |time: f32| (f64::from(time) * f64::from(frame_rate)).round();
     let name = |bone: u32| skeleton.bones.get(bone as usize).map_or("", |bone| bone.name.as_str());

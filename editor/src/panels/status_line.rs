@@ -11,6 +11,7 @@ use super::style::{self, GRID};
 use super::theme::Theme;
 use super::widgets;
 use super::window_status::DeviceStatus;
+use dragonfly_anim::lint::{LintRule, LintThresholds};
 use dragonfly_document::edit::SAME_TIME;
 use egui::{Align, Color32, Layout, Rect, RichText, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
 
@@ -76,15 +77,14 @@ fn pending(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>)
     ui.add_space(2.0 * GRID);
 }
 
-/// Speed of a foot in contact from which on it is seen to slide, millimeters per second: as in the check of takes.
-const SLIDES: f32 = 50.0;
-
 /// Shows how fast the worst foot slides in its contact; a click goes there.
 fn foot_slide(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let Some(worst) = context.contacts.worst() else { return };
     let theme = Theme::of(ui);
     let speed = worst.millimeters_per_second;
-    let color = if speed > SLIDES { theme.warning } else { theme.weak };
+    // As in the check of takes.
+    let slides = LintThresholds::default().limit(LintRule::FootSlide);
+    let color = if slides.is_some_and(|most| speed > most) { theme.warning } else { theme.weak };
     let text = format!("Foot slide {speed:.0} mm/s");
     let (name, contact) = (context.bone_name(worst.contact.bone), worst.contact);
     let hint = format!(

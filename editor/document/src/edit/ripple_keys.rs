@@ -4,7 +4,7 @@ use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{
-    KeyMove, Transaction, contacts, events, finite, key_time, morph, pending, timing::move_positions,
+    KeyMove, Transaction, contacts, finite, key_time, moments, morph, timing::move_positions,
 };
 use crate::adapter::{EditError, TakeId};
 use dragonfly_anim::data::Skeleton;
@@ -71,8 +71,7 @@ impl EditKind for RippleKeys {
         for at in work.slot(take).pending() {
             key_time(to(at.time).unwrap_or_default(), work.slot(take))?;
         }
-        pending::remap(work, take, to);
-        events::remap(work, take, to)?;
+        moments::remap(work, take, to)?;
         found |= ripple_morphs(work, take, from, by)?;
         contacts::follow(work, take, |track| track.rippled(from - SAME_TIME, by))?;
         if found { Ok(()) } else { Err(EditError::Nothing("there is no key at that time or later")) }

@@ -3,7 +3,7 @@
 use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef};
 use crate::adapter::op::Op;
-use crate::adapter::plan::{Transaction, contacts, events, finite, pending, rewrite};
+use crate::adapter::plan::{Transaction, contacts, finite, moments, rewrite};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
 use dragonfly_anim::frames::frame_rate;
@@ -73,11 +73,9 @@ impl EditKind for ShiftLoop {
         let (start, length) = (take.start, take.length);
         contacts::follow(work, id, |track| track.shifted(start, length, by))?;
         let inside = |time: f32| (start..=start + length).contains(&time);
-        let to = |time: f32| {
+        moments::remap(work, id, |time| {
             Some(if inside(time) { start + (time - start + by).rem_euclid(length) } else { time })
-        };
-        pending::remap(work, id, to);
-        events::remap(work, id, to)
+        })
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {

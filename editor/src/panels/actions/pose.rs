@@ -6,7 +6,7 @@ use crate::panels::keys::channel::BoneNames;
 use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
-use dragonfly_anim::data::{BoneIndex, Take, Transform};
+use dragonfly_anim::data::{BoneIndex, Skeleton, Take, Transform};
 use dragonfly_anim::sample::{rest_pose, sample_track};
 use dragonfly_document::adapter::PendingAt;
 use dragonfly_document::bones::MirrorPairs;
@@ -78,17 +78,22 @@ fn free_pending(workspace: &mut Workspace, time: Option<f32>) -> Option<Vec<Bone
     Some(bones.into_iter().map(BoneRef::Index).collect())
 }
 
+/// Returns the poses of bones with the names of these, as texts and files have them.
+pub(super) fn named_poses(skeleton: &Skeleton, poses: &[Transform], bones: &[BoneIndex]) -> Vec<BonePose> {
+    let names = BoneNames::of(skeleton);
+    let pose = |&bone: &BoneIndex| {
+        Some(BonePose { bone: names.reference(bone), ..whole(bone, poses.get(bone as usize)?) })
+    };
+    bones.iter().filter_map(pose).collect()
+}
+
 /// Copies the poses of the selected bones, or of all.
 pub(in crate::panels) fn copy(workspace: &mut Workspace) -> Option<Effect> {
     let bones = workspace.read().selected_or_all();
     let view = workspace.model.view()?;
     let (take, time) = (workspace.player.take(), workspace.player.time());
     let poses = workspace.posed.update(view, take, time).poses();
-    let names = BoneNames::of(&view.loaded.model.animation.skeleton);
-    let pose = |&bone: &BoneIndex| {
-        Some(BonePose { bone: names.reference(bone), ..whole(bone, poses.get(bone as usize)?) })
-    };
-    let copied: Vec<BonePose> = bones.iter().filter_map(pose).collect();
+    let copied = named_poses(&view.loaded.model.animation.skeleton, poses, &bones);
     let bones = count(copied.len(), "bone", "bones");
     workspace.say(MessageSeverity::Info, format!("Copied the pose of {bones}"));
     let text = clipboard::to_text(&copied);

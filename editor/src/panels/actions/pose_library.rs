@@ -1,7 +1,7 @@
 //! The pose library: poses to save, and poses to apply.
 
+use super::pose::named_poses;
 use crate::panels::context::PanelContext;
-use crate::panels::keys::channel::BoneNames;
 use crate::panels::request::Request;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::MirrorPairs;
@@ -11,18 +11,9 @@ use std::sync::Arc;
 
 /// Returns the poses of the selected bones at the time shown, or of all, with the names of the bones.
 pub(in crate::panels) fn shown_pose(context: &PanelContext<'_>) -> Option<Vec<BonePose>> {
-    let names = BoneNames::of(&context.loaded()?.model.animation.skeleton);
+    let skeleton = &context.loaded()?.model.animation.skeleton;
     let now = context.posed.animation()?.poses();
-    let pose = |bone: BoneIndex| {
-        let pose = now.get(bone as usize)?;
-        Some(BonePose {
-            bone: names.reference(bone),
-            translation: Some(pose.translation.to_array()),
-            rotation: Some(pose.rotation.to_array()),
-            scale: Some(pose.scale.to_array()),
-        })
-    };
-    let poses: Vec<BonePose> = context.selected_or_all().into_iter().filter_map(pose).collect();
+    let poses = named_poses(skeleton, now, &context.selected_or_all());
     (!poses.is_empty()).then_some(poses)
 }
 

@@ -1,7 +1,7 @@
 //! The differences of two takes, computed when one of them changes.
 
 use crate::panels::context::PanelContext;
-use dragonfly_anim::compare::{BoneDifference, DifferenceProfile, compare_at};
+use dragonfly_anim::compare::{BoneDifference, DifferenceProfile, compare_at, even_times};
 use dragonfly_anim::data::Take;
 use std::sync::Arc;
 
@@ -31,8 +31,8 @@ impl ShownProfile {
         let Some(view) = context.view.filter(|_| !self.of.as_ref().is_some_and(is_same)) else { return };
         let skeleton = &view.loaded.model.animation.skeleton;
         let most = (MOST / skeleton.len().max(1)).clamp(TIMES.0, TIMES.1);
-        let range = [now.start.min(other.start), now.end().max(other.end())];
-        self.profile = compare_at((skeleton, now), (skeleton, other), times(range, rate, most));
+        let times = even_times(now, other, frames(now, other, rate, most));
+        self.profile = compare_at((skeleton, now), (skeleton, other), times);
         let bones = &self.profile.bones;
         let differs = |&at: &usize| bones[at].distance.value > EQUAL.0 || bones[at].angle.value > EQUAL.1;
         self.order = (0..bones.len()).filter(differs).collect();
@@ -84,13 +84,10 @@ impl ShownProfile {
     }
 }
 
-/// Returns the times of all frames in the range, or `most` times at even distances where there are more frames.
-fn times([start, end]: [f32; 2], rate: u32, most: usize) -> Vec<f32> {
-    let rate = f64::from(rate.max(1));
-    let frames = (((f64::from(end) - f64::from(start)) * rate).round().max(0.0) as usize).saturating_add(1);
-    let count = frames.min(most);
-    let step = if count > 1 { (f64::from(end) - f64::from(start)) / (count - 1) as f64 } else { 0.0 };
-    (0..count).map(|at| (f64::from(start) + step * at as f64) as f32).collect()
+/// Returns the number of frames from the start of the earlier take to the end of the later one, at most `most`.
+fn frames(first: &Take, second: &Take, rate: u32, most: usize) -> usize {
+    let seconds = f64::from(first.end().max(second.end())) - f64::from(first.start.min(second.start));
+    ((seconds * f64::from(rate.max(1))).round().max(0.0) as usize).saturating_add(1).min(most)
 }
 
 #[cfg(test)]
@@ -99,10 +96,15 @@ mod tests {
 
     #[test]
     fn each_frame_is_compared_and_of_a_long_take_some_times_at_even_distances() {
-        assert_eq!(times([0.0, 0.5], 8, 100), [0.0, 0.125, 0.25, 0.375, 0.5]);
-        assert_eq!(times([1.0, 1.0], 30, 100), [1.0]);
-        let long = times([-1.0, 600.0], 30, 480);
+        let take = |start: f32, length: f32| Take { start, length, ..Take::default() };
+        let times = |first: &Take, second: &Take, rate: u32, most: usize| {
+            even_times(first, second, frames(first, second, rate, most))
+        };
+        let short = take(0.0, 0.5);
+        assert_eq!(times(&short, &take(0.25, 0.0), 8, 100), [0.0, 0.125, 0.25, 0.375, 0.5]);
+        assert_eq!(times(&take(1.0, 0.0), &take(1.0, 0.0), 30, 100), [1.0]);
+        let long = times(&take(-1.0, 1.0), &take(0.0, 600.0), 30, 480);
         assert_eq!((long.len(), long[0], long[479]), (480, -1.0, 600.0));
-        assert_eq!(times([0.0, f32::MAX], 480, 16).len(), 16);
+        assert_eq!(times(&short, &take(0.0, f32::MAX), 480, 16).len(), 16);
     }
 }

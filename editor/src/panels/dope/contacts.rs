@@ -1,10 +1,10 @@
 //! The lane of contacts below the markers: a row for each bone, a bar for each contact.
 
-use super::head::to_frame;
+use super::lane_drag::{LaneDrag, snapped};
 use super::sheet::Sheet;
 use crate::panels::commands::Id;
 use crate::panels::context::PanelContext;
-use crate::panels::drag::{DragEvent, PanelDrag, PointerInput, choice_of, readout};
+use crate::panels::drag::{PointerInput, choice_of, readout};
 use crate::panels::keys::{KeysRequest, TimeScale};
 use crate::panels::menu;
 use crate::panels::request::Request;
@@ -17,8 +17,8 @@ use dragonfly_document::edit::{BoneRef, ContactSpan, Edit, SetContacts};
 use dragonfly_picture::between;
 use egui::accesskit::Role;
 use egui::{
-    Button, CornerRadius, CursorIcon, PointerButton, Rect, Response, Sense, Stroke, StrokeKind, TextStyle,
-    Ui, WidgetInfo, pos2,
+    Button, CornerRadius, CursorIcon, PointerButton, Pos2, Rect, Response, Sense, Stroke, StrokeKind,
+    TextStyle, Ui, WidgetInfo, pos2,
 };
 
 /// Width of the ends of a bar that are dragged alone, points.
@@ -29,9 +29,7 @@ const MOST_BARS: usize = 200;
 /// The contact that is dragged.
 #[derive(Debug, Default)]
 pub(super) struct ContactLane {
-    /// The contact changes when it is released.
-    drag: PanelDrag<(), ContactDrag>,
-    dragged: Option<Contact>,
+    drag: LaneDrag<Contact, ContactDrag>,
 }
 
 /// The part of a bar that is dragged.
@@ -113,7 +111,7 @@ impl ContactLane {
         let in_sight = &contacts[first..last];
         let is_selected = |contact: &Contact| context.selection.contains(contact.bone);
         for contact in in_sight {
-            let held = self.drag.drag().filter(|drag| drag.before == *contact).map(|drag| drag.now);
+            let held = self.drag.held().filter(|drag| drag.before == *contact).map(|drag| drag.now);
             let shown = held.unwrap_or(*contact);
             let bar = bar_of(&shown, row, scale);
             let color = if is_selected(contact) { theme.accent } else { theme.weak };
@@ -146,33 +144,18 @@ impl ContactLane {
             let choice = choice_of(ui.input(|input| input.modifiers));
             requests.push(Request::SelectBones(vec![contact.bone], choice));
         }
-        let input = PointerInput::of_widget(ui, response);
-        if response.drag_started_by(PointerButton::Primary)
-            && let Some(pressed) = input.pressed_at
-        {
+        let start = |input: &PointerInput| {
+            let pressed = input.pressed_at?;
             let (part, grabbed) = (part_at(bar, pressed.x), scale.time_at(pressed.x));
-            let drag = ContactDrag { before: *contact, now: *contact, part, grabbed };
-            self.drag = PanelDrag::dragging(drag);
-            self.dragged = Some(*contact);
-        }
-        if self.dragged == Some(*contact) {
-            match self.drag.step(&input, input.primary_down, |_| ()) {
-                DragEvent::Moved(pointer) => {
-                    let Some(drag) = self.drag.drag().copied() else { return };
-                    let snaps = context.keys.snap() != input.modifiers.command;
-                    let snap = |time: f32| if snaps { to_frame(time, context) } else { time };
-                    let now = drag.moved(scale.time_at(pointer.x), context, snap);
-                    self.drag.begin(ContactDrag { now, ..drag });
-                    readout(ui, pos2(pointer.x, pointer.y), &extent(&now, context));
-                }
-                DragEvent::Dropped(drag) => requests.extend(change(&drag.before, Some(drag.now), context)),
-                DragEvent::Cancelled(_)
-                | DragEvent::Nothing
-                | DragEvent::Pressed
-                | DragEvent::Started(_)
-                | DragEvent::Clicked(_) => {}
-            }
-            self.dragged = self.dragged.filter(|_| self.drag.is_busy());
+            Some(ContactDrag { before: *contact, now: *contact, part, grabbed })
+        };
+        let moved = |drag: ContactDrag, input: &PointerInput, at: Pos2| {
+            let now = drag.moved(scale.time_at(at.x), context, |time| snapped(sheet, input, time));
+            readout(ui, at, &extent(&now, context));
+            ContactDrag { now, ..drag }
+        };
+        if let Some(drag) = self.drag.step(ui, (*contact, response), start, moved) {
+            requests.extend(change(&drag.before, Some(drag.now), context));
         }
         response.context_menu(|ui| {
             if ui.add(Button::new("Delete contact").frame_when_inactive(false)).clicked() {

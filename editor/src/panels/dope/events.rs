@@ -1,7 +1,7 @@
 //! The lane of events: each is stored with the take, and games act on it.
 
 use super::event_text::{parsed, text_of};
-use super::lane_drag::LaneDrag;
+use super::lane_drag::MarkDrag;
 use super::sheet::Sheet;
 use crate::panels::context::PanelContext;
 use crate::panels::request::Request;
@@ -23,7 +23,9 @@ pub(super) struct EventLane {
     /// The stored text that the events were read from.
     of: Option<Arc<str>>,
     events: Vec<TakeEvent>,
-    drag: LaneDrag,
+    /// Each event as text.
+    texts: Vec<String>,
+    drag: MarkDrag,
     /// Index and text of the event that is edited, and whether the field has had the focus.
     editing: Option<(usize, String, bool)>,
 }
@@ -47,8 +49,9 @@ impl EventLane {
             (Some(_), None) | (None, Some(_)) => false,
         };
         if !is_read {
-            self.events = context.slot().map_or(Vec::new(), |slot| stored_events(&slot.result.extras));
-            *self = Self { of: stored.cloned(), events: std::mem::take(&mut self.events), ..Self::default() };
+            let events = context.slot().map_or(Vec::new(), |slot| stored_events(&slot.result.extras));
+            let texts = events.iter().map(text_of).collect();
+            *self = Self { of: stored.cloned(), events, texts, ..Self::default() };
         }
         if lane.height() < 4.0 {
             return;
@@ -74,7 +77,7 @@ impl EventLane {
     ) -> Option<EventAction> {
         let Sheet { areas, scale, .. } = *sheet;
         let (lane, theme) = (areas.events, Theme::of(ui));
-        let event = self.events.get(index)?;
+        let (event, text) = (self.events.get(index)?, self.texts.get(index)?);
         let time = self.drag.time_of(index, event.time);
         let x = scale.x_of(time);
         let end = self.events.get(index + 1).map_or(f32::INFINITY, |next| scale.x_of(next.time));
@@ -85,8 +88,10 @@ impl EventLane {
         }
         let id = ui.scope_id().with(("event", index));
         let response = ui.interact(grip.intersect(lane), id, Sense::click_and_drag());
-        let name = format!("Event {}", event.name);
-        response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Button, true, name.as_str()));
+        response.widget_info(|| {
+            let name = format!("Event {}", event.name);
+            WidgetInfo::labeled(egui::accesskit::Role::Button, true, name)
+        });
         let lit = response.hovered() || response.dragged();
         let color = if lit { theme.text } else { theme.accent };
         let painter = ui.painter().with_clip_rect(lane);
@@ -94,14 +99,14 @@ impl EventLane {
         painter.circle_filled(pos2(x, lane.top() + 5.0), 3.5, color);
         let left = pos2(x + 9.0, lane.top());
         let place = Rect::from_min_max(left, pos2((end - 6.0).min(lane.right()), lane.bottom()));
-        let text = text_of(event);
         if place.width() > 12.0 {
-            widgets::text_in(ui, place, &text, &TextStyle::Small, theme.weak);
+            widgets::text_in(ui, place, &widgets::shortened(text), &TextStyle::Small, theme.weak);
         }
-        let hint = format!(
-            "{text}\n{time:.3} s\nClick to move the playhead here, drag to move, double-click to edit name and payload"
-        );
-        let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(hint);
+        let response = response.on_hover_cursor(CursorIcon::PointingHand).on_hover_ui(|ui| {
+            let use_it =
+                "Click to move the playhead here, drag to move, double-click to edit name and payload";
+            ui.label(format!("{}\n{time:.3} s\n{use_it}", widgets::shortened(text)));
+        });
         if response.clicked_by(PointerButton::Primary) {
             requests.push(Request::Seek(event.time));
         }
@@ -109,7 +114,7 @@ impl EventLane {
             self.editing = Some((index, text.clone(), false));
         }
         let mut action = None;
-        if let Some(time) = self.drag.step(ui, sheet, (index, event.time), &response) {
+        if let Some(time) = self.drag.step_mark(ui, sheet, (index, event.time), &response) {
             action = Some(EventAction::Move(index, time));
         }
         response.context_menu(|ui| {

@@ -1,6 +1,6 @@
 //! The lane of markers below the ruler.
 
-use super::lane_drag::LaneDrag;
+use super::lane_drag::MarkDrag;
 use super::sheet::Sheet;
 use crate::panels::context::PanelContext;
 use crate::panels::keys::{KeysRequest, MarkerAction, TimeScale};
@@ -17,7 +17,7 @@ use egui::{
 #[derive(Debug, Default)]
 pub(super) struct MarkerLane {
     renaming: Option<(usize, String, MarkerNameStage)>,
-    drag: LaneDrag,
+    drag: MarkDrag,
 }
 
 /// State of the field for a name.
@@ -85,7 +85,7 @@ impl MarkerLane {
             if response.double_clicked() {
                 self.renaming = Some((index, marker.name.clone(), MarkerNameStage::Fresh));
             }
-            if let Some(time) = self.drag.step(ui, sheet, (index, marker.time), &response) {
+            if let Some(time) = self.drag.step_mark(ui, sheet, (index, marker.time), &response) {
                 ask(MarkerAction::Move(index, time));
             }
             response.context_menu(|ui| {

@@ -29,7 +29,7 @@ use std::sync::Arc;
 #[derive(Debug, Default)]
 pub struct ShapeKeys {
     query: String,
-    lists: HashMap<u32, ShapeList>,
+    lists: HashMap<u32, Arc<ShapeList>>,
     /// Weight when the drag of a slider or number began, by mesh and shape key.
     held: Option<(u32, usize, f64)>,
     /// The model that this state belongs to.
@@ -66,7 +66,8 @@ impl Panel for ShapeKeys {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
             for mesh in meshes {
-                let list = self.lists.entry(mesh.instance()).or_insert_with(|| ShapeList::of(mesh)).clone();
+                let list = self.lists.entry(mesh.instance());
+                let list = Arc::clone(list.or_insert_with(|| Arc::new(ShapeList::of(mesh))));
                 let rows = list.rows(mesh, &query);
                 if !rows.is_empty() {
                     found = true;
@@ -255,11 +256,11 @@ fn heading(
         ui.spacing_mut().item_spacing.x = 0.0;
         let more = widgets::icon_button(ui, Icon::Down, &format!("More for the shape keys of {mesh}"), false);
         Popup::menu(&more.on_hover_text("Reset, mirror")).show(|ui| {
-            let entry = |ui: &mut Ui, title: &str, help: &str, edit: Option<Edit>| {
+            let mut entry = |ui: &mut Ui, title: &str, help: &str, edit: Option<Edit>| {
                 let able = edit.is_some() && locked(context, shown).is_none();
                 let button = ui.add_enabled(able, Button::new(title).frame_when_inactive(false));
                 if button.on_hover_text(help).clicked() {
-                    request(edit, &mut *requests);
+                    request(edit, requests);
                     ui.close();
                 }
             };
@@ -268,7 +269,6 @@ fn heading(
                 (reset, mirror) = (shown.reset(context), shown.mirror(context, list));
             }
             ui.set_min_width(160.0);
-            let mut entry = entry;
             entry(ui, "Reset all", "Gives all shape keys of the mesh their weights in the file", reset);
             entry(ui, "Mirror", "Exchanges the weights of left and right shape keys", mirror);
         });

@@ -66,7 +66,10 @@ impl<'a> ShownMesh<'a> {
 
     /// Returns whether the mesh has a key at the time shown.
     pub(super) fn is_keyed(&self) -> bool {
-        self.track.is_some_and(|track| track.times.iter().any(|time| (time - self.time).abs() <= SAME_TIME))
+        self.track.is_some_and(|track| {
+            let at = track.times.partition_point(|time| *time < self.time - SAME_TIME);
+            track.times.get(at).is_some_and(|time| *time <= self.time + SAME_TIME)
+        })
     }
 
     /// Returns the edit that sets these weights at the time shown.

@@ -4,7 +4,7 @@ use super::super::kind::{ChannelKind, with_kind};
 use super::super::op::{ChannelAddress, Op};
 use super::super::slot::{KeyContent, TakeId};
 use super::keys::current;
-use super::{EditError, Transaction, contacts, events, layer, morph, pending};
+use super::{EditError, Transaction, contacts, layer, moments, morph};
 use crate::edit::SAME_TIME;
 
 /// Deletes everything outside two times, in all channels, also those of its layers, and in its contacts and events.
@@ -16,9 +16,7 @@ pub(crate) fn cut(work: &mut Transaction, take: TakeId, from: f32, to: f32) -> R
         cut(work, layer, from, to)?;
     }
     let inside = |time: f32| time >= from - SAME_TIME && time <= to + SAME_TIME;
-    let kept = |time: f32| inside(time).then_some(time);
-    pending::remap(work, take, kept);
-    events::remap(work, take, kept)?;
+    moments::remap(work, take, |time| inside(time).then_some(time))?;
     contacts::follow(work, take, |track| track.between(from, to))?;
     let slot = work.slot(take);
     if !slot.original.morphs.is_empty() {

@@ -9,6 +9,7 @@ pub(crate) mod cut;
 pub(crate) mod events;
 pub(crate) mod keys;
 pub(crate) mod layer;
+pub(crate) mod moments;
 pub(crate) mod morph;
 pub(crate) mod morph_keys;
 pub(crate) mod offset;

@@ -4,7 +4,7 @@ use super::super::kind::{ChannelKind, ChannelValue, with_kind};
 use super::super::op::{ChannelAddress, Op};
 use super::super::slot::{ChannelContent, TakeId};
 use super::arrange::stretched;
-use super::{EditError, Transaction, contacts, events, finite, layer, morph, pending};
+use super::{EditError, Transaction, contacts, finite, layer, moments, morph};
 use crate::edit::SAME_TIME;
 use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::Value;
@@ -39,8 +39,7 @@ pub(crate) fn apply(work: &mut Transaction, take: TakeId, map: TimeMap) -> Resul
     for at in work.slot(take).pending() {
         finite("a time", map.at(at.time))?;
     }
-    pending::remap(work, take, |time| Some(map.at(time)));
-    events::remap(work, take, |time| Some(map.at(time)))?;
+    moments::remap(work, take, |time| Some(map.at(time)))?;
     contacts::follow(work, take, |track| track.remapped(|time| map.at(time)))?;
     let slot = work.slot(take);
     if slot.original.morphs.is_empty() {
