@@ -1,13 +1,14 @@
 //! Loops that are shifted and searched in steps, on a swing whose motion is known.
 
 use super::support::{bone, take};
-use dragonfly_anim::data::{Channel, Interpolation, Skeleton, Take, Track, Transform};
+use dragonfly_anim::data::{Channel, Interpolation, MorphTrack, Skeleton, Take, Track, Transform};
 use dragonfly_anim::frames::TakeFrames;
 use dragonfly_anim::loops::{
     LoopFinder, LoopSearch, ShiftError, ShiftSettings, find_loop, is_one_frame_short, loop_gaps, shift_loop,
 };
 use dragonfly_anim::motion::Axis;
-use dragonfly_anim::sample::sample_take;
+use dragonfly_anim::sample::{sample_morph_weights, sample_take};
+use dragonfly_kit::random::{Random, seed};
 use glam::{Quat, Vec3};
 
 /// A swing that repeats every 2 s: hips that turn, and a foot with spline keys of translation.
@@ -31,7 +32,7 @@ fn swing(interpolation: Interpolation) -> (Skeleton, Take) {
 }
 
 fn shift(by: f32) -> ShiftSettings {
-    ShiftSettings { by, rate: 30.0, travel: None, up: Axis::Y }
+    ShiftSettings { by, rate: None, travel: None, up: Axis::Y }
 }
 
 fn pose_at(take: &Take, skeleton: &Skeleton, time: f32) -> Vec<Transform> {
@@ -43,7 +44,7 @@ fn pose_at(take: &Take, skeleton: &Skeleton, time: f32) -> Vec<Transform> {
 #[test]
 fn a_shifted_loop_shows_what_the_loop_showed_earlier() {
     for (interpolation, tolerance) in
-        [(Interpolation::Linear, 1e-5), (Interpolation::Step, 1e-5), (Interpolation::CubicSpline, 2e-3)]
+        [(Interpolation::Linear, 1e-5), (Interpolation::Step, 1e-5), (Interpolation::CubicSpline, 1e-5)]
     {
         let (skeleton, take) = swing(interpolation);
         for by in [0.3, -0.3, 0.2, 1.9, 4.7] {
@@ -119,7 +120,7 @@ fn shifts_that_are_none_are_errors_or_change_nothing() {
     }
     let pose = Take { length: 0.0, ..take.clone() };
     assert!(matches!(shift_loop(&pose, &skeleton, &shift(1.0)), Err(ShiftError::Range { .. })));
-    let settings = ShiftSettings { rate: 0.0, ..shift(1.0) };
+    let settings = ShiftSettings { rate: Some(0.0), ..shift(1.0) };
     assert!(matches!(shift_loop(&take, &skeleton, &settings), Err(ShiftError::Range { .. })));
     let empty = Take { tracks: vec![Track::default(); 2], ..take };
     assert_eq!(shift_loop(&empty, &skeleton, &shift(0.3)).as_ref(), Ok(&empty));
@@ -185,4 +186,161 @@ fn a_search_in_steps_finds_several_loops_far_from_each_other() {
     assert_eq!((found[0].last - found[0].first) % 60, 0, "{:?}", found[0]);
     let none = LoopSearch { least: 100.0, ..search };
     assert!(LoopFinder::new(&frames, &none, 0).step(1));
+}
+
+/// Returns times from 0.5 s to 2.5 s, sometimes without keys at the ends.
+fn random_times(random: &mut Random) -> Vec<f32> {
+    let count = 3 + random.below(8);
+    let mut times: Vec<f32> = (0..count).map(|_| 0.6 + 1.8 * random.unit()).collect();
+    times.extend([0.5, 2.5].into_iter().filter(|_| random.below(3) > 0));
+    times.sort_by(f32::total_cmp);
+    // Nearer keys are a curve so steep that the rounding of times is seen.
+    times.dedup_by(|later, earlier| *later - *earlier < 0.1);
+    times
+}
+
+/// Returns the values of a channel that ends as it begins, with the tangents of a spline.
+fn random_values<T: Copy>(
+    random: &mut Random,
+    keys: usize,
+    interpolation: Interpolation,
+    mut value: impl FnMut(&mut Random) -> T,
+    mut slope: impl FnMut(&mut Random) -> T,
+) -> Vec<T> {
+    let mut values: Vec<T> = (0..keys).map(|_| value(random)).collect();
+    values[keys - 1] = values[0];
+    if interpolation != Interpolation::CubicSpline {
+        return values;
+    }
+    values.into_iter().flat_map(|value| [slope(random), value, slope(random)]).collect()
+}
+
+fn random_loop(random: &mut Random) -> Take {
+    let kinds = [
+        Interpolation::Step,
+        Interpolation::Linear,
+        Interpolation::CubicSpline,
+        Interpolation::CubicSpline,
+        Interpolation::Closest,
+    ];
+    let vector = |random: &mut Random| {
+        let mut number = || random.between(-0.3, 0.3);
+        Vec3::new(number(), number(), number())
+    };
+    let rotation = |random: &mut Random| {
+        let axis = vector(random).try_normalize().unwrap_or(Vec3::X);
+        Quat::from_axis_angle(axis, random.between(-0.6, 0.6))
+    };
+    let tangent = |random: &mut Random| {
+        let mut number = || random.between(-1.0, 1.0);
+        Quat::from_xyzw(number(), number(), number(), number())
+    };
+    let mut track = Track::default();
+    let (times, kind) = (random_times(random), random.choice(&kinds));
+    let places = random_values(random, times.len(), kind, vector, vector);
+    track.translation = Channel::new(times, places, kind);
+    let (times, kind) = (random_times(random), random.choice(&kinds));
+    let turns = random_values(random, times.len(), kind, rotation, tangent);
+    track.rotation = Channel::new(times, turns, kind);
+    let (times, interpolation) = (random_times(random), random.choice(&kinds));
+    let keys = times.len();
+    let weight = |random: &mut Random| 0.5 * random.unit();
+    let columns = [0, 1].map(|_| random_values(random, keys, interpolation, weight, weight));
+    let weights =
+        (0..columns[0].len()).flat_map(|row| [columns[0][row], columns[1][row]]).collect::<Vec<_>>();
+    let morphs = vec![MorphTrack {
+        instance: 0,
+        targets: 2,
+        times: times.into(),
+        weights: weights.into(),
+        interpolation,
+    }];
+    Take { name: "loop".to_owned(), start: 0.5, length: 2.0, tracks: vec![track], morphs, ..Take::default() }
+}
+
+/// Returns whether a switch of steps is near a time.
+fn is_at_switch(take: &Take, time: f32) -> bool {
+    let track = &take.tracks[0];
+    let columns = [
+        (&track.translation.times, track.translation.interpolation),
+        (&track.rotation.times, track.rotation.interpolation),
+        (&take.morphs[0].times, take.morphs[0].interpolation),
+    ];
+    columns.into_iter().any(|(times, interpolation)| match interpolation {
+        Interpolation::Step => times.iter().any(|key| (key - time).abs() < 1e-3),
+        Interpolation::Closest => {
+            times.windows(2).any(|pair| (0.5 * (pair[0] + pair[1]) - time).abs() < 1e-3)
+        }
+        Interpolation::Linear | Interpolation::CubicSpline => false,
+    })
+}
+
+#[test]
+fn random_loops_keep_their_motion_and_the_kind_of_their_keys() {
+    let skeleton = Skeleton { bones: vec![bone("Hips", None, Vec3::Y)] };
+    let mut random = Random::new(seed(71));
+    let mut added = 0;
+    for round in 0..300 {
+        let take = random_loop(&mut random);
+        let by = random.between(-3.0, 3.0);
+        let shifted = shift_loop(&take, &skeleton, &shift(by)).expect("shifted");
+        let (old, new) = (&take.tracks[0], &shifted.tracks[0]);
+        assert_eq!(new.translation.interpolation, old.translation.interpolation, "{round}");
+        assert_eq!(new.rotation.interpolation, old.rotation.interpolation, "{round}");
+        assert_eq!(shifted.morphs[0].interpolation, take.morphs[0].interpolation, "{round}");
+        assert_eq!(shifted.range_of_keys(), Some((0.5, 2.5)), "{round}");
+        for times in [&new.translation.times, &new.rotation.times, &shifted.morphs[0].times] {
+            assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{round}: {times:?}");
+        }
+        // One at each end, one at the seam; two more for closest keys.
+        assert!(new.translation.len() <= old.translation.len() + 5, "{round}");
+        added = added.max(new.rotation.len() as i32 - old.rotation.len() as i32);
+        // Each key of before is there, with its tangents.
+        let parts = old.translation.values_per_key();
+        for (key, &time) in old.translation.times.iter().enumerate() {
+            let moved = 0.5 + (time - 0.5 + by).rem_euclid(2.0);
+            let is_end = time < 0.501 || time > 2.499 || moved < 0.501 || moved > 2.499;
+            let is_edge = key == 0 || key + 1 == old.translation.len();
+            if is_end || is_edge {
+                continue;
+            }
+            let at = new.translation.times.iter().position(|new| (new - moved).abs() < 1e-5);
+            let at = at.unwrap_or_else(|| panic!("{round}: no key at {moved}"));
+            assert_eq!(
+                new.translation.values[at * parts..(at + 1) * parts],
+                old.translation.values[key * parts..(key + 1) * parts],
+                "{round}"
+            );
+        }
+        for step in 0..400 {
+            let time = 0.5 + (step as f32 + 0.5) * 0.005;
+            let before = 0.5 + (time - 0.5 - by).rem_euclid(2.0);
+            if is_at_switch(&take, before) || !(0.501..2.499).contains(&before) {
+                continue;
+            }
+            let (now, was) = (pose_at(&shifted, &skeleton, time)[0], pose_at(&take, &skeleton, before)[0]);
+            let apart = now.translation.distance(was.translation);
+            let turned = (now.rotation - was.rotation).length().min((now.rotation + was.rotation).length());
+            let weights = |take: &Take, time: f32| {
+                let mut weights = [0.0; 2];
+                sample_morph_weights(Some(take), 0, &[], time, &mut weights);
+                glam::Vec2::from_array(weights)
+            };
+            let weighed = weights(&shifted, time).distance(weights(&take, before));
+            assert!(
+                apart < 1e-5 && turned < 1e-5 && weighed < 1e-5,
+                "{round} by {by} at {time}: {apart} {turned} {weighed}\n{old:?}\n{new:?}"
+            );
+        }
+    }
+    println!("at most {added} rotation keys added");
+}
+
+#[test]
+fn with_a_frame_rate_splines_become_linear_keys_at_every_frame() {
+    let (skeleton, take) = swing(Interpolation::CubicSpline);
+    let settings = ShiftSettings { rate: Some(30.0), ..shift(0.31) };
+    let shifted = shift_loop(&take, &skeleton, &settings).expect("shifted");
+    let channel = &shifted.tracks[1].translation;
+    assert_eq!((channel.interpolation, channel.len()), (Interpolation::Linear, 61));
 }

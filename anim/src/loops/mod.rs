@@ -14,6 +14,7 @@
 
 mod close;
 mod gap;
+mod part;
 mod search;
 mod shift;
 

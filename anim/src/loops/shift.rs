@@ -12,16 +12,15 @@
 //! does not, the last key of the loop is left out, and the jump is spread over the time from the key before it to `d`: close
 //! the loop first.
 //!
-//! Step and linear keys move to `t + d` or `t + d − L`, with their values; a key is added at both ends of the take, where the loop
-//! is cut. Cubic splines and channels of the closest key become linear keys at every frame.
+//! Keys move to `t + d` or `t + d − L`, with their values and tangents; a key is added at both ends of the take, where the loop
+//! is cut, and another one where a channel of the closest key switches beside it. With a frame rate, cubic splines and channels of the
+//! closest key become linear keys at every frame instead.
 
+use super::part::{Cuttable, PartKey, SAME, part};
 use crate::data::{BoneIndex, Channel, Interpolation, MorphTrack, Skeleton, Take};
 use crate::motion::Axis;
-use crate::sample::{rest_pose, sample_channel, sample_morph_weights};
+use crate::sample::{rest_pose, sample_channel};
 use glam::Vec3;
-
-/// Seconds within which two keys are at the same time.
-const SAME: f32 = 2e-5;
 
 /// Largest number of frames of a take.
 const MOST_FRAMES: f32 = 1e6;
@@ -31,8 +30,8 @@ const MOST_FRAMES: f32 = 1e6;
 pub struct ShiftSettings {
     /// Seconds by which keys become later; negative for earlier. Whole lengths of the take change nothing.
     pub by: f32,
-    /// Frames per second of the keys that replace splines.
-    pub rate: f32,
+    /// Frames per second of linear keys that replace splines and channels of the closest key; `None`: they keep their kind.
+    pub rate: Option<f32>,
     /// The bone that travels.
     pub travel: Option<BoneIndex>,
     /// The axis that points up.
@@ -43,12 +42,12 @@ pub struct ShiftSettings {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ShiftError {
     /// The take has no length, or too many frames.
-    #[error("a take of {length} s at {rate} frames per second cannot be shifted")]
+    #[error("a take of {length} s cannot be shifted{}", .rate.map_or(String::new(), |rate| format!(" at {rate} frames per second")))]
     Range {
         /// Length of the take in seconds.
         length: f32,
         /// The rate that was given.
-        rate: f32,
+        rate: Option<f32>,
     },
     /// The shift is not a number.
     #[error("a loop cannot be shifted by {by} s")]
@@ -66,8 +65,9 @@ pub enum ShiftError {
 pub fn shift_loop(take: &Take, skeleton: &Skeleton, settings: &ShiftSettings) -> Result<Take, ShiftError> {
     let ShiftSettings { by, rate, travel, up } = *settings;
     let length = take.length;
-    let usable = take.start.is_finite() && length > 0.0 && rate.is_finite() && rate > 0.0;
-    if !(usable && length * rate <= MOST_FRAMES) {
+    let fits = |rate: f32| rate.is_finite() && rate > 0.0 && length * rate <= MOST_FRAMES;
+    let usable = take.start.is_finite() && length.is_finite() && length > 0.0;
+    if !(usable && rate.is_none_or(fits)) {
         return Err(ShiftError::Range { length, rate });
     }
     if !by.is_finite() {
@@ -88,13 +88,10 @@ pub fn shift_loop(take: &Take, skeleton: &Skeleton, settings: &ShiftSettings) ->
             way = at(window.end) - at(window.start);
             way -= up * way.dot(up);
         }
-        track.translation = window.channel(&track.translation, |channel, key| {
-            sample_channel(channel, rest.translation, key.old) - if key.wrapped { way } else { Vec3::ZERO }
-        });
-        track.rotation =
-            window.channel(&track.rotation, |channel, key| sample_channel(channel, rest.rotation, key.old));
-        track.scale =
-            window.channel(&track.scale, |channel, key| sample_channel(channel, rest.scale, key.old));
+        let (translation, rotation, scale) = (rest.translation, rest.rotation, rest.scale);
+        track.translation = window.channel(&track.translation, translation, |value| value - way);
+        track.rotation = window.channel(&track.rotation, rotation, |value| value);
+        track.scale = window.channel(&track.scale, scale, |value| value);
     }
     for (morph, before) in shifted.morphs.iter_mut().zip(&take.morphs) {
         *morph = window.morph(before);
@@ -102,100 +99,123 @@ pub fn shift_loop(take: &Take, skeleton: &Skeleton, settings: &ShiftSettings) ->
     Ok(shifted)
 }
 
-/// A key of the shifted loop: its time, and the time of its value in the loop before.
-#[derive(Clone, Copy, Debug)]
-struct ShiftedKey {
-    new: f32,
-    old: f32,
-    /// Whether it came around the end of the loop.
-    wrapped: bool,
-}
-
 /// The times of the loop.
 struct ShiftWindow {
     start: f32,
     end: f32,
     shift: f32,
-    rate: f32,
+    rate: Option<f32>,
 }
 
 impl ShiftWindow {
-    /// Returns the keys of a channel with keys at `times`; of one that becomes linear, a key at every frame.
-    fn keys(&self, times: &[f32], interpolation: Interpolation) -> Vec<ShiftedKey> {
+    /// Returns the time at which the loop is cut. A key there is meant, not what is just before it.
+    fn cut(&self, times: &[f32]) -> f32 {
         let cut = self.end - self.shift;
-        // A key at the cut itself is meant, not what is just before it.
-        let at_cut = times.iter().find(|time| (**time - cut).abs() <= SAME);
-        let cut = at_cut.copied().unwrap_or(cut);
-        let mut keys = vec![ShiftedKey { new: self.start, old: cut, wrapped: true }];
-        let mut add = |new: f32, old: f32, wrapped: bool| {
-            let is_later = keys.last().is_none_or(|last| new > last.new + SAME);
-            if is_later && new < self.end - SAME {
-                keys.push(ShiftedKey { new, old, wrapped });
-            }
-        };
-        match interpolation {
-            Interpolation::Step | Interpolation::Linear => {
-                let (before, after) = (self.start + SAME, self.end - SAME);
-                for &time in times.iter().filter(|&&time| time > cut && time < after) {
-                    add(time - self.end + self.shift + self.start, time, true);
-                }
-                // The start of the loop before: its first key, or the value that it holds until then.
-                add(self.start + self.shift, self.start, false);
-                for &time in times.iter().filter(|&&time| time > before && time < cut) {
-                    add(time + self.shift, time, false);
-                }
-            }
-            Interpolation::CubicSpline | Interpolation::Closest => {
-                let frames = ((self.end - self.start) * self.rate) as usize;
-                for new in (1..=frames).map(|frame| self.start + frame as f32 / self.rate) {
-                    let old = new - self.shift;
-                    let wrapped = old < self.start;
-                    add(new, if wrapped { old + (self.end - self.start) } else { old }, wrapped);
-                }
-            }
+        times.iter().copied().find(|time| (time - cut).abs() <= SAME).unwrap_or(cut)
+    }
+
+    /// Returns the keys after the shift. `around` changes the values of those that came around the end.
+    fn keys<T: Cuttable>(
+        &self,
+        channel: &Channel<T>,
+        rest: T,
+        around: impl Fn(T) -> T,
+    ) -> (Vec<PartKey<T>>, Interpolation) {
+        let baked = [Interpolation::CubicSpline, Interpolation::Closest].contains(&channel.interpolation);
+        if let Some(rate) = self.rate.filter(|_| baked) {
+            return (self.baked(channel, rest, around, rate), Interpolation::Linear);
         }
-        keys.push(ShiftedKey { new: self.end, old: cut, wrapped: false });
+        let (start, end, shift) = (self.start, self.end, self.shift);
+        let cut = self.cut(&channel.times);
+        let mut keys = part(channel, rest, cut, end);
+        for key in &mut keys {
+            key.time = if key.time == cut { start } else { key.time - end + shift + start };
+            key.value = around(key.value);
+        }
+        // The end of the loop before and its start are one key.
+        let before = keys.pop();
+        for (index, key) in part(channel, rest, start, cut).into_iter().enumerate() {
+            let arrive = before.filter(|_| index == 0).map_or(key.arrive, |before| before.arrive);
+            let time = if key.time == cut { end } else { key.time + shift };
+            keys.push(PartKey { time, arrive, ..key });
+        }
+        // Rounding may let keys meet. The last one is the end.
+        let last = keys.pop();
+        keys.dedup_by(|later, earlier| later.time <= earlier.time + SAME);
+        keys.extend(last);
+        (keys, channel.interpolation)
+    }
+
+    /// Returns a key at every frame.
+    fn baked<T: Cuttable>(
+        &self,
+        channel: &Channel<T>,
+        rest: T,
+        around: impl Fn(T) -> T,
+        rate: f32,
+    ) -> Vec<PartKey<T>> {
+        let (start, end) = (self.start, self.end);
+        let cut = self.cut(&channel.times);
+        let key = |time: f32, old: f32, wrapped: bool| {
+            let value = sample_channel(channel, rest, old);
+            let value = if wrapped { around(value) } else { value };
+            PartKey { time, arrive: T::ZERO, value, leave: T::ZERO }
+        };
+        let mut keys = vec![key(start, cut, true)];
+        let frames = ((end - start) * rate) as usize;
+        let times = (1..=frames).map(|frame| start + frame as f32 / rate);
+        for time in times.filter(|&time| time > start + SAME && time < end - SAME) {
+            let old = time - self.shift;
+            let wrapped = old < start;
+            keys.push(key(time, if wrapped { old + (end - start) } else { old }, wrapped));
+        }
+        keys.push(key(end, cut, false));
         keys
     }
 
-    fn channel<T: Copy>(
-        &self,
-        channel: &Channel<T>,
-        value: impl Fn(&Channel<T>, &ShiftedKey) -> T,
-    ) -> Channel<T> {
+    fn channel<T: Cuttable>(&self, channel: &Channel<T>, rest: T, around: impl Fn(T) -> T) -> Channel<T> {
         if channel.is_empty() {
             return channel.clone();
         }
-        let keys = self.keys(&channel.times, channel.interpolation);
-        let times: Vec<f32> = keys.iter().map(|key| key.new).collect();
-        let values: Vec<T> = keys.iter().map(|key| value(channel, key)).collect();
-        Channel::new(times, values, shifted_kind(channel.interpolation))
+        let (keys, interpolation) = self.keys(channel, rest, around);
+        let times: Vec<f32> = keys.iter().map(|key| key.time).collect();
+        let values: Vec<T> = match interpolation {
+            Interpolation::CubicSpline => {
+                keys.iter().flat_map(|key| [key.arrive, key.value, key.leave]).collect()
+            }
+            Interpolation::Step | Interpolation::Linear | Interpolation::Closest => {
+                keys.iter().map(|key| key.value).collect()
+            }
+        };
+        Channel::new(times, values, interpolation)
     }
 
     fn morph(&self, track: &MorphTrack) -> MorphTrack {
-        if track.times.is_empty() {
+        let targets = track.targets as usize;
+        if track.times.is_empty() || targets == 0 {
             return track.clone();
         }
-        let keys = self.keys(&track.times, track.interpolation);
-        let targets = track.targets as usize;
-        let own = Take { morphs: vec![track.clone()], ..Take::default() };
-        let mut weights = vec![0.0; keys.len() * targets];
-        for (key, row) in keys.iter().zip(weights.chunks_mut(targets.max(1))) {
-            sample_morph_weights(Some(&own), track.instance, &[], key.old, row);
-        }
+        // The keys of all targets are at the same times.
+        let columns: Vec<Channel<f32>> = (0..targets)
+            .map(|target| {
+                let weights: Vec<f32> = track.weights.iter().skip(target).step_by(targets).copied().collect();
+                let column = Channel {
+                    times: track.times.clone(),
+                    values: weights.into(),
+                    interpolation: track.interpolation,
+                };
+                self.channel(&column, 0.0, |weight| weight)
+            })
+            .collect();
+        let Some(first) = columns.first() else { return track.clone() };
+        let rows = first.values.len();
+        let weights: Vec<f32> =
+            (0..rows).flat_map(|row| columns.iter().map(move |column| column.values[row])).collect();
         MorphTrack {
-            times: keys.iter().map(|key| key.new).collect(),
+            times: first.times.clone(),
             weights: weights.into(),
-            interpolation: shifted_kind(track.interpolation),
+            interpolation: first.interpolation,
             ..track.clone()
         }
-    }
-}
-
-/// Returns the interpolation of a channel after the shift.
-fn shifted_kind(interpolation: Interpolation) -> Interpolation {
-    match interpolation {
-        Interpolation::Step => Interpolation::Step,
-        Interpolation::Linear | Interpolation::CubicSpline | Interpolation::Closest => Interpolation::Linear,
     }
 }

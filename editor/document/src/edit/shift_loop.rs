@@ -6,15 +6,14 @@ use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, contacts, finite, moments, rewrite};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
-use dragonfly_anim::frames::frame_rate;
 use dragonfly_anim::loops::{ShiftSettings, shift_loop};
 use dragonfly_anim::motion::Axis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Lets a take that repeats begin elsewhere in its loop: keys become later, and those after the end come back at the start. Splines
-/// become linear keys at every frame.
+/// Lets a take that repeats begin elsewhere in its loop: keys become later, and those after the end come back at the start. Channels
+/// keep their interpolation, and get keys where the loop is cut.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ShiftLoop {
@@ -25,7 +24,7 @@ pub struct ShiftLoop {
     /// The bone that travels: its way is not interrupted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub travel: Option<BoneRef>,
-    /// Frames per second of the keys that replace splines; by default the lowest usual rate that fits the keys of the take.
+    /// Frames per second: splines become linear keys at every frame. By default they stay splines.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
 }
@@ -58,9 +57,8 @@ impl EditKind for ShiftLoop {
         let id = work.take(&self.take)?;
         let by = finite("the shift", self.by)?;
         let take = Arc::clone(&work.slot(id).result);
-        let rate = self.rate.unwrap_or_else(|| frame_rate(&take));
         let travel = self.travel.as_ref().map(|bone| work.bone(bone)).transpose()?;
-        let settings = ShiftSettings { by, rate, travel, up: Axis::Y };
+        let settings = ShiftSettings { by, rate: self.rate, travel, up: Axis::Y };
         let shifted = shift_loop(&take, work.skeleton(), &settings)?;
         let mut changed = rewrite::channels(work, id, &shifted)?;
         if work.slot(id).original.morphs != shifted.morphs {
