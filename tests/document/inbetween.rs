@@ -17,11 +17,18 @@ fn keys(name: &str, from: f32, to: f32) -> Vec<KeySet> {
 }
 
 fn blend(keys: Vec<KeySet>, toward: KeyTarget, factor: f32) -> Edit {
-    Edit::BlendKeys(BlendKeys { take: walk(), keys, shapes: Vec::new(), toward, factor })
+    Edit::BlendKeys(BlendKeys { take: walk(), keys, shapes: Vec::new(), toward, factor, hold: Vec::new() })
 }
 
 fn filter(keys: Vec<KeySet>, filter: CurveFilter) -> Edit {
-    Edit::FilterKeys(FilterKeys { take: walk(), keys, shapes: Vec::new(), filter, rate: None })
+    Edit::FilterKeys(FilterKeys {
+        take: walk(),
+        keys,
+        shapes: Vec::new(),
+        filter,
+        rate: None,
+        hold: Vec::new(),
+    })
 }
 
 fn shown(model: &ModelAdapter) -> Arc<Take> {
@@ -45,6 +52,7 @@ fn neutral_settings_change_nothing() {
         scale: 0.0,
         frequency: 3.0,
         seed: 1,
+        hold: Vec::new(),
     };
     let blends = [
         KeyTarget::Between(0.3),
@@ -58,11 +66,25 @@ fn neutral_settings_change_nothing() {
         KeyTarget::Delayed(0.2),
     ];
     let blends = blends.map(|toward| {
-        Edit::BlendKeys(BlendKeys { take: walk(), keys: all(), shapes: shapes(), toward, factor: 0.0 })
+        Edit::BlendKeys(BlendKeys {
+            take: walk(),
+            keys: all(),
+            shapes: shapes(),
+            toward,
+            factor: 0.0,
+            hold: Vec::new(),
+        })
     });
     let filters =
         [CurveFilter::Gaussian(0.0), CurveFilter::Butterworth { cutoff: 1e4, order: 2 }].map(|filter| {
-            Edit::FilterKeys(FilterKeys { take: walk(), keys: all(), shapes: shapes(), filter, rate: None })
+            Edit::FilterKeys(FilterKeys {
+                take: walk(),
+                keys: all(),
+                shapes: shapes(),
+                filter,
+                rate: None,
+                hold: Vec::new(),
+            })
         });
     for edit in blends.into_iter().chain(filters).chain([Edit::NoiseKeys(noise)]) {
         let (before, mut after) = (model(5), model(5));
@@ -177,6 +199,7 @@ fn weights_of_shapes_are_blended_where_their_keys_are_selected() {
             shapes: vec![[0.2, 0.3]],
             toward,
             factor,
+            hold: Vec::new(),
         })
     };
     let undo = model.apply(&edit(KeyTarget::Between(0.5), 1.0)).expect("keys are there");
@@ -195,6 +218,7 @@ fn weights_of_shapes_are_blended_where_their_keys_are_selected() {
         shapes: vec![[5.0, 6.0]],
         toward: KeyTarget::Rest,
         factor: 1.0,
+        hold: Vec::new(),
     });
     assert_eq!(model.apply(&none).err(), Some(EditError::Nothing("no key is selected")));
 }
@@ -212,6 +236,7 @@ fn the_same_seed_gives_the_same_noise_and_another_one_does_not() {
             scale: 1.0,
             frequency: 4.0,
             seed,
+            hold: Vec::new(),
         };
         model.apply(&Edit::NoiseKeys(edit)).expect("keys are there");
         shown(&model)
@@ -294,6 +319,7 @@ fn a_filter_of_keys_far_apart_with_a_high_sample_rate_is_refused() {
         shapes: Vec::new(),
         filter: CurveFilter::Gaussian(0.1),
         rate: Some(1000.0),
+        hold: Vec::new(),
     });
     assert_eq!(model.apply(&edit).err(), Some(EditError::TooManySamples));
 }

@@ -9,6 +9,7 @@ mod edit_cost;
 mod edits;
 mod events;
 mod fox_edits;
+mod held_feet;
 mod image_memory;
 mod images;
 mod inbetween;

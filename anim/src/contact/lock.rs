@@ -71,6 +71,9 @@ pub struct LockedTake {
     pub bones: Vec<BoneIndex>,
 }
 
+/// Part of the length of a limb by which its end has to move to count as moved.
+const MOVED: f32 = 1e-5;
+
 /// Largest number of frames in the contacts of one bone.
 const MOST_FRAMES: f32 = 1e6;
 
@@ -88,11 +91,69 @@ pub fn lock_contacts(
     contacts: &[Contact],
     settings: &LockSettings,
 ) -> Result<LockedTake, LockError> {
+    lock(take, None, skeleton, contacts, settings)
+}
+
+/// Holds each bone of `contacts` at its mean position in the take `planted`.
+pub(crate) fn lock_planted(
+    take: &Take,
+    planted: &Take,
+    skeleton: &Skeleton,
+    contacts: &[Contact],
+    settings: &LockSettings,
+) -> Result<LockedTake, LockError> {
+    lock(take, Some(planted), skeleton, contacts, settings)
+}
+
+/// Holds bones in those of `contacts` in which a change of the take moved them, at their mean position before the change: a foot stays
+/// where it was planted. `before` is the take without the change. Contacts in which no bone moved stay as they are.
+///
+/// # Errors
+///
+/// As [`lock_contacts`]. Nothing is changed then.
+pub fn hold_contacts(
+    take: &Take,
+    before: &Take,
+    skeleton: &Skeleton,
+    contacts: &[Contact],
+    settings: &LockSettings,
+) -> Result<LockedTake, LockError> {
+    check_rate(take, settings)?;
+    let frames = frame_times(take, settings.rate);
+    let mut poses = [LegPose::of(skeleton), LegPose::of(skeleton)];
+    let mut was_moved = |contact: &&Contact| {
+        let reach = limb_of(skeleton, contact.bone).map_or(0.0, |limb| {
+            let length = |bone: BoneIndex| skeleton.bones[bone as usize].rest.translation.length();
+            length(limb.middle) + length(limb.end)
+        });
+        let inside = frames.iter().copied().filter(|time| (contact.from..=contact.to).contains(time));
+        inside.chain([contact.from, contact.to]).any(|time| {
+            let [a, b] = &mut poses;
+            a.at(before, time);
+            b.at(take, time);
+            a.position(contact.bone).distance(b.position(contact.bone)) > MOVED * reach
+        })
+    };
+    let has_bone = |contact: &&Contact| (contact.bone as usize) < skeleton.len();
+    let moved: Vec<Contact> = contacts.iter().filter(has_bone).filter(&mut was_moved).copied().collect();
+    lock_planted(take, before, skeleton, &moved, settings)
+}
+
+fn check_rate(take: &Take, settings: &LockSettings) -> Result<(), LockError> {
     let rate = settings.rate;
     let usable = rate.is_finite() && rate > 0.0 && take.length * rate <= MOST_FRAMES;
-    if !usable {
-        return Err(LockError::Rate { rate });
-    }
+    if usable { Ok(()) } else { Err(LockError::Rate { rate }) }
+}
+
+/// Holds each bone of `contacts` at its mean position in the take `planted`, or in the take itself.
+fn lock(
+    take: &Take,
+    planted: Option<&Take>,
+    skeleton: &Skeleton,
+    contacts: &[Contact],
+    settings: &LockSettings,
+) -> Result<LockedTake, LockError> {
+    check_rate(take, settings)?;
     let mut bones: Vec<BoneIndex> = contacts.iter().map(|contact| contact.bone).collect();
     bones.sort_unstable();
     bones.dedup();
@@ -101,7 +162,7 @@ pub fn lock_contacts(
         let limb = limb_of(skeleton, bone).ok_or(LockError::NoLimb { bone })?;
         let limb = TwoBone { end_orientation: EndOrientation::KeepToRoot, ..limb };
         let spans = merged(contacts.iter().filter(|contact| contact.bone == bone), take);
-        lock_limb(&mut locked, skeleton, &limb, &spans, settings)?;
+        lock_limb(&mut locked, planted, skeleton, &limb, &spans, settings)?;
     }
     locked.bones.sort_unstable();
     locked.bones.dedup();
@@ -182,6 +243,7 @@ impl<'a> LegPose<'a> {
 
 fn lock_limb(
     locked: &mut LockedTake,
+    planted: Option<&Take>,
     skeleton: &Skeleton,
     limb: &TwoBone,
     spans: &[(f32, f32)],
@@ -199,13 +261,14 @@ fn lock_limb(
             let inside: Vec<f32> =
                 frames.iter().copied().filter(|time| (from..=to).contains(time)).chain([from, to]).collect();
             let mut sum = glam::DVec3::ZERO;
-            let mut at = |time: f32| {
+            let mut at = |take: &Take, time: f32| {
                 pose.at(take, time);
                 pose.position(limb.end)
             };
-            inside.iter().for_each(|&time| sum += at(time).as_dvec3());
+            let anchors = planted.unwrap_or(take);
+            inside.iter().for_each(|&time| sum += at(anchors, time).as_dvec3());
             let anchor = (sum / inside.len() as f64).as_vec3();
-            let correction = [anchor - at(from), anchor - at(to)];
+            let correction = [anchor - at(take, from), anchor - at(take, to)];
             HeldSpan { from, to, ease: [longest.min(before), longest.min(after)], anchor, correction }
         })
         .collect();

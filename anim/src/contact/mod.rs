@@ -6,6 +6,7 @@
 //! | [`contact_slide`], [`take_slide`] | how far bones slide while they are in contact |
 //! | [`SlideMeter`] | the contact that slides fastest, measured in steps |
 //! | [`lock_contacts`] | a take in which they do not slide |
+//! | [`hold_contacts`] | a changed take in which they stay where they were before the change |
 //! | [`ContactTrack`] | the contacts of a take: edited, retimed, cut and mirrored with it |
 //!
 //! A contact is the same [`Contact`] that key reduction respects, so detected contacts can be given to
@@ -23,7 +24,8 @@ mod track;
 pub use crate::reduce::Contact;
 pub use detect::{ContactThresholds, detect_contacts};
 pub use feet::{feet_by_name, limb_of};
-pub use lock::{LockError, LockSettings, LockedTake, lock_contacts};
+pub(crate) use lock::lock_planted;
+pub use lock::{LockError, LockSettings, LockedTake, hold_contacts, lock_contacts};
 pub use meter::{SlideMeter, SlideSpeed};
 pub use slide::{ContactSlide, TakeSlide, contact_slide, take_slide};
 pub use track::ContactTrack;

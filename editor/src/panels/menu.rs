@@ -120,6 +120,7 @@ fn list(ui: &mut Ui, context: &PanelContext<'_>, categories: &[Category], reques
             Id::CompareOpened => context.compared == CompareWith::Opened,
             Id::UndoSelections => context.settings.undo_selections,
             Id::ToggleSnap => context.keys.snap(),
+            Id::ToggleHoldFeet => context.keys.holds_feet(),
             Id::ToggleRulerSeconds => context.keys.ruler_in_seconds(),
             Id::ListChangedBones => context.keys.only_changed(),
             Id::ToggleCurl => context.settings.tools.curl,

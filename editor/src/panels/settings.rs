@@ -105,11 +105,13 @@ pub struct TimelineSettings {
     pub only_selected: bool,
     /// Whether the ruler has seconds instead of frames.
     pub seconds: bool,
+    /// Whether smoothing holds feet in the contacts of the take.
+    pub hold_feet: bool,
 }
 
 impl Default for TimelineSettings {
     fn default() -> Self {
-        Self { snap: true, only_selected: true, seconds: false }
+        Self { snap: true, only_selected: true, seconds: false, hold_feet: true }
     }
 }
 

@@ -106,6 +106,11 @@ impl<'a> Arbitrary<'a> {
         if self.below(3) == 0 { Vec::new() } else { vec![self.bone()] }
     }
 
+    /// One bone that is held, or mostly none.
+    pub(super) fn feet(&mut self) -> Vec<BoneRef> {
+        if self.below(4) == 0 { vec![self.bone()] } else { Vec::new() }
+    }
+
     /// One of the channels.
     pub(super) fn property(&mut self) -> Property {
         self.choice(Property::ALL)

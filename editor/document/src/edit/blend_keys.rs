@@ -1,7 +1,8 @@
 //! Moves the values of keys between or beyond those of their neighbors.
 
+use super::hold::{self, HeldFeet};
 use super::kind::{EditKind, LayerUse};
-use super::{Arbitrary, BonePose, EditedBones, Example, KeySet, TakeRef, cost};
+use super::{Arbitrary, BonePose, BoneRef, EditedBones, Example, KeySet, TakeRef, cost};
 use crate::adapter::kind::ChannelKind;
 use crate::adapter::op::ChannelAddress;
 use crate::adapter::plan::values::{ValueTool, change_values};
@@ -29,6 +30,10 @@ pub struct BlendKeys {
     pub toward: KeyTarget,
     /// Part of the way to the target, -10 to 10; 1 is at the target.
     pub factor: f32,
+    /// Feet that are held where they were, in the contacts stored with the take, if the edit moves them there. Keys are added at
+    /// every frame of these contacts.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hold: Vec<BoneRef>,
 }
 
 /// The target toward which keys move. Their neighbors are the keys before and after each unbroken row of selected keys of a channel; at the end of
@@ -93,7 +98,7 @@ impl EditKind for BlendKeys {
     }
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
-        EditedBones::of_keys(&self.keys, skeleton)
+        hold::with_limbs(EditedBones::of_keys(&self.keys, skeleton), &self.hold, skeleton)
     }
 
     fn keys(&self) -> &[KeySet] {
@@ -101,6 +106,10 @@ impl EditKind for BlendKeys {
     }
 
     fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
+        if !self.hold.is_empty() {
+            // It takes as long as the take has frames.
+            return None;
+        }
         let columns = cost::of_columns(adapter, &self.take, &self.bones(adapter.skeleton()))?;
         // A rotation is blended in about the time of two keys that are moved.
         Some(columns + 3 * cost::of_keys(adapter, &self.take, &self.keys))
@@ -113,7 +122,9 @@ impl EditKind for BlendKeys {
         }
         let take = work.take(&self.take)?;
         self.check(work)?;
-        change_values(work, take, &self.keys, &self.shapes, self)
+        let held = HeldFeet::before(work, &self.take, &self.hold)?;
+        change_values(work, take, &self.keys, &self.shapes, self)?;
+        held.map_or(Ok(()), |held| held.hold(work))
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
@@ -131,7 +142,8 @@ impl EditKind for BlendKeys {
             9 => KeyTarget::OtherTake { take: from.take(), later: from.between(-0.5, 0.5) },
             _ => KeyTarget::Delayed(from.between(-0.5, 0.5)),
         };
-        Self { take, keys, shapes, toward, factor: from.choice([0.0, 0.5, 1.0, -1.0, 1.5]) }
+        let factor = from.choice([0.0, 0.5, 1.0, -1.0, 1.5]);
+        Self { take, keys, shapes, toward, factor, hold: from.feet() }
     }
 }
 

@@ -126,7 +126,8 @@ mod tests {
         let filter = |bones: Vec<BoneRef>, sigma: f32| {
             let keys = vec![KeySet { bones, ..KeySet::default() }];
             let (take, shapes, filter) = (TakeRef::Index(0), Vec::new(), CurveFilter::Gaussian(sigma));
-            Edit::FilterKeys(FilterKeys { take, keys, shapes, filter, rate: None }).cost(&model)
+            Edit::FilterKeys(FilterKeys { take, keys, shapes, filter, rate: None, hold: Vec::new() })
+                .cost(&model)
         };
         let (one, all) = (filter(vec![BoneRef::Index(1)], 0.1), filter(Vec::new(), 0.1));
         assert!(one.is_some() && one < all && all < filter(Vec::new(), 1.0), "{one:?} {all:?}");

@@ -1,7 +1,8 @@
 //! Smooths the curves of keys, and removes peaks.
 
+use super::hold::{self, HeldFeet};
 use super::kind::{EditKind, LayerUse};
-use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef, cost};
+use super::{Arbitrary, BoneRef, EditedBones, Example, KeySet, TakeRef, cost};
 use crate::adapter::kind::ChannelKind;
 use crate::adapter::op::ChannelAddress;
 use crate::adapter::plan::values::{ValueTool, change_values};
@@ -31,6 +32,10 @@ pub struct FilterKeys {
     /// Samples per second, 1 to 1000. Without it the samples of a channel are as far apart as its keys, in the median.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
+    /// Feet that are held where they were, in the contacts stored with the take, if the edit moves them there. Keys are added at
+    /// every frame of these contacts.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hold: Vec<BoneRef>,
 }
 
 /// A filter of curves.
@@ -75,7 +80,7 @@ impl EditKind for FilterKeys {
     }
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
-        EditedBones::of_keys(&self.keys, skeleton)
+        hold::with_limbs(EditedBones::of_keys(&self.keys, skeleton), &self.hold, skeleton)
     }
 
     fn keys(&self) -> &[KeySet] {
@@ -83,6 +88,10 @@ impl EditKind for FilterKeys {
     }
 
     fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
+        if !self.hold.is_empty() {
+            // It takes as long as the take has frames.
+            return None;
+        }
         let bones = self.bones(adapter.skeleton());
         // In sixteenths of the time of a key that is moved.
         let work = match self.filter {
@@ -97,7 +106,9 @@ impl EditKind for FilterKeys {
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         self.check()?;
         let take = work.take(&self.take)?;
-        change_values(work, take, &self.keys, &self.shapes, self)
+        let held = HeldFeet::before(work, &self.take, &self.hold)?;
+        change_values(work, take, &self.keys, &self.shapes, self)?;
+        held.map_or(Ok(()), |held| held.hold(work))
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
@@ -109,7 +120,8 @@ impl EditKind for FilterKeys {
             }
             _ => CurveFilter::Peaks { window: from.choice([3, 5]), threshold: from.choice([0.0, 1.0]) },
         };
-        Self { take, keys, shapes, filter, rate: from.optional(|from| from.choice([5.0, 30.0])) }
+        let rate = from.optional(|from| from.choice([5.0, 30.0]));
+        Self { take, keys, shapes, filter, rate, hold: from.feet() }
     }
 }
 

@@ -34,6 +34,7 @@ mod drop_pending;
 mod duplicate_keys;
 mod examples;
 mod filter_keys;
+mod hold;
 mod kept_travel;
 mod key_layer_weight;
 mod key_pending;

@@ -1,7 +1,8 @@
 //! Adds noise to keys.
 
+use super::hold::{self, HeldFeet};
 use super::kind::{EditKind, LayerUse};
-use super::{Arbitrary, EditedBones, Example, KeySet, Property, TakeRef, cost};
+use super::{Arbitrary, BoneRef, EditedBones, Example, KeySet, Property, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, RotationChannel, TranslationChannel};
 use crate::adapter::op::ChannelAddress;
 use crate::adapter::plan::Transaction;
@@ -40,6 +41,10 @@ pub struct NoiseKeys {
     /// Number that determines the random values.
     #[serde(default)]
     pub seed: u32,
+    /// Feet that are held where they were, in the contacts stored with the take, if the edit moves them there. Keys are added at
+    /// every frame of these contacts.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hold: Vec<BoneRef>,
 }
 
 impl EditKind for NoiseKeys {
@@ -59,7 +64,7 @@ impl EditKind for NoiseKeys {
     }
 
     fn bones(&self, skeleton: &Skeleton) -> EditedBones {
-        EditedBones::of_keys(&self.keys, skeleton)
+        hold::with_limbs(EditedBones::of_keys(&self.keys, skeleton), &self.hold, skeleton)
     }
 
     fn keys(&self) -> &[KeySet] {
@@ -67,6 +72,10 @@ impl EditKind for NoiseKeys {
     }
 
     fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
+        if !self.hold.is_empty() {
+            // It takes as long as the take has frames.
+            return None;
+        }
         let columns = cost::of_columns(adapter, &self.take, &self.bones(adapter.skeleton()))?;
         // A rotation is computed in about the time of two keys that are moved.
         Some(columns + 3 * cost::of_keys(adapter, &self.take, &self.keys))
@@ -81,14 +90,16 @@ impl EditKind for NoiseKeys {
         number("the scale", self.scale, 1e3)?;
         number("the frequency", self.frequency, 1e4)?;
         let take = work.take(&self.take)?;
-        change_values(work, take, &self.keys, &self.shapes, self)
+        let held = HeldFeet::before(work, &self.take, &self.hold)?;
+        change_values(work, take, &self.keys, &self.shapes, self)?;
+        held.map_or(Ok(()), |held| held.hold(work))
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let (take, keys, shapes) = (from.take(), from.keys(), from.shapes());
         let [translation, rotation, scale] = [1.0, 90.0, 0.5].map(|most| from.choice([0.0, most]));
         let (frequency, seed) = (from.between(0.0, 20.0), from.below(1000) as u32);
-        Self { take, keys, shapes, translation, rotation, scale, frequency, seed }
+        Self { take, keys, shapes, translation, rotation, scale, frequency, seed, hold: from.feet() }
     }
 }
 

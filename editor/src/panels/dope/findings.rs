@@ -93,6 +93,7 @@ fn fix(finding: &LintFinding, context: &PanelContext<'_>) -> Option<(String, Req
             shapes: Vec::new(),
             filter,
             rate: None,
+            hold: context.held_feet(),
         })
     };
     match finding.rule {

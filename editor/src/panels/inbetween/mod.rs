@@ -9,7 +9,7 @@ mod tool;
 
 pub use tool::{ChosenKeys, InBetweenTool};
 
-use super::commands::When;
+use super::commands::{self, Id, When};
 use super::context::PanelContext;
 use super::keys::{KeyDragOp, KeysRequest};
 use super::number_field::FieldEvent;
@@ -81,6 +81,7 @@ impl Panel for InBetween {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.add_space(2.0 * GRID);
                 self.choose_take(ui, context);
+                hold_feet(ui, context, requests);
             });
         });
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -116,6 +117,20 @@ fn heading(context: &PanelContext<'_>) -> String {
             widgets::count(context.keys.selection().count(take), "selected key", "selected keys")
         }
         Some(_) | None => format!("{}: select keys in the timeline or the curves", When::Keys.reason()),
+    }
+}
+
+/// Draws the switch that lets smoothing hold feet, where the take has contacts.
+fn hold_feet(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+    if !context.can_hold_feet() {
+        return;
+    }
+    let mut on = context.keys.holds_feet();
+    let text = RichText::new("Hold feet").small().color(Theme::of(ui).weak);
+    let switch = ui.checkbox(&mut on, text);
+    widgets::hint_beside(&switch, &commands::tooltip(ui.ctx(), Id::ToggleHoldFeet));
+    if switch.changed() {
+        requests.push(Request::Command(Id::ToggleHoldFeet));
     }
 }
 

@@ -4,7 +4,7 @@ use crate::panels::context::PanelContext;
 use crate::panels::number_slider::SliderScale;
 use crate::panels::number_text::Digits;
 use dragonfly_document::edit::{
-    BlendKeys, BonePose, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, ReduceKeys,
+    BlendKeys, BonePose, BoneRef, CurveFilter, Edit, FilterKeys, KeySet, KeyTarget, NoiseKeys, ReduceKeys,
     RepeatCount, RepeatKeys, RepeatMode, TakeRef, TurnKeys, TurnWay,
 };
 use dragonfly_picture::between;
@@ -65,6 +65,8 @@ pub struct ChosenKeys {
     other: Option<TakeRef>,
     /// The pose that was copied last.
     pose: Option<Arc<[BonePose]>>,
+    /// Feet that smoothing holds in the contacts of the take.
+    feet: Vec<BoneRef>,
 }
 
 impl ChosenKeys {
@@ -83,17 +85,22 @@ impl ChosenKeys {
             seed,
             other: other.map(TakeRef::Index),
             pose: context.copied_pose.cloned(),
+            feet: context.held_feet(),
         })
     }
 
     fn blend(&self, toward: KeyTarget, percent: f64) -> Edit {
         let Self { take, keys, shapes, .. } = self.clone();
-        Edit::BlendKeys(BlendKeys { take, keys, shapes, toward, factor: (percent / 100.0) as f32 })
+        let hold = match toward {
+            KeyTarget::Average => self.feet.clone(),
+            _ => Vec::new(),
+        };
+        Edit::BlendKeys(BlendKeys { take, keys, shapes, toward, factor: (percent / 100.0) as f32, hold })
     }
 
     fn filter(&self, filter: CurveFilter) -> Edit {
-        let Self { take, keys, shapes, .. } = self.clone();
-        Edit::FilterKeys(FilterKeys { take, keys, shapes, filter, rate: None })
+        let Self { take, keys, shapes, feet: hold, .. } = self.clone();
+        Edit::FilterKeys(FilterKeys { take, keys, shapes, filter, rate: None, hold })
     }
 }
 
@@ -386,7 +393,7 @@ impl InBetweenTool {
             Self::Pose => chosen.blend(KeyTarget::Pose(chosen.pose.as_deref()?.to_vec()), value),
             Self::Delay => chosen.blend(KeyTarget::Delayed(seconds), 100.0),
             Self::Noise => {
-                let ChosenKeys { take, keys, shapes, seed, .. } = chosen.clone();
+                let ChosenKeys { take, keys, shapes, seed, feet: hold, .. } = chosen.clone();
                 let degrees = value as f32;
                 let (translation, scale) = (degrees * 0.005, degrees * 0.01);
                 Edit::NoiseKeys(NoiseKeys {
@@ -398,6 +405,7 @@ impl InBetweenTool {
                     scale,
                     frequency: 8.0,
                     seed,
+                    hold,
                 })
             }
             Self::Gaussian => chosen.filter(CurveFilter::Gaussian(seconds.min(10.0))),

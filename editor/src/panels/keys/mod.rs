@@ -54,6 +54,8 @@ pub struct KeyEditing {
     only_changed: bool,
     /// Whether the ruler has seconds instead of frames.
     seconds: bool,
+    /// Whether smoothing holds feet in the contacts of the take.
+    hold_feet: bool,
     /// Bones that were listed when one of their rows was clicked, and the selection that this made: the other bones stay
     /// listed as long as that is selected.
     kept: Option<(HashSet<BoneIndex>, Vec<BoneIndex>)>,
@@ -86,6 +88,7 @@ impl Default for KeyEditing {
             only_selected: true,
             only_changed: false,
             seconds: false,
+            hold_feet: true,
             kept: None,
             filter: String::new(),
             flags: BoneFlags::default(),
@@ -123,13 +126,14 @@ pub(super) struct EndedDrag {
 impl KeyEditing {
     /// Returns the initial state with these settings.
     pub fn of(settings: TimelineSettings) -> Self {
-        let TimelineSettings { snap, only_selected, seconds } = settings;
-        Self { snap, only_selected, seconds, ..Self::default() }
+        let TimelineSettings { snap, only_selected, seconds, hold_feet } = settings;
+        Self { snap, only_selected, seconds, hold_feet, ..Self::default() }
     }
 
     /// Returns the settings that are remembered between runs.
     pub(super) fn settings(&self) -> TimelineSettings {
-        TimelineSettings { snap: self.snap, only_selected: self.only_selected, seconds: self.seconds }
+        let Self { snap, only_selected, seconds, hold_feet, .. } = *self;
+        TimelineSettings { snap, only_selected, seconds, hold_feet }
     }
 
     /// Returns the selected keys.
@@ -145,6 +149,16 @@ impl KeyEditing {
     /// Sets whether moved keys go to whole frames.
     pub fn set_snap(&mut self, snap: bool) {
         self.snap = snap;
+    }
+
+    /// Returns whether smoothing holds feet in the contacts of the take.
+    pub fn holds_feet(&self) -> bool {
+        self.hold_feet
+    }
+
+    /// Lets smoothing hold feet, or no longer.
+    pub(super) fn toggle_hold_feet(&mut self) {
+        self.hold_feet = !self.hold_feet;
     }
 
     /// Returns whether only bones are listed whose keys are not those of the file.
