@@ -91,7 +91,7 @@ fn bvh(text: &str, step: usize) -> (Skeleton, Take) {
 }
 
 /// Returns motion capture: CMU subject 1, trial 1, at 30 frames per second.
-fn captured() -> Option<(Skeleton, Take)> {
+pub(crate) fn captured() -> Option<(Skeleton, Take)> {
     let text = std::fs::read_to_string(dragonfly_kit::skip::models()?.join("bvh/cmu_01_01.bvh")).unwrap();
     let (mut skeleton, take) = bvh(&text, 4);
     // The rest pose is moved up, so that the feet are near the ground.
@@ -247,7 +247,8 @@ fn a_captured_walk_on_rigs_of_other_proportions_slides_less_than_5_mm_in_contact
     let Some((source, take)) = captured() else { return };
     let rigs =
         ["collection/quaternius_Character4skins.glb", "collection/RobotExpressive.glb", "bench/pab.glb"];
-    let rigs = rigs.map(|path| data().join(path));
+    let mut rigs = rigs.map(|path| data().join(path)).to_vec();
+    rigs.extend(dragonfly_kit::skip::models().map(|models| models.join("gltf/kaykit_Rogue.glb")));
     for path in &rigs {
         let target = load(path).animation.skeleton;
         let guess = BindingGuess::of(&source, &target);

@@ -16,7 +16,7 @@ pub(super) const SAME: f32 = 2e-5;
 /// Largest difference of two rotations, as four numbers, that is not seen.
 const UNSEEN: f32 = 1e-6;
 
-/// Largest number of times that the spline beside a cut is halved.
+/// Largest number of times that the spline next to a cut is halved.
 const MOST_HALVES: u32 = 8;
 
 /// A value that can be cut out of a spline.
@@ -121,7 +121,7 @@ fn border<T: Cuttable>(channel: &Channel<T>, rest: T, time: f32) -> PartKey<T> {
     PartKey { time, arrive: slope, value, leave: slope }
 }
 
-/// Returns the part with keys that are as far behind the switch from one closest key to the next as the cut is before it, so that the
+/// Returns the part with keys that are as far after the switch from one closest key to the next as the cut is before it, so that the
 /// switch stays where it was.
 fn with_switches<T: Cuttable>(channel: &Channel<T>, part: Vec<PartKey<T>>) -> Vec<PartKey<T>> {
     let is_key = |time: f32| channel.times.iter().any(|key| (key - time).abs() <= SAME);

@@ -2,11 +2,13 @@
 
 use super::attach::AttachedFeet;
 use super::convention::{BodyPart, BoneRole, SkeletonRoles};
+use super::reach::bring_into_reach;
 use super::spread::spread;
+use super::twist::twist;
 use super::{RetargetOptions, SkeletonBinding, height_ratio, leg_ratio, rebind, retarget};
 use crate::contact::{
     Contact, ContactThresholds, LockError, LockSettings, contact_slide, detect_contacts, feet_by_name,
-    lock_contacts,
+    lock_planted,
 };
 use crate::data::{BoneIndex, Skeleton, Take, Track};
 use crate::frames::{FramesError, TakeFrames, frame_rate};
@@ -148,6 +150,7 @@ fn transferred(
     if options.contacts {
         keep_contacts(&mut retargeted, take, source, target, (binding, roles), options)?;
     }
+    twist(&mut retargeted.take, target, binding, roles);
     Ok(retargeted)
 }
 
@@ -222,7 +225,12 @@ fn keep_contacts(
     retargeted.slide_before = slide(&retargeted.take)?;
     if !contacts.is_empty() {
         let settings = LockSettings { rate, ease: options.ease };
-        retargeted.take = lock_contacts(&retargeted.take, target, &contacts, &settings)?.take;
+        let planted = retargeted.take.clone();
+        let hips = roles.bones(BoneRole { part: BodyPart::Hips, side: 0 }).first().copied();
+        if let Some(hips) = hips {
+            bring_into_reach(&mut retargeted.take, target, &contacts, hips, rate);
+        }
+        retargeted.take = lock_planted(&retargeted.take, &planted, target, &contacts, &settings)?.take;
     }
     retargeted.slide_after = slide(&retargeted.take)?;
     retargeted.contacts = contacts;

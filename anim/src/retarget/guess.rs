@@ -32,7 +32,13 @@ impl BindingGuess {
         let mut source_of: Vec<Option<BoneIndex>> = vec![None; target.len()];
         for role in target_roles.roles() {
             let (from, to) = (source_roles.bones(role), target_roles.bones(role));
-            for (from, to) in chain_pairs(&rests[0], &from, &rests[1], &to) {
+            let pairs = if is_finger(role.part) {
+                // By number from the knuckle; one more bone is the tip, which nothing moves.
+                from.iter().copied().zip(to.iter().copied()).collect()
+            } else {
+                chain_pairs(&rests[0], &from, &rests[1], &to)
+            };
+            for (from, to) in pairs {
                 source_of[to as usize] = Some(from);
             }
         }
@@ -50,6 +56,12 @@ impl BindingGuess {
         let binding = SkeletonBinding::from_map(source, target, &pairs).unwrap_or(named);
         Self { binding, source: source_roles, target: target_roles }
     }
+}
+
+/// Returns whether a part is the chain of a finger.
+fn is_finger(part: BodyPart) -> bool {
+    use BodyPart::{Index, Little, Middle, Ring, Thumb};
+    matches!(part, Thumb | Index | Middle | Ring | Little)
 }
 
 /// Leaves a root unbound that the other skeleton does not have: its movement is that of the hips then.

@@ -67,6 +67,7 @@ mod convention;
 mod figure;
 mod guess;
 mod names;
+mod reach;
 mod relative_position;
 mod rest;
 mod rotation;
@@ -74,6 +75,7 @@ mod sample_times;
 mod spread;
 mod transfer;
 mod translation;
+mod twist;
 
 pub use binding::{BindError, SkeletonBinding, rebind};
 pub use convention::{BodyPart, BoneRole, SkeletonRoles};
