@@ -12,7 +12,7 @@ const LEFT: &str = "b_LeftFoot01_017";
 const RIGHT: &str = "b_RightFoot01_021";
 const CONTACTS: [(&str, f32, f32); 2] = [(LEFT, 0.1, 0.2), (RIGHT, 0.4, 0.6)];
 
-/// Returns the fox, whose feet stand still in two contacts of its walk.
+/// Returns the fox, whose feet do not move in two contacts of its walk.
 fn planted() -> ModelAdapter {
     let mut model = fox_takes();
     let spans: Vec<String> = CONTACTS

@@ -5,9 +5,10 @@ use super::pose_library::PoseFolder;
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
 use super::take_check::CheckedTake;
-use super::{LoadError, Loader, OpenedModel, Progress, Source};
+use super::{LoadError, LoadedModel, Loader, OpenedModel, Progress, Source};
 use dragonfly_runtime::{Address, Job, JobContext};
 use dragonfly_store::Autosave;
+use std::sync::Arc;
 
 /// News of a job. A loading job has a ticket; the document ignores the news of one that it cancelled.
 #[derive(Debug)]
@@ -22,6 +23,8 @@ pub(super) enum JobNews {
     Scanned(RecoveryScan),
     /// The result of a job for takes of another model.
     Retarget(RetargetNews),
+    /// A file that takes are compared with.
+    Compared(Result<Arc<LoadedModel>, String>),
     /// The defects of a take.
     Checked(Result<CheckedTake, String>),
     /// The folder of the pose library after an order.

@@ -18,6 +18,7 @@ mod bone_map;
 pub mod bones;
 mod cancel;
 mod checking;
+mod comparing;
 pub mod demo;
 pub mod edit;
 mod editable;

@@ -39,6 +39,8 @@ pub enum DocumentMessage {
     Search,
     /// Reads another model, whose takes are wanted for the open one. The reply is [`DocumentReply::SourceRead`].
     ReadSource(Source),
+    /// Reads another file, with whose takes those of the open model are compared. The reply is [`DocumentReply::ComparedRead`].
+    ReadCompared(Source),
     /// Computes a take of that model for the open one, and adds it.
     Retarget(RetargetOrder),
     /// Reads or writes a bone map.
@@ -99,6 +101,8 @@ pub enum DocumentReply {
     NothingToOffer,
     /// The model whose takes are wanted was read.
     SourceRead(Arc<LoadedModel>),
+    /// The file to compare with was read.
+    ComparedRead(Arc<LoadedModel>),
     /// A bone map was read.
     MapRead(BoneMap),
     /// A take was checked.

@@ -59,6 +59,8 @@ pub struct Document {
     pub(super) retargeting: Retargeting,
     /// The check of a take; dropping it cancels it.
     pub(super) checking: Option<Job>,
+    /// The job that reads a file to compare with; dropping it cancels it.
+    pub(super) comparing: Option<Job>,
     /// Orders for the pose library.
     pub(super) pose_files: PoseFiles,
     pub(super) autosave: Option<Autosave>,
@@ -141,6 +143,7 @@ impl Document {
                 load: setup.load,
                 retargeting: Retargeting::default(),
                 checking: None,
+                comparing: None,
                 pose_files: PoseFiles::default(),
                 autosave: setup.autosave.clone(),
                 waiting: None,

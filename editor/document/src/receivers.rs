@@ -52,6 +52,7 @@ impl Document {
                 self.search();
             }
             DocumentMessage::ReadSource(source) => self.read_source(source, self.load),
+            DocumentMessage::ReadCompared(source) => self.read_compared(source, self.load),
             DocumentMessage::Retarget(order) => self.retarget(order),
             DocumentMessage::MapFile(file) => self.map_file(file),
             DocumentMessage::CheckTake(check) => self.check_take(check),
@@ -88,6 +89,7 @@ impl Receiver for JobReceiver {
             JobNews::Loaded(ticket, loaded) => document.finish_loading(ticket, loaded),
             JobNews::SaveStep(ticket) => document.save_step(ticket, thread.now()),
             JobNews::Scanned(scan) => document.offer(scan),
+            JobNews::Compared(loaded) => document.compared_read(loaded),
             JobNews::Retarget(news) => document.retarget_news(news, thread.now()),
             JobNews::Checked(result) => document.checked(result),
             JobNews::Poses(news) => document.poses_news(news),

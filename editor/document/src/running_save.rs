@@ -49,6 +49,7 @@ fn waits(message: &DocumentMessage) -> Waits {
         | DocumentMessage::Plan(_)
         | DocumentMessage::Search
         | DocumentMessage::ReadSource(_)
+        | DocumentMessage::ReadCompared(_)
         | DocumentMessage::Retarget(_)
         | DocumentMessage::MapFile(_)
         | DocumentMessage::CheckTake(_)

@@ -58,7 +58,7 @@ pub use between::between;
 pub use connection::{Connection, TargetWindow};
 pub use control::{
     ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook, IkAppearance,
-    IkLook, PathAppearance, PathLook,
+    IkLook, OtherSkeleton, PathAppearance, PathLook, SecondSkeleton,
 };
 pub use device::{Device, DeviceListener, DeviceParameters, DeviceState};
 pub use error::GraphicsError;

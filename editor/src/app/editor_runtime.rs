@@ -116,13 +116,15 @@ impl EditorRuntime {
             | Effect::Cut(..)
             | Effect::CancelDrag
             | Effect::ReleaseDrag => {}
-            Effect::OpenDialog if interface.asking => {
+            Effect::OpenDialog | Effect::CompareDialog if interface.asking => {
                 interface.state.say(MessageSeverity::Info, "The dialog for opening files is open already");
             }
-            Effect::OpenDialog => {
+            Effect::OpenDialog | Effect::CompareDialog => {
+                let compares = effect == Effect::CompareDialog;
+                let purpose = if compares { Purpose::Compare } else { Purpose::Open };
                 let recent = interface.state.read().settings.recent.first();
                 let folder = recent.and_then(|path| path.parent()).map(std::path::Path::to_owned);
-                match file_dialog::ask(Purpose::Open, folder, running.answers.clone()) {
+                match file_dialog::ask(purpose, folder, running.answers.clone()) {
                     Ok(()) => interface.asking = true,
                     Err(error) => {
                         let text = format!("The file dialog could not be opened: {error}");

@@ -123,9 +123,14 @@ impl Running {
 pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
     interface.asking = false;
     let file_dialog::Answer { purpose, file, quick } = answer;
+    let overlay = if purpose == Purpose::Compare { Overlay::ComparePath } else { Overlay::OpenPath };
     match (purpose, file) {
         (Purpose::Open, Some(path)) => {
             interface.effects.push(Effect::File(FileAction::Leave(Then::Open(Source::File(path)))))
+        }
+        (Purpose::Compare, Some(path)) => {
+            let message = DocumentMessage::ReadCompared(Source::File(path));
+            interface.effects.push(Effect::File(FileAction::Send(message)));
         }
         (Purpose::Save { copy, then, .. }, Some(path)) => {
             use dragonfly_document::SaveTo::{As, Copy};
@@ -143,10 +148,10 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             interface.state.say(MessageSeverity::Warning, text);
             interface.state.ask_where_it_is(offer, None);
         }
-        (Purpose::Open, None) if quick => {
+        (Purpose::Open | Purpose::Compare, None) if quick => {
             let text = "This desktop has no dialog for opening files; type the path instead";
             interface.state.say(MessageSeverity::Warning, text);
-            interface.state.show_overlay(Some(Overlay::OpenPath));
+            interface.state.show_overlay(Some(overlay));
         }
         (Purpose::Save { copy, then, .. }, None) if quick => {
             let text = "This desktop has no dialog for saving files; type the path instead";
@@ -154,7 +159,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             interface.state.ask(PlaceQuestion { copy, then }.into());
         }
         // A dialog that failed slowly looks the same as one that the user closed.
-        (Purpose::Open | Purpose::Find(_), None) => {
+        (Purpose::Open | Purpose::Compare | Purpose::Find(_), None) => {
             interface.state.say(MessageSeverity::Info, "No file was chosen")
         }
         (Purpose::Save { .. }, None) => interface.state.say(MessageSeverity::Info, "Nothing was saved"),

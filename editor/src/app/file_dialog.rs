@@ -9,6 +9,8 @@ use std::path::PathBuf;
 pub(super) enum Purpose {
     /// Choose a model to open.
     Open,
+    /// Choose a model with whose takes others are compared.
+    Compare,
     /// Find this file, which was moved, to restore its unsaved work.
     Find(Box<Offer>),
     /// Choose where to save.
@@ -46,9 +48,10 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
             dialog = dialog.set_directory(folder);
         }
         let file = match &purpose {
-            Purpose::Open | Purpose::Find(_) => {
+            Purpose::Open | Purpose::Compare | Purpose::Find(_) => {
                 let title = match &purpose {
                     Purpose::Find(offer) => format!("Where is {} now?", offer.title),
+                    Purpose::Compare => "Compare with a take of another model".to_owned(),
                     _ => "Open a model".to_owned(),
                 };
                 let dialog = dialog.set_title(title).add_filter("Models", &formats().extensions());

@@ -97,7 +97,7 @@ impl GraphicsSync {
             state.ghost_times(&mut ghosts.times);
         });
         sender.update(graphics, |compared: &mut ComparedAppearance| {
-            compared.take = state.compared_take().cloned();
+            compared.second = state.second_skeleton();
         });
         sender.update(graphics, |IkAppearance(ik)| {
             if !state.shows_ik(ik.as_ref()) {

@@ -81,6 +81,7 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
             state.say(MessageSeverity::Info, "There is no unsaved work of an earlier run");
         }
         DocumentReply::SourceRead(source) => state.source_read(source),
+        DocumentReply::ComparedRead(file) => state.compared_read(file),
         DocumentReply::MapRead(map) => state.map_read(map),
         DocumentReply::Checked(checked) => state.checked(checked),
         DocumentReply::Poses(folder) => state.poses_read(folder),

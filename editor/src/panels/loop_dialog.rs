@@ -2,6 +2,7 @@
 
 use super::bone_choice::{BoneChoice, names};
 use super::context::PanelContext;
+use super::dialog_preview::DialogPreview;
 use super::keys::KeysRequest;
 use super::loop_search::LoopCandidates;
 use super::overlay_title;
@@ -16,6 +17,7 @@ use dragonfly_anim::motion::{Axis, guess_hips};
 use dragonfly_document::Change;
 use dragonfly_document::edit::{BoneRef, CloseLoop, Edit, ShiftLoop, TakeRef, TrimTake};
 use egui::{Button, DragValue, Grid, RichText, ScrollArea, Ui};
+use glam::Vec3;
 use std::sync::Arc;
 
 /// Width of the dialog, points.
@@ -35,6 +37,8 @@ pub(super) struct LoopDialog {
     shift: i32,
     gaps: Option<LoopGaps>,
     candidates: LoopCandidates,
+    /// Whether the viewport shows the end over the start.
+    shows_end: bool,
 }
 
 impl Default for LoopDialog {
@@ -46,6 +50,7 @@ impl Default for LoopDialog {
             shift: 0,
             gaps: None,
             candidates: LoopCandidates::default(),
+            shows_end: true,
         }
     }
 }
@@ -59,18 +64,25 @@ struct LoopGaps {
     /// The largest gap first.
     worst: Vec<BoneLoopGap>,
     is_short: bool,
+    /// Distance on the ground from the end of the bone that travels to its start.
+    back: Vec3,
 }
 
 impl LoopGaps {
     fn of(take: &Arc<Take>, skeleton: &Skeleton, rate: u32, travel: Option<BoneIndex>) -> Self {
         let frames = TakeFrames::ends(take, skeleton, rate as f32);
-        let (mut worst, mut is_short) = (Vec::new(), false);
+        let (mut worst, mut is_short, mut back) = (Vec::new(), false, Vec3::ZERO);
         if let Ok(frames) = frames {
             worst = loop_gaps(&frames, travel, Axis::Y);
             worst.sort_by(|a, b| b.position.total_cmp(&a.position).then(b.rotation.total_cmp(&a.rotation)));
             is_short = is_one_frame_short(&frames, travel, Axis::Y);
+            if let Some(travel) = travel {
+                back = frames.position(0, travel) - frames.position(frames.len() - 1, travel);
+                back.y = 0.0;
+                back = if back.is_finite() { back } else { Vec3::ZERO };
+            }
         }
-        Self { take: Arc::clone(take), rate, travel, worst, is_short }
+        Self { take: Arc::clone(take), rate, travel, worst, is_short, back }
     }
 
     fn is_of(&self, take: &Arc<Take>, rate: u32, travel: Option<BoneIndex>) -> bool {
@@ -98,6 +110,7 @@ impl LoopDialog {
             self.gaps = Some(LoopGaps::of(take, skeleton, rate, self.travel));
         }
         self.list(ui, context);
+        self.show_end(ui, context, requests);
         self.close(ui, &name, rate, requests);
         self.move_start(ui, &name, rate, requests);
         ui.separator();
@@ -183,6 +196,21 @@ impl LoopDialog {
         ui.add_space(2.0 * GRID);
     }
 
+    /// Draws the switch for the second skeleton in the viewport, and keeps that up to date.
+    fn show_end(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let switch = ui.checkbox(&mut self.shows_end, "Show the end over the start");
+        widgets::hint_beside(
+            &switch,
+            "Draws the poses of the end and of the start in the viewport as two skeletons, with lines between joints that differ",
+        );
+        ui.add_space(GRID);
+        let offset = self.gaps.as_ref().map_or(Vec3::ZERO, |gaps| gaps.back);
+        let preview = if self.shows_end { DialogPreview::LoopEnd { offset } } else { DialogPreview::Nothing };
+        if preview != context.preview {
+            requests.push(Request::Preview(preview));
+        }
+    }
+
     fn close(&mut self, ui: &mut Ui, take: &TakeRef, rate: u32, requests: &mut Vec<Request>) {
         let travel = self.travel.map(BoneRef::Index);
         ui.horizontal(|ui| {
@@ -215,7 +243,7 @@ impl LoopDialog {
             ui.add(field).labelled_by(label.id);
             if button.clicked() {
                 let by = self.shift as f32 / rate.max(1) as f32;
-                let edit = ShiftLoop { take: take.clone(), by, travel, rate: Some(rate as f32) };
+                let edit = ShiftLoop { take: take.clone(), by, travel, rate: None };
                 requests.push(Request::Change(Change::Edit(Edit::ShiftLoop(edit), None)));
             }
         });

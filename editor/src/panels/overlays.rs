@@ -6,14 +6,14 @@ use super::mirror_pairs::MirrorDialog;
 use super::overlay_title;
 use super::palette::Palette;
 use super::prompts::Overlay;
-use super::request::Request;
+use super::request::{FileAction, Request};
 use super::retarget::RetargetDialog;
 use super::root_motion::RootMotionDialog;
 use super::shortcuts::ShortcutSheet;
 use super::style::GRID;
 use super::theme::Theme;
 use super::widgets;
-use dragonfly_document::Source;
+use dragonfly_document::{DocumentMessage, Source};
 use egui::{Align2, Id as WidgetId, Key, Modal, RichText, TextEdit, TextStyle, Ui, vec2};
 use std::path::PathBuf;
 
@@ -47,7 +47,7 @@ impl Overlays {
         if overlay == Overlay::Palette {
             modal = modal.area(Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, 72.0)));
         }
-        if matches!(overlay, Overlay::RootMotion | Overlay::Loop) {
+        if matches!(overlay, Overlay::RootMotion | Overlay::Loop | Overlay::Retarget) {
             // Beside the figure in the viewport, which nothing dims.
             modal = modal.backdrop_color(egui::Color32::TRANSPARENT);
             modal = modal.area(Modal::default_area(id).anchor(Align2::RIGHT_CENTER, vec2(-24.0, 0.0)));
@@ -60,16 +60,20 @@ impl Overlays {
             Overlay::Retarget => self.retarget.show(ui, context, requests),
             Overlay::RootMotion => self.root_motion.show(ui, context, requests),
             Overlay::Loop => self.loops.show(ui, context, requests),
-            Overlay::OpenPath => self.open_path(ui, fresh, requests),
+            Overlay::OpenPath | Overlay::ComparePath => self.path(ui, fresh, overlay, requests),
         });
         if response.should_close() {
             requests.push(Request::Overlay(None));
         }
     }
 
-    fn open_path(&mut self, ui: &mut Ui, fresh: bool, requests: &mut Vec<Request>) {
+    /// Draws a field for the path of a model that is opened or compared.
+    fn path(&mut self, ui: &mut Ui, fresh: bool, overlay: Overlay, requests: &mut Vec<Request>) {
+        let compares = overlay == Overlay::ComparePath;
+        let [title, action] =
+            if compares { ["Compare with another file", "Compare"] } else { ["Open by path", "Open"] };
         ui.set_width(520.0);
-        ui.label(RichText::new("Open by path").heading());
+        ui.label(RichText::new(title).heading());
         let field = TextEdit::singleline(&mut self.path)
             .hint_text("/home/me/models/fox.glb")
             .desired_width(f32::INFINITY);
@@ -84,14 +88,19 @@ impl Overlays {
         ui.add_space(GRID);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let able = !self.path.trim().is_empty();
-            let open = ui.add_enabled(able, egui::Button::new("Open")).clicked();
+            let open = ui.add_enabled(able, egui::Button::new(action)).clicked();
             if ui.button("Cancel").clicked() {
                 requests.push(Request::Overlay(None));
             }
             if able && (open || entered) {
                 let path = PathBuf::from(self.path.trim().trim_matches('"'));
                 requests.push(Request::Overlay(None));
-                requests.push(Request::Open(Source::File(path)));
+                let source = Source::File(path);
+                requests.push(if compares {
+                    Request::Answer(FileAction::Send(DocumentMessage::ReadCompared(source)))
+                } else {
+                    Request::Open(source)
+                });
             }
         });
     }

@@ -5,6 +5,7 @@ use super::commands::key_settings::KeySettings;
 use super::compared::CompareWith;
 use super::curves::given::GivenCurve;
 use super::curves::look::CurvesLook;
+use super::dialog_preview::DialogPreview;
 use super::edit_scope::FalloffSettings;
 use super::keys::request::KeysRequest;
 use super::overlay::Overlay;
@@ -57,6 +58,8 @@ pub enum Request {
     ChooseLayer(Option<TakeId>),
     /// Compares the take that is shown with another one.
     CompareWith(CompareWith),
+    /// Shows the second skeleton of the dialog that is open.
+    Preview(DialogPreview),
     /// Goes to this time, seconds.
     Seek(f32),
     /// Sets the speed of playback, seconds of the take per second.
@@ -110,6 +113,8 @@ pub enum Request {
 pub enum Effect {
     /// Shows the system's dialog for opening files.
     OpenDialog,
+    /// Shows the system's dialog for the file with which takes are compared.
+    CompareDialog,
     /// Cancels the drag in progress, as if it had never begun.
     CancelDrag,
     /// Ends the drag in progress; no button is held any more.
@@ -183,6 +188,7 @@ impl FileAction {
                 | DocumentMessage::Search
                 | DocumentMessage::CancelLoading
                 | DocumentMessage::ReadSource(_)
+                | DocumentMessage::ReadCompared(_)
                 | DocumentMessage::MapFile(_)
                 | DocumentMessage::CheckTake(_)
                 | DocumentMessage::Poses(_),

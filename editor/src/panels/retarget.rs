@@ -2,13 +2,15 @@
 
 use super::bone_choice::{BoneChoice, add_left, names};
 use super::context::PanelContext;
+use super::dialog_preview::DialogPreview;
 use super::overlay_title;
 use super::request::{FileAction, Request};
+use super::source_place::SourcePlace;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::widgets;
 use dragonfly_anim::data::{BoneIndex, Skeleton};
-use dragonfly_anim::retarget::{BindingGuess, FigureOptions, SkeletonBinding};
+use dragonfly_anim::retarget::{BindingGuess, BoneRole, FigureOptions, SkeletonBinding};
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{BoneMap, DocumentMessage, LoadedModel, MapFile, RetargetOrder, Source};
 use egui::{Button, Key, Popup, RichText, ScrollArea, TextEdit, TextStyle, Ui, vec2};
@@ -31,6 +33,9 @@ pub(super) struct RetargetDialog {
     source_of: Vec<Option<BoneIndex>>,
     take: usize,
     contacts: bool,
+    /// The place of the source in the viewport; `None`: it is not shown.
+    place: Option<SourcePlace>,
+    shows_source: bool,
 }
 
 impl Default for RetargetDialog {
@@ -43,6 +48,8 @@ impl Default for RetargetDialog {
             source_of: Vec::new(),
             take: 0,
             contacts: true,
+            place: None,
+            shows_source: true,
         }
     }
 }
@@ -70,6 +77,7 @@ impl RetargetDialog {
         self.heading(ui, source);
         self.rows(ui, context, source, requests);
         self.map_row(ui, context, source, requests);
+        self.show_source(ui, context, requests);
         self.last_row(ui, source, requests);
     }
 
@@ -83,6 +91,7 @@ impl RetargetDialog {
             self.source_of.clone_from(&guess.binding.source_of);
             self.models = Some((Arc::clone(source), Arc::clone(target), guess));
             (self.take, self.map) = (0, None);
+            self.place = None;
         }
         let map = context.retarget.map();
         let new = map.filter(|map| !self.map.as_ref().is_some_and(|applied| Arc::ptr_eq(applied, map)));
@@ -149,6 +158,29 @@ impl RetargetDialog {
                 });
             }
         });
+    }
+
+    /// Draws the switch for the skeleton of the source in the viewport, and keeps that up to date.
+    fn show_source(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
+        let Some((source, target, guess)) = &self.models else { return };
+        let place = *self.place.get_or_insert_with(|| {
+            let is_part =
+                |roles: &[Option<BoneRole>], bone: usize| roles.get(bone).is_some_and(Option::is_some);
+            let own = |bone: usize| is_part(&guess.target.of, bone);
+            let others = |bone: usize| is_part(&guess.source.of, bone);
+            SourcePlace::beside(target, &source.model.animation.skeleton, [&own, &others])
+        });
+        let switch = ui.checkbox(&mut self.shows_source, "Show the source beside the model");
+        widgets::hint_beside(
+            &switch,
+            "Draws the skeleton of the file in the viewport, at the size of this model, in the pose of its take at the time of the playhead",
+        );
+        let SourcePlace { scale, offset } = place;
+        let source = DialogPreview::Source { take: self.take, scale, offset };
+        let preview = if self.shows_source { source } else { DialogPreview::Nothing };
+        if preview != context.preview {
+            requests.push(Request::Preview(preview));
+        }
     }
 
     fn map_row(

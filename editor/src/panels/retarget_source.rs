@@ -1,5 +1,6 @@
 //! The model whose takes are wanted for the open one, as the document read it.
 
+use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::{BoneMap, LoadedModel};
 use std::sync::Arc;
 
@@ -8,6 +9,8 @@ use std::sync::Arc;
 pub struct RetargetSource {
     source: Option<Arc<LoadedModel>>,
     map: Option<Arc<BoneMap>>,
+    /// An empty list of pairs of bones, for the skeleton next to the model.
+    unpaired: Arc<[Option<BoneIndex>]>,
 }
 
 impl RetargetSource {
@@ -19,6 +22,11 @@ impl RetargetSource {
     /// Returns the bone map that was read last for this source.
     pub fn map(&self) -> Option<&Arc<BoneMap>> {
         self.map.as_ref()
+    }
+
+    /// Returns no pairs of bones with the open model.
+    pub fn unpaired(&self) -> &Arc<[Option<BoneIndex>]> {
+        &self.unpaired
     }
 
     pub(super) fn set_source(&mut self, source: Arc<LoadedModel>) {

@@ -1,7 +1,7 @@
 //! The state of the panels, as the program around them uses it: requests go in, effects come out, and [`State::read`] gives
 //! what is shown.
 
-use super::actions::{bones, drags, execute, feed, files, input, playback, show};
+use super::actions::{bones, compare, drags, execute, feed, files, input, playback, show};
 use super::context::PanelContext;
 use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
@@ -132,6 +132,11 @@ impl State {
     /// Shows the model whose takes are wanted, in the dialog for retargeting.
     pub fn source_read(&mut self, source: Arc<LoadedModel>) {
         self.workspace.retarget.set_source(source);
+    }
+
+    /// Compares the take that is shown with a take of a file that was read.
+    pub fn compared_read(&mut self, file: Arc<LoadedModel>) {
+        compare::file_read(&mut self.workspace, file);
     }
 
     /// Shows a bone map that was read, in the dialog for retargeting.

@@ -1,9 +1,10 @@
 //! Everything that panels show and commands change: one owner for each part.
 
 use super::camera_state::CameraState;
-use super::compared::CompareWith;
+use super::compared::{CompareWith, ComparedFile};
 use super::context::PanelContext;
 use super::curves::given::GivenAngles;
+use super::dialog_preview::DialogPreview;
 use super::dragging::Dragging;
 use super::edit_scope::EditOver;
 use super::foot_contacts::FootContacts;
@@ -66,6 +67,10 @@ pub(super) struct Workspace {
     pub(super) layers: LayerChoice,
     /// The choice of the take with which the one shown is compared.
     pub(super) compared: CompareWith,
+    /// The other file with which takes are compared.
+    pub(super) compared_file: ComparedFile,
+    /// The second skeleton of the dialog that is open.
+    pub(super) preview: DialogPreview,
     /// The tools of the viewport.
     pub(super) tools: ToolState,
     /// The keys that edits of poses are for.
@@ -110,6 +115,8 @@ impl Workspace {
             takes: TakeListState::default(),
             layers: LayerChoice::default(),
             compared: CompareWith::default(),
+            compared_file: ComparedFile::default(),
+            preview: DialogPreview::default(),
             tools: ToolState::new(settings.tools.ik.on, settings.tools.ik.length),
             over: EditOver::default(),
             camera: CameraState::default(),
@@ -151,6 +158,8 @@ impl Workspace {
             takes: &self.takes,
             layer_choice: self.layers,
             compared: self.compared,
+            compared_file: &self.compared_file,
+            preview: self.preview,
             camera: *self.camera.camera(),
             viewport: self.camera.viewport(),
             tools: &self.tools,

@@ -8,6 +8,9 @@ use super::states::{self, Fullness};
 use crate::workbench::Workbench;
 use dragonfly::app::graphics_sync::GraphicsSync;
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::compared::CompareWith;
+use dragonfly::panels::dialog_preview::DialogPreview;
+use dragonfly::panels::prompts::Overlay;
 use dragonfly::panels::{Request, style};
 use dragonfly_document::Source;
 use dragonfly_kit::folder::{Folder, data};
@@ -101,7 +104,17 @@ impl DrawnWindow {
     }
 
     /// Draws the panels and the scene of a workbench.
-    fn draw(&mut self, mut bench: Workbench, theme: Theme) -> RgbaImage {
+    fn draw(&mut self, bench: Workbench, theme: Theme) -> RgbaImage {
+        self.draw_after(bench, theme, |_| {})
+    }
+
+    /// Draws as [`Self::draw`]; `act` changes the state after each frame of the panels.
+    fn draw_after(
+        &mut self,
+        mut bench: Workbench,
+        theme: Theme,
+        mut act: impl FnMut(&mut Workbench),
+    ) -> RgbaImage {
         let context = egui::Context::default();
         style::install(&context);
         context.set_theme(theme);
@@ -123,6 +136,7 @@ impl DrawnWindow {
             let frame =
                 PanelsFrame { size: SIZE, pixels_per_point: 1.0, jobs, textures: output.textures_delta };
             self.graphics.show_panels(frame);
+            act(&mut bench);
             self.sync.update(&self.graphics, &bench.state.read(), 1.0, theme == Theme::Dark);
         }
         self.settle();
@@ -173,4 +187,56 @@ fn the_whole_window_looks_as_stored() {
         }
     }
     assert!(complaints.is_empty(), "\n  {}\n{HOW_TO_UPDATE}", complaints.join("\n  "));
+}
+
+/// Returns the fox at the start of its walk, with an overlay.
+fn fox_with(overlay: Option<Overlay>) -> Workbench {
+    let mut bench = fox();
+    bench.state.execute(Request::Seek(0.0));
+    bench.state.execute(Request::Select(None));
+    bench.state.execute(Request::Overlay(overlay));
+    bench
+}
+
+/// Returns the fox next to a figure whose takes are wanted.
+fn with_source() -> Workbench {
+    let mut bench = fox_with(Some(Overlay::Retarget));
+    bench.state.source_read(states::view_of(&Source::File(data("bench/pab.glb"))).loaded);
+    bench
+}
+
+/// Returns the fox compared with another take of the same file, opened as another file.
+fn with_file() -> Workbench {
+    let mut bench = fox_with(None);
+    bench.state.compared_read(states::view_of(&Source::File(data("gltf/Fox.glb"))).loaded);
+    bench.state.execute(Request::CompareWith(CompareWith::File(2)));
+    bench
+}
+
+#[test]
+fn the_second_skeleton_of_dialogs_and_comparisons_is_drawn_in_the_viewport() {
+    match drawing::program_draws_on_processor() {
+        Some(true) => {}
+        Some(false) => return skip(TestNeed::Adapter, "the pictures are those of a driver on the processor"),
+        None => return,
+    }
+    let mut window = DrawnWindow::open();
+    let cases: [(&str, fn() -> Workbench); 3] =
+        [("loop", || fox_with(Some(Overlay::Loop))), ("source", with_source), ("file", with_file)];
+    for (name, bench) in cases {
+        let with = window.draw(bench(), Theme::Dark);
+        let without = window.draw_after(bench(), Theme::Dark, |bench| {
+            bench.state.execute(Request::Preview(DialogPreview::Nothing));
+            bench.state.execute(Request::CompareWith(CompareWith::Nothing));
+        });
+        if let Some(folder) = std::env::var_os("DRAGONFLY_LOOK") {
+            with.save(PathBuf::from(folder).join(format!("second-{name}.png"))).expect("a folder");
+        }
+        // Only left of the dialog, and above the panels: what differs is the skeleton.
+        let differ = (230..800)
+            .flat_map(|x| (60..420).map(move |y| (x, y)))
+            .filter(|&(x, y)| with.get_pixel(x, y) != without.get_pixel(x, y))
+            .count();
+        assert!(differ > 300, "{name}: {differ} pixels");
+    }
 }

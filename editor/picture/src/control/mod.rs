@@ -11,7 +11,7 @@ mod gizmo;
 mod ik;
 mod path;
 
-pub use compared::ComparedAppearance;
+pub use compared::{ComparedAppearance, OtherSkeleton, SecondSkeleton};
 pub use component::{ControlFrame, GraphicComponent};
 pub use ghosts::GhostAppearance;
 pub use gizmo::{GizmoAppearance, GizmoDragAppearance, GizmoLook};

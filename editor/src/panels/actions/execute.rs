@@ -55,6 +55,7 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::ShowTake(take) => playback::show_take(workspace, take),
         Request::ChooseLayer(layer) => layers::choose(workspace, layer),
         Request::CompareWith(with) => workspace.compared = with,
+        Request::Preview(preview) => workspace.preview = preview,
         Request::Seek(time) => playback::seek(workspace, time),
         Request::Speed(speed) => playback::set_speed(workspace, speed),
         Request::Repeat(repeat) => playback::set_repeat(workspace, repeat),

@@ -6,6 +6,7 @@
 pub(super) mod baking;
 pub(super) mod bones;
 pub(super) mod clipboard;
+pub(super) mod compare;
 pub(super) mod contacts;
 pub(super) mod drags;
 pub(super) mod events;

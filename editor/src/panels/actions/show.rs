@@ -26,6 +26,7 @@ pub(in crate::panels) fn begin_frame(workspace: &mut Workspace, now: Instant) {
     workspace.model.update_digest(keys, workspace.bones.active());
     let (view, rate) = (workspace.model.view(), workspace.frame_rate.get());
     workspace.contacts.update(view, playback.take, rate);
+    workspace.compared_file.update(view.map(|view| &view.loaded.model.animation.skeleton));
     if let Some(view) = workspace.model.view() {
         workspace.posed.hold_still(workspace.keys.flags(), view);
         workspace.tools.path_mut().hold_still(workspace.keys.flags(), view);

@@ -1,14 +1,16 @@
 //! Read access of the panels: references to the owners of the state, and queries that need several of them.
 
 mod compared;
+mod feet;
 mod ik;
 mod keys;
 mod layer;
 mod pose;
 mod scope;
 
-use super::compared::CompareWith;
+use super::compared::{CompareWith, ComparedFile};
 use super::curves::given::GivenAngles;
+use super::dialog_preview::DialogPreview;
 use super::digest::Digest;
 use super::dragging::Dragging;
 use super::edit_scope::EditOver;
@@ -93,6 +95,10 @@ pub struct PanelContext<'a> {
     pub layer_choice: LayerChoice,
     /// The choice of the take with which the one shown is compared.
     pub compared: CompareWith,
+    /// The other file with which takes are compared.
+    pub compared_file: &'a ComparedFile,
+    /// The second skeleton of the dialog that is open.
+    pub preview: DialogPreview,
     /// The camera.
     pub camera: Camera,
     /// The viewport, points.

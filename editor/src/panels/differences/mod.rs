@@ -4,6 +4,7 @@
 mod profile;
 mod strip;
 
+use super::commands::Id;
 use super::compared::CompareWith;
 use super::context::PanelContext;
 use super::request::Request;
@@ -56,12 +57,17 @@ impl Panel for DifferencesPanel {
                 CompareWith::Nothing => ("Nothing is compared", "Choose what to compare the take with"),
                 CompareWith::Opened => ("This take was not in the file when it was opened", ""),
                 CompareWith::Take(_) => ("The other take was deleted", ""),
+                CompareWith::File(_) => ("The file has no such take", ""),
             };
             return widgets::empty(ui, text, more);
         };
         // While something is dragged, the takes change with every frame.
         if !context.dragging.is_open() {
             self.profile.update(now, other, context);
+        }
+        if context.compared_skeleton().is_some() && context.compared_file.is_unpaired() {
+            let text = "No bone of the file has the name of a bone of this model";
+            return widgets::empty(ui, text, "Bones of two files are compared by their names");
         }
         if self.profile.is_equal() {
             return widgets::empty(ui, "No difference", "");
@@ -86,6 +92,10 @@ fn choose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) 
             let other = slots.iter().find(|slot| slot.id == id);
             other.map_or("a deleted take".to_owned(), |slot| widgets::shortened(&slot.result.name))
         }
+        CompareWith::File(take) => context.compared_file.file().map_or(String::new(), |file| {
+            let take = file.model.animation.takes.get(take).map_or("no take", |take| &take.name);
+            widgets::shortened(&format!("{} – {take}", file.title))
+        }),
     };
     let text = format!("Compare with: {}", name(context.compared));
     let button = ui.add(Button::new(RichText::new(text).small()).frame(false));
@@ -95,11 +105,18 @@ fn choose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) 
             let own = context.slot().map(|slot| slot.id);
             let others = slots.iter().filter(|slot| Some(slot.id) != own);
             let others = others.map(|slot| CompareWith::Take(slot.id));
-            for with in [CompareWith::Nothing, CompareWith::Opened].into_iter().chain(others) {
+            let file = context.compared_file.file();
+            let of_file = file.map_or(0, |file| file.model.animation.takes.len());
+            let of_file = (0..of_file).map(CompareWith::File);
+            for with in [CompareWith::Nothing, CompareWith::Opened].into_iter().chain(others).chain(of_file) {
                 if ui.add(Button::selectable(with == context.compared, name(with))).clicked() {
                     requests.push(Request::CompareWith(with));
                     ui.close();
                 }
+            }
+            if ui.add(Button::new("Another file…").frame_when_inactive(false)).clicked() {
+                requests.push(Request::Command(Id::CompareFile));
+                ui.close();
             }
         });
     });

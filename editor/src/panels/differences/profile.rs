@@ -30,9 +30,11 @@ impl ShownProfile {
         };
         let Some(view) = context.view.filter(|_| !self.of.as_ref().is_some_and(is_same)) else { return };
         let skeleton = &view.loaded.model.animation.skeleton;
-        let most = (MOST / skeleton.len().max(1)).clamp(TIMES.0, TIMES.1);
+        let bones = skeleton.len().max(context.compared_skeleton().map_or(0, |other| other.len())).max(1);
+        let most = (MOST / bones).clamp(TIMES.0, TIMES.1);
         let times = even_times(now, other, frames(now, other, rate, most));
-        self.profile = compare_at((skeleton, now), (skeleton, other), times);
+        let others = context.compared_skeleton().unwrap_or(skeleton);
+        self.profile = compare_at((skeleton, now), (others, other), times);
         let bones = &self.profile.bones;
         let differs = |&at: &usize| bones[at].distance.value > EQUAL.0 || bones[at].angle.value > EQUAL.1;
         self.order = (0..bones.len()).filter(differs).collect();

@@ -16,6 +16,7 @@ commands! {
     TrimTake => When::Take, "Trim take to play range", [], "Deletes all keys outside the play range", takes::trim;
     RetimeTake => When::Take, "Change start and length…", [], "Moves and stretches all keys of the take in time", |w| { takes::ask_times(w); None };
     ReverseTake => When::Take, "Reverse take", [], "Reverses the take in time", takes::reverse;
+    CompareFile => When::Take, "Compare with another file…", [], "Lists in the panel Differences how far bones differ from those of the same names in a take of another file, and shows that pose as a second skeleton (diff)", |_| Some(Effect::CompareDialog);
     CompareOpened => When::Take, "Compare with take as opened", [], "Lists in the panel Differences how far bones differ from the take as it was opened, and shows that pose as a second skeleton (diff)", |w| { w.compared = if w.compared == CompareWith::Opened { CompareWith::Nothing } else { CompareWith::Opened }; None };
     MirrorTake => When::Take, "Mirror take", [], "Mirrors the take, or the play range of it: each side of the body gets the motion of the other (flip, swap sides)", |w| takes::mirror(w, false);
     MirrorBonesInTake => When::BoneInTake, "Mirror motion of bones", [], "Gives the motion of the selected bones in the take, or in the play range, to those of the other side", |w| takes::mirror(w, true);
