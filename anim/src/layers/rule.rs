@@ -5,7 +5,7 @@ use crate::sample::Value;
 use crate::sample::mix::{lerp, slerp};
 use glam::{Quat, Vec3};
 
-/// What one layer does at one time.
+/// The effect of one layer at one time.
 #[derive(Clone, Copy, Debug)]
 pub struct LayerSum<V> {
     /// The value below the layer.
