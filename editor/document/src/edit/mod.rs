@@ -71,6 +71,7 @@ mod set_events;
 mod set_extras;
 mod set_interpolation;
 mod set_layer;
+mod set_layer_weights;
 mod set_many_tangents;
 mod set_pending;
 mod set_pose;
@@ -104,6 +105,7 @@ pub use mode::{KeyInterpolation, LayerKind, NewKey, ResetTo};
 pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope};
 pub use pose::{BonePose, PoseAt};
 pub use repeat_keys::{RepeatCount, RepeatMode};
+pub use set_layer_weights::LayerWeightKey;
 pub use set_many_tangents::TangentsAt;
 pub use set_shapes::ShapeWeight;
 pub use shape_tangents::KeyTangents;
@@ -173,6 +175,7 @@ edits! {
     "delete_layer" => delete_layer::DeleteLayer,
     "set_layer" => set_layer::SetLayer,
     "key_layer_weight" => key_layer_weight::KeyLayerWeight,
+    "set_layer_weights" => set_layer_weights::SetLayerWeights,
     "move_layer" => move_layer::MoveLayer,
     "merge_layers" => merge_layers::MergeLayers,
     "close_loop" => close_loop::CloseLoop,

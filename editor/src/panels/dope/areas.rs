@@ -21,6 +21,8 @@ pub(super) struct DopeAreas {
     pub(super) findings: Rect,
     /// The lane of contacts; without height if there are none.
     pub(super) contacts: Rect,
+    /// The lane of the weight of the active layer; without height if there is none.
+    pub(super) weight: Rect,
     /// The bar over the selected keys.
     pub(super) bar: Rect,
     /// The names of the rows.
@@ -39,6 +41,9 @@ const FINDINGS: f32 = 12.0;
 const CONTACT_ROW: f32 = 14.0;
 /// Largest number of rows of this height: those of more bones become lower.
 const CONTACT_ROWS: usize = 6;
+/// Height of the lane of weights, and the least height of the sheet in which there is one.
+const WEIGHT: f32 = 44.0;
+const LEAST_WITH_WEIGHT: f32 = 120.0;
 /// Height of the bar over the selected keys.
 const BAR: f32 = 8.0;
 /// Margin before the start and after the end of the take.
@@ -65,7 +70,9 @@ impl DopeAreas {
         let has_events = context.slot().is_some_and(|slot| slot.result.extras.get(EVENTS).is_some());
         let events = lane(markers.bottom(), if has_events { MARKERS } else { 0.0 });
         let contacts = lane(events.bottom(), rows as f32 * CONTACT_ROW);
-        let bar = lane(contacts.bottom(), BAR);
+        let has_weight = context.layer().is_some() && all.height() > LEAST_WITH_WEIGHT;
+        let weight = lane(contacts.bottom(), if has_weight { WEIGHT } else { 0.0 });
+        let bar = lane(weight.bottom(), BAR);
         let below = all.bottom().max(bar.bottom());
         Self {
             all,
@@ -75,6 +82,7 @@ impl DopeAreas {
             events,
             findings,
             contacts,
+            weight,
             bar,
             names: Rect::from_min_max(pos2(all.left(), bar.bottom()), pos2(left, below)),
             canvas: Rect::from_min_max(pos2(left, bar.bottom()), pos2(all.right(), below)),
