@@ -1,6 +1,7 @@
 //! Tests of the document crate, one module for each guarantee.
 
 mod beside;
+mod compared_file;
 mod contacts;
 mod document_ended;
 mod document_writer;

@@ -62,7 +62,7 @@ fn the_source_of_a_take_stands_beside_the_model_while_the_dialog_is_open() {
     assert_eq!(shown.times, None, "at the time of the playhead");
     let beside = shown.other.expect("another skeleton");
     assert!(Arc::ptr_eq(&beside.skeleton, &source.model.animation.skeleton));
-    assert!(beside.first_of.is_empty() && shown.offset.x > 0.0, "{}", shown.offset);
+    assert!(beside.first_of.is_empty() && shown.offset.x < 0.0, "{}", shown.offset);
     animator.harness.get_by_label("Take: Jump").click();
     animator.steps(3);
     // The last one is in the menu; the panel of takes has another.

@@ -17,15 +17,15 @@ pub(super) struct SourcePlace {
 }
 
 impl SourcePlace {
-    /// Returns the place at which `source` stands beside `target`, on the same floor and as high. `figures` says which bones of both
-    /// count; where none does, all do.
+    /// Returns the place at which `source` stands at the left of `target`, on the same floor and as high. `figures` returns which
+    /// bones of both count; where none does, all do.
     pub(super) fn beside(target: &Skeleton, source: &Skeleton, figures: [&dyn Fn(usize) -> bool; 2]) -> Self {
         let ([low, high], [from, to]) = (bounds(target, figures[0]), bounds(source, figures[1]));
         let height = (high - low).y;
         let ratio = height / (to - from).y;
         let scale = if ratio.is_finite() && ratio > 0.0 { ratio } else { 1.0 };
         let offset = Vec3::new(
-            high.x + GAP * height - scale * from.x,
+            low.x - GAP * height - scale * to.x,
             low.y - scale * from.y,
             0.5 * (low.z + high.z - scale * (from.z + to.z)),
         );
@@ -69,7 +69,8 @@ mod tests {
         let SourcePlace { scale, offset } = SourcePlace::beside(&target, &source, [&all, &all]);
         let [low, high] = bounds(&source, &all).map(|place| scale * place + offset);
         assert!((low.y - 0.5).abs() < 1e-4 && (high.y - 2.5).abs() < 1e-4, "{low} {high}");
-        assert!((low.x - (1.0 + GAP * 2.0)).abs() < 1e-4, "{low}");
+        // The target begins at 0; the dialog is at its right.
+        assert!((high.x + GAP * 2.0).abs() < 1e-4, "{high}");
     }
 
     #[test]

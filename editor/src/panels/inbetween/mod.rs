@@ -84,9 +84,9 @@ impl Panel for InBetween {
                 ui.add_space(2.0 * GRID);
                 self.choose_take(ui, context);
                 self.choose_axis(ui);
-                hold_feet(ui, context, requests);
             });
         });
+        hold_feet(ui, context, requests);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
             let width = ui.available_width();
@@ -128,13 +128,16 @@ fn hold_feet(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request
     if !context.can_hold_feet() {
         return;
     }
-    let mut on = context.keys.holds_feet();
-    let text = RichText::new("Hold feet").small().color(Theme::of(ui).weak);
-    let switch = ui.checkbox(&mut on, text);
-    widgets::hint_beside(&switch, &commands::tooltip(ui.ctx(), Id::ToggleHoldFeet));
-    if switch.changed() {
-        requests.push(Request::Command(Id::ToggleHoldFeet));
-    }
+    ui.horizontal(|ui| {
+        ui.add_space(2.0 * GRID);
+        let mut on = context.keys.holds_feet();
+        let text = RichText::new("Hold feet").small().color(Theme::of(ui).weak);
+        let switch = ui.checkbox(&mut on, text);
+        widgets::hint_beside(&switch, &commands::tooltip(ui.ctx(), Id::ToggleHoldFeet));
+        if switch.changed() {
+            requests.push(Request::Command(Id::ToggleHoldFeet));
+        }
+    });
 }
 
 impl InBetween {
