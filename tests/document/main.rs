@@ -26,6 +26,7 @@ mod savable;
 mod save_and_open;
 mod save_in_background;
 mod shape_keys;
+mod stretch;
 mod take_check;
 mod take_tools;
 mod tangents;

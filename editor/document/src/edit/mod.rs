@@ -82,6 +82,7 @@ mod shape_tangents;
 mod shift_loop;
 mod snap_keys;
 mod split_take;
+mod stretch_time;
 mod take_event;
 pub(crate) mod target;
 mod travel_parts;
@@ -163,6 +164,7 @@ edits! {
     "trim_take" => trim_take::TrimTake,
     "reverse_take" => reverse_take::ReverseTake,
     "retime_take" => retime_take::RetimeTake,
+    "stretch_time" => stretch_time::StretchTime,
     "mirror_take" => mirror_take::MirrorTake,
     "move_travel" => move_travel::MoveTravel,
     "remove_travel" => remove_travel::RemoveTravel,
