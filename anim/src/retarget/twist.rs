@@ -26,7 +26,7 @@ const WORDS: [&str; 2] = ["twist", "roll"];
 const AT_JOINT: f64 = 0.05;
 
 /// A segment of a limb, and the twist bones on it.
-struct Segment {
+struct LimbSegment {
     /// The bone of the segment.
     bone: usize,
     /// The bone whose roll is shared: the segment itself, or the one below it.
@@ -63,7 +63,7 @@ fn segment(
     binding: &SkeletonBinding,
     (bone, below): (usize, usize),
     is_upper: bool,
-) -> Option<Segment> {
+) -> Option<LimbSegment> {
     let along = rest.origin(below) - rest.origin(bone);
     let length = along.length();
     let axis = (rest.turned[bone].conjugate() * along).try_normalize()?;
@@ -90,7 +90,7 @@ fn segment(
         (twist, if is_upper { place - 1.0 } else { place })
     });
     let twists: Vec<(usize, f64)> = twists.collect();
-    (!twists.is_empty()).then_some(Segment {
+    (!twists.is_empty()).then_some(LimbSegment {
         bone,
         driver: if is_upper { bone } else { below },
         axis,
@@ -99,8 +99,8 @@ fn segment(
 }
 
 /// Gives each twist bone of a segment its share of the roll, at the key times of the bone whose roll it is.
-fn share(take: &mut Take, rest: &RestPose, segment: &Segment) {
-    let &Segment { bone, driver, axis, .. } = segment;
+fn share(take: &mut Take, rest: &RestPose, segment: &LimbSegment) {
+    let &LimbSegment { bone, driver, axis, .. } = segment;
     let Some(channel) = take.tracks.get(driver).map(|track| track.rotation.clone()) else { return };
     if channel.is_empty() {
         return;
