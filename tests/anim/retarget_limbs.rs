@@ -198,7 +198,7 @@ fn roll(skeleton: &Skeleton, take: &Take, bone: &str, time: f32) -> f32 {
 }
 
 #[test]
-fn twist_bones_get_their_share_of_the_roll_of_the_arm_and_of_the_hand() {
+fn twist_bones_get_their_share_of_the_roll_of_both_parts_of_the_arm() {
     let (source, target) = (rig(&RIGS[0]), with_twists());
     let turns = |degrees: &[f32]| -> Vec<Quat> {
         degrees.iter().map(|angle| Quat::from_rotation_x(angle.to_radians())).collect()
