@@ -27,18 +27,36 @@ pub(super) fn decode_rows(bytes: &[u8], halvings: u32) -> Result<DecodedImage, S
     let bytes = u64::from(image.width) * u64::from(image.height) * 4;
     let bytes = usize::try_from(bytes).map_err(|_| "it is too large".to_owned())?;
     image.pixels.try_reserve_exact(bytes).map_err(|error| error.to_string())?;
-    let mut sums = vec![[0_u32; 4]; image.width as usize];
-    // The first row and the first column that a pixel covers; the last pixel covers the rest.
-    let first = |at: u32, all: u32, small: u32| (u64::from(at) * u64::from(all) / u64::from(small)) as u32;
-    let mut row = 0;
-    for y in 0..image.height {
-        let end = first(y + 1, height, image.height);
-        let rows = end - row;
-        sums.fill([0; 4]);
-        for _ in row..end {
-            add_row(&mut reader, &mut sums, |x| first(x, width, image.width))?;
+    if halvings == 0 {
+        for _ in 0..height {
+            let row = next_row(&mut reader)?;
+            match (row.color, row.is_wide) {
+                (ColorType::Rgba, false) => image.pixels.extend_from_slice(row.data),
+                _ => (0..width as usize).for_each(|column| {
+                    image.pixels.extend(row.rgba(column).map(|value| value as u8));
+                }),
+            }
         }
-        row = end;
+        return Ok(image);
+    }
+    let mut sums = vec![[0_u32; 4]; image.width as usize];
+    // The first row and the first column that a pixel covers.
+    let first = |at: u32, all: u32, small: u32| (u64::from(at) * u64::from(all) / u64::from(small)) as u32;
+    for y in 0..image.height {
+        let rows = first(y + 1, height, image.height) - first(y, height, image.height);
+        sums.fill([0; 4]);
+        for _ in 0..rows {
+            let row = next_row(&mut reader)?;
+            let mut column = 0;
+            for (x, sum) in (1..).zip(&mut sums) {
+                let end = first(x, width, image.width);
+                for column in column..end {
+                    let pixel = row.rgba(column as usize);
+                    sum.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += value);
+                }
+                column = end;
+            }
+        }
         for (x, sum) in (0..).zip(&sums) {
             let columns = first(x + 1, width, image.width) - first(x, width, image.width);
             let count = (columns * rows).max(1);
@@ -48,43 +66,41 @@ pub(super) fn decode_rows(bytes: &[u8], halvings: u32) -> Result<DecodedImage, S
     Ok(image)
 }
 
-/// Adds the next row of the file to the sums of the pixels that cover it. `first` returns the first column of a pixel.
-fn add_row(
-    reader: &mut Reader<Cursor<&[u8]>>,
-    sums: &mut [[u32; 4]],
-    first: impl Fn(u32) -> u32,
-) -> Result<(), String> {
+/// A row of pixels of the file.
+struct PngRow<'a> {
+    data: &'a [u8],
+    color: ColorType,
+    /// Whether a channel has two bytes.
+    is_wide: bool,
+}
+
+fn next_row<'a>(reader: &'a mut Reader<Cursor<&[u8]>>) -> Result<PngRow<'a>, String> {
     let (color, depth) = reader.output_color_type();
     let row = reader.next_row().map_err(|error| error.to_string())?;
-    let row = row.ok_or_else(|| "rows are missing".to_owned())?;
-    let channels = color.samples();
-    let wide = depth == BitDepth::Sixteen;
-    let data = row.data();
-    let value = |sample: usize| -> u32 {
-        if wide {
-            let high = |at: usize| data.get(at).copied().map_or(0, u32::from);
-            // To the nearest of 256 values.
-            ((high(2 * sample) << 8 | high(2 * sample + 1)) + 128) / 257
-        } else {
-            data.get(sample).copied().map_or(0, u32::from)
-        }
-    };
-    let rgba = |column: usize| -> [u32; 4] {
-        let at = column * channels;
-        match color {
-            ColorType::Grayscale | ColorType::Indexed => [value(at), value(at), value(at), 255],
-            ColorType::GrayscaleAlpha => [value(at), value(at), value(at), value(at + 1)],
-            ColorType::Rgb => [value(at), value(at + 1), value(at + 2), 255],
-            ColorType::Rgba => [value(at), value(at + 1), value(at + 2), value(at + 3)],
-        }
-    };
-    for (x, sum) in (0..).zip(sums) {
-        for column in first(x)..first(x + 1) {
-            let pixel = rgba(column as usize);
-            for (sum, value) in sum.iter_mut().zip(pixel) {
-                *sum += value;
-            }
+    let data = row.ok_or_else(|| "rows are missing".to_owned())?.data();
+    Ok(PngRow { data, color, is_wide: depth == BitDepth::Sixteen })
+}
+
+impl PngRow<'_> {
+    /// Returns red, green, blue and alpha of a pixel, 0 to 255.
+    fn rgba(&self, column: usize) -> [u32; 4] {
+        let at = column * self.color.samples();
+        let value = |channel: usize| self.value(at + channel);
+        match self.color {
+            ColorType::Grayscale | ColorType::Indexed => [value(0), value(0), value(0), 255],
+            ColorType::GrayscaleAlpha => [value(0), value(0), value(0), value(1)],
+            ColorType::Rgb => [value(0), value(1), value(2), 255],
+            ColorType::Rgba => [value(0), value(1), value(2), value(3)],
         }
     }
-    Ok(())
+
+    fn value(&self, sample: usize) -> u32 {
+        let byte = |at: usize| self.data.get(at).copied().map_or(0, u32::from);
+        if self.is_wide {
+            // To the nearest of 256 values.
+            ((byte(2 * sample) << 8 | byte(2 * sample + 1)) + 128) / 257
+        } else {
+            byte(sample)
+        }
+    }
 }
