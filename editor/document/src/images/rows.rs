@@ -10,7 +10,7 @@ pub(super) fn has_rows(bytes: &[u8]) -> bool {
     decoder.read_header_info().is_ok_and(|info| !info.interlaced)
 }
 
-/// Returns the memory in bytes that decoding needs beside the result, for an image of this width.
+/// Returns the memory in bytes that decoding needs in addition to the result, for an image of this width.
 pub(super) fn memory_of_rows(width: u32) -> u64 {
     // Two rows of four channels with two bytes, and a row of sums.
     u64::from(width) * (2 * 8 + 16)
