@@ -17,7 +17,7 @@ pub(super) struct SourcePlace {
 }
 
 impl SourcePlace {
-    /// Returns the place at which `source` stands at the left of `target`, on the same floor and as high. `figures` returns which
+    /// Returns the place of `source` at the left of `target`, on the same floor and as high. `figures` returns which
     /// bones of both count; where none does, all do.
     pub(super) fn beside(target: &Skeleton, source: &Skeleton, figures: [&dyn Fn(usize) -> bool; 2]) -> Self {
         let ([low, high], [from, to]) = (bounds(target, figures[0]), bounds(source, figures[1]));
