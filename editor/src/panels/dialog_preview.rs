@@ -13,7 +13,7 @@ pub enum DialogPreview {
         /// Distance from the end to the start: the way of the bone that travels, backwards.
         offset: Vec3,
     },
-    /// The model whose takes are wanted, beside the open one.
+    /// The model whose takes are wanted, next to the open one.
     Source {
         /// Index of its take.
         take: usize,

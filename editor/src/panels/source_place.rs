@@ -1,4 +1,4 @@
-//! The place of the skeleton of another model beside the open one, at about its size.
+//! The place of the skeleton of another model next to the open one, at about its size.
 
 use dragonfly_anim::animation::to_root;
 use dragonfly_anim::data::Skeleton;
