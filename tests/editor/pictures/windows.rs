@@ -225,9 +225,13 @@ fn the_second_skeleton_of_dialogs_and_comparisons_is_drawn_in_the_viewport() {
         None => return,
     }
     let mut window = DrawnWindow::open();
-    let cases: [(&str, fn() -> Workbench); 3] =
-        [("loop", || fox_with(Some(Overlay::Loop))), ("source", with_source), ("file", with_file)];
-    for (name, bench) in cases {
+    // The columns of the picture that a dialog leaves free.
+    let cases: [(&str, fn() -> Workbench, std::ops::Range<u32>); 3] = [
+        ("loop", || fox_with(Some(Overlay::Loop)), 290..630),
+        ("source", with_source, 290..430),
+        ("file", with_file, 290..800),
+    ];
+    for (name, bench, columns) in cases {
         let with = window.draw(bench(), Theme::Dark);
         let without = window.draw_after(bench(), Theme::Dark, |bench| {
             bench.state.execute(Request::Preview(DialogPreview::Nothing));
@@ -236,8 +240,8 @@ fn the_second_skeleton_of_dialogs_and_comparisons_is_drawn_in_the_viewport() {
         if let Some(folder) = std::env::var_os("DRAGONFLY_LOOK") {
             with.save(PathBuf::from(folder).join(format!("second-{name}.png"))).expect("a folder");
         }
-        // Only left of the dialog, and above the panels: what differs is the skeleton.
-        let differ = (290..430)
+        // What differs there is the skeleton.
+        let differ = columns
             .flat_map(|x| (80..440).map(move |y| (x, y)))
             .filter(|&(x, y)| with.get_pixel(x, y) != without.get_pixel(x, y))
             .count();
