@@ -18,7 +18,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Width of the dialog, points.
-const WIDTH: f32 = 620.0;
+const WIDTH: f32 = 500.0;
 
 /// State of the dialog: the typed paths, the map and the options.
 #[derive(Debug)]

@@ -228,7 +228,7 @@ fn the_second_skeleton_of_dialogs_and_comparisons_is_drawn_in_the_viewport() {
     // The columns of the picture that a dialog leaves free.
     let cases: [(&str, fn() -> Workbench, std::ops::Range<u32>); 3] = [
         ("loop", || fox_with(Some(Overlay::Loop)), 290..630),
-        ("source", with_source, 290..430),
+        ("source", with_source, 290..550),
         ("file", with_file, 290..800),
     ];
     for (name, bench, columns) in cases {
