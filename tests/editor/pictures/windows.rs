@@ -240,7 +240,7 @@ fn the_second_skeleton_of_dialogs_and_comparisons_is_drawn_in_the_viewport() {
         if let Some(folder) = std::env::var_os("DRAGONFLY_LOOK") {
             with.save(PathBuf::from(folder).join(format!("second-{name}.png"))).expect("a folder");
         }
-        // What differs there is the skeleton.
+        // The pixels that differ there are those of the skeleton.
         let differ = columns
             .flat_map(|x| (80..440).map(move |y| (x, y)))
             .filter(|&(x, y)| with.get_pixel(x, y) != without.get_pixel(x, y))
