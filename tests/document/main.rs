@@ -23,6 +23,7 @@ mod pose_library;
 mod savable;
 mod save_and_open;
 mod save_in_background;
+mod shape_key_edits;
 mod shape_keys;
 mod take_check;
 mod take_tools;

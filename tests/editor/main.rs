@@ -77,6 +77,7 @@ mod screen;
 mod selection_sets;
 mod settings;
 mod shape_keys;
+mod shape_keys_everywhere;
 mod stdio;
 mod stdio_journal;
 mod store_full;

@@ -87,9 +87,9 @@ fn keys_request(workspace: &mut Workspace, request: KeysRequest) -> Option<Effec
         KeysRequest::Select { channels, shapes, stretch, choice } => {
             keys::select(workspace, &channels, shapes, stretch, choice)
         }
-        KeysRequest::SelectKeys { parts, choice } => {
+        KeysRequest::SelectKeys { parts, shapes, choice } => {
             let take = workspace.read().shared_take().cloned();
-            workspace.keys.select_parts(take.as_deref(), &parts, choice);
+            workspace.keys.select_parts(take.as_deref(), &parts, &shapes, choice);
         }
         KeysRequest::SelectRow(bone, choice) => {
             let listed = workspace.read().listed_bones();
