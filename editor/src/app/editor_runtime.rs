@@ -119,6 +119,18 @@ impl EditorRuntime {
             Effect::OpenDialog if interface.asking => {
                 interface.state.say(MessageSeverity::Info, "The dialog for opening files is open already");
             }
+            Effect::Choose(..) if interface.asking => {
+                interface.state.say(MessageSeverity::Info, "A file dialog is open already");
+            }
+            Effect::Choose(choice, folder) => {
+                match file_dialog::ask(Purpose::Choose(choice), folder, running.answers.clone()) {
+                    Ok(()) => interface.asking = true,
+                    Err(error) => {
+                        let text = format!("The file dialog could not be opened: {error}");
+                        interface.state.say(MessageSeverity::Error, text);
+                    }
+                }
+            }
             Effect::OpenDialog => {
                 let recent = interface.state.read().settings.recent.first();
                 let folder = recent.and_then(|path| path.parent()).map(std::path::Path::to_owned);

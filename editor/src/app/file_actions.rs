@@ -143,6 +143,16 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             interface.state.say(MessageSeverity::Warning, text);
             interface.state.ask_where_it_is(offer, None);
         }
+        (Purpose::Choose(choice), Some(path)) => {
+            let effect = interface.state.execute(choice.request(path));
+            interface.effects.extend(effect);
+        }
+        (Purpose::Choose(choice), None) if quick => {
+            interface.state.say(MessageSeverity::Warning, choice.no_dialog());
+        }
+        (Purpose::Choose(choice), None) if choice.is_folder() => {
+            interface.state.say(MessageSeverity::Info, "No folder was chosen")
+        }
         (Purpose::Open, None) if quick => {
             let text = "This desktop has no dialog for opening files; type the path instead";
             interface.state.say(MessageSeverity::Warning, text);
@@ -154,7 +164,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             interface.state.ask(PlaceQuestion { copy, then }.into());
         }
         // A dialog that failed slowly looks the same as one that the user closed.
-        (Purpose::Open | Purpose::Find(_), None) => {
+        (Purpose::Open | Purpose::Find(_) | Purpose::Choose(_), None) => {
             interface.state.say(MessageSeverity::Info, "No file was chosen")
         }
         (Purpose::Save { .. }, None) => interface.state.say(MessageSeverity::Info, "Nothing was saved"),

@@ -1,5 +1,6 @@
 //! The system's dialogs for files, run in a thread of their own: they may take minutes to answer.
 
+use crate::panels::FileChoice;
 use dragonfly_document::{Offer, Then, formats};
 use dragonfly_runtime::{Address, Job, JobContext};
 use std::path::PathBuf;
@@ -11,6 +12,8 @@ pub(super) enum Purpose {
     Open,
     /// Find this file, which was moved, to restore its unsaved work.
     Find(Box<Offer>),
+    /// Choose another file or a folder.
+    Choose(FileChoice),
     /// Choose where to save.
     Save {
         /// Whether to save a copy, so that the document keeps its own file.
@@ -54,6 +57,10 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
                 let dialog = dialog.set_title(title).add_filter("Models", &formats().extensions());
                 pollster::block_on(dialog.add_filter("All files", &["*"]).pick_file())
             }
+            Purpose::Choose(choice) if choice.is_folder() => {
+                pollster::block_on(dialog.set_title(choice.title()).pick_folder())
+            }
+            Purpose::Choose(choice) => pollster::block_on(dialog.set_title(choice.title()).pick_file()),
             Purpose::Save { copy, name, .. } => {
                 let title = if *copy { "Save a copy" } else { "Save as" };
                 pollster::block_on(dialog.set_title(title).set_file_name(name).save_file())

@@ -30,7 +30,8 @@ pub mod dragging;
 pub mod echo;
 pub mod edit_scope;
 mod edit_scope_menu;
-pub mod foot_contacts;
+pub mod file_choice;
+mod foot_contacts;
 mod frame_rate;
 pub mod hierarchy;
 pub mod history;
@@ -99,6 +100,7 @@ pub mod window_status;
 mod workspace;
 
 pub use context::PanelContext;
+pub use file_choice::FileChoice;
 pub use layout::Layout;
 pub use panel::{Panel, PanelPlace, VIEWPORT};
 pub use request::{Effect, FileAction, Request};

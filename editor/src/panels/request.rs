@@ -6,6 +6,7 @@ use super::compared::CompareWith;
 use super::curves::given::GivenCurve;
 use super::curves::look::CurvesLook;
 use super::edit_scope::FalloffSettings;
+use super::file_choice::FileChoice;
 use super::keys::request::KeysRequest;
 use super::overlay::Overlay;
 use super::properties::look::PropertiesLook;
@@ -101,6 +102,8 @@ pub enum Request {
     CurvesLook(CurvesLook),
     /// Sets the folder of the pose library.
     PoseFolder(PathBuf),
+    /// Shows the system's dialog for choosing a file or folder, starting at this path.
+    Choose(FileChoice, Option<PathBuf>),
     /// Changes the selection sets, or selects bones by them.
     Sets(SetAction),
 }
@@ -110,6 +113,8 @@ pub enum Request {
 pub enum Effect {
     /// Shows the system's dialog for opening files.
     OpenDialog,
+    /// Shows the system's dialog for choosing a file or folder, starting in this folder.
+    Choose(FileChoice, Option<PathBuf>),
     /// Cancels the drag in progress, as if it had never begun.
     CancelDrag,
     /// Ends the drag in progress; no button is held any more.

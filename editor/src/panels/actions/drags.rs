@@ -41,6 +41,7 @@ pub(in crate::panels) fn let_through(
         }
         effect @ (Effect::Send(..)
         | Effect::OpenDialog
+        | Effect::Choose(..)
         | Effect::Copy(_)
         | Effect::PastePose { .. }
         | Effect::Pick(..)

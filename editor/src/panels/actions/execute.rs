@@ -76,7 +76,12 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Dismiss => return files::dismiss(workspace),
         Request::PropertiesLook(look) => workspace.settings.properties = look,
         Request::CurvesLook(look) => workspace.settings.curves = look.sanitized(),
-        Request::PoseFolder(folder) => workspace.settings.pose_folder = Some(folder),
+        Request::PoseFolder(folder) => {
+            let text = format!("The folder of poses is {}", folder.display());
+            workspace.say(MessageSeverity::Info, text);
+            workspace.settings.pose_folder = Some(folder);
+        }
+        Request::Choose(choice, from) => return Some(Effect::Choose(choice, from)),
         Request::Sets(action) => sets::perform(workspace, &action),
     }
     None

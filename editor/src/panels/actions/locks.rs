@@ -15,6 +15,7 @@ pub(super) fn unlocked(workspace: &mut Workspace, effect: Effect) -> Option<Effe
         Effect::Changes(changes) => changes,
         Effect::Send(..)
         | Effect::OpenDialog
+        | Effect::Choose(..)
         | Effect::CancelDrag
         | Effect::ReleaseDrag
         | Effect::Copy(_)
