@@ -15,7 +15,7 @@ use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 
 /// The shape keys of the face; the last one has no name.
-const FACE: [&str; 4] = ["jawOpen", "eyeBlinkLeft", "eyeBlinkRight", ""];
+pub(crate) const FACE: [&str; 4] = ["jawOpen", "eyeBlinkLeft", "eyeBlinkRight", ""];
 
 /// Returns a model whose first take has 41 keys of shape keys as well: the weight of the first goes from 0 to 1.
 fn with_shapes() -> View {
@@ -24,6 +24,11 @@ fn with_shapes() -> View {
 
 /// Returns the same model with shape keys of other names.
 pub(crate) fn with_names(names: &[&str]) -> View {
+    with_interpolation(names, Interpolation::Linear)
+}
+
+/// Returns the same model with keys of this interpolation, whose tangents are 0.
+pub(crate) fn with_interpolation(names: &[&str], interpolation: Interpolation) -> View {
     let (count, view) = (names.len(), fixture::full());
     let mut model = ModelData::clone(&view.loaded.model);
     let take = Arc::make_mut(&mut model.animation.takes[0]);
@@ -33,8 +38,17 @@ pub(crate) fn with_names(names: &[&str]) -> View {
         1 => 0.25,
         _ => 0.0,
     };
-    let weights = (0..times.len()).flat_map(|key| (0..count).map(move |shape| weight(key, shape))).collect();
-    let (targets, interpolation) = (count as u32, Interpolation::Linear);
+    let key = |key: usize| -> Vec<f32> {
+        let values: Vec<f32> = (0..count).map(|shape| weight(key, shape)).collect();
+        match interpolation {
+            Interpolation::CubicSpline => {
+                [&vec![0.0; count], &values, &vec![0.0; count]].map(Vec::as_slice).concat()
+            }
+            _ => values,
+        }
+    };
+    let weights = (0..times.len()).flat_map(key).collect();
+    let targets = count as u32;
     take.morphs = vec![MorphTrack { instance: 0, targets, times, weights, interpolation }];
     let target = |name: &&str| MorphTarget { name: (*name).to_owned(), ..MorphTarget::default() };
     let primitive = Primitive { morph_targets: names.iter().map(target).collect(), ..Primitive::default() };
@@ -144,7 +158,12 @@ fn the_last_key_of_shapes_is_not_deleted() {
 
 /// Creates a window with the panel of shape keys at 1 s, where no key is.
 pub(crate) fn face() -> Animator {
-    let mut animator = Animator::new(with_shapes());
+    face_of(with_shapes())
+}
+
+/// Creates such a window with another face.
+pub(crate) fn face_of(view: View) -> Animator {
+    let mut animator = Animator::new(view);
     animator.harness.get_by_label("Shape keys").click();
     animator.steps(2);
     animator.request(Request::Seek(1.0));

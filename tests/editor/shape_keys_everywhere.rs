@@ -1,10 +1,11 @@
 //! Shape keys like other keys: selected with all keys, through the clipboard, as curves, over a scope, pending.
 
-use crate::shape_keys::{face, type_weight, weights_at};
+use crate::shape_keys::{FACE, face, face_of, type_weight, weights_at, with_interpolation};
 use crate::timeline_rig::Animator;
 use dragonfly::panels::Request;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::clipboard::from_text;
+use dragonfly_anim::data::Interpolation;
 use dragonfly_document::edit::Edit;
 use egui::{OutputCommand, Pos2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
@@ -79,7 +80,10 @@ fn keys_of_shape_keys_are_copied_by_name_and_pasted_into_another_take() {
 
 /// Creates a window with the curves of the shape keys, of which only that of the jaw moves.
 fn curves() -> Animator {
-    let mut animator = face();
+    curves_of(face())
+}
+
+fn curves_of(mut animator: Animator) -> Animator {
     animator.harness.get_by_label("Curves").click();
     animator.steps(4);
     animator.harness.get_by_label("Weights of shape keys").click();
@@ -126,6 +130,29 @@ fn the_curve_of_a_shape_key_is_dragged_in_value_and_in_time() {
     animator.request(Request::Command(Id::Undo));
     animator.request(Request::Command(Id::Undo));
     assert_eq!(weights_at(&animator, animator.key(20)), Some(before));
+}
+
+#[test]
+fn the_tangent_of_a_key_of_a_spline_is_dragged_for_one_shape_key() {
+    let view = with_interpolation(&FACE, Interpolation::CubicSpline);
+    let mut animator = curves_of(face_of(view));
+    let at = on_curve(&animator, 20);
+    animator.click(at);
+    assert_eq!(animator.selected(), 1);
+    animator.steps(2);
+    // The handle is 44 points after the key, in the direction of its tangent, which is flat.
+    let handle = at + vec2(44.0, 0.0);
+    animator.drag(handle, handle - vec2(0.0, 25.0));
+    animator.release(handle - vec2(0.0, 25.0));
+    let track = &animator.edited.adapter().slots()[0].result.morphs[0];
+    // Tangents in, values, tangents out of four shape keys.
+    let key = &track.weights[20 * 12..21 * 12];
+    assert!(key[0] > 0.1 && key[0] == key[8], "{key:?}");
+    assert_eq!((&key[1..4], key[4], &key[9..12]), (&[0.0; 3][..], 0.5, &[0.0; 3][..]));
+    assert!(matches!(animator.edits().last(), Some(Edit::SetShapeKeys(_))), "{:?}", animator.edits().last());
+    animator.request(Request::Command(Id::Undo));
+    let track = &animator.edited.adapter().slots()[0].result.morphs[0];
+    assert_eq!(track.weights[20 * 12], 0.0);
 }
 
 #[test]

@@ -57,10 +57,16 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
                 let dialog = dialog.set_title(title).add_filter("Models", &formats().extensions());
                 pollster::block_on(dialog.add_filter("All files", &["*"]).pick_file())
             }
-            Purpose::Choose(choice) if choice.is_folder() => {
-                pollster::block_on(dialog.set_title(choice.title()).pick_folder())
+            Purpose::Choose(choice) => {
+                let dialog = dialog.set_title(choice.title());
+                match choice.filter() {
+                    None => pollster::block_on(dialog.pick_folder()),
+                    Some((name, extensions)) => {
+                        let dialog = dialog.add_filter(name, extensions).add_filter("All files", &["*"]);
+                        pollster::block_on(dialog.pick_file())
+                    }
+                }
             }
-            Purpose::Choose(choice) => pollster::block_on(dialog.set_title(choice.title()).pick_file()),
             Purpose::Save { copy, name, .. } => {
                 let title = if *copy { "Save a copy" } else { "Save as" };
                 pollster::block_on(dialog.set_title(title).set_file_name(name).save_file())

@@ -1,13 +1,14 @@
 //! Files and folders that the user chooses with the system's dialog, apart from models.
 
-use super::request::Request;
-use std::path::PathBuf;
-
 /// The purpose of a file or folder that the user chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileChoice {
     /// The folder of the pose library.
     PoseFolder,
+    /// The reference picture.
+    Reference,
+    /// The sound in the timeline.
+    Sound,
 }
 
 impl FileChoice {
@@ -15,13 +16,17 @@ impl FileChoice {
     pub fn title(self) -> &'static str {
         match self {
             Self::PoseFolder => "Choose the folder of poses",
+            Self::Reference => "Choose a reference picture",
+            Self::Sound => "Choose a sound",
         }
     }
 
-    /// Returns whether a folder is chosen.
-    pub fn is_folder(self) -> bool {
+    /// Returns the name and the extensions of the files that are proposed; `None` for a folder.
+    pub fn filter(self) -> Option<(&'static str, &'static [&'static str])> {
         match self {
-            Self::PoseFolder => true,
+            Self::PoseFolder => None,
+            Self::Reference => Some(("Pictures", &["png", "jpg", "jpeg", "webp", "gif"])),
+            Self::Sound => Some(("Sounds", &["wav", "flac", "ogg"])),
         }
     }
 
@@ -29,13 +34,8 @@ impl FileChoice {
     pub fn no_dialog(self) -> &'static str {
         match self {
             Self::PoseFolder => "This desktop has no dialog for choosing folders; type the path instead",
-        }
-    }
-
-    /// Returns the request that uses what was chosen.
-    pub fn request(self, path: PathBuf) -> Request {
-        match self {
-            Self::PoseFolder => Request::PoseFolder(path),
+            Self::Sound => "This desktop has no dialog for choosing files; type the path into “Open by path”",
+            Self::Reference => "This desktop has no dialog for choosing files; type the path instead",
         }
     }
 }

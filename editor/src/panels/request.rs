@@ -10,8 +10,10 @@ use super::file_choice::FileChoice;
 use super::keys::request::KeysRequest;
 use super::overlay::Overlay;
 use super::properties::look::PropertiesLook;
+use super::reference::settings::ReferenceSettings;
 use super::selection_sets::SetAction;
 use super::settings::GhostSettings;
+use super::sound::SoundSettings;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::adapter::TakeId;
 use dragonfly_document::bones::Choice;
@@ -104,6 +106,12 @@ pub enum Request {
     PoseFolder(PathBuf),
     /// Shows the system's dialog for choosing a file or folder, starting at this path.
     Choose(FileChoice, Option<PathBuf>),
+    /// Sets the sound and where it starts.
+    Sound(SoundSettings),
+    /// Shows this file as the reference.
+    ReferenceFile(PathBuf),
+    /// Sets the reference picture and how it is shown.
+    Reference(ReferenceSettings),
     /// Changes the selection sets, or selects bones by them.
     Sets(SetAction),
 }

@@ -7,12 +7,14 @@ use super::{
 };
 use crate::panels::commands;
 use crate::panels::keys::KeysRequest;
+use crate::panels::reference::settings::ReferenceSettings;
 use crate::panels::request::{Effect, FileAction, Request};
 use crate::panels::settings::IkSettings;
+use crate::panels::sound::{SoundSettings, is_sound};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{Edit, TrimTake};
-use dragonfly_document::{Change, Then};
+use dragonfly_document::{Change, Source, Then};
 use dragonfly_picture::between;
 
 /// Executes a request of a panel.
@@ -68,6 +70,9 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Shields(shields) => framing::set_shields(workspace, shields),
         Request::Wheel(by) => framing::wheel(workspace, by),
         Request::Point(pointer) => bones::point(workspace, pointer),
+        Request::Open(Source::File(file)) if workspace.model.view().is_some() && is_sound(&file) => {
+            workspace.sound.set(SoundSettings { file, ..SoundSettings::default() });
+        }
         Request::Open(source) => return Some(Effect::File(FileAction::Leave(Then::Open(source)))),
         Request::Overlay(overlay) => workspace.prompts.show(overlay),
         Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
@@ -80,6 +85,12 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
             let text = format!("The folder of poses is {}", folder.display());
             workspace.say(MessageSeverity::Info, text);
             workspace.settings.pose_folder = Some(folder);
+        }
+        Request::Sound(settings) => workspace.sound.set(settings),
+        Request::Reference(settings) => workspace.reference.set(settings),
+        Request::ReferenceFile(file) => {
+            let now = workspace.reference.settings().clone();
+            workspace.reference.set(ReferenceSettings { file, shown: true, ..now });
         }
         Request::Choose(choice, from) => return Some(Effect::Choose(choice, from)),
         Request::Sets(action) => sets::perform(workspace, &action),

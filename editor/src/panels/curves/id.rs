@@ -19,6 +19,11 @@ pub(in crate::panels) enum CurveId {
     },
 }
 
+/// Returns the bit of a property in a set of kinds of curves.
+pub(super) fn bit(property: Property) -> u8 {
+    1 << property as u8
+}
+
 /// The bit of shape keys in a set of kinds of curves, after those of the properties.
 pub(super) const SHAPES: u8 = 1 << 3;
 
@@ -44,7 +49,7 @@ impl CurveId {
     /// Returns the bit of its kind in a set of kinds: its property, or [`SHAPES`].
     pub(super) fn bit(self) -> u8 {
         match self {
-            Self::Bone(_, property) => super::shown::bit(property),
+            Self::Bone(_, property) => bit(property),
             Self::Shape { .. } => SHAPES,
         }
     }

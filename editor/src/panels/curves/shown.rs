@@ -3,7 +3,7 @@
 use super::curve::{Curve, Extent};
 use super::form::RotationForm;
 use super::given::GivenAngles;
-use super::id::{CurveId, SHAPES};
+use super::id::{CurveId, SHAPES, bit};
 use super::shape_curves::ShapeCurveList;
 use crate::panels::context::PanelContext;
 use crate::panels::keys::{ChannelId, Drawn, channel};
@@ -157,9 +157,4 @@ pub(super) fn wanted(
         ids = all.into_iter().filter(|(_, property)| *property == first).take(MOST).collect();
     }
     ids.into_iter().map(CurveId::from).chain(shapes.iter().copied()).take(MOST).collect()
-}
-
-/// Returns the bit of a property in a set of them.
-pub(super) fn bit(property: Property) -> u8 {
-    1 << property as u8
 }

@@ -3,9 +3,8 @@
 use super::canvas::component_name;
 use super::curve::Curve;
 use super::form::RotationForm;
-use super::id::SHAPES;
+use super::id::{SHAPES, bit};
 use super::paint::color;
-use super::shown::bit;
 use super::view_menu;
 use crate::panels::command_button::command_button;
 use crate::panels::commands::Id;

@@ -21,6 +21,8 @@ pub(super) struct DopeAreas {
     pub(super) findings: Rect,
     /// The lane of contacts; without height if there are none.
     pub(super) contacts: Rect,
+    /// The lane of the sound; without height if there is none.
+    pub(super) sound: Rect,
     /// The bar over the selected keys.
     pub(super) bar: Rect,
     /// The names of the rows.
@@ -39,6 +41,8 @@ const FINDINGS: f32 = 12.0;
 const CONTACT_ROW: f32 = 14.0;
 /// Largest number of rows of this height: those of more bones become lower.
 const CONTACT_ROWS: usize = 6;
+/// Height of the lane of the sound.
+const SOUND: f32 = 28.0;
 /// Height of the bar over the selected keys.
 const BAR: f32 = 8.0;
 /// Margin before the start and after the end of the take.
@@ -65,7 +69,9 @@ impl DopeAreas {
         let has_events = context.slot().is_some_and(|slot| slot.result.extras.get(EVENTS).is_some());
         let events = lane(markers.bottom(), if has_events { MARKERS } else { 0.0 });
         let contacts = lane(events.bottom(), rows as f32 * CONTACT_ROW);
-        let bar = lane(contacts.bottom(), BAR);
+        let sound = if context.sound.settings().is_chosen() { SOUND } else { 0.0 };
+        let sound = lane(contacts.bottom(), sound);
+        let bar = lane(sound.bottom(), BAR);
         let below = all.bottom().max(bar.bottom());
         Self {
             all,
@@ -75,6 +81,7 @@ impl DopeAreas {
             events,
             findings,
             contacts,
+            sound,
             bar,
             names: Rect::from_min_max(pos2(all.left(), bar.bottom()), pos2(left, below)),
             canvas: Rect::from_min_max(pos2(left, bar.bottom()), pos2(all.right(), below)),

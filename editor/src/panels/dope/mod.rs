@@ -19,6 +19,7 @@ mod overlay;
 mod rows;
 mod scroll;
 mod sheet;
+mod sound;
 
 use super::context::PanelContext;
 use super::key_canvases;
@@ -53,6 +54,7 @@ pub(super) struct Dope {
     markers: markers::MarkerLane,
     events: events::EventLane,
     contacts: contacts::ContactLane,
+    sound: sound::SoundLane,
     menu: menu::KeyMenu,
     filter: String,
 }
@@ -109,6 +111,7 @@ impl Dope {
         self.markers.show(ui, &sheet, requests);
         self.events.show(ui, &sheet, requests);
         self.contacts.show(ui, &sheet, requests);
+        self.sound.show(ui, &sheet, requests);
         overlay::pending(&painter, &sheet);
         overlay::playhead(&painter, &sheet);
         let toggled = gutter::show(ui, &sheet, requests);
