@@ -8,6 +8,8 @@
 mod report;
 
 use dragonfly::panels::commands::Id;
+use dragonfly::panels::inbetween::{ChosenKeys, InBetweenTool};
+use dragonfly::panels::keys::{KeyDragOp, KeysRequest};
 use dragonfly::panels::{Effect, Request, Settings, State};
 use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::data::{
@@ -47,23 +49,38 @@ const LAYER: &[&str] = &[
     r#"{"edit":"set","take":{"take":0,"layer":0},"time":400,"poses":[{"bone":"bone 50","rotation":[0,0.6,0,0.8]}]}"#,
 ];
 
-/// Name, model, dragged bone, scope of edits, edits before the drag, and allowed time.
-type DragCase = (&'static str, LoadFn, &'static str, Id, &'static [&'static str], Duration);
+/// The thing that the mouse drags.
+#[derive(Clone, Copy)]
+enum Dragged {
+    /// A bone by its gizmo, with this scope of edits.
+    Bone(Id),
+    /// The slider of a tool, with all keys of the bone selected.
+    Slider(InBetweenTool),
+}
+
+/// Name, model, bone, what is dragged, edits before the drag, and allowed time.
+type DragCase = (&'static str, LoadFn, &'static str, Dragged, &'static [&'static str], Duration);
 
 /// Fails if the 99th percentile of a model is above its limit.
 fn main() -> ExitCode {
-    let cases: [DragCase; 5] = [
-        ("fox", fox, "b_Head_05", Id::EditFrame, &[], LIMIT),
-        ("thousand_bones", thousand, "bone 500", Id::EditFrame, &[], LIMIT),
-        ("whole_take_30", ten_minutes::<30>, "bone 50", Id::EditWholeTake, &[], FRAME),
-        ("whole_take_120", ten_minutes::<120>, "bone 50", Id::EditWholeTake, &[], FRAME),
-        ("layer_30", ten_minutes::<30>, "bone 50", Id::EditFrame, LAYER, FRAME),
+    let frame = Dragged::Bone(Id::EditFrame);
+    let whole_take = Dragged::Bone(Id::EditWholeTake);
+    let [smooth, push] = [InBetweenTool::Gaussian, InBetweenTool::Push].map(Dragged::Slider);
+    let cases: [DragCase; 8] = [
+        ("fox", fox, "b_Head_05", frame, &[], LIMIT),
+        ("thousand_bones", thousand, "bone 500", frame, &[], LIMIT),
+        ("whole_take_30", ten_minutes::<30>, "bone 50", whole_take, &[], FRAME),
+        ("whole_take_120", ten_minutes::<120>, "bone 50", whole_take, &[], FRAME),
+        ("layer_30", ten_minutes::<30>, "bone 50", frame, LAYER, FRAME),
+        ("layer_120", ten_minutes::<120>, "bone 50", frame, LAYER, FRAME),
+        ("push_30", ten_minutes::<30>, "bone 50", push, &[], FRAME),
+        ("smooth_30", ten_minutes::<30>, "bone 50", smooth, &[], FRAME),
     ];
     FigureBench::run(&report::PAGE, "editor", "cargo bench -p dragonfly --bench drag", |bench| {
         bench.file("drag", |bench| {
-            for (name, load, bone, scope, edits, limit) in cases {
+            for (name, load, bone, dragged, edits, limit) in cases {
                 if bench.wants(name) {
-                    bench.times(name, "move", &measure(load, bone, scope, edits));
+                    bench.times(name, "move", &measure(load, bone, dragged, edits));
                     bench.goal(name, "move", "p99", "ms", milliseconds(limit));
                 }
             }
@@ -189,9 +206,8 @@ impl Receiver for Traces {
     }
 }
 
-/// Drags a bone in a scope of edits, after some edits; in the lowest layer where there is one. Returns the milliseconds of each
-/// move.
-fn measure(load: LoadFn, bone: &str, scope: Id, edits: &[&str]) -> Vec<f64> {
+/// Drags a bone or a slider, after some edits; in the lowest layer where there is one. Returns the milliseconds of each move.
+fn measure(load: LoadFn, bone: &str, dragged: Dragged, edits: &[&str]) -> Vec<f64> {
     let heard = ReplyLog::default();
     let traced = Rc::new(RefCell::new(None));
     // As in the window, the main thread sleeps until it is woken, so it does not use a CPU core.
@@ -253,9 +269,14 @@ fn measure(load: LoadFn, bone: &str, scope: Id, edits: &[&str]) -> Vec<f64> {
     let views = *count.0.borrow();
     state.pause();
     state.execute(Request::Select(Some(bone as u32)));
-    state.execute(Request::Command(scope));
     state.begin_frame(Instant::now());
-    state.execute(Request::Command(Id::RotateNow));
+    match dragged {
+        Dragged::Bone(scope) => {
+            state.execute(Request::Command(scope));
+            state.execute(Request::Command(Id::RotateNow));
+        }
+        Dragged::Slider(_) => drop(state.execute(Request::Command(Id::SelectAllKeys))),
+    }
 
     let context = egui::Context::default();
     let mut effects = Vec::new();
@@ -265,7 +286,15 @@ fn measure(load: LoadFn, bone: &str, scope: Id, edits: &[&str]) -> Vec<f64> {
         let at = rect.center() + egui::vec2(cos, sin) * 150.0;
         let mut input = egui::RawInput { events: vec![egui::Event::PointerMoved(at)], ..Default::default() };
         moved.push(Instant::now());
-        state.feed(&context, &mut input, 0, &mut effects);
+        match dragged {
+            Dragged::Bone(_) => state.feed(&context, &mut input, 0, &mut effects),
+            Dragged::Slider(tool) => {
+                let keys = ChosenKeys::of(&state.read(), 1, None).expect("selected keys");
+                let edit = tool.edit(5.0 + f64::from(sin), &keys).expect("an edit");
+                let request = Request::Timeline(KeysRequest::Drag(KeyDragOp::Edit(edit)));
+                effects.extend(state.execute(request));
+            }
+        }
         for effect in effects.drain(..) {
             state.let_through(effect, &mut |effect| {
                 if let Effect::Send(number, change) = effect {

@@ -99,6 +99,65 @@ fn milliseconds(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
+/// Sends an edit and waits for its view.
+fn edit(document: &mut TestDocument, json: &str) -> f64 {
+    let edit: Edit = serde_json::from_str(json).expect(json);
+    let steps = document.view().history.done + 1;
+    let begin = Instant::now();
+    document.edit(edit);
+    document.wait_for_view(|view| view.history.done == steps);
+    milliseconds(begin.elapsed())
+}
+
+/// Saves, and returns the milliseconds until that is answered.
+fn saved(document: &mut TestDocument) -> f64 {
+    let begin = Instant::now();
+    document.send(DocumentMessage::Save(SaveOrder::own(None)));
+    while !document.has_reply(|reply| match reply {
+        DocumentReply::NotSaved(_, reason) => panic!("{reason:?}"),
+        reply => matches!(reply, DocumentReply::Saved(_)),
+    }) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    milliseconds(begin.elapsed())
+}
+
+/// Measures edits and saves of keys of the take, and of the three keys of a layer over it, in turns.
+fn layer(bench: &mut FigureBench, folder: &Folder, path: &Path) {
+    let open = |name: &str| {
+        let copy = folder.join(&format!("{name}.glb"));
+        fs::copy(path, &copy).expect("a folder of this bench");
+        let mut document = TestDocument::new(&folder.join(&format!("autosave-{name}")));
+        document.open(&copy);
+        document
+    };
+    let (mut plain, mut layered) = (open("plain"), open("layered"));
+    edit(&mut layered, r#"{"edit":"add_layer","take":0,"name":"Turn"}"#);
+    let key = |take: &str, time: f64, turn: usize| {
+        let (sine, cosine) = (0.3 + turn as f64 * 0.01).sin_cos();
+        format!(
+            r#"{{"edit":"set","take":{take},"time":{time},"poses":[{{"bone":7,"rotation":[0,0,{sine},{cosine}]}}]}}"#
+        )
+    };
+    let mut times = [(); 4].map(|()| Vec::new());
+    for round in 0..6 {
+        for (which, document, take) in [(0, &mut plain, "0"), (2, &mut layered, r#"{"take":0,"layer":0}"#)] {
+            for time in [100.0, 250.0, 400.0] {
+                times[which].push(edit(document, &key(take, time, round)));
+            }
+            times[which + 1].push(saved(document));
+        }
+    }
+    for (times, (task, variant)) in times.iter().zip([
+        ("three keys", "edit in the take"),
+        ("three keys", "save of the take"),
+        ("three keys", "edit in a layer"),
+        ("three keys", "save with the layer"),
+    ]) {
+        bench.times(task, variant, times);
+    }
+}
+
 /// Measures edits without a save, and during a save of the model.
 pub(crate) fn all(bench: &mut FigureBench) {
     let folder = Folder::new("bench-save");
@@ -128,4 +187,6 @@ pub(crate) fn all(bench: &mut FigureBench) {
         bench.value("save", variant, "time", "ms", milliseconds(begin.elapsed()));
         bench.times("edit", variant, &during);
     }
+    drop(document);
+    layer(bench, &folder, &path);
 }

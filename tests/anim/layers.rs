@@ -302,3 +302,45 @@ fn flattening_a_take_of_another_skeleton_does_not_panic() {
     let base: Take = take(vec![Track::default(), Track::default()]);
     assert_eq!(flatten(&base, &[layer], &skeleton), base);
 }
+
+#[test]
+fn a_flattened_channel_of_many_keys_has_no_more_keys_than_its_sources_and_is_exact_between_them() {
+    let first = seed(1807);
+    for number in first..first + 60 {
+        let mut random = Random::new(number);
+        let times: Vec<f32> = (0..200).map(|key| key as f32 * 0.01).collect();
+        // Turns by a few degrees from key to key.
+        let mut now = turn(&mut random, 3.0);
+        let step = random.choice(&[0.001, 0.01, 0.08]);
+        let mut walk = || {
+            now = (turn(&mut random, step) * now).normalize();
+            now
+        };
+        let base = Channel::new(
+            times.clone(),
+            times.iter().map(|_| walk()).collect::<Vec<_>>(),
+            Interpolation::Linear,
+        );
+        let mut offset = turn(&mut random, 2.9);
+        let reach = random.choice(&[0.05, 0.5, 2.0]);
+        let ends = [0.0, 0.7, 1.99].map(|time| {
+            offset = (turn(&mut random, reach) * offset).normalize();
+            (time, offset)
+        });
+        let keys = Channel::new(ends.map(|end| end.0), ends.map(|end| end.1), Interpolation::Linear);
+        let weight = random.choice(&[0.3, 1.0, 2.0]);
+        let settings = LayerSettings { weight, ..LayerSettings::default() };
+        let layers = [LayerChannel { settings: &settings, keys: &keys }];
+        let flat = flatten_channel::<RotationRule>(&base, &layers, Quat::IDENTITY).expect("a layer");
+        let mut worst = 0.0_f32;
+        for at in 0..2000 {
+            let time = at as f32 * 0.001;
+            let below = sample_channel(&base, Quat::IDENTITY, time);
+            let wanted = seen::<RotationRule>(below, &layers, time);
+            worst = worst.max(angle_between(sample_channel(&flat, Quat::IDENTITY, time), wanted));
+        }
+        assert!(worst < 2.5e-4, "seed {number}: off by {worst}");
+        let is_slow = step < 0.005 && reach < 0.1;
+        assert!(!is_slow || flat.len() <= times.len() + 3, "seed {number}: {} keys", flat.len());
+    }
+}

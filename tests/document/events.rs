@@ -103,3 +103,24 @@ fn events_are_saved_with_the_file_and_come_back() {
     let first = stored_events(&again.slots()[1].result.extras).swap_remove(0);
     assert_eq!(first.payload, Some(serde_json::json!({"strength": 0.5})));
 }
+
+#[test]
+fn events_of_another_program_follow_edits_of_time_or_stay_and_refuse_none() {
+    let record = |count: usize, name: &str| {
+        let events: Vec<_> = (0..count).map(|_| serde_json::json!({"time": 0.1, "name": name})).collect();
+        serde_json::json!({"edit": "set_extras", "take": "Walk", "name": EVENTS, "value": {"version": 1, "events": events}})
+    };
+    let long = "n".repeat(201);
+    for (name, count) in [("", 2), (long.as_str(), 1)] {
+        let mut model = fox_takes();
+        apply(&mut model, &record(count, name).to_string());
+        apply(&mut model, r#"{"edit":"retime_take","take":"Walk","start":0.1}"#);
+        assert_eq!(events(&model, 1), vec![(name.to_owned(), 200); count]);
+    }
+    let mut model = fox_takes();
+    apply(&mut model, &record(1001, "a").to_string());
+    let text = model.slots()[1].result.extras.get(EVENTS).cloned();
+    apply(&mut model, r#"{"edit":"retime_take","take":"Walk","start":0.1}"#);
+    assert_eq!(events(&model, 1), [], "too many to edit");
+    assert_eq!(model.slots()[1].result.extras.get(EVENTS).cloned(), text, "but none is lost");
+}

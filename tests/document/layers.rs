@@ -346,3 +346,42 @@ fn an_edit_of_one_channel_of_a_layer_computes_only_that_channel_again() {
     edited.apply(moved, None).unwrap();
     assert!(Arc::ptr_eq(&before, &edited.adapter().slots()[WALK].shown().tracks[neck].rotation.values));
 }
+
+#[test]
+fn all_keys_of_a_weight_are_replaced_by_one_edit_and_wrong_ones_are_refused() {
+    let folder = Folder::new("layers-weights");
+    let (_, _, mut adapter) = fox(&folder);
+    with_nod(&mut adapter, "additive");
+    let below = pose(&adapter, &adapter.slots()[WALK].result, 0.3);
+    let whole = seen(&adapter, 0.3);
+    let set = |keys: &str| {
+        edit(&format!(
+            r#"{{"edit":"set_layer_weights","take":{{"take":"Walk","layer":"Nod"}},"keys":[{keys}]}}"#
+        ))
+    };
+    let undo = adapter.apply(&set(r#"{"time":0.5,"weight":1},{"time":0.1,"weight":0}"#)).expect("applied");
+    let weights = adapter.slots()[WALK].layers()[0].settings.weights.clone();
+    assert_eq!(
+        weights.iter().map(|key| (key.time, key.weight)).collect::<Vec<_>>(),
+        [(0.1, 0.0), (0.5, 1.0)]
+    );
+    let half = seen(&adapter, 0.3).rotation;
+    let parts = [angle(half, below.rotation), angle(half, whole.rotation)];
+    assert!((parts[0] - parts[1]).abs() < 1e-3 && parts[0] > 0.1, "half way at half the weight: {parts:?}");
+    for (keys, why) in [
+        (r#"{"time":0.1,"weight":-1}"#, "weight"),
+        (r#"{"time":0.1,"weight":11}"#, "weight"),
+        (r#"{"time":1e9,"weight":1}"#, "time"),
+        (r#"{"time":0.1,"weight":1},{"time":0.1,"weight":0}"#, "same time"),
+        (r#"{"time":0.1,"weight":0},{"time":0.5,"weight":1}"#, "already"),
+    ] {
+        let error = adapter.apply(&set(keys)).expect_err(keys).to_string();
+        assert!(error.contains(why), "{keys}: {error}");
+    }
+    let many = (0..10_001).map(|key| format!(r#"{{"time":{key},"weight":1}}"#)).collect::<Vec<_>>().join(",");
+    let error = adapter.apply(&set(&many)).expect_err("too many").to_string();
+    assert!(error.contains("10,000"), "{error}");
+    adapter.revert(undo);
+    assert_eq!(adapter.slots()[WALK].layers()[0].settings.weights, []);
+    assert_eq!(seen(&adapter, 0.3), whole);
+}

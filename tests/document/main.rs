@@ -27,6 +27,7 @@ mod save_in_background;
 mod shape_key_edits;
 mod shape_keys;
 mod sound;
+mod stretch;
 mod take_check;
 mod take_tools;
 mod tangents;

@@ -37,6 +37,16 @@ fn enlarge(animator: &mut Animator) {
     animator.steps(4);
 }
 
+/// Types the number of a slider.
+fn type_number(animator: &mut Animator, name: &str, number: &str) {
+    animator.harness.get_by_role_and_label(egui::accesskit::Role::SpinButton, name).click();
+    animator.steps(2);
+    animator.harness.event(egui::Event::Text(number.to_owned()));
+    animator.steps(2);
+    animator.harness.key_press(Key::Enter);
+    animator.steps(4);
+}
+
 fn shown(animator: &Animator) -> Arc<Take> {
     Arc::clone(&animator.edited.adapter().slots()[0].result)
 }
@@ -99,12 +109,7 @@ fn a_slider_that_returns_to_where_it_was_leaves_no_step() {
 #[test]
 fn a_typed_number_is_applied_once() {
     let mut animator = animator();
-    animator.harness.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Smooth").click();
-    animator.steps(2);
-    animator.harness.event(egui::Event::Text("1.5".to_owned()));
-    animator.steps(2);
-    animator.harness.key_press(Key::Enter);
-    animator.steps(4);
+    type_number(&mut animator, "Smooth", "1.5");
     assert_eq!(steps(&animator), 1);
     let [Edit::FilterKeys(edit)] = animator.edits()[..] else { panic!("{:?}", animator.edits()) };
     let frame = 1.0 / animator.harness.state().state.read().frame_rate as f32;
@@ -239,6 +244,35 @@ fn full_turns_and_cycles_follow_their_sliders_as_whole_numbers_and_zero_leaves_n
         animator.release(from);
         assert_eq!(shown(&animator), before, "{name} back at zero");
         assert_eq!(steps(&animator), 0, "{name}");
+    }
+}
+
+#[test]
+fn keys_of_the_same_rotation_turn_about_the_axis_that_is_chosen() {
+    let mut animator = Animator::with_bone(3);
+    animator.harness.get_by_label("In-between").click();
+    animator.steps(3);
+    animator.request(Request::Command(Id::CopyPose));
+    animator.request(Request::Command(Id::SelectAllKeys));
+    enlarge(&mut animator);
+    type_number(&mut animator, "To pose", "100");
+    let rotations_before = rotations(&animator);
+    assert!(
+        rotations_before.windows(2).all(|pair| pair[0].angle_between(pair[1]) < 1e-3),
+        "the same rotations"
+    );
+    for (axis, direction) in [("X", glam::Vec3::X), ("Z", glam::Vec3::Z), ("Y", glam::Vec3::Y)] {
+        animator.harness.get_by_label_contains("Turn axis").click();
+        animator.steps(2);
+        animator.harness.get_by_label(axis).click();
+        animator.steps(2);
+        type_number(&mut animator, "Full turns", "1");
+        let keys = rotations(&animator);
+        let turned = keys[0].inverse() * keys[1];
+        let along = turned.xyz().normalize().dot(direction).abs();
+        assert!(keys.len() > rotations_before.len() && along > 0.999, "{axis}: {turned}");
+        animator.request(Request::Command(Id::Undo));
+        assert_eq!(rotations(&animator), rotations_before);
     }
 }
 

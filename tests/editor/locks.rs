@@ -178,7 +178,7 @@ fn edits_of_the_whole_take_include_locked_bones() {
 }
 
 /// Edits of whole takes: they include locked bones, see [`edits_of_the_whole_take_include_locked_bones`].
-const OF_WHOLE_TAKES: [&str; 20] = [
+const OF_WHOLE_TAKES: [&str; 21] = [
     "create_take",
     "delete_take",
     "rename_take",
@@ -197,6 +197,7 @@ const OF_WHOLE_TAKES: [&str; 20] = [
     "delete_layer",
     "set_layer",
     "key_layer_weight",
+    "set_layer_weights",
     "move_layer",
     "merge_layers",
 ];

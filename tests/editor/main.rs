@@ -97,6 +97,7 @@ mod timeline_mouse;
 mod timeline_random;
 mod timeline_rig;
 mod timeline_sound;
+mod timeline_weight;
 mod undo_selection;
 mod unplugged;
 mod viewport_control;

@@ -250,3 +250,94 @@ fn rotating_30_degrees_about_z_takes_the_four_keystrokes_of_blender() {
     user.chord(Modifiers::NONE, Key::Enter);
     assert_eq!(user.actions - chosen, 4);
 }
+
+#[test]
+fn a_part_is_slowed_down_in_two_drags_and_no_key_comes_between_others() {
+    let mut user = User::new();
+    user.select_bone();
+    let chosen = user.actions;
+    let before = user.animator.times(BONE.1 as usize);
+    let animator = &mut user.animator;
+    let (from, to) = (animator.at(animator.key(2) - 0.04, 4), animator.at(animator.key(6) + 0.04, 2));
+    animator.drag(from, to);
+    animator.release(to);
+    assert_eq!(animator.selected(), 5);
+    let grip = animator.harness.get_by_label("Scale keys by their end").rect().center();
+    let [start, end] = [animator.key(2), animator.key(6)];
+    let by = animator.at(end + (end - start), 0).x - animator.at(end, 0).x;
+    animator.harness.event(Event::Key {
+        key: Key::Num2,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    });
+    animator.drag(grip, grip + vec2(by, 0.0));
+    animator.release(grip + vec2(by, 0.0));
+    user.actions += 2;
+    // Blender: box select, S with a typed number, G for the keys after it, which are selected by another box.
+    assert!(user.actions - chosen <= 4);
+    let after = user.animator.times(BONE.1 as usize);
+    assert_eq!((after.len(), user.animator.edited.steps().1), (before.len(), 1));
+    let grown = after[6] - after[2] - (before[6] - before[2]);
+    assert!(grown > 0.1, "{grown}");
+    for key in 0..before.len() {
+        let share = (key.clamp(2, 6) - 2) as f32 / 4.0;
+        assert!((after[key] - before[key] - grown * share).abs() < 1e-3, "key {key}");
+    }
+}
+
+#[test]
+fn the_keys_of_a_bone_get_auto_tangents_in_two_actions() {
+    let mut user = User::new();
+    let keys = KeySettings { preset: Preset::Blender, ..KeySettings::default() };
+    user.animator.request(dragonfly::panels::Request::Keys(keys));
+    user.select_bone();
+    user.animator
+        .request(dragonfly::panels::Request::Command(dragonfly::panels::commands::Id::SelectAllKeys));
+    let chosen = user.actions;
+    let at = user.animator.keys().center();
+    user.animator.move_to(at);
+    user.chord(Modifiers::NONE, Key::V);
+    user.actions += 1;
+    user.animator.harness.get_by_label_contains("Auto tangents").click();
+    user.animator.steps(3);
+    // Blender: V and the entry of the menu.
+    assert!(user.actions - chosen <= 2);
+    let track = &user.take(0).tracks[BONE.1 as usize];
+    assert_eq!(track.rotation.interpolation, dragonfly_anim::data::Interpolation::CubicSpline);
+}
+
+#[test]
+fn saving_is_one_action() {
+    use dragonfly::panels::{Effect, FileAction};
+    use dragonfly_document::DocumentMessage;
+    let mut user = User::new();
+    user.select_bone();
+    user.typed("Rotation change X", "30");
+    let chosen = user.actions;
+    user.chord(Modifiers::COMMAND, Key::S);
+    let saves = |effect: &Effect| {
+        matches!(effect, Effect::File(FileAction::Send(DocumentMessage::Save(_)) | FileAction::Where { .. }))
+    };
+    let effects = &user.animator.harness.state().effects;
+    assert!(effects.iter().any(saves), "{:?}", effects.last());
+    assert_eq!(user.actions - chosen, 1);
+}
+
+#[test]
+fn feet_are_locked_over_a_take_in_three_actions() {
+    let source = dragonfly_document::Source::File(dragonfly_kit::folder::data("gltf/Fox.glb"));
+    let loaded = dragonfly_document::load_model(&source, &mut |_| {}, &Default::default()).expect("the fox");
+    let view = dragonfly_document::View::opened(1, Arc::new(loaded));
+    let mut user = User { animator: Animator::new(view), actions: 0 };
+    let before = user.take(0);
+    user.menu("Take", "Contacts");
+    user.actions += 1;
+    user.animator.harness.get_by_label_contains("Lock feet in contacts").click();
+    user.animator.steps(3);
+    // Blender: at least ten, with a rig first.
+    user.takes_at_most(10);
+    assert_eq!((user.actions, user.animator.edited.steps().1), (3, 1), "{}", user.animator.said());
+    assert_ne!(before.tracks, user.take(0).tracks);
+}

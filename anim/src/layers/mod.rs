@@ -15,11 +15,14 @@
 //! play; [`key_for`] answers which key a layer needs so that a given pose is seen.
 
 mod flatten;
+mod lines;
 mod rule;
 mod settings;
+mod stack;
+mod times;
 
 pub use flatten::{FlatChannels, flatten, flatten_channel};
-pub use rule::{LayerRule, RotationRule, ScaleRule, TranslationRule};
+pub use rule::{LayerRule, LayerSum, RotationRule, ScaleRule, TranslationRule};
 pub use settings::{LayerMode, LayerSettings, TakeLayer, WeightKey, played};
 
 use crate::data::Channel;
@@ -45,7 +48,9 @@ impl<T: Copy> LayerChannel<'_, T> {
         }
         let weight = self.settings.weight_at(time);
         match self.settings.mode {
-            LayerMode::Additive => R::add(below, sample_channel(self.keys, R::IDENTITY, time), weight),
+            LayerMode::Additive => {
+                R::add(below, R::part(sample_channel(self.keys, R::IDENTITY, time), weight))
+            }
             LayerMode::Override => R::mix(below, sample_channel(self.keys, below, time), weight.min(1.0)),
         }
     }
@@ -74,7 +79,7 @@ pub fn key_for<R: LayerRule>(
         let weight = layer.settings.weight_at(time);
         target = match layer.settings.mode {
             LayerMode::Additive => {
-                R::subtract(target, sample_channel(layer.keys, R::IDENTITY, time), weight)?
+                R::subtract(target, R::part(sample_channel(layer.keys, R::IDENTITY, time), weight))?
             }
             LayerMode::Override => {
                 let key = sample_channel(layer.keys, target, time);

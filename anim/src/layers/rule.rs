@@ -5,6 +5,19 @@ use crate::sample::Value;
 use crate::sample::mix::{lerp, slerp};
 use glam::{Quat, Vec3};
 
+/// The effect of one layer at one time.
+#[derive(Clone, Copy, Debug)]
+pub struct LayerSum<V> {
+    /// The value below the layer.
+    pub below: V,
+    /// The key of the layer at that time.
+    pub offset: V,
+    /// The weight of the layer, at least 0.
+    pub weight: f32,
+    /// The part of the offset that is added.
+    pub part: V,
+}
+
 /// The rule of one channel of a bone; the formulas are in [the module](super).
 pub trait LayerRule {
     /// The value of a key.
@@ -18,14 +31,21 @@ pub trait LayerRule {
     /// Returns the channel of a track, to be modified.
     fn channel_mut(track: &mut Track) -> &mut Channel<Self::Value>;
 
-    /// Adds an offset with a weight.
-    fn add(below: Self::Value, offset: Self::Value, weight: f32) -> Self::Value;
+    /// Returns the part of an offset that a layer of this weight adds.
+    fn part(offset: Self::Value, weight: f32) -> Self::Value;
 
-    /// Returns the tangent of the sum of a spline and an offset that does not change.
-    fn tangent(tangent: Self::Value, offset: Self::Value, weight: f32) -> Self::Value;
+    /// Adds a part of an offset.
+    fn add(below: Self::Value, part: Self::Value) -> Self::Value;
 
-    /// Returns the value to which adding the offset gives `sum`; `None` where there is none.
-    fn subtract(sum: Self::Value, offset: Self::Value, weight: f32) -> Option<Self::Value>;
+    /// Returns the tangent of the sum of a spline and a part that does not change.
+    fn tangent(tangent: Self::Value, part: Self::Value) -> Self::Value;
+
+    /// Returns the value to which adding the part gives `sum`; `None` where there is none.
+    fn subtract(sum: Self::Value, part: Self::Value) -> Option<Self::Value>;
+
+    /// Returns a bound of how far the sum of a value and a part is from a line between two times, where either the offset or the
+    /// weight goes a straight way and the other stays. `off` is such a bound for the value below.
+    fn bend(ends: [LayerSum<Self::Value>; 2], off: f32) -> f32;
 
     /// Returns the offset that, added to `below` with this weight, gives `sum`; `None` where there is none.
     fn offset(below: Self::Value, sum: Self::Value, weight: f32) -> Option<Self::Value>;
@@ -73,16 +93,25 @@ impl LayerRule for TranslationRule {
         &mut track.translation
     }
 
-    fn add(below: Vec3, offset: Vec3, weight: f32) -> Vec3 {
-        (below + offset * weight).healed(below)
+    fn part(offset: Vec3, weight: f32) -> Vec3 {
+        offset * weight
     }
 
-    fn tangent(tangent: Vec3, _offset: Vec3, _weight: f32) -> Vec3 {
+    fn add(below: Vec3, part: Vec3) -> Vec3 {
+        (below + part).healed(below)
+    }
+
+    fn tangent(tangent: Vec3, _part: Vec3) -> Vec3 {
         tangent
     }
 
-    fn subtract(sum: Vec3, offset: Vec3, weight: f32) -> Option<Vec3> {
-        finite(sum - offset * weight)
+    fn subtract(sum: Vec3, part: Vec3) -> Option<Vec3> {
+        finite(sum - part)
+    }
+
+    /// The sum of two lines is a line.
+    fn bend(_: [LayerSum<Vec3>; 2], off: f32) -> f32 {
+        off
     }
 
     fn offset(below: Vec3, sum: Vec3, weight: f32) -> Option<Vec3> {
@@ -110,18 +139,37 @@ impl LayerRule for RotationRule {
         &mut track.rotation
     }
 
-    fn add(below: Quat, offset: Quat, weight: f32) -> Quat {
-        let part = power(offset, weight);
+    fn part(offset: Quat, weight: f32) -> Quat {
+        power(offset, weight)
+    }
+
+    fn add(below: Quat, part: Quat) -> Quat {
         if part == Quat::IDENTITY { below } else { unit(part * below).healed(below) }
     }
 
-    fn tangent(tangent: Quat, offset: Quat, weight: f32) -> Quat {
-        power(offset, weight) * tangent
+    fn tangent(tangent: Quat, part: Quat) -> Quat {
+        part * tangent
     }
 
-    fn subtract(sum: Quat, offset: Quat, weight: f32) -> Option<Quat> {
-        let value = unit(power(offset, weight).conjugate() * sum);
+    fn subtract(sum: Quat, part: Quat) -> Option<Quat> {
+        let value = unit(part.conjugate() * sum);
         value.is_finite().then_some(value)
+    }
+
+    /// The product of two turns at constant speed, by the angles x and y, changes its angular velocity by at most x·y, and so is
+    /// within about x·y/8 of the turn at constant speed between its ends. The part w of an offset that turns by the angle y, at an
+    /// angle below half a turn, is within about w·y²/2 of such a turn. Twice that is safe for the angles that are allowed.
+    fn bend([from, to]: [LayerSum<Quat>; 2], off: f32) -> f32 {
+        let turned = Self::distance(from.offset, to.offset);
+        let (weight, change) = (from.weight.max(to.weight), (to.weight - from.weight).abs());
+        let part = weight * turned + change * Self::distance(from.offset, Quat::IDENTITY);
+        let below = Self::distance(from.below, to.below);
+        let power = if turned == 0.0 || weight == 1.0 { 0.0 } else { weight * turned * turned };
+        let is_far = |offset: Quat| offset.w.abs() < 0.1;
+        if below + part > 1.0 || power > 0.0 && (turned > 0.1 || is_far(from.offset) || is_far(to.offset)) {
+            return f32::INFINITY;
+        }
+        off + power + below * part / 4.0
     }
 
     fn offset(below: Quat, sum: Quat, weight: f32) -> Option<Quat> {
@@ -163,16 +211,26 @@ impl LayerRule for ScaleRule {
         &mut track.scale
     }
 
-    fn add(below: Vec3, offset: Vec3, weight: f32) -> Vec3 {
-        (below * factor(offset, weight)).healed(below)
+    fn part(offset: Vec3, weight: f32) -> Vec3 {
+        if weight == 1.0 { offset } else { Vec3::ONE + (offset - Vec3::ONE) * weight }
     }
 
-    fn tangent(tangent: Vec3, offset: Vec3, weight: f32) -> Vec3 {
-        tangent * factor(offset, weight)
+    fn add(below: Vec3, part: Vec3) -> Vec3 {
+        (below * part).healed(below)
     }
 
-    fn subtract(sum: Vec3, offset: Vec3, weight: f32) -> Option<Vec3> {
-        finite(sum / factor(offset, weight))
+    fn tangent(tangent: Vec3, part: Vec3) -> Vec3 {
+        tangent * part
+    }
+
+    fn subtract(sum: Vec3, part: Vec3) -> Option<Vec3> {
+        finite(sum / part)
+    }
+
+    /// The product of two lines is a parabola, which is off by a quarter of the product of both ways.
+    fn bend([from, to]: [LayerSum<Vec3>; 2], off: f32) -> f32 {
+        let largest = from.part.abs().max(to.part.abs()).max_element();
+        off * largest + Self::distance(from.below, to.below) * Self::distance(from.part, to.part) / 4.0
     }
 
     fn offset(below: Vec3, sum: Vec3, weight: f32) -> Option<Vec3> {
@@ -191,10 +249,6 @@ impl LayerRule for ScaleRule {
 
 fn finite(vector: Vec3) -> Option<Vec3> {
     vector.is_finite().then_some(vector)
-}
-
-fn factor(offset: Vec3, weight: f32) -> Vec3 {
-    if weight == 1.0 { offset } else { Vec3::ONE + (offset - Vec3::ONE) * weight }
 }
 
 /// Returns the end itself, to the bit, for the weights 0 and 1.

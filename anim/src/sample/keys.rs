@@ -40,8 +40,32 @@ pub fn find_keys(times: &[f32], time: f32) -> Option<Keys> {
         return Some(Keys::on(times.len() - 1));
     }
     let before = times.partition_point(|&key| key <= time).saturating_sub(1);
+    Some(between(times, before, time))
+}
+
+fn between(times: &[f32], before: usize, time: f32) -> Keys {
     let after = (before + 1).min(times.len() - 1);
-    Some(Keys { before, after, mix: mix_factor(times[before], times[after], time) })
+    Keys { before, after, mix: mix_factor(times[before], times[after], time) }
+}
+
+/// The place of the last search, so that one for a time a little later needs no search.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct KeyCursor {
+    before: usize,
+}
+
+impl KeyCursor {
+    /// Finds the keys around `time` seconds, as [`find_keys`] does. It is quick where `time` is at most two keys after the last one.
+    pub(crate) fn find(&mut self, times: &[f32], time: f32) -> Option<Keys> {
+        let near = times.get(self.before..).unwrap_or_default();
+        let found = near.windows(2).take(3).position(|pair| pair[0] <= time && time < pair[1]);
+        let keys = match found {
+            Some(further) => between(times, self.before + further, time),
+            None => find_keys(times, time)?,
+        };
+        self.before = keys.before;
+        Some(keys)
+    }
 }
 
 /// Returns `(time - before) / (after - before)`, 0..=1; 0 where that is undefined (both keys at the same time).
@@ -103,6 +127,21 @@ mod tests {
     #[test]
     fn keys_whose_distance_overflows_f32_are_still_mixed() {
         assert_eq!(find_keys(&[f32::MIN, f32::MAX], 0.0), keys(0, 1, 0.5));
+    }
+
+    #[test]
+    fn a_cursor_finds_what_the_search_finds() {
+        let times = [0.0, 0.5, 0.75, 1.0, 2.0, 3.0, 3.5, 7.0];
+        for step in [1_u16, 3, 20, 400] {
+            let mut cursor = KeyCursor::default();
+            for at in (0..1000).step_by(usize::from(step)).chain([0, 700, 300]) {
+                let time = f32::from(at) * 0.01 - 1.0;
+                assert_eq!(cursor.find(&times, time), find_keys(&times, time), "{time}");
+            }
+            assert_eq!(cursor.find(&times, f32::NAN), find_keys(&times, f32::NAN));
+            assert_eq!(cursor.find(&times[..2], 0.25), find_keys(&times[..2], 0.25), "of another channel");
+            assert_eq!(cursor.find(&[], 0.25), None);
+        }
     }
 
     #[test]

@@ -24,7 +24,7 @@ mod value;
 
 pub use channel::{Between, sample_channel, sample_channel_with};
 pub(crate) use channel::{in_tangent, key_value, out_tangent, sample_between};
-pub(crate) use keys::mix_factor;
+pub(crate) use keys::{KeyCursor, mix_factor};
 pub use keys::{Keys, find_keys};
 pub use morph::sample_morph_weights;
 pub use time::{PlayMode, clamp_time, loop_time};

@@ -28,6 +28,7 @@ pub(super) fn all(recorded: &RecordedResults) -> Result<Vec<(&'static str, Strin
         ("rig-edits", rig(edits)?),
         ("large-edits", large(edits)?),
         ("save", saves(save)?),
+        ("save-layer", layer_saves(save)?),
     ])
 }
 
@@ -90,6 +91,10 @@ fn drag(results: &Results) -> Result<String, String> {
         ("thousand_bones", "a tree of 1,000 bones"),
         ("whole_take_30", "10 minutes of 100 bones, 30 keys per second, in the whole take"),
         ("whole_take_120", "10 minutes of 100 bones, 120 keys per second, in the whole take"),
+        ("layer_30", "10 minutes of 100 bones, 30 keys per second, in a layer with three keys"),
+        ("layer_120", "10 minutes of 100 bones, 120 keys per second, in a layer with three keys"),
+        ("push_30", "the slider “Push, pull” over 18,001 keys of a bone"),
+        ("smooth_30", "the slider “Smooth” over 18,001 keys of a bone"),
     ] {
         let limit = format!("{GOAL}p99");
         let Some(cells) = times(results, task, "move", ["median", "p99", "worst", &limit]) else { continue };
@@ -207,4 +212,13 @@ fn saves(results: &Results) -> Result<String, String> {
         table += &line(&[vec![words, took], cells, vec![count]].concat());
     }
     filled("save", table)
+}
+
+fn layer_saves(results: &Results) -> Result<String, String> {
+    let mut table = header(&["three keys of a bone", "median", "worst"]);
+    for variant in results.variants("three keys") {
+        let Some(cells) = times(results, "three keys", variant, ["median", "worst"]) else { continue };
+        table += &line(&[vec![variant.to_owned()], cells].concat());
+    }
+    filled("save-layer", table)
 }

@@ -79,10 +79,10 @@ impl KeyChange {
         Some(change.some::<K>())
     }
 
-    /// Returns the change with tangents scaled by `factor`, by which time runs faster.
-    pub(crate) fn with_tangents(self, factor: f32) -> Self {
-        let scaled = |tangent: ChannelNumbers| tangent.map(|number| number * factor);
-        Self { arrive: scaled(self.arrive), leave: scaled(self.leave), ..self }
+    /// Returns the change with tangents scaled by the factors by which time runs faster before and after the key.
+    pub(crate) fn with_tangents(self, [before, after]: [f32; 2]) -> Self {
+        let scaled = |tangent: ChannelNumbers, factor: f32| tangent.map(|number| number * factor);
+        Self { arrive: scaled(self.arrive, before), leave: scaled(self.leave, after), ..self }
     }
 }
 

@@ -4,8 +4,8 @@
 //! {"version": 1, "events": [{"time": 0.25, "name": "step", "payload": {"foot": "left"}}]}
 //! ```
 //!
-//! Times are seconds, on the clock of the take, ascending; the payload is any JSON value, or absent. A text that is none of this, which
-//! another program may have written, counts as no events.
+//! Times are seconds, on the clock of the take, ascending; the payload is any JSON value, or absent. A text that is none of this, or
+//! has too many events, counts as no events: another program may have written it, and it stays as it is.
 
 use crate::edit::TakeEvent;
 use dragonfly_anim::data::TakeExtras;
@@ -27,14 +27,14 @@ struct EventsRecord {
     events: Vec<TakeEvent>,
 }
 
-/// Returns the events that are stored with a take, ascending by time, at most [`MOST_EVENTS`].
+/// Returns the events that are stored with a take, ascending by time; none where there are more than [`MOST_EVENTS`].
 pub fn stored_events(extras: &TakeExtras) -> Vec<TakeEvent> {
     let record = extras.get(EVENTS).and_then(|text| serde_json::from_str::<EventsRecord>(text).ok());
-    let Some(record) = record.filter(|record| record.version == VERSION) else { return Vec::new() };
+    let is_ours = |record: &EventsRecord| record.version == VERSION && record.events.len() <= MOST_EVENTS;
+    let Some(record) = record.filter(is_ours) else { return Vec::new() };
     let mut events = record.events;
     events.retain(|event| event.time.is_finite());
     events.sort_by(|a, b| a.time.total_cmp(&b.time));
-    events.truncate(MOST_EVENTS);
     events
 }
 

@@ -91,7 +91,7 @@ impl DeleteKeys {
             return Err(EditError::LastKey);
         }
         let kept = |time: f32| (!gone(time)).then_some(time);
-        let tracks = tracks.iter().map(|track| morph::mapped(track, kept, 1.0)).collect();
+        let tracks = tracks.iter().map(|track| morph::mapped(track, kept, |_| [1.0; 2])).collect();
         work.perform(Op::Morphs(take, tracks));
         Ok(true)
     }

@@ -73,6 +73,7 @@ mod set_events;
 mod set_extras;
 mod set_interpolation;
 mod set_layer;
+mod set_layer_weights;
 mod set_many_tangents;
 mod set_pending;
 mod set_pose;
@@ -84,6 +85,7 @@ mod shape_tangents;
 mod shift_loop;
 mod snap_keys;
 mod split_take;
+mod stretch_time;
 mod take_event;
 pub(crate) mod target;
 mod travel_parts;
@@ -107,6 +109,7 @@ pub use mode::{KeyInterpolation, LayerKind, NewKey, ResetTo};
 pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope, ShapeScope};
 pub use pose::{BonePose, PoseAt};
 pub use repeat_keys::{RepeatCount, RepeatMode};
+pub use set_layer_weights::LayerWeightKey;
 pub use set_many_tangents::TangentsAt;
 pub use set_shape_keys::ShapeKeyAt;
 pub use set_shapes::ShapeWeight;
@@ -165,6 +168,7 @@ edits! {
     "trim_take" => trim_take::TrimTake,
     "reverse_take" => reverse_take::ReverseTake,
     "retime_take" => retime_take::RetimeTake,
+    "stretch_time" => stretch_time::StretchTime,
     "mirror_take" => mirror_take::MirrorTake,
     "move_travel" => move_travel::MoveTravel,
     "remove_travel" => remove_travel::RemoveTravel,
@@ -177,6 +181,7 @@ edits! {
     "delete_layer" => delete_layer::DeleteLayer,
     "set_layer" => set_layer::SetLayer,
     "key_layer_weight" => key_layer_weight::KeyLayerWeight,
+    "set_layer_weights" => set_layer_weights::SetLayerWeights,
     "move_layer" => move_layer::MoveLayer,
     "merge_layers" => merge_layers::MergeLayers,
     "close_loop" => close_loop::CloseLoop,

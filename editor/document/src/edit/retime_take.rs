@@ -57,7 +57,7 @@ impl EditKind for RetimeTake {
             0.0 => return Err(EditError::Nothing("a take of one pose has no length to change")),
             old => length / old,
         };
-        apply(work, take, TimeMap { from: old_start, about: start, stretch })
+        apply(work, take, TimeMap::linear(old_start, start, stretch))
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {

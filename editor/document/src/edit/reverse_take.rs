@@ -40,7 +40,7 @@ impl EditKind for ReverseTake {
         // keys it then shows the value of the key on the other side.
         let take = work.take(&self.take)?;
         let (start, end) = (work.slot(take).original.start, work.slot(take).original.end());
-        apply(work, take, TimeMap { from: start, about: end, stretch: -1.0 })
+        apply(work, take, TimeMap::linear(start, end, -1.0))
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {

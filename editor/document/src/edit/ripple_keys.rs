@@ -103,7 +103,7 @@ fn ripple_morphs(work: &mut Transaction, take: TakeId, from: f32, by: f32) -> Re
         key_time(time + by, slot)?;
     }
     let to = |time: f32| rippled(time, from, by);
-    let morphs = slot.original.morphs.iter().map(|track| morph::mapped(track, to, 1.0)).collect();
+    let morphs = slot.original.morphs.iter().map(|track| morph::mapped(track, to, |_| [1.0; 2])).collect();
     work.perform(Op::Morphs(take, morphs));
     Ok(true)
 }

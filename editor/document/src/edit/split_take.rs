@@ -59,7 +59,7 @@ impl EditKind for SplitTake {
         work.perform(Op::Name(id, self.name.clone()));
         cut(work, take, start, time)?;
         cut(work, id, time, end)?;
-        apply(work, id, TimeMap { from: time, about: 0.0, stretch: 1.0 })
+        apply(work, id, TimeMap::linear(time, 0.0, 1.0))
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {

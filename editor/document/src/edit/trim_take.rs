@@ -60,7 +60,7 @@ impl EditKind for TrimTake {
         }
         cut(work, take, from.max(start), to.min(end))?;
         if self.to_start {
-            return apply(work, take, TimeMap { from: from.max(start), about: start, stretch: 1.0 });
+            return apply(work, take, TimeMap::linear(from.max(start), start, 1.0));
         }
         Ok(())
     }

@@ -175,6 +175,7 @@ pub(in crate::panels) fn drag_keys(workspace: &mut Workspace, op: KeyDragOp) -> 
             KeyDragOp::Ripple { from, .. } => all_after(&base, from),
             KeyDragOp::Move(_)
             | KeyDragOp::Scale { .. }
+            | KeyDragOp::Stretch { .. }
             | KeyDragOp::Duplicate(_)
             | KeyDragOp::Snap(_)
             | KeyDragOp::Edit(_) => panels.keys.selection().clone(),

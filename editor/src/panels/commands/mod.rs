@@ -72,6 +72,12 @@ pub const MOUSE: &[(&str, &str)] = &[
     ),
     ("T, V over the timeline or the curves", "Menu of interpolations, menu of tangents"),
     ("2 + drag keys", "Ripple: move all later keys as well"),
+    ("2 + drag the end of the bar over selected keys", "Slow or quicken that part; all later keys move"),
+    (
+        "Drag a contact, an event or a marker",
+        "Move it to another frame; the ends of a contact change its length",
+    ),
+    ("Double-click the weight of a layer", "Add a key; drag a key to change frame and weight"),
     ("Alt + drag keys, Shift + drag selected keys", "Duplicate keys"),
     ("Ctrl while dragging keys", "Invert snapping"),
     (

@@ -23,6 +23,8 @@ pub(super) struct DopeAreas {
     pub(super) contacts: Rect,
     /// The lane of the sound; without height if there is none.
     pub(super) sound: Rect,
+    /// The lane of the weight of the active layer; without height if there is none.
+    pub(super) weight: Rect,
     /// The bar over the selected keys.
     pub(super) bar: Rect,
     /// The names of the rows.
@@ -43,6 +45,9 @@ const CONTACT_ROW: f32 = 14.0;
 const CONTACT_ROWS: usize = 6;
 /// Height of the lane of the sound.
 const SOUND: f32 = 28.0;
+/// Height of the lane of weights, and the least height of the sheet in which there is one.
+const WEIGHT: f32 = 44.0;
+const LEAST_WITH_WEIGHT: f32 = 120.0;
 /// Height of the bar over the selected keys.
 const BAR: f32 = 8.0;
 /// Margin before the start and after the end of the take.
@@ -71,7 +76,9 @@ impl DopeAreas {
         let contacts = lane(events.bottom(), rows as f32 * CONTACT_ROW);
         let sound = if context.sound.settings().is_chosen() { SOUND } else { 0.0 };
         let sound = lane(contacts.bottom(), sound);
-        let bar = lane(sound.bottom(), BAR);
+        let has_weight = context.layer().is_some() && all.height() > LEAST_WITH_WEIGHT;
+        let weight = lane(sound.bottom(), if has_weight { WEIGHT } else { 0.0 });
+        let bar = lane(weight.bottom(), BAR);
         let below = all.bottom().max(bar.bottom());
         Self {
             all,
@@ -82,6 +89,7 @@ impl DopeAreas {
             findings,
             contacts,
             sound,
+            weight,
             bar,
             names: Rect::from_min_max(pos2(all.left(), bar.bottom()), pos2(left, below)),
             canvas: Rect::from_min_max(pos2(left, bar.bottom()), pos2(all.right(), below)),

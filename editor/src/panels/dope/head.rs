@@ -193,7 +193,7 @@ impl Head {
             let response = ui.interact(grip, ui.scope_id().with(name), Sense::drag());
             response.widget_info(|| WidgetInfo::labeled(egui::accesskit::Role::Button, true, name));
             let response = response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(format!(
-                "{name}\nAbout the other end, with Alt about the playhead\nCtrl inverts snapping"
+                "{name}\nAbout the other end, with Alt about the playhead\nHold 2 at the end to slow the part of all bones and move all later keys\nCtrl inverts snapping"
             ));
             let lit = response.hovered() || response.dragged();
             let color = if lit { theme.accent } else { theme.accent.gamma_multiply(0.7) };
@@ -251,7 +251,13 @@ impl Scaling {
         let factor = (time - about) / (self.grabbed - about);
         // Zero would bring all keys to one time, so a thousandth is the least.
         let factor = if factor.abs() < 1e-3 { 1e-3_f32.copysign(factor) } else { factor.clamp(-1e3, 1e3) };
-        factor.is_finite().then_some(KeyDragOp::Scale { about, factor })
+        let slows = input.ripple && self.grabbed > self.other;
+        let op = if slows {
+            KeyDragOp::Stretch { part: [self.other, self.grabbed], factor: factor.max(1e-3) }
+        } else {
+            KeyDragOp::Scale { about, factor }
+        };
+        factor.is_finite().then_some(op)
     }
 }
 

@@ -20,6 +20,7 @@ mod rows;
 mod scroll;
 mod sheet;
 mod sound;
+mod weight;
 
 use super::context::PanelContext;
 use super::key_canvases;
@@ -55,6 +56,7 @@ pub(super) struct Dope {
     events: events::EventLane,
     contacts: contacts::ContactLane,
     sound: sound::SoundLane,
+    weight: weight::WeightLane,
     menu: menu::KeyMenu,
     filter: String,
 }
@@ -112,6 +114,7 @@ impl Dope {
         self.events.show(ui, &sheet, requests);
         self.contacts.show(ui, &sheet, requests);
         self.sound.show(ui, &sheet, requests);
+        self.weight.show(ui, &sheet, requests);
         overlay::pending(&painter, &sheet);
         overlay::playhead(&painter, &sheet);
         let toggled = gutter::show(ui, &sheet, requests);

@@ -7,7 +7,7 @@ mod error;
 mod row;
 mod tool;
 
-pub use tool::{ChosenKeys, InBetweenTool};
+pub use tool::{ChosenKeys, InBetweenTool, TurnAxis};
 
 use super::commands::When;
 use super::context::PanelContext;
@@ -34,6 +34,8 @@ pub struct InBetween {
     drags: u32,
     /// The take toward which keys are blended, if one was chosen.
     other: Option<usize>,
+    /// The axis of full turns between keys of the same rotation.
+    axis: TurnAxis,
 }
 
 /// A slider that is dragged, and the keys that it changes.
@@ -81,6 +83,7 @@ impl Panel for InBetween {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.add_space(2.0 * GRID);
                 self.choose_take(ui, context);
+                self.choose_axis(ui);
             });
         });
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -170,6 +173,28 @@ impl InBetween {
         });
     }
 
+    /// Draws the button that chooses the axis of full turns.
+    fn choose_axis(&mut self, ui: &mut Ui) {
+        let text = format!("Turn axis: {}", self.axis.name());
+        let button = ui
+            .add(Button::new(RichText::new(text).small().color(Theme::of(ui).weak)).frame(false).truncate());
+        let button = button.on_hover_text(
+            "Turn axis\nThe axis of the bone about which “Full turns” turns between keys of the same rotation",
+        );
+        Popup::menu(&button).show(|ui| {
+            for axis in TurnAxis::ALL {
+                if ui.add(Button::selectable(axis == self.axis, axis.name())).clicked() {
+                    self.axis = axis;
+                }
+            }
+        });
+    }
+
+    /// Returns the selected keys with the settings of the panel; `None` without any.
+    fn chosen(&self, context: &PanelContext<'_>) -> Option<ChosenKeys> {
+        ChosenKeys::of(context, self.drags, self.other(context)).map(|keys| keys.about(self.axis))
+    }
+
     /// Returns the number at which a slider rests.
     fn setting(&self, tool: InBetweenTool) -> f64 {
         let set = self.settings.iter().find(|(other, _)| *other == tool);
@@ -201,7 +226,7 @@ impl InBetween {
                         return;
                     }
                     self.drags += 1;
-                    let Some(keys) = ChosenKeys::of(context, self.drags, self.other(context)) else { return };
+                    let Some(keys) = self.chosen(context) else { return };
                     let before = context.shared_take().cloned();
                     self.held = Some(HeldSlider { tool, start, value: start, keys, before });
                 }
@@ -226,7 +251,7 @@ impl InBetween {
             FieldEvent::Typed(value) if tool.changes_nothing(value) => {}
             FieldEvent::Typed(value) => {
                 self.drags += 1;
-                let Some(keys) = ChosenKeys::of(context, self.drags, self.other(context)) else { return };
+                let Some(keys) = self.chosen(context) else { return };
                 let Some(edit) = tool.edit(tool.within(value), &keys) else { return };
                 push(KeysRequest::Drag(KeyDragOp::Edit(edit)));
                 push(KeysRequest::Release);

@@ -52,6 +52,40 @@ pub enum InBetweenTool {
     RepeatMirror,
 }
 
+/// The axis of the space of a bone about which full turns go where two keys have the same rotation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TurnAxis {
+    /// Its x axis.
+    X,
+    /// Its y axis, which in most models is along the bone.
+    #[default]
+    Y,
+    /// Its z axis.
+    Z,
+}
+
+impl TurnAxis {
+    /// All axes, in the order of the menu.
+    pub(super) const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+
+    /// Returns its name on the screen.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::X => "X",
+            Self::Y => "Y",
+            Self::Z => "Z",
+        }
+    }
+
+    fn direction(self) -> [f32; 3] {
+        match self {
+            Self::X => [1.0, 0.0, 0.0],
+            Self::Y => [0.0, 1.0, 0.0],
+            Self::Z => [0.0, 0.0, 1.0],
+        }
+    }
+}
+
 /// The selected keys as the edits of the tools name them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChosenKeys {
@@ -61,6 +95,7 @@ pub struct ChosenKeys {
     /// Length of a frame, seconds.
     frame: f32,
     seed: u32,
+    axis: TurnAxis,
     /// Another take.
     other: Option<TakeRef>,
     /// The pose that was copied last.
@@ -81,9 +116,16 @@ impl ChosenKeys {
             shapes,
             frame: context.frame_seconds(),
             seed,
+            axis: TurnAxis::default(),
             other: other.map(TakeRef::Index),
             pose: context.copied_pose.cloned(),
         })
+    }
+
+    /// Returns them for full turns about this axis.
+    #[must_use]
+    pub fn about(self, axis: TurnAxis) -> Self {
+        Self { axis, ..self }
     }
 
     fn blend(&self, toward: KeyTarget, percent: f64) -> Edit {
@@ -214,7 +256,7 @@ impl InBetweenTool {
                 "Removes the selected keys without which no point near any bone moves further than this; the line above shows the number of keys and the largest error"
             }
             Self::Turns => {
-                "Turns this many more times around from each selected rotation key to the next; keys are inserted"
+                "Turns this many more times around from each selected rotation key to the next; keys are inserted. Keys of the same rotation turn about the chosen axis"
             }
             Self::Repeat => {
                 "Repeats the selected keys this many times after them; negative numbers before them (cycle)"
@@ -366,7 +408,7 @@ impl InBetweenTool {
             }
             Self::Turns => {
                 let ChosenKeys { take, keys, .. } = chosen.clone();
-                let way = TurnWay::Full { turns: value.round() as i32, axis: [0.0, 1.0, 0.0] };
+                let way = TurnWay::Full { turns: value.round() as i32, axis: chosen.axis.direction() };
                 Edit::TurnKeys(TurnKeys { take, keys, way })
             }
             Self::Repeat => repeat(RepeatMode::Repeat)?,

@@ -147,7 +147,11 @@ impl KeyDrag {
             None | Some(KeyDragOp::Edit(_)) => self.selected.clone(),
             Some(KeyDragOp::Ripple { from, by }) => self.selected.rippled(take, *from, *by),
             Some(
-                KeyDragOp::Move(_) | KeyDragOp::Scale { .. } | KeyDragOp::Duplicate(_) | KeyDragOp::Snap(_),
+                KeyDragOp::Move(_)
+                | KeyDragOp::Scale { .. }
+                | KeyDragOp::Stretch { .. }
+                | KeyDragOp::Duplicate(_)
+                | KeyDragOp::Snap(_),
             ) => self.moved.clone(),
         })
     }
@@ -158,7 +162,7 @@ impl KeyDrag {
         match self.shown.as_ref()? {
             KeyDragOp::Duplicate(_) => Some(self.moving.count(&self.base)),
             KeyDragOp::Move(_) | KeyDragOp::Scale { .. } | KeyDragOp::Snap(_) => Some(0),
-            KeyDragOp::Ripple { .. } | KeyDragOp::Edit(_) => None,
+            KeyDragOp::Ripple { .. } | KeyDragOp::Stretch { .. } | KeyDragOp::Edit(_) => None,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::shift::Shift;
 use dragonfly_document::edit::{
-    DuplicateKeys, Edit, KeySet, MoveKeys, RippleKeys, SAME_TIME, ScaleKeys, SnapKeys, TakeRef,
+    DuplicateKeys, Edit, KeySet, MoveKeys, RippleKeys, SAME_TIME, ScaleKeys, SnapKeys, StretchTime, TakeRef,
 };
 
 /// The operation of a drag on keys, always relative to the start of the drag.
@@ -26,6 +26,13 @@ pub enum KeyDragOp {
         /// Distance, seconds.
         by: f32,
     },
+    /// Scales the part of the take between two times, and moves everything after it.
+    Stretch {
+        /// Start and end of the part, seconds.
+        part: [f32; 2],
+        /// Factor, more than 0.
+        factor: f32,
+    },
     /// Moves the selected keys to whole frames at this rate per second.
     Snap(f32),
     /// Applies an edit as it is: values, tangents.
@@ -38,6 +45,7 @@ impl KeyDragOp {
         match *self {
             Self::Move(by) | Self::Duplicate(by) | Self::Ripple { by, .. } => Shift::Move(by),
             Self::Scale { about, factor } => Shift::Scale { about, factor },
+            Self::Stretch { part: [about, _], factor } => Shift::Scale { about, factor },
             Self::Snap(rate) => Shift::Snap(rate),
             Self::Edit(_) => Shift::NONE,
         }
@@ -49,7 +57,9 @@ impl KeyDragOp {
             Self::Move(by) | Self::Duplicate(by) | Self::Ripple { by, .. } => {
                 !by.is_finite() || by.abs() <= SAME_TIME
             }
-            Self::Scale { factor, .. } => factor == 1.0 || factor == 0.0 || !factor.is_finite(),
+            Self::Scale { factor, .. } | Self::Stretch { factor, .. } => {
+                factor == 1.0 || factor == 0.0 || !factor.is_finite()
+            }
             Self::Snap(_) | Self::Edit(_) => false,
         }
     }
@@ -66,6 +76,9 @@ impl KeyDragOp {
                 Edit::DuplicateKeys(DuplicateKeys { take, keys: keys(), shapes: shapes(), by })
             }
             Self::Ripple { from, by } => Edit::RippleKeys(RippleKeys { take, from, by }),
+            Self::Stretch { part: [from, to], factor } => {
+                Edit::StretchTime(StretchTime { take, from, to, factor })
+            }
             Self::Snap(rate) => Edit::SnapKeys(SnapKeys { take, keys: keys(), shapes: shapes(), rate }),
             Self::Edit(ref edit) => edit.clone(),
         }

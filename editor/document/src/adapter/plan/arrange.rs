@@ -41,8 +41,9 @@ pub(crate) fn arrange<K: ChannelKind>(
     }
     let key = |at: u32| slot.key::<K>(address.property, address.bone, at as usize);
     let mut moved: Vec<KeyContent> = list(chosen.len())?;
-    let contents =
-        chosen.iter().filter_map(|&(at, time)| Some(KeyContent { time, ..stretched(key(at)?, how.stretch) }));
+    let contents = chosen
+        .iter()
+        .filter_map(|&(at, time)| Some(KeyContent { time, ..stretched(key(at)?, [how.stretch; 2]) }));
     moved.extend(contents);
     moved.sort_by(|a, b| a.time.total_cmp(&b.time));
     // Of several keys at the same time, the last one wins.
@@ -103,16 +104,17 @@ fn stays_in_order(times: &[f32], chosen: &[(u32, f32)]) -> bool {
     })
 }
 
-/// Returns the key with its tangents adapted to a time that runs `stretch` times slower; negative: backwards.
-pub(crate) fn stretched(key: KeyContent, stretch: f32) -> KeyContent {
-    if stretch == 1.0 {
+/// Returns the key with its tangents adapted to times that run slower by these factors before and after it; negative: backwards.
+pub(crate) fn stretched(key: KeyContent, stretch: [f32; 2]) -> KeyContent {
+    if stretch == [1.0; 2] {
         return key;
     }
-    let scaled = |tangent: [f32; 4]| tangent.map(|number| number / stretch);
+    let [before, after] = stretch;
+    let scaled = |tangent: [f32; 4], stretch: f32| tangent.map(|number| number / stretch);
     let [arrive, value, leave] = key.original;
-    let original = [scaled(arrive), value, scaled(leave)];
-    let change = key.change.map(|change| change.with_tangents(1.0 / stretch));
-    if stretch > 0.0 {
+    let original = [scaled(arrive, before), value, scaled(leave, after)];
+    let change = key.change.map(|change| change.with_tangents([1.0 / before, 1.0 / after]));
+    if before > 0.0 {
         return KeyContent { original, change, ..key };
     }
     // Backwards, in-tangents become out-tangents.

@@ -10,11 +10,7 @@ use crate::edit::TakeEvent;
 const LONGEST: (usize, usize) = (200, 16 << 10);
 
 /// Stores events with a take, ascending by time. Returns whether they are others than before.
-pub(crate) fn store(
-    work: &mut Transaction,
-    take: TakeId,
-    mut events: Vec<TakeEvent>,
-) -> Result<bool, EditError> {
+pub(crate) fn store(work: &mut Transaction, take: TakeId, events: Vec<TakeEvent>) -> Result<bool, EditError> {
     if events.len() > MOST_EVENTS {
         return Err(EditError::Nothing("a take has at most 1,000 events"));
     }
@@ -28,17 +24,23 @@ pub(crate) fn store(
             return Err(EditError::Nothing("the payload of an event has at most 16 KiB"));
         }
     }
+    Ok(replace(work, take, events))
+}
+
+/// Puts events in place of those of a take, ascending by time. Returns whether they are others than before.
+fn replace(work: &mut Transaction, take: TakeId, mut events: Vec<TakeEvent>) -> bool {
     // Events at one time keep their order.
     events.sort_by(|a, b| a.time.total_cmp(&b.time));
     let text = events_text(events);
     if work.slot(take).original.extras.get(EVENTS) == text.as_ref() {
-        return Ok(false);
+        return false;
     }
     work.perform(Op::Extras(take, EVENTS.to_owned(), text));
-    Ok(true)
+    true
 }
 
-/// Moves the events of a take to the times that `to` returns, and removes those for which it returns `None`.
+/// Moves the events of a take to the times that `to` returns, and removes those for which it returns `None`. Names and payloads
+/// stay, also those of another program that [`store`] would refuse.
 pub(crate) fn remap(
     work: &mut Transaction,
     take: TakeId,
@@ -50,8 +52,11 @@ pub(crate) fn remap(
     }
     let moved = |event: &TakeEvent| Some(TakeEvent { time: to(event.time)?, ..event.clone() });
     let after: Vec<TakeEvent> = before.iter().filter_map(moved).collect();
+    for event in &after {
+        finite("the time", event.time)?;
+    }
     if after != before {
-        store(work, take, after)?;
+        replace(work, take, after);
     }
     Ok(())
 }

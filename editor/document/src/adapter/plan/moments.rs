@@ -1,4 +1,4 @@
-//! What a take has at single moments beside its keys: pending poses and events. An edit that moves keys in time moves both.
+//! Pending poses and events: each is at a single moment of a take, and an edit that moves keys in time moves both.
 
 use super::super::slot::TakeId;
 use super::{EditError, Transaction, events, pending};

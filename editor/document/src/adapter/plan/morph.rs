@@ -17,34 +17,38 @@ pub(super) fn per_key(track: &MorphTrack) -> usize {
 /// Returns the track with its keys moved to the times that `to` returns, without those for which it returns `None`.
 /// Time runs `stretch` times slower, so tangents are divided by it. Where it is negative, `to` reverses the order of
 /// all keys.
-pub(crate) fn mapped(track: &MorphTrack, to: impl Fn(f32) -> Option<f32>, stretch: f32) -> MorphTrack {
+pub(crate) fn mapped(
+    track: &MorphTrack,
+    to: impl Fn(f32) -> Option<f32>,
+    stretches: impl Fn(f32) -> [f32; 2],
+) -> MorphTrack {
     let width = per_key(track);
     let mut keys: Vec<(f32, usize)> =
         track.times.iter().enumerate().filter_map(|(key, &time)| Some((to(time)?, key))).collect();
-    if stretch < 0.0 {
+    if track.times.first().is_some_and(|&time| stretches(time)[0] < 0.0) {
         keys.reverse();
     }
     let mut weights = Vec::with_capacity(keys.len() * width);
     for &(_, key) in &keys {
         let values = track.weights.get(key * width..(key + 1) * width).unwrap_or(&[]);
-        put(&mut weights, values, track, stretch);
+        put(&mut weights, values, track, stretches(track.times[key]));
     }
     let times = keys.iter().map(|(time, _)| *time).collect();
     MorphTrack { times, weights: weights.into(), ..track.clone() }
 }
 
-/// Appends a key, with its tangents divided by `stretch`; a negative `stretch` also swaps them.
-pub(super) fn put(weights: &mut Vec<f32>, values: &[f32], track: &MorphTrack, stretch: f32) {
+/// Appends a key, with its tangents divided by the factors before and after it; negative factors also swap them.
+pub(super) fn put(weights: &mut Vec<f32>, values: &[f32], track: &MorphTrack, [before, after]: [f32; 2]) {
     let targets = track.targets as usize;
     if track.interpolation != Interpolation::CubicSpline || values.len() < 3 * targets {
         return weights.extend_from_slice(values);
     }
     let (arrive, rest) = values.split_at(targets);
     let (value, leave) = rest.split_at(targets);
-    let (arrive, leave) = if stretch < 0.0 { (leave, arrive) } else { (arrive, leave) };
-    weights.extend(arrive.iter().map(|tangent| tangent / stretch));
+    let (arrive, leave) = if before < 0.0 { (leave, arrive) } else { (arrive, leave) };
+    weights.extend(arrive.iter().map(|tangent| tangent / before));
     weights.extend_from_slice(value);
-    weights.extend(leave.iter().map(|tangent| tangent / stretch));
+    weights.extend(leave.iter().map(|tangent| tangent / after));
 }
 
 /// Returns the keys between two times, with keys at both where the track continues outside; a single key where there

@@ -136,7 +136,12 @@ fn arranged(track: &MorphTrack, chosen: &[(usize, f32)], how: KeyMove) -> MorphT
     let width = per_key(track);
     let mut weights = Vec::with_capacity(keys.len() * width);
     for &(_, key, stretch) in &keys {
-        put(&mut weights, track.weights.get(key * width..(key + 1) * width).unwrap_or(&[]), track, stretch);
+        put(
+            &mut weights,
+            track.weights.get(key * width..(key + 1) * width).unwrap_or(&[]),
+            track,
+            [stretch; 2],
+        );
     }
     let times = keys.iter().map(|(time, ..)| *time).collect();
     MorphTrack { times, weights: weights.into(), ..track.clone() }

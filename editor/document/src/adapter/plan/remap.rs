@@ -10,20 +10,51 @@ use dragonfly_anim::data::{Channel, Interpolation};
 use dragonfly_anim::sample::Value;
 use std::sync::Arc;
 
-/// A linear map of times: new time = `about` + (time - `from`) * `stretch`
+/// A map of times: new time = `about` + (time - `from`) * `stretch`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TimeMap {
-    pub(crate) from: f32,
-    pub(crate) about: f32,
-    pub(crate) stretch: f32,
+    from: f32,
+    about: f32,
+    stretch: f32,
+    /// The end of the part that is stretched, where the rest is not: before the part times stay, after it they keep their distance
+    /// from it.
+    until: Option<f32>,
 }
 
 impl TimeMap {
+    /// Returns the map that is the same at all times.
+    pub(crate) fn linear(from: f32, about: f32, stretch: f32) -> Self {
+        Self { from, about, stretch, until: None }
+    }
+
+    /// Returns the map that stretches the part between two times.
+    pub(crate) fn of_part([from, to]: [f32; 2], stretch: f32) -> Self {
+        Self { from, about: from, stretch, until: Some(to) }
+    }
+
     /// Returns the new time.
     fn at(&self, time: f32) -> f32 {
-        let new = self.about + (time - self.from) * self.stretch;
+        let inside = |time: f32| self.about + (time - self.from) * self.stretch;
+        let new = match self.until {
+            Some(_) if time <= self.from => time,
+            Some(until) if time > until => inside(until) + (time - until),
+            Some(_) | None => inside(time),
+        };
         // Rounding, and a key within the tolerance of a cut, must not lead to a time before 0 s.
         if time >= 0.0 && (-SAME_TIME..0.0).contains(&new) { 0.0 } else { new }
+    }
+
+    /// Returns the factors by which time runs slower directly before a time and directly after it.
+    fn stretches(&self, time: f32) -> [f32; 2] {
+        let Some(until) = self.until else { return [self.stretch; 2] };
+        let part = |is_inside: bool| if is_inside { self.stretch } else { 1.0 };
+        let starts = time >= self.from - SAME_TIME && time < until - SAME_TIME;
+        let ends = time > self.from + SAME_TIME && time <= until + SAME_TIME;
+        [part(ends), part(starts)]
+    }
+
+    fn is_shift(&self) -> bool {
+        self.stretch == 1.0
     }
 }
 
@@ -46,8 +77,12 @@ pub(crate) fn apply(work: &mut Transaction, take: TakeId, map: TimeMap) -> Resul
         return Ok(());
     }
     let to = |time| Some(map.at(time));
-    let morphs: Vec<_> =
-        slot.original.morphs.iter().map(|track| morph::mapped(track, to, map.stretch)).collect();
+    let morphs: Vec<_> = slot
+        .original
+        .morphs
+        .iter()
+        .map(|track| morph::mapped(track, to, |time| map.stretches(time)))
+        .collect();
     if slot.original.morphs.iter().zip(&morphs).any(|(old, new)| !apart(&old.times, &new.times)) {
         return Err(EditError::TooShort);
     }
@@ -78,7 +113,7 @@ fn channel<K: ChannelKind>(
     let old_times = Arc::clone(&old.times);
     let spline = old.interpolation == Interpolation::CubicSpline;
     // Forwards and without tangents, the values stay as they are and are shared.
-    let content = if !backwards && (!spline || map.stretch == 1.0) {
+    let content = if !backwards && (!spline || map.is_shift()) {
         let original = Channel { times: times.into(), ..old.clone() };
         ChannelContent {
             original: K::Value::wrap(original),
@@ -89,7 +124,7 @@ fn channel<K: ChannelKind>(
         let mut values = vec![K::Value::ZERO; old.values.len()];
         for key in 0..=last {
             let Some(found) = slot.key::<K>(address.property, address.bone, from(key)) else { continue };
-            let found = stretched(found, map.stretch);
+            let found = stretched(found, map.stretches(found.time));
             super::super::change::put::<K>(&mut values, old.interpolation, key, &found.original);
             changes.extend(found.change.map(|change| (key as u32, change)));
         }
