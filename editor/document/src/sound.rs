@@ -17,7 +17,7 @@ const LARGEST_FILE: u64 = 4 << 30;
 const MOST_CHANNELS: usize = 64;
 
 /// Least and greatest sample of a block, in 127ths of full scale.
-type Peak = [i8; 2];
+type BlockPeak = [i8; 2];
 
 /// The peaks of a sound at several resolutions, all channels together. It keeps no samples.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +27,7 @@ pub struct SoundPeaks {
     samples: u64,
     channels: usize,
     /// From the finest to the coarsest level.
-    levels: Vec<Vec<Peak>>,
+    levels: Vec<Vec<BlockPeak>>,
 }
 
 impl SoundPeaks {
@@ -85,9 +85,7 @@ impl SoundPeaks {
     pub fn between(&self, from: f64, to: f64) -> Option<[f32; 2]> {
         let rate = f64::from(self.rate);
         let (from, to) = ((from * rate).max(0.0), (to * rate).min(self.samples as f64));
-        if !(from < to) {
-            return None;
-        }
+        (from < to).then_some(())?;
         let (mut block, mut level) = (BLOCK as f64, 0);
         while level + 1 < self.levels.len() && (to - from) / block >= 2.0 * FACTOR as f64 {
             (block, level) = (block * FACTOR as f64, level + 1);
@@ -100,7 +98,7 @@ impl SoundPeaks {
     }
 }
 
-fn joined(a: Peak, b: Peak) -> Peak {
+fn joined(a: BlockPeak, b: BlockPeak) -> BlockPeak {
     [a[0].min(b[0]), a[1].max(b[1])]
 }
 
@@ -111,8 +109,8 @@ struct PeakCollector<'a> {
     channels: usize,
     /// Samples of all channels so far.
     values: u64,
-    now: Option<Peak>,
-    blocks: Vec<Peak>,
+    now: Option<BlockPeak>,
+    blocks: Vec<BlockPeak>,
 }
 
 impl<'a> PeakCollector<'a> {

@@ -6,9 +6,9 @@ use super::graphics_sync::GraphicsSync;
 use super::hover::{Hover, HoverPoint};
 use super::interface::Interface;
 use super::options::Options;
-use super::reference_loader::{ReferenceAnswer, References};
+use super::reference_loader::{ReferenceAnswer, ReferenceAnswers};
 use super::replies::{Answers, Replies};
-use super::sound_loader::{SoundAnswer, Sounds};
+use super::sound_loader::{SoundAnswer, SoundAnswers};
 use super::state_trace;
 use crate::panels::status::MessageSeverity;
 use crate::panels::window_status::DeviceStatus;
@@ -198,8 +198,8 @@ impl BaseRuntime for EditorRuntime {
         let references = main.handle().reserve_address();
         let (shows, draws) = (Rc::clone(&parts.interface), Rc::clone(&parts.interface));
         let sounds = main.handle().reserve_address();
-        main.register_restartable_receiver_at(&sounds, move |_| Sounds(Rc::clone(&draws)));
-        main.register_restartable_receiver_at(&references, move |_| References(Rc::clone(&shows)));
+        main.register_restartable_receiver_at(&sounds, move |_| SoundAnswers(Rc::clone(&draws)));
+        main.register_restartable_receiver_at(&references, move |_| ReferenceAnswers(Rc::clone(&shows)));
         let setup = self.setup();
         let document = match Document::start_with(setup, replies.clone(), parts.graphics.views().clone()) {
             Ok(document) => {

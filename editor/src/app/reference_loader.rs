@@ -167,9 +167,9 @@ fn say(state: &mut State, error: &std::io::Error) {
 }
 
 /// Passes the answers of the jobs on.
-pub(super) struct References(pub Rc<RefCell<Interface>>);
+pub(super) struct ReferenceAnswers(pub Rc<RefCell<Interface>>);
 
-impl Receiver for References {
+impl Receiver for ReferenceAnswers {
     type Message = ReferenceAnswer;
 
     fn receive(&mut self, answer: ReferenceAnswer, _main: &mut Context) {

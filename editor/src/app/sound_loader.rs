@@ -59,9 +59,9 @@ impl SoundLoader {
 }
 
 /// Passes the answers of the jobs on.
-pub(super) struct Sounds(pub Rc<RefCell<Interface>>);
+pub(super) struct SoundAnswers(pub Rc<RefCell<Interface>>);
 
-impl Receiver for Sounds {
+impl Receiver for SoundAnswers {
     type Message = SoundAnswer;
 
     fn receive(&mut self, answer: SoundAnswer, _main: &mut Context) {

@@ -4,7 +4,7 @@
 use super::keys::channel::BoneNames;
 use super::keys::{BoneFlag, BoneFlags};
 use super::reference::settings::{relative_to, resolved};
-use super::reference::{Reference, ReferenceSettings};
+use super::reference::{ReferenceSettings, ReferenceTrack};
 use super::selection_sets::{SelectionSet, SelectionSets};
 use super::sound::{SoundSettings, SoundTrack};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
@@ -136,7 +136,7 @@ pub(super) struct BoneMarks<'a> {
     /// The selection sets.
     pub(super) sets: &'a SelectionSets,
     /// The reference picture.
-    pub(super) reference: &'a Reference,
+    pub(super) reference: &'a ReferenceTrack,
     /// The sound.
     pub(super) sound: &'a SoundTrack,
 }

@@ -5,7 +5,7 @@ use super::actions::{bones, drags, execute, feed, files, input, playback, show};
 use super::context::PanelContext;
 use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
-use super::reference::Reference;
+use super::reference::ReferenceTrack;
 use super::request::{Effect, Request};
 use super::settings::Settings;
 use super::side_files::SideFiles;
@@ -142,7 +142,7 @@ impl State {
     }
 
     /// Returns the reference picture, to which the program around the panels adds what it read.
-    pub fn reference(&mut self) -> &mut Reference {
+    pub fn reference(&mut self) -> &mut ReferenceTrack {
         &mut self.workspace.reference
     }
 

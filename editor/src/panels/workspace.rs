@@ -16,7 +16,7 @@ use super::player::Player;
 use super::pose_library::PoseLibrary;
 use super::posed::PoseCache;
 use super::prompts::Prompts;
-use super::reference::Reference;
+use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
 use super::selected_bones::SelectedBones;
 use super::selection_sets::SelectionSets;
@@ -83,7 +83,7 @@ pub(super) struct Workspace {
     /// The pose library.
     pub(super) poses: PoseLibrary,
     /// The reference picture.
-    pub(super) reference: Reference,
+    pub(super) reference: ReferenceTrack,
     /// The sound.
     pub(super) sound: SoundTrack,
     /// Messages of the status line.
@@ -123,7 +123,7 @@ impl Workspace {
             prompts: Prompts::default(),
             retarget: RetargetSource::default(),
             poses: PoseLibrary::default(),
-            reference: Reference::default(),
+            reference: ReferenceTrack::default(),
             sound: SoundTrack::default(),
             status: Status::default(),
             settings,

@@ -2,6 +2,7 @@
 
 use super::kind::EditKind;
 use super::{Arbitrary, EditedBones, Example, MeshRef, ShapeRef, TakeRef, cost};
+use crate::adapter::plan::morph_keys::MeshWeight;
 use crate::adapter::plan::{Transaction, finite, key_time, morph_keys, pending};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
@@ -81,10 +82,7 @@ impl EditKind for SetShapes {
 /// # Errors
 ///
 /// A shape key does not exist, a weight is no usable number, or none is given.
-pub(super) fn found(
-    work: &Transaction,
-    shapes: &[ShapeWeight],
-) -> Result<Vec<(u32, (usize, f32))>, EditError> {
+pub(super) fn found(work: &Transaction, shapes: &[ShapeWeight]) -> Result<Vec<MeshWeight>, EditError> {
     if shapes.is_empty() {
         return Err(EditError::Nothing("no shape key is given"));
     }

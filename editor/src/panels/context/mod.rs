@@ -20,7 +20,7 @@ use super::open_model::Loading;
 use super::pose_library::PoseLibrary;
 use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
-use super::reference::Reference;
+use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
 use super::selection_sets::SelectionSets;
 use super::selection_trail::SelectionTrail;
@@ -113,7 +113,7 @@ pub struct PanelContext<'a> {
     /// The pose library.
     pub poses: &'a PoseLibrary,
     /// The reference picture.
-    pub reference: &'a Reference,
+    pub reference: &'a ReferenceTrack,
     /// The sound.
     pub sound: &'a SoundTrack,
     /// Messages of the status line.

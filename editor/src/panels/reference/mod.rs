@@ -22,7 +22,7 @@ pub struct ReferenceInfo {
 
 /// The reference picture of the model that is open.
 #[derive(Debug, Default)]
-pub struct Reference {
+pub struct ReferenceTrack {
     settings: ReferenceSettings,
     /// Grows with every change of the settings.
     version: u64,
@@ -32,7 +32,7 @@ pub struct Reference {
     picture: Option<ReferencePicture>,
 }
 
-impl Reference {
+impl ReferenceTrack {
     /// Returns the settings.
     pub fn settings(&self) -> &ReferenceSettings {
         &self.settings

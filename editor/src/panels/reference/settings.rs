@@ -143,9 +143,9 @@ mod tests {
     #[test]
     fn a_path_is_stored_relative_to_the_folder_of_the_model_and_found_again() {
         for (folder, path, stored) in [
-            ("/work/models", "/work/models/walk_0001.png", "walk_0001.png"),
-            ("/work/models", "/work/film/frames/walk_0001.png", "../film/frames/walk_0001.png"),
-            ("/work/models", "/media/film/walk.gif", "/media/film/walk.gif"),
+            ("/films/models", "/films/models/walk_0001.png", "walk_0001.png"),
+            ("/films/models", "/films/film/frames/walk_0001.png", "../film/frames/walk_0001.png"),
+            ("/films/models", "/media/film/walk.gif", "/media/film/walk.gif"),
         ] {
             let (folder, path) = (Path::new(folder), Path::new(path));
             let relative = relative_to(folder, path);

@@ -47,12 +47,15 @@ pub(crate) fn with_weights(
     new
 }
 
+/// The mesh of a weight, and its target with the number.
+pub(crate) type MeshWeight = (u32, (usize, f32));
+
 /// Gives shape keys weights at a time: pairs of a mesh, and of a target with its weight.
 pub(crate) fn set_weights(
     work: &mut Transaction,
     take: TakeId,
     time: f32,
-    weights: impl Iterator<Item = (u32, (usize, f32))>,
+    weights: impl Iterator<Item = MeshWeight>,
 ) -> Result<(), EditError> {
     let mut meshes: BTreeMap<u32, Vec<(usize, f32)>> = BTreeMap::new();
     for (instance, weight) in weights {

@@ -5,6 +5,7 @@ use super::super::pending::PendingAt;
 use super::super::slot::{TakeId, TakeVersions};
 use super::morph::per_key;
 use super::morph_given::{empty_track, with_keys};
+use super::morph_keys::MeshWeight;
 use super::{EditError, Transaction, finite};
 use crate::edit::target::SAME_TIME;
 use crate::edit::{OffsetShapes, ShapeScope};
@@ -27,7 +28,7 @@ struct ShapeOffsetPlan<'a> {
 pub(crate) fn offset_shapes(
     work: &mut Transaction,
     edit: &OffsetShapes,
-    shapes: Vec<(u32, (usize, f32))>,
+    shapes: Vec<MeshWeight>,
 ) -> Result<(), EditError> {
     let take = work.take(&edit.take)?;
     let at = edit.at.map(|at| finite("a time", at)).transpose()?;
