@@ -16,9 +16,11 @@ impl ShapeCurveList {
     /// Returns the shape keys that move in a take, at most `most`; all of them if none does. While keys are dragged they stay the same,
     /// so that no curve disappears under the pointer.
     pub(super) fn update(&mut self, take: &Take, most: usize, dragged: bool) -> &[CurveId] {
-        let same = self.of.len() == take.morphs.len()
+        let same_number = self.of.len() == take.morphs.len();
+        let same = same_number
             && self.of.iter().zip(&take.morphs).all(|(of, track)| Arc::ptr_eq(of, &track.weights));
-        if !same && !(dragged && self.of.len() == take.morphs.len()) {
+        let stays = same || (dragged && same_number);
+        if !stays {
             self.of = take.morphs.iter().map(|track| Arc::clone(&track.weights)).collect();
             let list = |only_moving: bool| -> Vec<CurveId> {
                 let shapes = take.morphs.iter().flat_map(|track| {
