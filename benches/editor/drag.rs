@@ -287,7 +287,9 @@ fn measure(load: LoadFn, bone: &str, dragged: Dragged, edits: &[&str]) -> Vec<f6
         let mut input = egui::RawInput { events: vec![egui::Event::PointerMoved(at)], ..Default::default() };
         moved.push(Instant::now());
         match dragged {
-            Dragged::Bone(_) => state.feed(&context, &mut input, 0, &mut effects),
+            Dragged::Bone(_) => {
+                state.feed(&context, &mut input, 0, &mut effects);
+            }
             Dragged::Slider(tool) => {
                 let keys = ChosenKeys::of(&state.read(), 1, None).expect("selected keys");
                 let edit = tool.edit(5.0 + f64::from(sin), &keys).expect("an edit");

@@ -51,7 +51,7 @@ fn the_motion_of_a_stretched_part_is_the_same_on_another_clock_with_splines_too(
                 );
             }
             let before = fox_with(&model);
-            // Both ends are at keys, so that every curve lies on one side of them.
+            // Both ends are at keys, so that no piece of a curve crosses them.
             let times = before.slots()[WALK].result.tracks.iter().find(|track| track.rotation.len() > 4);
             let times = times.expect("keys").rotation.times.to_vec();
             let start = random.below(times.len() - 2);

@@ -1,9 +1,11 @@
 //! The images of a model: surveyed when it is opened, and decoded one at a time by what draws it, within limits: a file of
 //! one kilobyte must not allocate all memory.
 
+mod rows;
+
 use super::Cancel;
 use dragonfly_anim::data::Image;
-use image::{ImageDecoder, ImageReader, Limits};
+use image::{ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::collections::HashMap;
 use std::io::Cursor;
 
@@ -149,6 +151,8 @@ struct ImageSize {
     raw: u64,
     /// Whether they need no conversion.
     is_rgba: bool,
+    /// Whether they are decoded row by row.
+    has_rows: bool,
 }
 
 /// Number of halvings after which the memory of the result hardly counts.
@@ -167,7 +171,11 @@ impl ImageSize {
 
     /// Returns the most memory that decoding needs.
     fn peak(&self, halvings: u32) -> u64 {
-        if halvings == 0 && self.is_rgba { self.raw } else { self.raw + self.kept(halvings) }
+        match self.has_rows {
+            true => self.kept(halvings) + rows::memory_of_rows(self.width),
+            false if halvings == 0 && self.is_rgba => self.raw,
+            false => self.raw + self.kept(halvings),
+        }
     }
 
     /// Refuses an image beyond the limits.
@@ -228,14 +236,16 @@ fn size_of_image(image: &Image) -> Result<ImageSize, String> {
     }
     let measure = || {
         let (width, height) = reader(image)?.into_dimensions().map_err(|error| error.to_string())?;
-        let size = ImageSize { width, height, raw: 0, is_rgba: false };
+        let size = ImageSize { width, height, raw: 0, is_rgba: false, has_rows: false };
         // Some decoders allocate by the size, so it is checked before one is created.
         size.check(MAX_PIXELS_TOTAL, u64::MAX, 0)?;
         let mut reader = reader(image)?;
         reader.limits(limits(&size));
         let decoder = reader.into_decoder().map_err(|error| error.to_string())?;
         let is_rgba = decoder.color_type() == image::ColorType::Rgba8;
-        Ok(ImageSize { raw: decoder.total_bytes(), is_rgba, ..size })
+        let is_png = image::guess_format(&image.bytes).is_ok_and(|format| format == ImageFormat::Png);
+        let has_rows = is_png && rows::has_rows(&image.bytes);
+        Ok(ImageSize { raw: decoder.total_bytes(), is_rgba, has_rows, ..size })
     };
     std::panic::catch_unwind(measure).unwrap_or_else(|_| Err("the decoder failed".to_owned()))
 }
@@ -254,6 +264,9 @@ fn limits(size: &ImageSize) -> Limits {
 }
 
 fn decode_smaller(image: &Image, size: ImageSize, halvings: u32) -> Result<DecodedImage, String> {
+    if size.has_rows {
+        return rows::decode_rows(&image.bytes, halvings);
+    }
     let mut reader = reader(image)?;
     reader.limits(limits(&size));
     let mut decoded = reader.decode().map_err(|error| error.to_string())?;
