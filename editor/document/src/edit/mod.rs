@@ -309,7 +309,7 @@ mod tests {
         let before = model();
         for kind in EDITS {
             let mut applied = 0;
-            for _ in 0..200 {
+            for _ in 0..500 {
                 let edit = (kind.arbitrary)(&mut Arbitrary::new(&mut || random.bits(), 3, &bones));
                 let context = format!("{edit:?}");
                 let mut model = before.clone();
