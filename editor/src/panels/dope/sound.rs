@@ -83,10 +83,10 @@ impl SoundLane {
             (Some(problem), _) => format!("{problem}\nRight-click to choose another sound"),
             (None, None) => format!("{text}\nThe sound is being read"),
             (None, Some(peaks)) => format!(
-                "{text}\nStarts at frame {frame}, {:.2} s long, {} channels at {} Hz\n\
+                "{text}\nStarts at frame {frame}, {:.2} s long, {} at {} Hz\n\
                  Drag to move it, right-click for more\nIt is only shown: this program plays no sound",
                 peaks.seconds(),
-                peaks.channels(),
+                widgets::count(peaks.channels(), "channel", "channels"),
                 peaks.rate(),
             ),
         };
