@@ -112,7 +112,7 @@ fn more() -> Vec<PictureCase> {
         case("timeline-weight", "timeline", Typical, |window| {
             for line in [
                 r#"{"edit":"add_layer","take":0,"name":"Head up"}"#,
-                r#"{"edit":"set_layer_weights","take":{"take":0,"layer":0},"keys":[{"time":0.2,"weight":0},{"time":0.4,"weight":1},{"time":0.7,"weight":1.5},{"time":0.9,"weight":0.2}]}"#,
+                r#"{"edit":"set_layer_weights","take":{"take":0,"layer":0},"keys":[{"time":0.2,"weight":0},{"time":0.4,"weight":1},{"time":0.7,"weight":1.5},{"time":0.9,"weight":0.2},{"time":1.5,"weight":1.5}]}"#,
             ] {
                 let edit = serde_json::from_str(line).expect(line);
                 window.state_mut().change(Change::Edit(edit, None));

@@ -129,13 +129,14 @@ impl WeightLane {
         }
         let lane = scale.lane;
         let at = |key: &WeightKey| pos2(sheet.scale.x_of(key.time), scale.y_of(key.weight));
-        let edge = |x: f32, key: Option<&WeightKey>| {
-            pos2(x, scale.y_of(key.map_or(settings.weight, |key| key.weight)))
-        };
-        let mut points = vec![edge(lane.left().min(sheet.scale.x_of(0.0)), shown.first())];
-        points.extend(shown.iter().map(at));
-        points.push(edge(lane.right(), shown.last()));
-        points.sort_by(|a, b| a.x.total_cmp(&b.x));
+        let weight = |key: Option<&WeightKey>| key.map_or(settings.weight, |key| key.weight);
+        let mut points: Vec<Pos2> = shown.iter().map(at).collect();
+        // Constant before the first key and after the last one.
+        let (first, last) = (points.first().map(|at| at.x), points.last().map(|at| at.x));
+        let left = lane.left().min(first.unwrap_or(f32::INFINITY));
+        let right = lane.right().max(last.unwrap_or(f32::NEG_INFINITY));
+        points.insert(0, pos2(left, scale.y_of(weight(shown.first()))));
+        points.push(pos2(right, scale.y_of(weight(shown.last()))));
         let [red, green, blue] = settings.color;
         let color = Color32::from_rgb(red, green, blue);
         let painter = ui.painter().with_clip_rect(lane.intersect(ui.clip_rect()));
