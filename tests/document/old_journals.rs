@@ -126,11 +126,12 @@ fn edits_of_shape_keys_of_every_version_are_replayed() {
     let records: Vec<(u8, &[u8])> = records.iter().map(|record| (2, &record[..])).collect();
     let (_, view) = recovered_for(folder, path, &records, records.len());
     let track = &view.takes[0].morphs[0];
-    // Keys at 0.05 s and 6 s are set, that at 6 s goes to 7 s and is copied to 8 s.
-    assert_eq!(track.times.len(), 127 + 3);
-    assert_eq!(track.times[128..], [7.0, 8.0]);
+    // Keys at 0.05 s and 6 s are set, that at 6 s goes to 7 s and is copied to 8 s. Both are set again, that at 8 s gets an offset, a
+    // pending weight is keyed at 8.5 s, and a key is pasted at 9 s.
+    assert_eq!(track.times.len(), 127 + 5);
+    assert_eq!(track.times[128..], [7.0, 8.0, 8.5, 9.0]);
     assert_eq!(track.weights[2 * 2..2 * 2 + 2], [0.75, 0.25]);
-    assert_eq!(track.weights[2 * 129..], [0.5, 1.0]);
+    assert_eq!(track.weights[2 * 128..], [0.125, 1.0, 0.5, 0.75, 0.5, 0.75, 0.5, 0.0]);
 }
 
 #[test]

@@ -121,7 +121,12 @@ fn an_invalid_edit_is_not_shown() {
     let first = fixture::full();
     let (mut echo, mut shown) = (Echo::default(), Some(first.clone()));
     let wrong = Change::Edit(
-        Edit::DropPending(DropPending { take: TakeRef::Index(99), time: None, bones: Vec::new() }),
+        Edit::DropPending(DropPending {
+            take: TakeRef::Index(99),
+            time: None,
+            bones: Vec::new(),
+            shapes: false,
+        }),
         None,
     );
     echo.send(&wrong, &mut shown);

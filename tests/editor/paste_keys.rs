@@ -2,7 +2,7 @@
 
 use crate::timeline_rig::Animator;
 use dragonfly::panels::commands::Id;
-use dragonfly::panels::keys::clipboard::{CopiedValues, copied, from_text, to_text};
+use dragonfly::panels::keys::clipboard::{CopiedKeys, CopiedValues, copied, from_text, to_text};
 use dragonfly::panels::keys::intervals::WHOLE;
 use dragonfly::panels::keys::{BoneFlag, ChannelId, KeySelection, KeysRequest, channel};
 use dragonfly::panels::{Effect, Request};
@@ -50,7 +50,7 @@ fn of<T: Copy>(values: &[T], keys: usize, key: usize, numbers: fn(T) -> Vec<f32>
 }
 
 fn paste(take: TakeRef, time: f32, channels: Vec<CopiedChannel>) -> Edit {
-    Edit::PasteKeys(PasteKeys { take, time, channels })
+    Edit::PasteKeys(PasteKeys { take, time, channels, shapes: Vec::new() })
 }
 
 #[test]
@@ -76,8 +76,8 @@ fn pasting_copied_keys_over_themselves_changes_no_bit() {
             continue;
         }
         // Through the clipboard, as text.
-        let (read, values) = from_text(&to_text(channels.clone(), CopiedValues::Poses)).unwrap();
-        assert_eq!((&read, values), (&channels, CopiedValues::Poses));
+        let keys = CopiedKeys { channels: channels.clone(), values: CopiedValues::Poses, shapes: Vec::new() };
+        assert_eq!(from_text(&to_text(keys.clone())).unwrap(), keys);
         let at = selection.extent(&take).unwrap()[0];
         let before = model.clone();
         let inverse = model.apply(&paste(walk(), at, channels)).unwrap();
@@ -203,7 +203,7 @@ fn ctrl_c_copies_keys_in_the_timeline_and_the_pose_elsewhere() {
     animator.harness.event(Event::Copy);
     animator.steps(2);
     let text = clipboard(&mut animator);
-    let (channels, _) = from_text(&text).unwrap_or_else(|| panic!("keys, not {text}"));
+    let CopiedKeys { channels, .. } = from_text(&text).unwrap_or_else(|| panic!("keys, not {text}"));
     assert_eq!((channels.len(), channels[0].keys.len()), (1, 2));
     assert!(said(&animator).contains("Copied 2 keys"), "{}", said(&animator));
     // With the pointer over the viewport, the pose is copied.

@@ -28,7 +28,7 @@ fn pend(time: f32, poses: Vec<BonePose>) -> Edit {
 }
 
 fn key(time: Option<f32>) -> Edit {
-    Edit::KeyPending(KeyPending { take: walk(), time, bones: Vec::new(), unstep: false })
+    Edit::KeyPending(KeyPending { take: walk(), time, bones: Vec::new(), shapes: false, unstep: false })
 }
 
 /// Returns the pending values as (time, bone, channel, first number).
@@ -91,9 +91,16 @@ fn dropping_removes_the_named_pending_poses_and_undo_restores_them() {
     edited.apply(pend(0.3, vec![moved("hip", [1.0; 3]), moved("root", [2.0; 3])]), None).unwrap();
     let take = walk();
     let bones = vec![BoneRef::Name("hip".to_owned())];
-    edited.apply(Edit::DropPending(DropPending { take: take.clone(), time: None, bones }), None).unwrap();
+    edited
+        .apply(Edit::DropPending(DropPending { take: take.clone(), time: None, bones, shapes: false }), None)
+        .unwrap();
     assert_eq!(waiting(edited.adapter()), [(0.3, 0, Property::Translation, 2.0)]);
-    edited.apply(Edit::DropPending(DropPending { take, time: Some(0.3), bones: Vec::new() }), None).unwrap();
+    edited
+        .apply(
+            Edit::DropPending(DropPending { take, time: Some(0.3), bones: Vec::new(), shapes: false }),
+            None,
+        )
+        .unwrap();
     assert_eq!(waiting(edited.adapter()), []);
     edited.go_to(1);
     assert_eq!(edited.adapter().pending_poses(), 2);
@@ -169,7 +176,7 @@ fn an_invalid_pose_cannot_become_pending() {
         pend(0.0, vec![moved("nobody", [0.0; 3])]),
         pend(0.0, vec![pose("hip")]),
         pend(0.0, Vec::new()),
-        Edit::DropPending(DropPending { take: walk(), time: None, bones: Vec::new() }),
+        Edit::DropPending(DropPending { take: walk(), time: None, bones: Vec::new(), shapes: false }),
         key(Some(f32::NAN)),
     ];
     for edit in wrong {

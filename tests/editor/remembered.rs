@@ -3,6 +3,8 @@
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::keys::{BoneFlag, KeysRequest};
 use dragonfly::panels::marks;
+use dragonfly::panels::reference::ReferenceSettings;
+use dragonfly::panels::sound::SoundSettings;
 use dragonfly::panels::{Request, Settings, State};
 use dragonfly_document::View;
 use dragonfly_kit::document::fixture;
@@ -133,4 +135,38 @@ fn restored_flags_have_another_version_than_those_of_the_previous_model() {
         assert!(!versions.contains(&state.read().keys.flags().version()), "{versions:?}");
         versions.push(state.read().keys.flags().version());
     }
+}
+
+#[test]
+fn the_reference_and_the_sound_of_a_file_are_restored_with_paths_relative_to_it() {
+    let there = |title: &str| {
+        let mut view = file(title);
+        std::sync::Arc::make_mut(&mut view.file).path = Some(std::path::Path::new("/films/walk").join(title));
+        view
+    };
+    let mut state = State::new(Settings::default(), Instant::now());
+    state.show(there("Fox.glb"));
+    let reference = ReferenceSettings {
+        file: "/films/walk/frames/walk_0001.png".into(),
+        opacity: 0.25,
+        first: -3,
+        repeats: true,
+        ..ReferenceSettings::default()
+    };
+    let sound = SoundSettings { file: "/films/sound/steps.wav".into(), start: 12 };
+    state.execute(Request::Reference(reference.clone()));
+    state.execute(Request::Sound(sound.clone()));
+    state.show(there("Crow.glb"));
+    assert!(!state.read().reference.settings().is_chosen() && !state.read().sound.settings().is_chosen());
+    let text = state.side_files().unsaved_marks().expect("changed");
+    assert!(text.contains(r#""frames/walk_0001.png""#) && text.contains(r#""../sound/steps.wav""#), "{text}");
+    let mut again = State::new(Settings::default(), Instant::now());
+    again.side_files().read_marks(&text);
+    again.show(there("Fox.glb"));
+    assert_eq!(*again.read().reference.settings(), reference);
+    assert_eq!(*again.read().sound.settings(), sound);
+    assert_eq!(again.side_files().unsaved_marks(), None, "as it was read");
+    again.execute(Request::Command(Id::RemoveSound));
+    let text = again.side_files().unsaved_marks().expect("changed");
+    assert!(!text.contains("steps.wav"), "{text}");
 }

@@ -24,7 +24,7 @@ fn pend(bones: &[u32]) -> Edit {
 }
 
 fn discard() -> Edit {
-    Edit::DropPending(DropPending { take: TakeRef::Index(0), time: None, bones: Vec::new() })
+    Edit::DropPending(DropPending { take: TakeRef::Index(0), time: None, bones: Vec::new(), shapes: false })
 }
 
 /// A document and the panels that show it.

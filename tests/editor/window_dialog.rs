@@ -57,6 +57,40 @@ fn the_chosen_file_is_opened_and_cancelling_the_dialog_changes_nothing() {
 }
 
 #[test]
+fn the_folder_of_poses_is_chosen_in_the_dialog() {
+    let _one = alone();
+    let folder = Folder::new("poses-chosen");
+    let poses = folder.join("Pösen & more");
+    std::fs::create_dir(&poses).expect("a folder");
+    let bus = Bus::new();
+    let portal = Portal::new(&bus);
+    let mut screen = Screen::new("folder", 1280, 800);
+    let mut editor = Editor::open(&mut screen, &[], &[(BUS, bus.address())]);
+    eventually_shows_something(&screen);
+    screen.press(key::F3);
+    screen.type_text("choose");
+    screen.press(key::SPACE);
+    screen.type_text("pose");
+    screen.press(key::ENTER);
+    let question = portal.question(SOON);
+    assert_eq!(question.title, "Choose the folder of poses");
+    assert!(question.options.iter().any(|option| option == "directory"), "{:?}", question.options);
+    portal.answer(&question, &Answer::File(address(&poses)));
+    editor.wait_for_log("The folder of poses is", 1, SOON);
+    assert!(editor.log().contains("Pösen & more"), "{}", editor.log());
+    // The system's dialog is closed without a folder.
+    screen.press(key::F3);
+    screen.type_text("choose");
+    screen.press(key::SPACE);
+    screen.type_text("pose");
+    screen.press(key::ENTER);
+    let question = portal.question(SOON);
+    pass(Duration::from_millis(400));
+    portal.answer(&question, &Answer::Nothing);
+    editor.wait_for_log("No folder was chosen", 1, SOON);
+}
+
+#[test]
 fn the_program_ends_while_the_dialog_is_open() {
     let _one = alone();
     let bus = Bus::new();

@@ -18,6 +18,7 @@ mod picking_scene;
 mod picking_skin;
 mod picture;
 mod playback;
+mod reference_picture;
 mod samples;
 mod shaders;
 mod skinning_on_device;

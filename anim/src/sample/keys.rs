@@ -134,7 +134,7 @@ mod tests {
         let times = [0.0, 0.5, 0.75, 1.0, 2.0, 3.0, 3.5, 7.0];
         for step in [1_u16, 3, 20, 400] {
             let mut cursor = KeyCursor::default();
-            for at in (0..1000).step_by(usize::from(step)).chain([0, 700, 300]) {
+            for at in (0..1000_u16).step_by(usize::from(step)).chain([0, 700, 300]) {
                 let time = f32::from(at) * 0.01 - 1.0;
                 assert_eq!(cursor.find(&times, time), find_keys(&times, time), "{time}");
             }

@@ -248,7 +248,8 @@ impl Edited {
     fn only_pending_changed_since(&self, other: usize) -> bool {
         let (from, to) = (self.done.min(other), self.done.max(other));
         let mut between = self.steps.range(from..to);
-        between.all(|step| matches!(step.edit, Edit::SetPending(_) | Edit::DropPending(_)))
+        between
+            .all(|step| matches!(step.edit, Edit::SetPending(_) | Edit::PendShapes(_) | Edit::DropPending(_)))
     }
 
     /// Returns the number of steps that were applied at the last save; `None` where neither undo nor redo leads there.

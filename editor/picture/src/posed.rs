@@ -212,12 +212,16 @@ impl PosedModel {
         for (matrix, instance) in self.palettes[self.rigid_start..].iter_mut().zip(&model.instances) {
             *matrix = rigid(instance, to_root).into();
         }
+        let pending = slot.and_then(|slot| slot.pending_at(time));
         let take = take.and_then(|take| self.animation.data().takes.get(take)).map(Arc::as_ref);
         for (index, (instance, &(start, count))) in
             model.instances.iter().zip(&self.weight_ranges).enumerate()
         {
             let weights = &mut self.weights[start..start + count];
             sample_morph_weights(take, index as u32, &instance.morph_weights, time, weights);
+            if let Some(pending) = pending {
+                pending.put_weights(index as u32, weights);
+            }
         }
     }
 

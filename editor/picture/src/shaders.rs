@@ -38,6 +38,8 @@ macro_rules! shaders {
 shaders! {
     /// The background gradient.
     BACKGROUND = "background": FRAME COLOR;
+    /// The reference picture.
+    REFERENCE = "reference": FRAME;
     /// Skinned and lit surfaces.
     MODEL = "model": FRAME COLOR STUDIO POSE VERTEX;
     /// Surfaces of ghosts.

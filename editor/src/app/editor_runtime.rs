@@ -6,7 +6,9 @@ use super::graphics_sync::GraphicsSync;
 use super::hover::{Hover, HoverPoint};
 use super::interface::Interface;
 use super::options::Options;
+use super::reference_loader::{ReferenceAnswer, ReferenceAnswers};
 use super::replies::{Answers, Replies};
+use super::sound_loader::{SoundAnswer, SoundAnswers};
 use super::state_trace;
 use crate::panels::status::MessageSeverity;
 use crate::panels::window_status::DeviceStatus;
@@ -39,6 +41,8 @@ pub(super) struct Running {
     pub(super) leaving: bool,
     replies: Address<DocumentReply>,
     pub(super) answers: Address<Answer>,
+    references: Address<ReferenceAnswer>,
+    sounds: Address<SoundAnswer>,
     graphics_sync: GraphicsSync,
     /// Number of questions sent to the graphics thread.
     tickets: u64,
@@ -91,6 +95,11 @@ impl EditorRuntime {
             self.effect(effect);
         }
         if let Some(running) = &mut self.running {
+            {
+                let mut interface = running.parts.interface.borrow_mut();
+                interface.update_reference(&running.references);
+                interface.update_sound(&running.sounds);
+            }
             let interface = running.parts.interface.borrow();
             let (state, scale) = (interface.state.read(), interface.pixels_per_point());
             running.graphics_sync.update(&running.parts.graphics, &state, scale, interface.is_dark());
@@ -118,6 +127,18 @@ impl EditorRuntime {
             | Effect::ReleaseDrag => {}
             Effect::OpenDialog | Effect::CompareDialog if interface.asking => {
                 interface.state.say(MessageSeverity::Info, "The dialog for opening files is open already");
+            }
+            Effect::Choose(..) if interface.asking => {
+                interface.state.say(MessageSeverity::Info, "A file dialog is open already");
+            }
+            Effect::Choose(choice, folder) => {
+                match file_dialog::ask(Purpose::Choose(choice), folder, running.answers.clone()) {
+                    Ok(()) => interface.asking = true,
+                    Err(error) => {
+                        let text = format!("The file dialog could not be opened: {error}");
+                        interface.state.say(MessageSeverity::Error, text);
+                    }
+                }
             }
             Effect::OpenDialog | Effect::CompareDialog => {
                 let compares = effect == Effect::CompareDialog;
@@ -176,6 +197,11 @@ impl BaseRuntime for EditorRuntime {
         let (hears, chooses) = (Rc::clone(&parts.interface), Rc::clone(&parts.interface));
         main.register_restartable_receiver_at(&replies, move |_| Replies { interface: Rc::clone(&hears) });
         main.register_restartable_receiver_at(&answers, move |_| Answers(Rc::clone(&chooses)));
+        let references = main.handle().reserve_address();
+        let (shows, draws) = (Rc::clone(&parts.interface), Rc::clone(&parts.interface));
+        let sounds = main.handle().reserve_address();
+        main.register_restartable_receiver_at(&sounds, move |_| SoundAnswers(Rc::clone(&draws)));
+        main.register_restartable_receiver_at(&references, move |_| ReferenceAnswers(Rc::clone(&shows)));
         let setup = self.setup();
         let document = match Document::start_with(setup, replies.clone(), parts.graphics.views().clone()) {
             Ok(document) => {
@@ -195,6 +221,8 @@ impl BaseRuntime for EditorRuntime {
             document,
             replies,
             answers,
+            references,
+            sounds,
             leaving: false,
             graphics_sync: GraphicsSync::default(),
             tickets: 0,
@@ -278,6 +306,8 @@ impl BaseRuntime for EditorRuntime {
     fn destroy(&mut self, main: &mut Context) {
         let Some(running) = self.running.take() else { return };
         main.unregister_receiver(&running.answers);
+        main.unregister_receiver(&running.references);
+        main.unregister_receiver(&running.sounds);
         if let Some(document) = running.document {
             document.stop();
             if let Err(late) = Thread::wait_for(&[document.thread().clone()], Instant::now() + END) {

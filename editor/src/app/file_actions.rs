@@ -5,8 +5,9 @@ use super::file_dialog::{self, Purpose};
 use super::interface::Interface;
 use crate::panels::dialogs::PlaceQuestion;
 use crate::panels::prompts::Overlay;
+use crate::panels::sound::SoundSettings;
 use crate::panels::status::MessageSeverity;
-use crate::panels::{Effect, FileAction};
+use crate::panels::{Effect, FileAction, FileChoice, Request};
 use dragonfly_anim::format::gltf::GLB;
 use dragonfly_document::{DocumentMessage, Offer, SaveOrder, Source, Then};
 use std::path::Path;
@@ -148,6 +149,21 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             interface.state.say(MessageSeverity::Warning, text);
             interface.state.ask_where_it_is(offer, None);
         }
+        (Purpose::Choose(choice), Some(path)) => {
+            let request = match choice {
+                FileChoice::PoseFolder => Request::PoseFolder(path),
+                FileChoice::Reference => Request::ReferenceFile(path),
+                FileChoice::Sound => Request::Sound(SoundSettings { file: path, start: 0 }),
+            };
+            let effect = interface.state.execute(request);
+            interface.effects.extend(effect);
+        }
+        (Purpose::Choose(choice), None) if quick => {
+            interface.state.say(MessageSeverity::Warning, choice.no_dialog());
+        }
+        (Purpose::Choose(choice), None) if choice.filter().is_none() => {
+            interface.state.say(MessageSeverity::Info, "No folder was chosen")
+        }
         (Purpose::Open | Purpose::Compare, None) if quick => {
             let text = "This desktop has no dialog for opening files; type the path instead";
             interface.state.say(MessageSeverity::Warning, text);
@@ -159,7 +175,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
             interface.state.ask(PlaceQuestion { copy, then }.into());
         }
         // A dialog that failed slowly looks the same as one that the user closed.
-        (Purpose::Open | Purpose::Compare | Purpose::Find(_), None) => {
+        (Purpose::Open | Purpose::Compare | Purpose::Find(_) | Purpose::Choose(_), None) => {
             interface.state.say(MessageSeverity::Info, "No file was chosen")
         }
         (Purpose::Save { .. }, None) => interface.state.say(MessageSeverity::Info, "Nothing was saved"),

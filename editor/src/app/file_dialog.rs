@@ -1,5 +1,6 @@
 //! The system's dialogs for files, run in a thread of their own: they may take minutes to answer.
 
+use crate::panels::FileChoice;
 use dragonfly_document::{Offer, Then, formats};
 use dragonfly_runtime::{Address, Job, JobContext};
 use std::path::PathBuf;
@@ -13,6 +14,8 @@ pub(super) enum Purpose {
     Compare,
     /// Find this file, which was moved, to restore its unsaved work.
     Find(Box<Offer>),
+    /// Choose another file or a folder.
+    Choose(FileChoice),
     /// Choose where to save.
     Save {
         /// Whether to save a copy, so that the document keeps its own file.
@@ -56,6 +59,16 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
                 };
                 let dialog = dialog.set_title(title).add_filter("Models", &formats().extensions());
                 pollster::block_on(dialog.add_filter("All files", &["*"]).pick_file())
+            }
+            Purpose::Choose(choice) => {
+                let dialog = dialog.set_title(choice.title());
+                match choice.filter() {
+                    None => pollster::block_on(dialog.pick_folder()),
+                    Some((name, extensions)) => {
+                        let dialog = dialog.add_filter(name, extensions).add_filter("All files", &["*"]);
+                        pollster::block_on(dialog.pick_file())
+                    }
+                }
             }
             Purpose::Save { copy, name, .. } => {
                 let title = if *copy { "Save a copy" } else { "Save as" };

@@ -9,7 +9,7 @@ use dragonfly_picture::gizmo::RoleColors;
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{
     AppearanceSender, ComparedAppearance, GhostAppearance, GizmoAppearance, GizmoDragAppearance, GizmoLook,
-    GraphicsHandle, IkAppearance, Look, PathAppearance,
+    GraphicsHandle, IkAppearance, Look, PathAppearance, ReferenceAppearance,
 };
 use std::sync::Arc;
 
@@ -99,6 +99,7 @@ impl GraphicsSync {
         sender.update(graphics, |compared: &mut ComparedAppearance| {
             compared.second = state.second_skeleton();
         });
+        sender.update(graphics, |reference: &mut ReferenceAppearance| state.fill_reference(reference));
         sender.update(graphics, |IkAppearance(ik)| {
             if !state.shows_ik(ik.as_ref()) {
                 *ik = state.ik_look();

@@ -3,6 +3,8 @@
 //! It exists before the device and before any model, so the program answers at once (T-093).
 
 use super::accessibility_trace::AccessibilityTrace;
+use super::reference_loader::{ReferenceAnswer, ReferenceLoader};
+use super::sound_loader::{SoundAnswer, SoundLoader};
 use super::state_trace::StateTrace;
 use super::store::{self, Store};
 use crate::panels::commands;
@@ -17,7 +19,7 @@ use dragonfly_document::edit::Edit;
 use dragonfly_document::{DocumentMessage, FaultInjection, FaultPoint};
 use dragonfly_picture::playback::PlaybackClock;
 use dragonfly_picture::{GraphicsHandle, PanelsFrame};
-use dragonfly_runtime::{Context, Worker};
+use dragonfly_runtime::{Address, Context, Worker};
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -67,6 +69,8 @@ pub struct Interface {
     pub(super) faults: FaultInjection,
     state_trace: StateTrace,
     accessibility_trace: AccessibilityTrace,
+    reference: ReferenceLoader,
+    sound: SoundLoader,
 }
 
 impl Interface {
@@ -108,6 +112,8 @@ impl Interface {
             faults: FaultInjection::default(),
             state_trace: StateTrace::default(),
             accessibility_trace: AccessibilityTrace::default(),
+            reference: ReferenceLoader::default(),
+            sound: SoundLoader::default(),
         }
     }
 
@@ -265,6 +271,29 @@ impl Interface {
             self.redraw();
         }
         heard
+    }
+
+    /// Starts the jobs that the reference picture needs at the time shown.
+    pub(super) fn update_reference(&mut self, answers: &Address<ReferenceAnswer>) {
+        if self.state.read().reference.settings().is_chosen() {
+            self.state.set_now(Instant::now());
+        }
+        self.reference.update(&mut self.state, answers);
+    }
+
+    /// Receives an answer of a job about the reference picture.
+    pub(super) fn reference_answered(&mut self, answer: ReferenceAnswer) {
+        self.reference.receive(&mut self.state, answer);
+    }
+
+    /// Starts the job that reads the sound, if another one was chosen.
+    pub(super) fn update_sound(&mut self, answers: &Address<SoundAnswer>) {
+        self.sound.update(&mut self.state, answers);
+    }
+
+    /// Receives the answer of a job about the sound.
+    pub(super) fn sound_answered(&mut self, answer: SoundAnswer) {
+        self.sound.receive(&mut self.state, answer);
     }
 
     /// Handles an event of the accessibility bridge.

@@ -68,7 +68,7 @@ pub(super) fn switch(ui: &mut Ui, context: &PanelContext<'_>, title: &str, reque
     focus_ring(ui, &response, rect);
     let keys = commands::shortcut_text(ui.ctx(), Id::NextEditScope);
     let hint = format!(
-        "Edits apply to: {} ({keys}: next)\nGizmo, numbers, IK and pasted poses offset all of these keys by the same amount",
+        "Edits apply to: {} ({keys}: next)\nGizmo, numbers, IK, shape keys and pasted poses offset all of these keys by the same amount",
         scope.title()
     );
     let response = response.on_hover_text(hint);

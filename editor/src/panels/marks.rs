@@ -1,14 +1,17 @@
 //! Marks of bones, remembered for each file: which bones are muted, soloed, locked and pinned, and towards which bone elbows
-//! bend; selection sets; and the frame rate that was chosen for the file. They are stored with the program's settings and never in the model's file.
+//! bend; selection sets; the frame rate that was chosen for the file; its reference picture and its sound. They are stored with the program's settings and never in the model's file.
 
 use super::keys::channel::BoneNames;
 use super::keys::{BoneFlag, BoneFlags};
+use super::reference::settings::{relative_to, resolved};
+use super::reference::{ReferenceSettings, ReferenceTrack};
 use super::selection_sets::{SelectionSet, SelectionSets};
+use super::sound::{SoundSettings, SoundTrack};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_document::View;
 use dragonfly_document::edit::BoneRef;
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Name of the file in the program's own folder.
 pub const FILE: &str = "marks.json";
@@ -32,6 +35,12 @@ struct FileMarks {
     frame_rate: Option<u32>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     sets: Vec<SetMarks>,
+    /// Its path is relative to the folder of the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reference: Option<ReferenceSettings>,
+    /// Its path is relative to the folder of the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sound: Option<SoundSettings>,
 }
 
 /// A selection set as it is stored.
@@ -78,6 +87,10 @@ struct Noted {
     frame_rate: Option<u32>,
     /// Version of the selection sets.
     sets: u64,
+    /// Version of the reference picture.
+    reference: u64,
+    /// Version of the sound.
+    sound: u64,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -122,6 +135,10 @@ pub(super) struct BoneMarks<'a> {
     pub(super) frame_rate: Option<u32>,
     /// The selection sets.
     pub(super) sets: &'a SelectionSets,
+    /// The reference picture.
+    pub(super) reference: &'a ReferenceTrack,
+    /// The sound.
+    pub(super) sound: &'a SoundTrack,
 }
 
 /// Marks that were found again for a model.
@@ -137,6 +154,10 @@ pub(super) struct RecalledMarks {
     pub(super) frame_rate: Option<u32>,
     /// The selection sets.
     pub(super) sets: Vec<SelectionSet>,
+    /// The reference picture.
+    pub(super) reference: Option<ReferenceSettings>,
+    /// The sound.
+    pub(super) sound: Option<SoundSettings>,
 }
 
 impl Marks {
@@ -148,14 +169,14 @@ impl Marks {
     /// Notes the marks of the model that is open, if they changed.
     pub(super) fn note(&mut self, view: &View, now: BoneMarks<'_>) {
         let same = |noted: &Noted| {
-            (&noted.path, noted.version, &noted.pins[..], noted.pole, noted.frame_rate, noted.sets)
+            let versions = (noted.version, noted.sets, noted.reference, noted.sound);
+            (&noted.path, versions, &noted.pins[..], noted.pole, noted.frame_rate)
                 == (
                     &view.file.path,
-                    now.flags.version(),
+                    (now.flags.version(), now.sets.version(), now.reference.version(), now.sound.version()),
                     now.pins,
                     now.pole,
                     now.frame_rate,
-                    now.sets.version(),
                 )
         };
         if self.noted.as_ref().is_some_and(same) {
@@ -163,7 +184,9 @@ impl Marks {
         }
         // A model that was just opened has the marks that were remembered of it.
         let first = self.noted.replace(Noted::of(view, now)).is_none();
-        let marks = FileMarks::of(view.file.key(), &view.loaded.model.animation.skeleton, now);
+        let folder = folder_of(view);
+        let marks =
+            FileMarks::of(view.file.key(), folder.as_deref(), &view.loaded.model.animation.skeleton, now);
         let at = self.files.iter().position(|file| file.path == marks.path);
         if at.is_some_and(|at| self.files[at] == marks) || (first && marks.is_empty() && at.is_none()) {
             return;
@@ -198,6 +221,14 @@ impl Marks {
             pole: marks.pole.as_ref().and_then(index),
             frame_rate: marks.frame_rate,
             sets: marks.sets.iter().map(set).filter(|set| !set.bones.is_empty()).collect(),
+            reference: marks.reference.clone().map(|stored| {
+                let file = found_again(view, &stored.file);
+                ReferenceSettings { file, ..stored }
+            }),
+            sound: marks.sound.clone().map(|stored| {
+                let file = found_again(view, &stored.file);
+                SoundSettings { file, ..stored }
+            }),
         })
     }
 
@@ -209,17 +240,38 @@ impl Marks {
 
 impl Noted {
     fn of(view: &View, now: BoneMarks<'_>) -> Self {
-        let BoneMarks { flags, pins, pole, frame_rate, sets } = now;
+        let BoneMarks { flags, pins, pole, frame_rate, sets, reference, sound } = now;
+        let (reference, sound) = (reference.version(), sound.version());
         let path = view.file.path.clone();
         let sets = sets.version();
-        Self { path, version: flags.version(), pins: pins.to_vec(), pole, frame_rate, sets }
+        Self { path, version: flags.version(), pins: pins.to_vec(), pole, frame_rate, sets, reference, sound }
     }
+}
+
+/// Returns the folder of the file of a model.
+fn folder_of(view: &View) -> Option<PathBuf> {
+    let path = view.file.path.as_deref().or(view.loaded.path.as_deref())?;
+    path.parent().map(Path::to_owned)
+}
+
+/// Returns the path of a file that is stored relative to the folder of a model.
+fn found_again(view: &View, stored: &Path) -> PathBuf {
+    folder_of(view).map_or_else(|| stored.to_owned(), |folder| resolved(&folder, stored))
 }
 
 impl FileMarks {
     /// Returns the marks of a model as they are stored.
-    fn of(path: String, skeleton: &Skeleton, now: BoneMarks<'_>) -> Self {
-        let BoneMarks { flags, pins, pole, frame_rate, sets } = now;
+    fn of(path: String, folder: Option<&Path>, skeleton: &Skeleton, now: BoneMarks<'_>) -> Self {
+        let BoneMarks { flags, pins, pole, frame_rate, sets, reference, sound } = now;
+        let stored = |file: &Path| folder.map_or_else(|| file.to_owned(), |folder| relative_to(folder, file));
+        let reference = reference.settings().is_chosen().then(|| {
+            let settings = reference.settings();
+            ReferenceSettings { file: stored(&settings.file), ..settings.clone() }
+        });
+        let sound = sound.settings().is_chosen().then(|| {
+            let settings = sound.settings();
+            SoundSettings { file: stored(&settings.file), ..settings.clone() }
+        });
         let names = BoneNames::of(skeleton);
         let set = |set: &SelectionSet| SetMarks {
             name: set.name.clone(),
@@ -236,6 +288,8 @@ impl FileMarks {
             pole: pole.map(|bone| names.reference(bone)),
             frame_rate,
             sets: sets.list().iter().map(set).collect(),
+            reference,
+            sound,
         }
     }
 }

@@ -308,6 +308,8 @@ fn view(
         item(ui, context, Id::NormalizeCurves, context.settings.curves.normalized, requests);
         item(ui, context, Id::SoloCurves, context.settings.curves.solo, requests);
     });
+    item(ui, context, Id::Reference, context.reference.settings().is_chosen(), requests);
+    item(ui, context, Id::ShowReference, context.reference_frame().is_some(), requests);
     let hand = &context.settings.tools;
     item(ui, context, Id::TogglePath, hand.path, requests);
     submenu(ui, "Ghosts", |ui| ghosts(ui, context, requests));

@@ -21,4 +21,6 @@ pub enum Overlay {
     RootMotion,
     /// The gap of a take that repeats.
     Loop,
+    /// The reference picture.
+    Reference,
 }

@@ -6,6 +6,7 @@ use super::mirror_pairs::MirrorDialog;
 use super::overlay_title;
 use super::palette::Palette;
 use super::prompts::Overlay;
+use super::reference::dialog::ReferenceDialog;
 use super::request::{FileAction, Request};
 use super::retarget::RetargetDialog;
 use super::root_motion::RootMotionDialog;
@@ -28,6 +29,7 @@ pub struct Overlays {
     mirror: MirrorDialog,
     loops: LoopDialog,
     retarget: RetargetDialog,
+    reference: ReferenceDialog,
 }
 
 impl Overlays {
@@ -47,7 +49,7 @@ impl Overlays {
         if overlay == Overlay::Palette {
             modal = modal.area(Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, 72.0)));
         }
-        if matches!(overlay, Overlay::RootMotion | Overlay::Loop | Overlay::Retarget) {
+        if matches!(overlay, Overlay::RootMotion | Overlay::Loop | Overlay::Retarget | Overlay::Reference) {
             // Beside the figure in the viewport, which nothing dims.
             modal = modal.backdrop_color(egui::Color32::TRANSPARENT);
             modal = modal.area(Modal::default_area(id).anchor(Align2::RIGHT_CENTER, vec2(-24.0, 0.0)));
@@ -60,6 +62,7 @@ impl Overlays {
             Overlay::Retarget => self.retarget.show(ui, context, requests),
             Overlay::RootMotion => self.root_motion.show(ui, context, requests),
             Overlay::Loop => self.loops.show(ui, context, requests),
+            Overlay::Reference => self.reference.show(ui, context, requests),
             Overlay::OpenPath | Overlay::ComparePath => self.path(ui, fresh, overlay, requests),
         });
         if response.should_close() {

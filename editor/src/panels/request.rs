@@ -7,11 +7,14 @@ use super::curves::given::GivenCurve;
 use super::curves::look::CurvesLook;
 use super::dialog_preview::DialogPreview;
 use super::edit_scope::FalloffSettings;
+use super::file_choice::FileChoice;
 use super::keys::request::KeysRequest;
 use super::overlay::Overlay;
 use super::properties::look::PropertiesLook;
+use super::reference::settings::ReferenceSettings;
 use super::selection_sets::SetAction;
 use super::settings::GhostSettings;
+use super::sound::SoundSettings;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::adapter::TakeId;
 use dragonfly_document::bones::Choice;
@@ -104,6 +107,14 @@ pub enum Request {
     CurvesLook(CurvesLook),
     /// Sets the folder of the pose library.
     PoseFolder(PathBuf),
+    /// Shows the system's dialog for choosing a file or folder, starting at this path.
+    Choose(FileChoice, Option<PathBuf>),
+    /// Sets the sound and where it starts.
+    Sound(SoundSettings),
+    /// Shows this file as the reference.
+    ReferenceFile(PathBuf),
+    /// Sets the reference picture and how it is shown.
+    Reference(ReferenceSettings),
     /// Changes the selection sets, or selects bones by them.
     Sets(SetAction),
 }
@@ -115,6 +126,8 @@ pub enum Effect {
     OpenDialog,
     /// Shows the system's dialog for the file with which takes are compared.
     CompareDialog,
+    /// Shows the system's dialog for choosing a file or folder, starting in this folder.
+    Choose(FileChoice, Option<PathBuf>),
     /// Cancels the drag in progress, as if it had never begun.
     CancelDrag,
     /// Ends the drag in progress; no button is held any more.

@@ -5,9 +5,11 @@ use super::actions::{bones, compare, drags, execute, feed, files, input, playbac
 use super::context::PanelContext;
 use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
+use super::reference::ReferenceTrack;
 use super::request::{Effect, Request};
 use super::settings::Settings;
 use super::side_files::SideFiles;
+use super::sound::SoundTrack;
 use super::status::MessageSeverity;
 use super::take_findings;
 use super::window_status::WindowStatus;
@@ -142,6 +144,16 @@ impl State {
     /// Shows a bone map that was read, in the dialog for retargeting.
     pub fn map_read(&mut self, map: BoneMap) {
         self.workspace.retarget.set_map(map);
+    }
+
+    /// Returns the reference picture, to which the program around the panels adds what it read.
+    pub fn reference(&mut self) -> &mut ReferenceTrack {
+        &mut self.workspace.reference
+    }
+
+    /// Returns the sound, to which the program around the panels adds what it read.
+    pub fn sound(&mut self) -> &mut SoundTrack {
+        &mut self.workspace.sound
     }
 
     /// Shows the poses of the library.

@@ -17,12 +17,14 @@ use super::player::Player;
 use super::pose_library::PoseLibrary;
 use super::posed::PoseCache;
 use super::prompts::Prompts;
+use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
 use super::selected_bones::SelectedBones;
 use super::selection_sets::SelectionSets;
 use super::selection_steps::{SelectionState, SelectionSteps};
 use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
+use super::sound::SoundTrack;
 use super::status::{MessageSeverity, Status};
 use super::take_findings::TakeFindings;
 use super::take_list::TakeListState;
@@ -85,6 +87,10 @@ pub(super) struct Workspace {
     pub(super) retarget: RetargetSource,
     /// The pose library.
     pub(super) poses: PoseLibrary,
+    /// The reference picture.
+    pub(super) reference: ReferenceTrack,
+    /// The sound.
+    pub(super) sound: SoundTrack,
     /// Messages of the status line.
     pub(super) status: Status,
     /// Settings that are remembered between runs.
@@ -124,6 +130,8 @@ impl Workspace {
             prompts: Prompts::default(),
             retarget: RetargetSource::default(),
             poses: PoseLibrary::default(),
+            reference: ReferenceTrack::default(),
+            sound: SoundTrack::default(),
             status: Status::default(),
             settings,
             marks: Marks::default(),
@@ -166,6 +174,8 @@ impl Workspace {
             dragging: &self.dragging,
             settings: &self.settings,
             poses: &self.poses,
+            reference: &self.reference,
+            sound: &self.sound,
             sets: &self.sets,
             retarget: &self.retarget,
             status: &self.status,

@@ -33,6 +33,7 @@ overlays! {
     Overlay::MirrorPairs => "mirror-pairs", vec2(640.0, 480.0), [Empty, Typical, Crowded], "";
     Overlay::Retarget => "retarget", vec2(720.0, 560.0), [Empty, Typical, Crowded], "";
     Overlay::Loop => "loop", vec2(640.0, 560.0), [Empty, Typical, Crowded], "";
+    Overlay::Reference => "reference", vec2(560.0, 480.0), [Typical], "the dialog is the same whatever is open";
     Overlay::RootMotion => "root-motion", vec2(640.0, 480.0), [Empty, Typical, Crowded], "";
 }
 

@@ -101,10 +101,13 @@ fn pending_is_right(slot: &TakeVersions) -> CheckResult {
             let mut values = Property::ALL.into_iter().filter_map(|property| pose.get(property)).flatten();
             values.all(f32::is_finite)
         };
-        let finite = at.time.is_finite() && at.poses.iter().all(is_finite);
+        let weights = at.shapes.iter().all(|shape| shape.weight.is_finite());
+        let finite = at.time.is_finite() && at.poses.iter().all(is_finite) && weights;
         ensure(finite, || format!("what is pending at {} s is not finite", at.time))?;
         let ascend = at.poses.windows(2).all(|pair| pair[0].bone < pair[1].bone);
-        let some = !at.poses.is_empty() && !at.poses.iter().any(PendingPose::is_empty);
+        let shapes = at.shapes.is_sorted_by_key(|shape| (shape.instance, shape.shape));
+        let ascend = ascend && shapes;
+        let some = !at.is_empty() && !at.poses.iter().any(PendingPose::is_empty);
         ensure(ascend && some && at.poses.iter().all(inside), || {
             format!("what is pending at {} s is not in order", at.time)
         })?;

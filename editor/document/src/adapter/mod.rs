@@ -46,7 +46,7 @@ pub use key_bytes::KEY_BYTES;
 pub use kind::ChannelNumbers;
 pub(crate) use layer_record::{LAYERS, unused_layers};
 pub use name::take_name;
-pub use pending::{Pending, PendingAt, PendingPose};
+pub use pending::{Pending, PendingAt, PendingPose, PendingShape};
 pub use slot::{ChannelChanges, LayerVersions, TakeId, TakeVersions};
 
 use crate::ModelShapes;

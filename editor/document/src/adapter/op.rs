@@ -75,7 +75,9 @@ impl Op {
                 Self::Morphs(_, morphs) => {
                     morphs.iter().map(|morph| 4 * (morph.times.len() + morph.weights.len())).sum()
                 }
-                Self::Pending(_, _, at) => at.as_ref().map_or(0, |at| size_of_val(at.poses.as_slice())),
+                Self::Pending(_, _, at) => at
+                    .as_ref()
+                    .map_or(0, |at| size_of_val(at.poses.as_slice()) + size_of_val(at.shapes.as_slice())),
                 Self::Insert(_, slot) => slot.original.keys() * 16,
                 Self::Layers(_, layers) => {
                     layers.iter().map(|layer| 256 + layer.keys.original.keys() * 16).sum()

@@ -47,16 +47,72 @@ impl PendingPose {
     }
 }
 
-/// The pending poses at one time.
+/// The pending weight of a shape key.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PendingShape {
+    /// Index of its mesh in the list of mesh instances of the model.
+    pub instance: u32,
+    /// Index of the shape key in the mesh.
+    pub shape: u32,
+    /// The weight.
+    pub weight: f32,
+}
+
+/// The pending poses and weights of shape keys at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PendingAt {
     /// Seconds.
     pub time: f32,
     /// In ascending order of bones, each with a pending channel.
     pub poses: Vec<PendingPose>,
+    /// In ascending order of meshes and of shape keys.
+    pub shapes: Vec<PendingShape>,
 }
 
 impl PendingAt {
+    /// Returns nothing pending at a time.
+    pub(crate) fn none(time: f32) -> Self {
+        Self { time, poses: Vec::new(), shapes: Vec::new() }
+    }
+
+    /// Returns whether nothing is pending.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.poses.is_empty() && self.shapes.is_empty()
+    }
+
+    /// Returns the number of bones and of meshes with something pending.
+    pub(crate) fn count(&self) -> usize {
+        self.poses.len() + self.shapes.chunk_by(|a, b| a.instance == b.instance).count()
+    }
+
+    /// Returns the pending weights of a mesh.
+    pub fn shapes_of(&self, instance: u32) -> &[PendingShape] {
+        let start = self.shapes.partition_point(|shape| shape.instance < instance);
+        let end = self.shapes.partition_point(|shape| shape.instance <= instance);
+        &self.shapes[start..end]
+    }
+
+    /// Replaces the weights of a mesh that are pending in `weights`.
+    pub fn put_weights(&self, instance: u32, weights: &mut [f32]) {
+        for pending in self.shapes_of(instance) {
+            if let Some(weight) = weights.get_mut(pending.shape as usize) {
+                *weight = pending.weight;
+            }
+        }
+    }
+
+    /// Sets the pending weight of a shape key; `None` removes it. Returns whether there was one.
+    pub(crate) fn set_shape(&mut self, instance: u32, shape: u32, weight: Option<f32>) -> bool {
+        let at = self.shapes.binary_search_by_key(&(instance, shape), |shape| (shape.instance, shape.shape));
+        match (at, weight) {
+            (Ok(at), Some(weight)) => self.shapes[at].weight = weight,
+            (Ok(at), None) => drop(self.shapes.remove(at)),
+            (Err(at), Some(weight)) => self.shapes.insert(at, PendingShape { instance, shape, weight }),
+            (Err(_), None) => {}
+        }
+        at.is_ok()
+    }
+
     /// Returns the pending pose of a bone.
     pub fn of(&self, bone: u32) -> Option<&PendingPose> {
         self.poses.binary_search_by_key(&bone, |pose| pose.bone).ok().map(|at| &self.poses[at])
@@ -83,13 +139,16 @@ impl PendingAt {
         &mut self.poses[at]
     }
 
-    /// Merges the poses of another; where both have a value, that of `other` wins.
+    /// Merges the poses and weights of another; where both have a value, that of `other` wins.
     fn merge(&mut self, other: &Self) {
         for pose in &other.poses {
             let entry = self.entry(pose.bone);
             for (own, other) in entry.values.iter_mut().zip(pose.values) {
                 *own = other.or(*own);
             }
+        }
+        for shape in &other.shapes {
+            self.set_shape(shape.instance, shape.shape, Some(shape.weight));
         }
     }
 }
@@ -111,7 +170,7 @@ pub(crate) fn place_of(pending: &[Arc<PendingAt>], time: f32) -> Result<usize, u
 pub(crate) fn remapped(pending: &[Arc<PendingAt>], to: impl Fn(f32) -> Option<f32>) -> Pending {
     let mut moved: Vec<PendingAt> = pending
         .iter()
-        .filter_map(|at| Some(PendingAt { time: to(at.time)?, poses: at.poses.clone() }))
+        .filter_map(|at| Some(PendingAt { time: to(at.time)?, ..PendingAt::clone(at) }))
         .collect();
     moved.sort_by(|a, b| a.time.total_cmp(&b.time));
     let mut found: Vec<PendingAt> = Vec::with_capacity(moved.len());

@@ -1,6 +1,6 @@
 //! Copied keys: their values, independent of where they were.
 
-use super::{BoneRef, KeyInterpolation, Property};
+use super::{BoneRef, KeyInterpolation, MeshRef, Property, ShapeRef};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -33,6 +33,36 @@ pub struct CopiedKey {
     #[serde(default, rename = "in", skip_serializing_if = "Option::is_none")]
     pub arrive: Option<Vec<f32>>,
     /// Out-tangent.
+    #[serde(default, rename = "out", skip_serializing_if = "Option::is_none")]
+    pub leave: Option<Vec<f32>>,
+}
+
+/// The copied keys of the shape keys of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CopiedShapes {
+    /// The mesh. Where the model does not have it, the first mesh that has a shape key of the name gets the keys of that.
+    pub mesh: MeshRef,
+    /// The shape keys, in the order of the weights.
+    pub shapes: Vec<ShapeRef>,
+    /// The interpolation of the copied keys, which is that of all shape keys of the mesh. It is used only for a mesh without keys.
+    pub interpolation: KeyInterpolation,
+    /// The keys.
+    pub keys: Vec<CopiedShapeKey>,
+}
+
+/// One key of all copied shape keys of a mesh.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CopiedShapeKey {
+    /// Seconds after the time at which they are pasted.
+    pub after: f64,
+    /// A weight for each shape key.
+    pub weights: Vec<f32>,
+    /// In-tangents per second; chosen so that a spline is smooth where absent. Ignored for other interpolations.
+    #[serde(default, rename = "in", skip_serializing_if = "Option::is_none")]
+    pub arrive: Option<Vec<f32>>,
+    /// Out-tangents.
     #[serde(default, rename = "out", skip_serializing_if = "Option::is_none")]
     pub leave: Option<Vec<f32>>,
 }

@@ -8,7 +8,7 @@ use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Discards pending poses.
+/// Discards pending poses and weights of shape keys.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DropPending {
@@ -20,6 +20,9 @@ pub struct DropPending {
     /// The bones; all where empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bones: Vec<BoneRef>,
+    /// Whether weights of shape keys are meant as well where bones are named; without bones they always are.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub shapes: bool,
 }
 
 impl EditKind for DropPending {
@@ -48,13 +51,18 @@ impl EditKind for DropPending {
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let take = work.base(&self.take)?;
-        for at in pending::selected(work, take, self.time, &self.bones)? {
+        for at in pending::selected(work, take, self.time, &self.bones, self.shapes)? {
             pending::remove(work, take, &at);
         }
         Ok(())
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        Self { take: from.take(), time: from.optional(Arbitrary::time), bones: from.bones() }
+        Self {
+            take: from.take(),
+            time: from.optional(Arbitrary::time),
+            bones: from.bones(),
+            shapes: from.flag(),
+        }
     }
 }

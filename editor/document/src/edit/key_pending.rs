@@ -4,13 +4,13 @@ use super::kind::{EditKind, LayerUse};
 use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, with_kind};
 use crate::adapter::op::ChannelAddress;
-use crate::adapter::plan::{PoseMode, Transaction, pending, pose};
+use crate::adapter::plan::{PoseMode, Transaction, morph_keys, pending, pose};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Turns pending poses into keys.
+/// Turns pending poses and weights of shape keys into keys. Weights become keys of the take also where the poses become keys of a layer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct KeyPending {
@@ -22,6 +22,9 @@ pub struct KeyPending {
     /// The bones; all where empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub bones: Vec<BoneRef>,
+    /// Whether weights of shape keys are meant as well where bones are named; without bones they always are.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub shapes: bool,
     /// Makes channels linear first that consist of two equal keys with step interpolation, as exporters write channels
     /// that do not move. The bone then moves to the pose instead of jumping to it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -54,7 +57,7 @@ impl EditKind for KeyPending {
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let (take, base) = (work.take(&self.take)?, work.base(&self.take)?);
-        for at in pending::selected(work, base, self.time, &self.bones)? {
+        for at in pending::selected(work, base, self.time, &self.bones, self.shapes)? {
             for pose in &at.poses {
                 for property in Property::ALL {
                     if let Some(value) = pose.get(property) {
@@ -63,6 +66,8 @@ impl EditKind for KeyPending {
                     }
                 }
             }
+            let weights = at.shapes.iter().map(|at| (at.instance, (at.shape as usize, at.weight)));
+            morph_keys::set_weights(work, base, at.time, weights)?;
             pending::remove(work, base, &at);
         }
         Ok(())
@@ -70,7 +75,7 @@ impl EditKind for KeyPending {
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
         let time = from.optional(Arbitrary::time);
-        Self { take: from.take(), time, bones: from.bones(), unstep: from.flag() }
+        Self { take: from.take(), time, bones: from.bones(), shapes: from.flag(), unstep: from.flag() }
     }
 }
 

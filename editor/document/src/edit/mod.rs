@@ -51,9 +51,12 @@ mod move_travel;
 mod noise_keys;
 mod offset_keys;
 mod offset_pose;
+mod offset_shapes;
 mod over;
 mod paste_keys;
 mod paste_pose;
+mod paste_shapes;
+mod pend_shapes;
 pub(crate) mod pose;
 mod reduce_keys;
 mod remove_travel;
@@ -76,6 +79,7 @@ mod set_many_tangents;
 mod set_pending;
 mod set_pose;
 mod set_poses;
+mod set_shape_keys;
 mod set_shapes;
 mod set_tangents;
 mod shape_tangents;
@@ -96,18 +100,19 @@ pub use arbitrary::Arbitrary;
 pub use blend_keys::KeyTarget;
 pub use bones::EditedBones;
 pub use contact_span::ContactSpan;
-pub use copied::{CopiedChannel, CopiedKey};
+pub use copied::{CopiedChannel, CopiedKey, CopiedShapeKey, CopiedShapes};
 pub use examples::Example;
 pub use filter_keys::CurveFilter;
 pub use kept_travel::TRAVEL;
 pub use kind::EditInfo;
 pub use lines::{LONGEST_LINE, LineError, parse_lines};
 pub use mode::{KeyInterpolation, LayerKind, NewKey, ResetTo};
-pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope};
+pub use over::{FadeShape, OffsetFalloff, OffsetRange, OffsetScope, ShapeScope};
 pub use pose::{BonePose, PoseAt};
 pub use repeat_keys::{RepeatCount, RepeatMode};
 pub use set_layer_weights::LayerWeightKey;
 pub use set_many_tangents::TangentsAt;
+pub use set_shape_keys::ShapeKeyAt;
 pub use set_shapes::ShapeWeight;
 pub use shape_tangents::KeyTangents;
 pub use take_event::TakeEvent;
@@ -183,6 +188,9 @@ edits! {
     "close_loop" => close_loop::CloseLoop,
     "shift_loop" => shift_loop::ShiftLoop,
     "set_shapes" => set_shapes::SetShapes,
+    "set_shape_keys" => set_shape_keys::SetShapeKeys,
+    "offset_shapes" => offset_shapes::OffsetShapes,
+    "pend_shapes" => pend_shapes::PendShapes,
 }
 
 #[cfg(test)]
@@ -302,7 +310,7 @@ mod tests {
         let before = model();
         for kind in EDITS {
             let mut applied = 0;
-            for _ in 0..200 {
+            for _ in 0..500 {
                 let edit = (kind.arbitrary)(&mut Arbitrary::new(&mut || random.bits(), 3, &bones));
                 let context = format!("{edit:?}");
                 let mut model = before.clone();

@@ -30,6 +30,21 @@ pub struct OffsetRange {
     pub to: f32,
 }
 
+/// The keys of shape keys that an offset is for.
+///
+/// In JSON `"take"`, `{"range": {"from": 0.5, "to": 1}}` or `{"keys": [[0.5, 1]]}`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ShapeScope {
+    /// All keys of the take. A mesh without keys gets one at the start of the take.
+    Take,
+    /// The keys from one time to another. With a falloff, meshes get keys at both ends, and at the ends of the falloff, so that nothing
+    /// changes beyond it; without, only the keys inside change.
+    Range(OffsetRange),
+    /// The keys in these stretches of time, start and end in seconds.
+    Keys(Vec<[f32; 2]>),
+}
+
 /// The distance and the curve by which an offset fades out around its keys.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -96,6 +111,16 @@ impl OffsetScope {
                 Self::Range(OffsetRange { from: start, to: start + from.between(-0.1, 0.6) })
             }
             _ => Self::Keys(from.keys()),
+        }
+    }
+}
+
+impl ShapeScope {
+    pub(super) fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
+        match OffsetScope::arbitrary(from) {
+            OffsetScope::Take => Self::Take,
+            OffsetScope::Range(range) => Self::Range(range),
+            OffsetScope::Keys(_) => Self::Keys(from.shapes()),
         }
     }
 }

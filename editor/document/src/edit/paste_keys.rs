@@ -1,8 +1,10 @@
 //! Pastes copied keys.
 
 use super::kind::{EditKind, LayerUse};
+use super::paste_shapes::paste_shapes;
 use super::{
-    Arbitrary, CopiedChannel, CopiedKey, EditedBones, Example, KeyInterpolation, Property, SAME_TIME, TakeRef,
+    Arbitrary, CopiedChannel, CopiedKey, CopiedShapeKey, CopiedShapes, EditedBones, Example,
+    KeyInterpolation, MeshRef, Property, SAME_TIME, ShapeRef, TakeRef,
 };
 use crate::adapter::EditError;
 use crate::adapter::kind::{ChannelKind, ChannelNumbers, ChannelValue, with_kind};
@@ -21,8 +23,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Pastes copied keys with exactly their values and tangents. A key that is already at a pasted time is overwritten. Bones that
-/// the model does not have are left out.
+/// Pastes copied keys with exactly their values and tangents. A key that is already at a pasted time is overwritten. Bones and shape
+/// keys that the model does not have are left out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PasteKeys {
@@ -32,6 +34,9 @@ pub struct PasteKeys {
     pub time: f32,
     /// The keys by channel.
     pub channels: Vec<CopiedChannel>,
+    /// The keys of shape keys by mesh. Shape keys that the model does not have are left out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shapes: Vec<CopiedShapes>,
 }
 
 impl EditKind for PasteKeys {
@@ -68,11 +73,15 @@ impl EditKind for PasteKeys {
             let address = ChannelAddress { take, bone, property };
             pasted += with_kind!(property, paste::<K>(work, address, self.time, channel))?;
         }
+        let (any_shape, keys) = paste_shapes(work, take, self)?;
+        (found, pasted) = (found || any_shape, pasted + keys);
         match (found, pasted) {
-            _ if self.channels.is_empty() => Err(EditError::Nothing("no key is given")),
+            _ if self.channels.is_empty() && self.shapes.is_empty() => {
+                Err(EditError::Nothing("no key is given"))
+            }
             (true, 0) => Err(EditError::Nothing("no key is given")),
             (true, _) => Ok(()),
-            (false, _) => Err(EditError::Nothing("none of the bones is in this model")),
+            (false, _) => Err(EditError::Nothing("none of the bones and shape keys is in this model")),
         }
     }
 
@@ -92,7 +101,20 @@ impl EditKind for PasteKeys {
         let interpolation =
             from.choice([KeyInterpolation::Step, KeyInterpolation::Linear, KeyInterpolation::CubicSpline]);
         let channels = vec![CopiedChannel { bone: from.bone(), property, interpolation, keys }];
-        Self { take: from.take(), time: from.time(), channels }
+        let key = |from: &mut Arbitrary<'_>| CopiedShapeKey {
+            after: from.choice([0.0, 0.125, 0.3, 0.77]),
+            weights: from.numbers(2),
+            arrive: from.optional(|from| from.numbers(2)),
+            leave: from.optional(|from| from.numbers(2)),
+        };
+        let shapes = CopiedShapes {
+            mesh: MeshRef::Index(from.choice([0, 2])),
+            shapes: vec![ShapeRef::Name("smile".to_owned()), ShapeRef::Index(from.choice([0, 1, 3]))],
+            interpolation,
+            keys: (0..from.below(3)).map(|_| key(from)).collect(),
+        };
+        let shapes = if from.flag() { Vec::new() } else { vec![shapes] };
+        Self { take: from.take(), time: from.time(), channels, shapes }
     }
 }
 

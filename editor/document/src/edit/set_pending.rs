@@ -63,7 +63,7 @@ impl EditKind for SetPending {
         key_time(self.time, work.slot(take))?;
         let mut at = match work.slot(take).pending_at(self.time) {
             Some(at) => PendingAt::clone(at),
-            None => PendingAt { time: self.time, poses: Vec::new() },
+            None => PendingAt::none(self.time),
         };
         let mut given = false;
         for pose in &self.poses {

@@ -2,13 +2,12 @@
 
 use super::kind::EditKind;
 use super::{Arbitrary, EditedBones, Example, MeshRef, ShapeRef, TakeRef, cost};
-use crate::adapter::op::Op;
-use crate::adapter::plan::{Transaction, finite, key_time, morph_keys};
+use crate::adapter::plan::morph_keys::MeshWeight;
+use crate::adapter::plan::{Transaction, finite, key_time, morph_keys, pending};
 use crate::adapter::{EditError, ModelAdapter};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// Sets weights of shape keys (morph targets) at a time. Where their mesh has no key there, one is added that keeps the other weights. A
 /// mesh that the take does not animate then has its new weights in the whole take.
@@ -60,52 +59,65 @@ impl EditKind for SetShapes {
     }
 
     fn detail(&self, _adapter: &ModelAdapter) -> Option<String> {
-        match &self.shapes[..] {
-            [ShapeWeight { shape: ShapeRef::Name(name), .. }] => Some(name.clone()),
-            [] | [_] => None,
-            shapes => Some(format!("{} shape keys", shapes.len())),
-        }
+        names(&self.shapes)
     }
 
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let take = work.take(&self.take)?;
         let time = key_time(self.time, work.slot(take))?;
-        let mut weights: BTreeMap<u32, Vec<(usize, f32)>> = BTreeMap::new();
-        for wanted in &self.shapes {
-            let found = work.adapter().shapes().find(wanted.mesh.as_ref(), &wanted.shape);
-            let (mesh, shape) = found.ok_or_else(|| EditError::NoShape(wanted.shape.clone()))?;
-            weights.entry(mesh.instance()).or_default().push((shape, finite("a weight", wanted.weight)?));
-        }
-        if weights.is_empty() {
-            return Err(EditError::Nothing("no shape key is given"));
-        }
-        let mut tracks = work.slot(take).original.morphs.clone();
-        for (instance, weights) in weights {
-            let at = tracks.iter().position(|track| track.instance == instance);
-            let old = at.map(|at| &tracks[at]);
-            let rest = work.adapter().shapes().mesh(instance).map_or(&[][..], |mesh| mesh.rest());
-            let new = morph_keys::with_weights(old, (instance, rest), time, &weights);
-            work.room_for_weights(&new, old.map_or(0, |old| old.times.len()))?;
-            match at {
-                Some(at) => tracks[at] = new,
-                None => tracks.push(new),
-            }
-        }
-        work.perform(Op::Morphs(take, tracks));
+        let weights = found(work, &self.shapes)?;
+        morph_keys::set_weights(work, take, time, weights.iter().copied())?;
+        let shapes = weights.iter().map(|&(instance, (shape, _))| (instance, shape as u32));
+        pending::shapes_overwritten(work, take, time, shapes);
         Ok(())
     }
 
     fn arbitrary(from: &mut Arbitrary<'_>) -> Self {
-        let shapes = (0..from.choice([1, 1, 2])).map(|_| ShapeWeight {
-            mesh: from.optional(|from| MeshRef::Index(from.choice([0, 1, 3]))),
-            shape: if from.flag() {
-                ShapeRef::Index(from.choice([0, 1, 2]))
-            } else {
-                ShapeRef::Name(from.choice(["smile", "blink_L"]).to_owned())
-            },
-            weight: from.between(-0.5, 1.5),
-        });
-        let shapes = shapes.collect();
-        Self { take: from.take(), time: from.time(), shapes }
+        Self { take: from.take(), time: from.time(), shapes: arbitrary_weights(from) }
+    }
+}
+
+/// Returns the meshes and shape keys of weights, whose numbers were checked.
+///
+/// # Errors
+///
+/// A shape key does not exist, a weight is no usable number, or none is given.
+pub(super) fn found(work: &Transaction, shapes: &[ShapeWeight]) -> Result<Vec<MeshWeight>, EditError> {
+    if shapes.is_empty() {
+        return Err(EditError::Nothing("no shape key is given"));
+    }
+    let found = shapes.iter().map(|wanted| {
+        let found = work.adapter().shapes().find(wanted.mesh.as_ref(), &wanted.shape);
+        let (mesh, shape) = found.ok_or_else(|| EditError::NoShape(wanted.shape.clone()))?;
+        Ok((mesh.instance(), (shape, finite("a weight", wanted.weight)?)))
+    });
+    found.collect()
+}
+
+/// Returns the names of shape keys for the list of the history.
+pub(super) fn names(shapes: &[ShapeWeight]) -> Option<String> {
+    match shapes {
+        [ShapeWeight { shape: ShapeRef::Name(name), .. }] => Some(name.clone()),
+        [] | [_] => None,
+        shapes => Some(format!("{} shape keys", shapes.len())),
+    }
+}
+
+/// Returns random weights.
+pub(super) fn arbitrary_weights(from: &mut Arbitrary<'_>) -> Vec<ShapeWeight> {
+    let shapes = (0..from.choice([1, 1, 2])).map(|_| ShapeWeight {
+        mesh: from.optional(|from| MeshRef::Index(from.choice([0, 1, 3]))),
+        shape: arbitrary_shape(from),
+        weight: from.between(-0.5, 1.5),
+    });
+    shapes.collect()
+}
+
+/// Returns a random shape key.
+pub(super) fn arbitrary_shape(from: &mut Arbitrary<'_>) -> ShapeRef {
+    if from.flag() {
+        ShapeRef::Index(from.choice([0, 1, 2]))
+    } else {
+        ShapeRef::Name(from.choice(["smile", "blink_L"]).to_owned())
     }
 }

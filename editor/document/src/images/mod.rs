@@ -215,6 +215,20 @@ pub fn decode(image: &Image, budget: u64) -> Result<DecodedImage, String> {
     decode_smaller(image, size, 0)
 }
 
+/// Decodes an image to RGBA, with its sides halved until the longer one is at most `side` pixels. A decoder that panics fails.
+///
+/// # Errors
+///
+/// The reason: it is broken, or larger than the limits.
+pub fn decode_within(image: &Image, side: u32) -> Result<DecodedImage, String> {
+    let size = size_of_image(image)?;
+    size.check(MAX_PIXELS, u64::MAX, 0)?;
+    let longest = size.width.max(size.height);
+    let halvings = (0..32).find(|halvings| longest >> halvings <= side).unwrap_or(32);
+    std::panic::catch_unwind(|| decode_smaller(image, size, halvings))
+        .unwrap_or_else(|_| Err("the decoder failed".to_owned()))
+}
+
 /// Returns the size in the header of an image. A decoder that panics fails.
 fn size_of_image(image: &Image) -> Result<ImageSize, String> {
     if image.bytes.is_empty() {

@@ -9,11 +9,13 @@ mod ghosts;
 mod glass;
 mod grid;
 mod panels;
+mod reference;
 mod skeleton;
 mod surface;
 
 pub use definition::{FrameCommands, Pass, PassLayer, Surroundings};
 pub use panels::PanelsPass;
+pub use reference::{ReferenceAppearance, ReferencePicture, ReferencePlace};
 
 use super::device::DeviceListener;
 use super::gpu::Gpu;
@@ -40,6 +42,7 @@ pub fn all() -> Passes {
     let panels = Rc::new(RefCell::new(PanelsPass::default()));
     let list: Vec<SharedPass> = vec![
         shared(background::BackgroundPass::default()),
+        shared(reference::ReferencePass::default()),
         shared(surface::SurfacePass::new(Rc::clone(&model))),
         shared(grid::GridPass::default()),
         shared(glass::GlassPass::new(Rc::clone(&model))),

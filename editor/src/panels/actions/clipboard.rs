@@ -2,13 +2,13 @@
 
 use super::{edit, keys, locks, pose};
 use crate::panels::count_text::{count, grouped};
-use crate::panels::keys::clipboard::{self, CopiedValues, MOST, Pasted};
+use crate::panels::keys::clipboard::{self, CopiedKeys, CopiedValues, MOST, Pasted};
 use crate::panels::request::Effect;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_anim::layers::LayerMode;
-use dragonfly_document::edit::{BoneRef, CopiedChannel, Edit, PasteKeys};
+use dragonfly_document::edit::{BoneRef, CopiedChannel, CopiedShapes, Edit, PasteKeys, ShapeRef};
 use dragonfly_document::posing;
 use std::sync::Arc;
 
@@ -41,13 +41,17 @@ fn keys_text(workspace: &mut Workspace, verb: &str) -> Option<String> {
         return None;
     }
     let skeleton = &workspace.model.loaded()?.model.animation.skeleton;
-    let channels = clipboard::copied(&take, workspace.keys.selection(), skeleton);
-    if channels.is_empty() {
+    let selection = workspace.keys.selection();
+    let channels = clipboard::copied(&take, selection, skeleton);
+    let shapes = &workspace.model.view()?.shapes;
+    let shapes = clipboard::copied_shapes(&take, selection, shapes);
+    if channels.is_empty() && shapes.is_empty() {
         workspace.say(MessageSeverity::Info, "No key is selected");
         return None;
     }
     workspace.say(MessageSeverity::Info, format!("{verb} {}", count(number, "key", "keys")));
-    Some(clipboard::to_text(channels, values_of_keys(workspace)))
+    let values = values_of_keys(workspace);
+    Some(clipboard::to_text(CopiedKeys { channels, values, shapes }))
 }
 
 /// Returns what the values of the keys are that are shown and edited.
@@ -66,10 +70,12 @@ pub(super) fn paste(workspace: &mut Workspace, text: &str, mirrored: bool) -> Op
         return pose::paste(workspace, poses, mirrored);
     }
     match clipboard::from_text(text) {
-        Some((channels, values)) if !mirrored && values == values_of_keys(workspace) => {
-            return paste_keys(workspace, channels);
+        Some(CopiedKeys { channels, values, shapes })
+            if !mirrored && (channels.is_empty() || values == values_of_keys(workspace)) =>
+        {
+            return paste_keys(workspace, channels, shapes);
         }
-        Some((_, values)) if !mirrored => {
+        Some(CopiedKeys { values, .. }) if !mirrored => {
             let text = match values {
                 CopiedValues::Offsets => {
                     "The copied keys are offsets of an additive layer: paste them into an additive layer"
@@ -91,29 +97,52 @@ pub(super) fn paste(workspace: &mut Workspace, text: &str, mirrored: bool) -> Op
 
 /// Inserts copied keys at the time shown: on the bones they are of, or, if the same number of other bones is selected, on
 /// these in their order. Locked bones stay as they are.
-fn paste_keys(workspace: &mut Workspace, mut channels: Vec<CopiedChannel>) -> Option<Effect> {
+fn paste_keys(
+    workspace: &mut Workspace,
+    mut channels: Vec<CopiedChannel>,
+    mut shapes: Vec<CopiedShapes>,
+) -> Option<Effect> {
     let Some(take) = workspace.read().take_ref() else {
         workspace.say(MessageSeverity::Info, "The rest pose cannot be edited: show a take first");
         return None;
     };
     let skeleton = &workspace.model.loaded()?.model.animation.skeleton;
     clipboard::retarget(&mut channels, workspace.bones.bones(), skeleton);
-    if channels.is_empty() {
-        workspace.say(
-            MessageSeverity::Info,
-            "The keys in the clipboard belong to bones that this model does not have",
-        );
+    let had_shapes = !shapes.is_empty();
+    if had_shapes {
+        let known = &workspace.model.view()?.shapes;
+        let is_known = |shape: &ShapeRef| known.find(None, shape).is_some();
+        shapes.retain(|mesh| mesh.shapes.iter().any(is_known));
+    }
+    if had_shapes && workspace.read().layer().is_some() {
+        shapes.clear();
+        let text = "Shape keys have keys in the take, not in layers: choose the take to paste them";
+        workspace.say(MessageSeverity::Warning, text);
+        if channels.is_empty() {
+            return None;
+        }
+    }
+    if channels.is_empty() && shapes.is_empty() {
+        let text = if had_shapes {
+            "The keys in the clipboard belong to bones and shape keys that this model does not have"
+        } else {
+            "The keys in the clipboard belong to bones that this model does not have"
+        };
+        workspace.say(MessageSeverity::Info, text);
         return None;
     }
-    if !locks::remove_locked(workspace, &mut channels, |channel| match channel.bone {
-        BoneRef::Index(bone) => bone,
-        BoneRef::Name(_) => BoneIndex::MAX,
-    }) {
+    if !channels.is_empty()
+        && !locks::remove_locked(workspace, &mut channels, |channel| match channel.bone {
+            BoneRef::Index(bone) => bone,
+            BoneRef::Name(_) => BoneIndex::MAX,
+        })
+        && shapes.is_empty()
+    {
         return None;
     }
     let panels = workspace.read();
     let (generation, time) = (panels.view?.generation, panels.time());
-    let pasted = Pasted::new(generation, panels.take().map_or(0, Take::keys), &channels, time);
+    let pasted = Pasted::new(generation, panels.take().map_or(0, Take::keys), (&channels, &shapes), time);
     workspace.keys.await_pasted(pasted);
-    Some(edit(Edit::PasteKeys(PasteKeys { take, time, channels })))
+    Some(edit(Edit::PasteKeys(PasteKeys { take, time, channels, shapes })))
 }

@@ -42,6 +42,7 @@ pub(in crate::panels) fn let_through(
         effect @ (Effect::Send(..)
         | Effect::OpenDialog
         | Effect::CompareDialog
+        | Effect::Choose(..)
         | Effect::Copy(_)
         | Effect::PastePose { .. }
         | Effect::Pick(..)

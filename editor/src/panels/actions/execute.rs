@@ -7,12 +7,14 @@ use super::{
 };
 use crate::panels::commands;
 use crate::panels::keys::KeysRequest;
+use crate::panels::reference::settings::ReferenceSettings;
 use crate::panels::request::{Effect, FileAction, Request};
 use crate::panels::settings::IkSettings;
+use crate::panels::sound::{SoundSettings, is_sound};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{Edit, TrimTake};
-use dragonfly_document::{Change, Then};
+use dragonfly_document::{Change, Source, Then};
 use dragonfly_picture::between;
 
 /// Executes a request of a panel.
@@ -69,6 +71,9 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Shields(shields) => framing::set_shields(workspace, shields),
         Request::Wheel(by) => framing::wheel(workspace, by),
         Request::Point(pointer) => bones::point(workspace, pointer),
+        Request::Open(Source::File(file)) if workspace.model.view().is_some() && is_sound(&file) => {
+            workspace.sound.set(SoundSettings { file, ..SoundSettings::default() });
+        }
         Request::Open(source) => return Some(Effect::File(FileAction::Leave(Then::Open(source)))),
         Request::Overlay(overlay) => workspace.prompts.show(overlay),
         Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
@@ -77,7 +82,18 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         Request::Dismiss => return files::dismiss(workspace),
         Request::PropertiesLook(look) => workspace.settings.properties = look,
         Request::CurvesLook(look) => workspace.settings.curves = look.sanitized(),
-        Request::PoseFolder(folder) => workspace.settings.pose_folder = Some(folder),
+        Request::PoseFolder(folder) => {
+            let text = format!("The folder of poses is {}", folder.display());
+            workspace.say(MessageSeverity::Info, text);
+            workspace.settings.pose_folder = Some(folder);
+        }
+        Request::Sound(settings) => workspace.sound.set(settings),
+        Request::Reference(settings) => workspace.reference.set(settings),
+        Request::ReferenceFile(file) => {
+            let now = workspace.reference.settings().clone();
+            workspace.reference.set(ReferenceSettings { file, shown: true, ..now });
+        }
+        Request::Choose(choice, from) => return Some(Effect::Choose(choice, from)),
         Request::Sets(action) => sets::perform(workspace, &action),
     }
     None
@@ -88,9 +104,9 @@ fn keys_request(workspace: &mut Workspace, request: KeysRequest) -> Option<Effec
         KeysRequest::Select { channels, shapes, stretch, choice } => {
             keys::select(workspace, &channels, shapes, stretch, choice)
         }
-        KeysRequest::SelectKeys { parts, choice } => {
+        KeysRequest::SelectKeys { parts, shapes, choice } => {
             let take = workspace.read().shared_take().cloned();
-            workspace.keys.select_parts(take.as_deref(), &parts, choice);
+            workspace.keys.select_parts(take.as_deref(), &parts, &shapes, choice);
         }
         KeysRequest::SelectRow(bone, choice) => {
             let listed = workspace.read().listed_bones();

@@ -32,14 +32,19 @@ pub(super) fn select(
 
 /// Selects all keys that are listed, except those of locked bones.
 pub(in crate::panels) fn select_all(workspace: &mut Workspace) {
-    let channels = listed_channels(workspace);
-    select(workspace, &channels, false, WHOLE, Choice::Replace);
+    let (channels, shapes) = (listed_channels(workspace), lists_shapes(workspace));
+    select(workspace, &channels, shapes, WHOLE, Choice::Replace);
 }
 
 fn listed_channels(workspace: &Workspace) -> Vec<ChannelId> {
     let panels = workspace.read();
     let Some(take) = panels.take() else { return Vec::new() };
     panels.listed_bones().into_iter().flat_map(|bone| channel::channels(take, bone)).collect()
+}
+
+/// Returns whether the timeline has a row for the keys of shape keys.
+fn lists_shapes(workspace: &Workspace) -> bool {
+    workspace.read().lists_shapes()
 }
 
 /// Deselects all keys.
@@ -49,8 +54,8 @@ pub(in crate::panels) fn deselect(workspace: &mut Workspace) {
 
 /// Selects the keys that are listed and not selected, and deselects the others.
 pub(in crate::panels) fn invert(workspace: &mut Workspace) {
-    let channels = listed_channels(workspace);
-    select(workspace, &channels, false, WHOLE, Choice::Toggle);
+    let (channels, shapes) = (listed_channels(workspace), lists_shapes(workspace));
+    select(workspace, &channels, shapes, WHOLE, Choice::Toggle);
 }
 
 /// Begins to drag the selected keys from where the pointer is, without a button.
@@ -158,6 +163,11 @@ pub(in crate::panels) fn interpolate(workspace: &mut Workspace, between: KeyInte
     for ((bone, property), _) in panels.keys.selection().channels() {
         *masks.entry(bone).or_default() |= 1 << property as u8;
     }
+    if masks.is_empty() && !panels.keys.selection().shapes().is_empty() {
+        let text = "Shape keys keep their interpolation, which is one for all shape keys of a mesh";
+        workspace.say(MessageSeverity::Info, text);
+        return None;
+    }
     let mut groups: BTreeMap<u8, Vec<BoneRef>> = BTreeMap::new();
     for (bone, mask) in masks {
         groups.entry(mask).or_default().push(BoneRef::Index(bone));
@@ -179,7 +189,10 @@ pub(in crate::panels) fn shape_tangents(workspace: &mut Workspace, kind: KeyTang
     let panels = workspace.read();
     let keys = panels.keys.selection().key_sets(panels.take()?);
     if keys.is_empty() {
-        workspace.say(MessageSeverity::Info, "Keys of shapes have no tangents that can be edited");
+        workspace.say(
+            MessageSeverity::Info,
+            "Tangents of shape keys are dragged in the curves, where their keys are cubic splines",
+        );
         return None;
     }
     Some(edit(Edit::ShapeTangents(ShapeTangents { take: panels.take_ref()?, keys, kind })))

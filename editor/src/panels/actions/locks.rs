@@ -16,6 +16,7 @@ pub(super) fn unlocked(workspace: &mut Workspace, effect: Effect) -> Option<Effe
         Effect::Send(..)
         | Effect::OpenDialog
         | Effect::CompareDialog
+        | Effect::Choose(..)
         | Effect::CancelDrag
         | Effect::ReleaseDrag
         | Effect::Copy(_)

@@ -172,3 +172,10 @@ pub(in crate::panels) fn cycle_repeat(workspace: &mut Workspace) {
     };
     set_repeat(workspace, repeat);
 }
+
+/// Lets the sound start at the playhead.
+pub(in crate::panels) fn sound_to_playhead(workspace: &mut Workspace) {
+    let frame = crate::panels::ruler::frame_of(workspace.player.time(), workspace.frame_rate.get());
+    let now = workspace.sound.settings().clone();
+    workspace.sound.set(crate::panels::sound::SoundSettings { start: frame as i32, ..now });
+}

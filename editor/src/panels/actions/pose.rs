@@ -36,21 +36,21 @@ pub(in crate::panels) fn key(workspace: &mut Workspace) -> Option<Effect> {
         return panels.key_edit().map(edit);
     }
     let bones = free_pending(workspace, Some(time))?;
-    Some(edit(Edit::KeyPending(KeyPending { take, time: Some(time), bones, unstep: true })))
+    Some(edit(Edit::KeyPending(KeyPending { take, time: Some(time), bones, shapes: true, unstep: true })))
 }
 
 /// Keys all pending poses of the take.
 pub(in crate::panels) fn key_pending(workspace: &mut Workspace) -> Option<Effect> {
     let bones = free_pending(workspace, None)?;
     let take = workspace.read().take_ref()?;
-    Some(edit(Edit::KeyPending(KeyPending { take, time: None, bones, unstep: true })))
+    Some(edit(Edit::KeyPending(KeyPending { take, time: None, bones, shapes: true, unstep: true })))
 }
 
 /// Discards all pending poses of the take.
 pub(in crate::panels) fn drop_pending(workspace: &mut Workspace) -> Option<Effect> {
     let bones = free_pending(workspace, None)?;
     let take = workspace.read().take_ref()?;
-    Some(edit(Edit::DropPending(DropPending { take, time: None, bones })))
+    Some(edit(Edit::DropPending(DropPending { take, time: None, bones, shapes: true })))
 }
 
 /// Returns the bones whose pending poses are keyed or dropped, at one time or at all, as edits name them: an empty list, which
@@ -65,6 +65,7 @@ fn free_pending(workspace: &mut Workspace, time: Option<f32>) -> Option<Vec<Bone
         Some(time) => slot.pending_at(time).map(|at| &**at).into_iter().collect(),
         None => slot.pending().iter().map(|at| &**at).collect(),
     };
+    let has_shapes = at.iter().any(|at| !at.shapes.is_empty());
     let mut bones: Vec<BoneIndex> = at.into_iter().flat_map(|at| &at.poses).map(|pose| pose.bone).collect();
     bones.sort_unstable();
     bones.dedup();
@@ -73,7 +74,8 @@ fn free_pending(workspace: &mut Workspace, time: Option<f32>) -> Option<Vec<Bone
         return Some(workspace.read().free_refs());
     }
     if !locks::remove_locked(workspace, &mut bones, |bone| *bone) {
-        return None;
+        // No lock concerns the shape keys.
+        return has_shapes.then(|| workspace.read().free_refs()).filter(|bones| !bones.is_empty());
     }
     Some(bones.into_iter().map(BoneRef::Index).collect())
 }

@@ -77,6 +77,8 @@ fn show_model(workspace: &mut Workspace) {
     workspace.bones.reset(workspace.model.bones());
     workspace.tools.set_pole(None);
     workspace.sets.replace(Vec::new());
+    workspace.reference.set(Default::default());
+    workspace.sound.set(Default::default());
     if let Some(view) = workspace.model.view() {
         workspace.keys.open(view.file.key());
     }
@@ -101,6 +103,8 @@ fn marks(workspace: &Workspace) -> BoneMarks<'_> {
         pole: workspace.tools.ik().pole,
         frame_rate: workspace.frame_rate.chosen(),
         sets: &workspace.sets,
+        reference: &workspace.reference,
+        sound: &workspace.sound,
     }
 }
 
@@ -117,12 +121,14 @@ pub(in crate::panels) fn note_marks(workspace: &mut Workspace) {
 fn recall_marks(workspace: &mut Workspace) {
     let mut remembered = std::mem::take(&mut workspace.marks);
     let recalled = workspace.model.view().and_then(|view| remembered.recall(view));
-    if let Some(RecalledMarks { flags, pins, pole, frame_rate, sets }) = recalled {
+    if let Some(RecalledMarks { flags, pins, pole, frame_rate, sets, reference, sound }) = recalled {
         for (flag, bone) in flags {
             workspace.keys.set_flag(flag, bone, true);
         }
         workspace.bones.set_pins(pins);
         workspace.sets.replace(sets);
+        workspace.reference.set(reference.unwrap_or_default());
+        workspace.sound.set(sound.unwrap_or_default());
         workspace.tools.set_pole(pole);
         if let Some(rate) = frame_rate {
             workspace.frame_rate.choose(rate);

@@ -44,6 +44,10 @@ pub enum When {
     Unsaved,
     /// A model is being loaded.
     Loading,
+    /// A reference picture was chosen.
+    Reference,
+    /// A sound was chosen.
+    Sound,
     /// The viewport is paused because the graphics device failed.
     Paused,
 }
@@ -77,6 +81,8 @@ impl When {
             }),
             Self::Unsaved => history.is_some_and(|history| !history.saved),
             Self::Loading => panels.loading.is_some(),
+            Self::Reference => panels.reference.settings().is_chosen(),
+            Self::Sound => panels.sound.settings().is_chosen(),
             Self::Paused => matches!(panels.window.device(), DeviceStatus::Paused { .. }),
         }
     }
@@ -102,6 +108,8 @@ impl When {
             Self::Redo => "There is nothing to redo",
             Self::Unsaved => "Everything is saved",
             Self::Loading => "No model is being opened",
+            Self::Reference => "No reference picture was chosen",
+            Self::Sound => "No sound was chosen",
             Self::Paused => "The viewport is not paused",
         }
     }

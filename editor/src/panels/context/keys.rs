@@ -86,6 +86,17 @@ impl<'a> PanelContext<'a> {
         Some(shown.tracks.iter().filter(is_changed).map(|track| track.bone).collect())
     }
 
+    /// Returns whether the timeline lists the keys of shape keys.
+    pub fn lists_shapes(&self) -> bool {
+        self.keys.filter().is_empty() && self.take().is_some_and(|take| !take.morphs.is_empty())
+    }
+
+    /// Returns the name of a shape key of a mesh; nothing where the model does not have it.
+    pub(in crate::panels) fn shape_name(&self, instance: u32, shape: u32) -> &'a str {
+        let mesh = self.view.and_then(|view| view.shapes.mesh(instance));
+        mesh.and_then(|mesh| mesh.shapes().get(shape as usize)).map_or("", String::as_str)
+    }
+
     /// Returns the bones that the timeline lists, in the order of the tree: those with keys, of these the selected ones where
     /// only they are listed, and those whose names contain the filter.
     pub fn listed_bones(&self) -> Vec<BoneIndex> {

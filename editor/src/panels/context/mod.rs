@@ -6,6 +6,7 @@ mod ik;
 mod keys;
 mod layer;
 mod pose;
+mod reference;
 mod scope;
 
 use super::compared::{CompareWith, ComparedFile};
@@ -21,10 +22,12 @@ use super::open_model::Loading;
 use super::pose_library::PoseLibrary;
 use super::posed::PoseCache;
 use super::prompts::{Overlay, Prompts, Question};
+use super::reference::ReferenceTrack;
 use super::retarget_source::RetargetSource;
 use super::selection_sets::SelectionSets;
 use super::selection_trail::SelectionTrail;
 use super::settings::Settings;
+use super::sound::SoundTrack;
 use super::status::Status;
 use super::take_findings::TakeFindings;
 use super::take_list::TakeListState;
@@ -40,7 +43,7 @@ use dragonfly_document::{LoadedModel, View};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::playback::PlaybackClock;
 use egui::{Pos2, Rect};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -115,6 +118,10 @@ pub struct PanelContext<'a> {
     pub sets: &'a SelectionSets,
     /// The pose library.
     pub poses: &'a PoseLibrary,
+    /// The reference picture.
+    pub reference: &'a ReferenceTrack,
+    /// The sound.
+    pub sound: &'a SoundTrack,
     /// Messages of the status line.
     pub status: &'a Status,
     /// Questions and overlays.
@@ -131,6 +138,13 @@ impl<'a> PanelContext<'a> {
     /// Returns the model that is open.
     pub fn loaded(&self) -> Option<&'a LoadedModel> {
         self.view.map(|view| &*view.loaded)
+    }
+
+    /// Returns the folder of the file of the model; `None` for one that is in no file.
+    pub(super) fn model_folder(&self) -> Option<PathBuf> {
+        let view = self.view?;
+        let path = view.file.path.as_deref().or(view.loaded.path.as_deref())?;
+        path.parent().map(Path::to_owned)
     }
 
     /// Returns the number of bones of the model; 0 if none is open.

@@ -5,7 +5,8 @@ use crate::panels::edit_scope::EditScope;
 use crate::panels::keys::intervals::Intervals;
 use dragonfly_anim::offset::Falloff;
 use dragonfly_document::edit::{
-    BonePose, Edit, FadeShape, OffsetFalloff, OffsetKeys, OffsetRange, OffsetScope, SAME_TIME, TakeRef,
+    BonePose, Edit, FadeShape, OffsetFalloff, OffsetKeys, OffsetRange, OffsetScope, SAME_TIME, ShapeScope,
+    TakeRef,
 };
 use dragonfly_picture::between;
 
@@ -37,6 +38,27 @@ impl PanelContext<'_> {
             }
             (EditScope::Range, Some([from, to])) => Some(OffsetScope::Range(OffsetRange { from, to })),
             (EditScope::Range, None) | (EditScope::Take, _) => Some(OffsetScope::Take),
+        }
+    }
+
+    /// Returns the reason why weights of shape keys cannot be edited in the scope that is set; `None` if they can.
+    pub(in crate::panels) fn shape_scope_refusal(&self) -> Option<&'static str> {
+        match self.over.scope {
+            EditScope::Frame | EditScope::Take | EditScope::Range => self.scope_refusal(),
+            EditScope::Keys => self.keys.selection().shapes().is_empty().then_some(NO_SHAPE_KEYS),
+        }
+    }
+
+    /// Returns the keys of shape keys that edits are for; `None` for the weights at the playhead.
+    pub(in crate::panels) fn shape_scope(&self) -> Option<ShapeScope> {
+        match (self.over.scope, self.keys.range()) {
+            (EditScope::Frame, _) => None,
+            (EditScope::Keys, _) => {
+                let shapes = self.take().map(|take| self.keys.selection().finite_shapes(take));
+                Some(ShapeScope::Keys(shapes.unwrap_or_default()))
+            }
+            (EditScope::Range, Some([from, to])) => Some(ShapeScope::Range(OffsetRange { from, to })),
+            (EditScope::Range, None) | (EditScope::Take, _) => Some(ShapeScope::Take),
         }
     }
 
@@ -85,5 +107,7 @@ impl PanelContext<'_> {
 
 /// The reason why selected keys cannot be edited.
 const NO_KEYS: &str = "Edits apply to the selected keys, but no key of the selected bones is selected";
+/// The reason why selected keys of shape keys cannot be edited.
+const NO_SHAPE_KEYS: &str = "Edits apply to the selected keys, but no key of shape keys is selected";
 /// The reason why the play range cannot be edited.
 const OUTSIDE: &str = "Edits apply to the play range, and the playhead is outside of it";

@@ -1,8 +1,10 @@
 //! A drag of keys without a button in the curves: sideways in time, or up and down in value.
 
-use super::canvas::{CurveCanvas, component_name};
+use super::canvas::{CurveCanvas, change_text};
 use super::curve::Curve;
 use super::drag::MOST;
+use super::id::CurveId;
+use super::key_numbers::focused;
 use super::values::{ValueChange, ValueKey, given_angles, value_edit};
 use crate::control::drag::THRESHOLD;
 use crate::panels::dope::ButtonlessTimes;
@@ -31,15 +33,20 @@ pub(super) struct ButtonlessCurves {
 impl ButtonlessCurves {
     /// Begins a drag at `from` with the selected keys whose curves are shown. The values that move are those with the property
     /// of the first key: `component` if it is shown, otherwise the first one that is.
-    pub(super) fn new(canvas: &CurveCanvas<'_>, from: Pos2, component: usize) -> Self {
+    pub(super) fn new(
+        canvas: &CurveCanvas<'_>,
+        from: Pos2,
+        component: usize,
+        pressed: Option<CurveId>,
+    ) -> Self {
         let selected = |curve: &Arc<Curve>| {
-            let chosen = canvas.drawn.selection.of(curve.id);
+            let chosen = curve.id.selected(&canvas.drawn.selection);
             let keys = chosen.keys(curve.times()).flatten().filter_map(|key| ValueKey::of(curve, key));
             keys.take(MOST + 1).collect::<Vec<_>>()
         };
         let (mut keys, mut curves): (Vec<ValueKey>, Vec<Arc<Curve>>) = (Vec::new(), Vec::new());
-        for curve in canvas.curves {
-            let is_same = curves.first().is_none_or(|first| first.id.1 == curve.id.1);
+        for curve in &focused(canvas.curves, canvas.drawn, pressed) {
+            let is_same = curves.first().is_none_or(|first| first.id.bit() == curve.id.bit());
             let own = if is_same && keys.len() <= MOST { selected(curve) } else { Vec::new() };
             if !own.is_empty() {
                 keys.extend(own);
@@ -105,7 +112,7 @@ impl ButtonlessCurves {
             let value = first.numbers[self.component.min(3)];
             look.snapped(value, scale.value_at(pointer.y) - self.value, input.modifiers.command, usual)
         });
-        readout(ui, pointer, &format!("{} {by:+.3}", component_name(self.component)));
+        readout(ui, pointer, &change_text(first.id, self.component, by));
         let edit = value_edit(canvas.context.take_ref()?, &self.keys, self.component, ValueChange::Add(by))?;
         requests.extend(given_angles(&self.curves, &self.keys, self.component, ValueChange::Add(by)));
         Some(KeyDragOp::Edit(edit))

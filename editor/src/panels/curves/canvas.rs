@@ -1,6 +1,7 @@
 //! The canvas of the curves, and what is under the pointer on it: a key, or the handle of a tangent.
 
 use super::curve::Curve;
+use super::id::CurveId;
 use super::scales::CurveScales;
 use super::tangents::{TangentHandle, Tangents};
 use crate::panels::context::PanelContext;
@@ -58,9 +59,8 @@ pub(super) struct CurveCanvas<'a> {
 
 impl CurveCanvas<'_> {
     /// Returns the components of a curve that are shown.
-    pub(super) fn components(&self, curve: &Curve) -> impl Iterator<Item = usize> {
-        let components = self.components;
-        (0..curve.width()).filter(move |at| components & (1 << at) != 0)
+    pub(super) fn components(&self, curve: &Curve) -> impl Iterator<Item = usize> + use<> {
+        curve.shown(self.components)
     }
 
     /// Returns what is under the pointer.
@@ -85,7 +85,7 @@ impl CurveCanvas<'_> {
                 for component in self.components(curve) {
                     let distance = pos2(x, scales[component].y_of(numbers[component])).distance(pointer);
                     if distance <= REACH && best.as_ref().is_none_or(|(least, _)| distance < *least) {
-                        let selected = curve.is_chosen(key, self.drawn.selection.of(curve.id));
+                        let selected = curve.is_chosen(key, curve.id.selected(&self.drawn.selection));
                         best =
                             Some((distance, CurveKey { curve: Arc::clone(curve), key, component, selected }));
                     }
@@ -120,10 +120,20 @@ impl CurveCanvas<'_> {
 
     /// Returns bone, channel, value and time of a point of a curve as text.
     pub(super) fn description_at(&self, curve: &Curve, component: usize, number: f32, time: f32) -> String {
-        let (bone, property) = curve.id;
-        let name = self.context.bone_name(bone);
-        format!("{name} {} {}  {number:.3}  at {time:.3} s", property.name(), component_name(component))
+        let name = match curve.id {
+            CurveId::Bone(bone, property) => {
+                let (bone, axis) = (self.context.bone_name(bone), component_name(component));
+                format!("{bone} {} {axis}", property.name())
+            }
+            CurveId::Shape { instance, shape } => self.context.shape_name(instance, shape).to_owned(),
+        };
+        format!("{name}  {number:.3}  at {time:.3} s")
     }
+}
+
+/// Returns the text for a change of a component of a curve by the pointer.
+pub(super) fn change_text(id: CurveId, component: usize, by: f32) -> String {
+    if id.is_shape() { format!("{by:+.3}") } else { format!("{} {by:+.3}", component_name(component)) }
 }
 
 /// Returns the letter of a component: X, Y, Z, W.

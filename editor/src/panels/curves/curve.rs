@@ -3,8 +3,10 @@
 
 use super::form::RotationForm;
 use super::given::GivenCurve;
+use super::id::CurveId;
+use super::shape_curves;
+use crate::panels::keys::channel;
 use crate::panels::keys::intervals::Intervals;
-use crate::panels::keys::{ChannelId, channel};
 use dragonfly_anim::data::{Channel, Interpolation, Take};
 use dragonfly_anim::sample::sample_channel;
 use dragonfly_document::edit::Property;
@@ -25,8 +27,10 @@ enum CurveColumns {
 /// The curve of a channel.
 #[derive(Clone, Debug)]
 pub(in crate::panels) struct Curve {
-    pub(super) id: ChannelId,
+    pub(super) id: CurveId,
     columns: CurveColumns,
+    /// The weights of all shape keys that those of this one were read from.
+    weights: Option<Arc<[f32]>>,
     form: RotationForm,
     /// Number of the angles that were given to its keys; 0 if there are none.
     given: u64,
@@ -70,26 +74,48 @@ pub(super) struct Slopes {
 
 impl Curve {
     /// Returns the curve of a channel, not yet computed; `None` if the channel has no keys.
-    pub(super) fn new(take: &Take, id: ChannelId, form: RotationForm, given: u64) -> Option<Self> {
-        let track = channel::track(take, id.0)?;
-        let columns = match id.1 {
-            Property::Translation => CurveColumns::Vector(track.translation.clone()),
-            Property::Scale => CurveColumns::Vector(track.scale.clone()),
-            Property::Rotation => CurveColumns::Turn(track.rotation.clone()),
+    pub(super) fn new(take: &Take, id: CurveId, form: RotationForm, given: u64) -> Option<Self> {
+        let mut weights = None;
+        let columns = match id {
+            CurveId::Bone(bone, property) => {
+                let track = channel::track(take, bone)?;
+                match property {
+                    Property::Translation => CurveColumns::Vector(track.translation.clone()),
+                    Property::Scale => CurveColumns::Vector(track.scale.clone()),
+                    Property::Rotation => CurveColumns::Turn(track.rotation.clone()),
+                }
+            }
+            CurveId::Shape { instance, shape } => {
+                let track = shape_curves::track(take, instance)?;
+                weights = Some(Arc::clone(&track.weights));
+                CurveColumns::Vector(shape_curves::column(track, shape as usize))
+            }
         };
-        let curve = Self { id, columns, form, given, numbers: Vec::new(), levels: Vec::new(), whole: false };
+        let (numbers, levels) = (Vec::new(), Vec::new());
+        let curve = Self { id, columns, weights, form, given, numbers, levels, whole: false };
         (!curve.times().is_empty()).then_some(curve)
     }
 
     /// Whether the curve was made from these columns, in this form and with these given angles.
     pub(super) fn is_of(&self, take: &Take, form: RotationForm, given: u64) -> bool {
-        let Some(track) = channel::track(take, self.id.0) else { return false };
+        let (bone, property) = match self.id {
+            CurveId::Bone(bone, property) => (bone, property),
+            CurveId::Shape { instance, .. } => {
+                let track = shape_curves::track(take, instance);
+                return track.zip(self.weights.as_ref()).is_some_and(|(track, weights)| {
+                    Arc::ptr_eq(&track.weights, weights)
+                        && Arc::as_ptr(&track.times).addr() == self.times().as_ptr().addr()
+                        && track.interpolation == self.interpolation()
+                });
+            }
+        };
+        let Some(track) = channel::track(take, bone) else { return false };
         let same = |channel: &Channel<Vec3>, other: &Channel<Vec3>| {
             Arc::ptr_eq(&channel.times, &other.times)
                 && Arc::ptr_eq(&channel.values, &other.values)
                 && channel.interpolation == other.interpolation
         };
-        match (&self.columns, self.id.1) {
+        match (&self.columns, property) {
             (CurveColumns::Vector(channel), Property::Translation) => same(channel, &track.translation),
             (CurveColumns::Vector(channel), Property::Scale) => same(channel, &track.scale),
             (CurveColumns::Turn(channel), _) => {
@@ -119,7 +145,17 @@ impl Curve {
 
     /// Returns how many numbers a key has.
     pub(super) fn width(&self) -> usize {
-        if self.id.1 == Property::Rotation { self.form.numbers() } else { 3 }
+        match self.id {
+            CurveId::Bone(_, Property::Rotation) => self.form.numbers(),
+            CurveId::Bone(..) => 3,
+            CurveId::Shape { .. } => 1,
+        }
+    }
+
+    /// Returns the components that are shown; `components` has a bit for each axis. A weight has no axis and is always shown.
+    pub(super) fn shown(&self, components: u8) -> impl Iterator<Item = usize> + use<> {
+        let components = if self.id.is_shape() { 1 } else { components };
+        (0..self.width()).filter(move |at| components & (1 << at) != 0)
     }
 
     /// Whether the numbers of all keys are computed.
@@ -329,8 +365,9 @@ mod tests {
                 (0..count).map(|_| [(); 4].map(|()| random.between(-9.0, 9.0))).collect();
             let channel = Channel::<Vec3>::default();
             let curve = Curve {
-                id: (0, Property::Translation),
+                id: CurveId::Bone(0, Property::Translation),
                 columns: CurveColumns::Vector(channel),
+                weights: None,
                 form: RotationForm::default(),
                 given: 0,
                 levels: levels(&numbers),

@@ -1,8 +1,9 @@
 //! Drags on the curves: keys sideways in time or up and down in value, tangents by their handles, and selection boxes.
 
 use super::buttonless::ButtonlessCurves;
-use super::canvas::{CurveCanvas, CurveKey, CurvePoint, CurveTarget, component_name};
+use super::canvas::{CurveCanvas, CurveKey, CurvePoint, CurveTarget, change_text};
 use super::curve::Curve;
+use super::id::CurveId;
 use super::tangents::TangentHandle;
 use super::values::{ValueChange, ValueKey, given_angles, value_edit};
 use crate::panels::dope::to_frame;
@@ -22,6 +23,8 @@ pub(super) struct CurveDrag {
     machine: PanelDrag<CurveTarget, CurveDragged>,
     /// Component of the key that was pressed on last.
     component: usize,
+    /// The curve of that key.
+    pressed: Option<CurveId>,
     buttonless: Option<ButtonlessCurves>,
 }
 
@@ -47,7 +50,7 @@ enum CurveDragged {
         /// Value under the pointer at the press.
         pressed: f32,
         /// The pressed curve, and the value of the pressed key at the press.
-        of: (ChannelId, f32),
+        of: (CurveId, f32),
         requested: bool,
     },
     Tangent {
@@ -58,6 +61,9 @@ enum CurveDragged {
     Box(SelectionBox),
 }
 
+/// Stretches of time of channels, and of shape keys.
+type BoxedKeys = (Vec<(ChannelId, Vec<[f32; 2]>)>, Vec<[f32; 2]>);
+
 /// Largest number of keys whose values are dragged at once.
 pub(super) const MOST: usize = 2000;
 
@@ -65,6 +71,11 @@ impl CurveDrag {
     /// Component of the key that was pressed on last, 0 for X.
     pub(super) fn component(&self) -> usize {
         self.component
+    }
+
+    /// Returns the curve of the key that was pressed on last.
+    pub(super) fn pressed(&self) -> Option<CurveId> {
+        self.pressed
     }
 
     /// Whether a press on the curves, or a drag without a button, is in progress.
@@ -94,7 +105,7 @@ impl CurveDrag {
             DragEvent::Nothing | DragEvent::Cancelled(CurveDragged::Box(_)) => {}
             DragEvent::Pressed => {
                 if let Some(Press { on: CurveTarget::Key(key), .. }) = self.machine.pressed() {
-                    self.component = key.component;
+                    (self.component, self.pressed) = (key.component, Some(key.curve.id));
                 }
             }
             DragEvent::Started(press) => {
@@ -108,16 +119,16 @@ impl CurveDrag {
             DragEvent::Moved(at) => self.advance(ui, position(at), canvas, &input, requests),
             DragEvent::Clicked(press) => {
                 if let CurveTarget::Key(key) = &press.on {
-                    self.component = key.component;
+                    (self.component, self.pressed) = (key.component, Some(key.curve.id));
                 }
                 click(&press, requests);
             }
             DragEvent::Dropped(CurveDragged::Box(drawn)) => {
                 if let Some(pointer) = pointer.or(input.pointer) {
                     let to = [canvas.time.time_at(pointer.x), canvas.scales.view.value_at(pointer.y)];
-                    let parts = canvas.boxed(drawn.ranges(to));
+                    let (parts, shapes) = canvas.boxed(drawn.ranges(to));
                     let choice = drawn.choice;
-                    requests.push(Request::Timeline(KeysRequest::SelectKeys { parts, choice }));
+                    requests.push(Request::Timeline(KeysRequest::SelectKeys { parts, shapes, choice }));
                 }
             }
             DragEvent::Dropped(_) => requests.push(Request::Timeline(KeysRequest::Release)),
@@ -136,7 +147,9 @@ impl CurveDrag {
         let start = canvas.context.keys.buttonless().and_then(|drag| drag.start_in(KeyPanel::Curves));
         let Some(from) = start else { return self.buttonless = None };
         let component = self.component;
-        let drag = self.buttonless.get_or_insert_with(|| ButtonlessCurves::new(canvas, from, component));
+        let pressed = self.pressed;
+        let drag =
+            self.buttonless.get_or_insert_with(|| ButtonlessCurves::new(canvas, from, component, pressed));
         if let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) {
             drag.follow(ui, pointer, canvas, input, requests);
         }
@@ -205,7 +218,7 @@ impl CurveDragged {
                 let by = scale.value_at(pointer.y) - *pressed;
                 let (look, usual) = (context.settings.curves, (scale.step() / 2.0) as f32);
                 let by = look.snapped(of.1, by, input.modifiers.command, usual);
-                readout(ui, pointer, &format!("{} {by:+.3}", component_name(*component)));
+                readout(ui, pointer, &change_text(of.0, *component, by));
                 let edit = value_edit(context.take_ref()?, keys, *component, ValueChange::Add(by))?;
                 (*dragged, *requested) = (by, true);
                 Some(KeyDragOp::Edit(edit))
@@ -214,7 +227,7 @@ impl CurveDragged {
                 let scale = canvas.scales.of(handle.id, handle.component);
                 let slope = handle.slope_at(pointer, canvas.time, &scale);
                 ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
-                readout(ui, pointer, &format!("{} {slope:+.3} / s", component_name(handle.component)));
+                readout(ui, pointer, &format!("{} / s", change_text(handle.id, handle.component, slope)));
                 let edit = handle.edit(context.take_ref()?, curve, slope, input.modifiers.alt)?;
                 *requested = true;
                 Some(KeyDragOp::Edit(edit))
@@ -326,24 +339,31 @@ impl CurveCanvas<'_> {
         if !on.selected {
             return ValueKey::of(&on.curve, on.key).into_iter().collect();
         }
-        let same = self.curves.iter().filter(|curve| curve.id.1 == on.curve.id.1);
+        let same = self.curves.iter().filter(|curve| {
+            // All shape keys share the selection of their keys: only the pressed curve changes.
+            if on.curve.id.is_shape() { curve.id == on.curve.id } else { curve.id.bit() == on.curve.id.bit() }
+        });
         let keys = same.flat_map(|curve| {
-            let chosen = self.drawn.selection.of(curve.id);
+            let chosen = curve.id.selected(&self.drawn.selection);
             chosen.keys(curve.times()).flatten().filter_map(|key| ValueKey::of(curve, key))
         });
         keys.take(MOST + 1).collect()
     }
 
-    /// Returns the keys in a box of times and values.
-    fn boxed(&self, [times, values]: [[f32; 2]; 2]) -> Vec<(ChannelId, Vec<[f32; 2]>)> {
+    /// Returns the keys in a box of times and values: of channels, and of shape keys.
+    fn boxed(&self, [times, values]: [[f32; 2]; 2]) -> BoxedKeys {
         /// Number of keys of a curve in the range of times above which the values are not tested, and all of them are
         /// selected.
         const LOOKED_AT: usize = 50_000;
-        let mut parts = Vec::new();
+        let (mut parts, mut shapes) = (Vec::new(), Vec::new());
+        let mut add = |id: CurveId, found: Vec<[f32; 2]>| match id.channel() {
+            Some(id) => parts.push((id, found)),
+            None => shapes.extend(found),
+        };
         for curve in self.curves {
             let keys = keys_between(curve.times(), times);
             if keys.len() > LOOKED_AT {
-                parts.push((curve.id, vec![times]));
+                add(curve.id, vec![times]);
                 continue;
             }
             let (scales, view) = (self.scales.all(curve.id), &self.scales.view);
@@ -360,19 +380,16 @@ impl CurveCanvas<'_> {
             };
             let found: Vec<[f32; 2]> = keys.filter(inside).map(|key| [curve.times()[key]; 2]).collect();
             if !found.is_empty() {
-                parts.push((curve.id, found));
+                add(curve.id, found);
             }
         }
-        parts
+        (parts, shapes)
     }
 }
 
 fn select(on: &CurveKey, choice: Choice) -> Request {
     let stretch = [on.time(); 2];
-    Request::Timeline(KeysRequest::Select {
-        channels: Arc::new([on.curve.id]),
-        shapes: false,
-        stretch,
-        choice,
-    })
+    let channels = on.curve.id.channel().into_iter().collect();
+    let shapes = on.curve.id.is_shape();
+    Request::Timeline(KeysRequest::Select { channels, shapes, stretch, choice })
 }

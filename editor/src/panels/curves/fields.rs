@@ -20,7 +20,6 @@ use crate::panels::request::Request;
 use crate::panels::style::{CONTROL, GRID};
 use crate::panels::theme::Theme;
 use dragonfly_document::Change;
-use dragonfly_document::edit::Property;
 use dragonfly_picture::playback::LATEST;
 use egui::{Align2, FontId, Id, Rect, Sense, Ui, pos2, vec2};
 use std::sync::Arc;
@@ -83,7 +82,9 @@ impl Fields {
         ui.spacing_mut().item_spacing.x = GRID;
         self.time(ui, &numbers, about, requests);
         let width = numbers.first.width();
-        let shown: Vec<usize> = (0..width).filter(|at| about.chosen.components & (1 << at) != 0).collect();
+        let shown: Vec<usize> = (0..width)
+            .filter(|at| numbers.first.id.is_shape() || about.chosen.components & (1 << at) != 0)
+            .collect();
         let room = (ui.available_width() / (WIDTH + LETTER + GRID)) as usize;
         if shown.len() <= room {
             for &component in shown.iter().rev() {
@@ -166,20 +167,21 @@ impl Fields {
         requests: &mut Vec<Request>,
     ) {
         let (rect, _) = ui.allocate_exact_size(vec2(LETTER + WIDTH, CONTROL), Sense::hover());
-        let letter = component_name(component);
+        let is_weight = numbers.first.id.is_shape();
+        let letter = if is_weight { "" } else { component_name(component) };
         let tone = color(Theme::of(ui), component);
         let at = pos2(rect.left(), rect.center().y);
         ui.painter().text(at, Align2::LEFT_CENTER, letter, FontId::proportional(11.0), tone);
         let rect = Rect::from_min_max(pos2(rect.left() + LETTER, rect.top()), rect.max);
         let key = &numbers.first;
-        let angle = key.id.1 == Property::Rotation && key.form != RotationForm::Quaternion;
+        let angle = key.id.is_rotation() && key.form != RotationForm::Quaternion;
         let by = self.by(KeyNumber::Value(component));
         // Below a millionth of the numbers that are shown, a value is a rounding error.
         let span = about.ranges.window(about.window, key.id, component).span;
         let dust = |shown: f64| shown.abs() < span * 1e-6;
         let shown = numbers.values[component].map(|number| f64::from(number + by));
         let field = NumberField {
-            name: &format!("Value {letter}"),
+            name: &if is_weight { "Weight".to_owned() } else { format!("Value {letter}") },
             value: shown.map(|shown| if dust(shown) { 0.0 } else { shown }),
             quantity: if angle { Quantity::Angle } else { Quantity::Number },
             unit: if angle { "°" } else { "" },

@@ -1,26 +1,27 @@
-//! The colors of curves: of their axes where one bone is shown, otherwise of their bones.
+//! The colors of curves: of their axes where one bone is shown, otherwise of their bones and shape keys.
 
+use super::id::CurveId;
 use super::shown::ShownCurves;
 use crate::panels::theme::Theme;
-use dragonfly_anim::data::BoneIndex;
 use egui::Color32;
 
-/// The bones whose curves are shown, if there are several.
+/// A curve of each bone and each shape key that is shown, if there are several.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct CurveHues(Vec<BoneIndex>);
+pub(super) struct CurveHues(Vec<CurveId>);
 
 impl CurveHues {
-    /// Returns the bones of all curves; none if they are of one bone.
+    /// Returns the colors of all curves; none if they are of one bone.
     pub(super) fn of(shown: &ShownCurves) -> Self {
-        let mut bones: Vec<BoneIndex> = shown.curves().map(|curve| curve.id.0).collect();
-        bones.dedup();
-        Self(if bones.len() > 1 { bones } else { Vec::new() })
+        let mut owners: Vec<CurveId> = shown.curves().map(|curve| curve.id).collect();
+        owners.dedup_by(|next, kept| kept.shares_color(*next));
+        Self(if owners.len() > 1 { owners } else { Vec::new() })
     }
 
-    /// Returns the color of a component of a bone's curve.
-    pub(super) fn color(&self, theme: &Theme, bone: BoneIndex, component: usize) -> Color32 {
-        match self.0.iter().position(|&other| other == bone) {
+    /// Returns the color of a component of a curve.
+    pub(super) fn color(&self, theme: &Theme, id: CurveId, component: usize) -> Color32 {
+        match self.0.iter().position(|other| other.shares_color(id)) {
             Some(at) => theme.bone_hue(at, component),
+            None if id.is_shape() => theme.key,
             None => super::paint::color(theme, component),
         }
     }

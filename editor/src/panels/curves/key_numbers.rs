@@ -1,6 +1,7 @@
 //! The numbers that the selected keys share.
 
 use super::curve::{Curve, CurveNumbers};
+use super::id::CurveId;
 use super::values::ValueKey;
 use crate::panels::keys::Drawn;
 use dragonfly_anim::data::Interpolation;
@@ -84,15 +85,26 @@ impl KeySlopes {
     }
 }
 
+/// Returns the curves whose keys numbers and drags without a button are for. All shape keys share the selection of their keys, so only
+/// one of them is among these: that of the key that was pressed on last, or the first.
+pub(super) fn focused(curves: &[Arc<Curve>], drawn: &Drawn, pressed: Option<CurveId>) -> Vec<Arc<Curve>> {
+    let has_keys =
+        |curve: &&Arc<Curve>| curve.id.selected(&drawn.selection).keys(curve.times()).next().is_some();
+    let shapes = || curves.iter().filter(|curve| curve.id.is_shape()).filter(has_keys).map(|curve| curve.id);
+    let one = shapes().find(|&id| Some(id) == pressed).or_else(|| shapes().next());
+    curves.iter().filter(|curve| !curve.id.is_shape() || Some(curve.id) == one).cloned().collect()
+}
+
 /// Returns the selected keys of curves with the property of the first curve that has any.
 pub(super) fn selected<'a>(
     curves: &'a [Arc<Curve>],
     drawn: &'a Drawn,
 ) -> impl Iterator<Item = (&'a Arc<Curve>, usize)> {
-    let first = curves.iter().find(|curve| drawn.selection.of(curve.id).keys(curve.times()).next().is_some());
-    let same = move |curve: &&'a Arc<Curve>| first.is_some_and(|first| first.id.1 == curve.id.1);
+    let first =
+        curves.iter().find(|curve| curve.id.selected(&drawn.selection).keys(curve.times()).next().is_some());
+    let same = move |curve: &&'a Arc<Curve>| first.is_some_and(|first| first.id.bit() == curve.id.bit());
     curves.iter().filter(same).flat_map(|curve| {
-        drawn.selection.of(curve.id).keys(curve.times()).flatten().map(move |key| (curve, key))
+        curve.id.selected(&drawn.selection).keys(curve.times()).flatten().map(move |key| (curve, key))
     })
 }
 

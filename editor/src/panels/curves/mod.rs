@@ -9,10 +9,12 @@ mod fields;
 pub(super) mod form;
 pub mod given;
 mod hues;
+pub(super) mod id;
 mod key_numbers;
 pub mod look;
 mod paint;
 mod scales;
+mod shape_curves;
 pub(super) mod shown;
 mod slopes;
 mod tangents;
@@ -37,9 +39,11 @@ use egui::{
 use fields::{Fields, FieldsContext};
 use form::RotationForm;
 use hues::CurveHues;
-use key_numbers::KeyNumbers;
+use id::CurveId;
+use key_numbers::{KeyNumbers, focused};
 use paint::{CurveLook, CurveMesh};
 use scales::{CurveRanges, CurveScales};
+use shape_curves::ShapeCurveList;
 use shown::ShownCurves;
 use slopes::SlopeFields;
 use tangents::Tangents;
@@ -67,7 +71,9 @@ pub struct Curves {
     /// Least and greatest values of each curve, where curves are normalized, with the version of the curves.
     ranges: (u64, CurveRanges),
     /// The curve under the pointer in the last frame.
-    hovered: Option<(super::keys::ChannelId, usize)>,
+    hovered: Option<(CurveId, usize)>,
+    /// The shape keys whose curves can be shown.
+    shapes: ShapeCurveList,
     /// Least and greatest value of the curves with this version and these components.
     extent: Option<(u64, u8, Option<[f32; 2]>)>,
 }
@@ -76,7 +82,7 @@ pub struct Curves {
 struct Fitted {
     model: usize,
     take: Option<usize>,
-    ids: Vec<super::keys::ChannelId>,
+    ids: Vec<CurveId>,
     chosen: (u8, u8, form::RotationForm, bool),
 }
 
@@ -110,10 +116,11 @@ impl Panel for Curves {
         }
         let label = drawn.as_ref().and_then(|_| self.label(context));
         let (fields, slopes) = (&mut self.fields, &mut self.slopes);
-        let (curves, component) = (&self.mesh.drawn, self.drag.component());
+        let (curves, component, pressed) = (&self.mesh.drawn, self.drag.component(), self.drag.pressed());
         let (window, ranges) = (self.window.unwrap_or_default(), &self.ranges.1);
         let fit = toolbar::show(ui, &mut self.chosen, curves, context, requests, |ui, chosen, requests| {
             let Some(drawn) = &drawn else { return };
+            let curves = &focused(curves, drawn, pressed);
             let numbers = KeyNumbers::of(curves, drawn);
             slopes.show(ui, numbers.as_ref(), curves, drawn, context, requests);
             let about = FieldsContext { chosen, curves, numbers, drawn, window, ranges, component, context };
@@ -146,7 +153,7 @@ impl Panel for Curves {
 impl Curves {
     /// Updates the numbers, and fits the range of values when other curves are shown.
     fn follow(&mut self, ui: &Ui, context: &PanelContext<'_>, drawn: &Drawn) {
-        let ids = shown::wanted(context, drawn, self.chosen.properties);
+        let ids = shown::wanted(context, drawn, self.chosen.properties, &mut self.shapes);
         let more = self.shown.update(&drawn.take, &ids, self.chosen.form, context.given);
         if more {
             ui.ctx().request_repaint();
@@ -356,11 +363,14 @@ impl Curves {
 
     /// Returns the name of the bone or the number of bones whose curves are shown; `None` if there are no curves.
     fn label(&self, context: &PanelContext<'_>) -> Option<String> {
-        let mut bones: Vec<u32> = self.shown.curves().map(|curve| curve.id.0).collect();
+        let shapes = self.shown.curves().filter(|curve| curve.id.is_shape()).count();
+        let mut bones: Vec<u32> =
+            self.shown.curves().filter_map(|curve| Some(curve.id.channel()?.0)).collect();
         bones.dedup();
         let wanted = context.selection.bones().len();
         Some(match bones.as_slice() {
-            [] => return None,
+            [] if shapes == 0 => return None,
+            [] => super::widgets::count(shapes, "shape key", "shape keys"),
             [bone] => context.bone_name(*bone),
             all if self.shown.curves().count() >= shown::MOST && all.len() < wanted => {
                 format!("{} of {wanted} bones", all.len())

@@ -3,12 +3,13 @@
 use super::axis::ValueScale;
 use super::curve::{Curve, CurveNumbers, Extent};
 use super::hues::CurveHues;
+use super::id::CurveId;
 use super::scales::CurveScales;
 use super::shown::ShownCurves;
 use crate::panels::dope::Pen;
 use crate::panels::keys::columns::gallop;
 use crate::panels::keys::intervals::{Intervals, keys_between};
-use crate::panels::keys::{ChannelId, Drawn, TimeScale};
+use crate::panels::keys::{Drawn, TimeScale};
 use crate::panels::theme::Theme;
 use dragonfly_anim::data::Interpolation;
 use egui::epaint::{PathShape, TessellationOptions, Tessellator};
@@ -32,7 +33,7 @@ struct CurveMeshKey {
     version: u64,
     scales: (TimeScale, CurveScales),
     hues: CurveHues,
-    solo: Option<(ChannelId, usize)>,
+    solo: Option<(CurveId, usize)>,
     components: u8,
     pixels_per_point: f32,
     dark: bool,
@@ -56,7 +57,7 @@ pub(super) struct CurveLook<'a> {
     pub(super) scales: &'a CurveScales,
     pub(super) hues: &'a CurveHues,
     /// The curve and the component that is drawn strongly, while all others are faint.
-    pub(super) solo: Option<(ChannelId, usize)>,
+    pub(super) solo: Option<(CurveId, usize)>,
     /// A bit for each component that is shown.
     pub(super) components: u8,
     pub(super) theme: &'a Theme,
@@ -70,7 +71,7 @@ struct Canvas<'a> {
     /// The mappings of the curve that is drawn.
     scales: [ValueScale; 4],
     hues: &'a CurveHues,
-    solo: Option<(ChannelId, usize)>,
+    solo: Option<(CurveId, usize)>,
     mesh: Mesh,
     tessellator: Tessellator,
     points: [Vec<Pos2>; 4],
@@ -124,7 +125,7 @@ impl CurveMesh {
         canvas.mesh.indices.clear();
         canvas.mesh.vertices.clear();
         for curve in shown.curves() {
-            let chosen = drawn.selection.of(curve.id);
+            let chosen = curve.id.selected(&drawn.selection);
             canvas.scales = scales.all(curve.id);
             let strength = if count > 6 { 0.7 } else { 1.0 };
             canvas.curve(curve, components, theme, strength);
@@ -157,7 +158,7 @@ impl Canvas<'_> {
         /// Strength of curves that are not under the pointer.
         const FAINT: f32 = 0.22;
         let is_faint = self.solo.is_some_and(|solo| solo != (curve.id, component));
-        let color = self.hues.color(theme, curve.id.0, component);
+        let color = self.hues.color(theme, curve.id, component);
         if is_faint { color.gamma_multiply(FAINT) } else { color }
     }
 
@@ -182,7 +183,7 @@ impl Canvas<'_> {
         }
         self.sample(curve, keys.clone());
         self.dashes(curve, keys, components, theme, strength);
-        for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+        for at in curve.shown(components) {
             let color = self.color(curve, at, theme).gamma_multiply(strength);
             let points = std::mem::take(&mut self.points[at]);
             let line = PathShape::line(points, Stroke::new(1.4, color));
@@ -208,7 +209,7 @@ impl Canvas<'_> {
         let after = (keys.end > last).then(|| (self.time.x_of(times[last]), rect.right(), last));
         for (from, to, key) in before.into_iter().chain(after) {
             let numbers = curve.key(key);
-            for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+            for at in curve.shown(components) {
                 let color = self.color(curve, at, theme).gamma_multiply(strength * 0.8);
                 let y = self.scales[at].y_of(numbers[at]);
                 let mut x = from.max(rect.left());
@@ -275,7 +276,7 @@ impl Canvas<'_> {
             key = end;
             if extent.low[0] <= extent.high[0] {
                 let joined = last.map_or(extent, |last| joined(&extent, &last));
-                for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+                for at in curve.shown(components) {
                     let color = self.color(curve, at, theme).gamma_multiply(strength * 0.85);
                     self.column(x, at, [joined.low[at], joined.high[at]], color);
                 }
@@ -306,7 +307,7 @@ impl Canvas<'_> {
         for key in keys {
             let (x, numbers) = (self.time.x_of(curve.times()[key]), curve.key(key));
             let selected = curve.is_chosen(key, chosen);
-            for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+            for at in curve.shown(components) {
                 let center = pos2(x, self.scales[at].y_of(numbers[at]));
                 if bounds.contains(center) {
                     // A selected key keeps the color of its axis: several may be side by side.

@@ -1,8 +1,8 @@
 //! The mapping between values and heights of each curve: the same for all, or each curve from its least to its greatest value.
 
 use super::axis::{ValueScale, ValueWindow};
+use super::id::CurveId;
 use super::shown::ShownCurves;
-use crate::panels::keys::ChannelId;
 use std::sync::Arc;
 
 /// The least and the greatest value of each component of curves. Empty unless curves are normalized.
@@ -12,7 +12,7 @@ pub(super) struct CurveRanges(Arc<[CurveRange]>);
 /// The values of one curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct CurveRange {
-    id: ChannelId,
+    id: CurveId,
     low: [f32; 4],
     high: [f32; 4],
 }
@@ -42,7 +42,7 @@ impl CurveRanges {
 
     /// Returns the values of a component of a curve that are visible where `view` is shown. The least value of the curve is at -1, the
     /// greatest at 1; a curve that does not move is at 0.
-    pub(super) fn window(&self, view: ValueWindow, id: ChannelId, component: usize) -> ValueWindow {
+    pub(super) fn window(&self, view: ValueWindow, id: CurveId, component: usize) -> ValueWindow {
         let Some(range) = self.0.iter().find(|range| range.id == id) else { return view };
         let [low, high] = [range.low, range.high].map(|side| f64::from(side[component.min(3)]));
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
@@ -53,12 +53,12 @@ impl CurveRanges {
 
 impl CurveScales {
     /// Returns the mapping of a component of a curve.
-    pub(super) fn of(&self, id: ChannelId, component: usize) -> ValueScale {
+    pub(super) fn of(&self, id: CurveId, component: usize) -> ValueScale {
         ValueScale { window: self.ranges.window(self.view.window, id, component), ..self.view }
     }
 
     /// Returns the mappings of all components of a curve.
-    pub(super) fn all(&self, id: ChannelId) -> [ValueScale; 4] {
+    pub(super) fn all(&self, id: CurveId) -> [ValueScale; 4] {
         std::array::from_fn(|component| self.of(id, component))
     }
 }

@@ -3,6 +3,8 @@
 use super::curve::{Curve, Extent};
 use super::form::RotationForm;
 use super::given::GivenAngles;
+use super::id::{CurveId, SHAPES, bit};
+use super::shape_curves::ShapeCurveList;
 use crate::panels::context::PanelContext;
 use crate::panels::keys::{ChannelId, Drawn, channel};
 use dragonfly_anim::data::Take;
@@ -24,7 +26,7 @@ pub(in crate::panels) struct ShownCurves {
 
 #[derive(Debug)]
 struct CurveSlot {
-    id: ChannelId,
+    id: CurveId,
     /// The curve as it is drawn.
     curve: Option<Arc<Curve>>,
     /// The next curve, until all of it is computed.
@@ -37,7 +39,7 @@ impl ShownCurves {
     pub(in crate::panels) fn update(
         &mut self,
         take: &Take,
-        ids: &[ChannelId],
+        ids: &[CurveId],
         form: RotationForm,
         angles: &GivenAngles,
     ) -> bool {
@@ -55,7 +57,7 @@ impl ShownCurves {
         }
         let (mut budget, mut more) = (BUDGET, false);
         for entry in &mut self.entries {
-            let (number, given) = angles.of(entry.id, form).unzip();
+            let (number, given) = entry.id.channel().and_then(|id| angles.of(id, form)).unzip();
             let number = number.unwrap_or_default();
             if entry.curve.as_ref().is_some_and(|curve| curve.is_of(take, form, number)) {
                 entry.next = None;
@@ -90,6 +92,7 @@ impl ShownCurves {
 
     /// Returns the curve of a channel, if it is computed.
     pub(in crate::panels) fn of(&self, id: ChannelId) -> Option<&Arc<Curve>> {
+        let id = CurveId::from(id);
         self.entries.iter().find(|entry| entry.id == id)?.curve.as_ref()
     }
 
@@ -110,7 +113,7 @@ impl ShownCurves {
                 extent = extent.with(&curve.extent_between_keys());
             }
             let Extent { low, high } = extent;
-            for at in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+            for at in curve.shown(components) {
                 all = [all[0].min(low[at]), all[1].max(high[at])];
             }
         }
@@ -118,11 +121,18 @@ impl ShownCurves {
     }
 }
 
-/// Returns the channels whose curves are wanted: of the selected bones, or those with selected keys.
+/// Returns the curves that are wanted: channels of the selected bones, or those with selected keys, and shape keys where they are chosen or
+/// no bone is selected.
 ///
 /// If the bones have no keys in the wanted properties, returns the channels that have keys, because an empty panel
 /// would explain nothing.
-pub(super) fn wanted(context: &PanelContext<'_>, drawn: &Drawn, properties: u8) -> Vec<ChannelId> {
+pub(super) fn wanted(
+    context: &PanelContext<'_>,
+    drawn: &Drawn,
+    properties: u8,
+    shapes: &mut ShapeCurveList,
+) -> Vec<CurveId> {
+    let shapes = shapes.update(&drawn.take, MOST, context.keys.is_dragging());
     let of_bones: Vec<ChannelId> = context
         .selection
         .bones()
@@ -138,15 +148,13 @@ pub(super) fn wanted(context: &PanelContext<'_>, drawn: &Drawn, properties: u8) 
     };
     let fits = |id: &&ChannelId| properties & bit(id.1) != 0;
     let mut ids: Vec<ChannelId> = all.iter().filter(fits).take(MOST).copied().collect();
+    let wants_shapes = properties & SHAPES != 0 || all.is_empty() && context.selection.bones().is_empty();
+    let shapes = if wants_shapes { shapes } else { &[] };
     if ids.is_empty()
+        && shapes.is_empty()
         && let Some(&(_, first)) = all.iter().max_by_key(|(_, property)| *property == Property::Rotation)
     {
         ids = all.into_iter().filter(|(_, property)| *property == first).take(MOST).collect();
     }
-    ids
-}
-
-/// Returns the bit of a property in a set of them.
-pub(super) fn bit(property: Property) -> u8 {
-    1 << property as u8
+    ids.into_iter().map(CurveId::from).chain(shapes.iter().copied()).take(MOST).collect()
 }

@@ -3,6 +3,7 @@
 use super::canvas::component_name;
 use super::curve::Curve;
 use super::form::RotationForm;
+use super::id::CurveId;
 use super::key_numbers::{KeyNumbers, KeySlopes, MOST_SLOPES, selected, with};
 use super::paint::color;
 use super::values::ValueChange;
@@ -16,7 +17,9 @@ use crate::panels::number_text::Digits;
 use crate::panels::request::Request;
 use crate::panels::style::{CONTROL, GRID};
 use crate::panels::theme::Theme;
-use dragonfly_document::edit::{BoneRef, Edit, Property, SetManyTangents, TakeRef, TangentsAt};
+use dragonfly_document::edit::{
+    BoneRef, Edit, MeshRef, SetManyTangents, SetShapeKeys, ShapeKeyAt, ShapeRef, TakeRef, TangentsAt,
+};
 use egui::{
     Align2, Button, FontId, Id, Popup, PopupCloseBehavior, RichText, Sense, TextStyle, Ui, pos2, vec2,
 };
@@ -113,14 +116,14 @@ impl SlopeFields {
     ) {
         let SlopeField { side, component } = of;
         let (rect, _) = ui.allocate_exact_size(vec2(WIDTH, CONTROL), Sense::hover());
-        let letter = component_name(component);
+        let letter = if numbers.first.id.is_shape() { "" } else { component_name(component) };
         let tone = color(Theme::of(ui), component);
         let at = pos2(rect.left(), rect.center().y);
         ui.painter().text(at, Align2::LEFT_CENTER, letter, FontId::proportional(11.0), tone);
         let mut place = rect;
         place.min.x += 12.0;
         let key = &numbers.first;
-        let angle = key.id.1 == Property::Rotation && key.form != RotationForm::Quaternion;
+        let angle = key.id.is_rotation() && key.form != RotationForm::Quaternion;
         let [before, after] = slopes.slopes.map(|side| side[component]);
         let shared = match side {
             KeySide::Both => slopes.both(component),
@@ -207,21 +210,53 @@ fn slope_edit<'a>(
     SlopeField { side, component }: SlopeField,
     change: ValueChange,
 ) -> Option<Edit> {
-    let at = keys.filter_map(|(curve, key)| {
-        let slopes = curve.slopes(key)?;
-        let tangent = |arrive: bool, slopes: [f32; 4]| {
-            let slope = change.of(slopes[component]).clamp(-1e6, 1e6);
-            curve.tangent(key, arrive, with(slopes, component, slope))
-        };
-        let (bone, property) = curve.id;
-        Some(TangentsAt {
-            time: *curve.times().get(key)?,
-            bone: BoneRef::Index(bone),
-            property,
-            arrive: if side == KeySide::After { None } else { Some(tangent(true, slopes.arrive)?) },
-            leave: if side == KeySide::Before { None } else { Some(tangent(false, slopes.leave)?) },
-        })
-    });
-    let at: Vec<TangentsAt> = at.collect();
-    (!at.is_empty()).then_some(Edit::SetManyTangents(SetManyTangents { take, at }))
+    let (mut bones, mut shapes) = (Vec::new(), Vec::new());
+    for (curve, key) in keys {
+        if curve.id.is_shape() {
+            shapes.extend(shape_slope(curve, key, side, change));
+        } else {
+            bones.extend(bone_slope(curve, key, (side, component), change));
+        }
+    }
+    if !shapes.is_empty() {
+        return Some(Edit::SetShapeKeys(SetShapeKeys { take, keys: shapes }));
+    }
+    (!bones.is_empty()).then_some(Edit::SetManyTangents(SetManyTangents { take, at: bones }))
+}
+
+/// Returns a key of a shape key with a new slope.
+fn shape_slope(curve: &Curve, key: usize, side: KeySide, change: ValueChange) -> Option<ShapeKeyAt> {
+    let CurveId::Shape { instance, shape } = curve.id else { return None };
+    let slopes = curve.slopes(key)?;
+    let slope = |slopes: [f32; 4]| change.of(slopes[0]).clamp(-1e6, 1e6);
+    Some(ShapeKeyAt {
+        time: *curve.times().get(key)?,
+        mesh: Some(MeshRef::Index(instance)),
+        shape: ShapeRef::Index(shape),
+        weight: None,
+        arrive: (side != KeySide::After).then(|| slope(slopes.arrive)),
+        leave: (side != KeySide::Before).then(|| slope(slopes.leave)),
+    })
+}
+
+/// Returns a key of a bone with a new slope of one component.
+fn bone_slope(
+    curve: &Curve,
+    key: usize,
+    (side, component): (KeySide, usize),
+    change: ValueChange,
+) -> Option<TangentsAt> {
+    let slopes = curve.slopes(key)?;
+    let tangent = |arrive: bool, slopes: [f32; 4]| {
+        let slope = change.of(slopes[component]).clamp(-1e6, 1e6);
+        curve.tangent(key, arrive, with(slopes, component, slope))
+    };
+    let (bone, property) = curve.id.channel()?;
+    Some(TangentsAt {
+        time: *curve.times().get(key)?,
+        bone: BoneRef::Index(bone),
+        property,
+        arrive: if side == KeySide::After { None } else { Some(tangent(true, slopes.arrive)?) },
+        leave: if side == KeySide::Before { None } else { Some(tangent(false, slopes.leave)?) },
+    })
 }

@@ -3,18 +3,21 @@
 use super::axis::ValueScale;
 use super::curve::{Curve, Slopes};
 use super::hues::CurveHues;
+use super::id::CurveId;
 use super::scales::CurveScales;
 use crate::panels::keys::intervals::keys_between;
-use crate::panels::keys::{ChannelId, Drawn, TimeScale};
+use crate::panels::keys::{Drawn, TimeScale};
 use crate::panels::theme::Theme;
-use dragonfly_document::edit::{BoneRef, Edit, SetTangents, TakeRef};
+use dragonfly_document::edit::{
+    BoneRef, Edit, MeshRef, SetShapeKeys, SetTangents, ShapeKeyAt, ShapeRef, TakeRef,
+};
 use egui::{Painter, Pos2, Rect, Stroke, Vec2, vec2};
 use std::sync::Arc;
 
 /// One handle of a tangent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TangentHandle {
-    pub(super) id: ChannelId,
+    pub(super) id: CurveId,
     pub(super) key: usize,
     pub(super) component: usize,
     /// Whether it is the incoming tangent, before the key.
@@ -55,7 +58,7 @@ impl Tangents {
                 curve.times(),
                 [time.time_at(value.rect.left()), time.time_at(value.rect.right())],
             );
-            let chosen = drawn.selection.of(curve.id);
+            let chosen = curve.id.selected(&drawn.selection);
             if chosen.is_empty() || curve.interpolation() != dragonfly_anim::data::Interpolation::CubicSpline
             {
                 continue;
@@ -67,7 +70,7 @@ impl Tangents {
                 if keys > MOST {
                     return self.handles.clear();
                 }
-                for component in (0..curve.width()).filter(|at| components & (1 << at) != 0) {
+                for component in curve.shown(components) {
                     let center = egui::pos2(
                         time.x_of(curve.times()[key]),
                         scales[component].y_of(curve.key(key)[component]),
@@ -94,7 +97,7 @@ impl Tangents {
 
     pub(super) fn paint(&self, painter: &Painter, hues: &CurveHues, theme: &Theme) {
         for handle in &self.handles {
-            let color = hues.color(theme, handle.id.0, handle.component);
+            let color = hues.color(theme, handle.id, handle.component);
             painter.line_segment([handle.center, handle.end], Stroke::new(1.0, color.gamma_multiply(0.7)));
             painter.circle(handle.end, 3.5, theme.sunken, Stroke::new(1.4, color));
         }
@@ -139,12 +142,23 @@ impl TangentHandle {
             slopes
         };
         let (here, there) = (self.arrive, !self.arrive);
+        if let CurveId::Shape { instance, shape } = self.id {
+            let (arrive, leave) = match (broken, here) {
+                (false, _) => (Some(slope), Some(slope)),
+                (true, true) => (Some(slope), None),
+                (true, false) => (None, Some(slope)),
+            };
+            let time = *curve.times().get(self.key)?;
+            let (mesh, shape) = (Some(MeshRef::Index(instance)), ShapeRef::Index(shape));
+            let key = ShapeKeyAt { time, mesh, shape, weight: None, arrive, leave };
+            return Some(Edit::SetShapeKeys(SetShapeKeys { take, keys: vec![key] }));
+        }
         let own = if here { self.slopes.arrive } else { self.slopes.leave };
         let other = if here { self.slopes.leave } else { self.slopes.arrive };
         let own = curve.tangent(self.key, here, with(own))?;
         let other = if broken { None } else { Some(curve.tangent(self.key, there, with(other))?) };
         let (arrive, leave) = if here { (Some(own), other) } else { (other, Some(own)) };
-        let (bone, property) = self.id;
+        let (bone, property) = self.id.channel()?;
         let time = *curve.times().get(self.key)?;
         Some(Edit::SetTangents(SetTangents {
             take,

@@ -3,8 +3,8 @@
 use super::canvas::component_name;
 use super::curve::Curve;
 use super::form::RotationForm;
+use super::id::{SHAPES, bit};
 use super::paint::color;
-use super::shown::bit;
 use super::view_menu;
 use crate::panels::command_button::command_button;
 use crate::panels::commands::Id;
@@ -56,32 +56,42 @@ pub(super) fn show(
         ui.add_space(2.0 * GRID);
         // The buttons show what is drawn: if the bones have no keys in the chosen properties, other properties are
         // drawn.
-        let visible = curves.iter().fold(0, |all, curve| all | bit(curve.id.1));
-        for (property, letter, name) in [
-            (Property::Translation, "T", "Translation"),
-            (Property::Rotation, "R", "Rotation"),
-            (Property::Scale, "S", "Scale"),
-        ] {
-            let on = if visible == 0 { chosen.properties } else { visible } & bit(property) != 0;
-            let help = format!("Curves of {}\nShift adds", name.to_lowercase());
+        let visible = curves.iter().fold(0, |all, curve| all | curve.id.bit());
+        let has_shapes = context.take().is_some_and(|take| !take.morphs.is_empty());
+        let kinds = [
+            (bit(Property::Translation), "T", "Translation", ""),
+            (bit(Property::Rotation), "R", "Rotation", ""),
+            (bit(Property::Scale), "S", "Scale", ""),
+            (
+                SHAPES,
+                "K",
+                "Weights of shape keys",
+                "All shape keys of a mesh share their keys and their interpolation\n",
+            ),
+        ];
+        let kinds = kinds.into_iter().filter(|(bit, ..)| *bit != SHAPES || has_shapes);
+        for (bit, letter, name, more) in kinds {
+            let on = if visible == 0 { chosen.properties } else { visible } & bit != 0;
+            let help = format!("Curves of {}\n{more}Shift adds", name.to_lowercase());
             if letter_button(ui, letter, name, on, None).on_hover_text(help).clicked() {
                 let adds = ui.input(|input| input.modifiers.shift || input.modifiers.command);
                 chosen.properties = if !adds {
-                    bit(property)
-                } else if chosen.properties == bit(property) {
+                    bit
+                } else if chosen.properties == bit {
                     chosen.properties
                 } else {
-                    chosen.properties ^ bit(property)
+                    chosen.properties ^ bit
                 };
             }
         }
         divider(ui);
-        let width = curves.iter().map(|curve| curve.width()).max().unwrap_or(3);
+        let axes = curves.iter().filter(|curve| !curve.id.is_shape());
+        let width = axes.map(|curve| curve.width()).max().unwrap_or(if curves.is_empty() { 3 } else { 0 });
         for component in 0..width {
             let on = chosen.components & (1 << component) != 0;
             let name = component_name(component);
             // The curves of several bones have the colors of the bones.
-            let is_one = curves.iter().all(|curve| curve.id.0 == curves[0].id.0);
+            let is_one = curves.iter().all(|curve| curve.id.shares_color(curves[0].id));
             let tone = if is_one { color(Theme::of(ui), component) } else { Theme::of(ui).text };
             let label = format!("Component {name}");
             if letter_button(ui, name, &label, on, Some(tone))

@@ -3,16 +3,19 @@
 use super::curve::{Curve, CurveNumbers};
 use super::form::RotationForm;
 use super::given::GivenCurve;
-use crate::panels::keys::ChannelId;
+use super::id::CurveId;
 use crate::panels::request::Request;
-use dragonfly_document::edit::{BonePose, BoneRef, Edit, PoseAt, Property, SetPose, SetPoses, TakeRef};
+use dragonfly_document::edit::{
+    BonePose, BoneRef, Edit, MeshRef, PoseAt, Property, SetPose, SetPoses, SetShapeKeys, ShapeKeyAt,
+    ShapeRef, TakeRef,
+};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// A key with the numbers that it had when a drag began.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ValueKey {
-    pub(super) id: ChannelId,
+    pub(super) id: CurveId,
     pub(super) time: f32,
     pub(super) numbers: CurveNumbers,
     pub(super) form: RotationForm,
@@ -26,20 +29,25 @@ impl ValueKey {
 
     /// Returns how many numbers the key has.
     pub(super) fn width(&self) -> usize {
-        if self.id.1 == Property::Rotation { self.form.numbers() } else { 3 }
+        match self.id {
+            CurveId::Bone(_, Property::Rotation) => self.form.numbers(),
+            CurveId::Bone(..) => 3,
+            CurveId::Shape { .. } => 1,
+        }
     }
 
-    /// Returns the pose that gives the key these numbers.
-    pub(super) fn pose(&self, numbers: CurveNumbers) -> BonePose {
+    /// Returns the pose that gives the key these numbers; `None` for a shape key.
+    fn pose(&self, numbers: CurveNumbers) -> Option<BonePose> {
+        let (bone, property) = self.id.channel()?;
         let mut pose =
-            BonePose { bone: BoneRef::Index(self.id.0), translation: None, rotation: None, scale: None };
+            BonePose { bone: BoneRef::Index(bone), translation: None, rotation: None, scale: None };
         let vector = Some([numbers[0], numbers[1], numbers[2]]);
-        match self.id.1 {
+        match property {
             Property::Translation => pose.translation = vector,
             Property::Scale => pose.scale = vector,
             Property::Rotation => pose.rotation = Some(self.form.rotation(numbers).to_array()),
         }
-        pose
+        Some(pose)
     }
 }
 
@@ -72,8 +80,10 @@ pub(super) fn given_angles<'a>(
     component: usize,
     change: ValueChange,
 ) -> impl Iterator<Item = Request> + 'a {
-    let turns = curves.iter().filter(|curve| curve.id.1 == Property::Rotation);
-    turns.map(move |curve| {
+    let turns = curves
+        .iter()
+        .filter_map(|curve| Some((curve, curve.id.channel().filter(|_| curve.id.is_rotation())?)));
+    turns.map(move |(curve, id)| {
         let keys = keys.iter().filter(|key| key.id == curve.id);
         let given = keys.map(|key| {
             let mut numbers = key.numbers;
@@ -81,7 +91,7 @@ pub(super) fn given_angles<'a>(
             *number = change.of(*number);
             (key.time, numbers)
         });
-        Request::Angles(GivenCurve::new(curve.id, curve.form(), Some(Arc::clone(curve)), given.collect()))
+        Request::Angles(GivenCurve::new(id, curve.form(), Some(Arc::clone(curve)), given.collect()))
     })
 }
 
@@ -95,13 +105,17 @@ pub(super) fn value_edit(
     if component > 3 || !keys.iter().all(|key| change.of(key.numbers[component]).is_finite()) {
         return None;
     }
+    if keys.first().is_some_and(|key| key.id.is_shape()) {
+        return Some(Edit::SetShapeKeys(SetShapeKeys { take, keys: shape_keys(keys, change) }));
+    }
     let mut at: BTreeMap<u32, PoseAt> = BTreeMap::new();
     for key in keys {
         let mut numbers = key.numbers;
         numbers[component] = change.of(numbers[component]);
+        let Some(pose) = key.pose(numbers) else { continue };
         let there =
             at.entry(key.time.to_bits()).or_insert_with(|| PoseAt { time: key.time, poses: Vec::new() });
-        there.poses.push(key.pose(numbers));
+        there.poses.push(pose);
     }
     let at: Vec<PoseAt> = at.into_values().collect();
     match at.len() {
@@ -113,4 +127,20 @@ pub(super) fn value_edit(
             .map(|PoseAt { time, poses }| Edit::SetPose(SetPose { take, time, poses, unstep: true })),
         _ => Some(Edit::SetPoses(SetPoses { take, at, unstep: true })),
     }
+}
+
+/// Returns the weights of keys of shape keys after a change.
+fn shape_keys(keys: &[ValueKey], change: ValueChange) -> Vec<ShapeKeyAt> {
+    let key = |key: &ValueKey| match key.id {
+        CurveId::Bone(..) => None,
+        CurveId::Shape { instance, shape } => Some(ShapeKeyAt {
+            time: key.time,
+            mesh: Some(MeshRef::Index(instance)),
+            shape: ShapeRef::Index(shape),
+            weight: Some(change.of(key.numbers[0])),
+            arrive: None,
+            leave: None,
+        }),
+    };
+    keys.iter().filter_map(key).collect()
 }

@@ -21,6 +21,8 @@ pub(super) struct DopeAreas {
     pub(super) findings: Rect,
     /// The lane of contacts; without height if there are none.
     pub(super) contacts: Rect,
+    /// The lane of the sound; without height if there is none.
+    pub(super) sound: Rect,
     /// The lane of the weight of the active layer; without height if there is none.
     pub(super) weight: Rect,
     /// The bar over the selected keys.
@@ -41,6 +43,8 @@ const FINDINGS: f32 = 12.0;
 const CONTACT_ROW: f32 = 14.0;
 /// Largest number of rows of this height: those of more bones become lower.
 const CONTACT_ROWS: usize = 6;
+/// Height of the lane of the sound.
+const SOUND: f32 = 28.0;
 /// Height of the lane of weights, and the least height of the sheet in which there is one.
 const WEIGHT: f32 = 44.0;
 const LEAST_WITH_WEIGHT: f32 = 120.0;
@@ -70,8 +74,10 @@ impl DopeAreas {
         let has_events = context.slot().is_some_and(|slot| slot.result.extras.get(EVENTS).is_some());
         let events = lane(markers.bottom(), if has_events { MARKERS } else { 0.0 });
         let contacts = lane(events.bottom(), rows as f32 * CONTACT_ROW);
+        let sound = if context.sound.settings().is_chosen() { SOUND } else { 0.0 };
+        let sound = lane(contacts.bottom(), sound);
         let has_weight = context.layer().is_some() && all.height() > LEAST_WITH_WEIGHT;
-        let weight = lane(contacts.bottom(), if has_weight { WEIGHT } else { 0.0 });
+        let weight = lane(sound.bottom(), if has_weight { WEIGHT } else { 0.0 });
         let bar = lane(weight.bottom(), BAR);
         let below = all.bottom().max(bar.bottom());
         Self {
@@ -82,6 +88,7 @@ impl DopeAreas {
             events,
             findings,
             contacts,
+            sound,
             weight,
             bar,
             names: Rect::from_min_max(pos2(all.left(), bar.bottom()), pos2(left, below)),

@@ -19,6 +19,7 @@ mod overlay;
 mod rows;
 mod scroll;
 mod sheet;
+mod sound;
 mod weight;
 
 use super::context::PanelContext;
@@ -54,6 +55,7 @@ pub(super) struct Dope {
     markers: markers::MarkerLane,
     events: events::EventLane,
     contacts: contacts::ContactLane,
+    sound: sound::SoundLane,
     weight: weight::WeightLane,
     menu: menu::KeyMenu,
     filter: String,
@@ -111,6 +113,7 @@ impl Dope {
         self.markers.show(ui, &sheet, requests);
         self.events.show(ui, &sheet, requests);
         self.contacts.show(ui, &sheet, requests);
+        self.sound.show(ui, &sheet, requests);
         self.weight.show(ui, &sheet, requests);
         overlay::pending(&painter, &sheet);
         overlay::playhead(&painter, &sheet);

@@ -126,7 +126,7 @@ impl DopeRows {
                 }
             }
         }
-        if !take.morphs.is_empty() && context.keys.filter().is_empty() {
+        if context.lists_shapes() {
             list.push(row(RowKind::Morphs, "Shapes", false));
         }
         (self.list, self.channels) = (list.into(), channels.into());

@@ -6,9 +6,13 @@
 
 use super::channel::{self, BoneNames, ChannelId};
 use super::selection::KeySelection;
-use dragonfly_anim::data::{BoneIndex, Channel, Interpolation, Skeleton, Take};
+use dragonfly_anim::data::{BoneIndex, Channel, Interpolation, MorphTrack, Skeleton, Take};
+use dragonfly_document::ModelShapes;
 use dragonfly_document::adapter::TakeVersions;
-use dragonfly_document::edit::{BoneRef, CopiedChannel, CopiedKey, KeyInterpolation, Property};
+use dragonfly_document::edit::{
+    BoneRef, CopiedChannel, CopiedKey, CopiedShapeKey, CopiedShapes, KeyInterpolation, MeshRef, Property,
+    ShapeRef,
+};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -25,15 +29,19 @@ pub(in crate::panels) struct Pasted {
     /// Number of keys that the take had before the paste.
     before: usize,
     parts: Vec<(ChannelId, Vec<[f32; 2]>)>,
+    /// Times of the keys of shape keys.
+    shapes: Vec<[f32; 2]>,
+    /// Number of keys of shape keys.
+    shape_keys: usize,
 }
 
 impl Pasted {
-    /// Returns the keys that `channels`, whose bones are indices, become at `time`. The take had `before` keys in the view with this
+    /// Returns the keys that `channels`, whose bones are indices, and shape keys become at `time`. The take had `before` keys in the view with this
     /// generation.
     pub(in crate::panels) fn new(
         generation: u64,
         before: usize,
-        channels: &[CopiedChannel],
+        (channels, shapes): (&[CopiedChannel], &[CopiedShapes]),
         time: f32,
     ) -> Self {
         let parts = channels.iter().filter_map(|channel| match channel.bone {
@@ -43,7 +51,9 @@ impl Pasted {
             }
             BoneRef::Name(_) => None,
         });
-        Self { generation, before, parts: parts.collect() }
+        let keys = shapes.iter().flat_map(|mesh| &mesh.keys);
+        let times: Vec<[f32; 2]> = keys.map(|key| [(f64::from(time) + key.after) as f32; 2]).collect();
+        Self { generation, before, parts: parts.collect(), shape_keys: times.len(), shapes: times }
     }
 
     /// Returns whether `slot`, of a view with this generation, has the keys. A view that was sent before the paste does
@@ -52,13 +62,20 @@ impl Pasted {
         let is_key = |bone, property, time| slot.key_at(bone, property, time).is_some();
         let any =
             |times: &[[f32; 2]], bone, property| times.iter().any(|[time, _]| is_key(bone, property, *time));
+        let times = |track: &MorphTrack| self.shapes.iter().any(|[time, _]| track.times.contains(time));
         generation != self.generation
-            && self.parts.iter().any(|((bone, property), times)| any(times, *bone, *property))
+            && (self.parts.iter().any(|((bone, property), times)| any(times, *bone, *property))
+                || slot.original.morphs.iter().any(times))
     }
 
     /// Returns the times of the keys of each channel.
     pub(super) fn parts(&self) -> &[(ChannelId, Vec<[f32; 2]>)] {
         &self.parts
+    }
+
+    /// Returns the times of the keys of shape keys.
+    pub(super) fn shapes(&self) -> &[[f32; 2]] {
+        &self.shapes
     }
 
     /// Returns the number of keys that the take had before.
@@ -68,7 +85,7 @@ impl Pasted {
 
     /// Returns the number of pasted keys.
     pub(super) fn count(&self) -> usize {
-        self.parts.iter().map(|(_, times)| times.len()).sum()
+        self.shape_keys + self.parts.iter().map(|(_, times)| times.len()).sum::<usize>()
     }
 }
 
@@ -81,6 +98,19 @@ struct Text {
     #[serde(default)]
     values: CopiedValues,
     channels: Vec<CopiedChannel>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    shapes: Vec<CopiedShapes>,
+}
+
+/// The keys in a text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CopiedKeys {
+    /// Keys of bones.
+    pub channels: Vec<CopiedChannel>,
+    /// The meaning of their values.
+    pub values: CopiedValues,
+    /// Keys of shape keys.
+    pub shapes: Vec<CopiedShapes>,
 }
 
 /// Meaning of the values of copied keys.
@@ -95,20 +125,23 @@ pub enum CopiedValues {
 }
 
 /// Returns the text of keys.
-pub fn to_text(channels: Vec<CopiedChannel>, values: CopiedValues) -> String {
+pub fn to_text(keys: CopiedKeys) -> String {
+    let CopiedKeys { channels, values, shapes } = keys;
     // Plain data can always be serialized.
-    serde_json::to_string(&Text { dragonfly: "keys".to_owned(), version: 1, values, channels })
+    serde_json::to_string(&Text { dragonfly: "keys".to_owned(), version: 1, values, channels, shapes })
         .unwrap_or_default()
 }
 
 /// Returns the keys in a text and what their values are; `None` if it is anything else.
-pub fn from_text(text: &str) -> Option<(Vec<CopiedChannel>, CopiedValues)> {
+pub fn from_text(text: &str) -> Option<CopiedKeys> {
     if text.len() > LONGEST {
         return None;
     }
     let text: Text = serde_json::from_str(text.trim()).ok()?;
-    let some = text.channels.iter().any(|channel| !channel.keys.is_empty());
-    (text.dragonfly == "keys" && text.version == 1 && some).then_some((text.channels, text.values))
+    let some = text.channels.iter().any(|channel| !channel.keys.is_empty())
+        || text.shapes.iter().any(|mesh| !mesh.keys.is_empty());
+    let Text { channels, values, shapes, .. } = text;
+    (text.dragonfly == "keys" && text.version == 1 && some).then_some(CopiedKeys { channels, values, shapes })
 }
 
 /// Returns the selected keys of a take, with their distances to the first.
@@ -129,18 +162,57 @@ pub fn copied(take: &Take, selection: &KeySelection, skeleton: &Skeleton) -> Vec
     selection.channels().filter_map(of).collect()
 }
 
+/// Returns the selected keys of shape keys of a take, with their distances to the first of all selected keys.
+pub fn copied_shapes(take: &Take, selection: &KeySelection, shapes: &ModelShapes) -> Vec<CopiedShapes> {
+    let first = selection.extent(take).map_or(0.0, |[first, _]| first);
+    let of = |track: &MorphTrack| {
+        let mesh = shapes.mesh(track.instance)?;
+        let same_name = shapes.meshes().iter().filter(|other| other.name() == mesh.name());
+        let is_one = same_name.count() == 1;
+        let (targets, spline) = (track.targets as usize, track.interpolation == Interpolation::CubicSpline);
+        let width = targets * if spline { 3 } else { 1 };
+        let row = |key: usize, row: usize| {
+            let from = key * width + row * targets;
+            track.weights.get(from..from + targets).map(<[f32]>::to_vec)
+        };
+        let key = |key: usize| {
+            let after = f64::from(*track.times.get(key)?) - f64::from(first);
+            let (arrive, leave) = if spline { (row(key, 0), row(key, 2)) } else { (None, None) };
+            Some(CopiedShapeKey { after, weights: row(key, usize::from(spline))?, arrive, leave })
+        };
+        let keys: Vec<_> = selection.shapes().keys(&track.times).flatten().filter_map(key).collect();
+        let names = (0..targets.min(mesh.shapes().len())).map(|shape| {
+            let name = ShapeRef::Name(mesh.shapes()[shape].clone());
+            // A name that several shape keys share means the first of them.
+            if mesh.find(&name) == Some(shape) { name } else { ShapeRef::Index(shape as u32) }
+        });
+        (!keys.is_empty()).then(|| CopiedShapes {
+            mesh: if is_one { MeshRef::Name(mesh.name().to_owned()) } else { MeshRef::Index(track.instance) },
+            shapes: names.collect(),
+            interpolation: between(track.interpolation),
+            keys,
+        })
+    };
+    take.morphs.iter().filter_map(of).collect()
+}
+
+/// Returns the interpolation as edits name it.
+fn between(interpolation: Interpolation) -> KeyInterpolation {
+    match interpolation {
+        // Edits cannot set `Closest`. `Step` has the same values at the keys.
+        Interpolation::Step | Interpolation::Closest => KeyInterpolation::Step,
+        Interpolation::Linear => KeyInterpolation::Linear,
+        Interpolation::CubicSpline => KeyInterpolation::CubicSpline,
+    }
+}
+
 fn column<T: Copy>(
     channel: &Channel<T>,
     keys: impl Iterator<Item = usize>,
     first: f32,
     numbers: impl Fn(T) -> Vec<f32>,
 ) -> (KeyInterpolation, Vec<CopiedKey>) {
-    let between = match channel.interpolation {
-        // Edits cannot set `Closest`. `Step` has the same values at the keys.
-        Interpolation::Step | Interpolation::Closest => KeyInterpolation::Step,
-        Interpolation::Linear => KeyInterpolation::Linear,
-        Interpolation::CubicSpline => KeyInterpolation::CubicSpline,
-    };
+    let between = between(channel.interpolation);
     let key = |key: usize| {
         let tangent = |part: usize| {
             let value =

@@ -368,11 +368,12 @@ impl KeyEditing {
         channels.first().filter(|_| free.is_empty()).map(|&(bone, _)| bone)
     }
 
-    /// Selects stretches of time of several channels.
+    /// Selects stretches of time of several channels and of shape keys.
     pub(super) fn select_parts(
         &mut self,
         take: Option<&Take>,
         parts: &[(ChannelId, Vec<[f32; 2]>)],
+        shapes: &[[f32; 2]],
         choice: Choice,
     ) {
         self.has_focus = true;
@@ -383,6 +384,9 @@ impl KeyEditing {
         let Some(take) = take else { return };
         for (channel, stretches) in parts.iter().filter(|((bone, _), _)| !self.flags.locked(*bone)) {
             self.selection.choose_parts(take, *channel, stretches, choice);
+        }
+        if !shapes.is_empty() {
+            self.selection.choose_shape_parts(take, shapes, choice);
         }
     }
 
@@ -405,7 +409,7 @@ impl KeyEditing {
         generation: u64,
     ) -> Option<EndedDrag> {
         let pasted = self.pasted.take_if(|pasted| pasted.is_in(slot, generation))?;
-        self.select_parts(take, pasted.parts(), Choice::Replace);
+        self.select_parts(take, pasted.parts(), pasted.shapes(), Choice::Replace);
         Some(EndedDrag { before: pasted.before(), added: pasted.count() })
     }
 

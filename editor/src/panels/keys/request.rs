@@ -25,10 +25,12 @@ pub enum KeysRequest {
         /// Whether they replace, extend or toggle the selection.
         choice: Choice,
     },
-    /// Selects single keys of channels.
+    /// Selects single keys of channels and of shape keys.
     SelectKeys {
         /// Stretches of time of each channel, seconds.
         parts: Vec<(ChannelId, Vec<[f32; 2]>)>,
+        /// Stretches of time of shape keys, seconds.
+        shapes: Vec<[f32; 2]>,
         /// Whether they replace, extend or toggle the selection.
         choice: Choice,
     },

@@ -108,6 +108,17 @@ impl KeySelection {
         shapes.tidy(&times);
     }
 
+    /// Selects intervals of the keys of morph targets in addition; a toggle deselects those that are selected already.
+    pub fn choose_shape_parts(&mut self, take: &Take, stretches: &[[f32; 2]], choice: Choice) {
+        let times = shape_times(take);
+        let shapes = Arc::make_mut(&mut self.shapes);
+        let (gone, new): (Vec<_>, Vec<_>) =
+            stretches.iter().partition(|[from, _]| choice == Choice::Toggle && shapes.holds(*from));
+        *shapes = Intervals::of(shapes.stretches().iter().copied().chain(new));
+        gone.into_iter().for_each(|stretch| shapes.remove(stretch, &times));
+        shapes.tidy(&times);
+    }
+
     /// Deselects the keys of morph targets.
     pub fn drop_shapes(&mut self) {
         self.shapes = Arc::default();

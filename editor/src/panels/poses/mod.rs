@@ -6,6 +6,7 @@ mod card;
 
 use super::actions::pose_library as actions;
 use super::context::PanelContext;
+use super::file_choice::FileChoice;
 use super::icons::Icon;
 use super::keys::{KeyDragOp, KeysRequest};
 use super::request::{FileAction, Request};
@@ -81,7 +82,7 @@ impl Panel for PosesPanel {
             search_field::show(&mut columns[1], &mut self.query, "Find a pose", false);
         });
         let Some(folder) = folder else {
-            return widgets::empty(ui, "No folder", "Type the path of a folder for poses above");
+            return widgets::empty(ui, "No folder", "Choose a folder for poses above, or type its path");
         };
         // Below the cards, so that they stay where they are when one is chosen by the first click of a double click.
         let below = if self.chosen.is_some() { DETAILS } else { 0.0 };
@@ -142,6 +143,10 @@ impl PosesPanel {
                 let name = numbered.into_iter().find(|name| !names.contains(&name.as_str()));
                 let pose = StoredPose::new(name.unwrap_or_default(), Vec::new(), poses);
                 send(requests, PoseOrder::Save { folder: folder.to_owned(), file: None, pose });
+            }
+            let choose = widgets::icon_button(ui, Icon::Open, "Choose folder…", false);
+            if choose.on_hover_text("Choose folder…\nShows the system's dialog for folders").clicked() {
+                requests.push(Request::Choose(FileChoice::PoseFolder, folder.map(Path::to_owned)));
             }
             let shown = folder.map_or(String::new(), |folder| folder.display().to_string());
             let text = self.path.get_or_insert(shown.clone());

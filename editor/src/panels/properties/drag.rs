@@ -8,6 +8,7 @@ use super::super::context::PanelContext;
 use super::super::curves::curve::Curve;
 use super::super::curves::form::RotationForm;
 use super::super::curves::given::GivenCurve;
+use super::super::curves::id::CurveId;
 use super::super::curves::shown::{MOST, ShownCurves};
 use super::super::number_field::FieldEvent;
 use super::super::request::Request;
@@ -126,7 +127,7 @@ impl FieldDrag {
         self.time = context.time();
         let Some(take) = context.take() else { return false };
         let bones = context.selection.bones().iter().rev().take(MOST);
-        let ids: Vec<_> = bones.map(|&bone| (bone, Property::Rotation)).collect();
+        let ids: Vec<_> = bones.map(|&bone| CurveId::Bone(bone, Property::Rotation)).collect();
         let form = RotationForm::Euler(context.settings.properties.euler);
         self.curves.update(take, &ids, form, context.given)
     }

@@ -111,7 +111,9 @@ fn toggled(context: &PanelContext<'_>, property: Property, keyed: Keyed) -> Opti
             let keys = vec![KeySet { bones, properties, at: Some(vec![time]), ..KeySet::default() }];
             Edit::DeleteKeys(DeleteKeys { take, keys, shapes: Vec::new() })
         }
-        Keyed::Pending => Edit::KeyPending(KeyPending { take, time: Some(time), bones, unstep: true }),
+        Keyed::Pending => {
+            Edit::KeyPending(KeyPending { take, time: Some(time), bones, shapes: false, unstep: true })
+        }
         _ => {
             let value = NewKey::Current;
             Edit::AddKeys(AddKeys { take, time, bones, properties, value, keyed_only: false })

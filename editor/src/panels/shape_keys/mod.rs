@@ -60,6 +60,14 @@ impl Panel for ShapeKeys {
             return widgets::empty(ui, "No shape keys", "No mesh of this model has morph targets");
         }
         self.held.take_if(|_| !context.keys.is_dragging());
+        if context.layer().is_some() {
+            let text = RichText::new("Keys of shape keys are in the take, not in layers").small();
+            ui.horizontal(|ui| {
+                ui.add_space(2.0 * GRID);
+                let label = ui.colored_label(Theme::of(ui).weak, text);
+                label.on_hover_text("A slider changes the weights of the take below all layers");
+            });
+        }
         search_field::show(ui, &mut self.query, "Find a shape key", false);
         let query = self.query.trim().to_lowercase();
         let mut found = false;
@@ -96,12 +104,11 @@ fn shown_meshes<'a>(context: &PanelContext<'a>) -> Vec<&'a ShapeMesh> {
 }
 
 /// Returns the reason why weights cannot be changed at the time shown.
-fn locked(context: &PanelContext<'_>, shown: &ShownMesh<'_>) -> Option<&'static str> {
+fn locked(context: &PanelContext<'_>) -> Option<&'static str> {
     if context.take().is_none() {
         return Some("The rest pose cannot be edited: show a take first");
     }
-    let waits = !context.settings.auto_key && !shown.is_keyed();
-    waits.then_some("Auto-key is off: add a key of this mesh at the playhead first")
+    context.shape_scope_refusal()
 }
 
 /// Smallest width of two columns, points.
@@ -147,7 +154,7 @@ impl ShapeKeys {
         (list, rows): (&ShapeList, &[(ShapeGroup, usize)]),
         requests: &mut Vec<Request>,
     ) {
-        let locked = locked(context, shown);
+        let locked = locked(context);
         heading(ui, context, shown, list, requests);
         let items = items(rows);
         let width = ui.available_width();
@@ -193,6 +200,7 @@ impl ShapeKeys {
             name: &shown.mesh.shapes()[shape],
             weight: f64::from(shown.weights[shape]),
             rest: f64::from(shown.mesh.rest()[shape]),
+            pending: shown.is_pending(shape),
             locked,
         };
         let (event, name) = row.show(ui);
@@ -257,7 +265,7 @@ fn heading(
         let more = widgets::icon_button(ui, Icon::Down, &format!("More for the shape keys of {mesh}"), false);
         Popup::menu(&more.on_hover_text("Reset, mirror")).show(|ui| {
             let mut entry = |ui: &mut Ui, title: &str, help: &str, edit: Option<Edit>| {
-                let able = edit.is_some() && locked(context, shown).is_none();
+                let able = edit.is_some() && locked(context).is_none();
                 let button = ui.add_enabled(able, Button::new(title).frame_when_inactive(false));
                 if button.on_hover_text(help).clicked() {
                     request(edit, requests);
@@ -283,7 +291,9 @@ fn heading(
 /// Draws the button that shows whether there is a key, and adds or deletes it.
 fn key_button(ui: &mut Ui, context: &PanelContext<'_>, shown: &ShownMesh<'_>, requests: &mut Vec<Request>) {
     let mesh = shown.mesh.name();
-    let (icon, label, now) = if shown.is_keyed() {
+    let (icon, label, now) = if shown.has_pending() {
+        (Icon::KeyElsewhere, format!("Key the pending weights of {mesh}"), "weights that are not keyed")
+    } else if shown.is_keyed() {
         (Icon::KeyHere, format!("Delete the key of the shape keys of {mesh}"), "a key at this time")
     } else if shown.is_animated() {
         (Icon::KeyElsewhere, format!("Add a key of the shape keys of {mesh}"), "no key at this time")
@@ -291,15 +301,23 @@ fn key_button(ui: &mut Ui, context: &PanelContext<'_>, shown: &ShownMesh<'_>, re
         (Icon::KeyNever, format!("Add a key of the shape keys of {mesh}"), "no keys")
     };
     let button = ui.add_enabled_ui(context.take().is_some(), |ui| {
-        widgets::icon_button(ui, icon, &label, shown.is_keyed())
+        widgets::icon_button(ui, icon, &label, shown.is_keyed() && !shown.has_pending())
     });
     let response = button.inner.on_hover_ui(|ui| {
         ui.label(format!("The shape keys have {now}"));
-        let action = if shown.is_keyed() { "Delete it" } else { "Add one" };
+        let action = match () {
+            () if shown.has_pending() => "Key them",
+            () if shown.is_keyed() => "Delete it",
+            () => "Add one",
+        };
         ui.colored_label(Theme::of(ui).weak, action);
     });
     if response.clicked() {
-        let edit = if shown.is_keyed() { shown.delete_key(context) } else { shown.key(context) };
+        let edit = if shown.is_keyed() && !shown.has_pending() {
+            shown.delete_key(context)
+        } else {
+            shown.key(context)
+        };
         request(edit, requests);
     }
 }
@@ -312,7 +330,7 @@ fn row_menu(
     (list, shape): (&ShapeList, usize),
     requests: &mut Vec<Request>,
 ) {
-    let able = locked(context, shown).is_none();
+    let able = locked(context).is_none();
     let mut entry = |ui: &mut Ui, title: &str, to: usize, weight: f32| {
         if ui.add_enabled(able, Button::new(title).frame_when_inactive(false)).clicked() {
             request(shown.set(context, &[(to, weight)]), requests);

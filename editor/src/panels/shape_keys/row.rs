@@ -25,6 +25,8 @@ pub(super) struct ShapeRow<'a> {
     pub(super) weight: f64,
     /// Weight where nothing animates it.
     pub(super) rest: f64,
+    /// Whether the weight is pending: shown, but in no key.
+    pub(super) pending: bool,
     /// Reason why it cannot be changed; `None` if it can.
     pub(super) locked: Option<&'static str>,
 }
@@ -41,7 +43,11 @@ impl ShapeRow<'_> {
         let line =
             Rect::from_min_max(pos2(middle, rect.top()), pos2(number.left() - 2.0 * GRID, rect.bottom()));
         let is_rest = (self.weight - self.rest).abs() < 1e-6;
-        let color = if is_rest || self.locked.is_some() { theme.weak } else { theme.text };
+        let color = match () {
+            () if self.pending => theme.warning,
+            () if is_rest || self.locked.is_some() => theme.weak,
+            () => theme.text,
+        };
         let cut = widgets::cut_in_middle(ui, self.name, name.width(), &TextStyle::Body);
         widgets::text_in(ui, name, &cut, &TextStyle::Body, color);
         let response = ui.interact(name, self.id("name"), Sense::click());
@@ -52,11 +58,12 @@ impl ShapeRow<'_> {
             value: Some(self.weight),
             scale: SliderScale::Upward(1.0),
             snap: 0.1,
-            color: theme.accent,
+            color: if self.pending { theme.warning } else { theme.accent },
             enabled: self.locked.is_none(),
         };
         let by_slider = if line.width() > 24.0 { slider.show(ui, line) } else { FieldEvent::Nothing };
-        let help = format!("Weight of the shape key, usually 0 to 1  ·  {}", self.mesh);
+        let pending = if self.pending { "\nPending: shown, but in no key yet" } else { "" };
+        let help = format!("Weight of the shape key, usually 0 to 1  ·  {}{pending}", self.mesh);
         let field = NumberField {
             id: self.id("number"),
             name: self.name,

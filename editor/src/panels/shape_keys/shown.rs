@@ -5,8 +5,11 @@ use crate::panels::context::PanelContext;
 use dragonfly_anim::data::MorphTrack;
 use dragonfly_anim::sample::sample_morph_weights;
 use dragonfly_document::ShapeMesh;
+use dragonfly_document::adapter::PendingShape;
 use dragonfly_document::bones::MirrorPairs;
-use dragonfly_document::edit::{DeleteKeys, Edit, MeshRef, SAME_TIME, SetShapes, ShapeRef, ShapeWeight};
+use dragonfly_document::edit::{
+    DeleteKeys, Edit, MeshRef, OffsetShapes, PendShapes, SAME_TIME, SetShapes, ShapeRef, ShapeWeight,
+};
 
 /// The order of the rows and the shape keys of the other side, which do not change between frames.
 #[derive(Clone, Debug)]
@@ -46,6 +49,7 @@ impl ShapeList {
 pub(super) struct ShownMesh<'a> {
     pub(super) mesh: &'a ShapeMesh,
     pub(super) weights: Vec<f32>,
+    pending: &'a [PendingShape],
     track: Option<&'a MorphTrack>,
     time: f32,
 }
@@ -55,8 +59,26 @@ impl<'a> ShownMesh<'a> {
         let (take, time) = (context.shown_take().map(|take| &**take), context.time());
         let mut weights = vec![0.0; mesh.rest().len()];
         sample_morph_weights(take, mesh.instance(), mesh.rest(), time, &mut weights);
+        let pending =
+            context.slot().filter(|_| !context.playback.playing).and_then(|slot| slot.pending_at(time));
+        let pending = pending.map_or(&[][..], |at| at.shapes_of(mesh.instance()));
+        for at in pending {
+            if let Some(weight) = weights.get_mut(at.shape as usize) {
+                *weight = at.weight;
+            }
+        }
         let track = take.and_then(|take| take.morphs.iter().find(|track| track.instance == mesh.instance()));
-        Self { mesh, weights, track: track.filter(|track| !track.times.is_empty()), time }
+        Self { mesh, weights, pending, track: track.filter(|track| !track.times.is_empty()), time }
+    }
+
+    /// Returns whether the weight of a shape key is pending.
+    pub(super) fn is_pending(&self, shape: usize) -> bool {
+        self.pending.iter().any(|at| at.shape as usize == shape)
+    }
+
+    /// Returns whether a weight is pending.
+    pub(super) fn has_pending(&self) -> bool {
+        !self.pending.is_empty()
     }
 
     /// Returns whether the take animates the mesh.
@@ -72,22 +94,36 @@ impl<'a> ShownMesh<'a> {
         })
     }
 
-    /// Returns the edit that sets these weights at the time shown.
+    /// Returns the edit that gives shape keys these weights at the time shown: as keys, as pending weights with auto-key off, or as an
+    /// offset of all keys in the scope of edits.
     pub(super) fn set(&self, context: &PanelContext<'_>, weights: &[(usize, f32)]) -> Option<Edit> {
+        let shapes = self.named(weights);
+        let take = context.shown_take_ref().filter(|_| !shapes.is_empty())?;
+        if let Some(over) = context.shape_scope() {
+            let (at, falloff) = (Some(self.time), context.offset_falloff());
+            return Some(Edit::OffsetShapes(OffsetShapes { take, shapes, at, over, falloff }));
+        }
+        if context.settings.auto_key || self.is_keyed() {
+            return Some(Edit::SetShapes(SetShapes { take, time: self.time, shapes }));
+        }
+        Some(Edit::PendShapes(PendShapes { take, time: self.time, shapes }))
+    }
+
+    /// Returns weights as edits name them.
+    fn named(&self, weights: &[(usize, f32)]) -> Vec<ShapeWeight> {
         let shape = |&(shape, weight): &(usize, f32)| ShapeWeight {
             mesh: Some(MeshRef::Index(self.mesh.instance())),
             shape: ShapeRef::Index(shape as u32),
             weight,
         };
-        let shapes: Vec<ShapeWeight> = weights.iter().map(shape).collect();
-        let take = context.shown_take_ref().filter(|_| !shapes.is_empty())?;
-        Some(Edit::SetShapes(SetShapes { take, time: self.time, shapes }))
+        weights.iter().map(shape).collect()
     }
 
     /// Returns the edit that adds a key with the weights at the time shown.
     pub(super) fn key(&self, context: &PanelContext<'_>) -> Option<Edit> {
         let all: Vec<(usize, f32)> = self.weights.iter().copied().enumerate().collect();
-        self.set(context, &all)
+        let (take, shapes) = (context.shown_take_ref()?, self.named(&all));
+        Some(Edit::SetShapes(SetShapes { take, time: self.time, shapes }))
     }
 
     /// Returns the edit that deletes the keys of shape keys at the time shown.

@@ -170,7 +170,8 @@ fn changed_weights(
         for key in chosen.iter().map(|&key| key as usize) {
             column[place(key)] = new[key];
             if spline {
-                let more = slope_at_key(&track.times, &new, key) - slope_at_key(&track.times, &old, key);
+                let slope = |weights: &[f32]| slope_at_key(&track.times, |key| weights[key], key);
+                let more = slope(&new) - slope(&old);
                 for tangent in [key * width + target, key * width + 2 * targets + target] {
                     column[tangent] = finite("the result", column[tangent] + more)?;
                 }
@@ -181,8 +182,8 @@ fn changed_weights(
 }
 
 /// Returns the slope at a key per second: from the key before to the key after, at either end to the only neighbor.
-fn slope_at_key(times: &[f32], weights: &[f32], key: usize) -> f32 {
+pub(super) fn slope_at_key(times: &[f32], weight: impl Fn(usize) -> f32, key: usize) -> f32 {
     let (before, after) = (key.saturating_sub(1), (key + 1).min(times.len() - 1));
     let seconds = times[after] - times[before];
-    if seconds > 0.0 { (weights[after] - weights[before]) / seconds } else { 0.0 }
+    if seconds > 0.0 { (weight(after) - weight(before)) / seconds } else { 0.0 }
 }

@@ -6,6 +6,7 @@ use super::morph::{key_at, per_key, put};
 use super::{EditError, KeyMove, Transaction, finite, key_time};
 use crate::edit::SAME_TIME;
 use dragonfly_anim::data::{Interpolation, MorphTrack};
+use std::collections::BTreeMap;
 
 /// Returns the track with new weights at `time`: pairs of a target and a weight. Where it has no key there, it gets one that keeps the
 /// other weights. `empty` is the mesh instance and its own weights, for a mesh without a track.
@@ -44,6 +45,39 @@ pub(crate) fn with_weights(
     }
     new.weights = column.into();
     new
+}
+
+/// The mesh of a weight, and its target with the number.
+pub(crate) type MeshWeight = (u32, (usize, f32));
+
+/// Gives shape keys weights at a time: pairs of a mesh, and of a target with its weight.
+pub(crate) fn set_weights(
+    work: &mut Transaction,
+    take: TakeId,
+    time: f32,
+    weights: impl Iterator<Item = MeshWeight>,
+) -> Result<(), EditError> {
+    let mut meshes: BTreeMap<u32, Vec<(usize, f32)>> = BTreeMap::new();
+    for (instance, weight) in weights {
+        meshes.entry(instance).or_default().push(weight);
+    }
+    if meshes.is_empty() {
+        return Ok(());
+    }
+    let mut tracks = work.slot(take).original.morphs.clone();
+    for (instance, weights) in meshes {
+        let at = tracks.iter().position(|track| track.instance == instance);
+        let old = at.map(|at| &tracks[at]);
+        let rest = work.adapter().shapes().mesh(instance).map_or(&[][..], |mesh| mesh.rest());
+        let new = with_weights(old, (instance, rest), time, &weights);
+        work.room_for_weights(&new, old.map_or(0, |old| old.times.len()))?;
+        match at {
+            Some(at) => tracks[at] = new,
+            None => tracks.push(new),
+        }
+    }
+    work.perform(Op::Morphs(take, tracks));
+    Ok(())
 }
 
 /// Moves or copies the keys in stretches of time to the times that `to` returns. A key that is at a new time already is overwritten.

@@ -8,7 +8,8 @@ use crate::edit::target::{BoneRef, Property};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Returns the pending poses at one time or at all times, of some bones or of all where none is named.
+/// Returns the pending poses at one time or at all times, of some bones or of all where none is named. Weights of shape keys are among
+/// them if no bone is named, or with `shapes`.
 ///
 /// # Errors
 ///
@@ -18,6 +19,7 @@ pub(crate) fn selected(
     take: TakeId,
     time: Option<f32>,
     bones: &[BoneRef],
+    shapes: bool,
 ) -> Result<Vec<PendingAt>, EditError> {
     let slot = work.slot(take);
     let wanted: BTreeSet<u32> = bones.iter().map(|bone| work.bone(bone)).collect::<Result<_, _>>()?;
@@ -28,17 +30,40 @@ pub(crate) fn selected(
     let part = |at: &Arc<PendingAt>| {
         let is_wanted = |bone: u32| bones.is_empty() || wanted.contains(&bone);
         let poses = at.poses.iter().filter(|pose| is_wanted(pose.bone)).copied().collect();
-        PendingAt { time: at.time, poses }
+        let shapes = if shapes || bones.is_empty() { at.shapes.clone() } else { Vec::new() };
+        PendingAt { time: at.time, poses, shapes }
     };
-    let found: Vec<PendingAt> = there.into_iter().map(part).filter(|at| !at.poses.is_empty()).collect();
+    let found: Vec<PendingAt> = there.into_iter().map(part).filter(|at| !at.is_empty()).collect();
     if found.is_empty() { Err(EditError::Nothing("no pose is pending there")) } else { Ok(found) }
 }
 
-/// Removes poses, all channels of their bones.
+/// Removes poses, all channels of their bones, and weights.
 pub(crate) fn remove(work: &mut Transaction, take: TakeId, gone: &PendingAt) {
     let Some(at) = work.slot(take).pending_at(gone.time) else { return };
     let kept = at.poses.iter().filter(|pose| gone.of(pose.bone).is_none()).copied().collect();
-    put(work, take, PendingAt { time: at.time, poses: kept });
+    let mut kept = PendingAt { time: at.time, poses: kept, shapes: at.shapes.clone() };
+    for shape in &gone.shapes {
+        kept.set_shape(shape.instance, shape.shape, None);
+    }
+    put(work, take, kept);
+}
+
+/// Removes pending weights of shape keys, by mesh and index, that got another weight at this time.
+pub(crate) fn shapes_overwritten(
+    work: &mut Transaction,
+    take: TakeId,
+    time: f32,
+    shapes: impl IntoIterator<Item = (u32, u32)>,
+) {
+    let Some(at) = work.slot(take).pending_at(time) else { return };
+    let mut at = PendingAt::clone(at);
+    let mut met = false;
+    for (instance, shape) in shapes {
+        met |= at.set_shape(instance, shape, None);
+    }
+    if met {
+        put(work, take, at);
+    }
 }
 
 /// Removes pending values of channels that got another value at this time. Returns whether there were any.
@@ -65,7 +90,7 @@ pub(crate) fn overwritten(
 
 fn put(work: &mut Transaction, take: TakeId, at: PendingAt) {
     let time = at.time;
-    let some = (!at.poses.is_empty()).then(|| Arc::new(at));
+    let some = (!at.is_empty()).then(|| Arc::new(at));
     work.perform(Op::Pending(take, time, some));
 }
 

@@ -113,9 +113,9 @@ impl TakeVersions {
         place_of(&self.pending, time).ok().map(|at| &self.pending[at])
     }
 
-    /// Returns the number of pending poses: of bones, summed over all times.
+    /// Returns the number of pending poses: of bones, and of meshes with shape keys, summed over all times.
     pub fn pending_poses(&self) -> usize {
-        self.pending.iter().map(|at| at.poses.len()).sum()
+        self.pending.iter().map(|at| at.count()).sum()
     }
 
     /// Removes all pending poses.

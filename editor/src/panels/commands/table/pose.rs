@@ -6,9 +6,11 @@ use crate::panels::actions::ik;
 use crate::panels::actions::pose;
 use crate::panels::actions::scope;
 use crate::panels::edit_scope::EditScope;
+use crate::panels::file_choice::FileChoice;
 use crate::panels::prompts::Overlay;
 use dragonfly_document::edit::Property;
 use dragonfly_document::edit::ResetTo;
+use std::path::Path;
 
 commands! {
     AutoKey => When::Always, "Auto-key", [key(SHIFT, Key::I)], "Inserts keys for every changed pose; when off, changed poses are pending until they are keyed", |w| { pose::toggle_auto_key(w); None };
@@ -39,5 +41,6 @@ commands! {
     FreePins => When::Pinned, "Unpin all bones", [key(ALT, Key::N)], "Unpins all bones", |w| { ik::free_pins(w); None };
     BakePins => When::PinnedInTake, "Bake pins over the play range", [], "Adds keys to the bones above pinned bones at every frame of the play range, or of the take, so that pinned bones stay where they are now", baking::bake_pins;
     LookAt => When::BoneInTake, "Look at", [key(ALT, Key::L)], "Rotates the selected bones towards the active bone, the one selected last", ik::look;
+    ChoosePoseFolder => When::Always, "Choose pose folder…", [], "Shows the system's dialog for the folder of the pose library", |w| Some(Effect::Choose(FileChoice::PoseFolder, w.read().pose_folder().map(Path::to_owned)));
     MirrorPairs => When::Model, "Mirror pairs…", [], "Lists the pairs of left and right bones", |w| { w.prompts.toggle(Overlay::MirrorPairs); None };
 }

@@ -1,0 +1,41 @@
+//! Files and folders that the user chooses with the system's dialog, apart from models.
+
+/// The purpose of a file or folder that the user chooses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileChoice {
+    /// The folder of the pose library.
+    PoseFolder,
+    /// The reference picture.
+    Reference,
+    /// The sound in the timeline.
+    Sound,
+}
+
+impl FileChoice {
+    /// Returns the title of the dialog.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::PoseFolder => "Choose the folder of poses",
+            Self::Reference => "Choose a reference picture",
+            Self::Sound => "Choose a sound",
+        }
+    }
+
+    /// Returns the name and the extensions of the files that are proposed; `None` for a folder.
+    pub fn filter(self) -> Option<(&'static str, &'static [&'static str])> {
+        match self {
+            Self::PoseFolder => None,
+            Self::Reference => Some(("Pictures", &["png", "jpg", "jpeg", "webp", "gif"])),
+            Self::Sound => Some(("Sounds", &["wav", "flac", "ogg"])),
+        }
+    }
+
+    /// Returns the message for a desktop without such a dialog.
+    pub fn no_dialog(self) -> &'static str {
+        match self {
+            Self::PoseFolder => "This desktop has no dialog for choosing folders; type the path instead",
+            Self::Sound => "This desktop has no dialog for choosing files; type the path into “Open by path”",
+            Self::Reference => "This desktop has no dialog for choosing files; type the path instead",
+        }
+    }
+}
