@@ -117,7 +117,7 @@ fn saved(document: &mut TestDocument) -> f64 {
         DocumentReply::NotSaved(_, reason) => panic!("{reason:?}"),
         reply => matches!(reply, DocumentReply::Saved(_)),
     }) {
-        std::thread::sleep(Duration::from_millis(1));
+        std::thread::park_timeout(Duration::from_millis(1));
     }
     milliseconds(begin.elapsed())
 }

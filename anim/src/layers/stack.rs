@@ -10,7 +10,7 @@ use crate::sample::{KeyCursor, sample_between};
 pub(super) struct StackSampler<'a, R: LayerRule> {
     base: ChannelSampler<'a, R::Value>,
     rest: R::Value,
-    layers: Vec<(LayerChannel<'a, R::Value>, ChannelSampler<'a, R::Value>)>,
+    layers: Vec<SampledLayer<'a, R::Value>>,
     /// The sums of all layers at the last time and at the one before, with the base first.
     ends: [Vec<LayerSum<R::Value>>; 2],
     times: [f32; 2],
@@ -90,6 +90,9 @@ impl<'a, R: LayerRule> StackSampler<'a, R> {
         off
     }
 }
+
+/// A layer with the sampler of its keys.
+type SampledLayer<'a, T> = (LayerChannel<'a, T>, ChannelSampler<'a, T>);
 
 /// A channel that is sampled at ascending times.
 #[derive(Debug)]
