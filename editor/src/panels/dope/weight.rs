@@ -14,8 +14,8 @@ use dragonfly_document::edit::{LayerWeightKey, SAME_TIME, SetLayerWeights};
 use dragonfly_picture::between;
 use egui::accesskit::Role;
 use egui::{
-    Button, Color32, CornerRadius, CursorIcon, PointerButton, Pos2, Rect, Response, Sense, Shape, Stroke,
-    TextStyle, Ui, WidgetInfo, pos2,
+    Button, Color32, CornerRadius, CursorIcon, Mesh, PointerButton, Pos2, Rect, Response, Sense, Shape,
+    Stroke, TextStyle, Ui, WidgetInfo, pos2,
 };
 
 /// The key that is dragged.
@@ -140,11 +140,17 @@ impl WeightLane {
         let [red, green, blue] = settings.color;
         let color = Color32::from_rgb(red, green, blue);
         let painter = ui.painter().with_clip_rect(lane.intersect(ui.clip_rect()));
-        for pair in points.windows(2) {
-            let corners =
-                vec![pair[0], pair[1], pos2(pair[1].x, scale.y_of(0.0)), pos2(pair[0].x, scale.y_of(0.0))];
-            painter.add(Shape::convex_polygon(corners, color.gamma_multiply(0.2), Stroke::NONE));
+        let mut area = Mesh::default();
+        for (index, at) in (0u32..).zip(&points) {
+            area.colored_vertex(*at, color.gamma_multiply(0.2));
+            area.colored_vertex(pos2(at.x, scale.y_of(0.0)), color.gamma_multiply(0.2));
+            if index > 0 {
+                let [above, below] = [2 * index, 2 * index + 1];
+                area.add_triangle(above - 2, below - 2, above);
+                area.add_triangle(below - 2, above, below);
+            }
         }
+        painter.add(area);
         painter.add(Shape::line(points, Stroke::new(1.5, color)));
     }
 
