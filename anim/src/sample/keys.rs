@@ -55,13 +55,15 @@ pub(crate) struct KeyCursor {
 }
 
 impl KeyCursor {
-    /// Finds the keys around `time` seconds, as [`find_keys`] does. It is quick where `time` is at most two keys after the last one.
+    /// Finds the keys around `time` seconds, as [`find_keys`] does. It is quick where `time` is at most two keys after
+    /// the last one.
     pub(crate) fn find(&mut self, times: &[f32], time: f32) -> Option<Keys> {
         let near = times.get(self.before..).unwrap_or_default();
         let found = near.windows(2).take(3).position(|pair| pair[0] <= time && time < pair[1]);
+        let is_first = times.first() == Some(&time);
         let keys = match found {
-            Some(further) => between(times, self.before + further, time),
-            None => find_keys(times, time)?,
+            Some(further) if !is_first => between(times, self.before + further, time),
+            _ => find_keys(times, time)?,
         };
         self.before = keys.before;
         Some(keys)
