@@ -1,7 +1,9 @@
 //! State of one import: memory budget, cancel flag, progress, warnings, referenced files.
 
 use super::uri::relative_path;
-use super::{AssetError, AssetFs, ImportError, OverBudget, Place, ReadOptions, Warning};
+use super::{
+    AssetError, AssetFs, Conventions, Conversion, ImportError, OverBudget, Place, ReadOptions, Warning,
+};
 use crate::limits::{CANCEL_EVERY, EXTERNAL_FILES, WARNINGS};
 use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, HashSet};
@@ -18,6 +20,7 @@ pub struct ImportContext<'a> {
     dropped_warnings: Cell<usize>,
     work: Cell<usize>,
     progress: Cell<f32>,
+    conversion: Cell<Conversion>,
 }
 
 impl<'a> ImportContext<'a> {
@@ -32,7 +35,23 @@ impl<'a> ImportContext<'a> {
             dropped_warnings: Cell::new(0),
             work: Cell::new(0),
             progress: Cell::new(0.0),
+            conversion: Cell::default(),
         }
+    }
+
+    /// Returns the units, axes and frame rate that the user chose.
+    pub fn conventions(&self) -> &Conventions {
+        &self.options.conventions
+    }
+
+    /// Records how the coordinates and times of the file were converted. Without it they are those of the library.
+    pub fn converted(&self, conversion: Conversion) {
+        self.conversion.set(conversion);
+    }
+
+    /// Returns the recorded conversion.
+    pub fn conversion(&self) -> Conversion {
+        self.conversion.get()
     }
 
     /// Returns an empty vector with capacity for `count` values, charged to the budget.

@@ -2,7 +2,7 @@
 
 use super::context::ImportContext;
 use super::edited::{EditableFile, SurgicalFile};
-use super::{AssetFs, ExportError, ImportError, Place, ReadOptions, Warning};
+use super::{AssetFs, Conversion, ExportError, ImportError, Place, ReadOptions, Warning};
 use crate::data::ModelData;
 use crate::limits::FILE_BYTES;
 use std::fmt;
@@ -124,7 +124,8 @@ impl Format {
         context.progress(0.0)?;
         let model = (self.read)(bytes, &context)?;
         context.progress(1.0)?;
-        Ok(Imported { model, format: *self, warnings: context.into_warnings() })
+        let conversion = context.conversion();
+        Ok(Imported { model, format: *self, conversion, warnings: context.into_warnings() })
     }
 
     /// Opens `bytes`, the content of a file of this format called `name`, so that edits can be saved into it.
@@ -183,6 +184,8 @@ pub struct Imported {
     pub model: ModelData,
     /// Format of the file.
     pub format: Format,
+    /// Units, axes and frame rate of the file, as they were converted.
+    pub conversion: Conversion,
     /// Descriptions of corrected and omitted content, in the order in which it was found.
     pub warnings: Vec<Warning>,
 }

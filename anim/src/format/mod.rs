@@ -11,6 +11,11 @@
 //! format of the list: its own files are recognized by their content, what is written reads back, and damaged files are
 //! errors.
 //!
+//! # Units and axes
+//!
+//! Models are in meters, Y up, right-handed. [`Conversion`] describes what a file has instead, and where that is known
+//! from; [`ReadOptions::conventions`] are the user's choices. [`Imported::conversion`] is what was done.
+//!
 //! # Save edits
 //!
 //! [`Format::edit`] opens the bytes of a file for editing, [`EditableFile::plan`] returns the files to write. For glTF
@@ -31,6 +36,7 @@
 //! ```
 
 mod context;
+mod convention;
 mod definition;
 pub mod dfm;
 mod edited;
@@ -43,6 +49,7 @@ mod registry;
 pub mod uri;
 
 pub use context::ImportContext;
+pub use convention::{AxisMap, ConventionSource, Conventions, Conversion, Found, Handedness, UpAxis};
 pub use definition::{Format, Imported, OpenSurgical, ReadModel, WholeFile, WriteModel, WriteSupport};
 pub use edited::{ChangeReport, EditableFile, EditedTake, OutputFile, SavePlan, SurgicalFile};
 pub(crate) use error::one_line;

@@ -1,5 +1,6 @@
-//! Settings of an import: memory budget, cancel flag, progress listener.
+//! Settings of an import: memory budget, cancel flag, progress listener, conventions.
 
+use super::Conventions;
 use crate::limits::{MEMORY_BASE, MEMORY_MAX, MEMORY_PER_BYTE};
 use std::cell::Cell;
 
@@ -12,11 +13,18 @@ pub struct ReadOptions<'a> {
     pub is_cancelled: &'a dyn Fn() -> bool,
     /// Progress listener, called with a fraction 0..1 that never decreases.
     pub progress: &'a dyn Fn(f32),
+    /// Units, axes and frame rate that the user chose.
+    pub conventions: Conventions,
 }
 
 impl Default for ReadOptions<'_> {
     fn default() -> Self {
-        Self { budget: ByteBudget::default(), is_cancelled: &|| false, progress: &|_| () }
+        Self {
+            budget: ByteBudget::default(),
+            is_cancelled: &|| false,
+            progress: &|_| (),
+            conventions: Conventions::default(),
+        }
     }
 }
 
