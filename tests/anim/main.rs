@@ -90,6 +90,7 @@ mod turns;
 mod two_takes;
 mod unbound;
 mod uris;
+mod write_gltf;
 
 /// Counts the allocations of each thread, for the tests that playing allocates nothing.
 #[global_allocator]

@@ -32,6 +32,7 @@ mod survey;
 mod triangles;
 mod walk;
 mod whole;
+pub mod write;
 
 pub use extension::SUPPORTED;
 pub use image::measure as measure_image;

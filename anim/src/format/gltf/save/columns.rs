@@ -13,14 +13,14 @@ const ROTATION_TOLERANCE: f64 = 0.00769;
 
 /// The keys of one target, of whatever type.
 #[derive(Clone, Copy)]
-pub(super) enum KeyColumns<'a> {
+pub(in crate::format::gltf) enum KeyColumns<'a> {
     Vector(&'a Channel<Vec3>),
     Rotation(&'a Channel<Quat>),
     Weights(&'a MorphTrack),
 }
 
 impl KeyColumns<'_> {
-    pub(super) fn times(&self) -> &Arc<[f32]> {
+    pub(in crate::format::gltf) fn times(&self) -> &Arc<[f32]> {
         match self {
             Self::Vector(channel) => &channel.times,
             Self::Rotation(channel) => &channel.times,
@@ -92,7 +92,7 @@ fn same_bits(a: &[f32], b: &[f32]) -> bool {
 
 /// Keys ready to be written.
 #[derive(Clone, Debug)]
-pub(super) struct EncodedKeys {
+pub(in crate::format::gltf) struct EncodedKeys {
     /// Seconds, strictly ascending; shared between channels where possible.
     pub(super) times: Arc<[f32]>,
     /// Components of the values, tangents included.
@@ -104,6 +104,26 @@ pub(super) struct EncodedKeys {
 }
 
 impl EncodedKeys {
+    /// Returns the key times in seconds, strictly ascending.
+    pub(in crate::format::gltf) fn times(&self) -> &Arc<[f32]> {
+        &self.times
+    }
+
+    /// Returns the components of the values, tangents included.
+    pub(in crate::format::gltf) fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// Returns the type of a value: `VEC3`, `VEC4` or `SCALAR`.
+    pub(in crate::format::gltf) fn shape(&self) -> &'static str {
+        self.shape
+    }
+
+    /// Returns the name of the interpolation.
+    pub(in crate::format::gltf) fn interpolation(&self) -> &'static str {
+        self.interpolation
+    }
+
     /// Returns the number of elements of the output accessor.
     pub(super) fn value_count(&self) -> usize {
         self.values.len() / shape_width(self.shape)
@@ -120,10 +140,10 @@ pub(super) fn shape_width(shape: &str) -> usize {
 
 /// Owner of the keys, for error messages.
 #[derive(Clone, Copy)]
-pub(super) struct KeysOwner<'a> {
-    pub(super) take: &'a str,
-    pub(super) bone: &'a str,
-    pub(super) path: TargetPath,
+pub(in crate::format::gltf) struct KeysOwner<'a> {
+    pub(in crate::format::gltf) take: &'a str,
+    pub(in crate::format::gltf) bone: &'a str,
+    pub(in crate::format::gltf) path: TargetPath,
 }
 
 impl KeysOwner<'_> {
@@ -142,7 +162,10 @@ impl KeysOwner<'_> {
 /// * Closest-key interpolation becomes an exact step: a step at each time from which on the next key is the nearest,
 ///   and one more at the end, so that the take keeps its length.
 /// * A spline of one key is written as that key with linear interpolation, because glTF requires two keys of a spline.
-pub(super) fn keys(column: KeyColumns<'_>, owner: KeysOwner<'_>) -> Result<EncodedKeys, SaveError> {
+pub(in crate::format::gltf) fn keys(
+    column: KeyColumns<'_>,
+    owner: KeysOwner<'_>,
+) -> Result<EncodedKeys, SaveError> {
     let interpolation = column.interpolation();
     let numbers = column.numbers();
     check_times(column.times(), owner)?;

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// Animated property of a node or mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) enum TargetPath {
+pub(in crate::format::gltf) enum TargetPath {
     Translation,
     Rotation,
     Scale,
@@ -19,7 +19,7 @@ pub(super) enum TargetPath {
 
 impl TargetPath {
     /// Returns the name in the file.
-    pub(super) fn name(self) -> &'static str {
+    pub(in crate::format::gltf) fn name(self) -> &'static str {
         match self {
             Self::Translation => "translation",
             Self::Rotation => "rotation",
