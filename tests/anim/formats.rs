@@ -218,6 +218,7 @@ mod take_list {
         sniff: |bytes| bytes.starts_with(b"TAKES"),
         read: read_takes,
         write: WriteSupport::Whole(write_takes),
+        export: Some(write_takes),
     };
 
     fn read_takes(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, ImportError> {

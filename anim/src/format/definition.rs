@@ -31,6 +31,7 @@ use std::sync::Arc;
 ///     sniff: |bytes| bytes.starts_with(b"NAME "),
 ///     read,
 ///     write: WriteSupport::None,
+///     export: None,
 /// };
 ///
 /// let formats = Formats::builtin().with(NAME_ONLY);
@@ -52,8 +53,10 @@ pub struct Format {
     ///
     /// No input may make it panic. In the model that it returns every index is in range and every number is finite.
     pub read: ReadModel,
-    /// How a model is written.
+    /// How edits are saved into a file of this format.
     pub write: WriteSupport,
+    /// Writes a new file from a model of any origin; `None` for a format that is not written.
+    pub export: Option<WriteModel>,
 }
 
 /// Reads a model from the bytes of a file; budget, cancel flag, listener and referenced files are in the context.

@@ -19,6 +19,7 @@ pub mod bones;
 mod cancel;
 mod checking;
 mod comparing;
+mod conversion;
 pub mod demo;
 pub mod edit;
 mod editable;
@@ -62,6 +63,7 @@ mod writing;
 
 pub use bone_map::BoneMap;
 pub use cancel::{Cancel, LoadStage, Progress};
+pub use conversion::{ConversionError, ConversionOrder, ConvertedFile, convert, written_extensions};
 pub use editable::{Editable, WrittenFile, make_folder};
 pub use fault::{FaultInjection, FaultPlan, FaultPoint};
 pub use folder::{FileAccessError, Folder, read_file};

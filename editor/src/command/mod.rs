@@ -7,6 +7,7 @@
 mod check;
 mod choice;
 mod command_list;
+mod convert;
 mod demo;
 mod diff;
 mod diff_picture;
@@ -62,6 +63,7 @@ subcommands! {
     Render => render::RenderArguments,
     Edit => edit::EditArguments,
     Retarget => retarget::RetargetArguments,
+    Convert => convert::ConvertArguments,
     Demo => demo::DemoArguments,
 }
 
@@ -82,6 +84,8 @@ Examples:
                                     apply edits without a window; the rest of the file is unchanged
   dragonfly retarget Walk.glb Hero.glb -o Hero2.glb
                                     put takes of one figure on another
+  dragonfly convert captures -o models --to glb
+                                    convert a folder of files to another format
   dragonfly --commands              list the commands of the editor with their shortcuts
 
 FILE can be `demo:` for the built-in model.

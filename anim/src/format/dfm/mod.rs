@@ -40,6 +40,7 @@ pub const DFM: Format = Format {
     sniff: looks_like_dfm,
     read: import,
     write: WriteSupport::Whole(export),
+    export: Some(export),
 };
 
 /// Returns the bytes of a `.dfm` file that contains `model`.

@@ -31,6 +31,16 @@ pub(super) fn of_columns(adapter: &ModelAdapter, take: &TakeRef, bones: &EditedB
     Some(keys.div_ceil(COPIED))
 }
 
+/// Returns the cost of computing the keys that layers give over those of `bones`, which an edit of a layer or of the take
+/// below it needs; zero for a take without layers.
+pub(super) fn of_flattening(adapter: &ModelAdapter, take: &TakeRef, bones: &EditedBones) -> usize {
+    let Some(base) = adapter.base(take).ok().filter(|base| !base.layers().is_empty()) else { return 0 };
+    match bones {
+        EditedBones::WholeTake | EditedBones::All => base.original.keys(),
+        EditedBones::Named(bones) => bones.iter().map(|&bone| keys_of_bone(base, bone)).sum(),
+    }
+}
+
 /// Returns the cost of reading `times` each key of the channels of `bones`, as filters do; `None` where a take changes as a whole.
 pub(super) fn of_reading(
     adapter: &ModelAdapter,
@@ -118,6 +128,25 @@ mod tests {
             moved(KeySet { bones, ..KeySet::default() }).cost(&model),
             Some(of_bone + of_bone.div_ceil(COPIED))
         );
+    }
+
+    #[test]
+    fn an_edit_of_a_layer_costs_as_much_as_the_keys_below_it_are_many() {
+        let mut model = built_in();
+        let pose = |take: TakeRef| {
+            let bone = BoneRef::Index(1);
+            let pose = BonePose { bone, translation: None, rotation: Some([0.0, 0.0, 0.0, 1.0]), scale: None };
+            Edit::SetPose(crate::edit::SetPose { take, time: 0.0, poses: vec![pose], unstep: false })
+        };
+        let below = keys_of_bone(&model.slots()[0], 1);
+        let before = pose(TakeRef::Index(0)).cost(&model).expect("a quick edit");
+        let layer = r#"{"edit":"add_layer","take":0,"name":"up"}"#;
+        model.apply(&serde_json::from_str(layer).expect("an edit")).expect("a new layer");
+        let layer: TakeRef = serde_json::from_str(r#"{"take":0,"layer":0}"#).expect("a layer");
+        assert!(below > 0);
+        assert_eq!(pose(layer).cost(&model), Some(before + below));
+        assert_eq!(pose(TakeRef::Index(0)).cost(&model), Some(before + below), "the take below it");
+        assert_eq!(pose(TakeRef::Index(1)).cost(&model), Some(before), "a take without layers");
     }
 
     #[test]

@@ -170,7 +170,10 @@ macro_rules! edits {
             /// Estimates the time that it takes. The unit is the time to remove one key and insert it elsewhere, about
             /// 150 ns. `None` where only the document can carry it out.
             pub fn cost(&self, adapter: &ModelAdapter) -> Option<usize> {
-                match self { $(Self::$Kind(edit) => edit.cost(adapter),)* }
+                let own = match self { $(Self::$Kind(edit) => edit.cost(adapter),)* }?;
+                let bones = || self.bones(adapter.skeleton());
+                let layers = self.take().map_or(0, |take| cost::of_flattening(adapter, take, &bones()));
+                Some(own.saturating_add(layers))
             }
 
             /// Applies it as operations on a document.

@@ -1,0 +1,128 @@
+//! Conversion of a model file into a new file of any format that is written.
+
+use super::import::formats;
+use super::source::{LoadError, file_name};
+use super::{Cancel, Folder, read_file};
+use dragonfly_anim::format::{Conventions, Conversion, ImportError, NoFiles, ReadOptions};
+use dragonfly_anim::limits::FILE_BYTES;
+use dragonfly_store::{RealFiles, SaveOptions, folder_of, save};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A file to convert. The extension of `output` determines the format that is written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConversionOrder {
+    /// The file to read.
+    pub input: PathBuf,
+    /// The file to write; it is replaced atomically.
+    pub output: PathBuf,
+    /// Units, axes and frame rate of the input that the user chose.
+    pub conventions: Conventions,
+    /// Whether to write the file, or only to find out what would be lost.
+    pub is_written: bool,
+}
+
+/// A file that was converted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConvertedFile {
+    /// Name of the format that was read.
+    pub from: &'static str,
+    /// Size of the new file in bytes.
+    pub bytes: usize,
+    /// Units, axes and frame rate of the input, and where they are known from.
+    pub conversion: Conversion,
+    /// Content of the input that was corrected or not read, one sentence each.
+    pub warnings: Vec<String>,
+    /// Content that the new format cannot represent, one sentence each.
+    pub lost: Vec<String>,
+    /// Number of takes.
+    pub takes: usize,
+}
+
+/// The reason why a file was not converted. Nothing was written.
+#[derive(Debug, Error)]
+pub enum ConversionError {
+    /// The input cannot be read.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// The extension of the output is not one of a format that is written.
+    #[error("{}: files of this kind cannot be written; use {formats}", path.display())]
+    NotWritable {
+        /// The output.
+        path: PathBuf,
+        /// Extensions of the formats that are written.
+        formats: String,
+    },
+    /// The format cannot represent the model.
+    #[error("{title}: {reason}")]
+    Export {
+        /// Name of the input.
+        title: String,
+        /// Place and reason.
+        reason: String,
+    },
+    /// The file cannot be written.
+    #[error("{0}")]
+    Write(String),
+}
+
+/// Returns the extensions of the formats that are written, with their dots.
+pub fn written_extensions() -> String {
+    let formats = formats();
+    let written = formats.iter().filter(|format| format.export.is_some());
+    written.map(|format| format!(".{}", format.extension())).collect::<Vec<_>>().join(", ")
+}
+
+/// Reads a file and writes it in another format. Textures are read only from the folder of the file.
+///
+/// # Errors
+///
+/// The input cannot be read, or the output cannot be written; see [`ConversionError`].
+pub fn convert(order: &ConversionOrder, cancel: &Cancel) -> Result<ConvertedFile, ConversionError> {
+    let title = file_name(&order.input);
+    let formats = formats();
+    let target = order.output.extension().and_then(|extension| formats.by_extension(extension.to_str()?));
+    let write = target.and_then(|target| target.export).ok_or_else(|| ConversionError::NotWritable {
+        path: order.output.clone(),
+        formats: written_extensions(),
+    })?;
+    let bytes = read_file(&order.input, FILE_BYTES)
+        .map_err(|reason| LoadError::File { path: order.input.clone(), reason })?;
+    let options = ReadOptions {
+        is_cancelled: &|| cancel.is_cancelled(),
+        conventions: order.conventions,
+        ..ReadOptions::default()
+    };
+    let imported = match Folder::of(&order.input) {
+        Ok(folder) => formats.read(&title, &bytes, &folder, &options),
+        Err(_) => formats.read(&title, &bytes, &NoFiles, &options),
+    };
+    let imported = imported.map_err(|error| match error {
+        ImportError::Cancelled => LoadError::Cancelled,
+        error => LoadError::Format { title: title.clone(), reason: error.to_string() },
+    })?;
+    drop(bytes);
+    let file = write(&imported.model)
+        .map_err(|error| ConversionError::Export { title: title.clone(), reason: error.to_string() })?;
+    if order.is_written {
+        write_whole(&order.output, &file.bytes)?;
+    }
+    Ok(ConvertedFile {
+        from: imported.format.name,
+        bytes: file.bytes.len(),
+        conversion: imported.conversion,
+        warnings: imported.warnings.iter().map(ToString::to_string).collect(),
+        lost: file.lost.iter().map(ToString::to_string).collect(),
+        takes: imported.model.animation.takes.len(),
+    })
+}
+
+fn write_whole(output: &Path, bytes: &[u8]) -> Result<(), ConversionError> {
+    let folder = folder_of(output);
+    if !folder.is_dir() {
+        return Err(ConversionError::Write(format!("{}: its folder does not exist", output.display())));
+    }
+    save(&RealFiles, output, bytes, &SaveOptions::default())
+        .map(drop)
+        .map_err(|error| ConversionError::Write(error.to_string()))
+}
