@@ -78,6 +78,8 @@ fn first_takes() -> Vec<(String, i32, usize)> {
         ("Look around, end", 600, 357),
         ("Run", 1983, 842),
         ("Nod", 500, 2),
+        ("Shake", 500, 2),
+        ("Bend", 0, 1),
     ];
     takes.map(|(name, length, keys)| (name.to_owned(), length, keys)).into()
 }

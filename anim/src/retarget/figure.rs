@@ -60,6 +60,8 @@ pub struct Retargeted {
     pub slide_before: f32,
     /// The same after locking.
     pub slide_after: f32,
+    /// Whether the keys are those of the source, because both skeletons are the same where the take moves them.
+    pub is_copied: bool,
 }
 
 /// Returns `take` of the skeleton `source` for the skeleton `target`, with contacts as they are in the source.
@@ -77,7 +79,7 @@ pub fn retarget_figure(
     if binding.bound() == 0 {
         return Err(FigureError::Unbound);
     }
-    if is_same(source, target, binding) {
+    if is_same(take, source, target, binding) {
         // Nothing to compensate: the tracks as they are, and bones that stretch.
         let take = rebind(take, binding);
         return Ok(Retargeted {
@@ -86,6 +88,7 @@ pub fn retarget_figure(
             contacts: Vec::new(),
             slide_before: 0.0,
             slide_after: 0.0,
+            is_copied: true,
         });
     }
     let roles = SkeletonRoles::guess(target);
@@ -111,18 +114,45 @@ fn frame_times(take: &Take) -> Vec<f32> {
     (0..=count).map(|frame| (f64::from(take.start) + frame as f64 / rate) as f32).collect()
 }
 
-/// Returns whether every bone is bound to one with the same rest pose and the same parent.
-fn is_same(source: &Skeleton, target: &Skeleton, binding: &SkeletonBinding) -> bool {
-    let same = |(bone, from): (&crate::data::Bone, &Option<BoneIndex>)| {
-        let Some(other) = from.and_then(|from| source.bones.get(from as usize)) else { return false };
+/// Returns whether every bone that the take moves is bound to one with the same rest pose, and so is every bone above it:
+/// one skeleton may have bones that the other one lacks, such as those of a weapon.
+fn is_same(take: &Take, source: &Skeleton, target: &Skeleton, binding: &SkeletonBinding) -> bool {
+    let mut follower: Vec<Option<BoneIndex>> = vec![None; source.len()];
+    for (bone, from) in (0..).zip(&binding.source_of) {
+        let Some(follower) = from.and_then(|from| follower.get_mut(from as usize)) else { continue };
+        if follower.replace(bone).is_some() {
+            return false;
+        }
+    }
+    let same = |from: BoneIndex| {
+        let Some(other) = source.bones.get(from as usize) else { return false };
+        let Some(bone) = follower[from as usize].and_then(|bone| target.bones.get(bone as usize)) else {
+            return false;
+        };
         let (a, b) = (rest_pose(bone), rest_pose(other));
         let near = a.translation.abs_diff_eq(b.translation, 1e-6 * (1.0 + a.translation.length()))
             && a.rotation.abs_diff_eq(b.rotation, 1e-6)
             && a.scale.abs_diff_eq(b.scale, 1e-6);
-        let above = bone.parent.map(|parent| binding.source_of.get(parent as usize).copied().flatten());
-        near && bone.rest_matrix == other.rest_matrix && above == other.parent.map(Some)
+        let above = other.parent.map(|parent| follower[parent as usize]);
+        near && bone.rest_matrix == other.rest_matrix && above == bone.parent.map(Some)
     };
-    source.len() == target.len() && target.bones.iter().zip(&binding.source_of).all(same)
+    let moved = take.tracks.iter().filter(|track| !track.is_empty()).map(|track| track.bone);
+    let mut checked = vec![false; source.len()];
+    for bone in moved {
+        let above =
+            |&bone: &BoneIndex| source.bones.get(bone as usize)?.parent.filter(|&parent| parent < bone);
+        for bone in std::iter::successors(Some(bone), above) {
+            match checked.get_mut(bone as usize) {
+                Some(checked) if *checked => break,
+                Some(checked) => *checked = true,
+                None => return false,
+            }
+            if !same(bone) {
+                return false;
+            }
+        }
+    }
+    true
 }
 
 /// Transfers a take to a skeleton whose feet are below its legs.
@@ -145,8 +175,14 @@ fn transferred(
     spread(&mut result, source, target, binding, |bone, lower| {
         role(bone).is_some() && role(bone) == role(lower)
     });
-    let mut retargeted =
-        Retargeted { take: result, ratio, contacts: Vec::new(), slide_before: 0.0, slide_after: 0.0 };
+    let mut retargeted = Retargeted {
+        take: result,
+        ratio,
+        contacts: Vec::new(),
+        slide_before: 0.0,
+        slide_after: 0.0,
+        is_copied: false,
+    };
     if options.contacts {
         keep_contacts(&mut retargeted, take, source, target, (binding, roles), options)?;
     }

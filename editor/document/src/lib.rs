@@ -18,6 +18,7 @@ mod bone_map;
 pub mod bones;
 mod cancel;
 mod checking;
+mod clips;
 mod comparing;
 mod conversion;
 pub mod demo;
@@ -63,6 +64,7 @@ mod writing;
 
 pub use bone_map::BoneMap;
 pub use cancel::{Cancel, LoadStage, Progress};
+pub use clips::{ClipNaming, ClipSettings, ClipTakes, TakeNames, clip_takes};
 pub use conversion::{ConversionError, ConversionOrder, ConvertedFile, convert, written_extensions};
 pub use editable::{Editable, WrittenFile, make_folder};
 pub use fault::{FaultInjection, FaultPlan, FaultPoint};

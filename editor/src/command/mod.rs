@@ -27,6 +27,7 @@ mod run_command;
 mod stdio;
 mod table;
 mod take_lint;
+mod takes;
 
 pub use failure::{Failure, tell};
 
@@ -64,6 +65,7 @@ subcommands! {
     Edit => edit::EditArguments,
     Retarget => retarget::RetargetArguments,
     Convert => convert::ConvertArguments,
+    Takes => takes::TakesArguments,
     Demo => demo::DemoArguments,
 }
 
@@ -86,6 +88,8 @@ Examples:
                                     put takes of one figure on another
   dragonfly convert captures -o models --to glb
                                     convert a folder of files to another format
+  dragonfly takes add Hero.glb captures/*.glb -o Hero2.glb
+                                    add the takes of other files to a model
   dragonfly --commands              list the commands of the editor with their shortcuts
 
 FILE can be `demo:` for the built-in model.

@@ -135,7 +135,8 @@ mod tests {
         let mut model = built_in();
         let pose = |take: TakeRef| {
             let bone = BoneRef::Index(1);
-            let pose = BonePose { bone, translation: None, rotation: Some([0.0, 0.0, 0.0, 1.0]), scale: None };
+            let pose =
+                BonePose { bone, translation: None, rotation: Some([0.0, 0.0, 0.0, 1.0]), scale: None };
             Edit::SetPose(crate::edit::SetPose { take, time: 0.0, poses: vec![pose], unstep: false })
         };
         let below = keys_of_bone(&model.slots()[0], 1);

@@ -18,6 +18,7 @@
 mod add_keys;
 mod add_layer;
 mod add_take;
+mod add_takes;
 mod arbitrary;
 mod blend_keys;
 mod bones;
@@ -161,6 +162,7 @@ edits! {
     "repeat_keys" => repeat_keys::RepeatKeys,
     "create_take" => create_take::CreateTake,
     "add_take" => add_take::AddTake,
+    "add_takes" => add_takes::AddTakes,
     "delete_take" => delete_take::DeleteTake,
     "set_extras" => set_extras::SetExtras,
     "rename_take" => rename_take::RenameTake,

@@ -1,0 +1,117 @@
+//! `dragonfly convert`: single files and whole folders, in parts, again, and with broken files among them.
+
+use crate::program::run;
+use dragonfly_kit::folder::{Folder, data};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("UTF-8")
+}
+
+/// Returns a folder with models in two levels, and the paths of the models in it.
+fn collection(name: &str) -> (Folder, Vec<&'static str>) {
+    let folder = Folder::new(name);
+    let files = ["Fox.glb", "AnimatedMorphCube.glb", "SimpleSkin_embedded.gltf", "box_sparse.glb"];
+    fs::create_dir_all(folder.join("in/deep")).expect("a folder");
+    for (index, file) in files.iter().enumerate() {
+        let place = if index % 2 == 0 { format!("in/{file}") } else { format!("in/deep/{file}") };
+        fs::copy(data(&format!("gltf/{file}")), folder.join(&place)).expect("a copy");
+    }
+    (folder, vec!["Fox.dfm", "SimpleSkin_embedded.dfm", "deep/AnimatedMorphCube.dfm", "deep/box_sparse.dfm"])
+}
+
+fn files_below(folder: &Path) -> BTreeSet<String> {
+    let (mut found, mut folders) = (BTreeSet::new(), vec![folder.to_path_buf()]);
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(next).into_iter().flatten() {
+            let path: PathBuf = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                found.insert(text(path.strip_prefix(folder).expect("below")).to_owned());
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn a_file_converted_to_another_format_and_back_has_the_same_takes() {
+    let folder = Folder::new("convert-one");
+    let (dfm, glb) = (folder.join("Fox.dfm"), folder.join("Back.glb"));
+    let fox = data("gltf/Fox.glb");
+    let printed = run(["convert", text(&fox), "-o", text(&dfm)]).expect(0);
+    assert!(printed.text().contains("glb: 1 unit = 1 m (format), Y up (format)"), "{}", printed.text());
+    run(["convert", text(&dfm), "-o", text(&glb)]).expect(0);
+    run(["diff", text(&fox), text(&glb), "--tolerance", "0.001"]).expect(0);
+    let info = run(["info", text(&glb), "--json"]).expect(0).json();
+    assert_eq!(info["meshes"][0]["vertices"], 1728);
+    assert_eq!(info["takes"].as_array().map(Vec::len), Some(3));
+}
+
+#[test]
+fn a_folder_is_converted_with_its_folders_and_a_broken_file_stops_no_other() {
+    let (folder, outputs) = collection("convert-folder");
+    fs::write(folder.join("in/deep/broken.glb"), b"glTF, but cut").expect("a file");
+    let (input, output) = (folder.join("in"), folder.join("out"));
+    let done = run(["convert", text(&input), "-o", text(&output), "--to", "dfm", "--json"]).expect(2);
+    assert!(done.stderr.contains("broken.glb"), "{}", done.stderr);
+    assert!(done.stderr.contains("4 converted, 0 skipped, 1 failed"), "{}", done.stderr);
+    let report = done.json();
+    assert_eq!((&report["converted"], &report["failed"]), (&4.into(), &1.into()));
+    assert_eq!(files_below(&output), outputs.into_iter().map(str::to_owned).collect());
+    run(["diff", text(&input.join("Fox.glb")), text(&output.join("Fox.dfm")), "--tolerance", "0.001"])
+        .expect(0);
+}
+
+#[test]
+fn parts_convert_each_file_once_and_a_second_run_skips_what_is_there() {
+    let (folder, outputs) = collection("convert-parts");
+    let (input, output) = (folder.join("in"), folder.join("out"));
+    let mut found = BTreeSet::new();
+    for part in 1..=3 {
+        let part = format!("{part}/3");
+        let target = folder.join(&format!("out-{}", part.replace('/', "-of-")));
+        run(["convert", text(&input), "-o", text(&target), "--to", "dfm", "--shard", &part]).expect(0);
+        for file in files_below(&target) {
+            assert!(found.insert(file.clone()), "{file} is in two parts");
+        }
+    }
+    assert_eq!(found, outputs.into_iter().map(str::to_owned).collect());
+    let again = |jobs: &str| {
+        let arguments =
+            ["convert", text(&input), "-o", text(&output), "--to", "dfm", "--resume", "--jobs", jobs];
+        run(arguments).expect(0).stderr
+    };
+    assert!(again("3").contains("4 converted, 0 skipped"));
+    fs::remove_file(output.join("deep/box_sparse.dfm")).expect("an output");
+    assert!(again("1").contains("1 converted, 3 skipped"));
+}
+
+#[test]
+fn a_dry_run_lists_what_would_be_lost_and_writes_nothing() {
+    let folder = Folder::new("convert-dry");
+    let output = folder.join("Fox.glb");
+    run(["convert", text(&data("gltf/Fox.glb")), "-o", text(&output), "--dry-run"]).expect(0);
+    assert!(!output.exists());
+}
+
+#[test]
+fn orders_that_cannot_be_right_are_errors_of_the_input_and_write_nothing() {
+    let folder = Folder::new("convert-wrong");
+    let fox = data("gltf/Fox.glb");
+    let wrong = run(["convert", text(&fox), "-o", text(&folder.join("Fox.png"))]).expect(2);
+    assert!(wrong.stderr.contains("cannot be written; use .dfm, .glb, .gltf"), "{}", wrong.stderr);
+    let cube = data("gltf/AnimatedMorphCube.glb");
+    let two = ["convert", text(&fox), text(&cube), "-o", text(folder.path())];
+    assert!(run(two).expect(2).stderr.contains("--to EXT must tell the format"));
+    let twice = ["convert", text(&fox), text(&fox), "-o", text(folder.path()), "--to", "dfm"];
+    assert!(run(twice).expect(2).stderr.contains("both are converted to"));
+    for part in ["0/3", "4/3", "3", "a/b"] {
+        run(["convert", text(&fox), "-o", text(folder.path()), "--to", "dfm", "--shard", part]).expect(2);
+    }
+    run(["convert", text(&fox), "-o", text(folder.path()), "--to", "dfm", "--scale", "-1"]).expect(2);
+    assert_eq!(files_below(folder.path()), BTreeSet::new());
+}
