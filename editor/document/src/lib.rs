@@ -18,6 +18,7 @@ mod bone_map;
 pub mod bones;
 mod cancel;
 mod checking;
+mod clip_import;
 mod clips;
 mod comparing;
 mod conversion;
