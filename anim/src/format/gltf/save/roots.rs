@@ -80,9 +80,10 @@ pub(super) fn with_roots<'m>(
     Ok((Cow::Owned(model), RootNodes { added, removed, below, kept }))
 }
 
-/// Returns the skeleton with the nodes of bones that an earlier save added: the parents of the nodes of their children.
+/// Returns the skeleton with the nodes of topmost bones that an earlier save added: the parents of the nodes of their children.
 fn resolved<'s>(document: &SourceDocument<'_>, skeleton: &'s Skeleton) -> Cow<'s, Skeleton> {
-    if skeleton.bones.iter().all(|bone| bone.node.is_some()) {
+    let unknown = skeleton.bones.iter().take_while(|bone| bone.node.is_none()).count();
+    if unknown == 0 {
         return Cow::Borrowed(skeleton);
     }
     let mut parents = HashMap::new();
@@ -93,7 +94,8 @@ fn resolved<'s>(document: &SourceDocument<'_>, skeleton: &'s Skeleton) -> Cow<'s
     let mut child_of: Vec<Option<u32>> = vec![None; skeleton.len()];
     // In reverse, because parents come before their children.
     for index in (0..found.bones.len()).rev() {
-        let node = found.bones[index].node.or_else(|| parents.get(&child_of[index]?).copied());
+        let above = || parents.get(&child_of[index]?).copied();
+        let node = found.bones[index].node.or_else(|| above().filter(|_| index < unknown));
         found.bones[index].node = node;
         if let Some(parent) = found.bones[index].parent.and_then(|parent| child_of.get_mut(parent as usize)) {
             *parent = node.or(*parent);
