@@ -88,7 +88,8 @@ pub fn skeleton_with_root(skeleton: &Skeleton, name: &str) -> Result<Skeleton, R
         offset: Mat4::IDENTITY,
         node: None,
     };
-    let below = |bone: &Bone| Bone { parent: Some(bone.parent.map_or(0, |parent| parent + 1)), ..bone.clone() };
+    let below =
+        |bone: &Bone| Bone { parent: Some(bone.parent.map_or(0, |parent| parent + 1)), ..bone.clone() };
     let bones = std::iter::once(root).chain(skeleton.bones.iter().map(below)).collect();
     Ok(Skeleton { bones })
 }
@@ -132,13 +133,12 @@ impl BoneShift {
     pub fn between(from: &Skeleton, to: &Skeleton) -> Option<Self> {
         let same = |(a, b): &(&Bone, &Bone)| a.name == b.name;
         let common = from.bones.iter().rev().zip(to.bones.iter().rev()).take_while(same).count();
-        let shift =
-            Self { removed: (from.len() - common) as u32, added: (to.len() - common) as u32 };
+        let shift = Self { removed: (from.len() - common) as u32, added: (to.len() - common) as u32 };
         let has_chain = |skeleton: &Skeleton, count: u32| {
             let chain = skeleton.bones.iter().take(count as usize).enumerate();
-            chain.into_iter().all(|(index, bone)| {
-                bone.parent == index.checked_sub(1).map(|above| above as BoneIndex)
-            })
+            chain
+                .into_iter()
+                .all(|(index, bone)| bone.parent == index.checked_sub(1).map(|above| above as BoneIndex))
         };
         let below = |bone: &Bone, count: u32| match (bone.parent, count.checked_sub(1)) {
             (Some(parent), _) if parent >= count => Some(Some(parent - count)),
@@ -214,7 +214,11 @@ impl BoneShift {
         Some(ModelData {
             name: model.name.clone(),
             meshes: model.meshes.clone(),
-            instances: model.instances.iter().map(|instance| self.instance(instance)).collect::<Option<_>>()?,
+            instances: model
+                .instances
+                .iter()
+                .map(|instance| self.instance(instance))
+                .collect::<Option<_>>()?,
             skins: model.skins.iter().map(|skin| self.skin(skin)).collect::<Option<_>>()?,
             materials: model.materials.clone(),
             images: model.images.clone(),

@@ -73,7 +73,11 @@ fn every_bone_and_every_joint_stays_where_it_is_at_every_time_to_the_bit() {
         let before = load(&data().join(file));
         let after = with_root_bone(&before, "A new root").unwrap();
         let [old, new] = [&before, &after].map(|model| &model.animation);
-        assert_eq!((new.skeleton.len(), new.takes.len()), (old.skeleton.len() + 1, old.takes.len()), "{file}");
+        assert_eq!(
+            (new.skeleton.len(), new.takes.len()),
+            (old.skeleton.len() + 1, old.takes.len()),
+            "{file}"
+        );
         let resting = std::iter::once((None, None, vec![0.0]));
         let moving = old.takes.iter().zip(&new.takes);
         let moving = moving.map(|(old, new)| (Some(&**old), Some(&**new), times(old)));
@@ -181,7 +185,8 @@ impl RootSave {
 
     fn takes(&self) -> Vec<EditedTake> {
         let takes = self.model.animation.takes.iter().enumerate();
-        let origin = |index: usize| Some(index).filter(|&index| index < self.opened.model.animation.takes.len());
+        let origin =
+            |index: usize| Some(index).filter(|&index| index < self.opened.model.animation.takes.len());
         takes.map(|(index, take)| EditedTake { origin: origin(index), take: Arc::clone(take) }).collect()
     }
 

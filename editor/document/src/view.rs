@@ -202,9 +202,18 @@ impl View {
 
     /// Returns this view with the takes of `edited`. A sender shows it until the document has answered change `number`.
     pub fn echo(&self, number: u64, edited: &Edited) -> Self {
+        Self { generation: ECHO | number, ..self.with_edited(edited) }
+    }
+
+    /// Returns this view with the takes and the skeleton of `edited`.
+    pub fn with_edited(&self, edited: &Edited) -> Self {
         let adapter = edited.adapter();
+        let loaded = match Arc::ptr_eq(&self.loaded.model.animation.skeleton, adapter.skeleton()) {
+            true => Arc::clone(&self.loaded),
+            false => LoadedModel::with_skeleton(&self.opened, adapter.skeleton()),
+        };
         let takes = adapter.results().cloned().collect();
-        Self { generation: ECHO | number, takes, slots: adapter.slots().into(), ..self.clone() }
+        Self { loaded, takes, slots: adapter.slots().into(), ..self.clone() }
     }
 
     /// Returns the pending poses at a time of a take, which are shown instead of the keyed ones.

@@ -43,7 +43,8 @@ impl EditKind for AddRootBone {
     fn plan(&self, work: &mut Transaction) -> Result<(), EditError> {
         let skeleton = Arc::new(skeleton_with_root(work.skeleton(), &self.name)?);
         let shift = BoneShift::ROOT_ADDED;
-        let slots = work.adapter().slots().iter().map(|slot| Arc::new(slot.shifted(shift))).collect::<Vec<_>>();
+        let slots =
+            work.adapter().slots().iter().map(|slot| Arc::new(slot.shifted(shift))).collect::<Vec<_>>();
         work.perform(Op::Skeleton(skeleton, slots.clone()));
         for slot in &slots {
             let mut kept = kept_travel(&slot.original.extras);

@@ -38,7 +38,8 @@ pub(super) fn with_roots<'m>(
     skeleton: &Skeleton,
 ) -> Result<(Cow<'m, ModelData>, RootNodes), SaveError> {
     let old = resolved(document, &opened.animation.skeleton);
-    let mismatch = |reason: &str| SaveError::Mismatch { place: "bones".to_owned(), reason: reason.to_owned() };
+    let mismatch =
+        |reason: &str| SaveError::Mismatch { place: "bones".to_owned(), reason: reason.to_owned() };
     let shift = BoneShift::between(&old, skeleton)
         .ok_or_else(|| mismatch("they differ in more than root bones from those that were opened"))?;
     if shift.is_identity() && matches!(old, Cow::Borrowed(_)) {
@@ -131,7 +132,9 @@ fn check_limits(
     while !level.is_empty() {
         levels += 1;
         if levels > NODE_DEPTH {
-            return refuse(format!("a file has at most {NODE_DEPTH} levels of nodes, so no root bone can be added"));
+            return refuse(format!(
+                "a file has at most {NODE_DEPTH} levels of nodes, so no root bone can be added"
+            ));
         }
         let mut next = Vec::new();
         for node in level {
@@ -207,7 +210,9 @@ impl RootNodes {
             let Some(list) = json.member(scene, "nodes") else { continue };
             let items: Vec<_> = json.items(list).collect();
             let is_top = |item: usize| {
-                json.whole(item).and_then(|node| u32::try_from(node).ok()).is_some_and(|node| before.contains(&node))
+                json.whole(item)
+                    .and_then(|node| u32::try_from(node).ok())
+                    .is_some_and(|node| before.contains(&node))
             };
             let Some(first) = items.iter().position(|&item| is_top(item)) else { continue };
             let removed: Vec<_> = items.iter().copied().filter(|&item| is_top(item)).collect();

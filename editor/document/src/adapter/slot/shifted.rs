@@ -21,7 +21,8 @@ impl TakeVersions {
             Some(((shift.bone(bone)?, property), Arc::clone(changes)))
         });
         let pending = self.pending.iter().map(|at| pending_shifted(at, shift)).filter(|at| !at.is_empty());
-        let layers: Vec<LayerVersions> = self.layers.iter().map(|layer| layer_shifted(layer, shift)).collect();
+        let layers: Vec<LayerVersions> =
+            self.layers.iter().map(|layer| layer_shifted(layer, shift)).collect();
         let flat = self.flat.as_ref().map(|flat| flat_shifted(flat, &result, &layers, shift));
         Self {
             id: self.id,
