@@ -7,7 +7,6 @@ use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_anim::sample::sample_take;
 use dragonfly_document::adapter::{EditError, ModelAdapter};
 use dragonfly_document::edit::{Edit, TRAVEL};
-use dragonfly_document::history::{Edited, MAX_STEPS};
 use dragonfly_document::protocol::Session;
 use dragonfly_document::{
     Cancel, Change, Decision, DocumentMessage, DocumentReply, Editable, SaveTo, Source, View,
@@ -395,22 +394,6 @@ fn a_file_with_history_is_opened_again_with_the_root_bone_of_its_last_save() {
     same_takes(&after, &opened);
     document.change(Change::Redo);
     same_takes(&document.view(), &before);
-}
-
-#[test]
-fn a_history_whose_oldest_steps_are_forgotten_starts_with_the_root_bone() {
-    let bytes = include_bytes!("../data/gltf/SimpleSkin_embedded.gltf");
-    let model = read("a.gltf", bytes, &NoFiles, &ReadOptions::default()).unwrap().model;
-    let mut edited = Edited::new(ModelAdapter::of(&model));
-    edited.apply(root("Motion"), None).unwrap();
-    let flags = |on: bool| {
-        edit(&format!(r#"{{"edit":"rename_take","take":0,"name":"{}"}}"#, if on { "a" } else { "b" }))
-    };
-    for number in 0..MAX_STEPS {
-        edited.apply(flags(number % 2 == 0), None).unwrap();
-    }
-    assert!(edited.is_cut() && edited.go_to(0));
-    assert_eq!(edited.adapter().skeleton().len(), model.animation.skeleton.len() + 1);
 }
 
 #[test]

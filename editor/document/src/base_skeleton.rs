@@ -80,7 +80,11 @@ fn without_roots(skeleton: &Skeleton, count: usize) -> Option<Skeleton> {
 mod tests {
     use super::*;
     use crate::about::tests::bone;
-    use dragonfly_anim::data::{AnimationData, Skin};
+    use crate::adapter::ModelAdapter;
+    use crate::edit::{AddRootBone, RenameTake, TakeRef};
+    use crate::history::{Edited, MAX_STEPS};
+    use crate::recorded::{EditsOrigin, Snapshot};
+    use dragonfly_anim::data::{AnimationData, Skin, Take, Track};
 
     fn model(names: &[&str]) -> ModelData {
         let mut bones: Vec<_> = names.iter().map(|name| bone(name)).collect();
@@ -109,6 +113,25 @@ mod tests {
         for file in files {
             assert_eq!(base.skeleton(&model(file)).as_ref(), Some(&with_root.animation.skeleton), "{file:?}");
         }
+    }
+
+    #[test]
+    fn a_history_whose_oldest_steps_are_forgotten_starts_with_their_root_bones() {
+        let mut opened = model(&["Hips", "Leg"]);
+        let tracks = (0..2).map(|bone| Track { bone, ..Track::default() }).collect();
+        opened.animation.takes.push(Arc::new(Take { tracks, ..Take::default() }));
+        let mut edited = Edited::new(ModelAdapter::of(&opened));
+        edited.apply(AddRootBone { name: "Root".to_owned() }.into(), None).unwrap();
+        for step in 0..MAX_STEPS {
+            let name = step.to_string();
+            edited.apply(RenameTake { take: TakeRef::Index(0), name }.into(), None).unwrap();
+        }
+        assert!(edited.is_cut());
+        let bytes = Snapshot::bytes(EditsOrigin::new(None), &edited, None).unwrap();
+        let (snapshot, takes) = Snapshot::read(&bytes).unwrap();
+        let start = snapshot.skeleton.unwrap().skeleton(&opened).unwrap();
+        assert_eq!(&start, edited.adapter().skeleton());
+        assert!(crate::base::read(takes.unwrap(), start.len()).is_some());
     }
 
     #[test]

@@ -4,7 +4,7 @@ use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_document::{LoadedModel, View};
 use std::sync::Arc;
 
-/// What became of the skeleton since the panel was last drawn.
+/// The change of the skeleton since the panel was last drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SkeletonChange {
     /// Nothing.
@@ -23,7 +23,7 @@ pub(super) struct ShownSkeleton {
 }
 
 impl ShownSkeleton {
-    /// Goes to the skeleton of a view, and returns what became of it.
+    /// Goes to the skeleton of a view, and returns how it changed.
     pub(super) fn follow(&mut self, view: Option<&View>) -> SkeletonChange {
         let now = view.map(|view| [&view.opened, &view.loaded]);
         let change = match (&self.of, view) {

@@ -422,7 +422,7 @@ impl KeyEditing {
         self.pasted = None;
     }
 
-    /// Follows the bones to another skeleton. A drag does not go on.
+    /// Follows the bones to another skeleton. A drag ends.
     pub(super) fn shift(&mut self, shift: BoneShift) {
         self.selection = self.selection.renumbered(shift);
         self.flags = self.flags.shifted(shift);
