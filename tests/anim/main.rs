@@ -64,6 +64,7 @@ mod reduce;
 mod retarget;
 mod retarget_figure;
 mod retarget_limbs;
+mod root_bone;
 mod rules;
 mod sampling;
 mod save_compact;

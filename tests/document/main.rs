@@ -24,6 +24,7 @@ mod offset_keys;
 mod old_journals;
 mod pose_library;
 mod reference_source;
+mod root_bone;
 mod savable;
 mod save_and_open;
 mod save_in_background;

@@ -13,6 +13,7 @@ mod about;
 pub mod adapter;
 mod alike;
 mod base;
+mod base_skeleton;
 mod beside;
 mod bone_map;
 pub mod bones;
