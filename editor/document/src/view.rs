@@ -7,7 +7,7 @@ use super::shapes::ModelShapes;
 use super::step_amount::StepAmount;
 use dragonfly_anim::bounds::Bounds;
 use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Skeleton, Take, Track};
-use dragonfly_anim::format::Format;
+use dragonfly_anim::format::{Conversion, Format};
 use dragonfly_anim::root_bone::BoneShift;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,6 +21,8 @@ pub struct LoadedModel {
     pub path: Option<PathBuf>,
     /// Format of the file that it was read from; `None` for a model that was not read from a file.
     pub format: Option<Format>,
+    /// Units, axes and frame rate of the file, as they were converted.
+    pub conversion: Conversion,
     /// The data as it was read, with the root bones that edits added. The present takes are in the [`View`].
     pub model: Arc<ModelData>,
     /// Its bounds at the start of its first take, or in the rest pose where it has none.

@@ -90,6 +90,7 @@ pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> Vi
     });
     let bounds = bounds_of_pose(&model, None, 0.0);
     let loaded = LoadedModel {
+        conversion: Default::default(),
         title: title.to_owned(),
         path: Some(title.into()),
         format: Some(dragonfly_anim::format::gltf::GLB),
