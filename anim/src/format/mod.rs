@@ -46,6 +46,7 @@ mod files;
 pub mod gltf;
 mod read_options;
 mod registry;
+mod text;
 pub mod uri;
 
 pub use context::ImportContext;
