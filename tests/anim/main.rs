@@ -10,6 +10,7 @@ mod bombs;
 mod bone_bounds;
 mod bounds;
 mod budget;
+mod bvh;
 mod chains;
 mod check;
 mod compare;

@@ -35,6 +35,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod bvh;
 mod context;
 mod convention;
 mod definition;
@@ -66,6 +67,7 @@ pub const BUILTIN: &[Format] = &[
     gltf::GLB,
     #[cfg(feature = "gltf")]
     gltf::GLTF,
+    bvh::BVH,
 ];
 
 /// Reads a model from the bytes of a file in one of the [`BUILTIN`] formats.

@@ -115,6 +115,11 @@ impl<'a> TextScanner<'a> {
         self.at
     }
 
+    /// Returns the number of bytes that are left.
+    pub(super) fn left(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
     /// Continues at another offset.
     pub(super) fn go_to(&mut self, at: usize) {
         self.at = at.min(self.bytes.len());
@@ -173,6 +178,15 @@ impl<'a> TextScanner<'a> {
         let length = self.bytes[at..].iter().position(|&byte| byte == end)?;
         self.at += length;
         Some(Token { text: &self.bytes[at..at + length], at })
+    }
+
+    /// Returns the bytes up to `end` or the end of the line, without it, and skips them.
+    pub(super) fn line_until(&mut self, end: u8) -> Token<'a> {
+        let (at, rest) = (self.at, &self.bytes[self.at..]);
+        let is_end = |byte: &u8| *byte == end || matches!(byte, b'\n' | b'\r');
+        let length = rest.iter().position(is_end).unwrap_or(rest.len());
+        self.at += length;
+        Token { text: &rest[..length], at }
     }
 
     /// Returns the next token; `None` at the end of the text.
@@ -437,6 +451,8 @@ mod tests {
         assert_eq!(scanner.until(b'{').map(|token| (token.text, token.at)), Some((b" a b ".as_slice(), 4)));
         assert_eq!(scanner.peek().map(|token| token.text), Some(b"{".as_slice()));
         assert_eq!(scanner.at(), 9);
+        scanner.go_to(4);
+        assert_eq!(scanner.line_until(b'{').text, b" a b ");
         scanner.go_to(0);
         scanner.skip_line();
         assert_eq!((scanner.at(), scanner.token()), (10, None));
