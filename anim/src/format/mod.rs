@@ -45,6 +45,8 @@ mod error;
 mod files;
 #[cfg(feature = "gltf")]
 pub mod gltf;
+mod image;
+pub mod obj;
 mod read_options;
 mod registry;
 mod text;
@@ -57,6 +59,7 @@ pub use edited::{ChangeReport, EditableFile, EditedTake, OutputFile, SavePlan, S
 pub(crate) use error::one_line;
 pub use error::{ExportError, ImportError, Place, Warning};
 pub use files::{AssetError, AssetFs, NoFiles};
+pub use image::measure as measure_image;
 pub use read_options::{ByteBudget, OverBudget, ReadOptions};
 pub use registry::Formats;
 
@@ -68,6 +71,7 @@ pub const BUILTIN: &[Format] = &[
     #[cfg(feature = "gltf")]
     gltf::GLTF,
     bvh::BVH,
+    obj::OBJ,
 ];
 
 /// Reads a model from the bytes of a file in one of the [`BUILTIN`] formats.

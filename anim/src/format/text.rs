@@ -237,6 +237,12 @@ impl<'a> TextScanner<'a> {
     #[inline]
     pub(super) fn float(&mut self, what: &str) -> Result<f32, ImportError> {
         let token = self.need(what)?;
+        self.float_of(token, what)
+    }
+
+    /// Returns a token as a number in single precision, which is finite; `what` describes it.
+    #[inline]
+    pub(super) fn float_of(&self, token: Token<'_>, what: &str) -> Result<f32, ImportError> {
         let number = self.number_of(token, what)? as f32;
         if number.is_finite() {
             return Ok(number);

@@ -204,9 +204,9 @@ fn errors_name_line_column_and_reason() {
             "Frames : -3",
             "line 26 column 10: \"-3\" is no whole number where the number of frames was expected",
         ),
-        ("ROOT Prop", "JOINT Prop", "line 21 column 1: \"JOINT\" where \"MOTION\" or \"ROOT\" was expected"),
-        ("\nROOT Prop", "}\nROOT Prop", "line 20 column 2: \"}\" where \"MOTION\" or \"ROOT\" was expected"),
-        ("ROOT Prop\n{", "ROOT Prop", "line 22 column 3: \"OFFSET\" where \"{\" was expected"),
+        ("ROOT Prop", "JOINT Prop", "line 20 column 1: \"JOINT\" where \"MOTION\" or \"ROOT\" was expected"),
+        ("\nROOT Prop", "}\nROOT Prop", "line 19 column 2: \"}\" where \"MOTION\" or \"ROOT\" was expected"),
+        ("ROOT Prop\n{", "ROOT Prop", "line 21 column 3: \"OFFSET\" where \"{\" was expected"),
         ("91.0", "1e30", "line 29 column 2: the position is too large"),
         ("359", "1e30", ""),
     ] {
