@@ -45,6 +45,11 @@ mod error;
 mod files;
 #[cfg(feature = "gltf")]
 pub mod gltf;
+mod influences;
+mod losses;
+mod matrices;
+mod names;
+mod normals;
 mod read_options;
 mod registry;
 mod text;

@@ -2,7 +2,7 @@
 
 use super::channel::{BvhChannel, CHANNELS, ChannelList};
 use super::check as code;
-use super::names::UniqueNames;
+use crate::format::names::UniqueNames;
 use crate::format::text::{TextScanner, Token, UNEXPECTED_END, UNEXPECTED_TOKEN};
 use crate::format::{ImportContext, ImportError};
 use crate::limits::{HUGE, NODE_DEPTH, NODES};

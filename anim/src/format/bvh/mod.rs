@@ -24,7 +24,6 @@ pub mod check;
 mod hierarchy;
 mod model;
 mod motion;
-mod names;
 mod sampled;
 pub mod save;
 mod unit;

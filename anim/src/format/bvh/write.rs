@@ -3,9 +3,10 @@
 use super::angles::angles;
 use super::channel::{BvhChannel, CHANNELS, ChannelList};
 use super::check as code;
-use super::names::UniqueNames;
+use crate::format::names::UniqueNames;
 use super::sampled::SampledTake;
-use super::save::{Losses, spelled};
+use super::save::spelled;
+use crate::format::losses::Losses;
 use super::unit;
 use crate::data::{ModelData, Skeleton};
 use crate::format::{ExportError, WholeFile};

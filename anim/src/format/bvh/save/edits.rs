@@ -3,7 +3,8 @@
 use super::super::BvhText;
 use super::super::channel::CHANNELS;
 use super::super::check as code;
-use super::report::{Losses, Property};
+use super::report::Property;
+use crate::format::losses::Losses;
 use crate::data::{Channel, Interpolation, Take};
 use crate::format::bvh::motion::time_of;
 use crate::sample::{Value, sample_channel};
