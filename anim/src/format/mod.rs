@@ -46,6 +46,11 @@ mod files;
 #[cfg(feature = "gltf")]
 pub mod gltf;
 mod image;
+mod influences;
+mod losses;
+mod matrices;
+mod names;
+mod normals;
 pub mod obj;
 mod read_options;
 mod registry;

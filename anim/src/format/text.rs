@@ -309,7 +309,7 @@ const POWERS_OF_TEN: [f64; 23] = [
     1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Returns the number that a text represents, rounded correctly; infinite or NaN where the text says so or is too
+/// Returns the number that a text represents, rounded correctly; infinite or NaN for such a text and for one that is too
 /// large, `None` where it is no number.
 #[inline]
 pub(super) fn parse_number(text: &[u8]) -> Option<f64> {

@@ -1,4 +1,4 @@
-//! What is read from files of every kind.
+//! Reading files of every kind.
 
 use super::made::{ODD, files, import, import_in_meters};
 use crate::soundness::{faults, faults_of_poses};
@@ -128,7 +128,7 @@ fn frame_rates_are_snapped_to_usual_ones_and_times_are_not() {
 }
 
 #[test]
-fn a_human_is_as_tall_as_a_human_without_being_told_the_unit() {
+fn a_human_is_as_tall_as_a_human_although_the_file_has_no_unit() {
     for path in files() {
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         let imported =

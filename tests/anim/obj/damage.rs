@@ -75,7 +75,7 @@ fn every_refused_charge_is_a_clear_error() {
     }
 }
 
-/// A grid with so many vertices along each side.
+/// A grid with `side` vertices along each side.
 fn grid(side: usize, smooth: &str) -> String {
     let mut text = String::from(smooth);
     for index in 0..side * side {

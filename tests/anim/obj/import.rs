@@ -1,4 +1,4 @@
-//! What is read: polygons, indices, groups, normals, colors.
+//! Reading polygons, indices, groups, normals, colors.
 
 use super::{import, model};
 use crate::doors::{TestFolder, data};

@@ -2,7 +2,7 @@
 
 use super::channel::{BvhChannel, CHANNELS, ChannelList};
 use super::check as code;
-use super::names::UniqueNames;
+use crate::format::names::UniqueNames;
 use crate::format::text::{TextScanner, Token, UNEXPECTED_END, UNEXPECTED_TOKEN};
 use crate::format::{ImportContext, ImportError};
 use crate::limits::{HUGE, NODE_DEPTH, NODES};
@@ -179,10 +179,11 @@ impl HierarchyReader<'_> {
 fn offset(scanner: &mut TextScanner<'_>) -> Result<DVec3, ImportError> {
     let mut offset = DVec3::ZERO;
     for axis in 0..3 {
-        let token = scanner.need("an offset")?;
-        offset[axis] = scanner.number_of(token, "an offset")?;
+        scanner.skip_blank();
+        let at = scanner.at();
+        offset[axis] = scanner.number("an offset")?;
         if offset[axis].abs() > f64::from(HUGE) {
-            return Err(scanner.invalid(token.at, code::HUGE_POSITION, "the offset is too large"));
+            return Err(scanner.invalid(at, code::HUGE_POSITION, "the offset is too large"));
         }
     }
     Ok(offset)

@@ -78,8 +78,7 @@ impl<'a> StatementReader<'a> {
     ) -> Result<Option<Statement<'_, 'a>>, ImportError> {
         let mut keyword = None;
         self.values.clear();
-        loop {
-            let Some(&byte) = self.bytes.get(self.at) else { break };
+        while let Some(&byte) = self.bytes.get(self.at) {
             match byte {
                 b'\n' | b'\r' if keyword.is_some() => break,
                 b'\\' if self.continues() => {

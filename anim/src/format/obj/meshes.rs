@@ -5,6 +5,7 @@ use super::faces::{Corner, NONE, ObjText, Polygon};
 use super::lines::places;
 use super::triangulate::{Division, Triangulator, normal};
 use crate::data::{Mesh, Primitive};
+use crate::format::normals::unit;
 use crate::format::{AxisMap, ImportContext, ImportError, Place};
 use glam::{DVec3, Vec3, Vec4};
 use std::collections::HashMap;
@@ -222,9 +223,4 @@ fn smooth_normals(
 /// Returns the direction of a normal that was computed from positions, which are mirrored where the axes are.
 fn direction(normal: DVec3, mirrors: bool) -> Option<Vec3> {
     unit(if mirrors { -normal } else { normal })
-}
-
-fn unit(vector: DVec3) -> Option<Vec3> {
-    let length = vector.length();
-    (length > 0.0 && length.is_finite()).then(|| (vector / length).as_vec3())
 }

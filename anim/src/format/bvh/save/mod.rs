@@ -11,11 +11,11 @@ mod report;
 mod rows;
 
 pub(super) use number::spelled;
-pub(super) use report::Losses;
 
 use super::check as code;
 use super::{BvhText, model};
 use crate::data::{ModelData, Take};
+use crate::format::losses::Losses;
 use crate::format::{
     EditedTake, ExportError, ImportContext, ImportError, OutputFile, SavePlan, SurgicalFile,
 };

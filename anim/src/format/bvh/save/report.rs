@@ -1,6 +1,8 @@
-//! Description of what a save changes, and of what it cannot store.
+//! Description of what a save changes.
 
-use crate::format::{ChangeReport, Place, Warning, one_line};
+pub(super) use crate::format::losses::count;
+use crate::format::losses::json_text;
+use crate::format::{ChangeReport, one_line};
 use std::fmt::Write;
 
 /// Property of a joint.
@@ -67,42 +69,5 @@ impl BvhChanges {
             self.numbers
         );
         ChangeReport { text: format!("{head}\n{text}"), json }
-    }
-}
-
-/// Returns a number with its noun.
-pub(super) fn count(number: usize, what: &str) -> String {
-    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-}
-
-/// Returns a text as a JSON string.
-fn json_text(text: &str) -> String {
-    let mut json = String::from("\"");
-    for character in text.chars() {
-        match character {
-            '"' | '\\' => json.extend(['\\', character]),
-            '\u{0}'..='\u{1f}' => json += &format!("\\u{:04x}", u32::from(character)),
-            _ => json.push(character),
-        }
-    }
-    json + "\""
-}
-
-/// Content that a BVH file cannot represent, each once.
-#[derive(Default)]
-pub(in super::super) struct Losses(Vec<Warning>);
-
-impl Losses {
-    /// Adds a loss at a JSON pointer into the model.
-    pub(in super::super) fn add(&mut self, pointer: String, code: &'static str, text: impl Into<String>) {
-        let place = Place::Pointer(pointer);
-        if !self.0.iter().any(|lost| lost.place == place && lost.code == code) {
-            self.0.push(Warning { place, code, text: text.into() });
-        }
-    }
-
-    /// Returns the list.
-    pub(in super::super) fn into_list(self) -> Vec<Warning> {
-        self.0
     }
 }

@@ -1,4 +1,4 @@
-//! Unique names of joints.
+//! Unique names.
 
 use std::collections::HashMap;
 
