@@ -35,6 +35,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod bvh;
 mod context;
 mod convention;
 mod definition;
@@ -44,8 +45,16 @@ mod error;
 mod files;
 #[cfg(feature = "gltf")]
 pub mod gltf;
+mod image;
+mod influences;
+mod losses;
+mod matrices;
+mod names;
+mod normals;
+pub mod obj;
 mod read_options;
 mod registry;
+mod text;
 pub mod uri;
 
 pub use context::ImportContext;
@@ -55,6 +64,7 @@ pub use edited::{ChangeReport, EditableFile, EditedTake, OutputFile, SavePlan, S
 pub(crate) use error::one_line;
 pub use error::{ExportError, ImportError, Place, Warning};
 pub use files::{AssetError, AssetFs, NoFiles};
+pub use image::measure as measure_image;
 pub use read_options::{ByteBudget, OverBudget, ReadOptions};
 pub use registry::Formats;
 
@@ -65,6 +75,8 @@ pub const BUILTIN: &[Format] = &[
     gltf::GLB,
     #[cfg(feature = "gltf")]
     gltf::GLTF,
+    bvh::BVH,
+    obj::OBJ,
 ];
 
 /// Reads a model from the bytes of a file in one of the [`BUILTIN`] formats.

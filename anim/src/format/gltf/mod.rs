@@ -34,8 +34,8 @@ mod walk;
 mod whole;
 pub mod write;
 
+pub use super::image::measure as measure_image;
 pub use extension::SUPPORTED;
-pub use image::measure as measure_image;
 pub use material::phong;
 
 use super::{Format, ImportContext, ImportError, Place, WriteSupport};
