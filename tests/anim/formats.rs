@@ -221,7 +221,7 @@ mod take_list {
         sniff: |bytes| bytes.starts_with(b"TAKES"),
         read: read_takes,
         write: WriteSupport::Whole(write_takes),
-        export: Some(write_takes),
+        export: Some(|model, name| Ok(write_takes(model)?.named(name))),
     };
 
     fn read_takes(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, ImportError> {

@@ -13,7 +13,7 @@ use thiserror::Error;
 /// Error of a save with another skeleton than that of the opened model.
 #[derive(Debug, Error)]
 #[error("the bones differ in more than root bones from those that were opened")]
-struct OtherSkeleton;
+pub(super) struct OtherSkeleton;
 
 /// A take as it should be in the saved file.
 #[derive(Clone, Debug)]
@@ -178,9 +178,7 @@ impl EditableFile {
     }
 
     fn whole(&self, write: WriteModel, model: &ModelData) -> Result<SavePlan, ExportError> {
-        let file = write(model)?;
-        let files = vec![OutputFile { name: self.name.clone(), bytes: file.bytes }];
-        Ok(SavePlan { files, lost: file.lost, changes: None })
+        Ok(write(model)?.named(&self.name))
     }
 }
 

@@ -43,6 +43,7 @@ pub mod dfm;
 mod edited;
 mod error;
 mod files;
+mod fixed_skeleton;
 #[cfg(feature = "gltf")]
 pub mod gltf;
 mod image;
@@ -59,7 +60,9 @@ pub mod uri;
 
 pub use context::ImportContext;
 pub use convention::{AxisMap, ConventionSource, Conventions, Conversion, Found, Handedness, UpAxis};
-pub use definition::{Format, Imported, OpenSurgical, ReadModel, WholeFile, WriteModel, WriteSupport};
+pub use definition::{
+    ExportModel, Format, Imported, OpenSurgical, ReadModel, WholeFile, WriteModel, WriteSupport,
+};
 pub use edited::{ChangeReport, EditableFile, EditedTake, OutputFile, SavePlan, SurgicalFile};
 pub(crate) use error::one_line;
 pub use error::{ExportError, ImportError, Place, Warning};

@@ -67,7 +67,9 @@ mod writing;
 pub use bone_map::BoneMap;
 pub use cancel::{Cancel, LoadStage, Progress};
 pub use clips::{ClipNaming, ClipSettings, ClipTakes, TakeNames, clip_takes};
-pub use conversion::{ConversionError, ConversionOrder, ConvertedFile, convert, written_extensions};
+pub use conversion::{
+    ConversionError, ConversionOrder, ConvertedFile, convert, write_files, written_extensions,
+};
 pub use editable::{Editable, WrittenFile, make_folder};
 pub use fault::{FaultInjection, FaultPlan, FaultPoint};
 pub use folder::{FileAccessError, Folder, read_file};

@@ -48,6 +48,7 @@ pub const BVH: Format = Format {
     },
     read,
     write: WriteSupport::Surgical(save::open),
+    export: Some(|model, name| Ok(write(model)?.named(name))),
 };
 
 /// How the text is divided: braces and colons are tokens on their own.

@@ -24,9 +24,14 @@ pub use write::write;
 
 use super::image::NeighborImages;
 use super::text::parse_number;
-use super::{Conversion, Format, Found, Handedness, ImportContext, ImportError, UpAxis, WriteSupport};
+use super::{
+    Conversion, ExportError, Format, Found, Handedness, ImportContext, ImportError, Place, SavePlan, UpAxis,
+    Warning, WriteSupport,
+};
 use crate::data::{MeshInstance, ModelData};
+use crate::evaluator::Evaluator;
 use glam::Mat4;
+use std::sync::Arc;
 
 /// Wavefront OBJ, `.obj`.
 pub const OBJ: Format = Format {
@@ -36,7 +41,23 @@ pub const OBJ: Format = Format {
     sniff: looks_like_obj,
     read,
     write: WriteSupport::None,
+    export: Some(export),
 };
+
+/// Writes the pose at the start of the first take; the rest pose of a model without takes.
+fn export(model: &ModelData, name: &str) -> Result<SavePlan, ExportError> {
+    let mut evaluator = Evaluator::new(Arc::new(model.clone()));
+    let take = model.animation.takes.first();
+    evaluator.pose(take.map(|_| 0), take.map_or(0.0, |take| take.start));
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    let mut plan = write(&evaluator, stem);
+    if take.is_some() {
+        let text = "the takes are not written; the pose at the start of the first one is";
+        let place = Place::Pointer("/animation/takes".to_owned());
+        plan.lost.push(Warning { place, code: "ANIMATION_NOT_WRITTEN", text: text.to_owned() });
+    }
+    Ok(plan)
+}
 
 /// Number of bytes in which a file is recognized.
 const SNIFFED: usize = 4096;

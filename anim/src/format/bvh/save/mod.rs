@@ -14,7 +14,8 @@ pub(super) use number::spelled;
 
 use super::check as code;
 use super::{BvhText, model};
-use crate::data::{ModelData, Take};
+use crate::data::{ModelData, Skeleton, Take};
+use crate::format::fixed_skeleton::takes_of_file;
 use crate::format::losses::Losses;
 use crate::format::{
     EditedTake, ExportError, ImportContext, ImportError, OutputFile, SavePlan, SurgicalFile,
@@ -44,8 +45,14 @@ pub(super) fn open(
 }
 
 impl SurgicalFile for BvhFile {
-    fn plan(&self, opened: &ModelData, takes: &[EditedTake]) -> Result<SavePlan, ExportError> {
+    fn plan(
+        &self,
+        opened: &ModelData,
+        skeleton: &Skeleton,
+        takes: &[EditedTake],
+    ) -> Result<SavePlan, ExportError> {
         let mut losses = Losses::default();
+        let takes = &*takes_of_file(&opened.animation.skeleton, skeleton, takes, &mut losses)?;
         let chosen = takes.iter().position(|take| take.origin == Some(0)).unwrap_or(0);
         for (index, edited) in takes.iter().enumerate().filter(|(index, _)| *index != chosen) {
             let text = format!("take \"{}\": a BVH file has one take", edited.take.name);
