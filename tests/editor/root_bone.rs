@@ -109,12 +109,12 @@ fn what_belongs_to_bones_follows_them_when_a_root_bone_is_added_undone_and_redon
     animator.request(Request::Timeline(KeysRequest::Flag(BoneFlag::Lock, 31, true)));
     animator.request(Request::SelectBones(vec![5, 6, 7], Choice::Replace));
     animator.request(Request::Sets(SetAction::Save));
-    animator.request(Request::SelectBones(vec![10, 12], Choice::Replace));
+    animator.request(Request::SelectBones(vec![5, 7], Choice::Replace));
     animator.request(Request::Command(Id::Pin));
-    animator.request(Request::Select(Some(13)));
+    animator.request(Request::Select(Some(8)));
     animator.request(Request::Command(Id::IkPole));
-    animator.request(Request::Select(Some(9)));
-    let channels = [(9, Property::Rotation)].into();
+    animator.request(Request::Select(Some(6)));
+    let channels = [(6, Property::Rotation)].into();
     let stretch = [0.0, 1.0];
     animator.request(Request::Timeline(KeysRequest::Select {
         channels,
