@@ -45,13 +45,20 @@ mod error;
 mod files;
 #[cfg(feature = "gltf")]
 pub mod gltf;
+mod image;
 mod influences;
+mod key_changes;
+mod key_rows;
+mod key_times;
 mod losses;
+pub mod m3d;
 mod matrices;
 mod names;
 mod normals;
+mod patch;
 mod read_options;
 mod registry;
+mod straight;
 mod text;
 pub mod uri;
 
@@ -73,6 +80,7 @@ pub const BUILTIN: &[Format] = &[
     #[cfg(feature = "gltf")]
     gltf::GLTF,
     bvh::BVH,
+    m3d::M3D,
 ];
 
 /// Reads a model from the bytes of a file in one of the [`BUILTIN`] formats.
