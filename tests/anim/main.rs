@@ -59,6 +59,7 @@ mod loops;
 mod made;
 mod masks;
 mod motion;
+mod obj;
 mod offset;
 mod poses;
 mod reduce;

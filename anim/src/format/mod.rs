@@ -55,6 +55,7 @@ pub mod m3d;
 mod matrices;
 mod names;
 mod normals;
+pub mod obj;
 mod patch;
 mod read_options;
 mod registry;
@@ -69,6 +70,7 @@ pub use edited::{ChangeReport, EditableFile, EditedTake, OutputFile, SavePlan, S
 pub(crate) use error::one_line;
 pub use error::{ExportError, ImportError, Place, Warning};
 pub use files::{AssetError, AssetFs, NoFiles};
+pub use image::measure as measure_image;
 pub use read_options::{ByteBudget, OverBudget, ReadOptions};
 pub use registry::Formats;
 
@@ -80,6 +82,7 @@ pub const BUILTIN: &[Format] = &[
     #[cfg(feature = "gltf")]
     gltf::GLTF,
     bvh::BVH,
+    obj::OBJ,
     m3d::M3D,
 ];
 

@@ -1,7 +1,7 @@
 //! Normals of vertices whose file has none.
 
 use super::{ImportContext, ImportError, Place};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Returns normals from the triangles around each vertex, weighted by area; +Y for a vertex without a proper triangle.
 ///
@@ -34,7 +34,11 @@ pub(super) fn normals(
 
 /// Returns `vector` normalized, however long or short; `None` for zero.
 pub(super) fn direction(vector: Vec3) -> Option<Vec3> {
-    let wide = vector.as_dvec3();
-    let length = wide.length();
-    if length > 0.0 && length.is_finite() { Some((wide / length).as_vec3()) } else { None }
+    unit(vector.as_dvec3())
+}
+
+/// Returns `vector` normalized; `None` for zero, and for one that is too long for double precision.
+pub(super) fn unit(vector: DVec3) -> Option<Vec3> {
+    let length = vector.length();
+    if length > 0.0 && length.is_finite() { Some((vector / length).as_vec3()) } else { None }
 }

@@ -64,7 +64,7 @@ impl Formats {
         self.iter().flat_map(|format| format.extensions.iter().copied()).collect()
     }
 
-    /// Returns every extension with its dot, for help texts: `.dfm, .glb, .gltf`.
+    /// Returns every extension with its dot, for help texts: `.dfm, .glb, .gltf, .bvh`.
     pub fn extension_list(&self) -> String {
         self.extensions().iter().map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(", ")
     }

@@ -237,6 +237,12 @@ impl<'a> TextScanner<'a> {
     #[inline]
     pub(super) fn float(&mut self, what: &str) -> Result<f32, ImportError> {
         let token = self.need(what)?;
+        self.float_of(token, what)
+    }
+
+    /// Returns a token as a number in single precision, which is finite; `what` describes it.
+    #[inline]
+    pub(super) fn float_of(&self, token: Token<'_>, what: &str) -> Result<f32, ImportError> {
         let number = self.number_of(token, what)? as f32;
         if number.is_finite() {
             return Ok(number);
@@ -303,7 +309,7 @@ const POWERS_OF_TEN: [f64; 23] = [
     1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Returns the number that a text represents, rounded correctly; infinite or NaN where the text says so or is too
+/// Returns the number that a text represents, rounded correctly; infinite or NaN for such a text and for one that is too
 /// large, `None` where it is no number.
 #[inline]
 pub(super) fn parse_number(text: &[u8]) -> Option<f64> {

@@ -1,4 +1,4 @@
-//! What is read from files of every kind.
+//! Reading files of every kind.
 
 use super::made::{ODD, files, import, import_in_meters};
 use crate::soundness::{faults, faults_of_poses};
@@ -128,7 +128,7 @@ fn frame_rates_are_snapped_to_usual_ones_and_times_are_not() {
 }
 
 #[test]
-fn a_human_is_as_tall_as_a_human_without_being_told_the_unit() {
+fn a_human_is_as_tall_as_a_human_although_the_file_has_no_unit() {
     for path in files() {
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         let imported =
@@ -204,9 +204,9 @@ fn errors_name_line_column_and_reason() {
             "Frames : -3",
             "line 26 column 10: \"-3\" is no whole number where the number of frames was expected",
         ),
-        ("ROOT Prop", "JOINT Prop", "line 21 column 1: \"JOINT\" where \"MOTION\" or \"ROOT\" was expected"),
-        ("\nROOT Prop", "}\nROOT Prop", "line 20 column 2: \"}\" where \"MOTION\" or \"ROOT\" was expected"),
-        ("ROOT Prop\n{", "ROOT Prop", "line 22 column 3: \"OFFSET\" where \"{\" was expected"),
+        ("ROOT Prop", "JOINT Prop", "line 20 column 1: \"JOINT\" where \"MOTION\" or \"ROOT\" was expected"),
+        ("\nROOT Prop", "}\nROOT Prop", "line 19 column 2: \"}\" where \"MOTION\" or \"ROOT\" was expected"),
+        ("ROOT Prop\n{", "ROOT Prop", "line 21 column 3: \"OFFSET\" where \"{\" was expected"),
         ("91.0", "1e30", "line 29 column 2: the position is too large"),
         ("359", "1e30", ""),
     ] {

@@ -50,7 +50,7 @@ pub(crate) fn import(bytes: &[u8]) -> Result<Imported, ImportError> {
     BVH.import(bytes, &NoFiles, &ReadOptions::default())
 }
 
-/// Returns the options of a user who says that the unit is the meter, so that numbers are those of the file.
+/// Returns the options of a user who chooses meters, so that numbers are those of the file.
 pub(crate) fn in_meters() -> ReadOptions<'static> {
     let conventions = Conventions { meters_per_unit: Some(1.0), ..Conventions::default() };
     ReadOptions { conventions, ..ReadOptions::default() }

@@ -14,7 +14,7 @@ pub const FRAME_TIME_INVALID: &str = "FRAME_TIME_INVALID";
 pub const FRAMES_MISSING: &str = "FRAMES_MISSING";
 /// Numbers or text after the last frame are ignored.
 pub const TEXT_IGNORED: &str = "TEXT_IGNORED";
-/// The figure seems to stand along another axis than y.
+/// The up axis of the figure seems to be another one than y.
 pub const UP_DOUBTFUL: &str = "UP_DOUBTFUL";
 /// A BVH file has one take.
 pub const TAKE_NOT_STORED: &str = "TAKE_NOT_STORED";

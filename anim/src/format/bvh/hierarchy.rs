@@ -179,10 +179,11 @@ impl HierarchyReader<'_> {
 fn offset(scanner: &mut TextScanner<'_>) -> Result<DVec3, ImportError> {
     let mut offset = DVec3::ZERO;
     for axis in 0..3 {
-        let token = scanner.need("an offset")?;
-        offset[axis] = scanner.number_of(token, "an offset")?;
+        scanner.skip_blank();
+        let at = scanner.at();
+        offset[axis] = scanner.number("an offset")?;
         if offset[axis].abs() > f64::from(HUGE) {
-            return Err(scanner.invalid(token.at, code::HUGE_POSITION, "the offset is too large"));
+            return Err(scanner.invalid(at, code::HUGE_POSITION, "the offset is too large"));
         }
     }
     Ok(offset)

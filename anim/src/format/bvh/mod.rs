@@ -84,7 +84,7 @@ impl BvhText {
         }
         context.charge(&Place::File, hierarchy.joints.len() as u64 * 24)?;
         if context.conventions().up.is_none() && unit::seems_z_up(&hierarchy, &rows) {
-            let text = "the figure seems to stand along z, against the convention of the format; choose Z up if it is on its back";
+            let text = "the figure seems to have z up, against the convention of the format; choose Z up if it is on its back";
             context.warn(Place::Line(1, 1), check::UP_DOUBTFUL, text);
         }
         let conversion = Conversion {

@@ -1,9 +1,9 @@
 //! A take as a BVH file has it: at frames, relative to a rest pose without rotations.
 
 use super::check as code;
-use crate::format::losses::Losses;
 use crate::animation::to_root;
 use crate::data::{Skeleton, Take, Transform};
+use crate::format::losses::Losses;
 use crate::frames::{FramesError, MOST_POSES, frame_rate};
 use crate::sample::sample_take;
 use glam::{DQuat, DVec3, Mat4};

@@ -79,7 +79,7 @@ pub(super) fn longest_way(
     longest
 }
 
-/// Returns whether the figure seems to stand along z: at rest it is flat along y, as a human with spread arms is along the
+/// Returns whether the up axis of the figure seems to be z: at rest it is flat along y, as a human with spread arms is along the
 /// horizontal axis from back to front, and the root is further along z than along y.
 pub(super) fn seems_z_up(hierarchy: &Hierarchy, rows: &MotionRows) -> bool {
     let mut origins: Vec<DVec3> = Vec::with_capacity(hierarchy.joints.len());

@@ -3,12 +3,12 @@
 use super::angles::angles;
 use super::channel::{BvhChannel, CHANNELS, ChannelList};
 use super::check as code;
-use crate::format::names::UniqueNames;
 use super::sampled::SampledTake;
 use super::save::spelled;
-use crate::format::losses::Losses;
 use super::unit;
 use crate::data::{ModelData, Skeleton};
+use crate::format::losses::Losses;
+use crate::format::names::UniqueNames;
 use crate::format::{ExportError, WholeFile};
 use glam::DVec3;
 use std::fmt::Write;

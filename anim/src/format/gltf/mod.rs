@@ -33,8 +33,8 @@ mod triangles;
 mod walk;
 mod whole;
 
+pub use super::image::measure as measure_image;
 pub use extension::SUPPORTED;
-pub use image::measure as measure_image;
 pub use material::phong;
 
 use super::{Format, ImportContext, ImportError, Place, WriteSupport};

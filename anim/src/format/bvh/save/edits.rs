@@ -1,12 +1,12 @@
-//! What differs between the opened take and the edited one.
+//! Differences between the opened take and the edited one.
 
 use super::super::BvhText;
 use super::super::channel::CHANNELS;
 use super::super::check as code;
 use super::report::Property;
-use crate::format::losses::Losses;
 use crate::data::{Channel, Interpolation, Take};
 use crate::format::bvh::motion::time_of;
+use crate::format::losses::Losses;
 use crate::sample::{Value, sample_channel};
 use glam::{Quat, Vec3};
 
@@ -45,7 +45,7 @@ pub(super) struct JointEdit<'a> {
     pub(super) joint: usize,
     pub(super) rotation: Option<ChannelPair<'a, Quat>>,
     pub(super) translation: Option<ChannelPair<'a, Vec3>>,
-    /// What the frame before added to its old numbers.
+    /// Differences that were added to the old numbers of the frame before.
     pub(super) added: [f64; CHANNELS],
 }
 

@@ -14,8 +14,8 @@ pub(super) use number::spelled;
 
 use super::check as code;
 use super::{BvhText, model};
-use crate::format::losses::Losses;
 use crate::data::{ModelData, Take};
+use crate::format::losses::Losses;
 use crate::format::{
     EditedTake, ExportError, ImportContext, ImportError, OutputFile, SavePlan, SurgicalFile,
 };

@@ -1,4 +1,4 @@
-//! Spelling of numbers: as many decimals as the number that is replaced, and at least what keeps its value.
+//! Spelling of numbers: with the decimals of the number that is replaced, and at least those that the value needs.
 
 /// Number of significant digits that are kept: five after the first.
 const DIGITS: i32 = 5;
@@ -6,7 +6,7 @@ const DIGITS: i32 = 5;
 /// Largest number of decimals.
 const DECIMALS_MAX: usize = 17;
 
-/// Returns `number` as a text that replaces `old`, or stands next to it.
+/// Returns `number` as a text that replaces `old`, or is next to it.
 pub(in super::super) fn spelled(number: f64, old: &[u8]) -> String {
     let usual = decimals(old).min(DECIMALS_MAX);
     // Numbers below 1 need no more decimals than 1: angles are in degrees, and positions are within a figure.

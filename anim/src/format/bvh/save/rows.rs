@@ -8,9 +8,9 @@ use super::super::motion::{MotionHead, time_of};
 use super::super::{BvhText, LEXICON};
 use super::edits::{rotations_differ, translations_differ};
 use super::report::{BvhChanges, ChangedColumn, Property};
-use crate::format::losses::Losses;
 use super::{JointEdits, spelled};
 use crate::data::{Skeleton, Take};
+use crate::format::losses::Losses;
 use crate::format::text::{TextScanner, Token, parse_number};
 use crate::format::{AxisMap, ExportError};
 use crate::sample::{rest_pose, sample_track};
@@ -118,7 +118,7 @@ impl<'a> RowWriter<'a> {
                     take.tracks.get(index).map_or(rest_pose(bone), |track| sample_track(track, bone, time));
                 last[index] =
                     self.numbers(index, Some(pose.rotation), Some(pose.translation), [&last[index]; 2]);
-                for slot in 0..joint.channels.len() {
+                for (slot, number) in last[index].iter().enumerate().take(joint.channels.len()) {
                     let column = joint.first + slot;
                     let (before, old) = match self.row.get(column) {
                         Some(token) => {
@@ -131,7 +131,7 @@ impl<'a> RowWriter<'a> {
                         None => (if column == 0 { line_end } else { blank }, &b"0.000000"[..]),
                     };
                     self.out.extend_from_slice(before);
-                    self.out.extend_from_slice(spelled(last[index][slot], old).as_bytes());
+                    self.out.extend_from_slice(spelled(*number, old).as_bytes());
                 }
             }
         }
