@@ -35,16 +35,61 @@ impl RowCounts {
     }
 }
 
+/// What becomes of the rows of a list.
+pub(super) struct RowEdits {
+    /// The replacements in each old row, `None` for one that is removed.
+    pub(super) kept: Vec<Option<TextPatches>>,
+    /// In ascending order of their times.
+    pub(super) added: Vec<NewRow>,
+}
+
+impl RowEdits {
+    /// Finds the old row for each key that is wanted, and makes new rows for the others.
+    ///
+    /// `times` are those of all old rows, and `used` the numbers of those that are keys, in ascending order of their times.
+    /// `edit` gets the number of an old row, of its key and of the wanted key, `make` that of the wanted key.
+    pub(super) fn matched(
+        times: &[f32],
+        used: &[u32],
+        wanted: &[f32],
+        mut edit: impl FnMut(usize, usize, usize) -> TextPatches,
+        mut make: impl FnMut(usize) -> String,
+    ) -> Self {
+        let key_at = |time: f32| used.binary_search_by(|&row| times[row as usize].total_cmp(&time)).ok();
+        let mut kept: Vec<Option<TextPatches>> = times.iter().map(|_| None).collect();
+        let mut added = Vec::new();
+        for (number, &time) in wanted.iter().enumerate() {
+            match key_at(time) {
+                Some(key) => kept[used[key] as usize] = Some(edit(used[key] as usize, key, number)),
+                None => added.push(NewRow { time, text: make(number) }),
+            }
+        }
+        if used.len() < times.len() {
+            // Rows without effect, at the time of a later row that is kept, stay.
+            for (row, &time) in times.iter().enumerate() {
+                let is_kept = key_at(time).is_some_and(|key| kept[used[key] as usize].is_some());
+                if is_kept {
+                    kept[row].get_or_insert_default();
+                }
+            }
+        }
+        Self { kept, added }
+    }
+
+    /// Returns the number of rows afterwards.
+    pub(super) fn len(&self) -> usize {
+        self.kept.iter().flatten().count() + self.added.len()
+    }
+}
+
 /// Edits a list that has rows, and keeps at least one or gets a new one.
 ///
-/// `kept` has the replacements in each old row, `None` for one that is removed. New rows, in ascending order of their times, come
-/// before the first row that is later. Between rows that were neighbors everything stays; elsewhere the text between the
+/// A new row comes before the first row that is later. Between rows that were neighbors everything stays; elsewhere the text between the
 /// first two rows is used, or `separator` where there is only one.
 pub(super) fn rewrite(
     text: &[u8],
     rows: &[OldRow],
-    kept: Vec<Option<TextPatches>>,
-    new: Vec<NewRow>,
+    RowEdits { kept, added: new }: RowEdits,
     separator: &str,
     patches: &mut TextPatches,
 ) -> RowCounts {
@@ -122,7 +167,8 @@ mod tests {
         });
         let new = new.iter().map(|&(time, text)| NewRow { time, text: text.to_owned() }).collect();
         let mut patches = TextPatches::default();
-        rewrite(TEXT.as_bytes(), &rows, kept.collect(), new, "|", &mut patches);
+        let edits = RowEdits { kept: kept.collect(), added: new };
+        rewrite(TEXT.as_bytes(), &rows, edits, "|", &mut patches);
         String::from_utf8(patches.apply(TEXT.as_bytes(), 0..TEXT.len())).unwrap()
     }
 

@@ -57,11 +57,14 @@ mod names;
 mod normals;
 pub mod obj;
 mod patch;
+mod pose_rows;
 mod read_options;
 mod registry;
 mod straight;
 mod text;
+mod triangulate;
 pub mod uri;
+pub mod x;
 
 pub use context::ImportContext;
 pub use convention::{AxisMap, ConventionSource, Conventions, Conversion, Found, Handedness, UpAxis};
@@ -84,6 +87,7 @@ pub const BUILTIN: &[Format] = &[
     bvh::BVH,
     obj::OBJ,
     m3d::M3D,
+    x::X,
 ];
 
 /// Reads a model from the bytes of a file in one of the [`BUILTIN`] formats.

@@ -17,7 +17,6 @@ const MATERIAL_BYTES: usize = 12;
 
 /// A parsed file.
 pub(super) struct M3dText {
-    pub(super) dialect: M3dDialect,
     pub(super) materials: Vec<M3dMaterial>,
     /// Range of triangles of each material; empty for the dialect without a table.
     pub(super) subsets: Vec<Range<u32>>,
@@ -66,7 +65,6 @@ impl M3dText {
         let counts = [triangle_count, vertex_count, material_count];
         let triangles = triangles(&mut scanner, counts, dialect, context)?;
         let mut text = Self {
-            dialect,
             materials,
             subsets,
             vertices,

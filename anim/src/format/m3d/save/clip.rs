@@ -4,12 +4,12 @@ use super::super::check as code;
 use super::super::clips::{M3dClip, M3dKeys};
 use super::super::scan::M3dScanner;
 use super::super::text::M3dText;
-use super::rows::row_values;
 use crate::data::{Channel, Skeleton, Take, Track, Transform};
 use crate::format::key_changes::KeyChanges;
-use crate::format::key_rows::{NewRow, OldRow, RowCounts, number, rewrite};
+use crate::format::key_rows::{OldRow, RowCounts, RowEdits, number, rewrite};
 use crate::format::losses::Losses;
 use crate::format::patch::TextPatches;
+use crate::format::pose_rows::pose_rows;
 use crate::format::straight::is_straight;
 use crate::format::{AxisMap, ImportError};
 use std::fmt::Write;
@@ -107,33 +107,27 @@ impl<'a> ClipWriter<'a> {
         patches: &mut TextPatches,
     ) -> RowCounts {
         let start = keys.rows.first().map_or(0.0, |row| row.time);
-        let wanted = row_values(Some(new), &self.skeleton.bones[bone], start);
-        let used = keys.used();
-        let mut kept: Vec<Option<TextPatches>> = keys.rows.iter().map(|_| None).collect();
-        let mut added = Vec::new();
-        for row in &wanted {
-            let found = used.binary_search_by(|&used| keys.rows[used as usize].time.total_cmp(&row.time));
-            match found {
-                Ok(key) => {
-                    let number = used[key] as usize;
-                    kept[number] = Some(self.edit_row(keys.rows[number].at, key, &row.pose, new, old));
-                }
-                Err(_) => added.push(NewRow { time: row.time, text: self.row(row.time, row.pose) }),
-            }
-        }
-        keep_doubles(keys, &used, &mut kept);
+        let wanted = pose_rows(Some(new), &self.skeleton.bones[bone], start);
+        let wanted_times: Vec<f32> = wanted.iter().map(|row| row.time).collect();
+        let times: Vec<f32> = keys.rows.iter().map(|row| row.time).collect();
+        let edits = RowEdits::matched(
+            &times,
+            &keys.used(),
+            &wanted_times,
+            |row, key, number| self.edit_row(keys.rows[row].at, key, &wanted[number].pose, new, old),
+            |number| self.row(wanted[number].time, wanted[number].pose),
+        );
         let rows: Vec<OldRow> =
             keys.rows.iter().map(|row| OldRow { range: row.at..row.end, time: row.time }).collect();
         let separator = format!("{}\t\t", self.line_end);
         if rows.is_empty() {
-            let text: String = added.iter().map(|row| format!("{separator}{}", row.text)).collect();
+            let text: String = edits.added.iter().map(|row| format!("{separator}{}", row.text)).collect();
             patches.replace(keys.open..keys.open, text);
         }
-        let total = kept.iter().flatten().count() + added.len();
-        if total != keys.rows.len() {
-            patches.replace(keys.count.clone(), total.to_string());
+        if edits.len() != keys.rows.len() {
+            patches.replace(keys.count.clone(), edits.len().to_string());
         }
-        rewrite(self.bytes, &rows, kept, added, &separator, patches)
+        rewrite(self.bytes, &rows, edits, &separator, patches)
     }
 
     /// Returns the replacements in the row at `at`, which is key number `key` of the opened track.
@@ -190,7 +184,7 @@ impl<'a> ClipWriter<'a> {
         for (number, bone) in self.skeleton.bones.iter().enumerate() {
             let track = take.tracks.get(number);
             self.list_curves(track.unwrap_or(&nothing), &nothing, index, losses);
-            let rows = row_values(track, bone, start);
+            let rows = pose_rows(track, bone, start);
             let _ = write!(text, "\tBone{number} #Keyframes: {}{line}\t{{{line}", rows.len());
             for row in rows {
                 let _ = write!(text, "\t\t{}{line}", self.row(row.time, row.pose));
@@ -212,21 +206,6 @@ impl<'a> ClipWriter<'a> {
             let path = format!("/animation/takes/{take}/tracks");
             let text = "steps and curves are stored as straight lines between more keys";
             losses.add(path, code::INTERPOLATION_NOT_STORED, text);
-        }
-    }
-}
-
-/// Keeps rows without effect, at the time of a later row that is kept.
-fn keep_doubles(keys: &M3dKeys, used: &[u32], kept: &mut [Option<TextPatches>]) {
-    if used.len() == keys.rows.len() {
-        return;
-    }
-    for number in 0..keys.rows.len() {
-        let time = keys.rows[number].time;
-        let found = used.binary_search_by(|&used| keys.rows[used as usize].time.total_cmp(&time));
-        let is_kept = found.is_ok_and(|key| kept[used[key] as usize].is_some());
-        if kept[number].is_none() && is_kept {
-            kept[number] = Some(TextPatches::default());
         }
     }
 }

@@ -6,7 +6,6 @@
 //! lengths, rows that are not in order) stays as it is.
 
 mod clip;
-mod rows;
 
 pub(super) use clip::{ClipWriter, possible_name};
 
