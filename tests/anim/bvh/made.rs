@@ -96,7 +96,7 @@ pub(crate) fn text(plan: &SavePlan) -> String {
 /// Multiplies one key of a rotation channel by `turn`.
 pub(crate) fn turn_key(channel: &mut Channel<Quat>, key: usize, turn: Quat) {
     let mut values = channel.values.to_vec();
-    values[key] = values[key] * turn;
+    values[key] *= turn;
     *channel = Channel::new(Arc::clone(&channel.times), values, Interpolation::Linear);
 }
 

@@ -128,11 +128,9 @@ fn a_longer_take_appends_rows_and_a_shorter_one_removes_them() {
 
     let shorter = edited(&again, |take| {
         for track in &mut take.tracks {
-            for channel in [&mut track.translation] {
-                let keys = channel.len().min(2);
-                *channel =
-                    Channel::new(&channel.times[..keys], &channel.values[..keys], Interpolation::Linear);
-            }
+            let keys = track.translation.len().min(2);
+            let channel = &mut track.translation;
+            *channel = Channel::new(&channel.times[..keys], &channel.values[..keys], Interpolation::Linear);
             let keys = track.rotation.len().min(2);
             track.rotation = Channel::new(
                 &track.rotation.times[..keys],
