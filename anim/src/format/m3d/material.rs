@@ -19,9 +19,9 @@ pub(super) struct M3dMaterial {
 }
 
 impl M3dMaterial {
-    /// Returns the places of the names of its textures.
-    pub(super) fn maps(&self) -> [Range<usize>; 2] {
-        [self.diffuse_map.clone(), self.normal_map.clone()]
+    /// Returns the names of its textures.
+    pub(super) fn textures(&self, bytes: &[u8]) -> impl Iterator<Item = String> {
+        [&self.diffuse_map, &self.normal_map].into_iter().filter_map(|range| texture(bytes, range))
     }
 
     /// Returns the material with its textures.
@@ -36,8 +36,7 @@ impl M3dMaterial {
             (diffuse_map, &mut material.base_color_texture),
             (normal_map, &mut material.normal_texture),
         ] {
-            let name = String::from_utf8_lossy(&bytes[range.clone()]);
-            if !name.is_empty() && !name.eq_ignore_ascii_case("none") {
+            if let Some(name) = texture(bytes, &range) {
                 *slot = Some(images.texture(&name, &scanner.place(range.start))?);
             }
         }
@@ -151,6 +150,12 @@ fn with_maps(scanner: &mut M3dScanner<'_>, material: Material) -> Result<M3dMate
     scanner.label("the normal map of a material")?;
     let normal_map = range(scanner, "the name of a normal map")?;
     Ok(M3dMaterial { material, diffuse_map, normal_map })
+}
+
+/// Returns the name of a texture; `None` where the file has a word for no texture.
+fn texture(bytes: &[u8], range: &Range<usize>) -> Option<String> {
+    let name = String::from_utf8_lossy(&bytes[range.clone()]).into_owned();
+    (!name.eq_ignore_ascii_case("none")).then_some(name)
 }
 
 fn alpha_mode(scanner: &mut M3dScanner<'_>) -> Result<AlphaMode, ImportError> {

@@ -143,8 +143,8 @@ fn follows_count(scanner: &mut M3dScanner<'_>) -> bool {
 /// Refuses the other format whose files are named `.m3d`.
 fn refuse_other_format(bytes: &[u8]) -> Result<(), ImportError> {
     if super::is_other_format(bytes) {
-        let feature = "the format Model 3D (3DMO), which has the same extension as Luna's m3d and nothing else in common".to_owned();
-        return Err(ImportError::Unsupported { place: Place::File, feature });
+        let feature = "the other format called .m3d, Model 3D (3DMO)".to_owned();
+        return Err(ImportError::Unsupported { place: Place::Byte(0), feature });
     }
     Ok(())
 }

@@ -174,7 +174,7 @@ fn keys(
 ) -> Result<Option<XKeys>, ImportError> {
     lexer.open()?;
     let place = lexer.place(start.at);
-    let number = lexer.whole("type of keys", u32::MAX)?;
+    let number = lexer.whole("the type of keys", u32::MAX)?;
     let Some(kind) = XKeyKind::parse(number) else {
         let text = format!("keys of type {number} are left out");
         context.warn(place, code::KEY_TYPE_UNKNOWN, text);
@@ -201,7 +201,7 @@ fn keys(
         let at = lexer.at();
         let ticks = lexer.number("the time of a key")?;
         let start = lexer.last_of(at).start;
-        let width = lexer.whole("number of values", u32::MAX)? as usize;
+        let width = lexer.whole("the number of values", u32::MAX)? as usize;
         if width != kind.width() {
             let reason = format!("a key of type {} has {width} values, not {}", kind.number(), kind.width());
             return Err(lexer.invalid(start, crate::format::text::NUMBER_INVALID, reason));

@@ -50,8 +50,10 @@ impl<'a> BinaryTokens<'a> {
                 }
                 10 => XToken::Open,
                 11 => XToken::Close,
-                // Other brackets and separators, and the types of members in templates.
-                12..=20 | 40..=52 => XToken::Other,
+                // Separators.
+                19 | 20 => continue,
+                // Other brackets, and the types of members in templates.
+                12..=18 | 40..=52 => XToken::Other,
                 31 => XToken::Word(b"template"),
                 _ => return Err((start, "a token of an unknown kind")),
             }));

@@ -168,7 +168,7 @@ impl<'a> XLexer<'a> {
         if number >= 0.0 && number <= f64::from(limit) && number.fract() == 0.0 {
             return Ok(number as u32);
         }
-        let reason = format!("{number} is no possible {what}, at most {limit}");
+        let reason = format!("{number} where {what} was expected, a whole number of at most {limit}");
         Err(self.invalid(self.first_of(at), NUMBER_INVALID, reason))
     }
 

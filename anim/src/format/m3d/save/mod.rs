@@ -39,8 +39,7 @@ pub(super) fn open(
 ) -> Result<Box<dyn SurgicalFile>, ImportError> {
     let mut text = M3dText::parse(&bytes, context)?;
     let mut neighbors = Vec::new();
-    for range in text.materials.iter().flat_map(super::material::M3dMaterial::maps) {
-        let name = String::from_utf8_lossy(&bytes[range]);
+    for name in text.materials.iter().flat_map(|material| material.textures(&bytes)) {
         let path = crate::format::uri::relative_path(&crate::format::uri::plain_reference(&name)).ok();
         neighbors.extend(path.filter(|path| !neighbors.contains(path)));
     }
