@@ -206,8 +206,8 @@ fn extensions_of_other_model_formats_are_known_as_such() {
         assert!(!formats.is_model_extension(extension), "{extension}");
     }
     assert_eq!(formats.by_extension("fbx"), None);
-    assert_eq!(formats.extensions(), ["dfm", "glb", "gltf", "bvh", "obj"]);
-    assert_eq!(formats.extension_list(), ".dfm, .glb, .gltf, .bvh, .obj");
+    assert_eq!(formats.extensions(), ["dfm", "glb", "gltf", "bvh", "obj", "m3d", "x"]);
+    assert_eq!(formats.extension_list(), ".dfm, .glb, .gltf, .bvh, .obj, .m3d, .x");
 }
 
 /// A format of another crate: a line `TAKES` and then the name of one take in each line. Meshes are not stored.
@@ -278,7 +278,7 @@ use take_list::TAKE_LIST;
 fn a_format_of_another_crate_is_read_and_written_like_the_others() {
     let formats = Formats::builtin().with(TAKE_LIST);
     assert_eq!(formats.by_extension("TXT"), Some(&TAKE_LIST));
-    assert_eq!(formats.extensions(), ["takes", "txt", "dfm", "glb", "gltf", "bvh", "obj"]);
+    assert_eq!(formats.extensions(), ["takes", "txt", "dfm", "glb", "gltf", "bvh", "obj", "m3d", "x"]);
     let bytes = b"TAKES\nwalk\n\ninclude run.name\n";
     let files = MemoryFs::with(&[("run.name", b"run")]);
     let options = ReadOptions::default();

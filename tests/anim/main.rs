@@ -56,6 +56,7 @@ mod limited_chains;
 mod lint;
 mod loop_shift;
 mod loops;
+mod m3d;
 mod made;
 mod masks;
 mod motion;
@@ -84,6 +85,7 @@ mod simd;
 mod skinning;
 mod soundness;
 mod support;
+mod takes;
 mod tangents;
 mod textbook;
 mod textures;
@@ -94,6 +96,7 @@ mod two_takes;
 mod unbound;
 mod uris;
 mod write_gltf;
+mod x;
 
 /// Counts the allocations of each thread, for the tests that playing allocates nothing.
 #[global_allocator]

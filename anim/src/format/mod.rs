@@ -48,15 +48,24 @@ mod fixed_skeleton;
 pub mod gltf;
 mod image;
 mod influences;
+mod key_changes;
+mod key_rows;
+mod key_times;
 mod losses;
+pub mod m3d;
 mod matrices;
 mod names;
 mod normals;
 pub mod obj;
+mod patch;
+mod pose_rows;
 mod read_options;
 mod registry;
+mod straight;
 mod text;
+mod triangulate;
 pub mod uri;
+pub mod x;
 
 pub use context::ImportContext;
 pub use convention::{AxisMap, ConventionSource, Conventions, Conversion, Found, Handedness, UpAxis};
@@ -80,6 +89,8 @@ pub const BUILTIN: &[Format] = &[
     gltf::GLTF,
     bvh::BVH,
     obj::OBJ,
+    m3d::M3D,
+    x::X,
 ];
 
 /// Reads a model from the bytes of a file in one of the [`BUILTIN`] formats.

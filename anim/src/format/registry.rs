@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 /// Extensions of model formats that other programs write. A file that is named so is expected to have that format, so
 /// a program refuses to save anything else under such a name.
-const FOREIGN_EXTENSIONS: &[&str] = &["fbx", "dae", "m3d", "x", "blend"];
+const FOREIGN_EXTENSIONS: &[&str] = &["fbx", "dae", "blend"];
 
 /// The formats that a program reads and writes. There is no global list: a program makes this value once and passes it
 /// to whatever opens and saves files.

@@ -3,7 +3,7 @@
 mod agreement;
 mod damage;
 mod import;
-mod made;
+pub(crate) mod made;
 mod save;
 mod save_random;
 mod whole;

@@ -3,7 +3,7 @@
 use super::check as code;
 use super::faces::{Corner, NONE, ObjText, Polygon};
 use super::lines::places;
-use super::triangulate::{Division, Triangulator, normal};
+use crate::format::triangulate::{Division, Triangulator, normal};
 use crate::data::{Mesh, Primitive};
 use crate::format::normals::unit;
 use crate::format::{AxisMap, ImportContext, ImportError, Place};

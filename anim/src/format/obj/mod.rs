@@ -2,7 +2,7 @@
 //!
 //! # What is read
 //!
-//! Polygons of any size, divided in their plane (`triangulate`), with texture coordinates, normals and the colors of positions that
+//! Polygons of any size, divided in their plane , with texture coordinates, normals and the colors of positions that
 //! many programs append. One mesh for each object and group, one primitive for each material. Where a polygon has no normals they are
 //! computed: smooth within a smoothing group, flat without one. Materials have Phong values (`Ka Kd Ks Ns Ke d Tr`) or physically based
 //! ones (`Pr Pm`), and textures for color, emission and normals. Points, lines, curves and surfaces are not shown.
@@ -17,7 +17,7 @@ mod faces;
 mod lines;
 mod materials;
 mod meshes;
-mod triangulate;
+
 mod write;
 
 pub use write::write;
