@@ -10,8 +10,10 @@ use std::sync::Arc;
 
 /// Returns the files of a folder of `tests/data`, and those of the same folder of the collection of models if it is there.
 pub(crate) fn files_of(folder: &str) -> Vec<PathBuf> {
-    let folders =
-        [Some(crate::doors::data().join(folder)), dragonfly_kit::skip::models().map(|models| models.join(folder))];
+    let folders = [
+        Some(crate::doors::data().join(folder)),
+        dragonfly_kit::skip::models().map(|models| models.join(folder)),
+    ];
     let mut found: Vec<PathBuf> = folders
         .into_iter()
         .flatten()
@@ -85,7 +87,8 @@ pub(crate) fn change_track(take: &mut Take, bone: usize, step: f32, random: &mut
     for _ in 0..=random.below(4) {
         let axis = Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 0.3).normalize();
         let turn = Quat::from_axis_angle(axis, random.between(-3.0, 3.0));
-        let offset = Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        let offset =
+            Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0));
         let time = (random.below(40) as f32) * step;
         let [turns, moves] = [track.rotation.len(), track.translation.len()];
         match random.below(7) {
@@ -151,7 +154,8 @@ pub(crate) fn windings(model: &ModelData) -> (usize, usize) {
     for primitive in model.meshes.iter().flat_map(|mesh| &mesh.primitives) {
         for corners in primitive.indices.chunks_exact(3) {
             let [a, b, c] = [0, 1, 2].map(|corner| primitive.vertices.positions[corners[corner] as usize]);
-            let normal: Vec3 = corners.iter().map(|&corner| primitive.vertices.normals[corner as usize]).sum();
+            let normal: Vec3 =
+                corners.iter().map(|&corner| primitive.vertices.normals[corner as usize]).sum();
             match (b - a).cross(c - a).dot(normal) {
                 side if side > 0.0 => right += 1,
                 side if side < 0.0 => wrong += 1,

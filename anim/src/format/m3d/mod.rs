@@ -44,6 +44,7 @@ pub const M3D: Format = Format {
     sniff,
     read,
     write: WriteSupport::Surgical(save::open),
+    export: Some(|model, name| Ok(write(model, M3dDialect::Dx12)?.named(name))),
 };
 
 /// The dialects, called after the version of Direct3D in the book.

@@ -3,7 +3,9 @@
 use super::binary::BinaryTokens;
 use super::check as code;
 use super::header::HEADER;
-use crate::format::text::{Lexicon, NUMBER_INVALID, TextScanner, Token, UNEXPECTED_END, UNEXPECTED_TOKEN, shown};
+use crate::format::text::{
+    Lexicon, NUMBER_INVALID, TextScanner, TextToken, UNEXPECTED_END, UNEXPECTED_TOKEN, shown,
+};
 use crate::format::{ImportContext, ImportError, Place};
 use std::ops::Range;
 
@@ -94,7 +96,7 @@ impl<'a> XLexer<'a> {
             self.binary = Some(binary);
             return Ok(token.map(|token| Lexeme { token, at, end: binary.at }));
         }
-        let Some(Token { text, at }) = self.text.token() else { return Ok(None) };
+        let Some(TextToken { text, at }) = self.text.token() else { return Ok(None) };
         let token = match text {
             b"{" => XToken::Open,
             b"}" => XToken::Close,
@@ -137,13 +139,15 @@ impl<'a> XLexer<'a> {
     pub(super) fn number(&mut self, what: &str) -> Result<f64, ImportError> {
         let found = self.need(what)?;
         match found.token {
-            XToken::Word(text) => self.text.number_of(Token { text, at: found.at }, what),
+            XToken::Word(text) => self.text.number_of(TextToken { text, at: found.at }, what),
             XToken::Number(number) if number.is_finite() => Ok(number),
             XToken::Number(number) => {
                 let reason = format!("{number} is not finite where {what} was expected");
                 Err(self.invalid(found.at, NUMBER_INVALID, reason))
             }
-            XToken::Text(_) | XToken::Open | XToken::Close | XToken::Other => Err(self.unexpected(found, what)),
+            XToken::Text(_) | XToken::Open | XToken::Close | XToken::Other => {
+                Err(self.unexpected(found, what))
+            }
         }
     }
 
@@ -219,7 +223,9 @@ impl<'a> XLexer<'a> {
         let found = self.need(what)?;
         match found.token {
             XToken::Text(_) | XToken::Word(_) => Ok(found),
-            XToken::Number(_) | XToken::Open | XToken::Close | XToken::Other => Err(self.unexpected(found, what)),
+            XToken::Number(_) | XToken::Open | XToken::Close | XToken::Other => {
+                Err(self.unexpected(found, what))
+            }
         }
     }
 
@@ -245,7 +251,9 @@ impl<'a> XLexer<'a> {
     /// Returns the place of the letters of a word.
     pub(super) fn word_range(&self, found: Lexeme<'_>) -> Range<usize> {
         match found.token {
-            XToken::Word(text) | XToken::Text(text) if self.binary.is_some() => found.end - text.len()..found.end,
+            XToken::Word(text) | XToken::Text(text) if self.binary.is_some() => {
+                found.end - text.len()..found.end
+            }
             _ => found.range(),
         }
     }

@@ -51,6 +51,7 @@ pub const X: Format = Format {
     sniff: |bytes| bytes.starts_with(b"xof "),
     read,
     write: WriteSupport::Surgical(save::open),
+    export: Some(|model, name| Ok(write(model)?.named(name))),
 };
 
 fn read(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, ImportError> {

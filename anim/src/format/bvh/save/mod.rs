@@ -13,14 +13,15 @@ mod rows;
 pub(super) use number::spelled;
 
 use super::check as code;
-use super::{BvhText, model};
+use super::model;
+use super::parsed::BvhText;
 use crate::data::{ModelData, Skeleton, Take};
 use crate::format::fixed_skeleton::takes_of_file;
 use crate::format::losses::Losses;
 use crate::format::{
     EditedTake, ExportError, ImportContext, ImportError, OutputFile, SavePlan, SurgicalFile,
 };
-use edits::{JointEdit, frames_of, joint_edits};
+use edits::{frames_of, joint_edits};
 use report::BvhChanges;
 use rows::RowWriter;
 use std::sync::Arc;
@@ -141,6 +142,3 @@ impl BvhFile {
         Ok(())
     }
 }
-
-/// Edits of the joints of a take.
-type JointEdits<'a> = Vec<JointEdit<'a>>;

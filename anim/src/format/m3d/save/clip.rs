@@ -47,7 +47,13 @@ impl<'a> ClipWriter<'a> {
     }
 
     /// Returns the name of a take in the file, where blanks are not possible, and lists what else a clip has no room for.
-    pub(in super::super) fn name(&self, take: &Take, before: Option<&Take>, index: usize, losses: &mut Losses) -> String {
+    pub(in super::super) fn name(
+        &self,
+        take: &Take,
+        before: Option<&Take>,
+        index: usize,
+        losses: &mut Losses,
+    ) -> String {
         let path = format!("/animation/takes/{index}");
         if !take.extras.is_empty() {
             let text = "layers, contacts and events are not stored";
@@ -176,7 +182,13 @@ impl<'a> ClipWriter<'a> {
     }
 
     /// Returns the block of a new clip.
-    pub(in super::super) fn made(&self, take: &Take, name: &str, index: usize, losses: &mut Losses) -> String {
+    pub(in super::super) fn made(
+        &self,
+        take: &Take,
+        name: &str,
+        index: usize,
+        losses: &mut Losses,
+    ) -> String {
         let line = self.line_end;
         let mut text = format!("AnimationClip {name}{line}{{{line}");
         let nothing = Track::default();
@@ -231,6 +243,7 @@ fn labels(bytes: &[u8], at: usize) -> Result<[String; 4], ImportError> {
 /// Returns a name without blanks.
 pub(in super::super) fn possible_name(name: &str) -> String {
     let is_odd = |character: char| character.is_whitespace() || character.is_control();
-    let name: String = name.trim().chars().map(|character| if is_odd(character) { '_' } else { character }).collect();
+    let name: String =
+        name.trim().chars().map(|character| if is_odd(character) { '_' } else { character }).collect();
     if name.is_empty() { "take".to_owned() } else { name }
 }

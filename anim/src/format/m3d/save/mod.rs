@@ -12,7 +12,8 @@ pub(super) use clip::{ClipWriter, possible_name};
 use super::check as code;
 use super::scan::M3dScanner;
 use super::text::M3dText;
-use crate::data::ModelData;
+use crate::data::{ModelData, Skeleton};
+use crate::format::fixed_skeleton::takes_of_file;
 use crate::format::key_changes::KeyChanges;
 use crate::format::losses::Losses;
 use crate::format::patch::TextPatches;
@@ -49,8 +50,14 @@ pub(super) fn open(
 }
 
 impl SurgicalFile for M3dFile {
-    fn plan(&self, opened: &ModelData, takes: &[EditedTake]) -> Result<SavePlan, ExportError> {
+    fn plan(
+        &self,
+        opened: &ModelData,
+        skeleton: &Skeleton,
+        takes: &[EditedTake],
+    ) -> Result<SavePlan, ExportError> {
         let (mut losses, mut changes) = (Losses::default(), KeyChanges::default());
+        let takes = &*takes_of_file(&opened.animation.skeleton, skeleton, takes, &mut losses)?;
         let mut patches = TextPatches::default();
         if self.text.bones.is_empty() {
             for (index, edited) in takes.iter().enumerate() {

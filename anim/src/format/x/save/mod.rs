@@ -12,7 +12,8 @@ use super::header::{XEncoding, XFile};
 use super::mesh::XMesh;
 use super::scene::XScene;
 use super::{check as code, names, take};
-use crate::data::{ModelData, Take};
+use crate::data::{ModelData, Skeleton, Take};
+use crate::format::fixed_skeleton::takes_of_file;
 use crate::format::key_changes::KeyChanges;
 use crate::format::losses::Losses;
 use crate::format::patch::TextPatches;
@@ -56,8 +57,14 @@ pub(super) fn open(
 }
 
 impl SurgicalFile for XSource {
-    fn plan(&self, opened: &ModelData, takes: &[EditedTake]) -> Result<SavePlan, ExportError> {
+    fn plan(
+        &self,
+        opened: &ModelData,
+        skeleton: &Skeleton,
+        takes: &[EditedTake],
+    ) -> Result<SavePlan, ExportError> {
         let (mut losses, mut changes) = (Losses::default(), KeyChanges::default());
+        let takes = &*takes_of_file(&opened.animation.skeleton, skeleton, takes, &mut losses)?;
         let mut patches = TextPatches::default();
         if self.encoding != XEncoding::Text {
             self.refuse_edits(opened, takes)?;

@@ -65,8 +65,10 @@ impl MeshWriter<'_> {
         let faces = self.faces(parts, instance.to_bone.determinant() < 0.0 && skin.is_none());
         write_faces(text, &faces);
         let _ = writeln!(text, "MeshNormals {{\n{vertices};");
-        let normal = |part: &Primitive, vertex: usize| part.vertices.normals.get(vertex).copied().unwrap_or(Vec3::Y);
-        let normals = parts.iter().flat_map(|part| (0..part.vertices.len()).map(move |vertex| normal(part, vertex)));
+        let normal =
+            |part: &Primitive, vertex: usize| part.vertices.normals.get(vertex).copied().unwrap_or(Vec3::Y);
+        let normals =
+            parts.iter().flat_map(|part| (0..part.vertices.len()).map(move |vertex| normal(part, vertex)));
         rows(text, normals.map(|normal| self.vector(self.to_file.direction(normal))));
         write_faces(text, &faces);
         *text += "}\n";
@@ -102,19 +104,26 @@ impl MeshWriter<'_> {
             let coordinate = |part: &Primitive, vertex: usize| {
                 part.vertices.texture_coordinates[0].get(vertex).copied().unwrap_or(Vec2::ZERO)
             };
-            let all = parts.iter().flat_map(|part| (0..part.vertices.len()).map(move |vertex| coordinate(part, vertex)));
+            let all = parts
+                .iter()
+                .flat_map(|part| (0..part.vertices.len()).map(move |vertex| coordinate(part, vertex)));
             rows(text, all.map(|at| format!("{};{};", super::decimal(at.x), super::decimal(at.y))));
             *text += "}\n";
         }
         if parts.iter().any(|part| !part.vertices.colors.is_empty()) {
             let _ = writeln!(text, "MeshVertexColors {{\n{count};");
-            let color =
-                |part: &Primitive, vertex: usize| part.vertices.colors.get(vertex).copied().unwrap_or(Vec4::ONE);
-            let all = parts.iter().flat_map(|part| (0..part.vertices.len()).map(move |vertex| color(part, vertex)));
-            rows(text, all.enumerate().map(|(vertex, color)| {
-                let [r, g, b, a] = color.to_array().map(super::decimal);
-                format!("{vertex};{r};{g};{b};{a};;")
-            }));
+            let color = |part: &Primitive, vertex: usize| {
+                part.vertices.colors.get(vertex).copied().unwrap_or(Vec4::ONE)
+            };
+            let all =
+                parts.iter().flat_map(|part| (0..part.vertices.len()).map(move |vertex| color(part, vertex)));
+            rows(
+                text,
+                all.enumerate().map(|(vertex, color)| {
+                    let [r, g, b, a] = color.to_array().map(super::decimal);
+                    format!("{vertex};{r};{g};{b};{a};;")
+                }),
+            );
             *text += "}\n";
         }
     }
@@ -145,7 +154,8 @@ impl MeshWriter<'_> {
         let (mut first, mut most) = (0, 0);
         for part in parts {
             for vertex in 0..part.vertices.len() {
-                let influences = part.vertices.influences_of(vertex).iter().filter(|influence| influence.weight > 0.0);
+                let influences =
+                    part.vertices.influences_of(vertex).iter().filter(|influence| influence.weight > 0.0);
                 let mut count = 0;
                 for influence in influences {
                     joints[usize::from(influence.joint)].push((first + vertex, influence.weight));
