@@ -149,12 +149,7 @@ impl Rows for OneRegister {
             two(upper[2], middle[2]),
             two(upper[3], middle[3]),
         ]);
-        let [p, q, r, s] = transposed([
-            two(lower[0], lower[0]),
-            two(lower[1], lower[1]),
-            two(lower[2], lower[2]),
-            two(lower[3], lower[3]),
-        ]);
+        let [p, q, r, s] = F8::transpose(lower);
         store_two(x, p, a, e);
         store_two(y, q, b, f);
         store_two(z, r, c, g);
@@ -239,7 +234,8 @@ fn two(low: F8, high: F8) -> __m512 {
 
 /// Stores two matrices: `upper` has row 0 of both, then row 1 of both; `lower` has row 2 of both.
 #[inline(always)]
-fn store_two(upper: __m512, lower: __m512, first: &mut [[f32; 4]; 4], second: &mut [[f32; 4]; 4]) {
+fn store_two(upper: __m512, lower: F8, first: &mut [[f32; 4]; 4], second: &mut [[f32; 4]; 4]) {
+    let lower = instruction!(_mm512_castps256_ps512(lower.0));
     let (a, b) = instruction!((
         _mm512_permutex2var_pd(
             _mm512_castps_pd(upper),
