@@ -82,6 +82,7 @@ mod save_same;
 mod save_support;
 mod seeds;
 mod simd;
+mod simd_matrices;
 mod skinning;
 mod soundness;
 mod support;
