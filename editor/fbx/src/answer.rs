@@ -246,6 +246,11 @@ fn log_missing(cage: &CageReport) {
     }
 }
 
+/// Parses a file in this process and returns the bytes that a child would send. Only for tests.
+pub fn answer_in_process(bytes: &[u8], context: ImportContext<'_>) -> Vec<u8> {
+    answer(bytes, context, CageReport::default())
+}
+
 /// Parses a file in this process. Only for tests: a file made to attack the parser attacks this process.
 pub fn read_in_process(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, ImportError> {
     let ConvertedScene { mut model, textures } = convert(bytes, context)?;

@@ -16,6 +16,8 @@ pub const FBX_WEIGHTS: &str = "FBX_WEIGHTS";
 pub const FBX_TEXTURE: &str = "FBX_TEXTURE";
 /// Motion between two keys is not followed exactly.
 pub const FBX_KEYS: &str = "FBX_KEYS";
+/// Text in an unknown encoding was replaced.
+pub const FBX_TEXT: &str = "FBX_TEXT";
 /// A message of the parser.
 pub const FBX_FOUND: &str = "FBX_FOUND";
 
@@ -29,6 +31,7 @@ const CODES: &[&str] = &[
     FBX_WEIGHTS,
     FBX_TEXTURE,
     FBX_KEYS,
+    FBX_TEXT,
     FBX_FOUND,
     "MORE",
 ];

@@ -26,6 +26,6 @@ mod parser;
 mod request;
 mod textures;
 
-pub use answer::{read_answer, read_in_process};
+pub use answer::{answer_in_process, read_answer, read_in_process};
 pub use format::{FBX, looks_like_fbx};
 pub use parser::FbxParser;

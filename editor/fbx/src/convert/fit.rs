@@ -158,7 +158,8 @@ pub(super) fn fit<V: FitValue, E>(
         return Ok(plain(lines, coarse));
     }
     let (splines, coarse_splines) = divided(&base, tolerance, sample, spline)?;
-    if splines.len() >= lines.len() || splines.iter().any(|key| key.tangents.iter().all(Option::is_none)) {
+    // Without work left, spans have no tangents.
+    if splines.len() >= lines.len() || (coarse_splines && sample(base[0].time.at)?.is_none()) {
         return Ok(plain(lines, coarse));
     }
     let tangents = splines.iter().map(|key| {
@@ -203,7 +204,7 @@ fn divided<V: FitValue, E>(
             let middle = KeyTime { at: middle, key: middle as f32 };
             let divides = distance > SHORTEST && middle.key > start.time.key && middle.key < end.time.key;
             let end = MadeKey { value: end.value.near(&start.value), ..end };
-            // Both sides of a jump.
+            // Both sides of a jump: whatever is between them takes no time.
             if !divides && distance < SHORTEST * 0.1 {
                 keys.push(end);
                 continue;

@@ -1,6 +1,6 @@
 //! Parsing, with limits, and the messages of the parser.
 
-use crate::code::{FBX_FOUND, FBX_INVALID, FBX_NOT_SHOWN, FBX_TRUNCATED};
+use crate::code::{FBX_FOUND, FBX_INVALID, FBX_NOT_SHOWN, FBX_TEXT, FBX_TRUNCATED};
 use dragonfly_anim::format::{ImportContext, ImportError, Place};
 use dragonfly_anim::limits::NODE_DEPTH;
 use ufbx::{AllocatorOpts, ErrorType, LoadOpts, ProgressCb, ProgressResult};
@@ -107,7 +107,11 @@ pub(super) fn report(scene: &ufbx::Scene, context: &ImportContext<'_>) {
             _ => Place::File,
         };
         let times = if warning.count > 1 { format!(" ({} times)", warning.count) } else { String::new() };
-        context.warn(place, FBX_FOUND, format!("{}{times}", &*warning.description));
+        let code = match warning.type_ {
+            ufbx::WarningType::BadUnicode => FBX_TEXT,
+            _ => FBX_FOUND,
+        };
+        context.warn(place, code, format!("{}{times}", &*warning.description));
     }
     let left_out = [
         (scene.constraints.len(), "constraints are not evaluated; baked motion is unaffected"),

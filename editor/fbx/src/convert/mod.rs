@@ -4,6 +4,8 @@
 //! scale, layers of animation, extrapolation. This module samples those evaluations: bones get the transform of their node at
 //! rest, tracks get keys (`keys.rs`) where the curves of the file have them, and more where a curve bends.
 
+mod channel;
+mod curves;
 mod fit;
 mod image;
 mod keys;
@@ -11,6 +13,7 @@ mod load;
 mod material;
 mod mesh;
 mod morph;
+mod nodes;
 mod scene;
 mod skin;
 mod space;
@@ -38,7 +41,7 @@ pub(crate) fn convert(bytes: &[u8], context: &ImportContext<'_>) -> Result<Conve
     let (images, textures, numbers) = image::images(scene, context)?;
     let materials = material::materials(scene, &numbers, context)?;
     let unweighted = skin::unweighted_meshes(scene, context)?;
-    let layout = scene::layout(scene, &unweighted, context)?;
+    let layout = nodes::layout(scene, &unweighted, context)?;
     let (skins, joints) = skin::skins(scene, &space, &layout, &unweighted, context)?;
     let meshes = mesh::meshes(scene, &space, &joints, context)?;
     let (skeleton, instances) = scene::build(scene, &space, &layout, &skins, &meshes, context)?;

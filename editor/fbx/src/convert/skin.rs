@@ -1,8 +1,8 @@
 //! Skins: joints, bind matrices, and the influences of vertices.
 
-use super::scene::SceneLayout;
+use super::nodes::SceneLayout;
 use super::space::{FbxSpace, dmat4};
-use crate::code::FBX_NOT_SHOWN;
+use crate::code::{FBX_FOUND, FBX_NOT_SHOWN};
 use dragonfly_anim::data::{Influence, MAX_INFLUENCES, Skin};
 use dragonfly_anim::format::{ImportContext, ImportError, Place};
 use dragonfly_anim::limits::JOINTS_PER_SKIN;
@@ -106,7 +106,7 @@ fn report(mesh: &Mesh, deformer: &SkinDeformer, context: &ImportContext<'_>) {
         ufbx::SkinningMethod::DualQuaternion | ufbx::SkinningMethod::BlendedDqLinear
     ) {
         let text = "the skin is made for dual quaternions; it is deformed linearly";
-        context.warn(place_of(mesh), "FBX_FOUND", text);
+        context.warn(place_of(mesh), FBX_FOUND, text);
     }
 }
 

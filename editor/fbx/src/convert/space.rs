@@ -165,11 +165,6 @@ impl Pose64 {
         let rotation = if is_unit { raw.normalize() } else { DQuat::IDENTITY };
         (Self { translation, rotation, scale }, is_fixed || !is_unit)
     }
-
-    /// Returns the affine matrix.
-    pub(super) fn matrix(&self) -> DMat4 {
-        DMat4::from_scale_rotation_translation(self.scale, self.rotation, self.translation)
-    }
 }
 
 /// Largest number that is taken as it is; products of a chain of larger ones do not fit single precision.

@@ -1,30 +1,31 @@
 //! Takes: one for each animation stack, with all its layers evaluated.
 
+use super::channel::{channel, hold, interpolation};
+use super::curves::{CurveTarget, ElementCurves, element_curves, range_of};
 use super::fit::{FitKind, FitValue, FittedKeys, KeyTime, fit};
 use super::keys::{ChannelTimes, channel_times, exactly};
 use super::mesh::ReadMesh;
 use super::morph::effective_weights;
-use super::scene::{SceneLayout, is_top, place_of};
+use super::nodes::{SceneLayout, is_top, place_of};
 use super::space::{FbxSpace, Pose64, dmat4, warn_numbers};
 use crate::code::FBX_KEYS;
-use dragonfly_anim::data::{
-    Channel, Interpolation, MeshInstance, MorphTrack, Skeleton, Take, TakeExtras, Track, Transform,
-};
+use dragonfly_anim::data::{MeshInstance, MorphTrack, Skeleton, Take, TakeExtras, Track, Transform};
 use dragonfly_anim::format::{ImportContext, ImportError, Place};
-use glam::{DQuat, DVec3, Quat, Vec3};
+use glam::{DQuat, DVec3};
 use std::cell::{Cell, RefCell};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::sync::Arc;
 use ufbx::{AnimCurve, AnimStack, Node};
 
 /// Largest distance in meters, in the scene at rest, between a motion and its keys.
-const TOLERANCE_METERS: f64 = 1e-4;
+const TOLERANCE_METERS: f64 = 1e-5;
 
-/// Largest angle between a motion and its keys: a tenth of a degree, in radians.
-const TOLERANCE_ANGLE: f64 = 0.1 * std::f64::consts::PI / 180.0;
+/// Largest angle between a motion and its keys: a hundredth of a degree, in radians. Small, because the errors of a chain of
+/// bones add up.
+const TOLERANCE_ANGLE: f64 = 0.01 * std::f64::consts::PI / 180.0;
 
 /// Largest difference of a scale or of the weight of a morph target.
-const TOLERANCE_FACTOR: f64 = 1e-3;
+const TOLERANCE_FACTOR: f64 = 2e-4;
 
 /// Largest number of evaluations of a motion in one import. Afterwards only the keys of the file are kept.
 const EVALUATIONS: usize = 20_000_000;
@@ -34,50 +35,6 @@ const TURN: f64 = 90.0;
 
 /// Largest number of pieces into which a span with full turns is divided at first.
 const TURN_PIECES: f64 = 4096.0;
-
-/// Part of a pose that a curve of the file moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum CurveTarget {
-    Translation,
-    Rotation,
-    Scale,
-    /// Any part: pivots, offsets, rotations before and after.
-    Pose,
-    Weight,
-}
-
-fn target_of(property: &str) -> Option<CurveTarget> {
-    Some(match property {
-        "Lcl Translation" => CurveTarget::Translation,
-        "Lcl Rotation" => CurveTarget::Rotation,
-        "Lcl Scaling" => CurveTarget::Scale,
-        "RotationOffset" | "RotationPivot" | "ScalingOffset" | "ScalingPivot" | "PreRotation"
-        | "PostRotation" | "RotationOrder" => CurveTarget::Pose,
-        "DeformPercent" => CurveTarget::Weight,
-        _ => return None,
-    })
-}
-
-/// Returns the numbers of all elements whose pose is animated in some take.
-pub(super) fn animated_elements(
-    scene: &ufbx::Scene,
-    context: &ImportContext<'_>,
-) -> Result<HashSet<u32>, ImportError> {
-    let mut found = HashSet::new();
-    for layer in &scene.anim_layers {
-        context.work(layer.anim_props.len())?;
-        for property in &layer.anim_props {
-            if target_of(&property.prop_name).is_some_and(|target| target != CurveTarget::Weight) {
-                context.charge(&Place::File, 16)?;
-                found.insert(property.element.element_id);
-            }
-        }
-    }
-    Ok(found)
-}
-
-/// Curves of one take for each element, with the part that each moves.
-type ElementCurves<'a> = HashMap<u32, Vec<(CurveTarget, Option<&'a AnimCurve>)>>;
 
 /// What is needed to convert a take.
 struct TakeReader<'a> {
@@ -120,51 +77,6 @@ pub(super) fn takes(
         context.progress(0.7 + 0.25 * (number + 1) as f32 / count as f32)?;
     }
     Ok(takes)
-}
-
-/// Collects the curves of all layers of a take. An animated weight of a layer moves everything in the layer.
-fn element_curves<'a>(
-    stack: &'a AnimStack,
-    context: &ImportContext<'_>,
-) -> Result<ElementCurves<'a>, ImportError> {
-    let mut found: ElementCurves<'a> = HashMap::new();
-    let mut weights: HashMap<u32, Vec<&AnimCurve>> = HashMap::new();
-    let curves =
-        |property: &'a ufbx::AnimProp| property.anim_value.curves.iter().flatten().map(|curve| &**curve);
-    for layer in &stack.layers {
-        context.work(layer.anim_props.len())?;
-        for property in layer.anim_props.iter().filter(|property| &*property.prop_name == "Weight") {
-            weights.entry(property.element.element_id).or_default().extend(curves(property));
-        }
-    }
-    for layer in &stack.layers {
-        for property in &layer.anim_props {
-            let Some(target) = target_of(&property.prop_name) else { continue };
-            context.charge(&Place::File, 128)?;
-            let of_element = found.entry(property.element.element_id).or_default();
-            of_element.push((target, None));
-            of_element.extend(curves(property).map(|curve| (target, Some(curve))));
-            if let Some(weights) = weights.get(&layer.element.element_id) {
-                context.charge(&Place::File, 16 * weights.len() as u64)?;
-                of_element.extend(weights.iter().map(|&curve| (target, Some(curve))));
-            }
-        }
-    }
-    Ok(found)
-}
-
-/// Returns the range of a take: as the file states it, otherwise that of its keys.
-fn range_of(stack: &AnimStack, curves: &ElementCurves<'_>) -> (f64, f64) {
-    let (begin, end) = (stack.time_begin, stack.time_end);
-    if begin.is_finite() && end.is_finite() && end > begin {
-        return (begin, end);
-    }
-    let keys =
-        curves.values().flatten().filter_map(|(_, curve)| *curve).filter(|curve| !curve.keyframes.is_empty());
-    let (begin, end) = keys.fold((f64::MAX, f64::MIN), |(begin, end), curve| {
-        (begin.min(curve.min_time), end.max(curve.max_time))
-    });
-    if begin <= end { (begin, end) } else { (0.0, 0.0) }
 }
 
 /// Tolerances of one node in the units of the file.
@@ -475,67 +387,4 @@ fn has_pivots(node: &Node) -> bool {
     pivots
         .iter()
         .any(|name| node.element.props.find_prop(name).is_some_and(|prop| !is_zero(&prop.value_vec4)))
-}
-
-fn interpolation<V>(keys: &FittedKeys<V>, kind: FitKind) -> Interpolation {
-    match kind {
-        FitKind::Step => Interpolation::Step,
-        FitKind::Smooth if keys.tangents.is_empty() => Interpolation::Linear,
-        FitKind::Smooth => Interpolation::CubicSpline,
-    }
-}
-
-/// Components of a value, to compare two.
-trait Components: Copy {
-    fn components(self) -> [f32; 4];
-}
-
-impl Components for Vec3 {
-    fn components(self) -> [f32; 4] {
-        self.extend(0.0).to_array()
-    }
-}
-
-impl Components for Quat {
-    fn components(self) -> [f32; 4] {
-        self.to_array()
-    }
-}
-
-/// Returns whether two values are equal as far as single precision goes.
-fn is_same<T: Components>(a: T, b: T) -> bool {
-    let (a, b) = (a.components(), b.components());
-    let size = b.iter().fold(1e-3_f32, |size, number| size.max(number.abs()));
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-6 * size)
-}
-
-/// Returns the channel of fitted keys. A motion that is constant has one key, or none if it is the value at rest.
-fn channel<V, T: Components>(
-    keys: &FittedKeys<V>,
-    kind: FitKind,
-    rest: &T,
-    value: impl Fn(&V) -> T,
-    tangent: impl Fn(&V) -> T,
-) -> Channel<T> {
-    let values: Vec<T> = keys.values.iter().map(value).collect();
-    let Some(&first) = values.first() else { return Channel::default() };
-    if keys.tangents.is_empty() && values.iter().all(|&value| is_same(value, first)) {
-        if is_same(first, *rest) {
-            return Channel::default();
-        }
-        return Channel::new(&keys.times[..1], &values[..1], Interpolation::Linear);
-    }
-    if keys.tangents.is_empty() {
-        return Channel::new(&keys.times[..], values, interpolation(keys, kind));
-    }
-    let triples = values.iter().zip(&keys.tangents);
-    let triples: Vec<T> =
-        triples.flat_map(|(&value, [arrives, leaves])| [tangent(arrives), value, tangent(leaves)]).collect();
-    Channel::new(&keys.times[..], triples, Interpolation::CubicSpline)
-}
-
-/// Replaces a channel of at most one key by two keys of the same value.
-fn hold<T: Copy>(channel: &mut Channel<T>, rest: T, start: f32, end: f32) {
-    let value = channel.value(0).unwrap_or(rest);
-    *channel = Channel::new(vec![start, end], vec![value, value], Interpolation::Linear);
 }
