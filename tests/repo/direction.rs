@@ -112,7 +112,14 @@ const ABSENCES: &[Absence] = &[
         because: "no lock is shared by two threads: one owner for everything, and messages between them",
     },
     Absence {
-        within: &["anim/src/", "editor/src/", "editor/store/", "editor/document/", "editor/picture/"],
+        within: &[
+            "anim/src/",
+            "editor/src/",
+            "editor/store/",
+            "editor/fbx/",
+            "editor/document/",
+            "editor/picture/",
+        ],
         except: &[],
         words: &["thread::Builder", "thread::spawn", "thread::scope"],
         because: "background work is a job of the runtime, so that it is named, reported and joined",

@@ -80,6 +80,11 @@ impl<'a> ImportContext<'a> {
         self.options.budget.charge(bytes).map_err(|over| too_large(place, over))
     }
 
+    /// Returns the number of bytes that can still be charged.
+    pub fn remaining_memory(&self) -> u64 {
+        self.options.budget.remaining()
+    }
+
     /// Counts `steps` of work and polls the cancel flag from time to time. Call it before a loop of that many steps.
     pub fn work(&self, steps: usize) -> Result<(), ImportError> {
         let work = self.work.get().saturating_add(steps).saturating_add(1);

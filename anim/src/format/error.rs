@@ -154,6 +154,7 @@ impl Warning {
             "ACCESSOR_OFFSET_ALIGNMENT",
             "BUFFER_GLB_CHUNK_TOO_BIG",
             "CAMERA_NOT_SHOWN",
+            "FBX_TEXT",
             "IMAGE_MIME_TYPE_INVALID",
             "MESH_PRIMITIVE_INVALID_ATTRIBUTE",
         ];

@@ -5,10 +5,11 @@ use super::source::LoadError;
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{AssetFs, Conversion, Format, Formats, ImportError, NoFiles, ReadOptions};
+use dragonfly_fbx::FBX;
 
 /// Returns the file formats that the program knows: what it opens, saves, and lists in dialogs and help texts.
 pub fn formats() -> Formats {
-    Formats::builtin()
+    Formats::builtin().with(FBX)
 }
 
 /// An imported model.

@@ -34,6 +34,7 @@ pub use failure::{Failure, tell};
 
 use crate::app::Options;
 use clap::Parser;
+use dragonfly_fbx::child;
 use run_command::RunCommand;
 use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe};
@@ -118,7 +119,12 @@ struct CommandLine {
 /// Runs the program: parses the command line, carries it out, and returns the exit code.
 ///
 /// A panic inside does not escape: it is reported, and the exit code is 3.
+///
+/// As the child that parses FBX, the process does that and nothing else.
 pub fn main() -> ExitCode {
+    if child::is_requested(std::env::args_os()) {
+        return child::serve();
+    }
     main_with(std::env::args_os(), Options::default())
 }
 

@@ -1,0 +1,39 @@
+//! The row of the format.
+
+use crate::parser::FbxParser;
+use dragonfly_anim::data::ModelData;
+use dragonfly_anim::format::{Format, ImportContext, ImportError, WriteSupport};
+
+/// FBX 5.0 to 7.7, binary and text.
+///
+/// A file is parsed by the running program, started again as a child process: a program with this format calls
+/// [`child::serve`](crate::child::serve) first of all if [`child::is_requested`](crate::child::is_requested).
+pub const FBX: Format = Format {
+    name: "fbx",
+    title: "Autodesk FBX",
+    extensions: &["fbx"],
+    sniff: looks_like_fbx,
+    read,
+    write: WriteSupport::None,
+    export: None,
+};
+
+/// Start of a binary file.
+const BINARY: &[u8] = b"Kaydara FBX Binary  \0";
+
+/// Number of bytes in which a text file must identify itself.
+const TEXT_BYTES: usize = 1024;
+
+/// Returns whether the bytes look like a binary or text file of this format.
+pub fn looks_like_fbx(bytes: &[u8]) -> bool {
+    if bytes.starts_with(BINARY) {
+        return true;
+    }
+    let start = &bytes[..bytes.len().min(TEXT_BYTES)];
+    let has = |word: &[u8]| start.windows(word.len()).any(|part| part == word);
+    start.starts_with(b";") && has(b"FBX") || has(b"FBXHeaderExtension:")
+}
+
+fn read(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, ImportError> {
+    FbxParser::this_program()?.read(bytes, context)
+}

@@ -1,0 +1,85 @@
+//! The parser's process with planted faults, for tests. A file that starts with `FAULT` and a word misbehaves inside the cage;
+//! any other file is parsed.
+
+#![forbid(unsafe_code)]
+
+use std::io::Write;
+use std::process::{Command, ExitCode, exit};
+
+/// Exit code after attempts to escape that were all refused.
+const REFUSED: i32 = 40;
+
+/// Exit code after an attempt that succeeded.
+const ESCAPED: i32 = 41;
+
+fn main() -> ExitCode {
+    // Inside the cage it cannot be asked for.
+    #[cfg(unix)]
+    let parent = std::os::unix::process::parent_id();
+    #[cfg(not(unix))]
+    let parent = 0;
+    dragonfly_fbx::child::serve_with(|bytes| {
+        let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1000)]).into_owned();
+        if let Some(rest) = text.strip_prefix("FAULT ") {
+            let (word, argument) = rest.trim().split_once(' ').unwrap_or((rest.trim(), ""));
+            fail(word, argument, parent);
+        }
+    })
+}
+
+fn fail(word: &str, argument: &str, parent: u32) {
+    match word {
+        "abort" => std::process::abort(),
+        "panic" => panic!("a planted panic"),
+        "overflow" => _ = deeper(1),
+        "hang" => loop {
+            std::hint::spin_loop();
+        },
+        "memory" => {
+            let mut all: Vec<Vec<u8>> = Vec::new();
+            loop {
+                all.push(vec![1; 16 << 20]);
+            }
+        }
+        "flood" => {
+            let block = vec![7; 1 << 20];
+            while std::io::stdout().write_all(&block).is_ok() {}
+        }
+        "garbage" => {
+            let _ = std::io::stdout().write_all(b"this is no answer");
+            let _ = std::io::stdout().flush();
+            exit(0);
+        }
+        "silent" => exit(0),
+        "open" => judge(std::fs::File::open(argument)),
+        "list" => judge(std::fs::read_dir(argument)),
+        "write" => judge(std::fs::write(argument, b"x")),
+        "delete" => judge(std::fs::remove_file(argument)),
+        "connect" => judge(std::net::TcpStream::connect(argument)),
+        "listen" => judge(std::net::TcpListener::bind("127.0.0.1:0")),
+        "spawn" => judge(Command::new("/bin/true").spawn()),
+        "thread" => judge(std::thread::Builder::new().spawn(|| ())),
+        #[cfg(unix)]
+        "kill" => {
+            let parent = rustix::process::Pid::from_raw(parent as i32).expect("a process");
+            judge(rustix::process::kill_process(parent, rustix::process::Signal::WINCH));
+        }
+        #[cfg(unix)]
+        "limit" => {
+            use rustix::process::{Resource, Rlimit, setrlimit};
+            judge(setrlimit(Resource::Nofile, Rlimit { current: Some(64), maximum: Some(64) }));
+        }
+        other => panic!("{other}, started by {parent}: an unknown fault"),
+    }
+}
+
+/// Ends with the exit code for the result of an attempt.
+fn judge<T, E>(result: Result<T, E>) {
+    exit(if result.is_ok() { ESCAPED } else { REFUSED });
+}
+
+/// Calls itself until the stack ends.
+fn deeper(depth: u64) -> u64 {
+    let block = std::hint::black_box([depth; 512]);
+    deeper(depth + 1) + block[(depth % 512) as usize]
+}

@@ -1,0 +1,13 @@
+//! Tests of the crate: one module for each guarantee.
+
+mod agreement;
+mod contained;
+mod content;
+mod hostile;
+mod judges;
+#[path = "../anim/soundness.rs"]
+mod soundness;
+mod support;
+
+#[global_allocator]
+static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;
