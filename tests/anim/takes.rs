@@ -10,8 +10,10 @@ use std::sync::Arc;
 
 /// Returns the files of a folder of `tests/data`, and those of the same folder of the collection of models if it is there.
 pub(crate) fn files_of(folder: &str) -> Vec<PathBuf> {
-    let folders =
-        [Some(crate::doors::data().join(folder)), dragonfly_kit::skip::models().map(|models| models.join(folder))];
+    let folders = [
+        Some(crate::doors::data().join(folder)),
+        dragonfly_kit::skip::models().map(|models| models.join(folder)),
+    ];
     let mut found: Vec<PathBuf> = folders
         .into_iter()
         .flatten()
@@ -85,7 +87,8 @@ pub(crate) fn change_track(take: &mut Take, bone: usize, step: f32, random: &mut
     for _ in 0..=random.below(4) {
         let axis = Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 0.3).normalize();
         let turn = Quat::from_axis_angle(axis, random.between(-3.0, 3.0));
-        let offset = Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        let offset =
+            Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0));
         let time = (random.below(40) as f32) * step;
         let [turns, moves] = [track.rotation.len(), track.translation.len()];
         match random.below(7) {
@@ -145,13 +148,41 @@ pub(crate) fn difference(a: &[f32], b: &[f32]) -> f32 {
     a.iter().zip(b).fold(0.0, |worst, (a, b)| worst.max((a - b).abs() / largest))
 }
 
+/// Returns the positions of all vertices that triangles use, in a take at a time.
+pub(crate) fn used_positions(model: &Arc<ModelData>, take: Option<usize>, time: f32) -> Vec<Vec3> {
+    let mut evaluator = Evaluator::new(Arc::clone(model));
+    evaluator.pose(take, time);
+    let mut used = Vec::new();
+    for instance in 0..model.instances.len() {
+        for (number, primitive) in evaluator.primitives(instance).iter().enumerate() {
+            let mut all = vec![Vec3::ZERO; primitive.vertices.len()];
+            evaluator.positions(instance, number, &mut all);
+            let mut indices = primitive.indices.clone();
+            indices.sort_unstable();
+            indices.dedup();
+            used.extend(indices.into_iter().map(|index| all[index as usize]));
+        }
+    }
+    used
+}
+
+/// Returns the largest distance of one of about a hundred positions from the nearest of the others, relative to the size of
+/// all.
+pub(crate) fn distance_of_nearest(ours: &[Vec3], theirs: &[Vec3]) -> f32 {
+    let size = ours.iter().fold(1e-3_f32, |size, position| size.max(position.abs().max_element()));
+    let nearest =
+        |position: &Vec3| theirs.iter().map(|other| position.distance(*other)).fold(f32::INFINITY, f32::min);
+    ours.iter().step_by((ours.len() / 97).max(1)).map(nearest).fold(0.0, f32::max) / size
+}
+
 /// Returns the number of triangles whose corners are counter-clockwise seen from where their normals point to, and of the others.
 pub(crate) fn windings(model: &ModelData) -> (usize, usize) {
     let (mut right, mut wrong) = (0, 0);
     for primitive in model.meshes.iter().flat_map(|mesh| &mesh.primitives) {
         for corners in primitive.indices.chunks_exact(3) {
             let [a, b, c] = [0, 1, 2].map(|corner| primitive.vertices.positions[corners[corner] as usize]);
-            let normal: Vec3 = corners.iter().map(|&corner| primitive.vertices.normals[corner as usize]).sum();
+            let normal: Vec3 =
+                corners.iter().map(|&corner| primitive.vertices.normals[corner as usize]).sum();
             match (b - a).cross(c - a).dot(normal) {
                 side if side > 0.0 => right += 1,
                 side if side < 0.0 => wrong += 1,

@@ -62,7 +62,8 @@ impl TextPatches {
             }
         }
         for place in places.iter().skip(count) {
-            let blanks = text[..place.start].iter().rev().take_while(|byte| byte.is_ascii_whitespace()).count();
+            let blanks =
+                text[..place.start].iter().rev().take_while(|byte| byte.is_ascii_whitespace()).count();
             self.replace(place.start - blanks..place.end, "");
         }
         if !more.is_empty() {

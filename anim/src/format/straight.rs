@@ -65,7 +65,8 @@ mod tests {
             let times = straight_times(&channel);
             assert!(times.windows(2).all(|pair| pair[0] < pair[1]));
             let rest = glam::Vec3::ZERO;
-            let keys: Vec<glam::Vec3> = times.iter().map(|&time| sample_channel(&channel, rest, time)).collect();
+            let keys: Vec<glam::Vec3> =
+                times.iter().map(|&time| sample_channel(&channel, rest, time)).collect();
             let lines = Channel::new(times, keys, Interpolation::Linear);
             for step in 0..200 {
                 let time = step as f32 * 0.01 + 0.0011;

@@ -52,7 +52,12 @@ fn bones_offsets_and_vertices_are_where_an_independent_evaluator_finds_them() {
         let model = Arc::new(imported.model);
         let expected: Value = serde_json::from_slice(&std::fs::read(expected).unwrap()).unwrap();
         let counts = [
-            model.meshes.iter().flat_map(|mesh| &mesh.primitives).map(|part| part.vertices.len()).sum::<usize>(),
+            model
+                .meshes
+                .iter()
+                .flat_map(|mesh| &mesh.primitives)
+                .map(|part| part.vertices.len())
+                .sum::<usize>(),
             model.meshes.iter().flat_map(|mesh| &mesh.primitives).map(|part| part.indices.len() / 3).sum(),
             model.animation.skeleton.len(),
             model.animation.takes.len(),
@@ -77,13 +82,19 @@ fn bones_offsets_and_vertices_are_where_an_independent_evaluator_finds_them() {
             for sample in clip["samples"].as_array().unwrap() {
                 evaluator.pose(Some(take), sample["t"].as_f64().unwrap() as f32);
                 let [world, skin] = ["world", "skin"].map(|name| matrices(&sample[name]));
-                for (ours, theirs) in evaluator.to_root().iter().zip(&world).chain(evaluator.final_poses(0).iter().zip(&skin)) {
+                for (ours, theirs) in
+                    evaluator.to_root().iter().zip(&world).chain(evaluator.final_poses(0).iter().zip(&skin))
+                {
                     let theirs = axes.matrix(*theirs).to_cols_array();
                     worst = worst.max(crate::takes::difference(&theirs, &ours.to_cols_array()));
                 }
                 assert_eq!((world.len(), skin.len()), (counts[2], counts[2]));
-                let theirs: Vec<Vec3> =
-                    sample["verts"].as_array().unwrap().iter().map(|vertex| axes.position(Vec3::from_slice(&numbers(vertex)))).collect();
+                let theirs: Vec<Vec3> = sample["verts"]
+                    .as_array()
+                    .unwrap()
+                    .iter()
+                    .map(|vertex| axes.position(Vec3::from_slice(&numbers(vertex))))
+                    .collect();
                 let mut ours = vec![Vec3::ZERO; theirs.len()];
                 evaluator.positions(0, 0, &mut ours);
                 let flat = |list: &[Vec3]| -> Vec<f32> { list.iter().flat_map(Vec3::to_array).collect() };

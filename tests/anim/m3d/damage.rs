@@ -36,8 +36,10 @@ fn every_truncation_of_a_file_of_each_dialect_is_an_error_or_a_sound_model() {
 fn mutants_of_files_are_errors_or_sound_models_and_can_be_saved() {
     let first = seed(61_803);
     println!("DRAGONFLY_SEED={first}");
-    let files: Vec<Vec<u8>> = small().into_iter().map(|(_, bytes)| bytes).filter(|bytes| bytes.len() < 20_000).collect();
-    let words: &[&[u8]] = &[b"{", b"}", b" 0 ", b" -1 ", b" nan ", b" 1e39 ", b"#Bones 3", b" 65536 ", b"Time:", b"\r"];
+    let files: Vec<Vec<u8>> =
+        small().into_iter().map(|(_, bytes)| bytes).filter(|bytes| bytes.len() < 20_000).collect();
+    let words: &[&[u8]] =
+        &[b"{", b"}", b" 0 ", b" -1 ", b" nan ", b" 1e39 ", b"#Bones 3", b" 65536 ", b"Time:", b"\r"];
     let mut mutator = Mutator::new(first, words);
     let mut read = 0;
     for number in 0..4000 {
@@ -71,7 +73,9 @@ fn every_refused_charge_is_a_clear_error() {
 #[test]
 fn memory_is_charged_before_it_is_used() {
     let row = "T: 1 P: 0 1.5 0.25 S: 1 1 1 Q: 0 0 0 1\n    ";
-    let text = ODD.replace("#Keyframes: 4", "#Keyframes: 40004").replace("T: 1 P: 0 1.5", &format!("{}T: 1 P: 0 1.5", row.repeat(40_000)));
+    let text = ODD
+        .replace("#Keyframes: 4", "#Keyframes: 40004")
+        .replace("T: 1 P: 0 1.5", &format!("{}T: 1 P: 0 1.5", row.repeat(40_000)));
     let options = ReadOptions::default();
     let (memory, result) = peak(|| M3D.import(text.as_bytes(), &NoFiles, &options));
     assert_eq!(result.unwrap().model.animation.takes[1].tracks[1].rotation.len(), 3);

@@ -16,7 +16,10 @@ fn every_dialect_is_read_with_its_materials_and_labels_are_not_compared() {
     assert_eq!(faults(&odd.model), [""; 0]);
     let [skin, eyes] = &odd.model.materials[..] else { panic!("two materials") };
     assert_eq!((skin.name.as_str(), skin.base_color.to_array()), ("skin", [1.0, 0.5, 0.25, 1.0]));
-    assert_eq!((skin.alpha_mode, skin.metallic.roughness, skin.use_phong), (AlphaMode::Mask(0.1), 0.75, false));
+    assert_eq!(
+        (skin.alpha_mode, skin.metallic.roughness, skin.use_phong),
+        (AlphaMode::Mask(0.1), 0.75, false)
+    );
     assert!(skin.base_color_texture.is_some() && skin.normal_texture.is_none());
     assert!(eyes.base_color_texture.is_none() && eyes.normal_texture.is_some());
     let [mesh] = &odd.model.meshes[..] else { panic!("one mesh") };
@@ -28,7 +31,8 @@ fn every_dialect_is_read_with_its_materials_and_labels_are_not_compared() {
     let material = &rigged.model.materials[0];
     assert!(material.use_phong && material.phong.specular_power == 16.0);
     assert_eq!(material.phong.ambient, Vec3::new(0.279_635_4, 0.64, 0.210_943_9));
-    let names: Vec<&str> = rigged.model.animation.skeleton.bones.iter().map(|bone| bone.name.as_str()).collect();
+    let names: Vec<&str> =
+        rigged.model.animation.skeleton.bones.iter().map(|bone| bone.name.as_str()).collect();
     assert_eq!(names, ["bone0", "bone1"]);
 
     for name in ["sword_static_dx10_lh.m3d", "sword_static_dx11_lh.m3d"] {
@@ -37,7 +41,8 @@ fn every_dialect_is_read_with_its_materials_and_labels_are_not_compared() {
         assert_eq!(sword.model.meshes[0].primitives[0].vertices.len(), 88);
         assert_eq!(sword.model.materials.len(), 1);
     }
-    let [old, new] = ["sword_static_dx10_lh.m3d", "sword_static_dx11_lh.m3d"].map(|name| import(&stored(name)).unwrap());
+    let [old, new] =
+        ["sword_static_dx10_lh.m3d", "sword_static_dx11_lh.m3d"].map(|name| import(&stored(name)).unwrap());
     assert_eq!(old.model.meshes[0].primitives[0].indices, new.model.meshes[0].primitives[0].indices);
 }
 
@@ -95,7 +100,8 @@ fn the_user_chooses_the_sense_of_the_axes_and_triangles_still_face_outwards() {
             assert_eq!(chosen.model == guessed.model, is_same, "{name}");
             let (right, wrong) = windings(&chosen.model);
             assert!(wrong * 200 <= right, "{name} {side:?}");
-            let [a, b] = [&chosen, &guessed].map(|imported| imported.model.meshes[0].primitives[0].vertices.positions[1]);
+            let [a, b] = [&chosen, &guessed]
+                .map(|imported| imported.model.meshes[0].primitives[0].vertices.positions[1]);
             assert_eq!(a, if is_same { b } else { b * Vec3::new(1.0, 1.0, -1.0) });
         }
     }
@@ -117,7 +123,10 @@ fn weights_that_do_not_add_up_leave_the_rest_to_the_fourth_bone() {
     let vertices = &imported.model.meshes[0].primitives[0].vertices;
     let of = |vertex: usize| -> Vec<(u16, f32)> {
         let influences = vertices.influences_of(vertex).iter();
-        influences.filter(|influence| influence.weight > 0.0).map(|influence| (influence.joint, influence.weight)).collect()
+        influences
+            .filter(|influence| influence.weight > 0.0)
+            .map(|influence| (influence.joint, influence.weight))
+            .collect()
     };
     assert_eq!(of(1), [(0, 0.75), (1, 0.25)]);
     // A bone that occurs twice counts once.
@@ -125,7 +134,10 @@ fn weights_that_do_not_add_up_leave_the_rest_to_the_fourth_bone() {
     // 0.5 + 0.25, and the remaining 0.25 on bone 1.
     assert_eq!(of(3), [(1, 0.75), (0, 0.25)]);
     let texts: Vec<String> = imported.warnings.iter().map(ToString::to_string).collect();
-    assert!(texts.iter().any(|text| text.contains("1 vertices have weights that do not add up to one")), "{texts:?}");
+    assert!(
+        texts.iter().any(|text| text.contains("1 vertices have weights that do not add up to one")),
+        "{texts:?}"
+    );
     let nan = ODD.replace("W: 0.75 0.25 0 0", "W: nan inf 0 0");
     assert_eq!(faults(&import(nan.as_bytes()).unwrap().model), [""; 0]);
 }
@@ -156,15 +168,39 @@ fn errors_name_the_line_and_what_was_expected() {
     let error = |from: &str, to: &str| import(ODD.replacen(from, to, 1).as_bytes()).unwrap_err().to_string();
     for (from, to, expected) in [
         ("P: 1 0 0", "P: 1 0", "line 37 column 1: \"T:\" is no number where a position was expected"),
-        ("W: 0.75 0.25 0 0", "W: 0.75 0.25 0", "line 41 column 1: \"I:\" is no number where a weight was expected"),
-        ("W: 0.75 0.25 0 0", "W: 0.75 0.25 0 0 0", "line 41 column 18: the number \"0\" where the label of the bones of a vertex was expected"),
+        (
+            "W: 0.75 0.25 0 0",
+            "W: 0.75 0.25 0",
+            "line 41 column 1: \"I:\" is no number where a weight was expected",
+        ),
+        (
+            "W: 0.75 0.25 0 0",
+            "W: 0.75 0.25 0 0 0",
+            "line 41 column 18: the number \"0\" where the label of the bones of a vertex was expected",
+        ),
         ("I: 0 1 0 0", "I: 0 2 0 0", "line 42 column 6: a vertex refers to bone 2, there are 2 bones"),
         ("0 3 2", "0 4 2", "line 63 column 3: the vertex of a triangle is 4, there are 4"),
-        ("0 3 2", "0 -3 2", "line 63 column 3: \"-3\" is no whole number where the vertex of a triangle was expected"),
-        ("Bone1: 0", "Bone1: 1", "line 72 column 22: the parent of bone 1 is bone 1, which has to come before it"),
+        (
+            "0 3 2",
+            "0 -3 2",
+            "line 63 column 3: \"-3\" is no whole number where the vertex of a triangle was expected",
+        ),
+        (
+            "Bone1: 0",
+            "Bone1: 1",
+            "line 72 column 22: the parent of bone 1 is bone 1, which has to come before it",
+        ),
         ("Bone1: 0", "Bone1: 7", "line 72 column 22: the parent of bone 1 is bone 7, there are 2"),
-        ("FaceCount: 1", "FaceCount: 2", "line 28 column 66: a subset has 2 faces from face 3 on, there are 4"),
-        ("NumBones 2", "NumBones 99999999", "line 5 column 10: the number of bones is 99999999, the text after it is too short for more than 39"),
+        (
+            "FaceCount: 1",
+            "FaceCount: 2",
+            "line 28 column 66: a subset has 2 faces from face 3 on, there are 4",
+        ),
+        (
+            "NumBones 2",
+            "NumBones 99999999",
+            "line 5 column 10: the number of bones is 99999999, the text after it is too short for more than 39",
+        ),
         ("T: 0.1 P", "T: 99999 P", "line 80 column 5: seconds: 99999, at most 86400"),
         ("P: 1 0 0", "P: 1e13 0 0", "line 37 column 3: the position is too large"),
     ] {

@@ -2,7 +2,8 @@
 
 use super::made::{ODD, import, small, stored};
 use crate::takes::{
-    add_key, change_key, changed_lines, edited, files_of, opened_takes, plan, pose_difference, remove_key, with_takes,
+    add_key, change_key, changed_lines, edited, files_of, opened_takes, plan, pose_difference, remove_key,
+    with_takes,
 };
 use dragonfly_anim::data::{Channel, Interpolation, Take, TakeExtras, Track};
 use dragonfly_anim::format::{Conventions, EditedTake, Handedness, NoFiles, ReadOptions, SavePlan, m3d::M3D};
@@ -71,7 +72,9 @@ fn rows_are_added_and_removed_in_the_style_of_the_file_and_counted() {
     assert!(after.contains("Bone0 #Keyframes: 2") && after.contains(added), "{after}");
     assert!(after.contains("Bone1 #Keyframes: 1\n  {\n\t\tT: 0.5 P: "), "{after}");
     let again = import(after.as_bytes()).unwrap().model;
-    assert!(pose_difference(&again, &with_takes(&opened, &takes), 0, &[0.0, 0.05, 0.1, 0.2, 0.3, 0.5]) < 1e-6);
+    assert!(
+        pose_difference(&again, &with_takes(&opened, &takes), 0, &[0.0, 0.05, 0.1, 0.2, 0.3, 0.5]) < 1e-6
+    );
     // Rows that have no effect stay as they are.
     assert!(after.ends_with(&ODD[ODD.find("AnimationClip stand").unwrap()..]));
 }
@@ -154,10 +157,14 @@ fn clips_are_added_to_files_without_and_lost_in_files_without_bones() {
     }
     let sword = stored("sword_static_dx11_lh.m3d");
     let opened_sword = import(&sword).unwrap().model;
-    let take = EditedTake { origin: None, take: Arc::new(Take { name: "spin".to_owned(), ..Take::default() }) };
+    let take =
+        EditedTake { origin: None, take: Arc::new(Take { name: "spin".to_owned(), ..Take::default() }) };
     let saved = plan(&M3D, &sword, &opened_sword, &[take]);
     assert!(saved.files[0].bytes == sword);
-    assert_eq!(saved.to_string(), "nothing changes\nnot saved: /animation/takes/0: take \"spin\": a file without bones has no takes\n");
+    assert_eq!(
+        saved.to_string(),
+        "nothing changes\nnot saved: /animation/takes/0: take \"spin\": a file without bones has no takes\n"
+    );
 }
 
 #[test]

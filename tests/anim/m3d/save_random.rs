@@ -69,7 +69,9 @@ fn random_edits_change_only_their_rows_and_read_back_as_edited() {
                         track.scale.times.contains(&time).then(|| ())?,
                     ))
                 };
-                let is_same = value(track.0).is_some() && value(track.0) == value(track.1) && track.0.scale == track.1.scale;
+                let is_same = value(track.0).is_some()
+                    && value(track.0) == value(track.1)
+                    && track.0.scale == track.1.scale;
                 assert!(!is_same || new.contains(row), "{name}: {row}");
             }
             let expected = with_takes(&opened, &takes);

@@ -38,8 +38,20 @@ fn mutants_of_files_are_errors_or_sound_models_and_can_be_saved() {
     println!("DRAGONFLY_SEED={first}");
     let files: Vec<Vec<u8>> = small().into_iter().map(|(_, bytes)| bytes).collect();
     let words: &[&[u8]] = &[
-        b"{", b"}", b"Frame a {", b"Mesh {", b"\"", b" 1e39 ", b" nan ", b"<", b"//", b"CK", b"\x06\0\xff\xff\xff\xff",
-        b"\x0a\0", b"\x0b\0", b"SkinWeights {",
+        b"{",
+        b"}",
+        b"Frame a {",
+        b"Mesh {",
+        b"\"",
+        b" 1e39 ",
+        b" nan ",
+        b"<",
+        b"//",
+        b"CK",
+        b"\x06\0\xff\xff\xff\xff",
+        b"\x0a\0",
+        b"\x0b\0",
+        b"SkinWeights {",
     ];
     let mut mutator = Mutator::new(first, words);
     let mut read = 0;
@@ -81,7 +93,8 @@ fn memory_is_charged_before_it_is_used() {
     let faces: String = (0..20_000).map(|_| "4;0,1,2,3;,").collect();
     let mesh = format!("Mesh m {{ 4; 0;0;0;,1;0;0;,1;1;0;,0;1;0;; 20000; {faces} }}");
     let keys: String = (0..20_000).map(|tick| format!("{tick};3;1,2,3;;,")).collect();
-    let set = format!("Frame f {{ }} AnimationSet {{ Animation {{ {{f}} AnimationKey {{ 2; 20000; {keys} }} }} }}");
+    let set =
+        format!("Frame f {{ }} AnimationSet {{ Animation {{ {{f}} AnimationKey {{ 2; 20000; {keys} }} }} }}");
     for text in [many, mesh, set] {
         let bytes = with_header(&text);
         let options = ReadOptions::default();
@@ -109,11 +122,18 @@ fn compressed_data_needs_no_more_memory_than_is_charged_whatever_it_announces() 
     let whole = import(&bomb).unwrap();
     assert!(whole.model.meshes.is_empty());
 
-    let error = |total: usize, blocks: &[(usize, Vec<u8>)]| import(&compressed(total, blocks)).unwrap_err().to_string();
+    let error = |total: usize, blocks: &[(usize, Vec<u8>)]| {
+        import(&compressed(total, blocks)).unwrap_err().to_string()
+    };
     // More, or less, than a block announces; larger than is possible; another total; nothing; damaged.
     assert!(error(1000, &[(1000, zeros.clone())]).starts_with("byte 26: a block of 1000 bytes is damaged"));
-    assert!(error(32_784, &[(32_767, zeros.clone())]).starts_with("byte 26: a block of 32767 bytes is damaged"));
-    assert!(error(40_000, &[(40_000, zeros.clone())]).starts_with("byte 20: a block of 40000 bytes; at most 32768"));
+    assert!(
+        error(32_784, &[(32_767, zeros.clone())]).starts_with("byte 26: a block of 32767 bytes is damaged")
+    );
+    assert!(
+        error(40_000, &[(40_000, zeros.clone())])
+            .starts_with("byte 20: a block of 40000 bytes; at most 32768")
+    );
     assert_eq!(error(9, &[(32_768, zeros)]), "byte 16: 32784 bytes without compression, 9 are announced");
     assert_eq!(error(9, &[]), "byte 16: 16 bytes without compression, 9 are announced");
     assert!(error(9, &[(9, vec![0xff; 9])]).starts_with("byte 26: a block of 9 bytes is damaged"));

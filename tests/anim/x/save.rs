@@ -2,7 +2,8 @@
 
 use super::made::{import, pendulum, small, stored, with_header};
 use crate::takes::{
-    add_key, change_key, changed_lines, edited, files_of, opened_takes, plan, pose_difference, remove_key, with_takes,
+    add_key, change_key, changed_lines, edited, files_of, opened_takes, plan, pose_difference, remove_key,
+    with_takes,
 };
 use dragonfly_anim::data::{Channel, Interpolation, ModelData, Take, TakeExtras, Track};
 use dragonfly_anim::format::{Conventions, EditedTake, Handedness, NoFiles, ReadOptions, SavePlan, x::X};
@@ -62,7 +63,9 @@ fn a_moved_key_of_a_list_of_matrices_changes_its_last_row_only() {
     let saved = plan(&X, source.as_bytes(), &opened, &takes);
     let lines = changed_lines(&source, &text(&saved));
     assert_eq!(lines.len(), 1);
-    let numbers = |line: &str| line.trim_end_matches([';', ',']).split([';', ',']).map(str::to_owned).collect::<Vec<_>>();
+    let numbers = |line: &str| {
+        line.trim_end_matches([';', ',']).split([';', ',']).map(str::to_owned).collect::<Vec<_>>()
+    };
     let (before, after) = (numbers(&lines[0].0), numbers(&lines[0].1));
     let changed: Vec<usize> = (0..18).filter(|&slot| before[slot] != after[slot]).collect();
     assert_eq!(changed, [15]);
@@ -76,7 +79,9 @@ fn a_moved_key_of_a_list_of_matrices_changes_its_last_row_only() {
     let (before, after) = (numbers(&lines[0].0), numbers(&lines[0].1));
     assert!(before[..2] == after[..2] && before[14..] == after[14..], "{lines:?}");
     let again = import(text(&saved).as_bytes()).unwrap().model;
-    assert!(pose_difference(&again, &with_takes(&opened, &takes), 1, &[0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]) < 1e-5);
+    assert!(
+        pose_difference(&again, &with_takes(&opened, &takes), 1, &[0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]) < 1e-5
+    );
 }
 
 #[test]
@@ -93,11 +98,21 @@ fn keys_are_added_and_removed_in_the_style_of_the_file_and_counted() {
     let saved = plan(&X, source.as_bytes(), &opened, &takes);
     assert_eq!(saved.lost, []);
     let after = text(&saved);
-    assert!(after.contains("   2;\n   4;\n   0;3;0.000000,-2.000000,0.000000;;,\n   6;3;1.0,2.0,-3.0;;,\n   12;3;"), "{after}");
+    assert!(
+        after.contains(
+            "   2;\n   4;\n   0;3;0.000000,-2.000000,0.000000;;,\n   6;3;1.0,2.0,-3.0;;,\n   12;3;"
+        ),
+        "{after}"
+    );
     assert!(after.contains("   1;\n   1;\n   24;3;1.000000,0.500000,1.500000;;;\n"), "{after}");
     assert!(!after.contains("   3;4;"), "{after}");
     assert!(after.contains("AnimationKey {\n   1;\n   1;\n   12;3;2.0,2.0,2.0;;;\n  }"), "{after}");
-    assert!(after.contains(" Animation {\n  { World }\n  AnimationKey {\n   0;\n   1;\n   0;4;1.0,0.0,0.0,0.0;;;\n  }\n }"), "{after}");
+    assert!(
+        after.contains(
+            " Animation {\n  { World }\n  AnimationKey {\n   0;\n   1;\n   0;4;1.0,0.0,0.0,0.0;;;\n  }\n }"
+        ),
+        "{after}"
+    );
     let again = import(after.as_bytes()).unwrap().model;
     let times = [0.0, 0.1, 0.25, 0.5, 0.7, 1.0];
     assert!(pose_difference(&again, &with_takes(&opened, &takes), 0, &times) < 1e-5);
@@ -147,8 +162,11 @@ fn takes_are_renamed_copied_made_moved_and_removed() {
     let opened_cube = import(&cube).unwrap().model;
     let mut spin = Take { name: "spin".to_owned(), ..Take::default() };
     spin.tracks = (0..2).map(|bone| Track { bone, ..Track::default() }).collect();
-    spin.tracks[1].rotation =
-        Channel::new([0.0, 1.0], [Quat::IDENTITY, Quat::from_xyzw(0.0, 0.6, 0.0, 0.8)], Interpolation::Linear);
+    spin.tracks[1].rotation = Channel::new(
+        [0.0, 1.0],
+        [Quat::IDENTITY, Quat::from_xyzw(0.0, 0.6, 0.0, 0.8)],
+        Interpolation::Linear,
+    );
     let saved = plan(&X, &cube, &opened_cube, &[EditedTake { origin: None, take: Arc::new(spin.clone()) }]);
     let again = import(&saved.files[0].bytes).unwrap().model;
     assert!(again.animation.takes[0].tracks == spin.tracks && again.animation.takes[0].name == "spin");
@@ -188,7 +206,9 @@ fn a_set_without_a_name_gets_one_and_what_has_no_room_is_listed() {
 
 #[test]
 fn files_that_are_no_text_are_not_edited_and_another_format_is_proposed() {
-    for (name, kind) in [("pendulum_bin.x", "binary"), ("pendulum_tzip.x", "compressed"), ("pendulum_bzip.x", "compressed")] {
+    for (name, kind) in
+        [("pendulum_bin.x", "binary"), ("pendulum_tzip.x", "compressed"), ("pendulum_bzip.x", "compressed")]
+    {
         let bytes = stored(name);
         let opened = import(&bytes).unwrap().model;
         let file = X.edit(name, bytes, &NoFiles, &ReadOptions::default()).unwrap();
@@ -198,7 +218,10 @@ fn files_that_are_no_text_are_not_edited_and_another_format_is_proposed() {
             edited(&opened, 0, |take| remove_key(&mut take.tracks[2].scale, 0)),
         ] {
             let error = file.plan(&opened, &takes).unwrap_err();
-            assert_eq!(error.to_string(), format!("a {kind} .x file cannot be edited; save the model as .glb"));
+            assert_eq!(
+                error.to_string(),
+                format!("a {kind} .x file cannot be edited; save the model as .glb")
+            );
         }
     }
 }

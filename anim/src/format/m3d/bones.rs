@@ -32,11 +32,13 @@ pub(super) fn bones(
         let at = scanner.at();
         let mut offset = Mat4::from_cols_array(&scanner.floats::<16>("the offset of a bone")?);
         if !offset.row(3).abs_diff_eq(Vec4::W, 1e-5) {
-            let text = format!("the last column of offset {number} should be 0 0 0 1 and was replaced by that");
+            let text =
+                format!("the last column of offset {number} should be 0 0 0 1 and was replaced by that");
             context.warn(scanner.place(at), code::OFFSET_INVALID, text);
         }
         (offset.x_axis.w, offset.y_axis.w, offset.z_axis.w, offset.w_axis.w) = (0.0, 0.0, 0.0, 1.0);
-        let largest = offset.to_cols_array().into_iter().fold(0.0_f32, |largest, number| largest.max(number.abs()));
+        let largest =
+            offset.to_cols_array().into_iter().fold(0.0_f32, |largest, number| largest.max(number.abs()));
         if largest > HUGE {
             return Err(scanner.invalid(at, code::HUGE_POSITION, "the offset is too large"));
         }
@@ -54,9 +56,15 @@ pub(super) fn bones(
         let (parent, _) = scanner.whole("the parent of a bone", u64::from(u32::MAX))?;
         if parent >= number as u64 {
             let (code, reason) = if parent < count as u64 {
-                (code::PARENT_LATER, format!("the parent of bone {number} is bone {parent}, which has to come before it"))
+                (
+                    code::PARENT_LATER,
+                    format!("the parent of bone {number} is bone {parent}, which has to come before it"),
+                )
             } else {
-                (code::INDEX_OUT_OF_RANGE, format!("the parent of bone {number} is bone {parent}, there are {count}"))
+                (
+                    code::INDEX_OUT_OF_RANGE,
+                    format!("the parent of bone {number} is bone {parent}, there are {count}"),
+                )
             };
             return Err(scanner.invalid(token.at, code, reason));
         }
@@ -82,7 +90,8 @@ pub(super) fn skeleton(
         let parent = bone.parent.map(|parent| &bones[parent as usize]);
         let to_root = inverse(offset);
         if to_root.is_none() {
-            let text = format!("the offset of bone {number} has no inverse; the bone is at its parent at rest");
+            let text =
+                format!("the offset of bone {number} has no inverse; the bone is at its parent at rest");
             context.warn(place.clone(), code::OFFSET_INVALID, text);
         }
         let parent_to_root = bone.parent.map_or(Mat4::IDENTITY, |parent| to_roots[parent as usize]);
@@ -104,7 +113,14 @@ pub(super) fn skeleton(
             return Err(scanner.invalid(scanner.at(), code::HUGE_POSITION, reason));
         }
         to_roots.push(to_root);
-        list.push(Bone { name: format!("bone{number}"), parent: bone.parent, rest, rest_matrix, offset, node: None });
+        list.push(Bone {
+            name: format!("bone{number}"),
+            parent: bone.parent,
+            rest,
+            rest_matrix,
+            offset,
+            node: None,
+        });
     }
     Ok(Skeleton { bones: list })
 }

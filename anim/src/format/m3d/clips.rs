@@ -141,7 +141,8 @@ pub(super) fn take(
         tracks.push(track(number as BoneIndex, keys, axes, scanner, context)?);
     }
     let name = String::from_utf8_lossy(&bytes[clip.name.clone()]).into_owned();
-    let mut take = Take { name, start: 0.0, length: 0.0, tracks, morphs: Vec::new(), extras: TakeExtras::default() };
+    let mut take =
+        Take { name, start: 0.0, length: 0.0, tracks, morphs: Vec::new(), extras: TakeExtras::default() };
     if let Some((first, last)) = take.range_of_keys() {
         (take.start, take.length) = (first, last - first);
     }
@@ -184,7 +185,8 @@ fn track(
         })
         .collect();
     if is_odd {
-        let text = "rotations are not of unit length; they were normalized, and those of length zero left out";
+        let text =
+            "rotations are not of unit length; they were normalized, and those of length zero left out";
         context.warn(place(), code::ROTATION_NON_UNIT, text);
     }
     let vectors = |value: fn(&M3dRow) -> Vec3, map: &dyn Fn(Vec3) -> Vec3| Channel {
@@ -195,7 +197,11 @@ fn track(
     Ok(Track {
         bone,
         translation: vectors(|row| row.position, &|position| axes.position(position)),
-        rotation: Channel { times: Arc::clone(&times), values: rotations, interpolation: Interpolation::Linear },
+        rotation: Channel {
+            times: Arc::clone(&times),
+            values: rotations,
+            interpolation: Interpolation::Linear,
+        },
         scale: vectors(|row| row.scale, &|scale| axes.factors(scale)),
     })
 }

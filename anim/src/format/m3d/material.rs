@@ -32,10 +32,9 @@ impl M3dMaterial {
         images: &mut NeighborImages<'_>,
     ) -> Result<Material, ImportError> {
         let Self { mut material, diffuse_map, normal_map } = self;
-        for (range, slot) in [
-            (diffuse_map, &mut material.base_color_texture),
-            (normal_map, &mut material.normal_texture),
-        ] {
+        for (range, slot) in
+            [(diffuse_map, &mut material.base_color_texture), (normal_map, &mut material.normal_texture)]
+        {
             if let Some(name) = texture(bytes, &range) {
                 *slot = Some(images.texture(&name, &scanner.place(range.start))?);
             }

@@ -13,7 +13,11 @@ use glam::{Mat4, Vec3};
 use std::sync::Arc;
 
 /// Returns the model.
-pub(super) fn model(bytes: &[u8], mut text: M3dText, context: &ImportContext<'_>) -> Result<ModelData, ImportError> {
+pub(super) fn model(
+    bytes: &[u8],
+    mut text: M3dText,
+    context: &ImportContext<'_>,
+) -> Result<ModelData, ImportError> {
     let scanner = M3dScanner::new(bytes);
     let axes = text.conversion.axes();
     let mut images = NeighborImages::new(context);
@@ -62,7 +66,11 @@ struct Part {
     triangles: Vec<u32>,
 }
 
-fn primitives(text: &M3dText, axes: &AxisMap, context: &ImportContext<'_>) -> Result<Vec<Primitive>, ImportError> {
+fn primitives(
+    text: &M3dText,
+    axes: &AxisMap,
+    context: &ImportContext<'_>,
+) -> Result<Vec<Primitive>, ImportError> {
     let parts = parts(text, context)?;
     let vertices = all_vertices(text, axes, context)?;
     let count = vertices.positions.len();
@@ -81,7 +89,8 @@ fn primitives(text: &M3dText, axes: &AxisMap, context: &ImportContext<'_>) -> Re
                 numbers[corner as usize] = 0;
             }
         }
-        let mut used: Vec<u32> = context.vec(&Place::File, numbers.iter().filter(|&&number| number != UNUSED).count())?;
+        let mut used: Vec<u32> =
+            context.vec(&Place::File, numbers.iter().filter(|&&number| number != UNUSED).count())?;
         for (vertex, number) in numbers.iter_mut().enumerate().filter(|(_, number)| **number != UNUSED) {
             *number = used.len() as u32;
             used.push(vertex as u32);
@@ -110,7 +119,9 @@ fn parts(text: &M3dText, context: &ImportContext<'_>) -> Result<Vec<Part>, Impor
     } else {
         let most = text.triangles.subsets.iter().copied().max().unwrap_or(0) as usize;
         context.charge(&Place::File, most as u64 * 64 + count as u64 * 8)?;
-        parts.extend((0..=most).map(|material| Part { material: Some(material as u32), triangles: Vec::new() }));
+        parts.extend(
+            (0..=most).map(|material| Part { material: Some(material as u32), triangles: Vec::new() }),
+        );
         for (triangle, &subset) in text.triangles.subsets.iter().enumerate() {
             parts[subset as usize].triangles.push(triangle as u32);
         }
@@ -145,7 +156,11 @@ fn indices(
 }
 
 /// Returns all vertices of the file in the space of the model.
-fn all_vertices(text: &M3dText, axes: &AxisMap, context: &ImportContext<'_>) -> Result<Vertices, ImportError> {
+fn all_vertices(
+    text: &M3dText,
+    axes: &AxisMap,
+    context: &ImportContext<'_>,
+) -> Result<Vertices, ImportError> {
     let read = &text.vertices;
     let count = read.positions.len();
     context.work(count)?;
@@ -156,16 +171,24 @@ fn all_vertices(text: &M3dText, axes: &AxisMap, context: &ImportContext<'_>) -> 
         ..Vertices::default()
     };
     vertices.positions.extend(read.positions.iter().map(|&position| axes.position(position)));
-    let units: Vec<Option<Vec3>> = read.normals.iter().map(|&normal| direction(axes.direction(normal))).collect();
+    let units: Vec<Option<Vec3>> =
+        read.normals.iter().map(|&normal| direction(axes.direction(normal))).collect();
     let made = if units.contains(&None) {
         let all: Vec<u32> = text.triangles.indices.iter().flatten().copied().collect();
         context.charge(&Place::File, all.len() as u64 * 4)?;
         let mut made = normals(&vertices.positions, &all, &Place::File, context)?;
-        if !text.reverses() { made } else { made.iter_mut().for_each(|normal| *normal = -*normal); made }
+        if !text.reverses() {
+            made
+        } else {
+            made.iter_mut().for_each(|normal| *normal = -*normal);
+            made
+        }
     } else {
         Vec::new()
     };
-    vertices.normals.extend(units.into_iter().enumerate().map(|(vertex, unit)| unit.unwrap_or_else(|| made[vertex])));
+    vertices
+        .normals
+        .extend(units.into_iter().enumerate().map(|(vertex, unit)| unit.unwrap_or_else(|| made[vertex])));
     vertices.tangents.extend(read.tangents.iter().map(|&tangent| {
         let side = if tangent.w < 0.0 { -1.0 } else { 1.0 };
         let mapped = axes.tangent(tangent.truncate().extend(side));

@@ -4,7 +4,9 @@ use super::M3dDialect;
 use super::bones::{BONE_BYTES, M3dBone, bones};
 use super::check as code;
 use super::clips::{M3dClip, clips};
-use super::geometry::{M3dTriangles, M3dVertices, TRIANGLE_BYTES, VERTEX_BYTES, subsets, triangles, vertices};
+use super::geometry::{
+    M3dTriangles, M3dVertices, TRIANGLE_BYTES, VERTEX_BYTES, subsets, triangles, vertices,
+};
 use super::material::{M3dMaterial, dx10, materials};
 use super::scan::{M3dScanner, is_number};
 use crate::format::{Conversion, Found, Handedness, ImportContext, ImportError, Place};

@@ -19,7 +19,9 @@ pub(super) fn influences(
     context.work(list.len())?;
     let mut odd = 0;
     let mut found = Vec::with_capacity(4);
-    for ((weights, bones), slots) in vertices.weights.iter().zip(&vertices.bones).zip(list.chunks_exact_mut(4)) {
+    for ((weights, bones), slots) in
+        vertices.weights.iter().zip(&vertices.bones).zip(list.chunks_exact_mut(4))
+    {
         let mut weights = *weights;
         let is_odd = !((weights.iter().sum::<f32>() - 1.0).abs() <= ROUNDING);
         odd += usize::from(is_odd);
@@ -38,7 +40,8 @@ pub(super) fn influences(
         }
     }
     if odd > 0 {
-        let text = format!("{odd} vertices have weights that do not add up to one; their fourth bone gets the rest");
+        let text =
+            format!("{odd} vertices have weights that do not add up to one; their fourth bone gets the rest");
         context.warn(Place::File, code::WEIGHTS_INVALID, text);
     }
     Ok(list)

@@ -3,9 +3,9 @@
 use super::check as code;
 use super::faces::{Corner, NONE, ObjText, Polygon};
 use super::lines::places;
-use crate::format::triangulate::{Division, Triangulator, normal};
 use crate::data::{Mesh, Primitive};
 use crate::format::normals::unit;
+use crate::format::triangulate::{Division, Triangulator, normal};
 use crate::format::{AxisMap, ImportContext, ImportError, Place};
 use glam::{DVec3, Vec3, Vec4};
 use std::collections::HashMap;

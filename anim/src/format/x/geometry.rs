@@ -44,7 +44,8 @@ pub(super) fn primitives(
         Vec::new()
     };
     let mut primitives = context.vec(&Place::File, parts.len())?;
-    let sources = VertexSources { mesh, positions: &positions, units: &units, computed: &computed, influences };
+    let sources =
+        VertexSources { mesh, positions: &positions, units: &units, computed: &computed, influences };
     for (material, triangles) in parts {
         primitives.push(sources.primitive(material, &triangles, context)?);
     }
@@ -121,7 +122,12 @@ impl VertexSources<'_> {
             let key = self.key(corner);
             indices.push(keys.binary_search(&key).unwrap_or(0) as u32);
         }
-        Ok(Primitive { vertices: self.vertices(&keys, context)?, indices, material, morph_targets: Vec::new() })
+        Ok(Primitive {
+            vertices: self.vertices(&keys, context)?,
+            indices,
+            material,
+            morph_targets: Vec::new(),
+        })
     }
 
     /// Returns the numbers of the position and the normal of a corner.

@@ -24,14 +24,18 @@ pub(super) fn inflate(bytes: &[u8], context: &ImportContext<'_>) -> Result<Vec<u
     let mut out = context.vec(&Place::Byte(0), HEADER)?;
     out.extend_from_slice(&bytes[..HEADER]);
     let Some(total) = bytes.get(HEADER..HEADER + 4).and_then(|size| size.first_chunk()) else {
-        return invalid(bytes.len(), "the file ends where its size without compression was expected".to_owned());
+        return invalid(
+            bytes.len(),
+            "the file ends where its size without compression was expected".to_owned(),
+        );
     };
     let total = u32::from_le_bytes(*total) as usize;
     let mut at = HEADER + 4;
     let mut state = Box::new(DecompressorOxide::new());
     while at < bytes.len() {
         context.work(BLOCK)?;
-        let Some(&[a, b, c, d, s, t]) = bytes.get(at..).and_then(|rest| rest.first_chunk::<BLOCK_HEADER>()) else {
+        let Some(&[a, b, c, d, s, t]) = bytes.get(at..).and_then(|rest| rest.first_chunk::<BLOCK_HEADER>())
+        else {
             return invalid(at, "a block ends before its data".to_owned());
         };
         let size = usize::from(u16::from_le_bytes([a, b]));
@@ -47,14 +51,20 @@ pub(super) fn inflate(bytes: &[u8], context: &ImportContext<'_>) -> Result<Vec<u
             return invalid(at, format!("a block of {size} bytes; at most {BLOCK} are possible"));
         }
         let start = out.len();
-        context.charge(&Place::Byte(at as u64), if start + size > out.capacity() { out.capacity() as u64 + size as u64 } else { 0 })?;
+        context.charge(
+            &Place::Byte(at as u64),
+            if start + size > out.capacity() { out.capacity() as u64 + size as u64 } else { 0 },
+        )?;
         out.resize(start + size, 0);
         state.init();
         let flags = TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
         // The distance of a copy is at most 32 KiB, and it may reach into the blocks before.
         let (status, _, written) = decompress(&mut state, data, &mut out, start, flags);
         if status != TINFLStatus::Done || written != size {
-            return invalid(at + BLOCK_HEADER, format!("a block of {size} bytes is damaged: {written} bytes, {status:?}"));
+            return invalid(
+                at + BLOCK_HEADER,
+                format!("a block of {size} bytes is damaged: {written} bytes, {status:?}"),
+            );
         }
         at += 4 + packed;
     }

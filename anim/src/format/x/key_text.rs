@@ -71,7 +71,8 @@ impl KeyText {
         };
         add(self.channel(XKeyKind::Rotation, &track.rotation, rest.rotation, |value| self.rotation(value)));
         add(self.channel(XKeyKind::Scale, &track.scale, rest.scale, |value| self.scale(value)));
-        add(self.channel(XKeyKind::Position, &track.translation, rest.translation, |value| self.position(value)));
+        add(self
+            .channel(XKeyKind::Position, &track.translation, rest.translation, |value| self.position(value)));
         lists
     }
 
@@ -98,10 +99,15 @@ impl KeyText {
     /// written.
     pub(super) fn block(&self, keys: &FileKeys, indent: &str) -> String {
         let line = self.line_end;
-        let is_last =
-            |&index: &usize| keys.times.get(index + 1).is_none_or(|&next| self.ticks(next) != self.ticks(keys.times[index]));
+        let is_last = |&index: &usize| {
+            keys.times.get(index + 1).is_none_or(|&next| self.ticks(next) != self.ticks(keys.times[index]))
+        };
         let rows: Vec<usize> = (0..keys.times.len()).filter(is_last).collect();
-        let mut text = format!("AnimationKey {{{line}{indent} {};{line}{indent} {};{line}", keys.kind.number(), rows.len());
+        let mut text = format!(
+            "AnimationKey {{{line}{indent} {};{line}{indent} {};{line}",
+            keys.kind.number(),
+            rows.len()
+        );
         for (position, &index) in rows.iter().enumerate() {
             let end = if position + 1 < rows.len() { ";;," } else { ";;;" };
             let _ = write!(text, "{indent} {}{end}{line}", self.row(keys.times[index], &keys.values[index]));
@@ -126,7 +132,13 @@ impl KeyText {
         self.list_channel(&new.scale, &old.scale, take, losses);
     }
 
-    fn list_channel<T: PartialEq>(&self, new: &Channel<T>, old: &Channel<T>, take: usize, losses: &mut Losses) {
+    fn list_channel<T: PartialEq>(
+        &self,
+        new: &Channel<T>,
+        old: &Channel<T>,
+        take: usize,
+        losses: &mut Losses,
+    ) {
         if new == old {
             return;
         }

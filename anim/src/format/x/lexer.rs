@@ -3,7 +3,9 @@
 use super::binary::BinaryTokens;
 use super::check as code;
 use super::header::HEADER;
-use crate::format::text::{Lexicon, NUMBER_INVALID, TextScanner, Token, UNEXPECTED_END, UNEXPECTED_TOKEN, shown};
+use crate::format::text::{
+    Lexicon, NUMBER_INVALID, TextScanner, Token, UNEXPECTED_END, UNEXPECTED_TOKEN, shown,
+};
 use crate::format::{ImportContext, ImportError, Place};
 use std::ops::Range;
 
@@ -143,7 +145,9 @@ impl<'a> XLexer<'a> {
                 let reason = format!("{number} is not finite where {what} was expected");
                 Err(self.invalid(found.at, NUMBER_INVALID, reason))
             }
-            XToken::Text(_) | XToken::Open | XToken::Close | XToken::Other => Err(self.unexpected(found, what)),
+            XToken::Text(_) | XToken::Open | XToken::Close | XToken::Other => {
+                Err(self.unexpected(found, what))
+            }
         }
     }
 
@@ -219,7 +223,9 @@ impl<'a> XLexer<'a> {
         let found = self.need(what)?;
         match found.token {
             XToken::Text(_) | XToken::Word(_) => Ok(found),
-            XToken::Number(_) | XToken::Open | XToken::Close | XToken::Other => Err(self.unexpected(found, what)),
+            XToken::Number(_) | XToken::Open | XToken::Close | XToken::Other => {
+                Err(self.unexpected(found, what))
+            }
         }
     }
 
@@ -245,7 +251,9 @@ impl<'a> XLexer<'a> {
     /// Returns the place of the letters of a word.
     pub(super) fn word_range(&self, found: Lexeme<'_>) -> Range<usize> {
         match found.token {
-            XToken::Word(text) | XToken::Text(text) if self.binary.is_some() => found.end - text.len()..found.end,
+            XToken::Word(text) | XToken::Text(text) if self.binary.is_some() => {
+                found.end - text.len()..found.end
+            }
             _ => found.range(),
         }
     }

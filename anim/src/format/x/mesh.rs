@@ -58,7 +58,11 @@ pub(super) struct XMesh {
 }
 
 /// Reads a mesh after its opening brace.
-pub(super) fn mesh(lexer: &mut XLexer<'_>, name: String, context: &ImportContext<'_>) -> Result<XMesh, ImportError> {
+pub(super) fn mesh(
+    lexer: &mut XLexer<'_>,
+    name: String,
+    context: &ImportContext<'_>,
+) -> Result<XMesh, ImportError> {
     let place = lexer.place(lexer.at());
     let count = lexer.count("the number of vertices", 3)?;
     if count > VERTICES {
@@ -87,7 +91,12 @@ pub(super) fn mesh(lexer: &mut XLexer<'_>, name: String, context: &ImportContext
 
 impl XMesh {
     /// Reads an object in the mesh.
-    fn child(&mut self, kind: &[u8], lexer: &mut XLexer<'_>, context: &ImportContext<'_>) -> Result<(), ImportError> {
+    fn child(
+        &mut self,
+        kind: &[u8],
+        lexer: &mut XLexer<'_>,
+        context: &ImportContext<'_>,
+    ) -> Result<(), ImportError> {
         lexer.open()?;
         match kind {
             b"MeshNormals" => self.read_normals(lexer, context)?,
@@ -101,7 +110,11 @@ impl XMesh {
         lexer.close(context).map(|_| ())
     }
 
-    fn read_normals(&mut self, lexer: &mut XLexer<'_>, context: &ImportContext<'_>) -> Result<(), ImportError> {
+    fn read_normals(
+        &mut self,
+        lexer: &mut XLexer<'_>,
+        context: &ImportContext<'_>,
+    ) -> Result<(), ImportError> {
         let place = lexer.place(lexer.at());
         let count = lexer.count("the number of normals", 3)?;
         let mut normals = context.vec(&place, count)?;
@@ -127,7 +140,8 @@ impl XMesh {
         let place = lexer.place(lexer.at());
         let count = lexer.count("the number of texture coordinates", 2)?;
         if count != self.positions.len() {
-            let text = format!("{count} texture coordinates for {} vertices are left out", self.positions.len());
+            let text =
+                format!("{count} texture coordinates for {} vertices are left out", self.positions.len());
             context.warn(place, code::LIST_IGNORED, text);
             return Ok(());
         }
@@ -139,7 +153,11 @@ impl XMesh {
         Ok(())
     }
 
-    fn read_colors(&mut self, lexer: &mut XLexer<'_>, context: &ImportContext<'_>) -> Result<(), ImportError> {
+    fn read_colors(
+        &mut self,
+        lexer: &mut XLexer<'_>,
+        context: &ImportContext<'_>,
+    ) -> Result<(), ImportError> {
         let place = lexer.place(lexer.at());
         let count = lexer.count("the number of colors", 5)?;
         let mut colors = context.filled(&place, self.positions.len(), Vec4::ONE)?;
@@ -150,7 +168,8 @@ impl XMesh {
             if let Some(slot) = colors.get_mut(vertex) {
                 *slot = color;
             } else {
-                let text = format!("the color of vertex {vertex} is left out, there are {}", self.positions.len());
+                let text =
+                    format!("the color of vertex {vertex} is left out, there are {}", self.positions.len());
                 context.warn(place.clone(), code::LIST_IGNORED, text);
             }
         }
@@ -158,7 +177,11 @@ impl XMesh {
         Ok(())
     }
 
-    fn read_materials(&mut self, lexer: &mut XLexer<'_>, context: &ImportContext<'_>) -> Result<(), ImportError> {
+    fn read_materials(
+        &mut self,
+        lexer: &mut XLexer<'_>,
+        context: &ImportContext<'_>,
+    ) -> Result<(), ImportError> {
         let place = lexer.place(lexer.at());
         let announced = lexer.whole("the number of materials", u32::MAX)? as usize;
         let count = lexer.count("the number of faces with a material", 1)?;
@@ -196,7 +219,11 @@ impl XMesh {
         }
     }
 
-    fn read_weights(&mut self, lexer: &mut XLexer<'_>, context: &ImportContext<'_>) -> Result<(), ImportError> {
+    fn read_weights(
+        &mut self,
+        lexer: &mut XLexer<'_>,
+        context: &ImportContext<'_>,
+    ) -> Result<(), ImportError> {
         let string = lexer.string("the name of a frame")?;
         let frame = match string.token {
             XToken::Text(text) | XToken::Word(text) => decoded(text),

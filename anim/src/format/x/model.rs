@@ -58,7 +58,8 @@ pub(super) fn model(
     for set in &scene.sets {
         takes.push(Arc::new(reader.take(set, count)?));
     }
-    let offsets = skins.iter().flat_map(|skin: &Skin| skin.bones.iter().copied().zip(skin.offsets.iter().copied()));
+    let offsets =
+        skins.iter().flat_map(|skin: &Skin| skin.bones.iter().copied().zip(skin.offsets.iter().copied()));
     let skeleton = Arc::new(bones.finish(offsets));
     let (materials, images) = materials.finish();
     let animation = AnimationData { skeleton, takes };

@@ -186,7 +186,8 @@ impl SceneParser<'_, '_> {
             self.context.work(self.scene.meshes.len())?;
             let found = self.scene.meshes.iter().position(|mesh| mesh.name == *name);
             let Some(mesh) = found else { continue };
-            let free = self.scene.placed.iter_mut().find(|(placed, frame)| *placed == mesh && frame.is_none());
+            let free =
+                self.scene.placed.iter_mut().find(|(placed, frame)| *placed == mesh && frame.is_none());
             match free {
                 Some((_, place)) => *place = Some(*frame),
                 None => {
@@ -208,7 +209,11 @@ pub(super) fn matrix(
     let at = lexer.at();
     let matrix = Mat4::from_cols_array(&lexer.floats::<16>(what)?);
     Ok(affine(matrix, || {
-        context.warn(lexer.place(at), code::MATRIX_INVALID, "the last column should be 0 0 0 1 and was replaced by that");
+        context.warn(
+            lexer.place(at),
+            code::MATRIX_INVALID,
+            "the last column should be 0 0 0 1 and was replaced by that",
+        );
     }))
 }
 

@@ -26,7 +26,11 @@ pub(super) struct BoneList<'a> {
 
 impl<'a> BoneList<'a> {
     /// Returns the bones of all frames.
-    pub(super) fn of(scene: &XScene, axes: &AxisMap, context: &'a ImportContext<'a>) -> Result<Self, ImportError> {
+    pub(super) fn of(
+        scene: &XScene,
+        axes: &AxisMap,
+        context: &'a ImportContext<'a>,
+    ) -> Result<Self, ImportError> {
         let mut list = Self {
             context,
             bones: context.vec(&Place::File, scene.frames.len())?,
@@ -48,7 +52,10 @@ impl<'a> BoneList<'a> {
             return Err(too_large(&frame.name));
         };
         if rest_matrix.is_some() {
-            let text = format!("the transform of the frame \"{}\" is sheared; it is shown, but cannot be edited", frame.name);
+            let text = format!(
+                "the transform of the frame \"{}\" is sheared; it is shown, but cannot be edited",
+                frame.name
+            );
             self.context.warn(Place::File, code::MATRIX_INVALID, text);
         }
         let parent = frame.parent.map(|parent| parent as BoneIndex);
@@ -85,7 +92,9 @@ impl<'a> BoneList<'a> {
         if let Some(&bone) = self.by_name.get(name) {
             return Ok(bone);
         }
-        let text = format!("a skin refers to the frame \"{name}\", which is not in the file; its vertices do not move");
+        let text = format!(
+            "a skin refers to the frame \"{name}\", which is not in the file; its vertices do not move"
+        );
         self.context.warn(Place::File, code::FRAME_MISSING, text);
         self.context.charge(&Place::File, 2 * size_of::<Bone>() as u64 + 8 * name.len() as u64)?;
         let to_root = inverse(offset).unwrap_or(Mat4::IDENTITY);

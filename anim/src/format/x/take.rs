@@ -47,7 +47,9 @@ pub(super) fn conversion(scene: &XScene, context: &ImportContext<'_>) -> Convers
     };
     let chosen = conversion.with(context.conventions());
     if rate == Some(Found::guessed(GUESSED_RATE)) && chosen.frame_rate == rate {
-        let text = format!("the file has no rate and its last tick is {last}; {GUESSED_RATE} per second are assumed");
+        let text = format!(
+            "the file has no rate and its last tick is {last}; {GUESSED_RATE} per second are assumed"
+        );
         context.warn(Place::File, code::TICKS_GUESSED, text);
     }
     chosen
@@ -99,7 +101,8 @@ impl TakeReader<'_> {
                 context.warn(place, code::KEYS_TWICE, text);
             }
         }
-        let name = set.name.clone().map_or_else(|| UNNAMED.to_owned(), |name| decoded(&self.file.bytes()[name]));
+        let name =
+            set.name.clone().map_or_else(|| UNNAMED.to_owned(), |name| decoded(&self.file.bytes()[name]));
         let mut take =
             Take { name, start: 0.0, length: 0.0, tracks, morphs: Vec::new(), extras: TakeExtras::default() };
         if let Some((first, last)) = take.range_of_keys() {
@@ -187,7 +190,8 @@ impl TakeReader<'_> {
         });
         let values = values.collect();
         if is_odd {
-            let text = "rotations are not of unit length; they were normalized, and those of length zero left out";
+            let text =
+                "rotations are not of unit length; they were normalized, and those of length zero left out";
             self.context.warn(self.place(keys.block.start), code::ROTATION_NON_UNIT, text);
         }
         values

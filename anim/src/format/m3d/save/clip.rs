@@ -12,6 +12,7 @@ use crate::format::patch::TextPatches;
 use crate::format::pose_rows::pose_rows;
 use crate::format::straight::is_straight;
 use crate::format::{AxisMap, ImportError};
+use glam::Vec3;
 use std::fmt::Write;
 
 /// Writes clips in the style of a file.
@@ -47,7 +48,13 @@ impl<'a> ClipWriter<'a> {
     }
 
     /// Returns the name of a take in the file, where blanks are not possible, and lists what else a clip has no room for.
-    pub(in super::super) fn name(&self, take: &Take, before: Option<&Take>, index: usize, losses: &mut Losses) -> String {
+    pub(in super::super) fn name(
+        &self,
+        take: &Take,
+        before: Option<&Take>,
+        index: usize,
+        losses: &mut Losses,
+    ) -> String {
         let path = format!("/animation/takes/{index}");
         if !take.extras.is_empty() {
             let text = "layers, contacts and events are not stored";
@@ -134,30 +141,31 @@ impl<'a> ClipWriter<'a> {
     fn edit_row(&self, at: usize, key: usize, pose: &Transform, new: &Track, old: &Track) -> TextPatches {
         let mut patches = TextPatches::default();
         let file = self.to_file.transform(*pose);
-        let is_kept = [
-            new.translation == old.translation || old.translation.value(key) == Some(pose.translation),
-            new.scale == old.scale || old.scale.value(key) == Some(pose.scale),
-            new.rotation == old.rotation || old.rotation.value(key) == Some(pose.rotation),
-        ];
+        // Numbers of the file that the edit does not change, although a conversion would round them.
+        let same = |new: Vec3, old: Option<Vec3>| old.map_or([false; 3], |old| new.cmpeq(old).into());
+        let moved = same(pose.translation, old.translation.value(key));
+        let scaled = same(pose.scale, old.scale.value(key));
+        let is_turned = new.rotation != old.rotation && old.rotation.value(key) != Some(pose.rotation);
+        let [x, y, z] = self.to_file.factors(Vec3::new(0.0, 1.0, 2.0)).to_array().map(|axis| axis as usize);
         let mut scanner = M3dScanner::new(self.bytes);
         scanner.go_to(at);
-        let mut replace = |count: usize, values: &[f32], is_kept: bool| -> Result<(), ImportError> {
+        let mut replace = |count: usize, values: &[f32], is_kept: &[bool]| -> Result<(), ImportError> {
             scanner.label("a label")?;
             for slot in 0..count {
                 let token = scanner.word("a number")?;
                 scanner.go_to(token.at);
                 let [old] = scanner.floats("a number")?;
-                if let Some(&value) = values.get(slot).filter(|&&value| !is_kept && value != old) {
+                if let Some(&value) = values.get(slot).filter(|&&value| !is_kept[slot] && value != old) {
                     patches.replace(token.at..token.at + token.text.len(), number(value));
                 }
             }
             Ok(())
         };
         // The row was read before, so there are no errors.
-        let _ = replace(1, &[], true)
-            .and_then(|()| replace(3, &file.translation.to_array(), is_kept[0]))
-            .and_then(|()| replace(3, &file.scale.to_array(), is_kept[1]))
-            .and_then(|()| replace(4, &file.rotation.to_array(), is_kept[2]));
+        let _ = replace(1, &[], &[])
+            .and_then(|()| replace(3, &file.translation.to_array(), &[moved[x], moved[y], moved[z]]))
+            .and_then(|()| replace(3, &file.scale.to_array(), &[scaled[x], scaled[y], scaled[z]]))
+            .and_then(|()| replace(4, &file.rotation.to_array(), &[!is_turned; 4]));
         patches
     }
 
@@ -176,7 +184,13 @@ impl<'a> ClipWriter<'a> {
     }
 
     /// Returns the block of a new clip.
-    pub(in super::super) fn made(&self, take: &Take, name: &str, index: usize, losses: &mut Losses) -> String {
+    pub(in super::super) fn made(
+        &self,
+        take: &Take,
+        name: &str,
+        index: usize,
+        losses: &mut Losses,
+    ) -> String {
         let line = self.line_end;
         let mut text = format!("AnimationClip {name}{line}{{{line}");
         let nothing = Track::default();
@@ -231,6 +245,7 @@ fn labels(bytes: &[u8], at: usize) -> Result<[String; 4], ImportError> {
 /// Returns a name without blanks.
 pub(in super::super) fn possible_name(name: &str) -> String {
     let is_odd = |character: char| character.is_whitespace() || character.is_control();
-    let name: String = name.trim().chars().map(|character| if is_odd(character) { '_' } else { character }).collect();
+    let name: String =
+        name.trim().chars().map(|character| if is_odd(character) { '_' } else { character }).collect();
     if name.is_empty() { "take".to_owned() } else { name }
 }

@@ -4,8 +4,8 @@ mod bind;
 mod surfaces;
 mod vertices;
 
-use super::check as code;
 use super::M3dDialect;
+use super::check as code;
 use super::save::ClipWriter;
 use crate::data::{ModelData, Skeleton};
 use crate::format::key_rows::number;
@@ -34,7 +34,10 @@ pub fn write(model: &ModelData, dialect: M3dDialect) -> Result<WholeFile, Export
     let bones = FileSkeleton::of(model, &mut losses);
     let vertices = FileVertices::of(model, &bones, &to_file, &mut losses);
     if vertices.len() > VERTICES_16_BIT {
-        let text = format!("{} vertices: programs with indices of 16 bits read at most {VERTICES_16_BIT}", vertices.len());
+        let text = format!(
+            "{} vertices: programs with indices of 16 bits read at most {VERTICES_16_BIT}",
+            vertices.len()
+        );
         losses.add("/meshes".to_owned(), code::INDICES_TOO_LARGE, text);
     }
     let mut text = String::from("***************m3d-File-Header***************\n");
@@ -77,7 +80,13 @@ fn write_bones(skeleton: &Skeleton, to_file: &AxisMap, text: &mut String) {
     *text += "\n***************AnimationClips****************\n";
 }
 
-fn write_takes(model: &ModelData, skeleton: &Skeleton, to_file: AxisMap, losses: &mut Losses, text: &mut String) {
+fn write_takes(
+    model: &ModelData,
+    skeleton: &Skeleton,
+    to_file: AxisMap,
+    losses: &mut Losses,
+    text: &mut String,
+) {
     let writer = ClipWriter::plain(skeleton, to_file);
     for (index, take) in model.animation.takes.iter().enumerate() {
         let name = writer.name(take, None, index, losses);

@@ -42,7 +42,11 @@ pub(super) fn write(
             );
         }
         M3dDialect::Dx12 => {
-            let name = if material.name.is_empty() { format!("material{number}") } else { possible_name(&material.name) };
+            let name = if material.name.is_empty() {
+                format!("material{number}")
+            } else {
+                possible_name(&material.name)
+            };
             if own.is_some() && name != material.name {
                 let reason = format!("the material \"{}\" is called \"{name}\"", material.name);
                 losses.add(format!("{path}/name"), code::NAME_NOT_STORED, reason);

@@ -4,9 +4,9 @@ use super::super::check as code;
 use super::bind::{FileSkeleton, MeshBinding};
 use super::row;
 use crate::data::{Influence, ModelData, Primitive};
+use crate::format::AxisMap;
 use crate::format::losses::Losses;
 use crate::format::normals::direction;
-use crate::format::AxisMap;
 use glam::{Mat3, Mat4, Vec2, Vec3, Vec4};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -40,7 +40,12 @@ pub(super) struct FileVertices {
 }
 
 impl FileVertices {
-    pub(super) fn of(model: &ModelData, bones: &FileSkeleton, to_file: &AxisMap, losses: &mut Losses) -> Self {
+    pub(super) fn of(
+        model: &ModelData,
+        bones: &FileSkeleton,
+        to_file: &AxisMap,
+        losses: &mut Losses,
+    ) -> Self {
         let mut parts: BTreeMap<(bool, Option<u32>), FilePart> = BTreeMap::new();
         for (index, instance) in model.instances.iter().enumerate() {
             let Some(mesh) = model.meshes.get(instance.mesh as usize) else { continue };

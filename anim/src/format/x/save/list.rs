@@ -1,6 +1,6 @@
 //! Edits of one list of keys.
 
-use super::super::animation::XKeys;
+use super::super::animation::{XKeyKind, XKeys};
 use super::super::key_text::{FileKeys, KeyText, decimal};
 use super::super::lexer::XLexer;
 use super::super::take::{seconds, used_rows};
@@ -31,8 +31,13 @@ impl ListEditor<'_> {
     ) -> RowCounts {
         let edit = |row: usize, key: usize, number: usize| {
             let mut patches = TextPatches::default();
-            if old.values.get(key) != Some(&new.values[number]) {
-                self.edit_row(list, row, &new.values[number], |new, old| new != old, &mut patches);
+            let (values, before) = (&new.values[number], old.values.get(key));
+            // The importer normalizes rotations and changes their sign, so an edited one is written as a whole.
+            let is_whole = list.kind == XKeyKind::Rotation;
+            if before != Some(values) {
+                let is_kept =
+                    |slot: usize| !is_whole && before.is_some_and(|before| before[slot] == values[slot]);
+                self.edit_row(list, row, values, |slot, new, old| !is_kept(slot) && new != old, &mut patches);
             }
             patches
         };
@@ -60,7 +65,7 @@ impl ListEditor<'_> {
             let scale = values[..12].iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
             let is_moved_only = (before.rotation, before.scale) == (pose.rotation, pose.scale);
             let length = values[12..].iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
-            self.edit_slots(
+            self.edit_row(
                 list,
                 row,
                 &values,
@@ -99,19 +104,8 @@ impl ListEditor<'_> {
         rewrite(self.bytes, &rows, edits, &separator, patches)
     }
 
-    fn edit_row(
-        &self,
-        list: &XKeys,
-        row: usize,
-        values: &[f32],
-        differs: impl Fn(f32, f32) -> bool,
-        patches: &mut TextPatches,
-    ) {
-        self.edit_slots(list, row, values, |_, new, old| differs(new, old), patches);
-    }
-
     /// Replaces the numbers of a row that differ.
-    fn edit_slots(
+    fn edit_row(
         &self,
         list: &XKeys,
         row: usize,

@@ -88,12 +88,21 @@ impl<'a> SetWriter<'a> {
             match animations.get(&number) {
                 Some(&animation) => {
                     let edit = TrackEdit { new, old, bone, animation };
-                    self.edit_animation(&edit, |property, counts| changes.keys(name, &bone.name, property, counts), &mut patches);
+                    self.edit_animation(
+                        &edit,
+                        |property, counts| changes.keys(name, &bone.name, property, counts),
+                        &mut patches,
+                    );
                 }
                 None => {
                     let lists = self.keys.lists(new, rest_pose(bone));
                     let text = self.keys.animation(frame, &lists, ANIMATION_INDENT);
-                    insert_before_brace(set.block.end, &format!("{ANIMATION_INDENT}{text}"), self.line_end(), &mut patches);
+                    insert_before_brace(
+                        set.block.end,
+                        &format!("{ANIMATION_INDENT}{text}"),
+                        self.line_end(),
+                        &mut patches,
+                    );
                     let added = RowCounts { added: new.keys(), ..RowCounts::default() };
                     changes.keys(name, &bone.name, "keys", added);
                 }
@@ -144,8 +153,9 @@ impl<'a> SetWriter<'a> {
         let TrackEdit { new, old, animation, .. } = *edit;
         let text = &self.keys;
         if new.rotation != old.rotation {
-            let [new, old] = [&new.rotation, &old.rotation]
-                .map(|channel| text.channel(XKeyKind::Rotation, channel, rest.rotation, |value| text.rotation(value)));
+            let [new, old] = [&new.rotation, &old.rotation].map(|channel| {
+                text.channel(XKeyKind::Rotation, channel, rest.rotation, |value| text.rotation(value))
+            });
             changed("rotation", self.edit_list(animation, &editor, &new, &old, patches));
         }
         if new.scale != old.scale {

@@ -135,13 +135,21 @@ fn close(text: &mut String, open: &mut usize, depth: usize) {
     }
 }
 
-fn write_takes(model: &ModelData, frames: &[String], to_file: AxisMap, losses: &mut Losses, text: &mut String) {
+fn write_takes(
+    model: &ModelData,
+    frames: &[String],
+    to_file: AxisMap,
+    losses: &mut Losses,
+    text: &mut String,
+) {
     let keys = KeyText { to_file, ticks_per_second: f64::from(TICKS), line_end: "\n" };
     let nothing = Track::default();
     for (index, take) in model.animation.takes.iter().enumerate() {
         let name = take_name(take, None, index, losses);
         let _ = writeln!(text, "AnimationSet {name} {{");
-        for (track, (bone, frame)) in take.tracks.iter().zip(model.animation.skeleton.bones.iter().zip(frames)) {
+        for (track, (bone, frame)) in
+            take.tracks.iter().zip(model.animation.skeleton.bones.iter().zip(frames))
+        {
             if !track.is_empty() {
                 keys.list_losses(track, &nothing, index, losses);
                 let lists = keys.lists(track, rest_pose(bone));
