@@ -18,8 +18,8 @@
 //!
 //! # Save edits
 //!
-//! [`Format::edit`] opens the bytes of a file for editing, [`EditableFile::plan`] returns the files to write. For glTF
-//! only those bytes change that the edits concern; a format without such a writer is written as a whole.
+//! [`Format::edit`] opens the bytes of a file for editing, [`EditableFile::plan`] returns the files to write. For glTF, BVH
+//! and others only those bytes change that the edits concern; a format without such a writer is written as a whole.
 //!
 //! ```
 //! use dragonfly_anim::data::ModelData;

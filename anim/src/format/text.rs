@@ -66,14 +66,14 @@ impl Lexicon {
 
 /// A token: its bytes, and their offset in the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Token<'a> {
+pub(super) struct TextToken<'a> {
     /// The bytes; never empty.
     pub(super) text: &'a [u8],
     /// Offset of the first byte.
     pub(super) at: usize,
 }
 
-impl Token<'_> {
+impl TextToken<'_> {
     /// Returns whether the token is `word`, in any case.
     pub(super) fn is(&self, word: &str) -> bool {
         self.text.eq_ignore_ascii_case(word.as_bytes())
@@ -173,25 +173,25 @@ impl<'a> TextScanner<'a> {
 
     /// Returns the bytes up to the first `end`, without it, and skips them; `None`, and nothing is skipped, where there
     /// is none.
-    pub(super) fn until(&mut self, end: u8) -> Option<Token<'a>> {
+    pub(super) fn until(&mut self, end: u8) -> Option<TextToken<'a>> {
         let at = self.at;
         let length = self.bytes[at..].iter().position(|&byte| byte == end)?;
         self.at += length;
-        Some(Token { text: &self.bytes[at..at + length], at })
+        Some(TextToken { text: &self.bytes[at..at + length], at })
     }
 
     /// Returns the bytes up to `end` or the end of the line, without it, and skips them.
-    pub(super) fn line_until(&mut self, end: u8) -> Token<'a> {
+    pub(super) fn line_until(&mut self, end: u8) -> TextToken<'a> {
         let (at, rest) = (self.at, &self.bytes[self.at..]);
         let is_end = |byte: &u8| *byte == end || matches!(byte, b'\n' | b'\r');
         let length = rest.iter().position(is_end).unwrap_or(rest.len());
         self.at += length;
-        Token { text: &rest[..length], at }
+        TextToken { text: &rest[..length], at }
     }
 
     /// Returns the next token; `None` at the end of the text.
     #[inline]
-    pub(super) fn token(&mut self) -> Option<Token<'a>> {
+    pub(super) fn token(&mut self) -> Option<TextToken<'a>> {
         self.skip_blank();
         let at = self.at;
         let first = self.lexicon.class(*self.bytes.get(at)?);
@@ -202,18 +202,18 @@ impl<'a> TextScanner<'a> {
             }
         }
         self.at = end;
-        Some(Token { text: &self.bytes[at..end], at })
+        Some(TextToken { text: &self.bytes[at..end], at })
     }
 
     /// Returns the next token without skipping it.
-    pub(super) fn peek(&mut self) -> Option<Token<'a>> {
+    pub(super) fn peek(&mut self) -> Option<TextToken<'a>> {
         let token = self.token()?;
         self.at = token.at;
         Some(token)
     }
 
     /// Returns the next token; an error at the end of the text. `what` describes what was expected.
-    pub(super) fn need(&mut self, what: &str) -> Result<Token<'a>, ImportError> {
+    pub(super) fn need(&mut self, what: &str) -> Result<TextToken<'a>, ImportError> {
         self.token().ok_or_else(|| {
             let reason = format!("the text ends where {what} was expected");
             self.invalid(self.bytes.len(), UNEXPECTED_END, reason)
@@ -221,7 +221,7 @@ impl<'a> TextScanner<'a> {
     }
 
     /// Skips the token `word`, in any case; any other one is an error.
-    pub(super) fn expect(&mut self, word: &str) -> Result<Token<'a>, ImportError> {
+    pub(super) fn expect(&mut self, word: &str) -> Result<TextToken<'a>, ImportError> {
         let token = self.need(&format!("\"{word}\""))?;
         if token.is(word) { Ok(token) } else { Err(self.unexpected(token, &format!("\"{word}\""))) }
     }
@@ -242,7 +242,7 @@ impl<'a> TextScanner<'a> {
 
     /// Returns a token as a number in single precision, which is finite; `what` describes it.
     #[inline]
-    pub(super) fn float_of(&self, token: Token<'_>, what: &str) -> Result<f32, ImportError> {
+    pub(super) fn float_of(&self, token: TextToken<'_>, what: &str) -> Result<f32, ImportError> {
         let number = self.number_of(token, what)? as f32;
         if number.is_finite() {
             return Ok(number);
@@ -269,7 +269,7 @@ impl<'a> TextScanner<'a> {
 
     /// Returns a token as a finite number; `what` describes it.
     #[inline]
-    pub(super) fn number_of(&self, token: Token<'_>, what: &str) -> Result<f64, ImportError> {
+    pub(super) fn number_of(&self, token: TextToken<'_>, what: &str) -> Result<f64, ImportError> {
         match parse_number(token.text) {
             Some(number) if number.is_finite() => Ok(number),
             found => Err(self.no_number(token, what, found.is_some())),
@@ -277,7 +277,7 @@ impl<'a> TextScanner<'a> {
     }
 
     #[cold]
-    fn no_number(&self, token: Token<'_>, what: &str, is_number: bool) -> ImportError {
+    fn no_number(&self, token: TextToken<'_>, what: &str, is_number: bool) -> ImportError {
         let problem = if is_number { "is not finite" } else { "is no number" };
         let reason = format!("{} {problem} where {what} was expected", token.shown());
         self.invalid(token.at, NUMBER_INVALID, reason)
@@ -285,7 +285,7 @@ impl<'a> TextScanner<'a> {
 
     /// Returns the error that a token is not `what`.
     #[cold]
-    pub(super) fn unexpected(&self, token: Token<'_>, what: &str) -> ImportError {
+    pub(super) fn unexpected(&self, token: TextToken<'_>, what: &str) -> ImportError {
         self.invalid(token.at, UNEXPECTED_TOKEN, format!("{} where {what} was expected", token.shown()))
     }
 

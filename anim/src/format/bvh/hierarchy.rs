@@ -3,7 +3,7 @@
 use super::channel::{BvhChannel, CHANNELS, ChannelList};
 use super::check as code;
 use crate::format::names::UniqueNames;
-use crate::format::text::{TextScanner, Token, UNEXPECTED_END, UNEXPECTED_TOKEN};
+use crate::format::text::{TextScanner, TextToken, UNEXPECTED_END, UNEXPECTED_TOKEN};
 use crate::format::{ImportContext, ImportError};
 use crate::limits::{HUGE, NODE_DEPTH, NODES};
 use glam::DVec3;
@@ -24,7 +24,7 @@ pub(super) struct Joint {
 }
 
 /// The joints, in the order of the file.
-pub(super) struct Hierarchy {
+pub(super) struct JointTable {
     pub(super) joints: Vec<Joint>,
     /// Number of columns.
     pub(super) channels: usize,
@@ -32,7 +32,7 @@ pub(super) struct Hierarchy {
     pub(super) has_motion: bool,
 }
 
-impl Hierarchy {
+impl JointTable {
     /// Returns whether a column is a position.
     pub(super) fn is_position(&self, column: usize) -> bool {
         let own = |joint: &&Joint| (joint.first..joint.first + joint.channels.len()).contains(&column);
@@ -46,7 +46,7 @@ impl Hierarchy {
 pub(super) fn parse(
     scanner: &mut TextScanner<'_>,
     context: &ImportContext<'_>,
-) -> Result<Hierarchy, ImportError> {
+) -> Result<JointTable, ImportError> {
     scanner.expect("HIERARCHY")?;
     let mut reader = HierarchyReader {
         joints: Vec::new(),
@@ -69,7 +69,7 @@ pub(super) fn parse(
             break true;
         }
     };
-    Ok(Hierarchy { joints: reader.joints, channels: reader.channels, has_motion })
+    Ok(JointTable { joints: reader.joints, channels: reader.channels, has_motion })
 }
 
 struct HierarchyReader<'a> {
@@ -83,7 +83,7 @@ struct HierarchyReader<'a> {
 
 impl HierarchyReader<'_> {
     /// Reads what starts with `token`. Returns whether the hierarchy ends.
-    fn step(&mut self, scanner: &mut TextScanner<'_>, token: Token<'_>) -> Result<bool, ImportError> {
+    fn step(&mut self, scanner: &mut TextScanner<'_>, token: TextToken<'_>) -> Result<bool, ImportError> {
         let Some(&joint) = self.open.last() else {
             if token.is("ROOT") || (self.joints.is_empty() && token.is("JOINT")) {
                 self.open_joint(scanner, token, None)?;
@@ -112,7 +112,7 @@ impl HierarchyReader<'_> {
     fn open_joint(
         &mut self,
         scanner: &mut TextScanner<'_>,
-        token: Token<'_>,
+        token: TextToken<'_>,
         parent: Option<usize>,
     ) -> Result<(), ImportError> {
         let too_large = |what, size: usize, limit: usize| {
@@ -154,7 +154,7 @@ impl HierarchyReader<'_> {
     fn channels(
         &mut self,
         scanner: &mut TextScanner<'_>,
-        token: Token<'_>,
+        token: TextToken<'_>,
         joint: usize,
     ) -> Result<(), ImportError> {
         let count = scanner.whole("the number of channels", CHANNELS as u64)?;

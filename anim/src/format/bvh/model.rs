@@ -1,8 +1,8 @@
 //! Joints and rows become a skeleton and one take.
 
-use super::BvhText;
 use super::hierarchy::Joint;
 use super::motion;
+use super::parsed::BvhText;
 use crate::data::{AnimationData, Bone, BoneIndex, Channel, Interpolation, ModelData, Skeleton, Take, Track};
 use crate::data::{TakeExtras, Transform};
 use crate::format::{AxisMap, ImportContext, ImportError, Place};

@@ -1,7 +1,7 @@
 //! The section `MOTION`: frame count, frame time, and one row of numbers for each frame.
 
 use super::check as code;
-use super::hierarchy::Hierarchy;
+use super::hierarchy::JointTable;
 use crate::format::text::{TextScanner, parse_number};
 use crate::format::{Found, ImportContext, ImportError, Place};
 use crate::limits::{CANCEL_EVERY, CLIP_SECONDS, HUGE, KEYS, KEYS_PER_CHANNEL};
@@ -87,7 +87,7 @@ pub(super) struct MotionRows {
 /// Reads the numbers after `head`.
 pub(super) fn rows(
     scanner: &mut TextScanner<'_>,
-    hierarchy: &Hierarchy,
+    hierarchy: &JointTable,
     head: &MotionHead,
     context: &ImportContext<'_>,
 ) -> Result<MotionRows, ImportError> {

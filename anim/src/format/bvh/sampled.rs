@@ -12,7 +12,7 @@ use glam::{DQuat, DVec3, Mat4};
 const OFF_FRAME: f64 = 0.02;
 
 /// Rotations from the rest pose and positions of all bones in scene space, at every frame.
-pub(super) struct SampledTake {
+pub(super) struct FramePoses {
     rate: f32,
     parents: Vec<Option<usize>>,
     rest: Vec<DVec3>,
@@ -22,7 +22,7 @@ pub(super) struct SampledTake {
     is_animated: Vec<bool>,
 }
 
-impl SampledTake {
+impl FramePoses {
     /// Samples a take at the lowest usual rate that has its keys; without a take, the rest pose once.
     pub(super) fn of(
         take: Option<&Take>,

@@ -3,7 +3,7 @@
 //! Nearly every file is a motion capture of a human. The height is estimated from the longest way through the skeleton,
 //! such as from a toe to the fingers of a hand, which is the same in every pose and however the rest pose is turned.
 
-use super::hierarchy::Hierarchy;
+use super::hierarchy::JointTable;
 use super::motion::MotionRows;
 use glam::DVec3;
 use std::ops::RangeInclusive;
@@ -12,10 +12,10 @@ use std::ops::RangeInclusive;
 const WAY_PER_HEIGHT: f64 = 1.45;
 
 /// A usual unit in meters, and the heights in meters for which it is assumed.
-type Unit = (f32, RangeInclusive<f64>);
+type UsualUnit = (f32, RangeInclusive<f64>);
 
 /// The usual units; the first one that gives a possible height is assumed.
-const UNITS: [Unit; 5] = [
+const UNITS: [UsualUnit; 5] = [
     // Meters: anything from a hamster to an elephant.
     (1.0, 0.1..=6.0),
     (0.01, 1.0..=2.6),
@@ -29,7 +29,7 @@ const UNITS: [Unit; 5] = [
 const USUAL_HEIGHT: f64 = 1.7;
 
 /// Returns the guessed number of meters per unit.
-pub(super) fn meters_per_unit(hierarchy: &Hierarchy, rows: &MotionRows) -> f32 {
+pub(super) fn meters_per_unit(hierarchy: &JointTable, rows: &MotionRows) -> f32 {
     let way = way_of(hierarchy, &[]);
     if way > 0.0 {
         return guess(way);
@@ -56,7 +56,7 @@ pub(super) fn guess(way: f64) -> f32 {
 }
 
 /// Returns the length of the longest way between two joints of a file along the bones; `row` replaces offsets.
-fn way_of(hierarchy: &Hierarchy, row: &[f64]) -> f64 {
+fn way_of(hierarchy: &JointTable, row: &[f64]) -> f64 {
     longest_way(hierarchy.joints.iter().map(|joint| {
         let own = row.get(joint.first..joint.first + joint.channels.len()).unwrap_or(&[]);
         (joint.parent, joint.channels.translation(joint.offset, own).length())
@@ -81,7 +81,7 @@ pub(super) fn longest_way(
 
 /// Returns whether the up axis of the figure seems to be z: at rest it is flat along y, as a human with spread arms is along the
 /// horizontal axis from back to front, and the root is further along z than along y.
-pub(super) fn seems_z_up(hierarchy: &Hierarchy, rows: &MotionRows) -> bool {
+pub(super) fn seems_z_up(hierarchy: &JointTable, rows: &MotionRows) -> bool {
     let mut origins: Vec<DVec3> = Vec::with_capacity(hierarchy.joints.len());
     for joint in &hierarchy.joints {
         let parent = joint.parent.map_or(DVec3::ZERO, |parent| origins[parent] + joint.offset);

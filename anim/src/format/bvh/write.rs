@@ -3,7 +3,7 @@
 use super::angles::angles;
 use super::channel::{BvhChannel, CHANNELS, ChannelList};
 use super::check as code;
-use super::sampled::SampledTake;
+use super::sampled::FramePoses;
 use super::save::spelled;
 use super::unit;
 use crate::data::{ModelData, Skeleton};
@@ -37,7 +37,7 @@ pub fn write(model: &ModelData) -> Result<WholeFile, ExportError> {
     }
     let mut losses = Losses::default();
     list_losses(model, &mut losses);
-    let take = SampledTake::of(model.animation.takes.first().map(AsRef::as_ref), skeleton, &mut losses)
+    let take = FramePoses::of(model.animation.takes.first().map(AsRef::as_ref), skeleton, &mut losses)
         .map_err(ExportError::new)?;
     let tree = JointTree::of(skeleton, &take);
     let mut text = String::from("HIERARCHY\n");
@@ -93,7 +93,7 @@ struct JointTree {
 }
 
 impl JointTree {
-    fn of(skeleton: &Skeleton, take: &SampledTake) -> Self {
+    fn of(skeleton: &Skeleton, take: &FramePoses) -> Self {
         let count = skeleton.len();
         let mut children = vec![Vec::new(); count];
         let mut pending = Vec::new();
@@ -121,7 +121,7 @@ impl JointTree {
     fn write_hierarchy(
         &self,
         skeleton: &Skeleton,
-        take: &SampledTake,
+        take: &FramePoses,
         losses: &mut Losses,
         text: &mut String,
     ) {
@@ -170,12 +170,12 @@ impl JointTree {
     }
 
     /// Returns the length in meters of the longest way along the bones.
-    fn longest_way(&self, skeleton: &Skeleton, take: &SampledTake) -> f64 {
+    fn longest_way(&self, skeleton: &Skeleton, take: &FramePoses) -> f64 {
         let parents = skeleton.bones.iter().map(|bone| bone.parent.map(|parent| parent as usize));
         unit::longest_way(parents.enumerate().map(|(bone, parent)| (parent, take.offset(bone).length())))
     }
 
-    fn write_row(&self, take: &SampledTake, frame: usize, last: &mut [[f64; CHANNELS]], text: &mut String) {
+    fn write_row(&self, take: &FramePoses, frame: usize, last: &mut [[f64; CHANNELS]], text: &mut String) {
         let mut blank = "";
         for &(bone, _) in &self.order {
             let channels = &self.channels[bone];
@@ -199,7 +199,7 @@ impl JointTree {
 
 /// Returns whether a bone is written as the end site of its parent: the only child, never animated, and named as one that was
 /// read from an end site.
-fn is_end_site(skeleton: &Skeleton, take: &SampledTake, bone: usize, children: &[Vec<usize>]) -> bool {
+fn is_end_site(skeleton: &Skeleton, take: &FramePoses, bone: usize, children: &[Vec<usize>]) -> bool {
     let Some(parent) = skeleton.bones[bone].parent else { return false };
     let parent = parent as usize;
     let is_named = skeleton.bones[bone].name.strip_suffix("_end") == Some(&skeleton.bones[parent].name);

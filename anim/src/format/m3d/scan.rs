@@ -1,7 +1,7 @@
 //! Labels and numbers, by their position in the text.
 
 use super::check as code;
-use crate::format::text::{Lexicon, TextScanner, Token, parse_number};
+use crate::format::text::{Lexicon, TextScanner, TextToken, parse_number};
 use crate::format::{ImportError, Place};
 use glam::Vec3;
 
@@ -43,18 +43,18 @@ impl<'a> M3dScanner<'a> {
         self.scanner.invalid(at, code, reason)
     }
 
-    pub(super) fn peek(&mut self) -> Option<Token<'a>> {
+    pub(super) fn peek(&mut self) -> Option<TextToken<'a>> {
         self.scanner.peek()
     }
 
     /// Returns the next token, which is a name.
-    pub(super) fn word(&mut self, what: &str) -> Result<Token<'a>, ImportError> {
+    pub(super) fn word(&mut self, what: &str) -> Result<TextToken<'a>, ImportError> {
         self.scanner.need(what)
     }
 
     /// Skips a label: any token that is no number.
     #[inline]
-    pub(super) fn label(&mut self, what: &str) -> Result<Token<'a>, ImportError> {
+    pub(super) fn label(&mut self, what: &str) -> Result<TextToken<'a>, ImportError> {
         let token = self.scanner.need(what)?;
         if !is_number(token) {
             return Ok(token);
@@ -86,14 +86,14 @@ impl<'a> M3dScanner<'a> {
     }
 
     /// Returns a whole number of at most `limit`, and its token.
-    pub(super) fn whole(&mut self, what: &str, limit: u64) -> Result<(u64, Token<'a>), ImportError> {
+    pub(super) fn whole(&mut self, what: &str, limit: u64) -> Result<(u64, TextToken<'a>), ImportError> {
         let token = self.scanner.need(what)?;
         self.scanner.go_to(token.at);
         Ok((self.scanner.whole(what, limit)?, token))
     }
 
     /// Skips a label, and returns the number of items after it; each needs at least `bytes` bytes of text.
-    pub(super) fn count(&mut self, what: &str, bytes: usize) -> Result<(usize, Token<'a>), ImportError> {
+    pub(super) fn count(&mut self, what: &str, bytes: usize) -> Result<(usize, TextToken<'a>), ImportError> {
         self.label(what)?;
         let (count, token) = self.whole(what, u64::from(u32::MAX))?;
         self.enough(count, bytes, token, what)?;
@@ -101,7 +101,7 @@ impl<'a> M3dScanner<'a> {
     }
 
     /// Refuses a count that needs more text than there is.
-    fn enough(&self, count: u64, bytes: usize, token: Token<'_>, what: &str) -> Result<(), ImportError> {
+    fn enough(&self, count: u64, bytes: usize, token: TextToken<'_>, what: &str) -> Result<(), ImportError> {
         let possible = (self.scanner.left() / bytes) as u64;
         if count <= possible {
             return Ok(());
@@ -113,6 +113,6 @@ impl<'a> M3dScanner<'a> {
 
 /// Returns whether a token is a number.
 #[inline]
-pub(super) fn is_number(token: Token<'_>) -> bool {
+pub(super) fn is_number(token: TextToken<'_>) -> bool {
     matches!(token.text[0], b'0'..=b'9' | b'-' | b'+' | b'.') && parse_number(token.text).is_some()
 }

@@ -3,7 +3,7 @@
 use super::check as code;
 use super::lines::{Statement, StatementReader, places};
 use crate::data::Mesh;
-use crate::format::text::{NUMBER_INVALID, TextScanner, Token, parse_whole};
+use crate::format::text::{NUMBER_INVALID, TextScanner, TextToken, parse_whole};
 use crate::format::{AxisMap, ImportContext, ImportError, Place};
 use crate::limits::VERTICES;
 use glam::{Vec2, Vec3, Vec4};
@@ -231,7 +231,7 @@ impl<'a> FaceParser<'a> {
     }
 
     /// Reads `1`, `1/2`, `1//3` or `1/2/3`; numbers below zero count from the end.
-    fn corner(&self, value: Token<'_>) -> Result<Corner, ImportError> {
+    fn corner(&self, value: TextToken<'_>) -> Result<Corner, ImportError> {
         let counts =
             [self.text.positions.len(), self.text.texture_coordinates.len(), self.text.normals.len()];
         let mut corner = [NONE; 3];
@@ -345,7 +345,7 @@ impl<'a> FaceParser<'a> {
 const MOST_IGNORED: usize = 16;
 
 /// Returns a keyword, shortened.
-fn short(keyword: Token<'_>) -> Vec<u8> {
+fn short(keyword: TextToken<'_>) -> Vec<u8> {
     keyword.text[..keyword.text.len().min(32)].to_vec()
 }
 

@@ -1,6 +1,6 @@
 //! Statements of OBJ and MTL texts: a keyword and its values, on one line or on several that end in a backslash.
 
-use crate::format::text::{Lexicon, TextScanner, Token};
+use crate::format::text::{Lexicon, TextScanner, TextToken};
 use crate::format::{ImportContext, ImportError, Place};
 use std::borrow::Cow;
 
@@ -35,8 +35,8 @@ pub(super) fn in_utf_8(bytes: &[u8]) -> Cow<'_, [u8]> {
 pub(super) struct Statement<'s, 'a> {
     /// The text that the statement is part of.
     bytes: &'a [u8],
-    pub(super) keyword: Token<'a>,
-    pub(super) values: &'s [Token<'a>],
+    pub(super) keyword: TextToken<'a>,
+    pub(super) values: &'s [TextToken<'a>],
 }
 
 impl Statement<'_, '_> {
@@ -62,7 +62,7 @@ pub(super) fn places(bytes: &[u8]) -> TextScanner<'_> {
 pub(super) struct StatementReader<'a> {
     bytes: &'a [u8],
     at: usize,
-    values: Vec<Token<'a>>,
+    values: Vec<TextToken<'a>>,
 }
 
 impl<'a> StatementReader<'a> {
@@ -98,14 +98,14 @@ impl<'a> StatementReader<'a> {
                         }
                         self.at += 1;
                     }
-                    let token = Token { text: &self.bytes[start..self.at], at: start };
+                    let token = TextToken { text: &self.bytes[start..self.at], at: start };
                     if keyword.is_none() {
                         keyword = Some(token);
                         continue;
                     }
                     if self.values.len() == self.values.capacity() {
                         let more = self.values.len().max(64);
-                        let bytes = (self.values.len() + more) * size_of::<Token<'_>>();
+                        let bytes = (self.values.len() + more) * size_of::<TextToken<'_>>();
                         context.charge(&places.place(start), bytes as u64)?;
                         self.values.reserve_exact(more);
                     }

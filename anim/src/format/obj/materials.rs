@@ -5,7 +5,7 @@ use super::faces::ObjText;
 use super::lines::{Statement, StatementReader, decoded, places};
 use crate::data::{AlphaMode, Material, Metallic, Phong, TextureRef};
 use crate::format::image::NeighborImages;
-use crate::format::text::{TextScanner, Token};
+use crate::format::text::{TextScanner, TextToken};
 use crate::format::uri::plain_reference;
 use crate::format::{ImportContext, ImportError, Place};
 use glam::Vec3;
@@ -247,7 +247,7 @@ fn texture_name(statement: &Statement<'_, '_>, places: &TextScanner<'_>) -> (Str
         if option.text == b"-bm" {
             scale = number(statement, first + 1, places).unwrap_or(1.0);
         }
-        let is_number = |value: &&Token<'_>| places.number_of(**value, "").is_ok();
+        let is_number = |value: &&TextToken<'_>| places.number_of(**value, "").is_ok();
         let values = statement.values[first + 1..].iter().take(most);
         // Vectors may be shorter.
         first += 1 + if most == 1 { 1 } else { values.take_while(is_number).count() };

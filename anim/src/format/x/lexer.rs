@@ -4,7 +4,7 @@ use super::binary::BinaryTokens;
 use super::check as code;
 use super::header::HEADER;
 use crate::format::text::{
-    Lexicon, NUMBER_INVALID, TextScanner, Token, UNEXPECTED_END, UNEXPECTED_TOKEN, shown,
+    Lexicon, NUMBER_INVALID, TextScanner, TextToken, UNEXPECTED_END, UNEXPECTED_TOKEN, shown,
 };
 use crate::format::{ImportContext, ImportError, Place};
 use std::ops::Range;
@@ -96,7 +96,7 @@ impl<'a> XLexer<'a> {
             self.binary = Some(binary);
             return Ok(token.map(|token| Lexeme { token, at, end: binary.at }));
         }
-        let Some(Token { text, at }) = self.text.token() else { return Ok(None) };
+        let Some(TextToken { text, at }) = self.text.token() else { return Ok(None) };
         let token = match text {
             b"{" => XToken::Open,
             b"}" => XToken::Close,
@@ -139,7 +139,7 @@ impl<'a> XLexer<'a> {
     pub(super) fn number(&mut self, what: &str) -> Result<f64, ImportError> {
         let found = self.need(what)?;
         match found.token {
-            XToken::Word(text) => self.text.number_of(Token { text, at: found.at }, what),
+            XToken::Word(text) => self.text.number_of(TextToken { text, at: found.at }, what),
             XToken::Number(number) if number.is_finite() => Ok(number),
             XToken::Number(number) => {
                 let reason = format!("{number} is not finite where {what} was expected");

@@ -1,9 +1,9 @@
 //! Differences between the opened take and the edited one.
 
-use super::super::BvhText;
 use super::super::channel::CHANNELS;
 use super::super::check as code;
-use super::report::Property;
+use super::super::parsed::BvhText;
+use super::report::JointProperty;
 use crate::data::{Channel, Interpolation, Take};
 use crate::format::bvh::motion::time_of;
 use crate::format::losses::Losses;
@@ -49,6 +49,9 @@ pub(super) struct JointEdit<'a> {
     pub(super) added: [f64; CHANNELS],
 }
 
+/// Edits of the joints of a take.
+pub(super) type JointEdits<'a> = Vec<JointEdit<'a>>;
+
 /// Returns whether two rotations differ by more than rounding.
 pub(super) fn rotations_differ(a: Quat, b: Quat) -> bool {
     let b = if a.dot(b) < 0.0 { -b } else { b };
@@ -81,7 +84,7 @@ pub(super) fn joint_edits<'a>(
     index: usize,
     text: &BvhText,
     losses: &mut Losses,
-) -> Vec<JointEdit<'a>> {
+) -> JointEdits<'a> {
     let axes = text.conversion.axes();
     let mut edits = Vec::new();
     for (number, (track, joint)) in take.tracks.iter().zip(&text.hierarchy.joints).enumerate() {
@@ -90,21 +93,21 @@ pub(super) fn joint_edits<'a>(
         let rest = axes.position(joint.offset.as_vec3());
         let rotation = ChannelPair::new(&track.rotation, old.map(|old| &old.rotation), Quat::IDENTITY);
         let translation = ChannelPair::new(&track.translation, old.map(|old| &old.translation), rest);
-        let mut lost = |property: Property, is_lost: bool| {
+        let mut lost = |property: JointProperty, is_lost: bool| {
             if is_lost {
                 let (what, name) = (property.name(), &joint.name);
                 let text = format!("\"{name}\" has no channels for its {what}");
                 losses.add(format!("{path}/{what}"), code::CHANNEL_MISSING, text);
             }
         };
-        lost(Property::Scale, any(&track.scale, |scale| (scale - Vec3::ONE).abs().max_element() > 1e-6));
+        lost(JointProperty::Scale, any(&track.scale, |scale| (scale - Vec3::ONE).abs().max_element() > 1e-6));
         let mut edit = JointEdit { joint: number, rotation, translation, added: [0.0; CHANNELS] };
         if edit.rotation.is_some() && !joint.channels.has_rotations() {
-            lost(Property::Rotation, any(&track.rotation, |key| rotations_differ(key, Quat::IDENTITY)));
+            lost(JointProperty::Rotation, any(&track.rotation, |key| rotations_differ(key, Quat::IDENTITY)));
             edit.rotation = None;
         }
         if edit.translation.is_some() && !joint.channels.has_positions() {
-            lost(Property::Translation, any(&track.translation, |key| translations_differ(key, rest)));
+            lost(JointProperty::Translation, any(&track.translation, |key| translations_differ(key, rest)));
             edit.translation = None;
         }
         if edit.rotation.is_some() {

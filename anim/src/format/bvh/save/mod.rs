@@ -13,13 +13,14 @@ mod rows;
 pub(super) use number::spelled;
 
 use super::check as code;
-use super::{BvhText, model};
+use super::model;
+use super::parsed::BvhText;
 use crate::data::{ModelData, Take};
 use crate::format::losses::Losses;
 use crate::format::{
     EditedTake, ExportError, ImportContext, ImportError, OutputFile, SavePlan, SurgicalFile,
 };
-use edits::{JointEdit, frames_of, joint_edits};
+use edits::{frames_of, joint_edits};
 use report::BvhChanges;
 use rows::RowWriter;
 use std::sync::Arc;
@@ -134,6 +135,3 @@ impl BvhFile {
         Ok(())
     }
 }
-
-/// Edits of the joints of a take.
-type JointEdits<'a> = Vec<JointEdit<'a>>;

@@ -5,15 +5,15 @@ use crate::format::losses::json_text;
 use crate::format::{ChangeReport, one_line};
 use std::fmt::Write;
 
-/// Property of a joint.
+/// JointProperty of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Property {
+pub(super) enum JointProperty {
     Translation,
     Rotation,
     Scale,
 }
 
-impl Property {
+impl JointProperty {
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Translation => "translation",
@@ -26,7 +26,7 @@ impl Property {
 /// Edited frames of a property of a joint.
 pub(super) struct ChangedColumn {
     pub(super) bone: String,
-    pub(super) property: Property,
+    pub(super) property: JointProperty,
     pub(super) frames: usize,
 }
 

@@ -5,13 +5,13 @@ use super::super::channel::{BvhChannel, CHANNELS};
 use super::super::check as code;
 use super::super::hierarchy::Joint;
 use super::super::motion::{MotionHead, time_of};
-use super::super::{BvhText, LEXICON};
-use super::edits::{rotations_differ, translations_differ};
-use super::report::{BvhChanges, ChangedColumn, Property};
-use super::{JointEdits, spelled};
+use super::super::parsed::{BvhText, LEXICON};
+use super::edits::{JointEdits, rotations_differ, translations_differ};
+use super::number::spelled;
+use super::report::{BvhChanges, ChangedColumn, JointProperty};
 use crate::data::{Skeleton, Take};
 use crate::format::losses::Losses;
-use crate::format::text::{TextScanner, Token, parse_number};
+use crate::format::text::{TextScanner, TextToken, parse_number};
 use crate::format::{AxisMap, ExportError};
 use crate::sample::{rest_pose, sample_track};
 use glam::{DQuat, DVec3, Quat, Vec3};
@@ -39,7 +39,7 @@ pub(super) struct RowWriter<'a> {
     /// Number of bytes of the file that are copied or replaced.
     done: usize,
     /// The row that was read last.
-    row: Vec<Token<'a>>,
+    row: Vec<TextToken<'a>>,
     /// End of the row before it.
     row_start: usize,
     changes: BvhChanges,
@@ -159,8 +159,8 @@ impl<'a> RowWriter<'a> {
         self.out.extend_from_slice(&self.bytes[self.done..]);
         for edit in edits {
             let counted = [
-                (Property::Translation, edit.translation.map_or(0, |pair| pair.frames)),
-                (Property::Rotation, edit.rotation.map_or(0, |pair| pair.frames)),
+                (JointProperty::Translation, edit.translation.map_or(0, |pair| pair.frames)),
+                (JointProperty::Rotation, edit.rotation.map_or(0, |pair| pair.frames)),
             ];
             for (property, frames) in counted.into_iter().filter(|(_, frames)| *frames > 0) {
                 let bone = self.text.hierarchy.joints[edit.joint].name.clone();
@@ -222,7 +222,7 @@ impl<'a> RowWriter<'a> {
             if channels.has_rotations()
                 && angle_between(channels.rotation(&numbers), rotation) > ROTATION_LOST
             {
-                self.unstored.insert((index, Property::Rotation.name()));
+                self.unstored.insert((index, JointProperty::Rotation.name()));
             }
         }
         if let Some(translation) = translation {
@@ -235,7 +235,7 @@ impl<'a> RowWriter<'a> {
             let stored = channels.translation(joint.offset, &numbers);
             if channels.has_positions() && stored.distance(translation) > 1e-5 * largest(translation).max(1.0)
             {
-                self.unstored.insert((index, Property::Translation.name()));
+                self.unstored.insert((index, JointProperty::Translation.name()));
             }
         }
         numbers
