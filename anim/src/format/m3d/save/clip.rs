@@ -155,7 +155,9 @@ impl<'a> ClipWriter<'a> {
                 let token = scanner.word("a number")?;
                 scanner.go_to(token.at);
                 let [old] = scanner.floats("a number")?;
-                if let Some(&value) = values.get(slot).filter(|&&value| !is_kept[slot] && value != old) {
+                if let Some(&value) =
+                    values.get(slot).filter(|&&value| value != old && is_kept.get(slot) == Some(&false))
+                {
                     patches.replace(token.at..token.at + token.text.len(), number(value));
                 }
             }

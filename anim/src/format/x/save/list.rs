@@ -8,7 +8,7 @@ use crate::data::{Bone, Track, Transform};
 use crate::format::Conversion;
 use crate::format::key_rows::{OldRow, RowCounts, RowEdits, rewrite};
 use crate::format::patch::TextPatches;
-use crate::format::pose_rows::{PoseRow, pose_rows};
+use crate::format::pose_rows::{TimedPose, pose_rows};
 
 /// Share of a number of a matrix below which it stays: what decomposing and composing rounds.
 const SAME: f32 = 4e-6;
@@ -55,7 +55,7 @@ impl ListEditor<'_> {
         patches: &mut TextPatches,
     ) -> RowCounts {
         let start = list.rows.first().map_or(0.0, |(ticks, _)| seconds(*ticks, self.conversion));
-        let wanted: Vec<PoseRow> = pose_rows(Some(new), bone, start);
+        let wanted: Vec<TimedPose> = pose_rows(Some(new), bone, start);
         let times: Vec<f32> = wanted.iter().map(|row| row.time).collect();
         let edit = |row: usize, key: usize, number: usize| {
             let mut patches = TextPatches::default();
