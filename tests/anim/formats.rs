@@ -130,7 +130,14 @@ fn what_every_writable_format_writes_reads_back() {
             Arc::make_mut(&mut first.take).name = "renamed".to_owned();
             takes.push(takes[0].clone());
             Arc::make_mut(&mut takes.last_mut().unwrap().take).name = "copy".to_owned();
-            let plan = file.plan(&opened, &takes).unwrap();
+            let plan = match file.plan(&opened, &takes) {
+                Ok(plan) => plan,
+                Err(error) => {
+                    // Not every kind of file can be edited; then another format is proposed.
+                    assert!(error.to_string().contains(".glb"), "{name}: {error}");
+                    continue;
+                }
+            };
             // A format may have room for one take, or for none of the names: then it lists what is lost.
             let is_lost =
                 |pointer: String| plan.lost.iter().any(|lost| lost.place == Place::Pointer(pointer.clone()));

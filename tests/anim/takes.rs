@@ -148,6 +148,33 @@ pub(crate) fn difference(a: &[f32], b: &[f32]) -> f32 {
     a.iter().zip(b).fold(0.0, |worst, (a, b)| worst.max((a - b).abs() / largest))
 }
 
+/// Returns the positions of all vertices that triangles use, in a take at a time.
+pub(crate) fn used_positions(model: &Arc<ModelData>, take: Option<usize>, time: f32) -> Vec<Vec3> {
+    let mut evaluator = Evaluator::new(Arc::clone(model));
+    evaluator.pose(take, time);
+    let mut used = Vec::new();
+    for instance in 0..model.instances.len() {
+        for (number, primitive) in evaluator.primitives(instance).iter().enumerate() {
+            let mut all = vec![Vec3::ZERO; primitive.vertices.len()];
+            evaluator.positions(instance, number, &mut all);
+            let mut indices = primitive.indices.clone();
+            indices.sort_unstable();
+            indices.dedup();
+            used.extend(indices.into_iter().map(|index| all[index as usize]));
+        }
+    }
+    used
+}
+
+/// Returns the largest distance of one of about a hundred positions from the nearest of the others, relative to the size of
+/// all.
+pub(crate) fn distance_of_nearest(ours: &[Vec3], theirs: &[Vec3]) -> f32 {
+    let size = ours.iter().fold(1e-3_f32, |size, position| size.max(position.abs().max_element()));
+    let nearest =
+        |position: &Vec3| theirs.iter().map(|other| position.distance(*other)).fold(f32::INFINITY, f32::min);
+    ours.iter().step_by((ours.len() / 97).max(1)).map(nearest).fold(0.0, f32::max) / size
+}
+
 /// Returns the number of triangles whose corners are counter-clockwise seen from where their normals point to, and of the others.
 pub(crate) fn windings(model: &ModelData) -> (usize, usize) {
     let (mut right, mut wrong) = (0, 0);

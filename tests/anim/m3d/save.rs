@@ -118,7 +118,7 @@ fn takes_are_renamed_copied_made_moved_and_removed() {
         (names.join(" "), after)
     };
     assert_eq!(names(&[stand.clone(), walk.clone()]).0, "stand walk");
-    let (found, after) = names(&[stand.clone()]);
+    let (found, after) = names(std::slice::from_ref(&stand));
     assert!(found == "stand" && after.contains("NumClips 1") && !after.contains("walk"));
     let (found, after) = names(&[]);
     assert!(found.is_empty() && after.contains("NumClips 0"));

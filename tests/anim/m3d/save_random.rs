@@ -66,7 +66,7 @@ fn random_edits_change_only_their_rows_and_read_back_as_edited() {
                     Some((
                         track.translation.values[key?],
                         track.rotation.values[turn?],
-                        track.scale.times.contains(&time).then(|| ())?,
+                        track.scale.times.contains(&time).then_some(())?,
                     ))
                 };
                 let is_same = value(track.0).is_some()

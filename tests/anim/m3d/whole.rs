@@ -2,29 +2,11 @@
 
 use super::made::import;
 use crate::doors::{TestFolder, model_files};
-use crate::takes::windings;
+use crate::takes::{distance_of_nearest, used_positions, windings};
 use dragonfly_anim::data::ModelData;
-use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::m3d::{M3D, M3dDialect, write};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
-use glam::Vec3;
 use std::sync::Arc;
-
-/// Returns all positions, sorted, so that they can be compared where vertices are in another order; every `step`th.
-fn positions(model: &Arc<ModelData>, take: Option<usize>, time: f32) -> Vec<Vec3> {
-    let mut evaluator = Evaluator::new(Arc::clone(model));
-    evaluator.pose(take, time);
-    evaluator.all_positions()
-}
-
-/// Returns the largest distance of a position from the nearest of the others, relative to the size of the model.
-fn distance(ours: &[Vec3], theirs: &[Vec3]) -> f32 {
-    let size = ours.iter().fold(1e-3_f32, |size, position| size.max(position.abs().max_element()));
-    let sampled = ours.iter().step_by((ours.len() / 97).max(1));
-    let nearest =
-        |position: &Vec3| theirs.iter().map(|other| position.distance(*other)).fold(f32::INFINITY, f32::min);
-    sampled.map(nearest).fold(0.0, f32::max) / size
-}
 
 #[test]
 fn models_of_every_kind_keep_the_places_of_their_vertices_in_both_dialects() {
@@ -63,8 +45,8 @@ fn models_of_every_kind_keep_the_places_of_their_vertices_in_both_dialects() {
                 for part in [0.0, 0.37, 1.0] {
                     let time = start + (end - start) * part;
                     let [ours, theirs] =
-                        [&original, &written].map(|model| positions(model, Some(take), time));
-                    let off = distance(&ours, &theirs);
+                        [&original, &written].map(|model| used_positions(model, Some(take), time));
+                    let off = distance_of_nearest(&ours, &theirs);
                     assert!(off < 2e-3, "{name}, take {take} at {time}: {off}");
                     compared += 1;
                 }

@@ -139,7 +139,7 @@ fn takes_are_renamed_copied_made_moved_and_removed() {
         (names.join(" "), after)
     };
     assert_eq!(names(&[turn.clone(), swing.clone()]).0, "Turn Swing");
-    let (found, after) = names(&[turn.clone()]);
+    let (found, after) = names(std::slice::from_ref(&turn));
     assert!(found == "Turn" && !after.contains("Swing"));
     let (found, after) = names(&[]);
     assert!(found.is_empty() && !after.contains("AnimationSet"));

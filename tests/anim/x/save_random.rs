@@ -6,9 +6,10 @@ use dragonfly_anim::format::x::X;
 use dragonfly_kit::random::{Random, seed};
 
 /// Returns the lines of a text outside of one block: the object of a take that animates a frame.
-fn outside<'a>(text: &'a str, set: &str, frame: &str) -> Vec<&'a str> {
-    let start = text.find(&format!("AnimationSet {set} ")).unwrap();
-    let end = text[start + 1..].find("\nAnimationSet").map_or(text.len(), |end| start + 1 + end);
+fn outside<'a>(text: &'a str, set: usize, frame: &str) -> Vec<&'a str> {
+    let mut sets = text.match_indices("\nAnimationSet").map(|(at, _)| at);
+    let start = sets.nth(set).unwrap();
+    let end = sets.next().unwrap_or(text.len());
     let own = &text[start..end];
     let reference = [format!("{{ {frame} }}"), format!("{{{frame}}}")];
     let Some(at) = reference.iter().find_map(|reference| own.find(reference.as_str())) else {
@@ -50,7 +51,7 @@ fn random_edits_change_only_their_keys_and_read_back_as_edited() {
                 // A new object is added, and nothing else.
                 assert!(after.len() > source.len() || takes[take].take == opened.animation.takes[take]);
             } else {
-                let (old, new) = (outside(&source, set, frame), outside(&after, set, frame));
+                let (old, new) = (outside(&source, take, frame), outside(&after, take, frame));
                 assert!(old == new, "{name}: more than the keys of {frame} changed");
             }
             let expected = with_takes(&opened, &takes);

@@ -3,11 +3,9 @@
 use super::made::import;
 use crate::doors::{TestFolder, model_files};
 use crate::soundness::faults;
-use crate::takes::windings;
-use dragonfly_anim::evaluator::Evaluator;
+use crate::takes::{distance_of_nearest, used_positions, windings};
 use dragonfly_anim::format::x::{X, write};
 use dragonfly_anim::format::{NoFiles, ReadOptions, read};
-use glam::Vec3;
 use std::sync::Arc;
 
 #[test]
@@ -40,18 +38,8 @@ fn models_of_every_kind_keep_the_places_of_their_vertices() {
             let range = take.and_then(|take| model.animation.takes[take].range_of_keys()).unwrap_or_default();
             for part in [0.0, 0.37, 1.0] {
                 let time = range.0 + (range.1 - range.0) * part;
-                let [ours, theirs] = models.each_ref().map(|model| {
-                    let mut evaluator = Evaluator::new(Arc::clone(model));
-                    evaluator.pose(take, time);
-                    evaluator.all_positions()
-                });
-                let size =
-                    ours.iter().fold(1e-3_f32, |size, position| size.max(position.abs().max_element()));
-                let nearest = |position: &Vec3| {
-                    theirs.iter().map(|other| position.distance(*other)).fold(f32::INFINITY, f32::min)
-                };
-                let worst =
-                    ours.iter().step_by((ours.len() / 97).max(1)).map(nearest).fold(0.0, f32::max) / size;
+                let [ours, theirs] = models.each_ref().map(|model| used_positions(model, take, time));
+                let worst = distance_of_nearest(&ours, &theirs);
                 assert!(worst < if moved { 2e-2 } else { 2e-3 }, "{name}, {take:?} at {time}: {worst}");
                 compared += 1;
             }

@@ -25,7 +25,7 @@ pub(super) fn bones(
     context: &ImportContext<'_>,
 ) -> Result<Vec<M3dBone>, ImportError> {
     scanner.label("the section BoneOffsets")?;
-    let mut bones = context.vec(&scanner.place(scanner.at()), count)?;
+    let mut bones: Vec<M3dBone> = context.vec(&scanner.place(scanner.at()), count)?;
     for number in 0..count {
         context.work(16)?;
         scanner.label("the offset of a bone")?;
@@ -45,7 +45,7 @@ pub(super) fn bones(
         bones.push(M3dBone { offset, parent: None });
     }
     scanner.label("the section BoneHierarchy")?;
-    for number in 0..count {
+    for (number, bone) in bones.iter_mut().enumerate() {
         context.work(2)?;
         scanner.label("the parent of a bone")?;
         let token = scanner.word("the parent of a bone")?;
@@ -68,7 +68,7 @@ pub(super) fn bones(
             };
             return Err(scanner.invalid(token.at, code, reason));
         }
-        bones[number].parent = Some(parent as u32);
+        bone.parent = Some(parent as u32);
     }
     Ok(bones)
 }

@@ -23,7 +23,8 @@ pub(super) fn influences(
         vertices.weights.iter().zip(&vertices.bones).zip(list.chunks_exact_mut(4))
     {
         let mut weights = *weights;
-        let is_odd = !((weights.iter().sum::<f32>() - 1.0).abs() <= ROUNDING);
+        let is_odd = (weights.iter().sum::<f32>() - 1.0).abs() > ROUNDING
+            || weights.iter().any(|weight| weight.is_nan());
         odd += usize::from(is_odd);
         if is_odd {
             weights[3] = 1.0 - weights[0] - weights[1] - weights[2];

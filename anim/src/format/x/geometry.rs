@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 const COMPUTED: u32 = u32::MAX;
 
 /// Triangles of one material: numbers of corners of the mesh.
-type Corners = Vec<[u32; 3]>;
+type TriangleCorners = Vec<[u32; 3]>;
 
 /// Returns the primitives of a mesh. `materials` are the numbers in the model of the materials of the mesh.
 pub(super) fn primitives(
@@ -58,8 +58,8 @@ fn triangles(
     materials: &[Option<u32>],
     axes: &AxisMap,
     context: &ImportContext<'_>,
-) -> Result<BTreeMap<Option<u32>, Corners>, ImportError> {
-    let mut parts: BTreeMap<Option<u32>, Corners> = BTreeMap::new();
+) -> Result<BTreeMap<Option<u32>, TriangleCorners>, ImportError> {
+    let mut parts: BTreeMap<Option<u32>, TriangleCorners> = BTreeMap::new();
     let mut triangulator = Triangulator::new(mesh.faces.corners.len());
     // The lists grow by doubling, and the triangulator has lists of its own.
     context.charge(&Place::File, mesh.faces.corners.len() as u64 * (3 * 12 + 32))?;

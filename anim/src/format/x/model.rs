@@ -7,7 +7,7 @@ use super::scene::XScene;
 use super::skeleton::BoneList;
 use super::skin::{XInfluences, skin};
 use super::surface::MaterialList;
-use super::take::TakeReader;
+use super::take::SetReader;
 use crate::data::{AnimationData, BoneIndex, Mesh, MeshInstance, ModelData, Skin};
 use crate::format::{Conversion, ImportContext, ImportError, Place};
 use glam::Mat4;
@@ -54,7 +54,7 @@ pub(super) fn model(
     }
     let mut takes = context.vec(&Place::File, scene.sets.len())?;
     let count = bones.len();
-    let reader = TakeReader { file, bones: &bones, axes, conversion, context };
+    let reader = SetReader { file, bones: &bones, axes, conversion, context };
     for set in &scene.sets {
         takes.push(Arc::new(reader.take(set, count)?));
     }

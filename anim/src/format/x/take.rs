@@ -75,7 +75,7 @@ pub(super) fn used_rows(keys: &XKeys, conversion: &Conversion) -> (Vec<u32>, Vec
 }
 
 /// Makes takes of the sets of a file.
-pub(super) struct TakeReader<'a> {
+pub(super) struct SetReader<'a> {
     pub(super) file: &'a XFile<'a>,
     pub(super) bones: &'a BoneList<'a>,
     pub(super) axes: AxisMap,
@@ -83,7 +83,7 @@ pub(super) struct TakeReader<'a> {
     pub(super) context: &'a ImportContext<'a>,
 }
 
-impl TakeReader<'_> {
+impl SetReader<'_> {
     /// Returns the take of a set. `bones` is the number of bones.
     pub(super) fn take(&self, set: &XSet, bones: usize) -> Result<Take, ImportError> {
         let context = self.context;

@@ -12,6 +12,7 @@ use crate::format::patch::TextPatches;
 use crate::format::pose_rows::pose_rows;
 use crate::format::straight::is_straight;
 use crate::format::{AxisMap, ImportError};
+use glam::Vec3;
 use std::fmt::Write;
 
 /// Writes clips in the style of a file.
@@ -140,30 +141,33 @@ impl<'a> ClipWriter<'a> {
     fn edit_row(&self, at: usize, key: usize, pose: &Transform, new: &Track, old: &Track) -> TextPatches {
         let mut patches = TextPatches::default();
         let file = self.to_file.transform(*pose);
-        let is_kept = [
-            new.translation == old.translation || old.translation.value(key) == Some(pose.translation),
-            new.scale == old.scale || old.scale.value(key) == Some(pose.scale),
-            new.rotation == old.rotation || old.rotation.value(key) == Some(pose.rotation),
-        ];
+        // Numbers of the file that the edit does not change, although a conversion would round them.
+        let same = |new: Vec3, old: Option<Vec3>| old.map_or([false; 3], |old| new.cmpeq(old).into());
+        let moved = same(pose.translation, old.translation.value(key));
+        let scaled = same(pose.scale, old.scale.value(key));
+        let is_turned = new.rotation != old.rotation && old.rotation.value(key) != Some(pose.rotation);
+        let [x, y, z] = self.to_file.factors(Vec3::new(0.0, 1.0, 2.0)).to_array().map(|axis| axis as usize);
         let mut scanner = M3dScanner::new(self.bytes);
         scanner.go_to(at);
-        let mut replace = |count: usize, values: &[f32], is_kept: bool| -> Result<(), ImportError> {
+        let mut replace = |count: usize, values: &[f32], is_kept: &[bool]| -> Result<(), ImportError> {
             scanner.label("a label")?;
             for slot in 0..count {
                 let token = scanner.word("a number")?;
                 scanner.go_to(token.at);
                 let [old] = scanner.floats("a number")?;
-                if let Some(&value) = values.get(slot).filter(|&&value| !is_kept && value != old) {
+                if let Some(&value) =
+                    values.get(slot).filter(|&&value| value != old && is_kept.get(slot) == Some(&false))
+                {
                     patches.replace(token.at..token.at + token.text.len(), number(value));
                 }
             }
             Ok(())
         };
         // The row was read before, so there are no errors.
-        let _ = replace(1, &[], true)
-            .and_then(|()| replace(3, &file.translation.to_array(), is_kept[0]))
-            .and_then(|()| replace(3, &file.scale.to_array(), is_kept[1]))
-            .and_then(|()| replace(4, &file.rotation.to_array(), is_kept[2]));
+        let _ = replace(1, &[], &[])
+            .and_then(|()| replace(3, &file.translation.to_array(), &[moved[x], moved[y], moved[z]]))
+            .and_then(|()| replace(3, &file.scale.to_array(), &[scaled[x], scaled[y], scaled[z]]))
+            .and_then(|()| replace(4, &file.rotation.to_array(), &[!is_turned; 4]));
         patches
     }
 

@@ -72,7 +72,7 @@ impl FileSkeleton {
     }
 
     fn of_skin(&self, skin: &Skin) -> MeshBinding {
-        let matrix = |(&bone, &offset): (&u32, &Mat4)| self.from_bone(bone) * offset;
+        let matrix = |(&bone, &offset): (&u32, &Mat4)| self.bone_to_file(bone) * offset;
         MeshBinding {
             matrices: skin.bones.iter().zip(&skin.offsets).map(matrix).collect(),
             bones: skin.bones.clone(),
@@ -84,11 +84,11 @@ impl FileSkeleton {
             return MeshBinding { matrices: vec![instance.to_bone], bones: Vec::new() };
         }
         let bone = instance.bone.unwrap_or(self.skeleton.len() as u32 - 1);
-        MeshBinding { matrices: vec![self.from_bone(bone) * instance.to_bone], bones: vec![bone] }
+        MeshBinding { matrices: vec![self.bone_to_file(bone) * instance.to_bone], bones: vec![bone] }
     }
 
     /// Returns the transform from the space of a bone to that in which the file binds it.
-    fn from_bone(&self, bone: u32) -> Mat4 {
+    fn bone_to_file(&self, bone: u32) -> Mat4 {
         inverse(self.skeleton.bones[bone as usize].offset).unwrap_or(Mat4::IDENTITY)
     }
 }

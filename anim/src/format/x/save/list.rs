@@ -1,6 +1,6 @@
 //! Edits of one list of keys.
 
-use super::super::animation::XKeys;
+use super::super::animation::{XKeyKind, XKeys};
 use super::super::key_text::{FileKeys, KeyText, decimal};
 use super::super::lexer::XLexer;
 use super::super::take::{seconds, used_rows};
@@ -8,7 +8,7 @@ use crate::data::{Bone, Track, Transform};
 use crate::format::Conversion;
 use crate::format::key_rows::{OldRow, RowCounts, RowEdits, rewrite};
 use crate::format::patch::TextPatches;
-use crate::format::pose_rows::{PoseRow, pose_rows};
+use crate::format::pose_rows::{TimedPose, pose_rows};
 
 /// Share of a number of a matrix below which it stays: what decomposing and composing rounds.
 const SAME: f32 = 4e-6;
@@ -31,8 +31,13 @@ impl ListEditor<'_> {
     ) -> RowCounts {
         let edit = |row: usize, key: usize, number: usize| {
             let mut patches = TextPatches::default();
-            if old.values.get(key) != Some(&new.values[number]) {
-                self.edit_row(list, row, &new.values[number], |new, old| new != old, &mut patches);
+            let (values, before) = (&new.values[number], old.values.get(key));
+            // The importer normalizes rotations and changes their sign, so an edited one is written as a whole.
+            let is_whole = list.kind == XKeyKind::Rotation;
+            if before != Some(values) {
+                let is_kept =
+                    |slot: usize| !is_whole && before.is_some_and(|before| before[slot] == values[slot]);
+                self.edit_row(list, row, values, |slot, new, old| !is_kept(slot) && new != old, &mut patches);
             }
             patches
         };
@@ -50,7 +55,7 @@ impl ListEditor<'_> {
         patches: &mut TextPatches,
     ) -> RowCounts {
         let start = list.rows.first().map_or(0.0, |(ticks, _)| seconds(*ticks, self.conversion));
-        let wanted: Vec<PoseRow> = pose_rows(Some(new), bone, start);
+        let wanted: Vec<TimedPose> = pose_rows(Some(new), bone, start);
         let times: Vec<f32> = wanted.iter().map(|row| row.time).collect();
         let edit = |row: usize, key: usize, number: usize| {
             let mut patches = TextPatches::default();
@@ -60,7 +65,7 @@ impl ListEditor<'_> {
             let scale = values[..12].iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
             let is_moved_only = (before.rotation, before.scale) == (pose.rotation, pose.scale);
             let length = values[12..].iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
-            self.edit_slots(
+            self.edit_row(
                 list,
                 row,
                 &values,
@@ -99,19 +104,8 @@ impl ListEditor<'_> {
         rewrite(self.bytes, &rows, edits, &separator, patches)
     }
 
-    fn edit_row(
-        &self,
-        list: &XKeys,
-        row: usize,
-        values: &[f32],
-        differs: impl Fn(f32, f32) -> bool,
-        patches: &mut TextPatches,
-    ) {
-        self.edit_slots(list, row, values, |_, new, old| differs(new, old), patches);
-    }
-
     /// Replaces the numbers of a row that differ.
-    fn edit_slots(
+    fn edit_row(
         &self,
         list: &XKeys,
         row: usize,

@@ -39,7 +39,7 @@ impl MeshWriter<'_> {
         if needs_frame {
             open_frame(&self.frame_name(index), self.to_file.matrix(to_frame), depth, text);
         }
-        self.mesh(mesh, instance, skin, text);
+        self.mesh(mesh, skin, text);
         if needs_frame {
             let _ = writeln!(text, "{}}}", " ".repeat(depth));
         }
@@ -55,14 +55,14 @@ impl MeshWriter<'_> {
         name
     }
 
-    fn mesh(&self, mesh: &Mesh, instance: &MeshInstance, skin: Option<&Skin>, text: &mut String) {
+    fn mesh(&self, mesh: &Mesh, skin: Option<&Skin>, text: &mut String) {
         let name = if mesh.name.is_empty() { String::new() } else { super::possible(&mesh.name) + " " };
         let parts = &mesh.primitives;
         let vertices: usize = parts.iter().map(|part| part.vertices.len()).sum();
         let _ = writeln!(text, "Mesh {name}{{\n{vertices};");
         let positions = parts.iter().flat_map(|part| &part.vertices.positions);
         rows(text, positions.map(|&position| self.vector(self.to_file.position(position))));
-        let faces = self.faces(parts, instance.to_bone.determinant() < 0.0 && skin.is_none());
+        let faces = faces(parts);
         write_faces(text, &faces);
         let _ = writeln!(text, "MeshNormals {{\n{vertices};");
         let normal =
@@ -83,19 +83,6 @@ impl MeshWriter<'_> {
     fn vector(&self, vector: Vec3) -> String {
         let [x, y, z] = vector.to_array().map(super::decimal);
         format!("{x};{y};{z};")
-    }
-
-    /// Returns the corners of all triangles; mirroring the axes reverses them, unless the mesh is mirrored in the scene.
-    fn faces(&self, parts: &[Primitive], is_mirrored: bool) -> Vec<[u32; 3]> {
-        let (mut faces, mut first) = (Vec::new(), 0);
-        for part in parts {
-            faces.extend(part.indices.chunks_exact(3).map(|corners| {
-                let [a, b, c] = [corners[0], corners[1], corners[2]].map(|corner| corner + first);
-                if is_mirrored { [a, b, c] } else { [a, c, b] }
-            }));
-            first += part.vertices.len() as u32;
-        }
-        faces
     }
 
     fn coordinates(&self, parts: &[Primitive], count: usize, text: &mut String) {
@@ -173,6 +160,18 @@ impl MeshWriter<'_> {
             let _ = writeln!(text, "{};;\n}}", list(&self.to_file.matrix(offset).to_cols_array()));
         }
     }
+}
+
+/// Returns the corners of all triangles, reversed: mirroring the axes makes them clockwise, as the format has them.
+fn faces(parts: &[Primitive]) -> Vec<[u32; 3]> {
+    let (mut faces, mut first) = (Vec::new(), 0);
+    for part in parts {
+        let corners = part.indices.chunks_exact(3);
+        faces
+            .extend(corners.map(|corners| [corners[0], corners[2], corners[1]].map(|corner| corner + first)));
+        first += part.vertices.len() as u32;
+    }
+    faces
 }
 
 /// Writes one row for each item of a list.
