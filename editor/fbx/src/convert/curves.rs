@@ -45,6 +45,20 @@ pub(super) fn animated_elements(
     Ok(found)
 }
 
+/// Returns the numbers of all elements that are shown and hidden in some take.
+pub(super) fn blinking_elements(
+    scene: &ufbx::Scene,
+    context: &ImportContext<'_>,
+) -> Result<HashSet<u32>, ImportError> {
+    let mut found = HashSet::new();
+    for layer in &scene.anim_layers {
+        context.work(layer.anim_props.len())?;
+        let properties = layer.anim_props.iter().filter(|property| &*property.prop_name == "Visibility");
+        found.extend(properties.map(|property| property.element.element_id));
+    }
+    Ok(found)
+}
+
 /// Curves of one take for each element, with the part that each moves.
 pub(super) type ElementCurves<'a> = HashMap<u32, Vec<(CurveTarget, Option<&'a AnimCurve>)>>;
 

@@ -1,5 +1,6 @@
 //! The skeleton at rest, and the meshes placed in the scene.
 
+use super::curves::blinking_elements;
 use super::mesh::ReadMesh;
 use super::nodes::{SceneLayout, is_top, node_name, place_of};
 use super::skin::ReadSkin;
@@ -79,13 +80,14 @@ fn instances(
     context: &ImportContext<'_>,
 ) -> Result<Vec<MeshInstance>, ImportError> {
     let mut instances = Vec::new();
+    let blinking = blinking_elements(scene, context)?;
     for &index in &layout.order {
         context.work(1)?;
         let node = &scene.nodes[index as usize];
         let Some(mesh) = &node.mesh else { continue };
         let mesh = mesh.element.typed_id;
         let Some(read) = meshes.get(mesh as usize) else { continue };
-        if !node.visible {
+        if !node.visible && !blinking.contains(&node.element.element_id) {
             context.warn(
                 Place::Pointer(place_of(node)),
                 FBX_NOT_SHOWN,

@@ -355,7 +355,7 @@ impl TakeReader<'_> {
             let weights = channels.iter().flat_map(|channel| {
                 effective_weights(channel, ufbx::evaluate_blend_weight(&self.stack.anim, channel, at))
             });
-            Ok(Some(weights.map(|weight| weight.clamp(-1e6, 1e6)).collect::<Vec<f64>>()))
+            Ok(Some(weights.collect::<Vec<f64>>()))
         };
         let keys = self.fit(&times, TOLERANCE_FACTOR, &mut sample)?;
         let targets = read.shapes.len();
