@@ -1,4 +1,4 @@
-//! FBX on the command line: the program starts itself as the parser, and says what is wrong with a file.
+//! FBX on the command line: the program starts itself as the parser, and reports what is wrong with a file.
 
 use crate::program::{dragonfly, outcome, run};
 use dragonfly_kit::folder::{Folder, data};

@@ -94,7 +94,7 @@ fn compare(bytes: &[u8], expected: &Value) -> (Worst, usize) {
                 let model = scene.evaluator.model();
                 let candidates: Vec<Mat4> = match helpers.get(path).or_else(|| bones.get(path)) {
                     Some(&bone) => vec![to_root[bone]],
-                    // A mesh that nothing moves; instances of one mesh cannot be told apart.
+                    // A mesh that nothing moves; instances of one mesh look alike.
                     None => {
                         let of_mesh = |instance: &&MeshInstance| Some(u64::from(instance.mesh)) == mesh;
                         let placed = model.instances.iter().filter(of_mesh);

@@ -36,7 +36,7 @@ const TURN: f64 = 90.0;
 /// Largest number of pieces into which a span with full turns is divided at first.
 const TURN_PIECES: f64 = 4096.0;
 
-/// What is needed to convert a take.
+/// A take of the file, and everything that its conversion needs.
 struct TakeReader<'a> {
     scene: &'a ufbx::Scene,
     space: &'a FbxSpace,
