@@ -1,9 +1,9 @@
 //! The skeleton at rest, and the meshes placed in the scene.
 
 use super::curves::blinking_elements;
-use super::mesh::ReadMesh;
-use super::nodes::{SceneLayout, is_top, node_name, place_of};
-use super::skin::ReadSkin;
+use super::mesh::FbxMesh;
+use super::nodes::{BoneLayout, is_top, node_name, place_of};
+use super::skin::FbxSkin;
 use super::space::{FbxSpace, Pose64, dmat4, warn_numbers};
 use crate::code::{FBX_INVALID, FBX_NOT_SHOWN};
 use dragonfly_anim::data::{Bone, BoneIndex, MeshInstance, Skeleton};
@@ -15,9 +15,9 @@ use ufbx::Node;
 pub(super) fn build(
     scene: &ufbx::Scene,
     space: &FbxSpace,
-    layout: &SceneLayout,
-    skins: &[ReadSkin],
-    meshes: &[ReadMesh],
+    layout: &BoneLayout,
+    skins: &[FbxSkin],
+    meshes: &[FbxMesh],
     context: &ImportContext<'_>,
 ) -> Result<(Skeleton, Vec<MeshInstance>), ImportError> {
     let place = Place::Pointer("/nodes".to_owned());
@@ -74,9 +74,9 @@ fn inverse(matrix: DMat4) -> Mat4 {
 fn instances(
     scene: &ufbx::Scene,
     space: &FbxSpace,
-    layout: &SceneLayout,
-    skins: &[ReadSkin],
-    meshes: &[ReadMesh],
+    layout: &BoneLayout,
+    skins: &[FbxSkin],
+    meshes: &[FbxMesh],
     context: &ImportContext<'_>,
 ) -> Result<Vec<MeshInstance>, ImportError> {
     let mut instances = Vec::new();
@@ -113,7 +113,7 @@ fn instances(
 }
 
 /// Returns the nearest bone above a node, itself included.
-fn carrier<'a>(node: &'a Node, layout: &SceneLayout) -> (Option<BoneIndex>, Option<&'a Node>) {
+fn carrier<'a>(node: &'a Node, layout: &BoneLayout) -> (Option<BoneIndex>, Option<&'a Node>) {
     let mut at = Some(node);
     while let Some(node) = at {
         if let Some(bone) = layout.bone_of(node) {
