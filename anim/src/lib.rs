@@ -63,7 +63,7 @@
 //! | attach objects to bones (sockets) | [`attach`] |
 //! | inverse kinematics, with joint limits | [`ik`], [`joint`] |
 //! | tangents of cubic splines; full turns and signs of rotation keys; keys repeated in cycles | [`tangents`], [`turns`], [`cycle`] |
-//! | root motion | [`motion`] |
+//! | root motion; a root bone for it | [`motion`], [`root_bone`] |
 //! | contacts of feet; loops; defects of a take; a take at its frames | [`contact`], [`loops`], [`lint`], [`frames`] |
 //! | play a take on another skeleton | [`retarget`] |
 //! | change many keys by the same offset, with falloff | [`offset`] |
@@ -138,6 +138,8 @@ pub mod offset;
 pub mod reduce;
 #[doc(alias("retargeting"))]
 pub mod retarget;
+#[doc(alias("add root", "reroot"))]
+pub mod root_bone;
 pub mod sample;
 #[doc(alias("skinning"))]
 pub mod skin;

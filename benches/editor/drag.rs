@@ -142,6 +142,7 @@ fn tree(bones: u32, seconds: u32, keys_per_second: u32) -> LoadedModel {
         ..ModelData::default()
     });
     LoadedModel {
+        conversion: Default::default(),
         bounds: bounds_of_pose(&model, None, 0.0),
         title: "Tree".to_owned(),
         path: None,

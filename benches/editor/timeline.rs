@@ -299,6 +299,7 @@ fn view(length: f32) -> View {
     };
     let model = Arc::new(ModelData { animation, ..ModelData::default() });
     let loaded = LoadedModel {
+        conversion: Default::default(),
         title: "large.glb".to_owned(),
         path: None,
         format: Some(dragonfly_anim::format::gltf::GLB),

@@ -54,8 +54,8 @@ pub(crate) fn data() -> PathBuf {
 }
 
 /// Returns the folders of `tests/data` with models that can be read, some with folders in them.
-pub(crate) fn model_folders() -> [PathBuf; 3] {
-    ["gltf", "bench", "collection"].map(|folder| data().join(folder))
+pub(crate) fn model_folders() -> [PathBuf; 7] {
+    ["gltf", "bench", "collection", "bvh", "obj", "m3d", "x"].map(|folder| data().join(folder))
 }
 
 /// Returns every glTF file in the folders with models, sorted.

@@ -66,6 +66,9 @@ fn edited() -> Vec<(String, Vec<u8>, Vec<u8>)> {
     for (name, bytes) in sources {
         let [saved, twice] = edited_twice(&OpenedFile::alone(&name, &bytes), &NoFiles);
         let compacted = compact(&twice.opened.source).unwrap().write().remove(0).bytes;
+        for (what, after) in crate::root_bone::root_added_and_removed(&name, &bytes) {
+            files.push((format!("{what}-{name}"), bytes.clone(), after));
+        }
         files.push((format!("once-{name}"), bytes.clone(), saved.bytes().to_vec()));
         files.push((format!("twice-{name}"), bytes.clone(), twice.bytes().to_vec()));
         files.push((format!("compacted-{name}"), bytes, compacted));

@@ -90,7 +90,7 @@ fn edit_and_save(model: &Path, folder: &Path, number: u64, each: usize) -> usize
             let plan = editable.plan(edited.adapter()).expect("planned before");
             editable.save(edited.adapter(), &plan, &output).unwrap_or_else(|error| panic!("{error}"));
             let context = format!("{name}, seed {number}, {}", kind.name);
-            assert_opens_again(&output, &editable.model.animation.skeleton, edited.adapter(), &context);
+            assert_opens_again(&output, edited.adapter(), &context);
         }
     }
     accepted
@@ -155,7 +155,7 @@ fn saved_after(model: &Path, output: &Path, lines: &[&str], text: &str) -> bool 
     }
     let plan = editable.plan(edited.adapter()).unwrap_or_else(|error| panic!("{lines:?}: {error}"));
     editable.save(edited.adapter(), &plan, output).expect("a file");
-    assert_opens_again(output, &editable.model.animation.skeleton, edited.adapter(), &format!("{lines:?}"));
+    assert_opens_again(output, edited.adapter(), &format!("{lines:?}"));
     open(output).warnings.iter().any(|warning| warning.contains(text))
 }
 

@@ -2,6 +2,7 @@
 
 use crate::program::run;
 use dragonfly_kit::folder::{Folder, data};
+use dragonfly_kit::skip::{TestNeed, skip};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -114,4 +115,42 @@ fn orders_that_cannot_be_right_are_errors_of_the_input_and_write_nothing() {
     }
     run(["convert", text(&fox), "-o", text(folder.path()), "--to", "dfm", "--scale", "-1"]).expect(2);
     assert_eq!(files_below(folder.path()), BTreeSet::new());
+}
+
+/// Runs a command of another program in `folder`, with our program in its path. `None` where the other one is not there.
+fn other(program: &str, arguments: &[&str], folder: &Path) -> Option<std::process::Output> {
+    let own = Path::new(env!("CARGO_BIN_EXE_dragonfly")).parent().expect("a folder");
+    let path = format!("{}:{}", own.display(), std::env::var("PATH").unwrap_or_default());
+    let mut command = std::process::Command::new(program);
+    command.args(arguments).current_dir(folder).env("PATH", path).output().ok()
+}
+
+#[test]
+fn the_parts_of_an_array_job_convert_each_file_once() {
+    let (folder, outputs) = collection("convert-slurm");
+    let order = ["convert", "in", "-o", "out", "--to", "dfm", "--job", "slurm", "--parts", "3"];
+    fs::write(folder.join("job.sh"), run(order).expect(0).text()).expect("a file");
+    // What the cluster does: the same script with other numbers.
+    for part in 1..=3 {
+        let line = format!("SLURM_ARRAY_TASK_ID={part} exec sh job.sh");
+        let done = other("sh", &["-c", &line], folder.path()).expect("a shell");
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    }
+    assert_eq!(files_below(&folder.join("out")), outputs.into_iter().map(str::to_owned).collect());
+}
+
+#[test]
+fn an_open_job_description_runs_in_its_reference_program() {
+    let (folder, outputs) = collection("convert-openjd");
+    let (input, output) = (folder.join("in"), folder.join("out"));
+    let order =
+        ["convert", text(&input), "-o", text(&output), "--to", "dfm", "--job", "openjd", "--parts", "2"];
+    let job = run(order).expect(0).json();
+    assert_eq!(job["specificationVersion"], "jobtemplate-2023-09");
+    fs::write(folder.join("job.json"), job.to_string()).expect("a file");
+    let Some(done) = other("openjd", &["run", "job.json"], folder.path()) else {
+        return skip(TestNeed::Farm, "the command openjd is not installed");
+    };
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stdout));
+    assert_eq!(files_below(&output), outputs.into_iter().map(str::to_owned).collect());
 }

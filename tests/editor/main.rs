@@ -74,6 +74,7 @@ mod remembered;
 #[cfg(target_os = "linux")]
 mod render_memory;
 mod retarget_command;
+mod root_bone;
 mod ruler;
 mod saved_pending;
 mod screen;

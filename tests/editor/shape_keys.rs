@@ -66,6 +66,7 @@ pub(crate) fn with_interpolation(names: &[&str], interpolation: Interpolation) -
     }];
     let LoadedModel { title, path, format, bounds, .. } = &*view.loaded;
     let loaded = LoadedModel {
+        conversion: Default::default(),
         title: title.clone(),
         path: path.clone(),
         format: *format,

@@ -93,15 +93,13 @@ impl Animator {
             };
             assert_eq!(self.edited.adapter().check(), Ok(()));
             self.generation += u64::from(done);
-            let adapter = self.edited.adapter();
             let view = View {
                 generation: self.generation,
                 answered,
-                takes: adapter.results().cloned().collect(),
-                slots: adapter.slots().into(),
                 history: std::sync::Arc::new(HistoryView::of(&self.edited)),
-                ..self.first.clone()
+                ..self.first.with_edited(&self.edited)
             };
+            self.first.loaded = std::sync::Arc::clone(&view.loaded);
             self.harness.state_mut().state.show(view);
         }
     }

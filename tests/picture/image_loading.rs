@@ -41,6 +41,7 @@ fn changed(loaded: &Arc<LoadedModel>, memory: u64, change: impl FnOnce(&mut [Ima
     assert_eq!(warnings, [""; 0]);
     let (title, bounds) = (loaded.title.clone(), loaded.bounds);
     Arc::new(LoadedModel {
+        conversion: Default::default(),
         title,
         path: None,
         format: None,

@@ -48,6 +48,7 @@ fn baked(model: &Arc<ModelData>, time: f32) -> ModelData {
 /// Returns `model` as loaded, with the pixels of `like` and these bounds.
 fn shown(model: Arc<ModelData>, like: &LoadedModel, bounds: &Arc<ModelData>) -> Arc<LoadedModel> {
     Arc::new(LoadedModel {
+        conversion: Default::default(),
         title: like.title.clone(),
         path: None,
         format: like.format,

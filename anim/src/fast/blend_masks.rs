@@ -6,8 +6,7 @@
 use super::blend::{MOST, PoseLayer, WHOLE};
 use super::mask::{LaneMask, MaskBlock, usable};
 use super::pose::PoseBlock;
-use super::simd::{Float8, LANES, Simd};
-use super::slerp::{dot, unit};
+use super::simd::{Float8, RowPair, Simd};
 
 /// Sum of weights up to which a bone's shares need no division: more is not rounding.
 const MORE: f32 = 2.0 - WHOLE;
@@ -33,26 +32,20 @@ pub(super) fn with_masks<S: Simd>(
             count += 1;
         }
     }
-    for (block, (out, base)) in out.iter_mut().zip(base).enumerate() {
-        let (mut here, mut count_here) = ([(base, &MaskBlock::ZERO, 0.0); MOST], 0);
-        for part in &parts[..count] {
-            let mask = part.mask.map_or(Some(&MaskBlock::WHOLE), |mask| mask.get(block));
-            if let (Some(pose), Some(mask)) = (part.pose.get(block), mask)
-                && !mask.is_zero
-                && let Some(to) = here.get_mut(count_here)
-            {
-                *to = (pose, mask, part.weight);
-                count_here += 1;
-            }
+    let (parts, blocks) = (&parts[..count], base.len().min(out.len()));
+    let mut block = 0;
+    while block < blocks {
+        block = match *parts {
+            [a] => dense::<S, 1>(base, [a], block, out, normalized),
+            [a, b] => dense::<S, 2>(base, [a, b], block, out, normalized),
+            [a, b, c] => dense::<S, 3>(base, [a, b, c], block, out, normalized),
+            [a, b, c, d] => dense::<S, 4>(base, [a, b, c, d], block, out, normalized),
+            _ => block,
+        };
+        if let (Some(base), Some(out)) = (base.get(block), out.get_mut(block)) {
+            sparse::<S>(base, parts, block, out, normalized);
         }
-        let [a, b, c, d] = here;
-        match count_here {
-            0 => *out = *base,
-            1 => masked::<S, 1>(base, [a], out, normalized),
-            2 => masked::<S, 2>(base, [a, b], out, normalized),
-            3 => masked::<S, 3>(base, [a, b, c], out, normalized),
-            _ => masked::<S, 4>(base, [a, b, c, d], out, normalized),
-        }
+        block += 1;
     }
 }
 
@@ -62,6 +55,65 @@ struct MaskedPose<'a> {
     pose: &'a [PoseBlock],
     mask: Option<&'a [MaskBlock]>,
     weight: f32,
+}
+
+impl<'a> MaskedPose<'a> {
+    /// Returns the pose and the mask of a block; `None` where the layer has no weight.
+    #[inline(always)]
+    fn block(&self, block: usize) -> Option<(&'a PoseBlock, &'a MaskBlock, f32)> {
+        let mask = match self.mask {
+            Some(mask) => mask.get(block)?,
+            None => &MaskBlock::WHOLE,
+        };
+        let pose = self.pose.get(block)?;
+        (!mask.is_zero).then_some((pose, mask, self.weight))
+    }
+}
+
+/// Blends the blocks from `first` on in which every layer has weight, and returns the number of the next one.
+#[inline(always)]
+fn dense<S: Simd, const N: usize>(
+    base: &[PoseBlock],
+    parts: [MaskedPose; N],
+    first: usize,
+    out: &mut [PoseBlock],
+    normalized: bool,
+) -> usize {
+    for (block, (out, base)) in out.iter_mut().zip(base).enumerate().skip(first) {
+        let mut here = [(base, &MaskBlock::ZERO, 0.0); N];
+        for (to, part) in here.iter_mut().zip(&parts) {
+            let Some(of_part) = part.block(block) else { return block };
+            *to = of_part;
+        }
+        masked::<S, N>(base, here, out, normalized);
+    }
+    out.len()
+}
+
+/// Blends the layers that have weight in a block.
+#[inline(always)]
+fn sparse<S: Simd>(
+    base: &PoseBlock,
+    parts: &[MaskedPose],
+    block: usize,
+    out: &mut PoseBlock,
+    normalized: bool,
+) {
+    let (mut here, mut count) = ([(base, &MaskBlock::ZERO, 0.0); MOST], 0);
+    for part in parts {
+        if let (Some(of_part), Some(to)) = (part.block(block), here.get_mut(count)) {
+            *to = of_part;
+            count += 1;
+        }
+    }
+    let [a, b, c, d] = here;
+    match count {
+        0 => *out = *base,
+        1 => masked::<S, 1>(base, [a], out, normalized),
+        2 => masked::<S, 2>(base, [a, b], out, normalized),
+        3 => masked::<S, 3>(base, [a, b, c], out, normalized),
+        _ => masked::<S, 4>(base, [a, b, c, d], out, normalized),
+    }
 }
 
 /// Blends eight bones of layers that each have weight at some of them.
@@ -86,30 +138,34 @@ fn masked<S: Simd, const N: usize>(
             *weight = *weight * total;
         }
     }
-    let (mut leader, mut most) = (S::F8::load_four(&base.rotation), base_weight);
+    let (mut leader, mut most) = (turn::<S>(base), base_weight);
     for (weight, (pose, ..)) in weights.iter().zip(&parts) {
         let leads = most.less(*weight);
-        let [x, y, z, w] = S::F8::load_four(&pose.rotation);
-        let [a, b, c, d] = leader;
-        leader = [leads.select(x, a), leads.select(y, b), leads.select(z, c), leads.select(w, d)];
+        let ([xy, zw], [ab, cd]) = (turn::<S>(pose), leader);
+        leader = [S::Pair::chosen(leads, xy, ab), S::Pair::chosen(leads, zw, cd)];
         most = weight.max(most);
     }
     let has_base = short.any();
     // One pass for rotations and one for vectors: both at once would need more registers than AVX2 has.
-    let mut rotation = if has_base { turned::<S>(base, base_weight, leader, [zero; 4]) } else { [zero; 4] };
+    let nothing = [S::Pair::zero(); 2];
+    let mut rotation = if has_base { turned::<S>(base, base_weight, leader, nothing) } else { nothing };
     for (weight, (pose, ..)) in weights.iter().zip(&parts) {
         rotation = turned::<S>(pose, *weight, leader, rotation);
     }
-    S::F8::store_four(unit::<S>(rotation), &mut out.rotation);
-    let start = if has_base { base_weight } else { zero };
-    let mut moved = straight::<S>(&base.translation, start, [zero; 3]);
-    let mut scaled = straight::<S>(&base.scale, start, [zero; 3]);
+    store_unit::<S>(rotation, out);
+    let nothing = [S::Pair::zero(); 3];
+    let mut vectors = if has_base { straight::<S>(base, base_weight, nothing) } else { nothing };
     for (weight, (pose, ..)) in weights.iter().zip(&parts) {
-        moved = straight::<S>(&pose.translation, *weight, moved);
-        scaled = straight::<S>(&pose.scale, *weight, scaled);
+        vectors = straight::<S>(pose, *weight, vectors);
     }
-    S::F8::store_three(moved, &mut out.translation);
-    S::F8::store_three(scaled, &mut out.scale);
+    store_vectors::<S>(vectors, out);
+}
+
+/// Returns the rotations of eight bones: x and y, then z and w.
+#[inline(always)]
+fn turn<S: Simd>(pose: &PoseBlock) -> [S::Pair; 2] {
+    let [x, y, z, w] = &pose.rotation;
+    [S::Pair::from_rows(x, y), S::Pair::from_rows(z, w)]
 }
 
 /// Adds the rotations of `pose` to `sum`, in the hemisphere of `leader`.
@@ -117,19 +173,41 @@ fn masked<S: Simd, const N: usize>(
 fn turned<S: Simd>(
     pose: &PoseBlock,
     share: S::F8,
-    leader: [S::F8; 4],
-    [a, b, c, d]: [S::F8; 4],
-) -> [S::F8; 4] {
-    let [x, y, z, w] = S::F8::load_four(&pose.rotation);
-    let share = share.flipped_by(dot::<S>([x, y, z, w], leader).sign());
-    [x.mul_add(share, a), y.mul_add(share, b), z.mul_add(share, c), w.mul_add(share, d)]
+    [ab, cd]: [S::Pair; 2],
+    sum: [S::Pair; 2],
+) -> [S::Pair; 2] {
+    let [xy, zw] = turn::<S>(pose);
+    let cosine = zw.mul_add(cd, xy * ab).sum();
+    let share = S::Pair::both(share.flipped_by(cosine.sign()));
+    [xy.mul_add(share, sum[0]), zw.mul_add(share, sum[1])]
 }
 
-/// Adds vectors to `sum`.
+/// Stores rotations, divided by their length.
 #[inline(always)]
-fn straight<S: Simd>(vectors: &[[f32; LANES]; 3], share: S::F8, [a, b, c]: [S::F8; 3]) -> [S::F8; 3] {
-    let [x, y, z] = S::F8::load_three(vectors);
-    [x.mul_add(share, a), y.mul_add(share, b), z.mul_add(share, c)]
+fn store_unit<S: Simd>([xy, zw]: [S::Pair; 2], out: &mut PoseBlock) {
+    let square = zw.mul_add(zw, xy * xy).sum();
+    let shrink = S::Pair::both(S::F8::splat(1.0) / square.sqrt());
+    let [x, y, z, w] = &mut out.rotation;
+    (xy * shrink).store_rows(x, y);
+    (zw * shrink).store_rows(z, w);
+}
+
+/// Adds the translations and scales of `pose` to `sum`, two coordinates at a time.
+#[inline(always)]
+fn straight<S: Simd>(pose: &PoseBlock, share: S::F8, sum: [S::Pair; 3]) -> [S::Pair; 3] {
+    let share = S::Pair::both(share);
+    let ([x, y, z], [a, b, c]) = (&pose.translation, &pose.scale);
+    let [xy, za, bc] = [S::Pair::from_rows(x, y), S::Pair::from_rows(z, a), S::Pair::from_rows(b, c)];
+    [xy.mul_add(share, sum[0]), za.mul_add(share, sum[1]), bc.mul_add(share, sum[2])]
+}
+
+/// Stores translations and scales.
+#[inline(always)]
+fn store_vectors<S: Simd>([xy, za, bc]: [S::Pair; 3], out: &mut PoseBlock) {
+    let ([x, y, z], [a, b, c]) = (&mut out.translation, &mut out.scale);
+    xy.store_rows(x, y);
+    za.store_rows(z, a);
+    bc.store_rows(b, c);
 }
 
 /// Weight of the base, if the layers' weights do not reach 1.
@@ -161,32 +239,28 @@ fn one_by_one<S: Simd>(base: &[PoseBlock], layers: &[PoseLayer], out: &mut [Pose
         }
         let BaseShare { short, weight: base_weight } = base_share::<S>(sum, normalized);
         let total = S::F8::splat(1.0) / (base_weight + sum);
-        let mut leader = S::F8::load_four(&base.rotation);
+        let mut leader = turn::<S>(base);
         let mut most = base_weight;
         for layer in layers {
             let Some(pose) = layer.pose.get(block) else { continue };
             let weight = weights::<S>(layer, block);
             let leads = most.less(weight);
-            let [x, y, z, w] = S::F8::load_four(&pose.rotation);
-            let [a, b, c, d] = leader;
-            leader = [leads.select(x, a), leads.select(y, b), leads.select(z, c), leads.select(w, d)];
+            let ([xy, zw], [ab, cd]) = (turn::<S>(pose), leader);
+            leader = [S::Pair::chosen(leads, xy, ab), S::Pair::chosen(leads, zw, cd)];
             most = weight.max(most);
         }
         let start = if short.any() { base_weight * total } else { zero };
-        let mut rotation = turned::<S>(base, start, leader, [zero; 4]);
-        let mut moved = straight::<S>(&base.translation, start, [zero; 3]);
-        let mut scaled = straight::<S>(&base.scale, start, [zero; 3]);
+        let mut rotation = turned::<S>(base, start, leader, [S::Pair::zero(); 2]);
+        let mut vectors = straight::<S>(base, start, [S::Pair::zero(); 3]);
         for layer in layers {
             if let Some(pose) = layer.pose.get(block) {
                 let share = weights::<S>(layer, block) * total;
                 rotation = turned::<S>(pose, share, leader, rotation);
-                moved = straight::<S>(&pose.translation, share, moved);
-                scaled = straight::<S>(&pose.scale, share, scaled);
+                vectors = straight::<S>(pose, share, vectors);
             }
         }
-        S::F8::store_four(unit::<S>(rotation), &mut out.rotation);
-        S::F8::store_three(moved, &mut out.translation);
-        S::F8::store_three(scaled, &mut out.scale);
+        store_unit::<S>(rotation, out);
+        store_vectors::<S>(vectors, out);
     }
 }
 

@@ -35,18 +35,6 @@ pub fn transform_point(matrix: &Matrix34, point: Vec3) -> Vec3 {
     Vec3::new(row(0), row(4), row(8))
 }
 
-/// Returns rows 0 and 1.
-#[inline(always)]
-pub(super) fn upper(matrix: &Matrix34) -> &[f32; 8] {
-    matrix.first_chunk().unwrap_or(&[0.0; 8])
-}
-
-/// Returns row 2.
-#[inline(always)]
-pub(super) fn lower(matrix: &Matrix34) -> &[f32; 4] {
-    matrix.last_chunk().unwrap_or(&[0.0; 4])
-}
-
 /// A [`Matrix34`] in memory of 64 bytes: the width of a cache line, and of the widest registers.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]

@@ -8,7 +8,7 @@
 //! scale        x x x x x x x x | y … | z …             96 bytes
 //! ```
 //!
-//! One instruction then works on the same coordinate of eight bones. Lanes past the last bone contain the identity.
+//! A block is five cache lines. One instruction then works on the same coordinate of eight bones. Lanes past the last bone contain the identity.
 
 use super::simd::LANES;
 use crate::data::Transform;
@@ -16,7 +16,7 @@ use glam::{Quat, Vec3};
 
 /// The poses of eight bones, each relative to its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub struct PoseBlock {
     /// Unit quaternions: x, y, z, w of eight bones each.
     pub rotation: [[f32; LANES]; 4],

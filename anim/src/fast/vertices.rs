@@ -1,9 +1,8 @@
 //! Skinning on the CPU: positions and normals moved by bones, eight vertices at once (thesis §2.1.4).
 //!
 //! ```text
-//! M        = Σ weight_i * final[joint_i]                    one or two influences: two vertices at once;
-//!                                                           more: one after the other, two rows in one register
-//! morphed  = stored + Σ weight_t * difference_t             from here on eight vertices at once
+//! M        = Σ weight_i * final[joint_i]                    one vertex after the other, or two at once: `weigh.rs`
+//! morphed  = stored + Σ weight_t * difference_t             from here on four or eight vertices at once
 //! position = M * position
 //! normal   = normalize(sign(determinant) * cofactors(M) * normal)
 //! ```
@@ -12,16 +11,13 @@
 //! cofactors, the transposed inverse but for its length, keep normals at right angles to the surface under any scale;
 //! see [`crate::skin`]. [`skin_vertices_by_matrix`] leaves that out.
 
-use super::matrix::{Matrix34, mat4};
+use super::matrix::{Matrix34, RootMatrix, mat4};
 use super::morph::{Differences, ShapeBlock};
-use super::simd::{Float8, Kernel, LANES, Simd, SimdLevel};
-use super::weigh::{
-    Finals, InfluenceBlock, NARROW, PADDED_IDENTITY, PaddedMatrix, Sums, columns, few, weigh_block,
-    weigh_carefully,
-};
+use super::simd::{Float8, Kernel, LANES, Rows, Simd, SimdLevel, high, low};
+use super::weigh::{Columns, Finals, InfluenceBlock, NARROW, Sums, few, weigh, weigh_carefully};
 use crate::data::{Primitive, Vertices};
 use crate::skin::{first_direction, near_one, normal_matrix};
-use glam::{Mat3, Mat4, Vec3};
+use glam::{Mat3, Vec3};
 use std::hint::black_box;
 
 /// Vertices of a primitive in the layout of the fast path: eight per block, in file order.
@@ -71,15 +67,13 @@ impl SkinnedVertices {
         let most = lanes.iter().map(|&index| used(index).count()).max().unwrap_or(0);
         let each = most.next_power_of_two().clamp(1, 8);
         let mut shape = ShapeBlock::default();
-        let nothing = InfluenceBlock { joints: [0; LANES], weights: [0.0; LANES] };
-        let mut influences = [nothing; 8];
+        let mut influences = [InfluenceBlock::NOTHING; 8];
         for (lane, index) in lanes.into_iter().enumerate() {
             let position = vertices.positions.get(index).copied().unwrap_or(Vec3::ZERO);
             let normal = vertices.normals.get(index).copied().unwrap_or(Vec3::Y);
             shape.set(lane, position, normal);
             for (slot, influence) in influences.iter_mut().zip(used(index)) {
-                slot.joints[lane] = influence.joint;
-                slot.weights[lane] = influence.weight;
+                slot.set(lane, *influence);
                 self.is_narrow &= usize::from(influence.joint) < NARROW;
             }
         }
@@ -184,9 +178,9 @@ impl<const EXACT: bool> Kernel for SkinKernel<'_, EXACT> {
         if self.vertices.is_narrow && self.positions.len() >= TABLE_THRESHOLD {
             // `black_box` hides the value from the compiler, which then copies whole rows instead of calling a function
             // that fills bytes.
-            let mut table = [black_box(PADDED_IDENTITY); NARROW];
+            let mut table = [black_box(RootMatrix::IDENTITY); NARROW];
             for (row, matrix) in table.iter_mut().zip(self.finals) {
-                row.0[..12].copy_from_slice(matrix);
+                row.set(matrix);
             }
             self.with::<S>(&table);
         } else {
@@ -247,17 +241,50 @@ fn move_block<S: Simd, const EXACT: bool>(
     moved: &mut PointBlock,
     turned: &mut PointBlock,
 ) -> bool {
-    // Written out, so that the sums of one and two influences stay in registers.
+    // Written out, so that the sums stay in registers.
+    let is_pairwise = S::IS_WIDE && !S::Rows::IS_ONE_REGISTER;
     match influences {
-        [a] if S::IS_WIDE => move_by::<S, EXACT>(&few::<S, 1>([a], finals), shape, moved, turned),
-        [a, b] if S::IS_WIDE => move_by::<S, EXACT>(&few::<S, 2>([a, b], finals), shape, moved, turned),
-        more => {
-            let mut matrices = [PADDED_IDENTITY; LANES];
-            weigh_block::<S>(more, finals, &mut matrices);
-            let sums = [columns::<S>(&matrices, 0), columns::<S>(&matrices, 1), columns::<S>(&matrices, 2)];
-            move_by::<S, EXACT>(&sums, shape, moved, turned)
+        [a] if is_pairwise => move_by::<S, EXACT>(&few::<S, 1>([a], finals), shape, moved, turned),
+        [a, b] if is_pairwise => move_by::<S, EXACT>(&few::<S, 2>([a, b], finals), shape, moved, turned),
+        [a] => move_fours::<S, EXACT>(&weigh::<S, 1>([a], finals), shape, moved, turned),
+        [a, b] => move_fours::<S, EXACT>(&weigh::<S, 2>([a, b], finals), shape, moved, turned),
+        [a, b, c, d] => move_fours::<S, EXACT>(&weigh::<S, 4>([a, b, c, d], finals), shape, moved, turned),
+        [a, b, c, d, e, f, g, h] => {
+            let columns = weigh::<S, 8>([a, b, c, d, e, f, g, h], finals);
+            move_fours::<S, EXACT>(&columns, shape, moved, turned)
         }
+        _ => false,
     }
+}
+
+/// Moves two times four vertices by `columns`. Returns false if a result is not finite or a normal has no direction.
+#[inline(always)]
+fn move_fours<S: Simd, const EXACT: bool>(
+    &[first, last]: &Columns<S>,
+    shape: &ShapeBlock,
+    moved: &mut PointBlock,
+    turned: &mut PointBlock,
+) -> bool {
+    let (near, far) = halves(&shape.positions);
+    let (a, b) = (S::Rows::moved(first, near), S::Rows::moved(last, far));
+    S::Rows::store_points([a, b], moved);
+    let sum = a.checked(b.checked(S::Rows::zero()));
+    if EXACT {
+        let x = S::Rows::joined([first[0], last[0]]);
+        let y = S::Rows::joined([first[1], last[1]]);
+        let z = S::Rows::joined([first[2], last[2]]);
+        return turn_exactly::<S>([x, y, z], S::F8::splat(0.0), shape, turned) && sum.is_number();
+    }
+    let (near, far) = halves(&shape.normals);
+    let (a, b) = (S::Rows::directed(first, near), S::Rows::directed(last, far));
+    S::Rows::store_points([a, b], turned);
+    a.checked(b.checked(sum)).is_number()
+}
+
+/// Returns the coordinates of four of eight points, and of the others.
+#[inline(always)]
+fn halves([x, y, z]: &[[f32; LANES]; 3]) -> ([&[f32; 4]; 3], [&[f32; 4]; 3]) {
+    ([low(x), low(y), low(z)], [high(x), high(y), high(z)])
 }
 
 /// Moves eight vertices by `sums`. Returns false if a result is not finite or a normal has no direction.
@@ -273,21 +300,36 @@ fn move_by<S: Simd, const EXACT: bool>(
     let py = ay.mul_add(x, by.mul_add(y, cy.mul_add(z, ty)));
     let pz = az.mul_add(x, bz.mul_add(y, cz.mul_add(z, tz)));
     S::F8::store_points([px, py, pz], moved);
+    if EXACT {
+        return turn_exactly::<S>([[ax, ay, az], [bx, by, bz], [cx, cy, cz]], px + py + pz, shape, turned);
+    }
     let zero = S::F8::splat(0.0);
     let [x, y, z] = S::F8::load_three(&shape.normals);
-    if !EXACT {
-        let nx = ax.mul_add(x, bx.mul_add(y, cx * z));
-        let ny = ay.mul_add(x, by.mul_add(y, cy * z));
-        let nz = az.mul_add(x, bz.mul_add(y, cz * z));
-        S::F8::store_points([nx, ny, nz], turned);
-        // Stays zero while everything is finite.
-        let check = (px + py + pz).mul_add(zero, (nx + ny + nz) * zero);
-        return check.less(S::F8::splat(1.0)).all();
-    }
-    // The columns of the cofactors: b×c, c×a, a×b.
-    let [fx, fy, fz] = cross::<S>([bx, by, bz], [cx, cy, cz]);
-    let [gx, gy, gz] = cross::<S>([cx, cy, cz], [ax, ay, az]);
-    let [hx, hy, hz] = cross::<S>([ax, ay, az], [bx, by, bz]);
+    let nx = ax.mul_add(x, bx.mul_add(y, cx * z));
+    let ny = ay.mul_add(x, by.mul_add(y, cy * z));
+    let nz = az.mul_add(x, bz.mul_add(y, cz * z));
+    S::F8::store_points([nx, ny, nz], turned);
+    // Stays zero while everything is finite.
+    let check = (px + py + pz).mul_add(zero, (nx + ny + nz) * zero);
+    check.less(S::F8::splat(1.0)).all()
+}
+
+/// Turns the normals of eight vertices by the cofactors of matrices with these columns. Returns false if a normal has no
+/// direction, or a number of `checked` is not finite.
+#[inline(always)]
+fn turn_exactly<S: Simd>(
+    [a, b, c]: [[S::F8; 3]; 3],
+    checked: S::F8,
+    shape: &ShapeBlock,
+    turned: &mut PointBlock,
+) -> bool {
+    let zero = S::F8::splat(0.0);
+    let [x, y, z] = S::F8::load_three(&shape.normals);
+    // The columns of the cofactors.
+    let [fx, fy, fz] = cross::<S>(b, c);
+    let [gx, gy, gz] = cross::<S>(c, a);
+    let [hx, hy, hz] = cross::<S>(a, b);
+    let [ax, ay, az] = a;
     let determinant = ax.mul_add(fx, ay.mul_add(fy, az.mul_add(fz, zero)));
     let nx = fx.mul_add(x, gx.mul_add(y, hx * z));
     let ny = fy.mul_add(x, gy.mul_add(y, hy * z));
@@ -295,8 +337,8 @@ fn move_by<S: Simd, const EXACT: bool>(
     let square = nx.mul_add(nx, ny.mul_add(ny, nz * nz));
     let shrink = (S::F8::splat(1.0) / square.sqrt()).flipped_by(determinant.sign());
     S::F8::store_points([nx * shrink, ny * shrink, nz * shrink], turned);
-    // A position that is not finite makes it NaN, which fails every comparison.
-    let square = (px + py + pz).mul_add(zero, square);
+    // A number that is not finite makes it NaN, which fails every comparison.
+    let square = checked.mul_add(zero, square);
     let enough = S::F8::splat(1e-24).less(square);
     enough.select(square.less(S::F8::splat(1e24)), zero).all()
 }
@@ -312,12 +354,12 @@ fn carefully(
     is_exact: bool,
     shape: &ShapeBlock,
     stored: &ShapeBlock,
-    matrices: &[PaddedMatrix; LANES],
+    matrices: &[RootMatrix; LANES],
     moved: &mut PointBlock,
     turned: &mut PointBlock,
 ) {
     for (lane, matrix) in matrices.iter().enumerate() {
-        let matrix = matrix.0.first_chunk().map_or(Mat4::IDENTITY, mat4);
+        let matrix = mat4(matrix.packed());
         let ((position, normal), (old_position, old_normal)) = (shape.get(lane), stored.get(lane));
         let candidates = [matrix.transform_point3(position), old_position];
         let point = candidates.into_iter().find(|point| point.is_finite()).unwrap_or(Vec3::ZERO);

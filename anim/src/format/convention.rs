@@ -191,6 +191,15 @@ impl AxisMap {
         Self { from, sign, scale, mirrors }
     }
 
+    /// Returns the map from the space of the model to the space of the file.
+    pub fn inverse(&self) -> Self {
+        let (mut from, mut sign) = ([0; 3], Vec3::ONE);
+        for (axis, &source) in self.from.iter().enumerate() {
+            (from[source], sign[source]) = (axis, self.sign[axis]);
+        }
+        Self { from, sign, scale: 1.0 / self.scale, mirrors: self.mirrors }
+    }
+
     /// Returns whether the map changes nothing.
     pub fn is_identity(&self) -> bool {
         self.from == [0, 1, 2] && self.sign == Vec3::ONE && self.scale == 1.0
@@ -306,6 +315,16 @@ mod tests {
             let by_matrix = map.matrix(transform.to_matrix()).transform_point3(map.position(point));
             assert!(moved.distance(by_transform) < 1e-7, "{up:?} {hand:?}");
             assert!(moved.distance(by_matrix) < 1e-7, "{up:?} {hand:?}");
+        }
+    }
+
+    #[test]
+    fn the_inverse_of_a_map_leads_back_to_the_file() {
+        let (point, turn) = (Vec3::new(1.0, -2.0, 3.0), Quat::from_xyzw(0.3, -0.5, 0.1, 0.8));
+        for (up, hand, map) in maps() {
+            let back = map.inverse();
+            assert!(back.position(map.position(point)).distance(point) < 1e-6, "{up:?} {hand:?}");
+            assert_eq!(back.rotation(map.rotation(turn)), turn, "{up:?} {hand:?}");
         }
     }
 

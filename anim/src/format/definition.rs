@@ -1,7 +1,7 @@
 //! The description of one file format.
 
 use super::context::ImportContext;
-use super::edited::{EditableFile, SurgicalFile};
+use super::edited::{EditableFile, OutputFile, SavePlan, SurgicalFile};
 use super::{AssetFs, Conversion, ExportError, ImportError, Place, ReadOptions, Warning};
 use crate::data::ModelData;
 use crate::limits::FILE_BYTES;
@@ -55,8 +55,8 @@ pub struct Format {
     pub read: ReadModel,
     /// How edits are saved into a file of this format.
     pub write: WriteSupport,
-    /// Writes a new file from a model of any origin; `None` for a format that is not written.
-    pub export: Option<WriteModel>,
+    /// Writes new files from a model of any origin; `None` for a format that is not written.
+    pub export: Option<ExportModel>,
 }
 
 /// Reads a model from the bytes of a file; budget, cancel flag, listener and referenced files are in the context.
@@ -64,6 +64,9 @@ pub type ReadModel = fn(bytes: &[u8], context: &ImportContext<'_>) -> Result<Mod
 
 /// Writes a whole file from a model.
 pub type WriteModel = fn(model: &ModelData) -> Result<WholeFile, ExportError>;
+
+/// Writes a model as a new file called `name`, and the files that it refers to, such as textures.
+pub type ExportModel = fn(model: &ModelData, name: &str) -> Result<SavePlan, ExportError>;
 
 /// Opens the bytes of the file called `name` so that edits can be saved into them.
 pub type OpenSurgical = fn(
@@ -91,6 +94,14 @@ pub struct WholeFile {
     /// Content of the model that the format cannot represent; the places are JSON pointers into the model, such as
     /// `/meshes/0`.
     pub lost: Vec<Warning>,
+}
+
+impl WholeFile {
+    /// Returns the plan that writes this file alone, under this name.
+    pub fn named(self, name: &str) -> SavePlan {
+        let files = vec![OutputFile { name: name.to_owned(), bytes: self.bytes }];
+        SavePlan { files, lost: self.lost, changes: None }
+    }
 }
 
 impl Format {

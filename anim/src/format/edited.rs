@@ -4,9 +4,16 @@ use super::definition::check_file_size;
 use super::{
     AssetFs, ExportError, Format, ImportContext, ImportError, ReadOptions, Warning, WriteModel, WriteSupport,
 };
-use crate::data::{AnimationData, ModelData, Take};
+use crate::data::{AnimationData, ModelData, Skeleton, Take};
+use crate::root_bone::BoneShift;
 use std::fmt;
 use std::sync::Arc;
+use thiserror::Error;
+
+/// Error of a save with another skeleton than that of the opened model.
+#[derive(Debug, Error)]
+#[error("the bones differ in more than root bones from those that were opened")]
+pub(super) struct OtherSkeleton;
 
 /// A take as it should be in the saved file.
 #[derive(Clone, Debug)]
@@ -66,8 +73,14 @@ impl fmt::Display for SavePlan {
 /// [`WriteSupport::Surgical`].
 pub trait SurgicalFile: Send + Sync {
     /// Plans a save after which the file contains `takes` in this order. `opened` is the model as it was read from the
-    /// same bytes. Takes that are not edited keep their bytes.
-    fn plan(&self, opened: &ModelData, takes: &[EditedTake]) -> Result<SavePlan, ExportError>;
+    /// same bytes; `skeleton`, whose bones the takes move, may have other root bones. Takes that are not edited keep their
+    /// bytes.
+    fn plan(
+        &self,
+        opened: &ModelData,
+        skeleton: &Skeleton,
+        takes: &[EditedTake],
+    ) -> Result<SavePlan, ExportError>;
 
     /// Plans a save that removes what earlier saves appended and nothing uses any more.
     fn compact(&self) -> Result<SavePlan, ExportError>;
@@ -124,13 +137,26 @@ impl EditableFile {
     /// Plans a save after which the file contains `takes` in this order; nothing is written. `opened` is the model as it
     /// was read from the same bytes.
     pub fn plan(&self, opened: &ModelData, takes: &[EditedTake]) -> Result<SavePlan, ExportError> {
+        self.plan_with_skeleton(opened, &opened.animation.skeleton, takes)
+    }
+
+    /// Plans a save as [`Self::plan`] does, of takes for the bones of `skeleton`: that of `opened`, with other root bones
+    /// above the same bones, see [`root_bone`](crate::root_bone).
+    pub fn plan_with_skeleton(
+        &self,
+        opened: &ModelData,
+        skeleton: &Arc<Skeleton>,
+        takes: &[EditedTake],
+    ) -> Result<SavePlan, ExportError> {
         match &self.source {
-            SaveSource::File(file) => file.plan(opened, takes),
+            SaveSource::File(file) => file.plan(opened, skeleton, takes),
             SaveSource::Model(write) => {
-                let skeleton = Arc::clone(&opened.animation.skeleton);
+                let shift = BoneShift::between(&opened.animation.skeleton, skeleton);
+                let model = shift.and_then(|shift| shift.model(opened, skeleton));
+                let model = model.ok_or_else(|| ExportError::new(OtherSkeleton))?;
                 let takes = takes.iter().map(|edited| Arc::clone(&edited.take)).collect();
-                let animation = AnimationData { skeleton, takes };
-                self.whole(*write, &ModelData { animation, ..opened.clone() })
+                let animation = AnimationData { skeleton: Arc::clone(skeleton), takes };
+                self.whole(*write, &ModelData { animation, ..model })
             }
         }
     }
@@ -152,9 +178,7 @@ impl EditableFile {
     }
 
     fn whole(&self, write: WriteModel, model: &ModelData) -> Result<SavePlan, ExportError> {
-        let file = write(model)?;
-        let files = vec![OutputFile { name: self.name.clone(), bytes: file.bytes }];
-        Ok(SavePlan { files, lost: file.lost, changes: None })
+        Ok(write(model)?.named(&self.name))
     }
 }
 

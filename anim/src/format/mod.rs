@@ -18,8 +18,8 @@
 //!
 //! # Save edits
 //!
-//! [`Format::edit`] opens the bytes of a file for editing, [`EditableFile::plan`] returns the files to write. For glTF
-//! only those bytes change that the edits concern; a format without such a writer is written as a whole.
+//! [`Format::edit`] opens the bytes of a file for editing, [`EditableFile::plan`] returns the files to write. For glTF, BVH
+//! and others only those bytes change that the edits concern; a format without such a writer is written as a whole.
 //!
 //! ```
 //! use dragonfly_anim::data::ModelData;
@@ -35,6 +35,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod bvh;
 mod context;
 mod convention;
 mod definition;
@@ -42,19 +43,40 @@ pub mod dfm;
 mod edited;
 mod error;
 mod files;
+mod fixed_skeleton;
 #[cfg(feature = "gltf")]
 pub mod gltf;
+mod image;
+mod influences;
+mod key_changes;
+mod key_rows;
+mod key_times;
+mod losses;
+pub mod m3d;
+mod matrices;
+mod names;
+mod normals;
+pub mod obj;
+mod patch;
+mod pose_rows;
 mod read_options;
 mod registry;
+mod straight;
+mod text;
+mod triangulate;
 pub mod uri;
+pub mod x;
 
 pub use context::ImportContext;
 pub use convention::{AxisMap, ConventionSource, Conventions, Conversion, Found, Handedness, UpAxis};
-pub use definition::{Format, Imported, OpenSurgical, ReadModel, WholeFile, WriteModel, WriteSupport};
+pub use definition::{
+    ExportModel, Format, Imported, OpenSurgical, ReadModel, WholeFile, WriteModel, WriteSupport,
+};
 pub use edited::{ChangeReport, EditableFile, EditedTake, OutputFile, SavePlan, SurgicalFile};
 pub(crate) use error::one_line;
 pub use error::{ExportError, ImportError, Place, Warning};
 pub use files::{AssetError, AssetFs, NoFiles};
+pub use image::measure as measure_image;
 pub use read_options::{ByteBudget, OverBudget, ReadOptions};
 pub use registry::Formats;
 
@@ -65,6 +87,10 @@ pub const BUILTIN: &[Format] = &[
     gltf::GLB,
     #[cfg(feature = "gltf")]
     gltf::GLTF,
+    bvh::BVH,
+    obj::OBJ,
+    m3d::M3D,
+    x::X,
 ];
 
 /// Reads a model from the bytes of a file in one of the [`BUILTIN`] formats.

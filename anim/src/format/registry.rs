@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 /// Extensions of model formats that other programs write. A file that is named so is expected to have that format, so
 /// a program refuses to save anything else under such a name.
-const FOREIGN_EXTENSIONS: &[&str] = &["fbx", "obj", "dae", "bvh", "m3d", "x", "blend"];
+const FOREIGN_EXTENSIONS: &[&str] = &["fbx", "dae", "blend"];
 
 /// The formats that a program reads and writes. There is no global list: a program makes this value once and passes it
 /// to whatever opens and saves files.
@@ -64,13 +64,13 @@ impl Formats {
         self.iter().flat_map(|format| format.extensions.iter().copied()).collect()
     }
 
-    /// Returns every extension with its dot, for help texts: `.dfm, .glb, .gltf`.
+    /// Returns every extension with its dot, for help texts: `.dfm, .glb, .gltf, .bvh`.
     pub fn extension_list(&self) -> String {
         self.extensions().iter().map(|extension| format!(".{extension}")).collect::<Vec<_>>().join(", ")
     }
 
     /// Returns whether a file name extension, in any case, belongs to a model format: one of these, or one of those
-    /// that other programs write (FBX, OBJ, Collada, BVH, …).
+    /// that other programs write (FBX, Collada, …).
     pub fn is_model_extension(&self, extension: &str) -> bool {
         self.by_extension(extension).is_some()
             || FOREIGN_EXTENSIONS.iter().any(|foreign| foreign.eq_ignore_ascii_case(extension))

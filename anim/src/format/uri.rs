@@ -44,6 +44,16 @@ pub fn relative_path(uri: &str) -> Result<String, UriError> {
     if parts.is_empty() { Err(UriError("a folder is not a file")) } else { Ok(parts.join("/")) }
 }
 
+/// Returns the URI of a file name that is written as plain text, as in OBJ and DirectX files, for
+/// [`ImportContext::read_neighbor`](super::ImportContext::read_neighbor): `\\` separates folders as on Windows, `%` is an
+/// ordinary character, and of an absolute path, which is that of another machine, only the last part is used.
+pub(super) fn plain_reference(name: &str) -> String {
+    let path = name.trim().replace('\\', "/");
+    let is_absolute = path.starts_with('/') || path.as_bytes().get(1) == Some(&b':');
+    let path = if is_absolute { path.rsplit('/').next().unwrap_or_default() } else { &path };
+    path.trim_start_matches("./").replace('%', "%25")
+}
+
 /// Returns `part` if it is an ordinary name on every system.
 fn plain_part(part: &str) -> Result<&str, UriError> {
     let refused = if part.is_empty() {

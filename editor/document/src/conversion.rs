@@ -2,10 +2,10 @@
 
 use super::import::formats;
 use super::source::{LoadError, file_name};
-use super::{Cancel, Folder, read_file};
-use dragonfly_anim::format::{Conventions, Conversion, ImportError, NoFiles, ReadOptions};
+use super::{Cancel, Folder, make_folder, read_file};
+use dragonfly_anim::format::{Conventions, Conversion, ImportError, NoFiles, ReadOptions, SavePlan};
 use dragonfly_anim::limits::FILE_BYTES;
-use dragonfly_store::{RealFiles, SaveOptions, folder_of, save};
+use dragonfly_store::{folder_of, replace};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -102,27 +102,38 @@ pub fn convert(order: &ConversionOrder, cancel: &Cancel) -> Result<ConvertedFile
         error => LoadError::Format { title: title.clone(), reason: error.to_string() },
     })?;
     drop(bytes);
-    let file = write(&imported.model)
+    let name = file_name(&order.output);
+    let plan = write(&imported.model, &name)
         .map_err(|error| ConversionError::Export { title: title.clone(), reason: error.to_string() })?;
     if order.is_written {
-        write_whole(&order.output, &file.bytes)?;
+        write_files(&order.output, &plan)?;
     }
     Ok(ConvertedFile {
         from: imported.format.name,
-        bytes: file.bytes.len(),
+        bytes: plan.files.last().map_or(0, |file| file.bytes.len()),
         conversion: imported.conversion,
         warnings: imported.warnings.iter().map(ToString::to_string).collect(),
-        lost: file.lost.iter().map(ToString::to_string).collect(),
+        lost: plan.lost.iter().map(ToString::to_string).collect(),
         takes: imported.model.animation.takes.len(),
     })
 }
 
-fn write_whole(output: &Path, bytes: &[u8]) -> Result<(), ConversionError> {
+/// Writes the files of a plan next to `output`, the main file last. Each is replaced atomically.
+///
+/// # Errors
+///
+/// The path and the reason.
+pub fn write_files(output: &Path, plan: &SavePlan) -> Result<(), ConversionError> {
     let folder = folder_of(output);
     if !folder.is_dir() {
         return Err(ConversionError::Write(format!("{}: its folder does not exist", output.display())));
     }
-    save(&RealFiles, output, bytes, &SaveOptions::default())
-        .map(drop)
-        .map_err(|error| ConversionError::Write(error.to_string()))
+    let wrong = |reason: String| ConversionError::Write(reason);
+    let Some((main, beside)) = plan.files.split_last() else { return Ok(()) };
+    for file in beside {
+        let path = folder.join(&file.name);
+        make_folder(&path).map_err(wrong)?;
+        replace(&path, &file.bytes).map_err(|error| wrong(error.to_string()))?;
+    }
+    replace(output, &main.bytes).map(drop).map_err(|error| wrong(error.to_string()))
 }

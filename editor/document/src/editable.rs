@@ -13,6 +13,7 @@ use dragonfly_anim::format::{
     AssetFs, EditableFile, EditedTake, ExportError, Format, ImportError, NoFiles, ReadOptions, SavePlan,
 };
 use dragonfly_anim::limits::FILE_BYTES;
+use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_store::{
     ExpectedFile, FileStamp, FileState, RealFiles, SaveOptions, Vfs, folder_of, remove_unfinished,
     save as save_file,
@@ -39,7 +40,7 @@ pub struct Editable {
     stamp: Option<FileStamp>,
     /// State of its buffers in other files when they were last read or saved.
     beside: BesideStamps,
-    /// The model with the takes that are in the file now.
+    /// The model with the skeleton and the takes that are in the file now.
     on_disk: Arc<ModelData>,
     /// Index of each take among the animations of the file, once it was saved.
     places: Option<HashMap<TakeId, usize>>,
@@ -111,7 +112,7 @@ impl Editable {
         let takes = adapter.slots().iter().zip(adapter.saved_takes());
         let takes: Vec<EditedTake> =
             takes.map(|(slot, take)| EditedTake { origin: self.place(slot), take }).collect();
-        self.file.plan(&self.on_disk, &takes)
+        self.file.plan_with_skeleton(&self.on_disk, adapter.skeleton(), &takes)
     }
 
     /// Returns what removing the unused data of earlier saves would write.
@@ -302,9 +303,12 @@ impl Editable {
         let file = opened(self.file.format(), &self.title, bytes, door.as_ref());
         self.file = Arc::new(file.map_err(|error| error.to_string())?);
         self.beside.extend(door.map(|door| door.stamps()).unwrap_or_default());
-        let skeleton = Arc::clone(&self.model.animation.skeleton);
+        let skeleton = Arc::clone(adapter.skeleton());
+        let shift = BoneShift::between(&self.model.animation.skeleton, &skeleton);
+        let model = shift.and_then(|shift| shift.model(&self.model, &skeleton));
+        let model = model.ok_or("its bones are not those that were opened")?;
         let animation = AnimationData { skeleton, takes: adapter.saved_takes() };
-        self.on_disk = Arc::new(ModelData { animation, ..ModelData::clone(&self.model) });
+        self.on_disk = Arc::new(ModelData { animation, ..model });
         self.places = Some(places(adapter));
         Ok(())
     }

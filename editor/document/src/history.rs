@@ -2,6 +2,7 @@
 
 use super::about::about;
 use super::adapter::{EditError, Inverse, ModelAdapter, ValueDrag};
+use super::base_skeleton::BaseSkeleton;
 use super::edit::Edit;
 use super::step_amount::{PoseBefore, StepAmount};
 use std::collections::VecDeque;
@@ -63,13 +64,36 @@ pub struct Edited {
     removed: Option<RemovedSteps>,
     /// State of the drag, where the last step is a pose that is being dragged.
     drag: Option<ValueDrag>,
+    /// The skeleton before the first step.
+    base: BaseSkeleton,
 }
 
 impl Edited {
     /// Creates an empty history.
     pub fn new(adapter: ModelAdapter) -> Self {
-        let (steps, saved) = (VecDeque::new(), Some(0));
-        Self { adapter, steps, done: 0, saved, saving: None, bytes: 0, cut: false, removed: None, drag: None }
+        let base = BaseSkeleton::of(adapter.skeleton());
+        Self::started(adapter, base)
+    }
+
+    /// Creates an empty history that starts with a skeleton which edits may have changed before.
+    pub(super) fn started(adapter: ModelAdapter, base: BaseSkeleton) -> Self {
+        Self {
+            adapter,
+            steps: VecDeque::new(),
+            done: 0,
+            saved: Some(0),
+            saving: None,
+            bytes: 0,
+            cut: false,
+            removed: None,
+            drag: None,
+            base,
+        }
+    }
+
+    /// Returns the skeleton before the first step.
+    pub(super) fn base_skeleton(&self) -> &BaseSkeleton {
+        &self.base
     }
 
     /// Returns the takes as they are now.
@@ -142,6 +166,9 @@ impl Edited {
         let kept = self.steps.len();
         self.lose_saves(|saved| saved > kept);
         self.drag = gesture.and_then(|_| ValueDrag::of(&self.adapter, &edit, &inverse));
+        if let Edit::AddRootBone(edit) = &edit {
+            self.base.note(&edit.name);
+        }
         let bytes = inverse.bytes();
         self.bytes += bytes;
         self.steps.push_back(HistoryStep { edit, gesture, about, amount, before, inverse, bytes });
@@ -285,7 +312,11 @@ impl Edited {
     fn forget_oldest(&mut self) {
         // The newest step is kept, however large it is.
         while self.steps.len() > 1 && (self.steps.len() > MAX_STEPS || self.bytes > MAX_BYTES) {
-            self.bytes -= self.steps.pop_front().map_or(0, |step| step.bytes);
+            let Some(oldest) = self.steps.pop_front() else { return };
+            if let Edit::AddRootBone(edit) = &oldest.edit {
+                self.base.start_with(&edit.name);
+            }
+            self.bytes -= oldest.bytes;
             self.done -= 1;
             self.cut = true;
             let removed =

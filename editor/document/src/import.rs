@@ -4,7 +4,7 @@ use super::Cancel;
 use super::source::LoadError;
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::ModelData;
-use dragonfly_anim::format::{AssetFs, Format, Formats, ImportError, NoFiles, ReadOptions};
+use dragonfly_anim::format::{AssetFs, Conversion, Format, Formats, ImportError, NoFiles, ReadOptions};
 use dragonfly_fbx::FBX;
 
 /// Returns the file formats that the program knows: what it opens, saves, and lists in dialogs and help texts.
@@ -18,6 +18,8 @@ pub(super) struct ImportedModel {
     pub(super) model: ModelData,
     /// The format of the file.
     pub(super) format: Format,
+    /// Units, axes and frame rate of the file, as they were converted.
+    pub(super) conversion: Conversion,
     /// Contents that are not shown or were sanitized.
     pub(super) warnings: Vec<String>,
     /// Findings that change neither the picture nor the animation, one sentence each.
@@ -47,6 +49,7 @@ pub(super) fn read(
             Ok(ImportedModel {
                 model: imported.model,
                 format: imported.format,
+                conversion: imported.conversion,
                 warnings: warnings.iter().map(ToString::to_string).collect(),
                 notes: notes.iter().map(ToString::to_string).collect(),
                 memory: options.budget.remaining(),

@@ -1,6 +1,7 @@
 //! The jobs of the document: it continues to work while a file is read or a folder is searched, and survives an importer that
 //! panics.
 
+use super::clip_import::ClipNews;
 use super::pose_library::PoseFolder;
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
@@ -25,6 +26,8 @@ pub(super) enum JobNews {
     Retarget(RetargetNews),
     /// A file that takes are compared with.
     Compared(Result<Arc<LoadedModel>, String>),
+    /// The takes of files for the open model.
+    Clips(ClipNews),
     /// The defects of a take.
     Checked(Result<CheckedTake, String>),
     /// The folder of the pose library after an order.

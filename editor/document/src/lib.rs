@@ -13,11 +13,13 @@ mod about;
 pub mod adapter;
 mod alike;
 mod base;
+mod base_skeleton;
 mod beside;
 mod bone_map;
 pub mod bones;
 mod cancel;
 mod checking;
+mod clip_import;
 mod clips;
 mod comparing;
 mod conversion;
@@ -65,7 +67,9 @@ mod writing;
 pub use bone_map::BoneMap;
 pub use cancel::{Cancel, LoadStage, Progress};
 pub use clips::{ClipNaming, ClipSettings, ClipTakes, TakeNames, clip_takes};
-pub use conversion::{ConversionError, ConversionOrder, ConvertedFile, convert, written_extensions};
+pub use conversion::{
+    ConversionError, ConversionOrder, ConvertedFile, convert, write_files, written_extensions,
+};
 pub use editable::{Editable, WrittenFile, make_folder};
 pub use fault::{FaultInjection, FaultPlan, FaultPoint};
 pub use folder::{FileAccessError, Folder, read_file};

@@ -125,7 +125,7 @@ impl<'a> Read<'a> {
             }
         };
         check(cancel)?;
-        let import::ImportedModel { model, format, mut warnings, notes, memory } = imported;
+        let import::ImportedModel { model, format, conversion, mut warnings, notes, memory } = imported;
         let model = Arc::new(model);
         warnings.extend(unused_layers(&model.animation));
         let first = model.animation.takes.first().map(|take| take.start);
@@ -140,7 +140,17 @@ impl<'a> Read<'a> {
             Source::File(path) => Some(path.clone()),
         };
         let title = self.source.title();
-        Ok(LoadedModel { title, path, format: Some(format), model, bounds, images, warnings, notes })
+        Ok(LoadedModel {
+            conversion,
+            title,
+            path,
+            format: Some(format),
+            model,
+            bounds,
+            images,
+            warnings,
+            notes,
+        })
     }
 }
 

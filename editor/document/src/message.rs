@@ -21,7 +21,7 @@ pub enum DocumentMessage {
         /// Opens it without asking: the user has decided. Unsaved work stays in the journal.
         anyway: bool,
     },
-    /// Cancels loading.
+    /// Cancels loading, and the import of takes.
     CancelLoading,
     /// Saves.
     Save(SaveOrder),
@@ -43,6 +43,8 @@ pub enum DocumentMessage {
     ReadCompared(Source),
     /// Computes a take of that model for the open one, and adds it.
     Retarget(RetargetOrder),
+    /// Imports all takes of these files onto the open model, as one step. Bones are matched by name.
+    ImportTakes(Vec<PathBuf>),
     /// Reads or writes a bone map.
     MapFile(MapFile),
     /// Checks a take for defects. The reply is [`DocumentReply::Checked`].

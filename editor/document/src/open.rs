@@ -34,6 +34,9 @@ pub enum Change {
 
 /// The open document.
 pub(super) struct Open {
+    /// The model as it was read.
+    opened: Arc<LoadedModel>,
+    /// The same with the skeleton as it is now.
     pub(super) loaded: Arc<LoadedModel>,
     pub(super) edited: Edited,
     /// The published history; replaced only when steps change.
@@ -56,9 +59,11 @@ impl Open {
         let OpenedModel { loaded, editable } = opened;
         let file = FileView { title: loaded.title.clone(), path: loaded.path.clone() };
         let source = loaded.path.is_none().then_some(Source::BuiltIn);
+        let loaded = Arc::new(loaded);
         let mut open = Self {
             edited: Edited::new(ModelAdapter::of(&loaded.model)),
-            loaded: Arc::new(loaded),
+            opened: Arc::clone(&loaded),
+            loaded,
             history: Arc::default(),
             editable,
             file: Arc::new(file),
@@ -69,6 +74,11 @@ impl Open {
         };
         open.look();
         open
+    }
+
+    /// Returns the model as it was read.
+    pub(super) fn opened(&self) -> &Arc<LoadedModel> {
+        &self.opened
     }
 
     /// Continues with the history of a journal.
@@ -187,7 +197,7 @@ impl Open {
 
     /// Returns the takes with which the history starts, unless its oldest steps were removed.
     pub(super) fn base(&self) -> Arc<[Arc<Take>]> {
-        self.base.clone().unwrap_or_else(|| self.loaded.model.animation.takes.clone().into())
+        self.base.clone().unwrap_or_else(|| self.opened.model.animation.takes.clone().into())
     }
 
     /// Closes the journal. Unsaved work stays in it, or goes to the trash folder if the user discarded it.
@@ -214,11 +224,17 @@ impl Open {
         let history = Arc::clone(&self.history);
         let file = Arc::clone(&self.file);
         let view = View::of(generation, Arc::clone(&self.loaded), self.edited.adapter(), history, file);
-        View { is_unrecorded: self.journal_writer.has_gap(), ..view }
+        let opened = Arc::clone(&self.opened);
+        View { opened, is_unrecorded: self.journal_writer.has_gap(), ..view }
     }
 
-    /// Updates the published history. During a gesture its step stays the same, and nothing is allocated.
+    /// Updates the published history and, where an edit changed the skeleton, the published model. During a gesture its step stays the
+    /// same, and nothing is allocated.
     pub(super) fn look(&mut self) {
+        let skeleton = self.edited.adapter().skeleton();
+        if !Arc::ptr_eq(skeleton, &self.loaded.model.animation.skeleton) {
+            self.loaded = LoadedModel::with_skeleton(&self.opened, skeleton);
+        }
         let (steps, done) = self.edited.steps();
         let last = steps.back().map(|step| (step.edit.label(), &step.about));
         let now = (steps.len(), done, self.edited.saved(), last);

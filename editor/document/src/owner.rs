@@ -57,6 +57,8 @@ pub struct Document {
     pub(super) load: Loader,
     /// Takes of another model for the open one.
     pub(super) retargeting: Retargeting,
+    /// The job that imports takes; dropping it cancels it.
+    pub(super) clip_import: Option<Job>,
     /// The check of a take; dropping it cancels it.
     pub(super) checking: Option<Job>,
     /// The job that reads a file to compare with; dropping it cancels it.
@@ -142,6 +144,7 @@ impl Document {
                 tickets: 0,
                 load: setup.load,
                 retargeting: Retargeting::default(),
+                clip_import: None,
                 checking: None,
                 comparing: None,
                 pose_files: PoseFiles::default(),
@@ -231,7 +234,8 @@ impl Document {
     }
 
     pub(super) fn cancel(&mut self) {
-        if self.job.take().is_some() {
+        let importing = self.cancel_import();
+        if self.job.take().is_some() || importing {
             self.reply(DocumentReply::Cancelled);
         }
     }

@@ -54,6 +54,7 @@ impl Document {
             DocumentMessage::ReadSource(source) => self.read_source(source, self.load),
             DocumentMessage::ReadCompared(source) => self.read_compared(source, self.load),
             DocumentMessage::Retarget(order) => self.retarget(order),
+            DocumentMessage::ImportTakes(files) => self.import_takes(files),
             DocumentMessage::MapFile(file) => self.map_file(file),
             DocumentMessage::CheckTake(check) => self.check_take(check),
             DocumentMessage::Poses(order) => self.pose_order(order),
@@ -91,6 +92,7 @@ impl Receiver for JobReceiver {
             JobNews::Scanned(scan) => document.offer(scan),
             JobNews::Compared(loaded) => document.compared_read(loaded),
             JobNews::Retarget(news) => document.retarget_news(news, thread.now()),
+            JobNews::Clips(news) => document.clip_news(news, thread.now()),
             JobNews::Checked(result) => document.checked(result),
             JobNews::Poses(news) => document.poses_news(news),
         }

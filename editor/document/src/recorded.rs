@@ -1,5 +1,6 @@
 //! Entries of a journal as JSON: each change, and from time to time a snapshot of all.
 
+use super::base_skeleton::BaseSkeleton;
 use super::edit::{Edit, VERSION};
 use super::history::{Edited, Gesture};
 use super::{Source, base};
@@ -79,6 +80,9 @@ pub(super) struct Snapshot {
     pub(super) saved: Option<usize>,
     /// Whether the takes with which the history starts follow. If not, the history starts with those of the file.
     pub(super) has_base: bool,
+    /// The skeleton with which the history starts, where edits added root bones; otherwise it is that of the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) skeleton: Option<BaseSkeleton>,
 }
 
 impl Snapshot {
@@ -98,7 +102,9 @@ impl Snapshot {
         };
         let (steps, done) = edited.steps();
         let steps = steps.iter().map(|step| step.edit.clone()).collect();
-        let snapshot = Self { about, steps, done, saved: edited.saved(), has_base: base.is_some() };
+        let skeleton = Some(edited.base_skeleton()).filter(|base| base.has_roots()).cloned();
+        let (saved, has_base) = (edited.saved(), base.is_some());
+        let snapshot = Self { about, steps, done, saved, has_base, skeleton };
         let mut bytes = vec![0; 4];
         serde_json::to_writer(&mut bytes, &snapshot)?;
         let length = u32::try_from(bytes.len() - 4).unwrap_or(u32::MAX);

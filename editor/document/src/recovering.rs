@@ -177,9 +177,9 @@ impl Document {
     fn go_on(&mut self, resumed: Resumed, found: &Recoverable, wanted: bool) {
         let Some(open) = &mut self.open else { return };
         let Resumed { journal, entries, cut } = resumed;
-        let replayed = replay(&open.loaded.model, &entries);
-        let fits =
-            replayed.is_of(&open.loaded.model) && found.file == dragonfly_store::DocumentFileState::Same;
+        let model = &open.opened().model;
+        let replayed = replay(model, &entries);
+        let fits = replayed.is_of(model) && found.file == dragonfly_store::DocumentFileState::Same;
         if !wanted && (replayed.stopped.is_some() || !fits || !replayed.edited.is_saved()) {
             let text = format!(
                 "The history of {} belongs to other contents of the file; a new history was started",
@@ -226,7 +226,7 @@ impl Document {
         if let Some(open) = &mut self.open {
             let own = open.file.path.is_none() && open.loaded.path.is_some();
             if own && open.base.is_none() {
-                open.base = Some(open.loaded.model.animation.takes.clone().into());
+                open.base = Some(open.base());
             }
             open.snapshot(own, Instant::now());
         }

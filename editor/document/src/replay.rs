@@ -3,6 +3,7 @@
 use super::adapter::{ModelAdapter, TakeId};
 use super::alike::alike;
 use super::base;
+use super::base_skeleton::BaseSkeleton;
 use super::edit::VERSION;
 use super::history::Edited;
 use super::recorded::{EditsOrigin, Recorded, Snapshot, built_in_hash};
@@ -123,21 +124,23 @@ impl Replay<'_> {
         let (snapshot, base) = Snapshot::read(bytes).ok_or_else(unknown)?;
         self.about(&snapshot.about)?;
         let animation = &self.model.animation;
+        let other = "its takes belong to another model";
+        let of_file = || BaseSkeleton::of(&animation.skeleton);
+        let roots = snapshot.skeleton.unwrap_or_else(of_file);
+        let skeleton = roots.skeleton(self.model).ok_or(other)?;
         let takes = match base {
-            Some(bytes) => {
-                base::read(bytes, animation.skeleton.len()).ok_or("its takes belong to another model")?
-            }
-            None => animation.takes.clone(),
+            Some(bytes) => base::read(bytes, skeleton.len()).ok_or(other)?,
+            None if skeleton.len() == animation.skeleton.len() => animation.takes.clone(),
+            None => return Err(other.to_owned()),
         };
         let instances = self.model.instances.len();
         if takes.iter().flat_map(|take| &take.morphs).any(|morph| morph.instance as usize >= instances) {
-            return Err("its takes belong to another model".to_owned());
+            return Err(other.to_owned());
         }
         self.replayed.base = base.map(|_| takes.clone().into());
-        let skeleton = Arc::clone(&animation.skeleton);
         let edited = &mut self.replayed.edited;
         let adapter = ModelAdapter::new(&AnimationData { skeleton, takes });
-        *edited = Edited::new(adapter.with_shapes(ModelShapes::of(self.model)));
+        *edited = Edited::started(adapter.with_shapes(ModelShapes::of(self.model)), roots);
         for edit in snapshot.steps {
             edited.apply(edit, None).map_err(|error| error.to_string())?;
         }

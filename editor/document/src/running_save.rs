@@ -51,6 +51,7 @@ fn waits(message: &DocumentMessage) -> Waits {
         | DocumentMessage::ReadSource(_)
         | DocumentMessage::ReadCompared(_)
         | DocumentMessage::Retarget(_)
+        | DocumentMessage::ImportTakes(_)
         | DocumentMessage::MapFile(_)
         | DocumentMessage::CheckTake(_)
         | DocumentMessage::Poses(_) => Waits::No,

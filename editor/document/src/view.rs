@@ -6,13 +6,14 @@ use super::images::ImageSurvey;
 use super::shapes::ModelShapes;
 use super::step_amount::StepAmount;
 use dragonfly_anim::bounds::Bounds;
-use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Take, Track};
-use dragonfly_anim::format::Format;
+use dragonfly_anim::data::{AnimationData, BoneIndex, ModelData, Skeleton, Take, Track};
+use dragonfly_anim::format::{Conversion, Format};
+use dragonfly_anim::root_bone::BoneShift;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A model as loaded, with everything that drawing needs.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct LoadedModel {
     /// File name without folder, or "Dragonfly" for the built-in model.
     pub title: String,
@@ -20,7 +21,9 @@ pub struct LoadedModel {
     pub path: Option<PathBuf>,
     /// Format of the file that it was read from; `None` for a model that was not read from a file.
     pub format: Option<Format>,
-    /// The data as it was read. The present takes are in the [`View`].
+    /// Units, axes and frame rate of the file, as they were converted.
+    pub conversion: Conversion,
+    /// The data as it was read, with the root bones that edits added. The present takes are in the [`View`].
     pub model: Arc<ModelData>,
     /// Its bounds at the start of its first take, or in the rest pose where it has none.
     pub bounds: Bounds,
@@ -30,6 +33,21 @@ pub struct LoadedModel {
     pub warnings: Vec<String>,
     /// Findings while reading that change neither the picture nor the animation, one sentence each.
     pub notes: Vec<String>,
+}
+
+impl LoadedModel {
+    /// Returns the model with this skeleton, which edits made from that of `opened`.
+    pub(super) fn with_skeleton(opened: &Arc<Self>, skeleton: &Arc<Skeleton>) -> Arc<Self> {
+        let own = &opened.model.animation.skeleton;
+        if Arc::ptr_eq(own, skeleton) {
+            return Arc::clone(opened);
+        }
+        let model = BoneShift::between(own, skeleton).and_then(|shift| shift.model(&opened.model, skeleton));
+        let Some(model) = model else {
+            unreachable!("edits change nothing of a skeleton but root bones that carry no mesh");
+        };
+        Arc::new(Self { model: Arc::new(model), ..Self::clone(opened) })
+    }
 }
 
 /// The history, for the menu and for the list of the history.
@@ -112,10 +130,12 @@ pub struct View {
     /// Number of the last [numbered change](super::DocumentHandle::change_numbered) that was carried out or refused before
     /// this view was made; 0 before the first.
     pub answered: u64,
-    /// The model as it was opened.
+    /// The model as it was opened. Two views of one document have the same.
+    pub opened: Arc<LoadedModel>,
+    /// The model with the skeleton as it is now: the same as `opened` unless edits added root bones.
     pub loaded: Arc<LoadedModel>,
     /// Its takes as they are now. They are separate from the model, so that a change of one take leaves the model as it is, also on the GPU:
-    /// two views of one model have the same `loaded`.
+    /// two views of one model with the same skeleton have the same `loaded`.
     pub takes: Arc<[Arc<Take>]>,
     /// The same takes with their originals and changes.
     pub slots: Arc<[Arc<TakeVersions>]>,
@@ -148,7 +168,31 @@ impl View {
     ) -> Self {
         let takes = adapter.results().cloned().collect();
         let (slots, shapes) = (adapter.slots().into(), adapter.shapes().clone());
-        Self { generation, answered: 0, loaded, takes, slots, shapes, history, file, is_unrecorded: false }
+        let opened = Arc::clone(&loaded);
+        Self {
+            generation,
+            answered: 0,
+            opened,
+            loaded,
+            takes,
+            slots,
+            shapes,
+            history,
+            file,
+            is_unrecorded: false,
+        }
+    }
+
+    /// Returns the renumbering of the bones of `loaded`, the model of an earlier view of this document, to those of this view; `None`
+    /// where it is a model of another document.
+    pub fn bones_since(&self, opened: &Arc<LoadedModel>, loaded: &Arc<LoadedModel>) -> Option<BoneShift> {
+        if !Arc::ptr_eq(&self.opened, opened) {
+            return None;
+        }
+        if Arc::ptr_eq(&self.loaded, loaded) {
+            return Some(BoneShift::default());
+        }
+        BoneShift::between(&loaded.model.animation.skeleton, &self.loaded.model.animation.skeleton)
     }
 
     /// Returns a copy of the takes of this view, to be edited apart from the document. The copy is cheap: everything
@@ -160,9 +204,18 @@ impl View {
 
     /// Returns this view with the takes of `edited`. A sender shows it until the document has answered change `number`.
     pub fn echo(&self, number: u64, edited: &Edited) -> Self {
+        Self { generation: ECHO | number, ..self.with_edited(edited) }
+    }
+
+    /// Returns this view with the takes and the skeleton of `edited`.
+    pub fn with_edited(&self, edited: &Edited) -> Self {
         let adapter = edited.adapter();
+        let loaded = match Arc::ptr_eq(&self.loaded.model.animation.skeleton, adapter.skeleton()) {
+            true => Arc::clone(&self.loaded),
+            false => LoadedModel::with_skeleton(&self.opened, adapter.skeleton()),
+        };
         let takes = adapter.results().cloned().collect();
-        Self { generation: ECHO | number, takes, slots: adapter.slots().into(), ..self.clone() }
+        Self { loaded, takes, slots: adapter.slots().into(), ..self.clone() }
     }
 
     /// Returns the pending poses at a time of a take, which are shown instead of the keyed ones.

@@ -123,7 +123,7 @@ impl Running {
 /// Handles the answer of a file dialog.
 pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
     interface.asking = false;
-    let file_dialog::Answer { purpose, file, quick } = answer;
+    let file_dialog::Answer { purpose, file, others, quick } = answer;
     let overlay = if purpose == Purpose::Compare { Overlay::ComparePath } else { Overlay::OpenPath };
     match (purpose, file) {
         (Purpose::Open, Some(path)) => {
@@ -154,6 +154,7 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
                 FileChoice::PoseFolder => Request::PoseFolder(path),
                 FileChoice::Reference => Request::ReferenceFile(path),
                 FileChoice::Sound => Request::Sound(SoundSettings { file: path, start: 0 }),
+                FileChoice::Takes => Request::ImportTakes(std::iter::once(path).chain(others).collect()),
             };
             let effect = interface.state.execute(request);
             interface.effects.extend(effect);

@@ -32,6 +32,8 @@ pub(super) enum Purpose {
 pub(super) struct Answer {
     /// The purpose of the dialog.
     pub purpose: Purpose,
+    /// The other files, where several can be chosen.
+    pub others: Vec<PathBuf>,
     /// The file; `None` where the user cancelled, or where there is no such dialog: the system does not report which.
     pub file: Option<PathBuf>,
     /// Whether the answer came faster than a user can act: probably there is no dialog at all.
@@ -50,6 +52,7 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
         if let Some(folder) = folder {
             dialog = dialog.set_directory(folder);
         }
+        let mut others = Vec::new();
         let file = match &purpose {
             Purpose::Open | Purpose::Compare | Purpose::Find(_) => {
                 let title = match &purpose {
@@ -65,8 +68,16 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
                 match choice.filter() {
                     None => pollster::block_on(dialog.pick_folder()),
                     Some((name, extensions)) => {
-                        let dialog = dialog.add_filter(name, extensions).add_filter("All files", &["*"]);
-                        pollster::block_on(dialog.pick_file())
+                        let dialog = dialog.add_filter(name, &extensions).add_filter("All files", &["*"]);
+                        if *choice == FileChoice::Takes {
+                            let mut files =
+                                pollster::block_on(dialog.pick_files()).unwrap_or_default().into_iter();
+                            let first = files.next();
+                            others.extend(files.map(|file| file.path().to_owned()));
+                            first
+                        } else {
+                            pollster::block_on(dialog.pick_file())
+                        }
                     }
                 }
             }
@@ -77,10 +88,15 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
         };
         let file = file.map(|file| file.path().to_owned());
         let quick = file.is_none() && begun.elapsed().as_secs_f32() < HUMAN;
-        Answer { purpose, file, quick }
+        Answer { purpose, file, others, quick }
     };
     // Detached: a dialog of the system cannot be cancelled, and the program does not wait for it at its end.
-    Job::start(&to, "file dialog", work, move |_| Answer { purpose: asked, file: None, quick: true })?
-        .detach();
+    Job::start(&to, "file dialog", work, move |_| Answer {
+        purpose: asked,
+        file: None,
+        others: Vec::new(),
+        quick: true,
+    })?
+    .detach();
     Ok(())
 }

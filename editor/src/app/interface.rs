@@ -443,7 +443,11 @@ impl Interface {
         let before = Redrawn::of(&self.state);
         self.state.end_frame();
         let files = dropped.len();
-        if let Some(path) = dropped.into_iter().next() {
+        // Several files at once are takes for the model that is open; the built-in one is no work of the user.
+        let own = self.state.read().view.is_some_and(|view| view.file.path.is_some());
+        if files > 1 && own {
+            requests.push(Request::ImportTakes(dropped));
+        } else if let Some(path) = dropped.into_iter().next() {
             self.state.pass_over(files - 1);
             requests.push(Request::Open(dragonfly_document::Source::File(path)));
         }

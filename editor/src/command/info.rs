@@ -7,6 +7,7 @@ use super::run_command::RunCommand;
 use super::table::{Side, Table, count};
 use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
 use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_anim::format::{Conversion, Handedness};
 use dragonfly_document::LoadedModel;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -39,6 +40,7 @@ impl RunCommand for InfoArguments {
 struct Info {
     file: String,
     format: &'static str,
+    conventions: InfoConventions,
     bones: Vec<InfoBone>,
     skins: Vec<InfoSkin>,
     takes: Vec<InfoTake>,
@@ -46,6 +48,34 @@ struct Info {
     materials: Vec<InfoMaterial>,
     bounds: InfoBounds,
     warnings: Vec<String>,
+}
+
+/// Units, axes and frame rate of the file, and where each is known from: `format`, `file`, `guessed`, `chosen`.
+#[derive(Serialize)]
+struct InfoConventions {
+    meters_per_unit: f32,
+    up: String,
+    left_handed: bool,
+    frame_rate: Option<f32>,
+    sources: Vec<String>,
+    #[serde(skip)]
+    text: String,
+}
+
+impl InfoConventions {
+    fn of(conversion: &Conversion) -> Self {
+        let Conversion { meters_per_unit, up, handedness, frame_rate } = conversion;
+        let rate = frame_rate.map(|rate| rate.source);
+        let sources = [Some(meters_per_unit.source), Some(up.source), Some(handedness.source), rate];
+        Self {
+            meters_per_unit: meters_per_unit.value,
+            up: format!("{:?}", up.value),
+            left_handed: handedness.value == Handedness::Left,
+            frame_rate: frame_rate.map(|rate| rate.value),
+            sources: sources.into_iter().flatten().map(|source| source.to_string()).collect(),
+            text: conversion.to_string(),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -111,6 +141,7 @@ impl Info {
         Self {
             file: loaded.title,
             format: loaded.format.map_or("", |format| format.name),
+            conventions: InfoConventions::of(&loaded.conversion),
             bones: bones(&model.animation.skeleton),
             skins: model
                 .skins
@@ -137,6 +168,7 @@ impl Info {
 
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{} ({})", plain(&self.file), self.format)?;
+        writeln!(out, "{}", self.conventions.text)?;
         let size: Vec<String> =
             self.bounds.max.iter().zip(&self.bounds.min).map(|(max, min)| short(max - min)).collect();
         writeln!(out, "  size {} units, radius {}", size.join(" × "), short(self.bounds.sphere.radius))?;

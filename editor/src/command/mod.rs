@@ -14,6 +14,7 @@ mod diff_picture;
 mod edit;
 mod explain;
 mod failure;
+mod farm;
 mod info;
 mod log;
 mod open;

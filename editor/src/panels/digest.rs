@@ -103,7 +103,7 @@ impl Digest {
         if self.generation != Some(view.generation) {
             let loaded = &view.loaded;
             if self.loaded.as_ref().is_none_or(|known| !Arc::ptr_eq(known, loaded)) {
-                // No edit changes these, so they are only computed for a new model.
+                // Only edits of root bones change these, so they are not computed for each view.
                 (self.rows, self.totals) = (rows(loaded), totals(loaded));
                 self.loaded = Some(Arc::clone(loaded));
             }

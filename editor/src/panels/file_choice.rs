@@ -1,5 +1,7 @@
 //! Files and folders that the user chooses with the system's dialog, apart from models.
 
+use dragonfly_document::formats;
+
 /// The purpose of a file or folder that the user chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileChoice {
@@ -9,6 +11,8 @@ pub enum FileChoice {
     Reference,
     /// The sound in the timeline.
     Sound,
+    /// Files whose takes are imported; several can be chosen.
+    Takes,
 }
 
 impl FileChoice {
@@ -18,15 +22,17 @@ impl FileChoice {
             Self::PoseFolder => "Choose the folder of poses",
             Self::Reference => "Choose a reference picture",
             Self::Sound => "Choose a sound",
+            Self::Takes => "Import takes",
         }
     }
 
     /// Returns the name and the extensions of the files that are proposed; `None` for a folder.
-    pub fn filter(self) -> Option<(&'static str, &'static [&'static str])> {
+    pub fn filter(self) -> Option<(&'static str, Vec<&'static str>)> {
         match self {
             Self::PoseFolder => None,
-            Self::Reference => Some(("Pictures", &["png", "jpg", "jpeg", "webp", "gif"])),
-            Self::Sound => Some(("Sounds", &["wav", "flac", "ogg"])),
+            Self::Reference => Some(("Pictures", vec!["png", "jpg", "jpeg", "webp", "gif"])),
+            Self::Sound => Some(("Sounds", vec!["wav", "flac", "ogg"])),
+            Self::Takes => Some(("Models", formats().extensions())),
         }
     }
 
@@ -36,6 +42,9 @@ impl FileChoice {
             Self::PoseFolder => "This desktop has no dialog for choosing folders; type the path instead",
             Self::Sound => "This desktop has no dialog for choosing files; type the path into “Open by path”",
             Self::Reference => "This desktop has no dialog for choosing files; type the path instead",
+            Self::Takes => {
+                "This desktop has no dialog for choosing files; drop the files on the window instead"
+            }
         }
     }
 }

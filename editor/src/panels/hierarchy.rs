@@ -4,11 +4,11 @@ use super::context::PanelContext;
 use super::digest::HierarchyRow;
 use super::icons::Icon;
 use super::request::Request;
+use super::shown_skeleton::{ShownSkeleton, SkeletonChange};
 use super::style::ROW;
 use super::theme::Theme;
 use super::{Panel, PanelPlace, search_field, widgets};
 use dragonfly_anim::data::BoneIndex;
-use dragonfly_document::LoadedModel;
 use dragonfly_document::bones::Choice;
 use dragonfly_picture::between;
 use egui::{Rect, ScrollArea, Sense, TextStyle, Ui, pos2, vec2};
@@ -25,8 +25,8 @@ pub struct Hierarchy {
     followed: Option<BoneIndex>,
     /// Number of rows that were drawn last.
     drawn: usize,
-    /// The model that this state belongs to.
-    of: Option<Arc<LoadedModel>>,
+    /// The skeleton that this state belongs to.
+    of: ShownSkeleton,
     /// The rows that are shown, until the search or the collapsed bones change.
     listed: Option<ListedRows>,
 }
@@ -56,9 +56,18 @@ impl Panel for Hierarchy {
     }
 
     fn show(&mut self, ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
-        let of = context.view.map(|view| &view.loaded);
-        if self.of.as_ref().map(Arc::as_ptr) != of.map(Arc::as_ptr) {
-            *self = Self { of: of.cloned(), query: std::mem::take(&mut self.query), ..Self::default() };
+        match self.of.follow(context.view) {
+            SkeletonChange::Same => {}
+            SkeletonChange::Shifted(shift) => {
+                let collapsed = std::mem::take(&mut self.collapsed).into_iter();
+                self.collapsed = collapsed.filter_map(|bone| shift.bone(bone)).collect();
+                self.followed = self.followed.and_then(|bone| shift.bone(bone));
+                self.listed = None;
+            }
+            SkeletonChange::Replaced => {
+                let (of, query) = (std::mem::take(&mut self.of), std::mem::take(&mut self.query));
+                *self = Self { of, query, ..Self::default() };
+            }
         }
         if context.view.is_none() {
             return widgets::empty(ui, "Bones appear here", "");

@@ -7,6 +7,7 @@ use super::keys::KeysRequest;
 use super::loop_search::LoopCandidates;
 use super::overlay_title;
 use super::request::Request;
+use super::shown_skeleton::{ShownSkeleton, SkeletonChange};
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::widgets;
@@ -32,6 +33,7 @@ const SMALL: [f32; 2] = [1.0, 0.5];
 pub(super) struct LoopDialog {
     /// The take for which the bone that travels was guessed.
     guessed: Option<(Arc<Skeleton>, usize)>,
+    of: ShownSkeleton,
     travel: Option<BoneIndex>,
     frames: u32,
     shift: i32,
@@ -45,6 +47,7 @@ impl Default for LoopDialog {
     fn default() -> Self {
         Self {
             guessed: None,
+            of: ShownSkeleton::default(),
             travel: None,
             frames: 8,
             shift: 0,
@@ -103,6 +106,10 @@ impl LoopDialog {
             return;
         };
         let skeleton = &view.loaded.model.animation.skeleton;
+        if let SkeletonChange::Shifted(shift) = self.of.follow(context.view) {
+            self.travel = self.travel.and_then(|travel| shift.bone(travel));
+            self.guessed = self.guessed.take().map(|(_, at)| (Arc::clone(skeleton), at));
+        }
         self.guess(skeleton, take, shown);
         let (rate, name) = (context.frame_rate, TakeRef::Index(shown));
         self.choose_travel(ui, context);

@@ -258,6 +258,7 @@ fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
         }
     });
     item(ui, context, Id::OpenBuiltIn, false, requests);
+    item(ui, context, Id::ImportTakes, false, requests);
     if context.loading.is_some() {
         item(ui, context, Id::CancelLoading, false, requests);
     }

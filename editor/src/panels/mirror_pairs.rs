@@ -5,6 +5,7 @@ use super::bone_choice::{BoneChoice, add_left, names};
 use super::context::PanelContext;
 use super::overlay_title;
 use super::request::Request;
+use super::shown_skeleton::{ShownSkeleton, SkeletonChange};
 use super::style::{GRID, ROW};
 use super::theme::Theme;
 use super::widgets;
@@ -23,6 +24,7 @@ const WIDTH: f32 = 560.0;
 pub(super) struct MirrorDialog {
     /// The skeleton, its guessed pairs, and those with the corrections.
     found: Option<(Arc<Skeleton>, MirrorPairs, MirrorPairs)>,
+    of: ShownSkeleton,
     /// Left and right bone; a bone without a counterpart is paired with itself.
     corrections: Vec<[BoneIndex; 2]>,
     side: Option<BodySide>,
@@ -41,10 +43,18 @@ impl MirrorDialog {
             return;
         };
         let skeleton = &loaded.model.animation.skeleton;
+        match self.of.follow(context.view) {
+            SkeletonChange::Same => {}
+            SkeletonChange::Shifted(shift) => {
+                let pair = |[left, right]: [BoneIndex; 2]| Some([shift.bone(left)?, shift.bone(right)?]);
+                self.corrections = self.corrections.iter().filter_map(|corrected| pair(*corrected)).collect();
+            }
+            SkeletonChange::Replaced => self.corrections.clear(),
+        }
         if !self.found.as_ref().is_some_and(|(of, ..)| Arc::ptr_eq(of, skeleton)) {
-            let pairs = MirrorPairs::of(skeleton);
-            self.found = Some((Arc::clone(skeleton), pairs.clone(), pairs));
-            self.corrections.clear();
+            let guessed = MirrorPairs::of(skeleton);
+            let pairs = guessed.clone().corrected(&self.corrections);
+            self.found = Some((Arc::clone(skeleton), guessed, pairs));
         }
         let Some((_, guessed, pairs)) = &self.found else { return };
         let guessed = guessed.clone();

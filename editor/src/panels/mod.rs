@@ -80,6 +80,7 @@ mod set_chips;
 pub mod settings;
 pub mod shape_keys;
 mod shortcuts;
+mod shown_skeleton;
 pub mod side_files;
 pub mod sound;
 mod source_place;

@@ -49,7 +49,7 @@ impl OpenModel {
 
     /// Returns whether `view` is of another model than the one that is open.
     pub(super) fn is_replaced_by(&self, view: &View) -> bool {
-        self.view.as_ref().is_none_or(|old| !Arc::ptr_eq(&old.loaded, &view.loaded))
+        self.view.as_ref().is_none_or(|old| !Arc::ptr_eq(&old.opened, &view.opened))
     }
 
     /// Returns rows, totals and key times computed from the view.

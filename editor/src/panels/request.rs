@@ -91,6 +91,8 @@ pub enum Request {
     Point(Option<egui::Pos2>),
     /// Opens a model.
     Open(Source),
+    /// Imports the takes of files onto the open model.
+    ImportTakes(Vec<PathBuf>),
     /// Shows an overlay, or none.
     Overlay(Option<Overlay>),
     /// Shows or hides the panel with this id.

@@ -5,6 +5,7 @@ use super::context::PanelContext;
 use super::dialog_preview::DialogPreview;
 use super::overlay_title;
 use super::request::{FileAction, Request};
+use super::shown_skeleton::{ShownSkeleton, SkeletonChange};
 use super::source_place::SourcePlace;
 use super::style::{GRID, ROW};
 use super::theme::Theme;
@@ -27,6 +28,7 @@ pub(super) struct RetargetDialog {
     map_path: String,
     /// The models between which bones are mapped, and their guess.
     models: Option<(Arc<LoadedModel>, Arc<Skeleton>, BindingGuess)>,
+    of: ShownSkeleton,
     /// The map that was applied.
     map: Option<Arc<BoneMap>>,
     /// For each bone of the open model the bone of the source that moves it.
@@ -44,6 +46,7 @@ impl Default for RetargetDialog {
             path: String::new(),
             map_path: String::new(),
             models: None,
+            of: ShownSkeleton::default(),
             map: None,
             source_of: Vec::new(),
             take: 0,
@@ -83,6 +86,15 @@ impl RetargetDialog {
 
     /// Guesses the map of new models, and applies a map that was read.
     fn adopt(&mut self, context: &PanelContext<'_>, source: &Arc<LoadedModel>, target: &Arc<Skeleton>) {
+        if let SkeletonChange::Shifted(shift) = self.of.follow(context.view)
+            && let Some((from, to, guess)) = &mut self.models
+        {
+            // Bones of the open model have other indices; the map stays as the user has it.
+            *guess = BindingGuess::of(&from.model.animation.skeleton, target);
+            *to = Arc::clone(target);
+            let kept = self.source_of.iter().skip(shift.removed()).copied();
+            self.source_of = std::iter::repeat_n(None, shift.added()).chain(kept).collect();
+        }
         let known = |(from, to, _): &(Arc<LoadedModel>, Arc<Skeleton>, BindingGuess)| {
             Arc::ptr_eq(from, source) && Arc::ptr_eq(to, target)
         };

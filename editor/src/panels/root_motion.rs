@@ -1,9 +1,11 @@
 //! The dialog for root motion: the path on the ground, and the commands that move travel between bones.
 
 use super::bone_choice::{BoneChoice, names};
+use super::commands::{self, Id};
 use super::context::PanelContext;
 use super::overlay_title;
 use super::request::Request;
+use super::shown_skeleton::{ShownSkeleton, SkeletonChange};
 use super::style::GRID;
 use super::theme::Theme;
 use super::widgets;
@@ -12,10 +14,10 @@ use dragonfly_anim::data::{BoneIndex, Skeleton, Take};
 use dragonfly_anim::inbetween::gaussian;
 use dragonfly_anim::motion::{guess_hips, guess_root};
 use dragonfly_anim::sample::{rest_pose, sample_track};
-use dragonfly_document::Change;
 use dragonfly_document::edit::{
     BoneRef, Edit, MoveTravel, RemoveTravel, RestoreTravel, TRAVEL, TakeRef, TravelPart,
 };
+use dragonfly_document::{Change, View};
 use egui::{Button, DragValue, Painter, Pos2, Rect, RichText, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 use glam::{Mat4, Vec3};
 use std::sync::Arc;
@@ -29,7 +31,7 @@ const SIZE: [f32; 2] = [380.0, 190.0];
 #[derive(Debug)]
 pub(super) struct RootMotionDialog {
     /// The skeleton for which bones were chosen.
-    skeleton: Option<Arc<Skeleton>>,
+    of: ShownSkeleton,
     hips: Option<BoneIndex>,
     root: Option<BoneIndex>,
     parts: Vec<TravelPart>,
@@ -39,7 +41,8 @@ pub(super) struct RootMotionDialog {
 
 impl Default for RootMotionDialog {
     fn default() -> Self {
-        Self { skeleton: None, hips: None, root: None, parts: TravelPart::usual(), smooth: 0.0, path: None }
+        let (of, parts) = (ShownSkeleton::default(), TravelPart::usual());
+        Self { of, hips: None, root: None, parts, smooth: 0.0, path: None }
     }
 }
 
@@ -139,12 +142,8 @@ impl RootMotionDialog {
             return;
         };
         let skeleton = &view.loaded.model.animation.skeleton;
-        if !self.skeleton.as_ref().is_some_and(|of| Arc::ptr_eq(of, skeleton)) {
-            self.skeleton = Some(Arc::clone(skeleton));
-            self.hips = guess_hips(skeleton);
-            self.root = self.hips.and_then(|hips| guess_root(skeleton, hips));
-        }
-        self.bones(ui, context, skeleton);
+        self.follow(view, skeleton);
+        self.bones(ui, context, skeleton, requests);
         let Some(hips) = self.hips else { return };
         self.draw_path(ui, context, (skeleton, take, shown), hips);
         self.options(ui);
@@ -157,7 +156,31 @@ impl RootMotionDialog {
         self.buttons(ui, (hips, travelling), kept, &take_ref, context.frame_rate as f32, requests);
     }
 
-    fn bones(&mut self, ui: &mut Ui, context: &PanelContext<'_>, skeleton: &Skeleton) {
+    /// Guesses the bones of another model. Where a root bone was added, it is the one that is to travel.
+    fn follow(&mut self, view: &View, skeleton: &Skeleton) {
+        let guessed = |hips: Option<BoneIndex>| hips.and_then(|hips| guess_root(skeleton, hips));
+        match self.of.follow(Some(view)) {
+            SkeletonChange::Same => {}
+            SkeletonChange::Shifted(shift) => {
+                self.hips = self.hips.and_then(|hips| shift.bone(hips));
+                let kept = self.root.and_then(|root| shift.bone(root));
+                let new = (shift.added() > 0 && self.hips.is_some()).then_some(0);
+                self.root = new.or(kept).or_else(|| guessed(self.hips));
+            }
+            SkeletonChange::Replaced => {
+                self.hips = guess_hips(skeleton);
+                self.root = guessed(self.hips);
+            }
+        }
+    }
+
+    fn bones(
+        &mut self,
+        ui: &mut Ui,
+        context: &PanelContext<'_>,
+        skeleton: &Skeleton,
+        requests: &mut Vec<Request>,
+    ) {
         let names = names(context);
         let choice = |label| BoneChoice { names: &names, none: None, label, width: 0.5 * SIZE[0] - 60.0 };
         ui.horizontal(|ui| {
@@ -178,11 +201,18 @@ impl RootMotionDialog {
         let text = match (self.hips, self.root) {
             (None, _) => "No bone is called hips: choose the bone that carries the body.",
             (Some(_), None) => {
-                "No bone is above the hips, and none is added, because that would change the file's hierarchy. Travel can be removed from the hips and put back."
+                "No bone is above the hips. A new root bone can travel instead of them; without one, their travel can be removed and put back."
             }
             (Some(_), Some(_)) => return,
         };
         ui.label(RichText::new(text).color(Theme::of(ui).warning));
+        if self.hips.is_some() {
+            let button = ui.button("Make a root bone");
+            if button.clicked() {
+                requests.push(Request::Command(Id::AddRootBone));
+            }
+            widgets::hint_beside(&button, commands::get(Id::AddRootBone).help);
+        }
     }
 
     fn draw_path(

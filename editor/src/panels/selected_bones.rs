@@ -1,6 +1,7 @@
 //! The selected, hidden and pinned bones, and the one under the pointer.
 
 use dragonfly_anim::data::{BoneIndex, Skeleton};
+use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_document::bones::{BoneSelection, Choice, HiddenBones, MirrorPairs};
 use dragonfly_picture::pick::ClickCycle;
 use egui::Pos2;
@@ -52,6 +53,16 @@ impl SelectedBones {
     /// Forgets everything, for a model with `bones` bones.
     pub(super) fn reset(&mut self, bones: usize) {
         *self = Self { selection: BoneSelection::new(bones), pointer: self.pointer, ..Self::default() };
+    }
+
+    /// Follows the bones to another skeleton with `bones` bones.
+    pub(super) fn shift(&mut self, shift: BoneShift, bones: usize) {
+        self.cycle.forget();
+        self.selection.shift(shift, bones);
+        self.hidden.shift(shift);
+        self.pins = shift.bones(&self.pins);
+        let bone = |bone: Option<BoneIndex>| bone.and_then(|bone| shift.bone(bone));
+        (self.hovered, self.pointed) = (bone(self.hovered), bone(self.pointed));
     }
 
     /// Returns the selection; the active bone is the one selected last.

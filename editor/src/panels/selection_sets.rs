@@ -1,6 +1,7 @@
 //! Selection sets: named, colored sets of bones, remembered with the other marks of a file.
 
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_anim::root_bone::BoneShift;
 
 /// Largest number of sets of a file.
 pub const MOST: usize = 200;
@@ -87,6 +88,19 @@ impl SelectionSets {
     pub(super) fn replace(&mut self, list: Vec<SelectionSet>) {
         (self.list, self.last) = (list, None);
         self.list.truncate(MOST);
+        self.version += 1;
+    }
+
+    /// Follows the bones to another skeleton. A set without bones is removed.
+    pub(super) fn shift(&mut self, shift: BoneShift) {
+        for set in &mut self.list {
+            set.bones = shift.bones(&set.bones);
+        }
+        for at in (0..self.list.len()).rev() {
+            if self.list[at].bones.is_empty() {
+                self.remove(at);
+            }
+        }
         self.version += 1;
     }
 

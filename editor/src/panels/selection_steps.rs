@@ -3,6 +3,7 @@
 
 use super::keys::KeySelection;
 use dragonfly_anim::data::BoneIndex;
+use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_document::Change;
 use dragonfly_document::adapter::TakeId;
 use dragonfly_document::history::Gesture;
@@ -17,6 +18,13 @@ pub(super) struct SelectionState {
     pub(super) keys: KeySelection,
     /// The take that was shown, to which the keys belong.
     pub(super) take: Option<TakeId>,
+}
+
+impl SelectionState {
+    /// Returns the same selection in another skeleton.
+    fn shifted(&self, shift: BoneShift) -> Self {
+        Self { bones: shift.bones(&self.bones), keys: self.keys.renumbered(shift), take: self.take }
+    }
 }
 
 /// The selections around all steps of the history that were made since the model was opened.
@@ -69,6 +77,14 @@ impl SelectionSteps {
         self.gesture = if let Change::Edit(_, gesture) = change { *gesture } else { None };
         self.removed = Vec::new();
         self.sent.push_back(SentChange { number, makes_step, selection });
+    }
+
+    /// Follows the bones to another skeleton, for the changes that no view has answered yet. Those around the steps are of the skeletons
+    /// that the steps had.
+    pub(super) fn shift_sent(&mut self, shift: BoneShift, answered: u64) {
+        for sent in self.sent.iter_mut().filter(|sent| sent.number > answered) {
+            sent.selection = sent.selection.shifted(shift);
+        }
     }
 
     /// Notes that a gesture was cancelled.

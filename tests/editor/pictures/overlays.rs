@@ -2,8 +2,9 @@
 
 use super::series::{self, Crop, PictureCase};
 use super::states::Fullness::{self, Crowded, Empty, Typical};
-use crate::workbench::Window;
+use crate::workbench::{Window, Workbench};
 use dragonfly::panels::prompts::Overlay;
+use dragonfly_kit::document::fixture;
 use egui::{Vec2, vec2};
 
 /// The overlays: a name, the states in which the overlay is drawn, and why the other states are not. A new overlay does
@@ -78,6 +79,18 @@ pub(super) fn cases() -> Vec<PictureCase> {
         Some(Overlay::Palette),
     );
     cases.push(PictureCase { act: Box::new(types), ..nothing });
+    // The dialog offers a root bone where no bone is above the hips.
+    let name = "overlays/root-motion-hips-on-top".to_owned();
+    let rootless = case(name, vec2(640.0, 480.0), Typical, Some(Overlay::RootMotion));
+    let bench = || {
+        let mut bench = Workbench::new(Some(fixture::hips_on_top()));
+        for panel in dragonfly::panels::all() {
+            bench.desk.toggle_panel(panel.id());
+        }
+        bench.state.show_overlay(Some(Overlay::RootMotion));
+        bench
+    };
+    cases.push(PictureCase { bench: Box::new(bench), ..rootless });
     // A file that is held over the window; the hint fills it.
     let holds = |window: &mut Window| window.input_mut().hovered_files.push(egui::HoveredFile::default());
     let drop = case("overlays/drop-a-file".to_owned(), vec2(480.0, 240.0), Typical, None);

@@ -26,6 +26,8 @@ pub static TARGETS: &[Target] = &[
     Target { name: "gltf", extensions: &["gltf", "glb"], run: gltf },
     Target { name: "dfm", extensions: &["dfm"], run: dfm },
     Target { name: "fbx", extensions: &["fbx"], run: fbx },
+    Target { name: "bvh", extensions: &["bvh"], run: |bytes| model("fuzz.bvh", bytes) },
+    Target { name: "obj", extensions: &["obj"], run: |bytes| model("fuzz.obj", bytes) },
     Target { name: "compressed", extensions: &["dfc"], run: compressed },
     Target { name: "image", extensions: &["png", "jpg"], run: image },
     Target { name: "edits", extensions: &["jsonl"], run: edits },

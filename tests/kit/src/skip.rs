@@ -25,6 +25,8 @@ pub enum TestNeed {
     FileSystem,
     /// A program: python3.
     Program,
+    /// A program that runs jobs of farms: openjd.
+    Farm,
     /// A signal that the caller of the tests does not ignore.
     Signal,
 }
@@ -39,6 +41,7 @@ impl TestNeed {
             Self::Models => "models",
             Self::FileSystem => "file-system",
             Self::Program => "program",
+            Self::Farm => "farm",
             Self::Signal => "signal",
         }
     }

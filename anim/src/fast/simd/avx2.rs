@@ -9,6 +9,7 @@
 //! * the gather and [`Word8::near`], which keep their offsets within the slice.
 
 use super::kernel::{Kernel, Simd};
+use super::pair::TwoRows;
 use super::rows::TwoVectors;
 use super::vector::{Float4, Float8, Word8};
 use std::arch::x86_64::*;
@@ -49,6 +50,7 @@ impl Simd for Avx2 {
     type U8 = U8;
     type Rows = TwoVectors<F8>;
     type Many = F8;
+    type Pair = TwoRows<F8>;
 }
 
 /// Eight numbers in one register.
@@ -245,6 +247,11 @@ impl Float8 for F8 {
     }
 
     #[inline(always)]
+    fn joined(low: F4, high: F4) -> Self {
+        Self(instruction!(_mm256_set_m128(high.0, low.0)))
+    }
+
+    #[inline(always)]
     fn store_halves(self, low: &mut [f32; 4], high: &mut [f32; 4]) {
         F4(instruction!(_mm256_castps256_ps128(self.0))).store(low);
         F4(instruction!(_mm256_extractf128_ps::<1>(self.0))).store(high);
@@ -340,6 +347,18 @@ impl Float4 for F4 {
     #[inline(always)]
     fn keep_last(self) -> Self {
         Self(instruction!(_mm_blend_ps::<0x8>(_mm_setzero_ps(), self.0)))
+    }
+
+    #[inline(always)]
+    fn transpose([F4(a), F4(b), F4(c), F4(d)]: [Self; 4]) -> [Self; 4] {
+        let (ab_low, ab_high) = instruction!((_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b)));
+        let (cd_low, cd_high) = instruction!((_mm_unpacklo_ps(c, d), _mm_unpackhi_ps(c, d)));
+        [
+            Self(instruction!(_mm_movelh_ps(ab_low, cd_low))),
+            Self(instruction!(_mm_movehl_ps(cd_low, ab_low))),
+            Self(instruction!(_mm_movelh_ps(ab_high, cd_high))),
+            Self(instruction!(_mm_movehl_ps(cd_high, ab_high))),
+        ]
     }
 }
 

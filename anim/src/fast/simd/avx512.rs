@@ -11,6 +11,7 @@
 use super::avx2::{CpuSupport, F4, F8, U8, instruction, memory};
 use super::kernel::{Kernel, Simd};
 use super::many::{MOST_LANES, Many, high, low};
+use super::pair::RowPair;
 use super::rows::Rows;
 use super::vector::{Float4, Float8, LANES};
 use std::arch::x86_64::*;
@@ -56,6 +57,7 @@ impl Simd for Avx512 {
     type U8 = U8;
     type Rows = OneRegister;
     type Many = F16;
+    type Pair = F16;
 }
 
 /// Three rows, and four numbers without a meaning.
@@ -63,7 +65,7 @@ impl Simd for Avx512 {
 #[repr(transparent)]
 pub(super) struct OneRegister(__m512);
 
-/// One number of each of sixteen characters.
+/// One number of each of sixteen characters, or two rows of eight numbers.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
 pub(super) struct F16(__m512);
@@ -147,16 +149,80 @@ impl Rows for OneRegister {
             two(upper[2], middle[2]),
             two(upper[3], middle[3]),
         ]);
-        let [p, q, r, s] = transposed([
-            two(lower[0], lower[0]),
-            two(lower[1], lower[1]),
-            two(lower[2], lower[2]),
-            two(lower[3], lower[3]),
-        ]);
+        let [p, q, r, s] = F8::transpose(lower);
         store_two(x, p, a, e);
         store_two(y, q, b, f);
         store_two(z, r, c, g);
         store_two(w, s, d, h);
+    }
+
+    #[inline(always)]
+    fn load_packed(from: &[f32; 12]) -> Self {
+        let upper = F8::load(from.first_chunk().unwrap_or(&[0.0; 8]));
+        let lower = F4::load(from.last_chunk().unwrap_or(&[0.0; 4]));
+        Self(instruction!(_mm512_insertf32x4::<2>(_mm512_castps256_ps512(upper.0), lower.0)))
+    }
+
+    #[inline(always)]
+    fn scaled(self, factor: f32) -> Self {
+        Self(instruction!(_mm512_mul_ps(self.0, _mm512_set1_ps(factor))))
+    }
+
+    #[inline(always)]
+    fn scaled_add(self, factor: f32, sum: Self) -> Self {
+        Self(instruction!(_mm512_fmadd_ps(self.0, _mm512_set1_ps(factor), sum.0)))
+    }
+
+    #[inline(always)]
+    fn turned([a, b, c, d]: [Self; 4]) -> [Self; 4] {
+        let [a, b, c, d] = transposed([a.0, b.0, c.0, d.0]);
+        [Self(a), Self(b), Self(c), Self(d)]
+    }
+
+    #[inline(always)]
+    fn moved([a, b, c, t]: [Self; 4], [x, y, z]: [&[f32; 4]; 3]) -> Self {
+        let sum = instruction!(_mm512_fmadd_ps(c.0, four_times(z), t.0));
+        let sum = instruction!(_mm512_fmadd_ps(b.0, four_times(y), sum));
+        Self(instruction!(_mm512_fmadd_ps(a.0, four_times(x), sum)))
+    }
+
+    #[inline(always)]
+    fn directed([a, b, c, _]: [Self; 4], [x, y, z]: [&[f32; 4]; 3]) -> Self {
+        let sum = instruction!(_mm512_mul_ps(c.0, four_times(z)));
+        let sum = instruction!(_mm512_fmadd_ps(b.0, four_times(y), sum));
+        Self(instruction!(_mm512_fmadd_ps(a.0, four_times(x), sum)))
+    }
+
+    #[inline(always)]
+    fn store_points([a, b]: [Self; 2], to: &mut [f32; 24]) {
+        let (first, second) = instruction!((
+            _mm512_permutex2var_ps(
+                a.0,
+                _mm512_setr_epi32(0, 4, 8, 1, 5, 9, 2, 6, 10, 3, 7, 11, 16, 20, 24, 17),
+                b.0,
+            ),
+            _mm512_permutexvar_ps(_mm512_setr_epi32(5, 9, 2, 6, 10, 3, 7, 11, 0, 0, 0, 0, 0, 0, 0, 0), b.0),
+        ));
+        if let Some(to) = to.first_chunk_mut() {
+            F16(first).put(to);
+        }
+        if let Some(to) = to.last_chunk_mut() {
+            F8(instruction!(_mm512_castps512_ps256(second))).store(to);
+        }
+    }
+
+    #[inline(always)]
+    fn joined([a, b]: [Self; 2]) -> [F8; 3] {
+        let (a, b) = instruction!((_mm512_castps_pd(a.0), _mm512_castps_pd(b.0)));
+        let (upper, lower) = instruction!((
+            _mm512_castpd_ps(_mm512_permutex2var_pd(a, _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), b)),
+            _mm512_castpd_ps(_mm512_permutex2var_pd(a, _mm512_setr_epi64(4, 5, 12, 13, 4, 5, 12, 13), b)),
+        ));
+        instruction!([
+            F8(_mm512_castps512_ps256(upper)),
+            F8(_mm512_extractf32x8_ps::<1>(upper)),
+            F8(_mm512_castps512_ps256(lower)),
+        ])
     }
 }
 
@@ -168,7 +234,8 @@ fn two(low: F8, high: F8) -> __m512 {
 
 /// Stores two matrices: `upper` has row 0 of both, then row 1 of both; `lower` has row 2 of both.
 #[inline(always)]
-fn store_two(upper: __m512, lower: __m512, first: &mut [[f32; 4]; 4], second: &mut [[f32; 4]; 4]) {
+fn store_two(upper: __m512, lower: F8, first: &mut [[f32; 4]; 4], second: &mut [[f32; 4]; 4]) {
+    let lower = instruction!(_mm512_castps256_ps512(lower.0));
     let (a, b) = instruction!((
         _mm512_permutex2var_pd(
             _mm512_castps_pd(upper),
@@ -213,6 +280,49 @@ impl Mul for F16 {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self(instruction!(_mm512_mul_ps(self.0, other.0)))
+    }
+}
+
+impl RowPair for F16 {
+    type Row = F8;
+
+    #[inline(always)]
+    fn zero() -> Self {
+        Self(instruction!(_mm512_setzero_ps()))
+    }
+
+    #[inline(always)]
+    fn from_rows(first: &[f32; LANES], second: &[f32; LANES]) -> Self {
+        Self(two(F8::load(first), F8::load(second)))
+    }
+
+    #[inline(always)]
+    fn store_rows(self, first: &mut [f32; LANES], second: &mut [f32; LANES]) {
+        F8(instruction!(_mm512_castps512_ps256(self.0))).store(first);
+        F8(instruction!(_mm512_extractf32x8_ps::<1>(self.0))).store(second);
+    }
+
+    #[inline(always)]
+    fn both(row: F8) -> Self {
+        Self(two(row, row))
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        Self(instruction!(_mm512_fmadd_ps(self.0, factor.0, addend.0)))
+    }
+
+    #[inline(always)]
+    fn sum(self) -> F8 {
+        F8(instruction!(_mm512_castps512_ps256(self.0)))
+            + F8(instruction!(_mm512_extractf32x8_ps::<1>(self.0)))
+    }
+
+    #[inline(always)]
+    fn chosen(mask: F8, yes: Self, no: Self) -> Self {
+        let lanes = instruction!(_mm256_movepi32_mask(_mm256_castps_si256(mask.0)));
+        let both = u16::from(lanes) * 0x0101;
+        Self(instruction!(_mm512_mask_blend_ps(both, no.0, yes.0)))
     }
 }
 

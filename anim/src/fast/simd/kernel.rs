@@ -1,6 +1,7 @@
 //! Sets of instructions, and work that can be done with any of them.
 
 use super::many::Many;
+use super::pair::RowPair;
 use super::rows::Rows;
 use super::vector::{Float4, Float8, Word8};
 use std::fmt::Debug;
@@ -19,6 +20,8 @@ pub trait Simd: Copy + Debug + 'static {
     type Rows: Rows<Column = Self::F8>;
     /// The numbers of the widest register.
     type Many: Many;
+    /// Two rows of eight numbers.
+    type Pair: RowPair<Row = Self::F8>;
 }
 
 /// Work written for any set of instructions.

@@ -135,12 +135,12 @@ pub(super) fn row<const ROW: usize>(matrix: &mut [f32; 12]) -> &mut [f32; 4] {
 
 /// Returns the first four numbers.
 #[inline(always)]
-pub(super) fn low(lanes: &[f32; LANES]) -> &[f32; 4] {
+pub(in crate::fast) fn low(lanes: &[f32; LANES]) -> &[f32; 4] {
     lanes.first_chunk().unwrap_or(&[0.0; 4])
 }
 
 /// Returns the last four numbers.
 #[inline(always)]
-pub(super) fn high(lanes: &[f32; LANES]) -> &[f32; 4] {
+pub(in crate::fast) fn high(lanes: &[f32; LANES]) -> &[f32; 4] {
     lanes.last_chunk().unwrap_or(&[0.0; 4])
 }

@@ -31,7 +31,7 @@
 //!
 //! | level | available | a vector of eight is |
 //! |---|---|---|
-//! | `avx512` | x86-64 with AVX-512 (F, VL, BW, DQ) | half a register: matrices and crowds use all of it |
+//! | `avx512` | x86-64 with AVX-512 (F, VL, BW, DQ) | half a register: matrices, pairs of rows and crowds use all of it |
 //! | `avx2` | x86-64 with AVX2 and FMA | one register |
 //! | `portable` | everywhere | an array, in loops that compilers vectorize for the target |
 //!
@@ -55,12 +55,15 @@ mod avx2;
 mod avx512;
 mod kernel;
 mod many;
+mod pair;
 mod portable;
 mod rows;
 mod vector;
 
 pub use kernel::{Kernel, Simd};
 pub use many::{MOST_LANES, Many};
+pub(super) use many::{high, low};
+pub use pair::{RowPair, TwoRows};
 pub use portable::Portable;
 pub use rows::{Rows, TwoVectors};
 pub use vector::{Float4, Float8, LANES, Word8};

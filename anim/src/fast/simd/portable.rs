@@ -1,6 +1,7 @@
 //! The vectors of every machine: arrays, and loops short enough for a compiler to vectorize.
 
 use super::kernel::{Kernel, Simd};
+use super::pair::TwoRows;
 use super::rows::TwoVectors;
 use super::vector::{Float4, Float8, Word8};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
@@ -16,6 +17,7 @@ impl Simd for Portable {
     type U8 = Words8;
     type Rows = TwoVectors<Array8>;
     type Many = Array8;
+    type Pair = TwoRows<Array8>;
 }
 
 /// Runs `kernel` with these vectors. A separate function, so that callers at another level do not save the registers
@@ -230,6 +232,11 @@ impl Float8 for Array8 {
     }
 
     #[inline(always)]
+    fn joined(Array4([a, b, c, d]): Array4, Array4([e, f, g, h]): Array4) -> Self {
+        Self([a, b, c, d, e, f, g, h])
+    }
+
+    #[inline(always)]
     fn store_halves(self, low: &mut [f32; 4], high: &mut [f32; 4]) {
         let [a, b, c, d, e, f, g, h] = self.0;
         (*low, *high) = ([a, b, c, d], [e, f, g, h]);
@@ -307,6 +314,16 @@ impl Float4 for Array4 {
     #[inline(always)]
     fn keep_last(self) -> Self {
         Self([0.0, 0.0, 0.0, self.0[3]])
+    }
+
+    #[inline(always)]
+    fn transpose([Self(a), Self(b), Self(c), Self(d)]: [Self; 4]) -> [Self; 4] {
+        [
+            Self([a[0], b[0], c[0], d[0]]),
+            Self([a[1], b[1], c[1], d[1]]),
+            Self([a[2], b[2], c[2], d[2]]),
+            Self([a[3], b[3], c[3], d[3]]),
+        ]
     }
 }
 

@@ -40,6 +40,23 @@ pub trait Rows: Copy + Debug {
     fn is_number(self) -> bool;
     /// Stores eight matrices; `columns[row][column]` has one number of each.
     fn store_eight(columns: [[Self::Column; 4]; 3], to: [&mut [[f32; 4]; 4]; 8]);
+
+    /// Loads only the three rows.
+    fn load_packed(from: &[f32; 12]) -> Self;
+    /// Returns `self * factor`.
+    fn scaled(self, factor: f32) -> Self;
+    /// Returns `self * factor + sum`.
+    fn scaled_add(self, factor: f32, sum: Self) -> Self;
+    /// Returns the columns of four matrices: row `r` of column `k` has number `k` of row `r` of each.
+    fn turned(matrices: [Self; 4]) -> [Self; 4];
+    /// Moves four points by the four matrices with these columns: row `r` of the result has coordinate `r` of each.
+    fn moved(columns: [Self; 4], points: [&[f32; 4]; 3]) -> Self;
+    /// As [`Self::moved`], for directions: the last column is left out.
+    fn directed(columns: [Self; 4], directions: [&[f32; 4]; 3]) -> Self;
+    /// Stores two times four points, of which row `r` has coordinate `r`, as eight points: x y z x y z …
+    fn store_points(points: [Self; 2], to: &mut [f32; 24]);
+    /// Returns each row of two matrices in one vector, the numbers of the first in the low half.
+    fn joined(two: [Self; 2]) -> [Self::Column; 3];
 }
 
 /// Rows 0 and 1 in one vector of eight, row 2 in one of four.
@@ -128,5 +145,54 @@ impl<V: Float8> Rows for TwoVectors<V> {
         y.store_halves(&mut b[2], &mut f[2]);
         z.store_halves(&mut c[2], &mut g[2]);
         w.store_halves(&mut d[2], &mut h[2]);
+    }
+
+    #[inline(always)]
+    fn load_packed(from: &[f32; 12]) -> Self {
+        let lower = from.last_chunk().unwrap_or(&[0.0; 4]);
+        Self(V::load(from.first_chunk().unwrap_or(&[0.0; 8])), V::Half::load(lower))
+    }
+
+    #[inline(always)]
+    fn scaled(self, factor: f32) -> Self {
+        let factor = V::splat(factor);
+        Self(self.0 * factor, self.1 * factor.low())
+    }
+
+    #[inline(always)]
+    fn scaled_add(self, factor: f32, sum: Self) -> Self {
+        let factor = V::splat(factor);
+        Self(self.0.mul_add(factor, sum.0), self.1.mul_add(factor.low(), sum.1))
+    }
+
+    #[inline(always)]
+    fn turned([a, b, c, d]: [Self; 4]) -> [Self; 4] {
+        let [x, y, z, w] = V::transpose([a.0, b.0, c.0, d.0]);
+        let [p, q, r, s] = V::Half::transpose([a.1, b.1, c.1, d.1]);
+        [Self(x, p), Self(y, q), Self(z, r), Self(w, s)]
+    }
+
+    #[inline(always)]
+    fn moved([a, b, c, t]: [Self; 4], [x, y, z]: [&[f32; 4]; 3]) -> Self {
+        let [x, y, z] = [V::twice(x), V::twice(y), V::twice(z)];
+        let lower = a.1.mul_add(x.low(), b.1.mul_add(y.low(), c.1.mul_add(z.low(), t.1)));
+        Self(a.0.mul_add(x, b.0.mul_add(y, c.0.mul_add(z, t.0))), lower)
+    }
+
+    #[inline(always)]
+    fn directed([a, b, c, _]: [Self; 4], [x, y, z]: [&[f32; 4]; 3]) -> Self {
+        let [x, y, z] = [V::twice(x), V::twice(y), V::twice(z)];
+        let lower = a.1.mul_add(x.low(), b.1.mul_add(y.low(), c.1 * z.low()));
+        Self(a.0.mul_add(x, b.0.mul_add(y, c.0 * z)), lower)
+    }
+
+    #[inline(always)]
+    fn store_points(points: [Self; 2], to: &mut [f32; 24]) {
+        V::store_points(Self::joined(points), to);
+    }
+
+    #[inline(always)]
+    fn joined([a, b]: [Self; 2]) -> [V; 3] {
+        [V::joined(a.0.low(), b.0.low()), V::joined(a.0.high(), b.0.high()), V::joined(a.1, b.1)]
     }
 }

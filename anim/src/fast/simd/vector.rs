@@ -94,6 +94,8 @@ pub trait Float8:
     fn twice(from: &[f32; 4]) -> Self;
     /// Loads each half from its own place.
     fn from_halves(low: &[f32; 4], high: &[f32; 4]) -> Self;
+    /// Returns a vector of two halves.
+    fn joined(low: Self::Half, high: Self::Half) -> Self;
     /// Stores each half to its own place.
     fn store_halves(self, low: &mut [f32; 4], high: &mut [f32; 4]);
     /// Returns the low half.
@@ -130,6 +132,8 @@ pub trait Float4:
     fn spread<const LANE: usize>(self) -> Self;
     /// Keeps the last number, with zero elsewhere.
     fn keep_last(self) -> Self;
+    /// Returns the transposed rows: row `k` of the result has number `k` of each.
+    fn transpose(rows: [Self; 4]) -> [Self; 4];
 }
 
 /// Eight words of 32 bits.

@@ -40,7 +40,7 @@ pub const DFM: Format = Format {
     sniff: looks_like_dfm,
     read: import,
     write: WriteSupport::Whole(export),
-    export: Some(export),
+    export: Some(|model, name| Ok(export(model)?.named(name))),
 };
 
 /// Returns the bytes of a `.dfm` file that contains `model`.

@@ -4,6 +4,7 @@ use super::accessor::GltfDocument;
 use super::attribute::{attribute, unequal};
 use super::check as code;
 use crate::data::{Influence, MAX_INFLUENCES};
+use crate::format::influences::{merge, normalize};
 use crate::format::{ImportError, Place};
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::{Primitive, Semantic};
@@ -137,7 +138,7 @@ fn sets(
 /// Collects the influences of one vertex that have a weight, strongest first, each joint once.
 fn gather(sets: &[Set], vertex: usize, found: &mut Vec<Influence>, fixed: &mut FixedVertices, coarse: f32) {
     found.clear();
-    let (mut is_negative, mut is_twice, mut sum, mut count) = (false, false, 0.0_f32, 0);
+    let (mut is_negative, mut sum, mut count) = (false, 0.0_f32, 0);
     for set in sets {
         for (&joint, &weight) in set.joints[vertex].iter().zip(&set.weights[vertex]) {
             let counts = weight > 0.0 && weight.is_finite();
@@ -150,33 +151,17 @@ fn gather(sets: &[Set], vertex: usize, found: &mut Vec<Influence>, fixed: &mut F
             found.push(Influence { joint: joint as u16, weight });
         }
     }
-    // Sorted instead of searched, because a file may have any number of sets.
-    found.sort_by_key(|influence| influence.joint);
-    found.dedup_by(|next, kept| {
-        let is_same = next.joint == kept.joint;
-        if is_same {
-            kept.weight = (kept.weight + next.weight).min(f32::MAX);
-            is_twice = true;
-        }
-        is_same
-    });
+    let is_twice = merge(found);
     fixed.negative += usize::from(is_negative);
     fixed.twice += usize::from(is_twice);
     fixed.sum += usize::from(count > 0 && (sum - 1.0).abs() > 2e-7 * count as f32 + coarse);
-    found.sort_by(|a, b| b.weight.total_cmp(&a.weight));
 }
 
 /// Scales the weights so that they add up to one; a vertex without weights follows joint 0.
 fn share_out(found: &mut Vec<Influence>, fixed: &mut FixedVertices) {
-    let sum: f64 = found.iter().map(|influence| f64::from(influence.weight)).sum();
-    if found.is_empty() {
+    if !normalize(found) {
         fixed.zero += 1;
-        found.clear();
         found.push(Influence { joint: 0, weight: 1.0 });
-    } else if sum != 1.0 {
-        for influence in found.iter_mut() {
-            influence.weight = (f64::from(influence.weight) / sum) as f32;
-        }
     }
 }
 

@@ -34,8 +34,8 @@ mod walk;
 mod whole;
 pub mod write;
 
+pub use super::image::measure as measure_image;
 pub use extension::SUPPORTED;
-pub use image::measure as measure_image;
 pub use material::phong;
 
 use super::{Format, ImportContext, ImportError, Place, WriteSupport};
@@ -51,7 +51,7 @@ pub const GLB: Format = Format {
     sniff: |bytes| bytes.starts_with(b"glTF"),
     read: read_glb,
     write: WriteSupport::Surgical(save::open),
-    export: Some(write::glb),
+    export: Some(|model, name| Ok(write::glb(model)?.named(name))),
 };
 
 /// glTF 2.0 as JSON text, `.gltf`.
@@ -62,7 +62,7 @@ pub const GLTF: Format = Format {
     sniff: looks_like_json,
     read: read_gltf,
     write: WriteSupport::Surgical(save::open),
-    export: Some(write::gltf),
+    export: Some(|model, name| Ok(write::gltf(model)?.named(name))),
 };
 
 fn looks_like_json(bytes: &[u8]) -> bool {

@@ -4,9 +4,11 @@ use super::accessor::invalid;
 use super::check as code;
 use super::graph::Graph;
 use crate::data::Transform;
+use crate::format::matrices::split;
+pub(super) use crate::format::matrices::{inverse, unit};
 use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::HUGE;
-use glam::{DMat4, Mat4, Quat, Vec3, Vec4};
+use glam::{Mat4, Quat, Vec3, Vec4};
 use gltf::json;
 
 /// Transform of a node, decomposed without loss.
@@ -96,23 +98,19 @@ fn decomposed(
         );
         set_last_row(&mut matrix);
     }
-    let parts = Transform::from_matrix(matrix);
-    if !parts.is_finite() {
+    let Some((parts, sheared)) = split(matrix) else {
         let reason = "the matrix is too large to be decomposed".to_owned();
         return Err(invalid(place.clone(), code::TRANSFORM_OVERFLOW, reason));
-    }
-    // The tolerance depends on the axes only, so that a large translation does not hide a small shear.
-    let largest = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.abs().max_element());
-    let tolerance = 1e-4 * largest.into_iter().fold(f32::MIN_POSITIVE, f32::max);
-    if parts.to_matrix().abs_diff_eq(matrix, tolerance) {
-        return Ok(LocalTransform { parts, sheared: None });
+    };
+    if sheared.is_none() {
+        return Ok(LocalTransform { parts, sheared });
     }
     context.warn(
         place.clone(),
         code::NODE_MATRIX_NON_TRS,
         "the matrix is sheared; it is shown, but cannot be edited",
     );
-    Ok(LocalTransform { parts, sheared: Some(matrix) })
+    Ok(LocalTransform { parts, sheared })
 }
 
 pub(super) fn set_last_row(matrix: &mut Mat4) {
@@ -143,21 +141,6 @@ pub(super) fn unit_rotation(rotation: Quat, place: impl Fn() -> Place, context: 
     }
 }
 
-/// Returns a finite quaternion normalized, and the deviation of its length from one; `None` for zero.
-pub(super) fn unit(rotation: Quat) -> Option<(Quat, f32)> {
-    // Double precision, because the square of 1e-30 or 1e30 does not fit single precision.
-    let wide = rotation.as_dquat();
-    let length = wide.length();
-    if length == 0.0 || !length.is_finite() {
-        return None;
-    }
-    // Already normalized as far as single precision goes: kept bit for bit.
-    if (length - 1.0).abs() <= f64::from(f32::EPSILON) {
-        return Some((rotation, 0.0));
-    }
-    Some(((wide * (1.0 / length)).as_quat(), (length - 1.0).abs() as f32))
-}
-
 /// Returns the transforms from node space to scene space at rest, for all nodes; an error if one overflows.
 pub(super) fn globals(
     graph: &Graph,
@@ -177,16 +160,6 @@ pub(super) fn globals(
         globals[node as usize] = global;
     }
     Ok(globals)
-}
-
-/// Returns the inverse, computed in double precision; `None` if it does not exist or does not fit single precision.
-pub(super) fn inverse(matrix: Mat4) -> Option<Mat4> {
-    let wide: DMat4 = matrix.as_dmat4();
-    let determinant = wide.determinant();
-    if determinant == 0.0 || !determinant.is_finite() {
-        return None;
-    }
-    Some(wide.inverse().as_mat4()).filter(Mat4::is_finite)
 }
 
 /// Returns the largest of the three absolute values.

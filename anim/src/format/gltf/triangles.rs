@@ -2,8 +2,8 @@
 
 use super::accessor::{GltfDocument, invalid};
 use super::check as code;
+pub(super) use crate::format::normals::{direction, normals};
 use crate::format::{ImportContext, ImportError, Place};
-use glam::Vec3;
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::{Mode, Primitive};
 use gltf::json::validation::Checked;
@@ -102,40 +102,4 @@ fn fan(indices: &[u32], place: &Place, context: &ImportContext<'_>) -> Result<Ve
         list.extend([indices[i + 1], indices[i + 2], indices[0]]);
     }
     Ok(list)
-}
-
-/// Returns normals from the triangles around each vertex, weighted by area; +Y for a vertex without a proper triangle.
-///
-/// The specification requires flat normals. Those need separate vertices for each triangle, whereas vertices keep the
-/// number and order of the file here, so that edits and comparisons can refer to them.
-pub(super) fn normals(
-    positions: &[Vec3],
-    indices: &[u32],
-    place: &Place,
-    context: &ImportContext<'_>,
-) -> Result<Vec<Vec3>, ImportError> {
-    let mut normals = context.filled(place, positions.len(), Vec3::ZERO)?;
-    context.work(indices.len())?;
-    for corners in indices.chunks_exact(3) {
-        let [a, b, c] = [0, 1, 2].map(|corner| positions[corners[corner] as usize]);
-        let across = (b - a).cross(c - a);
-        // Huge positions overflow; such a triangle has no direction.
-        if across.is_finite() {
-            for &corner in corners {
-                normals[corner as usize] += across;
-            }
-        }
-    }
-    context.work(normals.len())?;
-    for normal in &mut normals {
-        *normal = direction(*normal).unwrap_or(Vec3::Y);
-    }
-    Ok(normals)
-}
-
-/// Returns `vector` normalized, however long or short; `None` for zero.
-pub(super) fn direction(vector: Vec3) -> Option<Vec3> {
-    let wide = vector.as_dvec3();
-    let length = wide.length();
-    if length > 0.0 && length.is_finite() { Some((wide / length).as_vec3()) } else { None }
 }

@@ -88,7 +88,8 @@ fn only_named(
             | Op::Extras(..)
             | Op::Insert(..)
             | Op::Remove(_)
-            | Op::Move(..) => None,
+            | Op::Move(..)
+            | Op::Skeleton(..) => None,
         };
         if let Some(bone) = bone {
             return Err(EditError::Unnamed(bone));

@@ -133,6 +133,9 @@ pub enum EditError {
     /// Travel cannot be removed, moved or put back.
     #[error(transparent)]
     Travel(#[from] dragonfly_anim::motion::MotionError),
+    /// A root bone cannot be added.
+    #[error(transparent)]
+    RootBone(#[from] dragonfly_anim::root_bone::RootBoneError),
     /// A take cannot be sampled.
     #[error(transparent)]
     Frames(#[from] dragonfly_anim::frames::FramesError),

@@ -10,7 +10,7 @@
 //! ```
 //!
 //! A key without a change is the original exact to the bit, and a channel without changes shares its columns with the
-//! original. An edit of the structure (keys and takes created, moved, deleted) applies to all three.
+//! original. An edit of the structure (keys and takes created, moved, deleted; a root bone added) applies to all three.
 //!
 //! [`ModelAdapter::apply`] turns an edit into a few operations (`op`), each of which has an inverse; `plan` has the
 //! algorithms that edits share. The cost of an edit, in time and in the size of its inverse, is in proportion to what
@@ -100,7 +100,7 @@ impl ModelAdapter {
         Self { skeleton: Arc::clone(skeleton), shapes: ModelShapes::default(), slots: slots.to_vec(), next }
     }
 
-    /// Returns the skeleton, which no edit changes.
+    /// Returns the skeleton. Edits add root bones to it, and change nothing else.
     pub fn skeleton(&self) -> &Arc<Skeleton> {
         &self.skeleton
     }

@@ -7,7 +7,7 @@ use super::pending::PendingAt;
 use super::slot::{ChannelChanges, ChannelContent, KeyContent, LayerVersions, TakeId, TakeVersions};
 use super::times::SharedTimes;
 use crate::edit::target::Property;
-use dragonfly_anim::data::MorphTrack;
+use dragonfly_anim::data::{Bone, MorphTrack, Skeleton, Track};
 use std::sync::Arc;
 
 /// The address of a channel.
@@ -47,6 +47,8 @@ pub(crate) enum Op {
     Remove(TakeId),
     /// Moves a take in the list.
     Move(TakeId, usize),
+    /// Replaces the skeleton and all takes, which are those of its bones.
+    Skeleton(Arc<Skeleton>, Vec<Arc<TakeVersions>>),
 }
 
 impl ChannelContent {
@@ -83,6 +85,11 @@ impl Op {
                     layers.iter().map(|layer| 256 + layer.keys.original.keys() * 16).sum()
                 }
                 Self::Extras(_, _, text) => text.as_ref().map_or(0, |text| text.len()),
+                Self::Skeleton(skeleton, slots) => {
+                    // The columns of the channels are shared.
+                    let takes: usize = slots.iter().map(|slot| 2 + slot.layers().len()).sum();
+                    skeleton.len() * (size_of::<Bone>() + takes * size_of::<Track>())
+                }
                 Self::Name(..) | Self::Remove(_) | Self::Move(..) => 0,
             }
     }
@@ -101,7 +108,8 @@ impl Op {
             | Self::Extras(..)
             | Self::Insert(..)
             | Self::Remove(_)
-            | Self::Move(..) => None,
+            | Self::Move(..)
+            | Self::Skeleton(..) => None,
         }
     }
 }
@@ -156,6 +164,10 @@ impl ModelAdapter {
                 let slot = self.slots.remove(from);
                 self.slots.insert(to.min(self.slots.len()), slot);
                 Op::Move(take, from)
+            }
+            Op::Skeleton(skeleton, slots) => {
+                let skeleton = std::mem::replace(&mut self.skeleton, skeleton);
+                Op::Skeleton(skeleton, std::mem::replace(&mut self.slots, slots))
             }
         }
     }

@@ -23,6 +23,11 @@ impl PendingPose {
         Self { bone, values: [None; 3] }
     }
 
+    /// Returns the same pose of another bone.
+    pub(crate) fn of_bone(self, bone: u32) -> Self {
+        Self { bone, ..self }
+    }
+
     /// Returns the pending value of a channel; the fourth number of a vector is 0.
     pub fn get(&self, property: Property) -> Option<ChannelNumbers> {
         self.values[property as usize]

@@ -2,6 +2,7 @@
 
 use super::{HiddenBones, MirrorPairs};
 use dragonfly_anim::data::{BoneIndex, Skeleton};
+use dragonfly_anim::root_bone::BoneShift;
 
 /// How a click or a region changes the selection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,6 +27,13 @@ impl BoneSelection {
     /// An empty selection of a skeleton with `bone_count` bones.
     pub fn new(bone_count: usize) -> Self {
         Self { bones: Vec::new(), selected: vec![false; bone_count] }
+    }
+
+    /// Follows the bones to another skeleton with `bone_count` bones. Those that it does not have are deselected.
+    pub fn shift(&mut self, shift: BoneShift, bone_count: usize) {
+        let bones = shift.bones(&self.bones);
+        *self = Self::new(bone_count);
+        bones.into_iter().for_each(|bone| self.add(bone));
     }
 
     /// Returns the selected bones in the order of selection.

@@ -1,4 +1,4 @@
-//! The vocabulary of edits: every change of a model's takes, as values.
+//! The vocabulary of edits: every change of a model's takes, and of its root bones, as values.
 //!
 //! The mouse, panels, menus, the command line, scripts and standard input all make edits, and nothing else changes a
 //! document. In JSON an edit is an object with its name in `"edit"`:
@@ -17,6 +17,7 @@
 
 mod add_keys;
 mod add_layer;
+mod add_root_bone;
 mod add_take;
 mod add_takes;
 mod arbitrary;
@@ -173,6 +174,7 @@ edits! {
     "retime_take" => retime_take::RetimeTake,
     "stretch_time" => stretch_time::StretchTime,
     "mirror_take" => mirror_take::MirrorTake,
+    "add_root_bone" => add_root_bone::AddRootBone,
     "move_travel" => move_travel::MoveTravel,
     "remove_travel" => remove_travel::RemoveTravel,
     "restore_travel" => restore_travel::RestoreTravel,
@@ -256,6 +258,7 @@ mod tests {
             let changed = slot.changed();
             changed.map(|(bone, property)| (bone, property, slot.changes(bone, property).to_vec())).collect()
         };
+        assert_eq!(a.skeleton(), b.skeleton(), "{context}");
         assert_eq!(a.slots().len(), b.slots().len(), "{context}");
         for (a, b) in a.slots().iter().zip(b.slots()) {
             assert_eq!((a.id, a.origin), (b.id, b.origin), "{context}");

@@ -29,6 +29,7 @@ impl Session {
     /// Starts with an opened file. Every edit is recorded in a journal in `autosave` before it is answered, if the model is a file.
     pub fn recorded(editable: Editable, autosave: Option<Autosave>) -> Self {
         let loaded = LoadedModel {
+            conversion: Default::default(),
             title: editable.title.clone(),
             path: editable.path.clone(),
             format: Some(editable.format()),

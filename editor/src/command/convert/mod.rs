@@ -3,6 +3,8 @@
 mod plan;
 mod report;
 
+use super::farm::{FarmEngine, FarmJob};
+use super::output::print;
 use super::run_command::RunCommand;
 use super::{Failure, tell};
 use clap::ValueEnum;
@@ -25,6 +27,7 @@ reported and the others are converted; the exit code is 2 then. Formats that are
 Examples:\n  dragonfly convert Walk.bvh -o Walk.glb\n  \
 dragonfly convert captures -o models --to glb --scale 0.01\n  \
 dragonfly convert captures -o models --to glb --shard 2/8 --resume\n  \
+dragonfly convert captures -o models --to glb --job openjd --parts 32 > job.json\n  \
 dragonfly convert Hero.x -o Hero.glb --dry-run", written_extensions()))]
 pub(super) struct ConvertArguments {
     /// Files and folders to read
@@ -57,6 +60,12 @@ pub(super) struct ConvertArguments {
     /// Number of files that are converted at the same time [default: the number of processors]
     #[arg(long, value_name = "COUNT")]
     jobs: Option<NonZeroUsize>,
+    /// Print a job file for a farm that converts the files in parts, instead of converting them here
+    #[arg(long, value_name = "ENGINE", value_enum, conflicts_with_all = ["shard", "dry_run", "json"])]
+    job: Option<FarmEngine>,
+    /// Number of parts of the job
+    #[arg(long, value_name = "COUNT", default_value = "16", requires = "job")]
+    parts: NonZeroUsize,
     /// Print what would be lost without writing anything
     #[arg(long)]
     dry_run: bool,
@@ -100,6 +109,9 @@ impl RunCommand for ConvertArguments {
             let known = written_extensions();
             return Err(Failure::input("--to", format_args!("{extension:?} cannot be written; use {known}")));
         }
+        if let Some(engine) = self.job {
+            return self.print_job(engine);
+        }
         let conventions = self.conventions();
         let files = plan(&self.inputs, &self.output, self.to.as_deref(), self.shard)?;
         let resume = self.resume;
@@ -110,6 +122,30 @@ impl RunCommand for ConvertArguments {
 }
 
 impl ConvertArguments {
+    /// Prints the job file of an engine. Parts that were converted before a task failed are skipped when it is run again.
+    fn print_job(&self, engine: FarmEngine) -> Result<(), Failure> {
+        let mut arguments = vec!["convert".to_owned()];
+        arguments.extend(self.inputs.iter().map(|path| path.display().to_string()));
+        arguments.extend(["-o".to_owned(), self.output.display().to_string()]);
+        let mut option = |name: &str, value: Option<String>| {
+            if let Some(value) = value {
+                arguments.extend([name.to_owned(), value]);
+            }
+        };
+        let word = |value: &dyn Fn() -> Option<String>| value();
+        option("--to", self.to.clone());
+        option("--scale", self.scale.map(|scale| scale.to_string()));
+        option("--up", word(&|| Some(self.up?.to_possible_value()?.get_name().to_owned())));
+        option("--hand", word(&|| Some(self.hand?.to_possible_value()?.get_name().to_owned())));
+        option("--rate", self.rate.map(|rate| rate.to_string()));
+        option("--jobs", self.jobs.map(|jobs| jobs.to_string()));
+        arguments.push("--resume".to_owned());
+        let job =
+            FarmJob::sharded("dragonfly-convert", arguments, self.parts.get()).map_err(Failure::Input)?;
+        let text = engine.text(&job).map_err(Failure::Input)?;
+        print(|out| out.write_all(text.as_bytes()))
+    }
+
     fn conventions(&self) -> Conventions {
         Conventions {
             meters_per_unit: self.scale,

@@ -1,13 +1,13 @@
 //! `dragonfly takes extract MODEL -o OUT|DIR`.
 
 use super::super::choice::{File, plain};
-use super::super::output::{print, write_file};
+use super::super::output::print;
 use super::super::run_command::RunCommand;
 use super::super::{Failure, tell};
 use super::chosen;
 use dragonfly_anim::data::{AnimationData, ModelData};
-use dragonfly_anim::format::{Format, WholeFile};
-use dragonfly_document::{formats, make_folder, written_extensions};
+use dragonfly_anim::format::Format;
+use dragonfly_document::{formats, make_folder, write_files, written_extensions};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -97,13 +97,12 @@ fn writer(extension: &str) -> Result<Format, Failure> {
 
 fn write(title: &str, format: Format, model: &ModelData, path: &Path) -> Result<(), Failure> {
     let Some(export) = format.export else { return Ok(()) };
-    let WholeFile { bytes, lost } = export(model).map_err(|error| Failure::input(title, error))?;
-    write_file(path, &bytes)?;
-    if path == Path::new("-") {
-        return Ok(());
-    }
-    tell(format_args!("wrote {} ({} bytes)", path.display(), bytes.len()));
-    print(|out| lost.iter().try_for_each(|lost| writeln!(out, "not written: {lost}")))
+    let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let plan = export(model, &name).map_err(|error| Failure::input(title, error))?;
+    write_files(path, &plan).map_err(|error| Failure::Input(error.to_string()))?;
+    let bytes = plan.files.last().map_or(0, |file| file.bytes.len());
+    tell(format_args!("wrote {} ({bytes} bytes)", path.display()));
+    print(|out| plan.lost.iter().try_for_each(|lost| writeln!(out, "not written: {lost}")))
 }
 
 /// Returns a name that no file of this run has: `Model@Take.glb`, without characters that file systems forbid.

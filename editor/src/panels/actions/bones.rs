@@ -1,12 +1,15 @@
-//! Commands that select, hide and flag bones.
+//! Commands that select, hide and flag bones, and the one that adds a root bone.
 
+use super::edit;
 use crate::panels::count_text::count;
 use crate::panels::keys::BoneFlag;
+use crate::panels::request::Effect;
 use crate::panels::selected_bones::SelectionCommand;
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
+use dragonfly_document::edit::{AddRootBone, Edit};
 use egui::Pos2;
 
 /// Applies a command to the selection and the hidden bones.
@@ -69,4 +72,13 @@ pub(in crate::panels) fn picked(workspace: &mut Workspace, at: Pos2, bones: &[Bo
 pub(super) fn point(workspace: &mut Workspace, pointer: Option<Pos2>) {
     let shown = workspace.read().shows_skeleton();
     workspace.bones.set_pointer(pointer.filter(|_| shown));
+}
+
+/// Adds a root bone with a name that no bone has.
+pub(in crate::panels) fn add_root(workspace: &mut Workspace) -> Option<Effect> {
+    let skeleton = &workspace.model.loaded()?.model.animation.skeleton;
+    let numbered = |number: usize| if number == 1 { "Root".to_owned() } else { format!("Root {number}") };
+    let unused = |name: &String| skeleton.find(name).is_none();
+    let name = (1..=skeleton.len() + 1).map(numbered).find(unused)?;
+    Some(edit(Edit::AddRootBone(AddRootBone { name })))
 }

@@ -14,7 +14,7 @@ use crate::panels::sound::{SoundSettings, is_sound};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{Edit, TrimTake};
-use dragonfly_document::{Change, Source, Then};
+use dragonfly_document::{Change, DocumentMessage, Source, Then};
 use dragonfly_picture::between;
 
 /// Executes a request of a panel.
@@ -75,6 +75,9 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
             workspace.sound.set(SoundSettings { file, ..SoundSettings::default() });
         }
         Request::Open(source) => return Some(Effect::File(FileAction::Leave(Then::Open(source)))),
+        Request::ImportTakes(files) => {
+            return Some(Effect::File(FileAction::Send(DocumentMessage::ImportTakes(files))));
+        }
         Request::Overlay(overlay) => workspace.prompts.show(overlay),
         Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
         Request::RenameTake(index) => takes::rename(workspace, index),

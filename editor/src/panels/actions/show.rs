@@ -5,7 +5,9 @@ use crate::panels::change_summary;
 use crate::panels::compared::CompareWith;
 use crate::panels::marks::{BoneMarks, RecalledMarks};
 use crate::panels::workspace::Workspace;
+use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_document::View;
+use dragonfly_document::edit::{BonePose, BoneRef};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -51,6 +53,7 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
         return show_model(workspace);
     }
     let before = workspace.model.replace(view);
+    follow_bones(workspace, before.as_ref(), answered);
     playback::follow_take(workspace, before.as_ref());
     keys::keep_markers(workspace, before.as_ref());
     layers::follow_layers(workspace, before.as_ref());
@@ -67,6 +70,34 @@ pub(in crate::panels) fn show(workspace: &mut Workspace, view: View) {
     playback::keep_take(workspace);
     if let Some(selection) = workspace.selections.receive(answered, done) {
         workspace.restore_selection(&selection);
+    }
+}
+
+/// Follows the bones to the skeleton that is shown now, where an edit added root bones or was undone.
+fn follow_bones(workspace: &mut Workspace, before: Option<&View>, answered: u64) {
+    let (Some(before), Some(view)) = (before, workspace.model.view()) else { return };
+    let shift = view.bones_since(&before.opened, &before.loaded);
+    let Some(shift) = shift.filter(|shift| !shift.is_identity()) else { return };
+    let count = view.loaded.model.animation.skeleton.len();
+    workspace.tools.drop_drag();
+    workspace.tools.set_pole(workspace.tools.ik().pole.and_then(|pole| shift.bone(pole)));
+    workspace.bones.shift(shift, count);
+    workspace.keys.shift(shift);
+    workspace.sets.shift(shift);
+    workspace.given.shift(shift);
+    workspace.selections.shift_sent(shift, answered);
+    workspace.copied_pose = workspace.copied_pose.take().map(|poses| {
+        poses
+            .iter()
+            .filter_map(|pose| Some(BonePose { bone: shifted(&pose.bone, shift)?, ..pose.clone() }))
+            .collect()
+    });
+}
+
+fn shifted(bone: &BoneRef, shift: BoneShift) -> Option<BoneRef> {
+    match bone {
+        BoneRef::Index(bone) => shift.bone(*bone).map(BoneRef::Index),
+        BoneRef::Name(_) => Some(bone.clone()),
     }
 }
 

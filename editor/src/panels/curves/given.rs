@@ -5,6 +5,7 @@ use super::curve::{Curve, CurveNumbers};
 use super::form::RotationForm;
 use crate::panels::keys::ChannelId;
 use crate::panels::properties::parts::is_same_turn;
+use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_document::edit::SAME_TIME;
 use glam::Quat;
 use std::collections::HashMap;
@@ -76,6 +77,13 @@ impl GivenAngles {
     pub(in crate::panels) fn give(&mut self, curve: Arc<GivenCurve>) {
         self.count += 1;
         self.curves.insert(curve.id, (self.count, curve));
+    }
+
+    /// Follows the bones to another skeleton.
+    pub(in crate::panels) fn shift(&mut self, shift: BoneShift) {
+        let curves = std::mem::take(&mut self.curves).into_iter();
+        let shifted = |((bone, property), curve)| Some(((shift.bone(bone)?, property), curve));
+        self.curves = curves.filter_map(shifted).collect();
     }
 
     /// Forgets all angles: another take is shown.

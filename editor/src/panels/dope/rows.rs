@@ -2,6 +2,7 @@
 
 use crate::panels::context::PanelContext;
 use crate::panels::keys::{ChannelId, channel};
+use crate::panels::shown_skeleton::{ShownSkeleton, SkeletonChange};
 use dragonfly_anim::data::{BoneIndex, Take};
 use dragonfly_document::edit::Property;
 use std::collections::HashSet;
@@ -40,6 +41,7 @@ pub(super) struct DopeRows {
     channels: Arc<[ChannelId]>,
     /// Bones that the user opened or closed.
     toggled: HashSet<BoneIndex>,
+    of: ShownSkeleton,
     made_of: Option<RowsKey>,
     looked_at: Option<(Arc<Take>, u64)>,
 }
@@ -70,8 +72,13 @@ impl DopeRows {
         };
         self.looked_at = Some((Arc::clone(take), signature));
         let model = context.view.map_or(0, |view| Arc::as_ptr(&view.loaded) as usize);
-        if self.made_of.as_ref().is_some_and(|made_of| made_of.model != model) {
-            self.toggled.clear();
+        match self.of.follow(context.view) {
+            SkeletonChange::Same => {}
+            SkeletonChange::Shifted(shift) => {
+                let toggled = std::mem::take(&mut self.toggled).into_iter();
+                self.toggled = toggled.filter_map(|bone| shift.bone(bone)).collect();
+            }
+            SkeletonChange::Replaced => self.toggled.clear(),
         }
         let changed = context.changed_bones();
         let same = self.made_of.as_ref().is_some_and(|made_of| {

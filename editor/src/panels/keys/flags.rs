@@ -1,6 +1,7 @@
 //! Bones that are muted, soloed or locked.
 
 use dragonfly_anim::data::{BoneIndex, Skeleton};
+use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_document::Change;
 use dragonfly_document::edit::EditedBones;
 use std::collections::BTreeSet;
@@ -67,6 +68,12 @@ impl BoneFlags {
     /// Returns flags without any bone, for another model; the version differs from all before.
     pub fn emptied(&self) -> Self {
         Self { sets: Default::default(), version: self.version + 1 }
+    }
+
+    /// Returns the same flags of the bones of another skeleton; the version differs from all before.
+    pub fn shifted(&self, shift: BoneShift) -> Self {
+        let set = |set: &BTreeSet<BoneIndex>| set.iter().filter_map(|&bone| shift.bone(bone)).collect();
+        Self { sets: self.sets.each_ref().map(set), version: self.version + 1 }
     }
 
     /// Returns the version, which grows with every change.

@@ -32,6 +32,7 @@ use super::settings::TimelineSettings;
 use clipboard::Pasted;
 use drag::KeyDrag;
 use dragonfly_anim::data::{BoneIndex, Take};
+use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_document::adapter::TakeVersions;
 use dragonfly_document::bones::{BoneSelection, Choice};
 use dragonfly_document::edit::SAME_TIME;
@@ -419,6 +420,16 @@ impl KeyEditing {
         (self.window, self.range, self.drag, self.buttonless) = (None, None, None, None);
         self.seen = None;
         self.pasted = None;
+    }
+
+    /// Follows the bones to another skeleton. A drag ends.
+    pub(super) fn shift(&mut self, shift: BoneShift) {
+        self.selection = self.selection.renumbered(shift);
+        self.flags = self.flags.shifted(shift);
+        (self.drag, self.buttonless, self.pasted) = (None, None, None);
+        self.kept = self.kept.take().map(|(listed, by)| {
+            (listed.into_iter().filter_map(|bone| shift.bone(bone)).collect(), shift.bones(&by))
+        });
     }
 
     /// Forgets everything about the model: another one is open, whose markers are stored under `path`.

@@ -4,6 +4,7 @@ use super::channel::{self, ChannelId};
 use super::intervals::{Intervals, WHOLE};
 use super::shift::Shift;
 use dragonfly_anim::data::{BoneIndex, Take};
+use dragonfly_anim::root_bone::BoneShift;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::edit::{BoneRef, KeySet, Property, SAME_TIME};
 use std::collections::BTreeMap;
@@ -38,6 +39,15 @@ impl KeySelection {
     /// Returns every channel with selected keys.
     pub fn channels(&self) -> impl Iterator<Item = (ChannelId, &Intervals)> {
         self.channels.iter().map(|(&channel, intervals)| (channel, intervals))
+    }
+
+    /// Returns the same keys of the bones of another skeleton.
+    pub fn renumbered(&self, shift: BoneShift) -> Self {
+        let channel = |(&(bone, property), intervals): (&ChannelId, &Intervals)| {
+            Some(((shift.bone(bone)?, property), intervals.clone()))
+        };
+        let channels = self.channels.iter().filter_map(channel).collect();
+        Self { channels: Arc::new(channels), shapes: Arc::clone(&self.shapes) }
     }
 
     /// Returns whether both share the same data.

@@ -4,6 +4,7 @@ use super::super::context::PanelContext;
 use super::super::number_text::Digits;
 use super::super::theme::Theme;
 use super::super::widgets;
+use dragonfly_anim::format::Conversion;
 use egui::{RichText, Sense, TextStyle, Ui, vec2};
 
 pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>) {
@@ -39,6 +40,13 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>) {
     widgets::caption(ui, "Size");
     for (axis, size) in ["X", "Y", "Z"].into_iter().zip(size.to_array()) {
         fact(ui, axis, &format!("{} m", Digits::Fitting.text(f64::from(size))));
+    }
+    // Formats that prescribe the units and axes of this program need no words about them.
+    if loaded.conversion != Conversion::default() {
+        widgets::caption(ui, "Read as");
+        for part in loaded.conversion.to_string().split(", ") {
+            ui.label(RichText::new(part).small().color(theme.weak));
+        }
     }
     if !loaded.warnings.is_empty() {
         widgets::caption(ui, &widgets::count(loaded.warnings.len(), "warning", "warnings"));

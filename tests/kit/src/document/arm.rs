@@ -16,6 +16,7 @@ pub const LENGTH: f32 = 1.0;
 pub fn loaded() -> Arc<LoadedModel> {
     let model = Arc::new(model());
     Arc::new(LoadedModel {
+        conversion: Default::default(),
         bounds: bounds_of_pose(&model, None, 0.0),
         title: "Arm".to_owned(),
         path: None,

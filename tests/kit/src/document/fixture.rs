@@ -71,6 +71,13 @@ pub fn full() -> View {
     view("Fox.glb", skeleton(9), &[("Survey", 3.417, 41), ("Walk", 0.708, 18), ("Run", 1.158, 26)])
 }
 
+/// Returns a view whose topmost bone is its hips.
+pub fn hips_on_top() -> View {
+    let mut skeleton = skeleton(9);
+    skeleton.bones[0].name = "hips".to_owned();
+    view("Hips.glb", skeleton, &[("Survey", 3.417, 41), ("Walk", 0.708, 18)])
+}
+
 /// Returns a view of `skeleton` with takes of these names, lengths and numbers of keys.
 pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> View {
     let takes =
@@ -83,6 +90,7 @@ pub fn view(title: &str, skeleton: Skeleton, takes: &[(&str, f32, usize)]) -> Vi
     });
     let bounds = bounds_of_pose(&model, None, 0.0);
     let loaded = LoadedModel {
+        conversion: Default::default(),
         title: title.to_owned(),
         path: Some(title.into()),
         format: Some(dragonfly_anim::format::gltf::GLB),

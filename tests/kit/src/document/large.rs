@@ -68,6 +68,7 @@ fn instance(mesh: u32) -> MeshInstance {
 fn loaded(model: ModelData) -> Arc<LoadedModel> {
     let model = Arc::new(model);
     Arc::new(LoadedModel {
+        conversion: Default::default(),
         title: "made.glb".to_owned(),
         path: None,
         format: Some(dragonfly_anim::format::gltf::GLB),

@@ -16,6 +16,7 @@ pub fn loaded(mut model: ModelData, images: Vec<DecodedImage>) -> Arc<LoadedMode
     let (images, warnings) = ImageSurvey::new(&model.images, u64::MAX, &Cancel::default());
     let model = Arc::new(model);
     Arc::new(LoadedModel {
+        conversion: Default::default(),
         bounds: bounds_of_pose(&model, None, 0.0),
         title: "Made".to_owned(),
         path: None,

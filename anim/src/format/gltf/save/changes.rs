@@ -90,6 +90,12 @@ pub struct Changes {
     pub channels: Vec<ChangedChannel>,
     /// Nodes whose matrix is written as translation, rotation and scale, since glTF animates no matrices.
     pub nodes: Vec<u32>,
+    /// New nodes, with their names: root bones that edits added.
+    pub bones_added: Vec<(u32, String)>,
+    /// Nodes, with their names, of root bones that an earlier save added and that are gone.
+    pub bones_removed: Vec<(u32, String)>,
+    /// Nodes of these that stay in the file, without children and in no scene, because other nodes come after them.
+    pub nodes_left: Vec<u32>,
     /// Nodes, with their names, that no take animates any more and that are no joint of a skin. They stay in the file
     /// and are shown at rest; a file that is opened again has no bone for them.
     pub bones_lost: Vec<(u32, String)>,
@@ -161,7 +167,12 @@ impl Changes {
             format!("{} of {of}", count(self.channels.len(), "channel"))
         });
         let some = |number: usize, what: &str| (number > 0).then(|| count(number, what));
+        let bones = |bones: &[(u32, String)], what: &str| {
+            some(bones.len(), "bone").map(|bones| format!("{bones} {what}"))
+        };
         let parts = [
+            bones(&self.bones_added, "added"),
+            bones(&self.bones_removed, "removed"),
             channels,
             some(self.accessors.len(), "accessor"),
             some(self.tokens.len(), "change").map(|changes| changes + " of the JSON text"),
@@ -178,7 +189,10 @@ impl Changes {
             json!({"accessor": a.accessor, "bufferView": a.view, "type": a.shape, "count": a.count,
                    "bytes": a.bytes, "reused": a.is_reused})
         });
-        list(&mut out, "bonesLost", &self.bones_lost, |(node, name)| json!({"node": node, "bone": name}));
+        let bone = |(node, name): &(u32, String)| json!({"node": node, "bone": name});
+        list(&mut out, "bonesAdded", &self.bones_added, bone);
+        list(&mut out, "bonesLost", &self.bones_lost, bone);
+        list(&mut out, "bonesRemoved", &self.bones_removed, bone);
         list(
             &mut out,
             "channels",
@@ -189,6 +203,7 @@ impl Changes {
         list(&mut out, "files", &self.files, |name| json!(name));
         list(&mut out, "filesLeft", &self.files_left, |name| json!(name));
         list(&mut out, "nodes", &self.nodes, |node| json!(node));
+        list(&mut out, "nodesLeft", &self.nodes_left, |node| json!(node));
         list(&mut out, "takes", &self.takes, |(name, c)| json!({"name": name, "change": word(c)}));
         list(&mut out, "tokens", &self.tokens, |t| {
             json!({"pointer": t.pointer, "offset": t.offset, "length": t.length, "old": t.old, "new": t.new,
@@ -242,6 +257,14 @@ impl fmt::Display for Changes {
             let paths = paths.join(", ");
             let change = word(&first.change);
             writeln!(f, "take \"{take}\", \"{bone}\" (node {}), {paths}: {change}", first.node)?;
+        }
+        for (bones, what) in [(&self.bones_added, "added"), (&self.bones_removed, "removed")] {
+            for (node, name) in bones {
+                writeln!(f, "bone \"{}\" (node {node}): {what}", one_line(name))?;
+            }
+        }
+        for node in &self.nodes_left {
+            writeln!(f, "node {node}: stays without children, because other nodes come after it")?;
         }
         for node in &self.nodes {
             writeln!(f, "node {node}: its matrix is replaced by translation, rotation and scale")?;

@@ -28,6 +28,7 @@
 //! | a take that animates nothing | one key that keeps the first bone at rest, since an animation must have a channel |
 //! | start and length of a take | not stored: they are those of its keys |
 //! | a bone that is not a joint and that no take animates any more | its node, at rest; the saved file has no bone for it ([`Changes::bones_lost`]) |
+//! | a root bone that an edit added | a node at the end of the list, above the former root nodes in all scenes |
 //! | a channel of a node with a matrix | the matrix becomes translation, rotation and scale |
 //! | extras, where the `extras` of the animation are no object | left out, see [`Changes::extras_lost`] |
 //! | key times below zero | themselves, although glTF forbids them; the importer keeps them with a warning |
@@ -68,7 +69,7 @@
 //! ```
 //!
 //! Reading order: `json` (ranges and patches), `container`, `source`, `document`; `channels` and `columns` (what
-//! changed), `animation`, `order`, `nodes` (the tokens), `needs`, `reuse`, `buffer` (the bytes), `plan`, `draw`,
+//! changed), `animation`, `order`, `nodes`, `roots` (the tokens), `needs`, `reuse`, `buffer` (the bytes), `plan`, `draw`,
 //! `changes`; `compact`.
 
 mod animation;
@@ -90,6 +91,7 @@ mod order;
 mod plan;
 mod planned;
 mod reuse;
+mod roots;
 mod source;
 mod surgical;
 
@@ -100,7 +102,7 @@ pub use compact::compact;
 pub(super) use document::TargetPath;
 pub use error::SaveError;
 pub use mark::MARK;
-pub use plan::plan;
+pub use plan::{plan, plan_with_skeleton};
 pub use planned::Plan;
 pub use source::SourceFile;
 pub(super) use surgical::open;

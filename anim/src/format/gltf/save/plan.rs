@@ -17,8 +17,9 @@ use super::nodes::without_matrix;
 use super::order::write_animations;
 use super::planned::{Plan, TakeDraft};
 use super::reuse::{Granted, RoomRequest, SavedSlot, grant, slots};
+use super::roots::{RootNodes, with_roots};
 use super::source::SourceFile;
-use crate::data::{ModelData, TakeExtras};
+use crate::data::{ModelData, Skeleton, TakeExtras};
 use crate::format::EditedTake;
 use std::collections::{HashMap, HashSet};
 
@@ -32,8 +33,21 @@ pub fn plan<'a>(
     opened: &ModelData,
     now: &[EditedTake],
 ) -> Result<Plan<'a>, SaveError> {
+    plan_with_skeleton(source, opened, &opened.animation.skeleton, now)
+}
+
+/// Plans a save as [`plan`](fn@plan) does, of takes for the bones of `skeleton`: that of `opened`, with other root bones
+/// above the same bones.
+pub fn plan_with_skeleton<'a>(
+    source: &'a SourceFile,
+    opened: &ModelData,
+    skeleton: &Skeleton,
+    now: &[EditedTake],
+) -> Result<Plan<'a>, SaveError> {
     let document = SourceDocument::of(source);
     check_same_file(&document, opened)?;
+    let (opened, roots) = with_roots(&document, opened, skeleton)?;
+    let opened = &*opened;
     let target = TargetBuffer::choose(&document);
     let slots = slots(&document, target.index, target.present);
     let ours: HashSet<usize> = slots.iter().map(|slot| slot.accessor).collect();
@@ -42,7 +56,7 @@ pub fn plan<'a>(
     let mut takes = Vec::with_capacity(now.len());
     for take in now {
         let is_copy = take.origin.is_some_and(|origin| !met.insert(origin));
-        takes.push(take_draft(&document, opened, take, is_copy, &ours, &mut needs)?);
+        takes.push(take_draft(&document, opened, &roots, (take, is_copy), &ours, &mut needs)?);
     }
     let mut draw = Draw::new(&document);
     let accessors = write_numbers(&mut draw, target, slots, &takes, needs)?;
@@ -51,6 +65,7 @@ pub fn plan<'a>(
     let animated = animated.map(|(target, take)| (target.0, take));
     without_matrix(&mut draw, opened, animated)?;
     write_animations(&mut draw, &takes, &accessors)?;
+    roots.write(&mut draw)?;
     describe(&mut draw.changes, &document, &takes);
     draw.changes.bones_lost = bones_lost(&document, opened, &takes);
     draw.finish()
@@ -81,8 +96,8 @@ fn check_same_file(document: &SourceDocument<'_>, opened: &ModelData) -> Result<
 fn take_draft(
     document: &SourceDocument<'_>,
     opened: &ModelData,
-    now: &EditedTake,
-    is_copy: bool,
+    roots: &RootNodes,
+    (now, is_copy): (&EditedTake, bool),
     ours: &HashSet<usize>,
     needs: &mut Needs,
 ) -> Result<TakeDraft, SaveError> {
@@ -99,6 +114,7 @@ fn take_draft(
     };
     let take = now.take.as_ref();
     let mut edits = edits(opened, base, take)?;
+    edits.extend(base.map(|(_, animation)| roots.lost_channels(animation)).unwrap_or_default());
     if (!edits.is_empty() || base.is_none()) && !moves(base.map(|base| base.1), &edits) {
         let still = placeholder(opened, base.map(|base| base.0), take)?;
         let kept = bone_at_rest(opened);

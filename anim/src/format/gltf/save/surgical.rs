@@ -1,8 +1,8 @@
 //! glTF as a surgical format: implements the interface that all formats share for [`SourceFile`].
 
 use super::source::{SourceFile, is_data};
-use super::{Plan, SaveError, compact, plan};
-use crate::data::ModelData;
+use super::{Plan, SaveError, compact, plan_with_skeleton};
+use crate::data::{ModelData, Skeleton};
 use crate::format::uri::relative_path;
 use crate::format::{
     ChangeReport, EditedTake, ExportError, ImportContext, ImportError, SavePlan, SurgicalFile,
@@ -19,8 +19,13 @@ pub(in super::super) fn open(
 }
 
 impl SurgicalFile for SourceFile {
-    fn plan(&self, opened: &ModelData, takes: &[EditedTake]) -> Result<SavePlan, ExportError> {
-        Ok(SavePlan::from(plan(self, opened, takes)?))
+    fn plan(
+        &self,
+        opened: &ModelData,
+        skeleton: &Skeleton,
+        takes: &[EditedTake],
+    ) -> Result<SavePlan, ExportError> {
+        Ok(SavePlan::from(plan_with_skeleton(self, opened, skeleton, takes)?))
     }
 
     fn compact(&self) -> Result<SavePlan, ExportError> {

@@ -43,17 +43,17 @@ impl LayerVersions {
 /// The take that base and layers give, and what it was computed from.
 #[derive(Clone, Debug)]
 pub(super) struct FlatTake {
-    take: Arc<Take>,
-    base: Arc<Take>,
-    layers: Vec<LayerVersions>,
-    channels: BTreeMap<(u32, Property), FlatChannel>,
+    pub(super) take: Arc<Take>,
+    pub(super) base: Arc<Take>,
+    pub(super) layers: Vec<LayerVersions>,
+    pub(super) channels: BTreeMap<(u32, Property), FlatChannel>,
 }
 
 /// One channel of it. Its sources are kept, so that it is computed again only where one of them differs.
 #[derive(Clone, Debug)]
-struct FlatChannel {
+pub(super) struct FlatChannel {
     base: AnyChannel,
-    layers: Vec<(Arc<LayerSettings>, AnyChannel)>,
+    pub(super) layers: Vec<(Arc<LayerSettings>, AnyChannel)>,
     flat: AnyChannel,
 }
 

@@ -2,6 +2,7 @@
 
 mod channel;
 mod layers;
+mod shifted;
 
 use super::change::{KeyChange, Triple, triple};
 use super::key_bytes::key_bytes;

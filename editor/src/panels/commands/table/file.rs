@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::panels::actions::files;
+use crate::panels::file_choice::FileChoice;
 use crate::panels::prompts::Overlay;
 use crate::panels::request::FileAction;
 use dragonfly_document::Then;
@@ -11,6 +12,7 @@ commands! {
     Open => When::Always, "Open…", [key(CTRL, Key::O)], "Opens a model", |_| Some(Effect::OpenDialog);
     OpenPath => When::Always, "Open by path…", [key(CTRL.plus(SHIFT), Key::O)], "Opens a model by typing or pasting its path", |w| { w.prompts.show(Some(Overlay::OpenPath)); None };
     OpenBuiltIn => When::Always, "Built-in dragonfly", [], "Opens the built-in example model", |_| Some(Effect::File(FileAction::Leave(Then::Open(Source::BuiltIn))));
+    ImportTakes => When::Model, "Import takes…", [], "Adds the takes of other files to the model: bones are matched by name, other figures are retargeted (clips, animations, captures)", |w| Some(Effect::Choose(FileChoice::Takes, w.read().model_folder()));
     CancelLoading => When::Loading, "Stop loading", [], "Cancels loading and keeps the open model", |_| Some(Effect::File(FileAction::Send(DocumentMessage::CancelLoading)));
     Save => When::Model, "Save", [key(CTRL, Key::S)], "Saves the model; every byte of the file that was not edited stays as it is", files::save;
     SaveAs => When::Model, "Save as…", [key(CTRL.plus(SHIFT), Key::S)], "Saves to another file, and continues with that file", |_| Some(Effect::File(FileAction::Where { copy: false, then: None }));

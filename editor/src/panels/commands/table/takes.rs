@@ -1,6 +1,7 @@
 //! Takes: created, named, split, ordered.
 
 use super::*;
+use crate::panels::actions::bones;
 use crate::panels::actions::takes;
 use crate::panels::compared::CompareWith;
 use crate::panels::prompts::Overlay;
@@ -22,6 +23,7 @@ commands! {
     MirrorBonesInTake => When::BoneInTake, "Mirror motion of bones", [], "Gives the motion of the selected bones in the take, or in the play range, to those of the other side", |w| takes::mirror(w, true);
     MirrorDialog => When::Take, "Mirror…", [], "Mirrors the take, selected bones or the play range, both sides or one to the other, with the pairs of bones to correct", |w| { w.prompts.show(Some(Overlay::MirrorPairs)); None };
     RootMotion => When::Take, "Root motion…", [], "Shows the path on the ground, and moves travel between hips and root, out of the take and back (in place, root bone)", |w| { w.prompts.show(Some(Overlay::RootMotion)); None };
+    AddRootBone => When::Model, "Add root bone", [], "Adds a bone above all others, to which the travel of the hips can be moved; nothing moves by it (root motion, reparent)", bones::add_root;
     Retarget => When::Model, "Retarget from file…", [], "Adds a take of another figure's file, with its bones mapped to those of this one (import animation, mocap)", |w| { w.prompts.show(Some(Overlay::Retarget)); None };
     LoopDialog => When::Take, "Loop…", [], "Shows how far the end of the take is from its start, bone by bone; closes the loop, moves its start, and finds loops in a long take (cycle, seamless, phase)", |w| { w.prompts.show(Some(Overlay::Loop)); None };
     CloseLoop => When::Take, "Close loop from here", [], "Changes the take from the playhead to its end so that it leads into its start (cycle, seamless)", takes::close_loop;

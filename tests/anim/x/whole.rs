@@ -1,0 +1,81 @@
+//! A text of any model has its vertices in the same places.
+
+use super::made::import;
+use crate::doors::{TestFolder, model_files};
+use crate::soundness::faults;
+use crate::takes::windings;
+use dragonfly_anim::evaluator::Evaluator;
+use dragonfly_anim::format::x::{X, write};
+use dragonfly_anim::format::{NoFiles, ReadOptions, read};
+use glam::Vec3;
+use std::sync::Arc;
+
+#[test]
+fn models_of_every_kind_keep_the_places_of_their_vertices() {
+    let mut compared = 0;
+    for path in model_files() {
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        let door = TestFolder(path.parent().unwrap().to_owned());
+        let model =
+            read(&name, &std::fs::read(&path).unwrap(), &door, &ReadOptions::default()).unwrap().model;
+        let parts = || model.meshes.iter().flat_map(|mesh| &mesh.primitives);
+        let vertices: usize = parts().map(|part| part.vertices.len()).sum();
+        if vertices > 5_000 || parts().any(|part| !part.morph_targets.is_empty()) {
+            continue;
+        }
+        let file = write(&model).unwrap();
+        assert!((X.sniff)(&file.bytes));
+        let imported = import(&file.bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(faults(&imported.model), [""; 0], "{name}");
+        let (right, wrong) = windings(&imported.model);
+        let own = windings(&model);
+        assert!(wrong <= own.1.min(own.0) + right / 50, "{name}: {wrong} of {right}");
+        let moved = file
+            .lost
+            .iter()
+            .any(|lost| lost.code == "KEYS_BETWEEN_TICKS" || lost.code == "INTERPOLATION_NOT_STORED");
+        let models = [Arc::new(model.clone()), Arc::new(imported.model)];
+        let takes = (0..model.animation.takes.len().min(2)).map(Some).chain([None]);
+        for take in takes {
+            let range = take.and_then(|take| model.animation.takes[take].range_of_keys()).unwrap_or_default();
+            for part in [0.0, 0.37, 1.0] {
+                let time = range.0 + (range.1 - range.0) * part;
+                let [ours, theirs] = models.each_ref().map(|model| {
+                    let mut evaluator = Evaluator::new(Arc::clone(model));
+                    evaluator.pose(take, time);
+                    evaluator.all_positions()
+                });
+                let size =
+                    ours.iter().fold(1e-3_f32, |size, position| size.max(position.abs().max_element()));
+                let nearest = |position: &Vec3| {
+                    theirs.iter().map(|other| position.distance(*other)).fold(f32::INFINITY, f32::min)
+                };
+                let worst =
+                    ours.iter().step_by((ours.len() / 97).max(1)).map(nearest).fold(0.0, f32::max) / size;
+                assert!(worst < if moved { 2e-2 } else { 2e-3 }, "{name}, {take:?} at {time}: {worst}");
+                compared += 1;
+            }
+        }
+    }
+    println!("{compared} poses compared");
+    assert!(compared > 60);
+}
+
+#[test]
+fn a_text_has_the_templates_of_skins_and_losses_are_listed() {
+    let path = crate::doors::data().join("gltf/Fox.glb");
+    let fox =
+        read("Fox.glb", &std::fs::read(path).unwrap(), &NoFiles, &ReadOptions::default()).unwrap().model;
+    let file = write(&fox).unwrap();
+    let lost: Vec<String> = file.lost.iter().map(ToString::to_string).collect();
+    println!("{lost:#?}");
+    let text = String::from_utf8(file.bytes).unwrap();
+    assert!(text.starts_with("xof 0303txt 0032\n\ntemplate XSkinMeshHeader {"));
+    for word in ["AnimTicksPerSecond {\n 4800;\n}", "AnimationSet Survey {", "SkinWeights {\n\"b_Hip_01\";"] {
+        assert!(text.contains(word), "{word}");
+    }
+    assert!(
+        lost.contains(&"/materials/0/texture: an image that is no file of its own is not stored".to_owned())
+    );
+    assert!(write(&Default::default()).unwrap().lost.is_empty());
+}

@@ -1,0 +1,80 @@
+//! Takes of other files become takes of the open model: in one step, in a job, and in the journal.
+
+use dragonfly_document::{Change, DocumentMessage, DocumentReply, View};
+use dragonfly_kit::document::test_document::{TestDocument, fox};
+use dragonfly_kit::folder::{Folder, data};
+use std::fs;
+use std::path::PathBuf;
+
+fn names(view: &View) -> Vec<String> {
+    view.takes.iter().map(|take| take.name.clone()).collect()
+}
+
+fn notice(reply: &DocumentReply) -> Option<String> {
+    match reply {
+        DocumentReply::Notice(text) if !text.starts_with("Importing") => Some(text.clone()),
+        DocumentReply::Warning(text) | DocumentReply::Refused(text) => Some(text.clone()),
+        _ => None,
+    }
+}
+
+/// Writes Fox under other names, as if its takes were files of their own.
+fn clips(folder: &Folder, count: usize) -> Vec<PathBuf> {
+    let paths: Vec<PathBuf> = (0..count).map(|number| folder.join(&format!("clip{number}.glb"))).collect();
+    for path in &paths {
+        fs::copy(data("gltf/Fox.glb"), path).expect("a copy");
+    }
+    paths
+}
+
+#[test]
+fn takes_of_several_files_are_added_in_one_step_that_can_be_undone() {
+    let folder = Folder::new("import-takes");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&fox(&folder));
+    document.send(DocumentMessage::ImportTakes(clips(&folder, 2)));
+    let view = document.wait_for_view(|view| view.history.done == 1);
+    assert_eq!(
+        names(&view),
+        ["Survey", "Walk", "Run", "Survey 2", "Walk 2", "Run 2", "Survey 3", "Walk 3", "Run 3"]
+    );
+    assert_eq!(view.takes[3].tracks, view.takes[0].tracks, "the same skeleton: keys are copied");
+    assert_eq!(document.wait_for_reply(notice), "Added 6 takes of 2 files");
+    document.change(Change::Undo);
+    assert_eq!(names(&document.wait_for_view(|view| view.history.done == 0)), ["Survey", "Walk", "Run"]);
+}
+
+#[test]
+fn a_file_that_cannot_be_imported_is_reported_and_the_others_are_added() {
+    let folder = Folder::new("import-broken");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    document.open(&fox(&folder));
+    let mut files = clips(&folder, 1);
+    let (broken, still) = (folder.join("broken.glb"), folder.join("still.glb"));
+    fs::write(&broken, b"glTF").expect("a file");
+    fs::copy(data("gltf/box_sparse.glb"), &still).expect("a copy");
+    files.insert(0, broken);
+    document.send(DocumentMessage::ImportTakes(files));
+    assert_eq!(document.wait_for_view(|view| view.history.done == 1).takes.len(), 6);
+    assert!(document.wait_for_reply(notice).starts_with("broken.glb"));
+    // Where nothing fits, nothing changes.
+    document.send(DocumentMessage::ImportTakes(vec![still]));
+    assert!(document.wait_for_reply(notice).starts_with("still.glb"));
+    assert_eq!(document.view().history.done, 1);
+}
+
+#[test]
+fn imported_takes_are_in_the_journal() {
+    let folder = Folder::new("import-journal");
+    let path = fox(&folder);
+    let autosave = folder.join("autosave");
+    let mut document = TestDocument::new(&autosave);
+    document.open(&path);
+    document.send(DocumentMessage::ImportTakes(clips(&folder, 1)));
+    let view = document.wait_for_view(|view| view.history.done == 1);
+    drop(document);
+    let mut again = TestDocument::new(&autosave);
+    again.open(&path);
+    let restored = again.wait_for_view(|view| view.history.done == 1);
+    assert_eq!(restored.takes, view.takes);
+}
