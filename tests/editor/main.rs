@@ -25,6 +25,7 @@ mod edit_scope;
 mod explain;
 mod eye;
 mod faults;
+mod fbx_command;
 mod first_look;
 mod fixture_layer;
 mod folder;

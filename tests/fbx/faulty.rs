@@ -4,13 +4,13 @@
 #![forbid(unsafe_code)]
 
 use std::io::Write;
-use std::process::{Command, ExitCode, exit};
+use std::process::{Command, ExitCode};
 
 /// Exit code after attempts to escape that were all refused.
-const REFUSED: i32 = 40;
+const REFUSED: u8 = 40;
 
 /// Exit code after an attempt that succeeded.
-const ESCAPED: i32 = 41;
+const ESCAPED: u8 = 41;
 
 fn main() -> ExitCode {
     // Inside the cage it cannot be asked for.
@@ -20,18 +20,17 @@ fn main() -> ExitCode {
     let parent = 0;
     dragonfly_fbx::child::serve_with(|bytes| {
         let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1000)]).into_owned();
-        if let Some(rest) = text.strip_prefix("FAULT ") {
-            let (word, argument) = rest.trim().split_once(' ').unwrap_or((rest.trim(), ""));
-            fail(word, argument, parent);
-        }
+        let (word, argument) =
+            text.strip_prefix("FAULT ")?.trim().split_once(' ').unwrap_or((text[6..].trim(), ""));
+        Some(fail(word, argument, parent))
     })
 }
 
-fn fail(word: &str, argument: &str, parent: u32) {
+fn fail(word: &str, argument: &str, parent: u32) -> ExitCode {
     match word {
         "abort" => std::process::abort(),
         "panic" => panic!("a planted panic"),
-        "overflow" => _ = deeper(1),
+        "overflow" => ExitCode::from(deeper(1) as u8),
         "hang" => loop {
             std::hint::spin_loop();
         },
@@ -44,13 +43,14 @@ fn fail(word: &str, argument: &str, parent: u32) {
         "flood" => {
             let block = vec![7; 1 << 20];
             while std::io::stdout().write_all(&block).is_ok() {}
+            ExitCode::SUCCESS
         }
         "garbage" => {
             let _ = std::io::stdout().write_all(b"this is no answer");
             let _ = std::io::stdout().flush();
-            exit(0);
+            ExitCode::SUCCESS
         }
-        "silent" => exit(0),
+        "silent" => ExitCode::SUCCESS,
         "open" => judge(std::fs::File::open(argument)),
         "list" => judge(std::fs::read_dir(argument)),
         "write" => judge(std::fs::write(argument, b"x")),
@@ -62,24 +62,24 @@ fn fail(word: &str, argument: &str, parent: u32) {
         #[cfg(unix)]
         "kill" => {
             let parent = rustix::process::Pid::from_raw(parent as i32).expect("a process");
-            judge(rustix::process::kill_process(parent, rustix::process::Signal::WINCH));
+            judge(rustix::process::kill_process(parent, rustix::process::Signal::WINCH))
         }
         #[cfg(unix)]
         "limit" => {
             use rustix::process::{Resource, Rlimit, setrlimit};
-            judge(setrlimit(Resource::Nofile, Rlimit { current: Some(64), maximum: Some(64) }));
+            judge(setrlimit(Resource::Nofile, Rlimit { current: Some(64), maximum: Some(64) }))
         }
         other => panic!("{other}, started by {parent}: an unknown fault"),
     }
 }
 
-/// Ends with the exit code for the result of an attempt.
-fn judge<T, E>(result: Result<T, E>) {
-    exit(if result.is_ok() { ESCAPED } else { REFUSED });
+/// Returns the exit code for the result of an attempt.
+fn judge<T, E>(result: Result<T, E>) -> ExitCode {
+    ExitCode::from(if result.is_ok() { ESCAPED } else { REFUSED })
 }
 
 /// Calls itself until the stack ends.
 fn deeper(depth: u64) -> u64 {
     let block = std::hint::black_box([depth; 512]);
-    deeper(depth + 1) + block[(depth % 512) as usize]
+    if depth == u64::MAX { 0 } else { deeper(depth + 1) + block[(depth % 512) as usize] }
 }

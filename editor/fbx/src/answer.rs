@@ -26,7 +26,7 @@ const HEADER_BYTES: u32 = 4 << 20;
 /// Quantities that an error about limits can name.
 const QUANTITIES: &[&str] = &["nodes", "joints", "vertices", "keys of one channel", MEMORY];
 
-/// What could be forbidden to the child, as the child reports it.
+/// The protections of the child, as the child reports them.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct CageReport {
     /// Protections that this system does not have, each with the reason.

@@ -19,6 +19,9 @@ const DEADLINE: Duration = Duration::from_secs(90);
 /// Time between two looks at the cancel flag.
 const POLL: Duration = Duration::from_millis(5);
 
+/// Time between two looks at a child that is about to end.
+const ENDING: Duration = Duration::from_micros(200);
+
 /// Bytes that are read from the child at once.
 const CHUNK: usize = 1 << 16;
 
@@ -118,6 +121,8 @@ impl FbxParser {
             }
             AnswerEnd::Failed(error) => return Err(broken(format!("its answer cannot be read: {error}"))),
         };
+        // Nothing arrives here: only its timeout is used.
+        let (_silent, pause) = flume::bounded::<()>(0);
         let status = loop {
             match child.0.try_wait() {
                 Ok(Some(status)) => break status,
@@ -125,7 +130,7 @@ impl FbxParser {
                 Err(error) => return Err(broken(format!("its end is unknown: {error}"))),
             }
             // The output is closed, so that the end is a matter of microseconds.
-            std::thread::sleep(Duration::from_micros(200));
+            let _ = pause.recv_timeout(ENDING);
         };
         if status.success() { Ok(answer) } else { Err(broken(reason_of(status))) }
     }

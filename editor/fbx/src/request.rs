@@ -1,4 +1,4 @@
-//! What the parent tells the child before the bytes of the file.
+//! The request: limits and choices, which the parent sends before the bytes of the file.
 
 use crate::answer::{frame, unframe};
 use dragonfly_anim::format::{Conventions, Handedness, UpAxis};

@@ -83,7 +83,7 @@ pub(crate) fn open(
     Ok(())
 }
 
-/// Returns type, width and height of an image that a model may contain, beside images of `pixels`.
+/// Returns type, width and height of an image that a model may contain in addition to images of `pixels`.
 pub(crate) fn accept(bytes: &[u8], pixels: u64) -> Result<(&'static str, u32, u32), String> {
     let (mime, width, height) = measure_image(bytes).ok_or("neither PNG nor JPEG")?;
     let own = u64::from(width) * u64::from(height);

@@ -119,17 +119,18 @@ struct CommandLine {
 /// Runs the program: parses the command line, carries it out, and returns the exit code.
 ///
 /// A panic inside does not escape: it is reported, and the exit code is 3.
-///
-/// As the child that parses FBX, the process does that and nothing else.
 pub fn main() -> ExitCode {
-    if child::is_requested(std::env::args_os()) {
-        return child::serve();
-    }
     main_with(std::env::args_os(), Options::default())
 }
 
 /// Runs the program with these arguments, the first of which is its name; `options` are the defaults of the editor.
+///
+/// Started as the child that parses FBX, the process does that and nothing else.
 pub fn main_with(arguments: impl IntoIterator<Item = OsString>, options: Options) -> ExitCode {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    if child::is_requested(arguments.iter().cloned()) {
+        return child::serve();
+    }
     log::start();
     log::quiet_panics();
     let command_line = CommandLine::parse_from(arguments);

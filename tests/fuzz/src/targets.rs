@@ -3,7 +3,7 @@
 use dragonfly_anim::compressed::CompressedTake;
 use dragonfly_anim::data::Image;
 use dragonfly_anim::fast::Pose;
-use dragonfly_anim::format::{ByteBudget, Formats, NoFiles, ReadOptions};
+use dragonfly_anim::format::{ByteBudget, Formats, ImportContext, NoFiles, ReadOptions};
 use dragonfly_document::edit::parse_lines;
 use dragonfly_kit::folder::Folder;
 use dragonfly_store::{Autosave, RealFiles};
@@ -25,6 +25,7 @@ pub struct Target {
 pub static TARGETS: &[Target] = &[
     Target { name: "gltf", extensions: &["gltf", "glb"], run: gltf },
     Target { name: "dfm", extensions: &["dfm"], run: dfm },
+    Target { name: "fbx", extensions: &["fbx"], run: fbx },
     Target { name: "bvh", extensions: &["bvh"], run: |bytes| model("fuzz.bvh", bytes) },
     Target { name: "obj", extensions: &["obj"], run: |bytes| model("fuzz.obj", bytes) },
     Target { name: "compressed", extensions: &["dfc"], run: compressed },
@@ -51,6 +52,15 @@ fn gltf(bytes: &[u8]) {
 
 fn dfm(bytes: &[u8]) {
     model("fuzz.dfm", bytes);
+}
+
+/// Parses a file as the child does, and reads the bytes as an answer of one.
+fn fbx(bytes: &[u8]) {
+    let options = ReadOptions { budget: ByteBudget::at_most(BUDGET), ..ReadOptions::default() };
+    if let Ok(model) = dragonfly_fbx::read_in_process(bytes, &ImportContext::new(&NoFiles, &options)) {
+        let _ = dragonfly_anim::check::check(&model);
+    }
+    let _ = dragonfly_fbx::read_answer(bytes, &ImportContext::new(&NoFiles, &options));
 }
 
 fn compressed(bytes: &[u8]) {

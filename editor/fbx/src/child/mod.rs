@@ -23,25 +23,25 @@ pub fn is_requested(arguments: impl IntoIterator<Item = OsString>) -> bool {
 
 /// Serves one request: parses the file on the standard input and writes the answer to the standard output.
 pub fn serve() -> ExitCode {
-    serve_with(|_| ())
+    serve_with(|_| None)
 }
 
-/// Like [`serve`], and calls `inside` with the bytes of the file when the cage is closed. For tests, which plant faults there.
-pub fn serve_with(inside: impl FnOnce(&[u8])) -> ExitCode {
-    match run(inside) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(_) => ExitCode::from(3),
-    }
+/// Like [`serve`], and calls `inside` with the bytes of the file when the cage is closed; a code that it returns ends the
+/// child instead of an answer. For tests, which plant faults there.
+pub fn serve_with(inside: impl FnOnce(&[u8]) -> Option<ExitCode>) -> ExitCode {
+    run(inside).unwrap_or(ExitCode::from(3))
 }
 
-fn run(inside: impl FnOnce(&[u8])) -> io::Result<()> {
+fn run(inside: impl FnOnce(&[u8]) -> Option<ExitCode>) -> io::Result<ExitCode> {
     let mut input = io::stdin().lock();
     // The request comes from the parent, the bytes after it from anyone.
     let request = ParseRequest::read(&mut input)?;
     let cage: CageReport = cage::close(request.memory);
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes)?;
-    inside(&bytes);
+    if let Some(code) = inside(&bytes) {
+        return Ok(code);
+    }
     let options = ReadOptions {
         budget: ByteBudget::at_most(request.memory),
         conventions: request.conventions(),
@@ -52,5 +52,6 @@ fn run(inside: impl FnOnce(&[u8])) -> io::Result<()> {
     let answer = answer(&bytes, context, cage);
     let mut output = io::stdout().lock();
     output.write_all(&answer)?;
-    output.flush()
+    output.flush()?;
+    Ok(ExitCode::SUCCESS)
 }

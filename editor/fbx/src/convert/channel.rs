@@ -13,32 +13,32 @@ pub(super) fn interpolation<V>(keys: &FittedKeys<V>, kind: FitKind) -> Interpola
     }
 }
 
-/// Components of a value, to compare two.
-pub(super) trait Components: Copy {
+/// FourNumbers of a value, to compare two.
+pub(super) trait FourNumbers: Copy {
     fn components(self) -> [f32; 4];
 }
 
-impl Components for Vec3 {
+impl FourNumbers for Vec3 {
     fn components(self) -> [f32; 4] {
         self.extend(0.0).to_array()
     }
 }
 
-impl Components for Quat {
+impl FourNumbers for Quat {
     fn components(self) -> [f32; 4] {
         self.to_array()
     }
 }
 
 /// Returns whether two values are equal as far as single precision goes.
-fn is_same<T: Components>(a: T, b: T) -> bool {
+fn is_same<T: FourNumbers>(a: T, b: T) -> bool {
     let (a, b) = (a.components(), b.components());
     let size = b.iter().fold(1e-3_f32, |size, number| size.max(number.abs()));
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-6 * size)
 }
 
 /// Returns the channel of fitted keys. A motion that is constant has one key, or none if it is the value at rest.
-pub(super) fn channel<V, T: Components>(
+pub(super) fn channel<V, T: FourNumbers>(
     keys: &FittedKeys<V>,
     kind: FitKind,
     rest: &T,

@@ -6,7 +6,7 @@ use ufbx::{AnimCurve, AnimStack};
 
 /// Part of a pose that a curve of the file moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum CurveTarget {
+pub(super) enum AnimatedPart {
     Translation,
     Rotation,
     Scale,
@@ -15,14 +15,14 @@ pub(super) enum CurveTarget {
     Weight,
 }
 
-fn target_of(property: &str) -> Option<CurveTarget> {
+fn target_of(property: &str) -> Option<AnimatedPart> {
     Some(match property {
-        "Lcl Translation" => CurveTarget::Translation,
-        "Lcl Rotation" => CurveTarget::Rotation,
-        "Lcl Scaling" => CurveTarget::Scale,
+        "Lcl Translation" => AnimatedPart::Translation,
+        "Lcl Rotation" => AnimatedPart::Rotation,
+        "Lcl Scaling" => AnimatedPart::Scale,
         "RotationOffset" | "RotationPivot" | "ScalingOffset" | "ScalingPivot" | "PreRotation"
-        | "PostRotation" | "RotationOrder" => CurveTarget::Pose,
-        "DeformPercent" => CurveTarget::Weight,
+        | "PostRotation" | "RotationOrder" => AnimatedPart::Pose,
+        "DeformPercent" => AnimatedPart::Weight,
         _ => return None,
     })
 }
@@ -36,7 +36,7 @@ pub(super) fn animated_elements(
     for layer in &scene.anim_layers {
         context.work(layer.anim_props.len())?;
         for property in &layer.anim_props {
-            if target_of(&property.prop_name).is_some_and(|target| target != CurveTarget::Weight) {
+            if target_of(&property.prop_name).is_some_and(|target| target != AnimatedPart::Weight) {
                 context.charge(&Place::File, 16)?;
                 found.insert(property.element.element_id);
             }
@@ -45,8 +45,22 @@ pub(super) fn animated_elements(
     Ok(found)
 }
 
+/// Returns the numbers of all elements that are shown and hidden in some take.
+pub(super) fn blinking_elements(
+    scene: &ufbx::Scene,
+    context: &ImportContext<'_>,
+) -> Result<HashSet<u32>, ImportError> {
+    let mut found = HashSet::new();
+    for layer in &scene.anim_layers {
+        context.work(layer.anim_props.len())?;
+        let properties = layer.anim_props.iter().filter(|property| &*property.prop_name == "Visibility");
+        found.extend(properties.map(|property| property.element.element_id));
+    }
+    Ok(found)
+}
+
 /// Curves of one take for each element, with the part that each moves.
-pub(super) type ElementCurves<'a> = HashMap<u32, Vec<(CurveTarget, Option<&'a AnimCurve>)>>;
+pub(super) type ElementCurves<'a> = HashMap<u32, Vec<(AnimatedPart, Option<&'a AnimCurve>)>>;
 
 /// Collects the curves of all layers of a take. An animated weight of a layer moves everything in the layer.
 pub(super) fn element_curves<'a>(

@@ -21,7 +21,7 @@ pub(super) fn materials(
     let second = scene.meshes.into_iter().find_map(|mesh| mesh.uv_sets.get(1)).map_or("", |set| &*set.name);
     for material in &scene.materials {
         context.work(1)?;
-        let reader = MaterialReader {
+        let reader = FbxMaterials {
             images,
             second,
             context,
@@ -33,7 +33,7 @@ pub(super) fn materials(
     Ok(materials)
 }
 
-struct MaterialReader<'a> {
+struct FbxMaterials<'a> {
     images: &'a [u32],
     second: &'a str,
     context: &'a ImportContext<'a>,
@@ -52,7 +52,7 @@ fn color(map: &MaterialMap) -> Option<Vec3> {
     (map.has_value && color.is_finite()).then(|| color.clamp(Vec3::ZERO, Vec3::ONE))
 }
 
-impl MaterialReader<'_> {
+impl FbxMaterials<'_> {
     fn material(&self, material: &ufbx::Material) -> Material {
         let (pbr, fbx) = (&material.pbr, &material.fbx);
         let base_color_texture = self.texture(&pbr.base_color);

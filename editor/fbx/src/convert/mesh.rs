@@ -11,12 +11,12 @@ use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
 
 /// A mesh, and the shapes of its morph targets.
-pub(super) struct ReadMesh {
+pub(super) struct FbxMesh {
     pub(super) mesh: Mesh,
     pub(super) shapes: Vec<MorphShape>,
 }
 
-/// Numbers of a corner as bits: vertex, normal, two texture coordinates, color. Corners with the same numbers are one vertex.
+/// Numbers of a corner as bits: vertex, normal, two texture coordinates, color. CornerMerger with the same numbers are one vertex.
 type CornerBits = [u32; 12];
 
 /// Largest normal length that is taken for none.
@@ -28,7 +28,7 @@ pub(super) fn meshes(
     space: &FbxSpace,
     joints: &[Option<MeshJoints>],
     context: &ImportContext<'_>,
-) -> Result<Vec<ReadMesh>, ImportError> {
+) -> Result<Vec<FbxMesh>, ImportError> {
     let count = scene.meshes.len();
     let mut meshes = context.vec(&Place::Pointer("/meshes".to_owned()), count)?;
     let mut total = 0;
@@ -46,7 +46,7 @@ fn read_mesh(
     joints: Option<&MeshJoints>,
     total: &mut usize,
     context: &ImportContext<'_>,
-) -> Result<ReadMesh, ImportError> {
+) -> Result<FbxMesh, ImportError> {
     let place = place_of(mesh);
     if mesh.num_line_faces + mesh.num_point_faces > 0 {
         context.warn(place.clone(), FBX_NOT_SHOWN, "points and lines are not shown");
@@ -55,7 +55,7 @@ fn read_mesh(
     let mut primitives = context.vec(&place, mesh.material_parts.len())?;
     let mut fixed = FixedWeights::default();
     for part in mesh.material_parts.iter().filter(|part| part.num_triangles > 0) {
-        let mut corners = Corners {
+        let mut corners = CornerMerger {
             mesh,
             space,
             context,
@@ -65,7 +65,7 @@ fn read_mesh(
             known: HashMap::new(),
         };
         let indices = corners.triangles(part)?;
-        let Corners { mut vertices, sources, .. } = corners;
+        let CornerMerger { mut vertices, sources, .. } = corners;
         *total = total.saturating_add(vertices.len());
         if *total > VERTICES {
             let (size, limit) = (*total as u64, VERTICES as u64);
@@ -91,7 +91,7 @@ fn read_mesh(
         name => name,
     };
     let morph_weights = shapes.iter().map(|shape| shape.weight).collect();
-    Ok(ReadMesh { mesh: Mesh { name: name.to_owned(), primitives, morph_weights }, shapes })
+    Ok(FbxMesh { mesh: Mesh { name: name.to_owned(), primitives, morph_weights }, shapes })
 }
 
 /// Gives the vertices of a primitive their influences; `sources` are their vertices in the file.
@@ -122,7 +122,7 @@ fn weigh(
 }
 
 /// Collects the vertices of a primitive.
-struct Corners<'a> {
+struct CornerMerger<'a> {
     mesh: &'a ufbx::Mesh,
     space: &'a FbxSpace,
     context: &'a ImportContext<'a>,
@@ -133,7 +133,7 @@ struct Corners<'a> {
     known: HashMap<CornerBits, u32>,
 }
 
-impl Corners<'_> {
+impl CornerMerger<'_> {
     /// Returns the triangles of the faces of a part as indices.
     fn triangles(&mut self, part: &ufbx::MeshPart) -> Result<Vec<u32>, ImportError> {
         let mesh = self.mesh;

@@ -7,6 +7,9 @@ use dragonfly_anim::format::{ImportContext, ImportError};
 use glam::Vec3;
 use ufbx::{BlendChannel, Mesh};
 
+/// Largest weight of a shape.
+const LARGEST: f64 = 1e6;
+
 /// A shape of a mesh.
 pub(super) struct MorphShape {
     /// Positions of the deformer, of its channel and of the shape in it.
@@ -78,10 +81,11 @@ pub(super) fn effective_weights(channel: &BlendChannel, weight: f64) -> Vec<f64>
     let distance = targets[next] - start;
     if distance != 0.0 {
         let part = (weight - start) / distance;
+        let bounded = |weight: f64| if weight.is_finite() { weight.clamp(-LARGEST, LARGEST) } else { 0.0 };
         if let Some(before) = before {
-            weights[before] = 1.0 - part;
+            weights[before] = bounded(1.0 - part);
         }
-        weights[next] = part;
+        weights[next] = bounded(part);
     }
     weights
 }

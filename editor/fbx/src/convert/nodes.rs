@@ -8,7 +8,7 @@ use dragonfly_anim::limits::NODES;
 use ufbx::Node;
 
 /// The nodes in the order of bones, and the bone of each.
-pub(super) struct SceneLayout {
+pub(super) struct BoneLayout {
     /// Nodes by their number, parents first, depth first; the root of the scene is not among them.
     pub(super) order: Vec<u32>,
     /// Bone of each node by its number.
@@ -17,7 +17,7 @@ pub(super) struct SceneLayout {
     pub(super) nodes: Vec<u32>,
 }
 
-impl SceneLayout {
+impl BoneLayout {
     /// Returns the bone of a node.
     pub(super) fn bone_of(&self, node: &Node) -> Option<BoneIndex> {
         self.bones.get(node.element.typed_id as usize).copied().flatten()
@@ -52,7 +52,7 @@ pub(super) fn layout(
     scene: &ufbx::Scene,
     unweighted: &[bool],
     context: &ImportContext<'_>,
-) -> Result<SceneLayout, ImportError> {
+) -> Result<BoneLayout, ImportError> {
     let count = scene.nodes.len();
     let place = Place::Pointer("/nodes".to_owned());
     if count > NODES {
@@ -100,7 +100,7 @@ pub(super) fn layout(
         nodes.push(index);
     }
     context.charge(&place, 4 * nodes.len() as u64)?;
-    Ok(SceneLayout { order, bones, nodes })
+    Ok(BoneLayout { order, bones, nodes })
 }
 
 /// Returns the numbers of all nodes except the root, depth first.

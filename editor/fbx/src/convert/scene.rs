@@ -1,8 +1,9 @@
 //! The skeleton at rest, and the meshes placed in the scene.
 
-use super::mesh::ReadMesh;
-use super::nodes::{SceneLayout, is_top, node_name, place_of};
-use super::skin::ReadSkin;
+use super::curves::blinking_elements;
+use super::mesh::FbxMesh;
+use super::nodes::{BoneLayout, is_top, node_name, place_of};
+use super::skin::FbxSkin;
 use super::space::{FbxSpace, Pose64, dmat4, warn_numbers};
 use crate::code::{FBX_INVALID, FBX_NOT_SHOWN};
 use dragonfly_anim::data::{Bone, BoneIndex, MeshInstance, Skeleton};
@@ -14,9 +15,9 @@ use ufbx::Node;
 pub(super) fn build(
     scene: &ufbx::Scene,
     space: &FbxSpace,
-    layout: &SceneLayout,
-    skins: &[ReadSkin],
-    meshes: &[ReadMesh],
+    layout: &BoneLayout,
+    skins: &[FbxSkin],
+    meshes: &[FbxMesh],
     context: &ImportContext<'_>,
 ) -> Result<(Skeleton, Vec<MeshInstance>), ImportError> {
     let place = Place::Pointer("/nodes".to_owned());
@@ -73,19 +74,20 @@ fn inverse(matrix: DMat4) -> Mat4 {
 fn instances(
     scene: &ufbx::Scene,
     space: &FbxSpace,
-    layout: &SceneLayout,
-    skins: &[ReadSkin],
-    meshes: &[ReadMesh],
+    layout: &BoneLayout,
+    skins: &[FbxSkin],
+    meshes: &[FbxMesh],
     context: &ImportContext<'_>,
 ) -> Result<Vec<MeshInstance>, ImportError> {
     let mut instances = Vec::new();
+    let blinking = blinking_elements(scene, context)?;
     for &index in &layout.order {
         context.work(1)?;
         let node = &scene.nodes[index as usize];
         let Some(mesh) = &node.mesh else { continue };
         let mesh = mesh.element.typed_id;
         let Some(read) = meshes.get(mesh as usize) else { continue };
-        if !node.visible {
+        if !node.visible && !blinking.contains(&node.element.element_id) {
             context.warn(
                 Place::Pointer(place_of(node)),
                 FBX_NOT_SHOWN,
@@ -111,7 +113,7 @@ fn instances(
 }
 
 /// Returns the nearest bone above a node, itself included.
-fn carrier<'a>(node: &'a Node, layout: &SceneLayout) -> (Option<BoneIndex>, Option<&'a Node>) {
+fn carrier<'a>(node: &'a Node, layout: &BoneLayout) -> (Option<BoneIndex>, Option<&'a Node>) {
     let mut at = Some(node);
     while let Some(node) = at {
         if let Some(bone) = layout.bone_of(node) {

@@ -1,6 +1,6 @@
 //! Skins: joints, bind matrices, and the influences of vertices.
 
-use super::nodes::SceneLayout;
+use super::nodes::BoneLayout;
 use super::space::{FbxSpace, dmat4};
 use crate::code::{FBX_FOUND, FBX_NOT_SHOWN};
 use dragonfly_anim::data::{Influence, MAX_INFLUENCES, Skin};
@@ -10,7 +10,7 @@ use glam::Mat4;
 use ufbx::{Mesh, SkinDeformer};
 
 /// A skin, and the number of the mesh that it moves.
-pub(super) struct ReadSkin {
+pub(super) struct FbxSkin {
     pub(super) mesh: u32,
     pub(super) skin: Skin,
 }
@@ -73,10 +73,10 @@ pub(super) fn unweighted_meshes(
 pub(super) fn skins(
     scene: &ufbx::Scene,
     space: &FbxSpace,
-    layout: &SceneLayout,
+    layout: &BoneLayout,
     unweighted: &[bool],
     context: &ImportContext<'_>,
-) -> Result<(Vec<ReadSkin>, Vec<Option<MeshJoints>>), ImportError> {
+) -> Result<(Vec<FbxSkin>, Vec<Option<MeshJoints>>), ImportError> {
     let mut skins = Vec::new();
     let mut joints = context.vec(&Place::Pointer("/meshes".to_owned()), scene.meshes.len())?;
     for (mesh, &unweighted) in scene.meshes.into_iter().zip(unweighted) {
@@ -90,7 +90,7 @@ pub(super) fn skins(
             joints.push(None);
             continue;
         }
-        skins.push(ReadSkin { mesh: mesh.element.typed_id, skin });
+        skins.push(FbxSkin { mesh: mesh.element.typed_id, skin });
         joints.push(Some(of_mesh));
     }
     Ok((skins, joints))
@@ -114,7 +114,7 @@ fn skin(
     mesh: &Mesh,
     deformer: &SkinDeformer,
     space: &FbxSpace,
-    layout: &SceneLayout,
+    layout: &BoneLayout,
     unweighted: bool,
     context: &ImportContext<'_>,
 ) -> Result<(Skin, MeshJoints), ImportError> {

@@ -148,7 +148,7 @@ pub(super) struct Pose64 {
 }
 
 impl Pose64 {
-    /// Returns a transform of the parser. Numbers that no model may contain are replaced; the second value tells whether
+    /// Returns a transform of the parser. Numbers that no model may contain are replaced; the second value is whether
     /// there were any.
     pub(super) fn of(transform: &ufbx::Transform) -> (Self, bool) {
         let mut is_fixed = false;

@@ -1,12 +1,12 @@
 //! Takes: one for each animation stack, with all its layers evaluated.
 
 use super::channel::{channel, hold, interpolation};
-use super::curves::{CurveTarget, ElementCurves, element_curves, range_of};
+use super::curves::{AnimatedPart, ElementCurves, element_curves, range_of};
 use super::fit::{FitKind, FitValue, FittedKeys, KeyTime, fit};
 use super::keys::{ChannelTimes, channel_times, exactly};
-use super::mesh::ReadMesh;
+use super::mesh::FbxMesh;
 use super::morph::effective_weights;
-use super::nodes::{SceneLayout, is_top, place_of};
+use super::nodes::{BoneLayout, is_top, place_of};
 use super::space::{FbxSpace, Pose64, dmat4, warn_numbers};
 use crate::code::FBX_KEYS;
 use dragonfly_anim::data::{MeshInstance, MorphTrack, Skeleton, Take, TakeExtras, Track, Transform};
@@ -36,8 +36,8 @@ const TURN: f64 = 90.0;
 /// Largest number of pieces into which a span with full turns is divided at first.
 const TURN_PIECES: f64 = 4096.0;
 
-/// What is needed to convert a take.
-struct TakeReader<'a> {
+/// A take of the file, and everything that its conversion needs.
+struct StackReader<'a> {
     scene: &'a ufbx::Scene,
     space: &'a FbxSpace,
     context: &'a ImportContext<'a>,
@@ -52,10 +52,10 @@ struct TakeReader<'a> {
 pub(super) fn takes(
     scene: &ufbx::Scene,
     space: &FbxSpace,
-    layout: &SceneLayout,
+    layout: &BoneLayout,
     skeleton: &Skeleton,
     instances: &[MeshInstance],
-    meshes: &[ReadMesh],
+    meshes: &[FbxMesh],
     context: &ImportContext<'_>,
 ) -> Result<Vec<Arc<Take>>, ImportError> {
     let count = scene.anim_stacks.len();
@@ -66,7 +66,7 @@ pub(super) fn takes(
         let range = range_of(stack, &curves);
         let is_coarse = Cell::new(false);
         let reader =
-            TakeReader { scene, space, context, stack, curves, range, evaluations: &evaluations, is_coarse };
+            StackReader { scene, space, context, stack, curves, range, evaluations: &evaluations, is_coarse };
         takes.push(Arc::new(reader.take(layout, skeleton, instances, meshes)?));
         if reader.is_coarse.get() {
             let place = Place::Pointer(format!("/takes/{}", &*stack.element.name));
@@ -86,13 +86,13 @@ struct Tolerances {
     scale: f64,
 }
 
-impl TakeReader<'_> {
+impl StackReader<'_> {
     fn take(
         &self,
-        layout: &SceneLayout,
+        layout: &BoneLayout,
         skeleton: &Skeleton,
         instances: &[MeshInstance],
-        meshes: &[ReadMesh],
+        meshes: &[FbxMesh],
     ) -> Result<Take, ImportError> {
         let place = Place::Pointer("/takes".to_owned());
         let mut tracks = self.context.vec(&place, skeleton.len())?;
@@ -144,20 +144,20 @@ impl TakeReader<'_> {
 
     /// Samples a node. Returns whether the take animates it.
     fn fill(&self, node: &Node, rest: &Transform, track: &mut Track) -> Result<bool, ImportError> {
-        let mut curves: Vec<(CurveTarget, Option<&AnimCurve>)> = Vec::new();
+        let mut curves: Vec<(AnimatedPart, Option<&AnimCurve>)> = Vec::new();
         if let Some(own) = self.curves.get(&node.element.element_id) {
-            curves.extend(own.iter().filter(|(target, _)| *target != CurveTarget::Weight));
+            curves.extend(own.iter().filter(|(target, _)| *target != AnimatedPart::Weight));
         }
         self.add_helpers(node, &mut curves);
         if curves.is_empty() {
             return Ok(false);
         }
         let pivots = has_pivots(node);
-        let of = |targets: &[CurveTarget]| -> Vec<&AnimCurve> {
+        let of = |targets: &[AnimatedPart]| -> Vec<&AnimCurve> {
             let wanted = curves.iter().filter(|(target, _)| targets.contains(target));
             wanted.filter_map(|(_, curve)| *curve).filter(|curve| !curve.keyframes.is_empty()).collect()
         };
-        use CurveTarget::{Pose, Rotation, Scale, Translation};
+        use AnimatedPart::{Pose, Rotation, Scale, Translation};
         let translation =
             if pivots { of(&[Translation, Rotation, Scale, Pose]) } else { of(&[Translation, Pose]) };
         let (rotation, scale) = (of(&[Rotation, Pose]), of(&[Scale]));
@@ -192,23 +192,26 @@ impl TakeReader<'_> {
     }
 
     /// Adds the curves of scale helpers on which the pose of a node depends.
-    fn add_helpers<'b>(&'b self, node: &Node, curves: &mut Vec<(CurveTarget, Option<&'b AnimCurve>)>) {
+    fn add_helpers<'b>(&'b self, node: &Node, curves: &mut Vec<(AnimatedPart, Option<&'b AnimCurve>)>) {
         let Some(parent) = &node.parent else { return };
-        let mut add = |helper: &Node, target: CurveTarget| {
+        let mut add = |helper: &Node, target: AnimatedPart| {
             let own = self.curves.get(&helper.element.element_id).into_iter().flatten();
             curves.extend(
-                own.filter(|(target, _)| *target == CurveTarget::Scale).map(|(_, curve)| (target, *curve)),
+                own.filter(|(target, _)| *target == AnimatedPart::Scale).map(|(_, curve)| (target, *curve)),
             );
         };
         if let Some(helper) = parent.scale_helper.as_ref().filter(|_| !node.is_scale_helper) {
-            add(helper, CurveTarget::Translation);
+            add(helper, AnimatedPart::Translation);
         }
         let mut ancestor = parent.inherit_scale_node.as_deref();
         let mut left = self.scene.nodes.len();
         while let Some(node_above) = ancestor.filter(|_| left > 0) {
             left -= 1;
             if let Some(helper) = &node_above.scale_helper {
-                add(helper, if node.is_scale_helper { CurveTarget::Scale } else { CurveTarget::Translation });
+                add(
+                    helper,
+                    if node.is_scale_helper { AnimatedPart::Scale } else { AnimatedPart::Translation },
+                );
             }
             ancestor = node_above.inherit_scale_node.as_deref();
         }
@@ -313,7 +316,7 @@ impl TakeReader<'_> {
     fn morph_tracks(
         &self,
         instances: &[MeshInstance],
-        meshes: &[ReadMesh],
+        meshes: &[FbxMesh],
     ) -> Result<Vec<MorphTrack>, ImportError> {
         let mut tracks: Vec<MorphTrack> = Vec::new();
         for (number, instance) in instances.iter().enumerate() {
@@ -336,7 +339,7 @@ impl TakeReader<'_> {
         &self,
         instance: usize,
         mesh: &ufbx::Mesh,
-        read: &ReadMesh,
+        read: &FbxMesh,
     ) -> Result<Option<MorphTrack>, ImportError> {
         let channels: Vec<_> =
             mesh.blend_deformers.into_iter().flat_map(|deformer| &deformer.channels).collect();
@@ -355,7 +358,7 @@ impl TakeReader<'_> {
             let weights = channels.iter().flat_map(|channel| {
                 effective_weights(channel, ufbx::evaluate_blend_weight(&self.stack.anim, channel, at))
             });
-            Ok(Some(weights.map(|weight| weight.clamp(-1e6, 1e6)).collect::<Vec<f64>>()))
+            Ok(Some(weights.collect::<Vec<f64>>()))
         };
         let keys = self.fit(&times, TOLERANCE_FACTOR, &mut sample)?;
         let targets = read.shapes.len();

@@ -1,4 +1,4 @@
-//! The cage: rights that the child gives up before it reads the file. They cannot be had back.
+//! The cage: rights that the child gives up before it reads the file, for good.
 //!
 //! Linux has all of it: limits of the process, Landlock (no file, no network, no signal to others), and a filter that allows
 //! only the system calls of reading, writing, memory and ending. Other Unix systems have the limits. What is missing is

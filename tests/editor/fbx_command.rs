@@ -1,0 +1,64 @@
+//! FBX on the command line: the program starts itself as the parser, and reports what is wrong with a file.
+
+use crate::program::{dragonfly, outcome, run};
+use dragonfly_kit::folder::{Folder, data};
+use std::path::Path;
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("UTF-8")
+}
+
+#[test]
+fn fbx_files_are_listed_checked_and_posed_like_others() {
+    let skin = data("fbx/max_transformed_skin_7500_binary.fbx");
+    let info = run(["info", text(&skin), "--json"]).expect(0).json();
+    assert_eq!(info["format"], "fbx");
+    assert_eq!(info["takes"][0]["name"], "Take 001");
+    assert_eq!(info["bones"].as_array().map(Vec::len), Some(5), "{info}");
+    run(["check", text(&skin)]).expect(0);
+    let pose = run(["pose", text(&skin), "--time", "0.4", "--json"]).expect(0);
+    assert!(pose.text().contains("Bone003"), "{}", pose.text());
+}
+
+#[test]
+fn fbx_files_are_converted_and_lose_no_take() {
+    let folder = Folder::new("fbx-convert");
+    let cube = data("fbx/maya_blend_shape_cube_7700_binary.fbx");
+    for name in ["cube.dfm", "cube.glb"] {
+        let output = folder.join(name);
+        let printed = run(["convert", text(&cube), "-o", text(&output)]).expect(0);
+        assert!(printed.text().contains("1 unit = 0.01 m (file), Y up (file)"), "{}", printed.text());
+        run(["diff", text(&cube), text(&output), "--tolerance", "0.00001"]).expect(0);
+    }
+}
+
+#[test]
+fn edits_of_a_format_that_can_only_be_read_name_another_way() {
+    let folder = Folder::new("fbx-edit");
+    let cube = data("fbx/maya_blend_shape_cube_7700_binary.fbx");
+    let output = folder.join("cube.glb");
+    let refused = run(["edit", text(&cube), "-o", text(&output)]).expect(2);
+    assert!(refused.stderr.contains("Autodesk FBX can only be read"), "{}", refused.stderr);
+    assert!(!output.exists());
+}
+
+#[test]
+fn a_broken_file_is_wrong_input_with_place_and_reason() {
+    let folder = Folder::new("fbx-broken");
+    let whole = std::fs::read(data("fbx/maya_blend_shape_cube_7700_binary.fbx")).expect("a file");
+    let broken = folder.join("broken.fbx");
+    std::fs::write(&broken, &whole[..9000]).expect("a file");
+    let refused = run(["info", text(&broken)]).expect(2);
+    assert!(refused.stderr.contains("broken.fbx: byte "), "{}", refused.stderr);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn the_parser_of_the_program_runs_with_every_protection_of_this_system() {
+    let mut command = dragonfly(["info", text(&data("fbx/maya_interpolation_modes_7500_ascii.fbx"))]);
+    let done = outcome(command.env("DRAGONFLY_LOG", "debug")).expect(0);
+    let line = done.stderr.lines().find(|line| line.contains("the parser of FBX runs with"));
+    let line = line.unwrap_or_else(|| panic!("{}", done.stderr));
+    // An old kernel lacks Landlock, and the log names it.
+    assert!(line.contains("every protection") || line.contains("Landlock"), "{line}");
+}
