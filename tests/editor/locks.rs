@@ -189,6 +189,7 @@ const OF_WHOLE_TAKES: [&str; 22] = [
     "reverse_take",
     "retime_take",
     "add_take",
+    "add_takes",
     "set_extras",
     "detect_contacts",
     "set_contacts",

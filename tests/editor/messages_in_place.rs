@@ -9,6 +9,7 @@ use dragonfly::panels::settings::WindowSettings;
 use dragonfly::panels::status::MessageSeverity;
 use dragonfly::panels::{Request, Settings, State};
 use dragonfly_anim::data::{Mesh, MeshInstance};
+use dragonfly_document::LoadedModel;
 use dragonfly_kit::document::fixture;
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::Mat4;
@@ -79,8 +80,8 @@ fn a_warning_is_shown_at_the_pointer_for_some_seconds_and_an_information_is_not(
 fn a_viewport_without_surface_and_skeleton_says_so_and_shows_either_again() {
     for (button, id) in [("Show the surface", Id::ToggleSurface), ("Show the skeleton", Id::ToggleSkeleton)] {
         let mut view = fixture::full();
-        let loaded = Arc::get_mut(&mut view.loaded).expect("not shared yet");
-        let model = Arc::get_mut(&mut loaded.model).expect("not shared yet");
+        let mut loaded = LoadedModel::clone(&view.loaded);
+        let model = Arc::make_mut(&mut loaded.model);
         let (node, skin, bone, morph_weights) = (None, None, None, Vec::new());
         model.meshes.push(Mesh::default());
         model.instances.push(MeshInstance {
@@ -91,6 +92,8 @@ fn a_viewport_without_surface_and_skeleton_says_so_and_shows_either_again() {
             to_bone: Mat4::IDENTITY,
             morph_weights,
         });
+        view.loaded = Arc::new(loaded);
+        view.opened = Arc::clone(&view.loaded);
         let mut window = Workbench::new(Some(view)).window();
         assert!(window.query_by_label(button).is_none(), "{id:?}");
         window.state_mut().state.execute(Request::Command(Id::ToggleSurface));

@@ -327,6 +327,7 @@ fn allocations_of_a_move(load: crate::viewport_tools_rig::Load, bone: u32) -> (u
 fn a_move_of_the_mouse_allocates_nothing_that_grows_with_the_model() {
     fn of_size(name: &str, bones: u32) -> OpenedModel {
         let view = fixture::view(name, fixture::skeleton(bones), TAKES);
+        drop(view.opened);
         Arc::into_inner(view.loaded).expect("no other view").into()
     }
     fn few(_: &Source, _: &mut dyn FnMut(Progress), _: &Cancel) -> Result<OpenedModel, LoadError> {

@@ -9,12 +9,12 @@ const SPARE_BYTES: u64 = 64 << 20;
 /// Address space of the program when it cannot be measured.
 const PROGRAM_BYTES: u64 = 1 << 30;
 
-/// Sets all limits. Returns those that the system refused.
+/// Sets all limits, for a program with `program` bytes of address space. Returns those that the system refused.
 ///
-/// The address space is that of the program as it is, and twice the memory of the import: the model, and its bytes in the
+/// The address space is that of the program, and twice the memory of the import: the model, and its bytes in the
 /// answer. No file can be written or opened, no process started, no memory image left.
-pub(super) fn set(memory: u64) -> Vec<String> {
-    let space = program_bytes().saturating_add(memory.saturating_mul(2)).saturating_add(SPARE_BYTES);
+pub(super) fn set(program: u64, memory: u64) -> Vec<String> {
+    let space = program.saturating_add(memory.saturating_mul(2)).saturating_add(SPARE_BYTES);
     let limits = [
         ("memory", Resource::As, space, space),
         // One second between the signal that can be handled and the one that cannot.
@@ -33,7 +33,7 @@ pub(super) fn set(memory: u64) -> Vec<String> {
 }
 
 /// Returns the address space of this process.
-fn program_bytes() -> u64 {
+pub(super) fn program_bytes() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let size = status.lines().find_map(|line| line.strip_prefix("VmSize:"));
     let kibibytes = size.and_then(|size| size.trim().strip_suffix("kB")?.trim().parse::<u64>().ok());

@@ -38,14 +38,12 @@ const ALLOWED: &[i64] = &[
     libc::SYS_exit_group,
 ];
 
-/// Forbids files, the network, other processes, and every system call that is not needed. Returns what this kernel cannot
-/// forbid.
-pub(super) fn forbid() -> Vec<String> {
-    [files_and_network().err(), system_calls().err()].into_iter().flatten().collect()
-}
-
-/// Forbids every access to files, TCP, signals to other processes and abstract sockets, as far as this kernel can.
-fn files_and_network() -> Result<(), String> {
+/// Forbids every access to files, TCP, signals to other processes and abstract sockets.
+///
+/// # Errors
+///
+/// What this kernel cannot forbid.
+pub(super) fn forbid_files_and_network() -> Result<(), String> {
     let abi = ABI::V6;
     let restricted = Ruleset::default()
         .set_compatibility(CompatLevel::BestEffort)
@@ -64,8 +62,12 @@ fn files_and_network() -> Result<(), String> {
     }
 }
 
-/// Refuses all other system calls with EPERM.
-fn system_calls() -> Result<(), String> {
+/// Refuses every system call that is not needed, with EPERM.
+///
+/// # Errors
+///
+/// What this kernel cannot forbid.
+pub(super) fn forbid_system_calls() -> Result<(), String> {
     let filter = filter().map_err(|error| format!("filter of system calls: {error}"))?;
     seccompiler::apply_filter(&filter).map_err(|error| format!("filter of system calls: {error}"))
 }

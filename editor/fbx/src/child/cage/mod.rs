@@ -14,10 +14,16 @@ use crate::answer::CageReport;
 /// Closes the cage of this process. `memory`: bytes that the import may use.
 pub(super) fn close(memory: u64) -> CageReport {
     let mut report = CageReport::default();
+    // In this order: nothing can be measured once files are forbidden, Landlock opens a file for its rules, which the limits
+    // forbid, and the filter forbids to set limits.
     #[cfg(unix)]
-    report.missing.extend(limits::set(memory));
+    let program = limits::program_bytes();
     #[cfg(target_os = "linux")]
-    report.missing.extend(linux::forbid());
+    report.missing.extend(linux::forbid_files_and_network().err());
+    #[cfg(unix)]
+    report.missing.extend(limits::set(program, memory));
+    #[cfg(target_os = "linux")]
+    report.missing.extend(linux::forbid_system_calls().err());
     #[cfg(all(unix, not(target_os = "linux")))]
     report.missing.push("files, network and system calls: no sandbox on this system".to_owned());
     #[cfg(not(unix))]
