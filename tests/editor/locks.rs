@@ -178,7 +178,7 @@ fn edits_of_the_whole_take_include_locked_bones() {
 }
 
 /// Edits of whole takes: they include locked bones, see [`edits_of_the_whole_take_include_locked_bones`].
-const OF_WHOLE_TAKES: [&str; 22] = [
+const OF_WHOLE_TAKES: [&str; 23] = [
     "add_root_bone",
     "create_take",
     "delete_take",
