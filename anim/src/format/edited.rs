@@ -13,7 +13,7 @@ use thiserror::Error;
 /// Error of a save with another skeleton than that of the opened model.
 #[derive(Debug, Error)]
 #[error("the bones differ in more than root bones from those that were opened")]
-pub(super) struct OtherSkeleton;
+pub(super) struct DifferentBones;
 
 /// A take as it should be in the saved file.
 #[derive(Clone, Debug)]
@@ -153,7 +153,7 @@ impl EditableFile {
             SaveSource::Model(write) => {
                 let shift = BoneShift::between(&opened.animation.skeleton, skeleton);
                 let model = shift.and_then(|shift| shift.model(opened, skeleton));
-                let model = model.ok_or_else(|| ExportError::new(OtherSkeleton))?;
+                let model = model.ok_or_else(|| ExportError::new(DifferentBones))?;
                 let takes = takes.iter().map(|edited| Arc::clone(&edited.take)).collect();
                 let animation = AnimationData { skeleton: Arc::clone(skeleton), takes };
                 self.whole(*write, &ModelData { animation, ..model })

@@ -1,6 +1,6 @@
 //! Takes for a file whose skeleton a save cannot change.
 
-use super::edited::OtherSkeleton;
+use super::edited::DifferentBones;
 use super::losses::Losses;
 use super::{EditedTake, ExportError};
 use crate::data::Skeleton;
@@ -18,7 +18,7 @@ pub(super) fn takes_of_file(
     takes: &[EditedTake],
     losses: &mut Losses,
 ) -> Result<Vec<EditedTake>, ExportError> {
-    let shift = BoneShift::between(skeleton, opened).ok_or_else(|| ExportError::new(OtherSkeleton))?;
+    let shift = BoneShift::between(skeleton, opened).ok_or_else(|| ExportError::new(DifferentBones))?;
     if shift.is_identity() {
         return Ok(takes.to_vec());
     }
