@@ -193,7 +193,7 @@ pub(crate) fn windings(model: &ModelData) -> (usize, usize) {
     (right, wrong)
 }
 
-/// Returns the lines that differ between two texts of as many lines, as pairs.
+/// Returns the lines that differ between two texts, as pairs; both have the same number of lines.
 pub(crate) fn changed_lines(before: &str, after: &str) -> Vec<(String, String)> {
     assert_eq!(before.lines().count(), after.lines().count());
     let pairs = before.lines().zip(after.lines()).filter(|(before, after)| before != after);

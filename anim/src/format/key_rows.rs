@@ -35,7 +35,7 @@ impl RowCounts {
     }
 }
 
-/// What becomes of the rows of a list.
+/// The rows of a list after an edit.
 pub(super) struct RowEdits {
     /// The replacements in each old row, `None` for one that is removed.
     pub(super) kept: Vec<Option<TextPatches>>,

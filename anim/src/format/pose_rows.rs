@@ -11,14 +11,14 @@ pub(super) struct TimedPose {
 }
 
 /// Returns the rows of a track: one for each time at which a channel has a key. A track without keys has the rest pose at
-/// `start`, since a list without rows is not possible.
-pub(super) fn pose_rows(track: Option<&Track>, bone: &Bone, start: f32) -> Vec<TimedPose> {
+/// `start`, since a list without rows is not possible. A jump takes `jump` seconds.
+pub(super) fn pose_rows(track: Option<&Track>, bone: &Bone, start: f32, jump: f32) -> Vec<TimedPose> {
     let rest = rest_pose(bone);
     let times = track.map_or(Vec::new(), |track| {
         union([
-            straight_times(&track.translation),
-            straight_times(&track.rotation),
-            straight_times(&track.scale),
+            straight_times(&track.translation, jump),
+            straight_times(&track.rotation, jump),
+            straight_times(&track.scale, jump),
         ])
     });
     let Some(track) = track.filter(|_| !times.is_empty()) else {

@@ -8,11 +8,11 @@ const RATE: f32 = 60.0;
 /// Most keys between two keys of a curve.
 const MOST_BETWEEN: usize = 3_600;
 
-/// Seconds before a jump at which its start has a key.
-const JUMP: f32 = 1e-4;
+/// Seconds before a jump at which its start has a key, in formats that count seconds.
+pub(super) const JUMP: f32 = 1e-4;
 
-/// Returns the times of keys with which straight lines follow a channel: its own where it is linear.
-pub(super) fn straight_times<T>(channel: &Channel<T>) -> Vec<f32> {
+/// Returns the times of keys with which straight lines follow a channel: its own where it is linear. A jump takes `jump` seconds.
+pub(super) fn straight_times<T>(channel: &Channel<T>, jump: f32) -> Vec<f32> {
     let mut times = Vec::with_capacity(channel.times.len());
     for pair in channel.times.windows(2) {
         let (from, to) = (pair[0], pair[1]);
@@ -23,10 +23,10 @@ pub(super) fn straight_times<T>(channel: &Channel<T>) -> Vec<f32> {
                 let count = (((to - from) * RATE).ceil() as usize).clamp(1, MOST_BETWEEN);
                 times.extend((1..count).map(|part| from + (to - from) * (part as f32 / count as f32)));
             }
-            Interpolation::Step => times.push((to - JUMP).max(from + (to - from) * 0.5)),
+            Interpolation::Step => times.push((to - jump).max(from + (to - from) * 0.5)),
             Interpolation::Closest => {
                 let middle = from + (to - from) * 0.5;
-                times.extend([(middle - JUMP).max(from + (to - from) * 0.25), middle]);
+                times.extend([(middle - jump).max(from + (to - from) * 0.25), middle]);
             }
         }
     }
@@ -62,7 +62,7 @@ mod tests {
             let values: Vec<f32> = (0..3 * per_key).map(|index| (index * index % 7) as f32).collect();
             let values: Vec<glam::Vec3> = values.into_iter().map(glam::Vec3::splat).collect();
             let channel = Channel::new([0.0, 0.5, 2.0], values, interpolation);
-            let times = straight_times(&channel);
+            let times = straight_times(&channel, JUMP);
             assert!(times.windows(2).all(|pair| pair[0] < pair[1]));
             let rest = glam::Vec3::ZERO;
             let keys: Vec<glam::Vec3> =

@@ -1,4 +1,4 @@
-//! What is read from each dialect, and what is corrected.
+//! Content of each dialect that is read, and content that is corrected.
 
 use super::made::{ODD, import, small, stored};
 use crate::doors::{MemoryFs, data};

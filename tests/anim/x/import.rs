@@ -1,4 +1,4 @@
-//! What is read, and what is corrected.
+//! Content that is read, and content that is corrected.
 
 use super::made::{import, pendulum, stored, with_header};
 use crate::doors::{MemoryFs, data};

@@ -116,7 +116,7 @@ fn keys_are_added_and_removed_in_the_style_of_the_file_and_counted() {
     let again = import(after.as_bytes()).unwrap().model;
     let times = [0.0, 0.1, 0.25, 0.5, 0.7, 1.0];
     assert!(pose_difference(&again, &with_takes(&opened, &takes), 0, &times) < 1e-5);
-    // What is after the set is the same text.
+    // The text after the set is the same.
     assert!(after.ends_with(&source[source.find("AnimationSet Turn").unwrap()..]));
 }
 
@@ -247,4 +247,24 @@ fn an_edit_of_a_file_with_chosen_axes_and_rate_is_saved_in_those_of_the_file() {
     assert!(after.contains("   12;3;1.0,1.0,1.0;;,\n   24;3;"), "{after}");
     let again = X.import(after.as_bytes(), &NoFiles, &options).unwrap().model;
     assert!(pose_difference(&again, &with_takes(&opened, &takes), 0, &[0.0, 0.5, 1.0, 2.0]) < 1e-5);
+}
+
+#[test]
+fn a_jump_takes_one_tick_and_no_tick_has_two_keys() {
+    let (source, opened) = opened();
+    let takes = edited(&opened, 0, |take| {
+        let values = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        take.tracks[2].translation = Channel::new([0.0, 0.5, 0.75], values, Interpolation::Step);
+        add_key(&mut take.tracks[1].rotation, 0.51, Quat::IDENTITY);
+    });
+    let saved = plan(&X, source.as_bytes(), &opened, &takes);
+    let again = import(&saved.files[0].bytes).unwrap();
+    assert!(again.warnings.iter().all(|warning| warning.code != "TIMES_NOT_ASCENDING"));
+    let tick = 1.0 / 24.0;
+    let take = &again.model.animation.takes[0];
+    let times: Vec<i32> =
+        take.tracks[2].translation.times.iter().map(|time| (time / tick).round() as i32).collect();
+    assert_eq!(times, [0, 11, 12, 17, 18]);
+    assert_eq!(take.tracks[2].translation.values[1], Vec3::ZERO);
+    assert_eq!(take.tracks[1].rotation.len(), 4);
 }

@@ -6,7 +6,7 @@ use crate::format::{ImportContext, ImportError};
 use crate::limits::{KEYS, KEYS_PER_CHANNEL};
 use std::ops::Range;
 
-/// What the keys of a list are.
+/// Property of the keys of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum XKeyKind {
     /// w, x, y, z.

@@ -28,6 +28,11 @@ pub(super) struct FileKeys {
 }
 
 impl KeyText {
+    /// Returns the shortest time between two keys, in seconds: one tick.
+    pub(super) fn jump(&self) -> f32 {
+        (1.0 / self.ticks_per_second) as f32
+    }
+
     /// Returns the nearest tick to a time.
     pub(super) fn ticks(&self, seconds: f32) -> i64 {
         (f64::from(seconds) * self.ticks_per_second).round() as i64
@@ -84,7 +89,7 @@ impl KeyText {
         rest: T,
         values: impl Fn(T) -> Vec<f32>,
     ) -> FileKeys {
-        let times = straight_times(channel);
+        let times = straight_times(channel, self.jump());
         let values = times.iter().map(|&time| values(sample_channel(channel, rest, time))).collect();
         FileKeys { kind, times, values }
     }

@@ -10,7 +10,7 @@ use crate::format::key_rows::{OldRow, RowCounts, RowEdits, number, rewrite};
 use crate::format::losses::Losses;
 use crate::format::patch::TextPatches;
 use crate::format::pose_rows::pose_rows;
-use crate::format::straight::is_straight;
+use crate::format::straight::{JUMP, is_straight};
 use crate::format::{AxisMap, ImportError};
 use glam::Vec3;
 use std::fmt::Write;
@@ -114,7 +114,7 @@ impl<'a> ClipWriter<'a> {
         patches: &mut TextPatches,
     ) -> RowCounts {
         let start = keys.rows.first().map_or(0.0, |row| row.time);
-        let wanted = pose_rows(Some(new), &self.skeleton.bones[bone], start);
+        let wanted = pose_rows(Some(new), &self.skeleton.bones[bone], start, JUMP);
         let wanted_times: Vec<f32> = wanted.iter().map(|row| row.time).collect();
         let times: Vec<f32> = keys.rows.iter().map(|row| row.time).collect();
         let edits = RowEdits::matched(
@@ -200,7 +200,7 @@ impl<'a> ClipWriter<'a> {
         for (number, bone) in self.skeleton.bones.iter().enumerate() {
             let track = take.tracks.get(number);
             self.list_curves(track.unwrap_or(&nothing), &nothing, index, losses);
-            let rows = pose_rows(track, bone, start);
+            let rows = pose_rows(track, bone, start, JUMP);
             let _ = write!(text, "\tBone{number} #Keyframes: {}{line}\t{{{line}", rows.len());
             for row in rows {
                 let _ = write!(text, "\t\t{}{line}", self.row(row.time, row.pose));

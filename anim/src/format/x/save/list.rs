@@ -9,6 +9,7 @@ use crate::format::Conversion;
 use crate::format::key_rows::{OldRow, RowCounts, RowEdits, rewrite};
 use crate::format::patch::TextPatches;
 use crate::format::pose_rows::{TimedPose, pose_rows};
+use std::collections::HashSet;
 
 /// Share of a number of a matrix below which it stays: what decomposing and composing rounds.
 const SAME: f32 = 4e-6;
@@ -55,7 +56,7 @@ impl ListEditor<'_> {
         patches: &mut TextPatches,
     ) -> RowCounts {
         let start = list.rows.first().map_or(0.0, |(ticks, _)| seconds(*ticks, self.conversion));
-        let wanted: Vec<TimedPose> = pose_rows(Some(new), bone, start);
+        let wanted: Vec<TimedPose> = pose_rows(Some(new), bone, start, self.keys.jump());
         let times: Vec<f32> = wanted.iter().map(|row| row.time).collect();
         let edit = |row: usize, key: usize, number: usize| {
             let mut patches = TextPatches::default();
@@ -96,7 +97,13 @@ impl ListEditor<'_> {
             .collect();
         let times: Vec<f32> = rows.iter().map(|row| row.time).collect();
         let (used, _) = used_rows(list, self.conversion);
-        let edits = RowEdits::matched(&times, &used, wanted, edit, make);
+        let mut edits = RowEdits::matched(&times, &used, wanted, edit, make);
+        // At one tick there can be one key: an old one, or the last of the new ones.
+        let kept = list.rows.iter().zip(&edits.kept).filter(|(_, kept)| kept.is_some());
+        let mut taken: HashSet<i64> = kept.map(|((ticks, _), _)| ticks.round() as i64).collect();
+        edits.added.reverse();
+        edits.added.retain(|row| taken.insert(self.keys.ticks(row.time)));
+        edits.added.reverse();
         if edits.len() != rows.len() {
             patches.replace(list.count.clone(), edits.len().to_string());
         }

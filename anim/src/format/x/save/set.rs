@@ -15,7 +15,7 @@ use crate::sample::rest_pose;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// What lines of an animation and of its lists start with.
+/// Blanks before the lines of an animation and of its lists.
 const ANIMATION_INDENT: &str = " ";
 const LIST_INDENT: &str = "  ";
 
