@@ -299,7 +299,7 @@ fn random_loops_keep_their_motion_and_the_kind_of_their_keys() {
         let parts = old.translation.values_per_key();
         for (key, &time) in old.translation.times.iter().enumerate() {
             let moved = 0.5 + (time - 0.5 + by).rem_euclid(2.0);
-            let is_end = time < 0.501 || time > 2.499 || moved < 0.501 || moved > 2.499;
+            let is_end = !(0.501..=2.499).contains(&time) || !(0.501..=2.499).contains(&moved);
             let is_edge = key == 0 || key + 1 == old.translation.len();
             if is_end || is_edge {
                 continue;

@@ -316,7 +316,7 @@ fn in_order(mut json: Value) -> Value {
 
 #[test]
 fn a_save_after_the_bone_is_gone_removes_its_node_and_its_keys() {
-    let mut restored = 0;
+    let mut reordered = Vec::new();
     for path in FILES {
         let mut file = RootSave::file(path);
         file.add_root("A new root");
@@ -329,7 +329,9 @@ fn a_save_after_the_bone_is_gone_removes_its_node_and_its_keys() {
         // Only the order of the nodes of a scene may differ, where others were between the root nodes.
         let same = gone.json() == file.json();
         assert_eq!(gone.bytes() == file.bytes(), same, "{path}");
-        restored += usize::from(same);
+        if !same {
+            reordered.push(path);
+        }
         // With keys of the root.
         let moving = Arc::new(moving_root(file.model.animation.skeleton.len()));
         let takes = file.model.animation.takes.len();
@@ -343,7 +345,12 @@ fn a_save_after_the_bone_is_gone_removes_its_node_and_its_keys() {
         assert_eq!((new.takes.len(), new.skeleton.len()), (takes + 1, old.skeleton.len()), "{path}");
         assert!(old.takes[..] == new.takes[..takes], "{path}");
     }
-    assert_eq!(restored, FILES.len() - 1, "files with their old bytes");
+    // Their scenes list other nodes between the root nodes.
+    let between = ["gltf/InterpolationTest.glb", "collection/RecursiveSkeletons.glb"];
+    assert!(
+        reordered.iter().all(|path| between.contains(path)),
+        "files without their old bytes: {reordered:?}"
+    );
 }
 
 #[test]

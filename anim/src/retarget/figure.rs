@@ -4,7 +4,7 @@ use super::attach::AttachedFeet;
 use super::convention::{BodyPart, BoneRole, SkeletonRoles};
 use super::reach::bring_into_reach;
 use super::spread::spread;
-use super::twist::twist;
+use super::twist::{has_free_twist_bone, twist};
 use super::{RetargetOptions, SkeletonBinding, height_ratio, leg_ratio, rebind, retarget};
 use crate::contact::{
     Contact, ContactThresholds, LockError, LockSettings, contact_slide, detect_contacts, feet_by_name,
@@ -115,8 +115,12 @@ fn frame_times(take: &Take) -> Vec<f32> {
 }
 
 /// Returns whether every bone that the take moves is bound to one with the same rest pose, and so is every bone above it:
-/// one skeleton may have bones that the other one lacks, such as those of a weapon.
+/// one skeleton may have bones that the other one lacks, such as those of a weapon, but no twist bones, which get a share of
+/// the roll of their limb.
 fn is_same(take: &Take, source: &Skeleton, target: &Skeleton, binding: &SkeletonBinding) -> bool {
+    if has_free_twist_bone(target, binding) {
+        return false;
+    }
     let mut follower: Vec<Option<BoneIndex>> = vec![None; source.len()];
     for (bone, from) in (0..).zip(&binding.source_of) {
         let Some(follower) = from.and_then(|from| follower.get_mut(from as usize)) else { continue };

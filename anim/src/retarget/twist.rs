@@ -37,6 +37,15 @@ struct LimbSegment {
     twists: Vec<(usize, f64)>,
 }
 
+/// Returns whether the target has a bone that no bone of the source moves and whose name is that of a twist bone.
+pub(super) fn has_free_twist_bone(target: &Skeleton, binding: &SkeletonBinding) -> bool {
+    let is_twist = |&bone: &u32| {
+        let name = target.bones[bone as usize].name.to_lowercase();
+        WORDS.iter().any(|word| name.contains(word))
+    };
+    binding.unbound_target.iter().any(is_twist)
+}
+
 /// Gives unbound twist bones their share of the roll of their segment.
 pub(super) fn twist(take: &mut Take, target: &Skeleton, binding: &SkeletonBinding, roles: &SkeletonRoles) {
     let rest = RestPose::of(target);

@@ -217,6 +217,9 @@ fn with_file() -> Workbench {
     bench
 }
 
+/// Name, window with the dialog, and the columns of the picture that it leaves free.
+type DialogCase = (&'static str, fn() -> Workbench, std::ops::Range<u32>);
+
 #[test]
 fn the_second_skeleton_of_dialogs_and_comparisons_is_drawn_in_the_viewport() {
     match drawing::program_draws_on_processor() {
@@ -226,7 +229,7 @@ fn the_second_skeleton_of_dialogs_and_comparisons_is_drawn_in_the_viewport() {
     }
     let mut window = DrawnWindow::open();
     // The columns of the picture that a dialog leaves free.
-    let cases: [(&str, fn() -> Workbench, std::ops::Range<u32>); 3] = [
+    let cases: [DialogCase; 3] = [
         ("loop", || fox_with(Some(Overlay::Loop)), 290..630),
         ("source", with_source, 290..550),
         ("file", with_file, 290..800),

@@ -210,7 +210,7 @@ fn run(orders: Orders, jobs: Option<NonZeroUsize>) -> Result<Vec<FileOutcome>, F
                 let _ = sender.send((index, orders.one(file, cancel)));
             }
         };
-        running.push(Job::start_oneshot(&thread.handle(), "convert file", work).map_err(machine)?);
+        running.push(Job::start_oneshot(thread.handle(), "convert file", work).map_err(machine)?);
     }
     drop(sender);
     let mut outcomes: Vec<Option<FileOutcome>> = Vec::new();

@@ -133,7 +133,7 @@ fn hold_feet(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request
         let mut on = context.keys.holds_feet();
         let text = RichText::new("Hold feet").small().color(Theme::of(ui).weak);
         let switch = ui.checkbox(&mut on, text);
-        widgets::hint_beside(&switch, &commands::tooltip(ui.ctx(), Id::ToggleHoldFeet));
+        widgets::hint_beside(&switch, commands::tooltip(ui.ctx(), Id::ToggleHoldFeet));
         if switch.changed() {
             requests.push(Request::Command(Id::ToggleHoldFeet));
         }
