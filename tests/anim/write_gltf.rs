@@ -154,7 +154,7 @@ fn the_validator_finds_no_error_in_written_files() {
     std::fs::remove_dir_all(&folder).expect("the folder");
     let all: BTreeMap<&String, &BTreeMap<String, usize>> =
         files.iter().map(|(name, _)| name).zip(&found).filter(|(_, found)| !found.is_empty()).collect();
-    // What the model itself has is not an error of the file: its channels and vertices are written as they are.
+    // These come from the model itself: its channels and vertices are written as they are.
     let own = ["ACCESSOR_ANIMATION_INPUT_NEGATIVE", "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE"];
     let wrong: Vec<_> =
         all.iter().filter(|(_, found)| found.keys().any(|code| !own.contains(&code.as_str()))).collect();

@@ -57,7 +57,7 @@ fn a_file_that_cannot_be_imported_is_reported_and_the_others_are_added() {
     document.send(DocumentMessage::ImportTakes(files));
     assert_eq!(document.wait_for_view(|view| view.history.done == 1).takes.len(), 6);
     assert!(document.wait_for_reply(notice).starts_with("broken.glb"));
-    // Where nothing fits, nothing changes.
+    // If nothing fits, nothing changes.
     document.send(DocumentMessage::ImportTakes(vec![still]));
     assert!(document.wait_for_reply(notice).starts_with("still.glb"));
     assert_eq!(document.view().history.done, 1);

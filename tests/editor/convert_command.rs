@@ -130,7 +130,7 @@ fn the_parts_of_an_array_job_convert_each_file_once() {
     let (folder, outputs) = collection("convert-slurm");
     let order = ["convert", "in", "-o", "out", "--to", "dfm", "--job", "slurm", "--parts", "3"];
     fs::write(folder.join("job.sh"), run(order).expect(0).text()).expect("a file");
-    // What the cluster does: the same script with other numbers.
+    // As a cluster does: the same script, with other numbers.
     for part in 1..=3 {
         let line = format!("SLURM_ARRAY_TASK_ID={part} exec sh job.sh");
         let done = other("sh", &["-c", &line], folder.path()).expect("a shell");

@@ -8,7 +8,7 @@ use dragonfly_anim::data::{AnimationData, BoneIndex, Skeleton, Take};
 use dragonfly_anim::retarget::{BindingGuess, FigureOptions, SkeletonBinding, retarget_figure};
 use std::collections::HashSet;
 
-/// Names of takes that programs give by themselves, in lower case: the name of the file says more.
+/// Names of takes that programs give by themselves, in lower case; takes with these names are called after their file.
 const GENERIC: [&str; 9] = [
     "mixamo.com",
     "take 001",
@@ -24,7 +24,7 @@ const GENERIC: [&str; 9] = [
 /// How takes are named that come from a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ClipNaming {
-    /// After the take, or after the file where that name says nothing, such as `mixamo.com`.
+    /// After the take, or after the file where the take has a generic name, such as `mixamo.com`.
     #[default]
     Automatic,
     /// After the file, and after the take too where it has several.

@@ -47,7 +47,7 @@ pub(super) struct ConvertArguments {
     up: Option<Up>,
     /// Sense of the axes of the input
     #[arg(long, value_enum)]
-    hand: Option<Hand>,
+    hand: Option<AxisSense>,
     /// Frames or ticks per second of the input, for formats that count them
     #[arg(long, value_name = "FPS", value_parser = positive)]
     rate: Option<f32>,
@@ -87,7 +87,7 @@ enum Up {
 
 /// The sense of the axes.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Hand {
+enum AxisSense {
     /// Left-handed
     Left,
     /// Right-handed
@@ -155,8 +155,8 @@ impl ConvertArguments {
                 Up::Z => UpAxis::Z,
             }),
             handedness: self.hand.map(|hand| match hand {
-                Hand::Left => Handedness::Left,
-                Hand::Right => Handedness::Right,
+                AxisSense::Left => Handedness::Left,
+                AxisSense::Right => Handedness::Right,
             }),
             frame_rate: self.rate,
         }
@@ -189,7 +189,7 @@ impl Orders {
     }
 }
 
-/// Converts all files on as many processors as there are, and returns the outcomes in the order of the files.
+/// Converts all files, on all processors, and returns the outcomes in the order of the files.
 fn run(orders: Orders, jobs: Option<NonZeroUsize>) -> Result<Vec<FileOutcome>, Failure> {
     let count = orders.files.len();
     let processors = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);

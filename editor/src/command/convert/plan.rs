@@ -1,4 +1,4 @@
-//! Which files a conversion reads, and where it writes them.
+//! The files that a conversion reads, and those that it writes.
 
 use super::super::Failure;
 use dragonfly_anim::format::Conventions;

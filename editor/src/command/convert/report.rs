@@ -1,4 +1,4 @@
-//! What a conversion did, as text or as JSON.
+//! The report of a conversion, as text or as JSON.
 
 use super::super::choice::plain;
 use super::super::output::{print, print_json};

@@ -47,7 +47,7 @@ impl FarmJob {
     /// Returns the command as one line for a POSIX shell, in which `token` is expanded.
     fn shell_line(&self, token: &str) -> String {
         let quoted = |argument: &String| match argument.split_once(PART) {
-            // The token stands outside of the quotes.
+            // The token is outside of the quotes, so that it is expanded.
             Some((before, after)) => format!("{}{token}{}", shell_word(before), shell_word(after)),
             None => match argument.is_empty() {
                 true => "''".to_owned(),

@@ -46,7 +46,7 @@ pub(super) struct AddClips {
 /// How new takes are named.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Names {
-    /// After the take, or after the file where that name says nothing
+    /// After the take, or after the file where it has a generic name
     Automatic,
     /// After the file
     File,
@@ -103,7 +103,7 @@ impl RunCommand for AddClips {
                     });
                     takes.extend(done.takes);
                 }
-                // The other files are still added; the exit code tells.
+                // The other files are still added; the exit code is 2 then.
                 Err(reason) => {
                     tell(&reason);
                     failed += 1;
