@@ -223,7 +223,6 @@ fn twist_bones_get_their_share_of_the_roll_of_both_parts_of_the_arm() {
         for time in [0.0, 0.3, 1.0, 1.7, 2.0] {
             let [with, without] = [with, without].map(|track| sample_track(track, bone, time));
             assert!(with.rotation.dot(without.rotation).abs() > 1.0 - 1e-6, "{} at {time}", bone.name);
-            assert!(with.translation.abs_diff_eq(without.translation, 1e-5), "{} at {time}", bone.name);
         }
     }
 }
