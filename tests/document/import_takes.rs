@@ -1,6 +1,6 @@
 //! Takes of other files become takes of the open model: in one step, in a job, and in the journal.
 
-use dragonfly_document::{Change, DocumentMessage, DocumentReply, View};
+use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, View};
 use dragonfly_kit::document::test_document::{TestDocument, fox};
 use dragonfly_kit::folder::{Folder, data};
 use std::fs;
@@ -75,6 +75,8 @@ fn imported_takes_are_in_the_journal() {
     drop(document);
     let mut again = TestDocument::new(&autosave);
     again.open(&path);
+    let offer = again.wait_for_offers().remove(0);
+    again.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
     let restored = again.wait_for_view(|view| view.history.done == 1);
     assert_eq!(restored.takes, view.takes);
 }

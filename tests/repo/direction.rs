@@ -4,7 +4,20 @@ use crate::tree::{File, files, none, one};
 
 /// A crate and the packages that it may depend on at run time.
 const DEPENDENCIES: &[(&str, &[&str])] = &[
-    ("anim", &["base64", "crc", "glam", "gltf", "libm", "percent-encoding", "serde_json", "thiserror"]),
+    (
+        "anim",
+        &[
+            "base64",
+            "crc",
+            "glam",
+            "gltf",
+            "libm",
+            "miniz_oxide",
+            "percent-encoding",
+            "serde_json",
+            "thiserror",
+        ],
+    ),
     ("runtime", &["flume", "loom", "shuttle", "spin", "tracing"]),
 ];
 

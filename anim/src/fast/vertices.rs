@@ -14,7 +14,7 @@
 use super::matrix::{Matrix34, RootMatrix, mat4};
 use super::morph::{Differences, ShapeBlock};
 use super::simd::{Float8, Kernel, LANES, Rows, Simd, SimdLevel, high, low};
-use super::weigh::{Columns, Finals, InfluenceBlock, NARROW, Sums, few, weigh, weigh_carefully};
+use super::weigh::{Finals, InfluenceBlock, NARROW, Sums, WeighedColumns, few, weigh, weigh_carefully};
 use crate::data::{Primitive, Vertices};
 use crate::skin::{first_direction, near_one, normal_matrix};
 use glam::{Mat3, Vec3};
@@ -260,7 +260,7 @@ fn move_block<S: Simd, const EXACT: bool>(
 /// Moves two times four vertices by `columns`. Returns false if a result is not finite or a normal has no direction.
 #[inline(always)]
 fn move_fours<S: Simd, const EXACT: bool>(
-    &[first, last]: &Columns<S>,
+    &[first, last]: &WeighedColumns<S>,
     shape: &ShapeBlock,
     moved: &mut PointBlock,
     turned: &mut PointBlock,

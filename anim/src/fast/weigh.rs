@@ -126,14 +126,14 @@ fn two_rows<S: Simd, const ROW: usize, const LANE: usize>(
 }
 
 /// The columns of the weighted sums of the matrices of eight vertices: of the first four, and of the others.
-pub(super) type Columns<S> = [[<S as Simd>::Rows; 4]; 2];
+pub(super) type WeighedColumns<S> = [[<S as Simd>::Rows; 4]; 2];
 
 /// Computes the sums of any number of influences, four vertices at once.
 #[inline(always)]
 pub(super) fn weigh<S: Simd, const N: usize>(
     influences: [&InfluenceBlock; N],
     finals: &(impl Finals + ?Sized),
-) -> Columns<S> {
+) -> WeighedColumns<S> {
     [
         S::Rows::turned([
             weigh_one::<S, N, 0>(influences, finals),

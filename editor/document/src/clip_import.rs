@@ -157,10 +157,10 @@ impl Document {
                 }
                 match &*done.failed {
                     [] => self.reply(DocumentReply::Notice(summary)),
-                    [reason] => self.reply(DocumentReply::Warning(sentence(reason))),
+                    [reason] => self.reply(DocumentReply::Warning(reason.clone())),
                     [first, more @ ..] => {
                         let text = format!("{first}; and {} more files were not imported", more.len());
-                        self.reply(DocumentReply::Warning(sentence(&text)));
+                        self.reply(DocumentReply::Warning(text));
                     }
                 }
             }

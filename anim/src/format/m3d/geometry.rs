@@ -1,7 +1,7 @@
 //! Vertices, triangles and the subsets that they belong to.
 
-use super::M3dDialect;
 use super::check as code;
+use super::dialect::M3dDialect;
 use super::scan::M3dScanner;
 use crate::format::{ImportContext, ImportError};
 use crate::limits::{HUGE, VERTICES};

@@ -1,6 +1,6 @@
 //! Materials: what each dialect stores of a surface.
 
-use super::M3dDialect;
+use super::dialect::M3dDialect;
 use super::scan::{M3dScanner, is_number};
 use crate::data::{AlphaMode, Material, Metallic, Phong};
 use crate::format::image::NeighborImages;

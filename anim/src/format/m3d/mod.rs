@@ -21,6 +21,7 @@
 mod bones;
 pub mod check;
 mod clips;
+mod dialect;
 mod geometry;
 mod material;
 mod model;
@@ -30,10 +31,12 @@ mod text;
 mod weights;
 mod write;
 
+pub use dialect::M3dDialect;
 pub use write::write;
 
 use super::{Format, ImportContext, ImportError, WriteSupport};
 use crate::data::ModelData;
+use dialect::is_other_format;
 use text::M3dText;
 
 /// Luna's text format, `.m3d`.
@@ -47,17 +50,6 @@ pub const M3D: Format = Format {
     export: Some(|model, name| Ok(write(model, M3dDialect::Dx12)?.named(name))),
 };
 
-/// The dialects, called after the version of Direct3D in the book.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum M3dDialect {
-    /// The book of 2008: no bones; the subset of each triangle is its fourth number.
-    Dx10,
-    /// The book of 2012: ambient, diffuse and specular colors.
-    Dx11,
-    /// The book of 2016: materials with names, reflectance and roughness.
-    Dx12,
-}
-
 /// Bytes in which the header is looked for.
 const HEADER: usize = 128;
 
@@ -65,11 +57,6 @@ fn sniff(bytes: &[u8]) -> bool {
     let start = bytes[..bytes.len().min(HEADER)].to_ascii_lowercase();
     let has = |word: &[u8]| start.windows(word.len()).any(|part| part == word);
     is_other_format(bytes) || (has(b"m3d") && has(b"header"))
-}
-
-/// Returns whether this is the other format whose files are named `.m3d`.
-fn is_other_format(bytes: &[u8]) -> bool {
-    bytes.starts_with(b"3DMO") || bytes.starts_with(b"3dmodel")
 }
 
 fn read(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, ImportError> {

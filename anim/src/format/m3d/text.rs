@@ -1,9 +1,9 @@
 //! The sections of a file, in their order.
 
-use super::M3dDialect;
 use super::bones::{BONE_BYTES, M3dBone, bones};
 use super::check as code;
 use super::clips::{M3dClip, clips};
+use super::dialect::{M3dDialect, is_other_format};
 use super::geometry::{
     M3dTriangles, M3dVertices, TRIANGLE_BYTES, VERTEX_BYTES, subsets, triangles, vertices,
 };
@@ -144,7 +144,7 @@ fn follows_count(scanner: &mut M3dScanner<'_>) -> bool {
 
 /// Refuses the other format whose files are named `.m3d`.
 fn refuse_other_format(bytes: &[u8]) -> Result<(), ImportError> {
-    if super::is_other_format(bytes) {
+    if is_other_format(bytes) {
         let feature = "the other format called .m3d, Model 3D (3DMO)".to_owned();
         return Err(ImportError::Unsupported { place: Place::Byte(0), feature });
     }

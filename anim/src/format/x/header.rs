@@ -1,13 +1,10 @@
 //! The header of 16 bytes, and the text or the tokens after it.
 
 use super::check as code;
-use super::inflate::inflate;
+use super::inflate::{HEADER, inflate};
 use super::lexer::XLexer;
 use crate::format::{ImportContext, ImportError, Place};
 use std::borrow::Cow;
-
-/// Length of the header.
-pub(super) const HEADER: usize = 16;
 
 /// What a file consists of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,6 @@
 //! MSZIP: blocks of deflated data, each with the 32 KiB before it as a dictionary.
 
 use super::check as code;
-use super::header::HEADER;
 use crate::format::{ImportContext, ImportError, Place};
 use miniz_oxide::inflate::TINFLStatus;
 use miniz_oxide::inflate::core::inflate_flags::TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
@@ -9,6 +8,9 @@ use miniz_oxide::inflate::core::{DecompressorOxide, decompress};
 
 /// Largest size of a block that is not compressed.
 const BLOCK: usize = 32_768;
+
+/// Length of the header.
+pub(super) const HEADER: usize = 16;
 
 /// Bytes before the data of a block: the sizes of both, and a signature.
 const BLOCK_HEADER: usize = 6;

@@ -2,7 +2,7 @@
 
 use super::binary::BinaryTokens;
 use super::check as code;
-use super::header::HEADER;
+use super::inflate::HEADER;
 use crate::format::text::{
     Lexicon, NUMBER_INVALID, TextScanner, TextToken, UNEXPECTED_END, UNEXPECTED_TOKEN, shown,
 };

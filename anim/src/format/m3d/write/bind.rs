@@ -1,7 +1,7 @@
 //! The bones of a file, and what binds the meshes of a model to them.
 
 use super::super::check as code;
-use super::is_near;
+use super::numbers::is_near;
 use crate::animation::to_root;
 use crate::data::{Bone, MeshInstance, ModelData, Skeleton, Skin, Transform};
 use crate::format::losses::Losses;

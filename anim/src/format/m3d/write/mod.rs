@@ -1,18 +1,18 @@
 //! Writes a file of any model: one list of vertices, one range of triangles for each material, all bones and takes.
 
 mod bind;
+mod numbers;
 mod surfaces;
 mod vertices;
 
-use super::M3dDialect;
 use super::check as code;
+use super::dialect::M3dDialect;
 use super::save::ClipWriter;
 use crate::data::{ModelData, Skeleton};
-use crate::format::key_rows::number;
 use crate::format::losses::Losses;
 use crate::format::{AxisMap, ExportError, Handedness, UpAxis, WholeFile};
 use bind::FileSkeleton;
-use glam::Mat4;
+use numbers::row;
 use std::fmt::Write;
 use vertices::FileVertices;
 
@@ -93,15 +93,4 @@ fn write_takes(
         *text += &writer.made(take, &name, index, losses);
         *text += "\n\n";
     }
-}
-
-/// Returns numbers with blanks between them.
-fn row(numbers: &[f32]) -> String {
-    numbers.iter().map(|&value| number(value)).collect::<Vec<_>>().join(" ")
-}
-
-/// Returns whether two matrices are the same except for rounding.
-fn is_near(a: Mat4, b: Mat4) -> bool {
-    let largest = a.to_cols_array().into_iter().fold(1e-6_f32, |largest, number| largest.max(number.abs()));
-    a.abs_diff_eq(b, 1e-4 * largest)
 }

@@ -1,9 +1,9 @@
 //! The materials of a file.
 
-use super::super::M3dDialect;
 use super::super::check as code;
+use super::super::dialect::M3dDialect;
 use super::super::save::possible_name;
-use super::row;
+use super::numbers::row;
 use crate::data::{AlphaMode, Material, ModelData, TextureRef};
 use crate::format::losses::Losses;
 use glam::Vec3;

@@ -2,7 +2,7 @@
 
 use super::super::check as code;
 use super::bind::{FileSkeleton, MeshBinding};
-use super::row;
+use super::numbers::row;
 use crate::data::{Influence, ModelData, Primitive};
 use crate::format::AxisMap;
 use crate::format::losses::Losses;

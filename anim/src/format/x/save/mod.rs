@@ -138,7 +138,7 @@ impl XSource {
             }
         }
         let places: Vec<Range<usize>> = sets.iter().map(|set| set.block.clone()).collect();
-        let end = places.last().map_or(self.scene.end.max(super::header::HEADER), |place| place.end);
+        let end = places.last().map_or(self.scene.end.max(super::inflate::HEADER), |place| place.end);
         patches.place(&self.bytes, &places, blocks, end, &writer.line_end().repeat(2));
     }
 }
