@@ -220,6 +220,9 @@ fn twist_bones_get_their_share_of_the_roll_of_both_parts_of_the_arm() {
     // The right side has no twist bones, and the arms themselves move as without them.
     let plain = retargeted(&rolling, &source, &rig(&RIGS[1]));
     for ((with, without), bone) in result.tracks.iter().zip(&plain.tracks).zip(&rig(&RIGS[1]).bones) {
+        if !["arm", "hand"].iter().any(|part| bone.name.contains(part)) {
+            continue;
+        }
         for time in [0.0, 0.3, 1.0, 1.7, 2.0] {
             let [with, without] = [with, without].map(|track| sample_track(track, bone, time));
             assert!(with.rotation.dot(without.rotation).abs() > 1.0 - 1e-6, "{} at {time}", bone.name);

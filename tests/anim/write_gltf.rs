@@ -1,7 +1,7 @@
 //! Whole glTF files written from models: they read back as the same model, bit for bit where glTF can hold it, and the
 //! Khronos validator finds no error in them.
 
-use crate::doors::{TestFolder, gltf_files, model_files};
+use crate::doors::{TestFolder, model_files};
 use crate::save_judges::issues;
 use crate::soundness::faults;
 use dragonfly_anim::check::{Severity, check};
@@ -129,15 +129,6 @@ fn models_of_the_repository_written_as_gltf_read_back_as_the_same_models() {
     let files = written(&model_files());
     println!("{} files written", files.len());
     assert!(files.len() > 60, "{}", files.len());
-}
-
-#[test]
-fn other_models_written_as_gltf_read_back_as_the_same_models() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/assets/gltf");
-    if !folder.is_dir() {
-        return skip::skip(skip::TestNeed::Models, format_args!("{} is not there", folder.display()));
-    }
-    println!("{} files written", written(&gltf_files(vec![folder])).len());
 }
 
 #[test]

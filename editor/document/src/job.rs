@@ -1,7 +1,7 @@
 //! The jobs of the document: it continues to work while a file is read or a folder is searched, and survives an importer that
 //! panics.
 
-use super::clip_import::ClipNews;
+use super::clip_news::ClipNews;
 use super::pose_library::PoseFolder;
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;

@@ -20,6 +20,7 @@ pub mod bones;
 mod cancel;
 mod checking;
 mod clip_import;
+mod clip_news;
 mod clips;
 mod comparing;
 mod conversion;

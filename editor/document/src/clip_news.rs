@@ -1,0 +1,98 @@
+//! The takes that a job imports from several files, and its news.
+
+use super::adapter::ModelAdapter;
+use super::clips::{ClipSettings, ClipTakes, TakeNames, clip_takes};
+use super::source::file_name;
+use super::{Cancel, Loader, Source};
+use crate::edit::AddTake;
+use std::path::PathBuf;
+
+/// News of the job.
+#[derive(Debug)]
+pub(super) enum ClipNews {
+    /// The number of files that were read, and of all.
+    Progress(usize, usize),
+    /// The takes of all files.
+    Done(ImportedClips),
+    /// The job failed.
+    Failed(String),
+}
+
+/// The takes of several files.
+#[derive(Debug, Default)]
+pub(super) struct ImportedClips {
+    pub(super) takes: Vec<AddTake>,
+    files: usize,
+    /// Number of files whose skeleton is not that of the model.
+    retargeted: usize,
+    /// Names of moved bones that no bone of the model follows.
+    unmatched: Vec<String>,
+    /// The files that could not be imported, and why.
+    pub(super) failed: Vec<String>,
+}
+
+impl ImportedClips {
+    fn add(&mut self, done: ClipTakes) {
+        self.files += 1;
+        self.retargeted += usize::from(!done.is_copied);
+        self.takes.extend(done.takes);
+        for name in done.unmatched {
+            if !self.unmatched.contains(&name) {
+                self.unmatched.push(name);
+            }
+        }
+    }
+
+    /// Returns a sentence about what was imported.
+    pub(super) fn summary(&self) -> String {
+        let takes = match &*self.takes {
+            [take] => format!("Added {}", take.name),
+            takes => format!("Added {} takes of {} files", takes.len(), self.files),
+        };
+        let retargeted = match self.retargeted {
+            0 => String::new(),
+            count if count == self.files => ", retargeted".to_owned(),
+            count => format!(", {count} of the files retargeted"),
+        };
+        let unmatched = match &*self.unmatched {
+            [] => String::new(),
+            [name] => format!("; no bone follows {name}"),
+            [first, more @ ..] => format!("; no bone follows {first} and {} more", more.len()),
+        };
+        format!("{takes}{retargeted}{unmatched}")
+    }
+}
+
+/// Reads the files one after the other. One that cannot be imported does not stop the others.
+pub(super) fn imported(
+    files: &[PathBuf],
+    adapter: &ModelAdapter,
+    load: Loader,
+    cancel: &Cancel,
+    progress: &mut dyn FnMut(usize),
+) -> ImportedClips {
+    let (mut result, mut names) = (ImportedClips::default(), TakeNames::of(adapter));
+    let settings = ClipSettings::default();
+    for (index, path) in files.iter().enumerate() {
+        if cancel.is_cancelled() {
+            break;
+        }
+        progress(index);
+        let title = file_name(path);
+        let done = load(&Source::File(path.clone()), &mut |_| {}, cancel)
+            .map_err(|error| error.to_string())
+            .and_then(|opened| {
+                let animation = &opened.loaded.model.animation;
+                if animation.takes.is_empty() {
+                    return Err(format!("{title}: the file has no takes"));
+                }
+                clip_takes(&title, animation, &|_, _| true, adapter.skeleton(), &mut names, &settings)
+                    .map_err(|reason| format!("{title}: {reason}"))
+            });
+        match done {
+            Ok(done) => result.add(done),
+            Err(reason) => result.failed.push(reason),
+        }
+    }
+    result
+}
