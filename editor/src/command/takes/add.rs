@@ -3,7 +3,6 @@
 use super::super::choice::{load, model_help, plain, source};
 use super::super::edit::save;
 use super::super::output::{print, print_json};
-use super::super::run_command::RunCommand;
 use super::super::{Failure, tell};
 use clap::ValueEnum;
 use dragonfly_anim::retarget::FigureOptions;
@@ -75,8 +74,8 @@ struct AddedClip {
     error: Option<String>,
 }
 
-impl RunCommand for AddClips {
-    fn run(self) -> Result<(), Failure> {
+impl AddClips {
+    pub(super) fn run(self) -> Result<(), Failure> {
         let editable = Editable::open(&source(&self.model), &Cancel::default())?;
         let mut adapter = ModelAdapter::of(&editable.model);
         let (mut names, settings) = (TakeNames::of(&adapter), self.settings()?);

@@ -2,7 +2,6 @@
 
 use super::super::choice::{File, plain};
 use super::super::output::print;
-use super::super::run_command::RunCommand;
 use super::super::{Failure, tell};
 use super::chosen;
 use dragonfly_anim::data::{AnimationData, ModelData};
@@ -37,8 +36,8 @@ pub(super) struct ExtractTakes {
     no_takes: bool,
 }
 
-impl RunCommand for ExtractTakes {
-    fn run(self) -> Result<(), Failure> {
+impl ExtractTakes {
+    pub(super) fn run(self) -> Result<(), Failure> {
         let loaded = self.file.load()?;
         let takes = &loaded.model.animation.takes;
         let indices = match (&*self.take, self.no_takes) {

@@ -3,7 +3,6 @@
 use super::super::Failure;
 use super::super::choice::{File, plain};
 use super::super::output::{print, print_json};
-use super::super::run_command::RunCommand;
 use super::super::table::{Side, Table};
 use dragonfly_anim::frames::frame_rate;
 use serde::Serialize;
@@ -30,8 +29,8 @@ struct ListedTake {
     keys: usize,
 }
 
-impl RunCommand for ListTakes {
-    fn run(self) -> Result<(), Failure> {
+impl ListTakes {
+    pub(super) fn run(self) -> Result<(), Failure> {
         let loaded = self.file.load()?;
         let takes: Vec<ListedTake> = loaded
             .model

@@ -2,7 +2,6 @@
 
 use super::super::choice::{model_help, source};
 use super::super::edit::save;
-use super::super::run_command::RunCommand;
 use super::super::{Failure, tell};
 use super::chosen;
 use dragonfly_document::adapter::ModelAdapter;
@@ -23,8 +22,8 @@ pub(super) struct RemoveTakes {
     output: PathBuf,
 }
 
-impl RunCommand for RemoveTakes {
-    fn run(self) -> Result<(), Failure> {
+impl RemoveTakes {
+    pub(super) fn run(self) -> Result<(), Failure> {
         let editable = Editable::open(&source(&self.model), &Cancel::default())?;
         let indices = chosen(&editable.title, &editable.model.animation.takes, &self.take)?;
         let mut adapter = ModelAdapter::of(&editable.model);
