@@ -17,26 +17,29 @@ pub(super) type MatrixTable = [RootMatrix; NARROW];
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(super) struct InfluenceBlock {
-    /// Four joints in each, the first in the lowest bits. As a list of single numbers, compilers read them as one
-    /// vector and take it apart, which costs several times as much.
-    joints: [u64; LANES / 4],
+    pub(super) joints: [u16; LANES],
+    /// The same, four in each, the first in the lowest bits. Where the widest registers are used, compilers read `joints`
+    /// as one vector and take it apart, which costs several times as much.
+    fours: [u64; LANES / 4],
     pub(super) weights: [f32; LANES],
 }
 
 impl InfluenceBlock {
     /// No influence.
-    pub(super) const NOTHING: Self = Self { joints: [0; LANES / 4], weights: [0.0; LANES] };
+    pub(super) const NOTHING: Self =
+        Self { joints: [0; LANES], fours: [0; LANES / 4], weights: [0.0; LANES] };
 
     /// Sets the influence of vertex `lane`, which has none yet.
     pub(super) fn set(&mut self, lane: usize, influence: Influence) {
-        self.joints[lane / 4 % 2] |= u64::from(influence.joint) << (lane % 4 * 16);
+        self.joints[lane % LANES] = influence.joint;
+        self.fours[lane / 4 % 2] |= u64::from(influence.joint) << (lane % 4 * 16);
         self.weights[lane % LANES] = influence.weight;
     }
 
-    /// Returns the joint of vertex `lane`.
+    /// Returns the joint of vertex `lane`, for the widest registers.
     #[inline(always)]
-    pub(super) fn joint(&self, lane: usize) -> u16 {
-        (self.joints[lane / 4 % 2] >> (lane % 4 * 16)) as u16
+    fn joint(&self, lane: usize) -> u16 {
+        (self.fours[lane / 4 % 2] >> (lane % 4 * 16)) as u16
     }
 }
 
@@ -146,7 +149,7 @@ fn two_rows<S: Simd, const ROW: usize, const LANE: usize>(
     influence: &InfluenceBlock,
     finals: &(impl Finals + ?Sized),
 ) -> S::F8 {
-    let [low, high] = [influence.joint(LANE % 4), influence.joint(LANE % 4 + 4)];
+    let [low, high] = [influence.joints[LANE % 4], influence.joints[LANE % 4 + 4]];
     S::F8::from_halves(finals.row(low, ROW), finals.row(high, ROW))
 }
 
@@ -231,13 +234,13 @@ fn put_one<S: Simd, const N: usize>(
     out: &mut [RootMatrix; LANES],
     lane: usize,
 ) {
-    let joint = influences[0].joint(lane);
+    let joint = influences[0].joints[lane];
     let weight = S::F8::splat(influences[0].weights[lane]);
     // Row 2 has only four numbers, but is computed in a register of eight too, because a register of four would need
     // the weight broadcast once more.
     let (mut two, mut one) = (finals.upper::<S>(joint) * weight, finals.lower::<S>(joint) * weight);
     for influence in &influences[1..] {
-        let (joint, weight) = (influence.joint(lane), S::F8::splat(influence.weights[lane]));
+        let (joint, weight) = (influence.joints[lane], S::F8::splat(influence.weights[lane]));
         two = finals.upper::<S>(joint).mul_add(weight, two);
         one = finals.lower::<S>(joint).mul_add(weight, one);
     }
@@ -267,7 +270,7 @@ pub(super) fn weigh_carefully(influences: &[InfluenceBlock], finals: &[Matrix34]
     let mut out = [RootMatrix { rows: [[0.0; 4]; 4] }; LANES];
     for influence in influences {
         for (lane, sum) in out.iter_mut().enumerate() {
-            let matrix = finals.get(usize::from(influence.joint(lane))).unwrap_or(&IDENTITY);
+            let matrix = finals.get(usize::from(influence.joints[lane])).unwrap_or(&IDENTITY);
             for (sum, number) in sum.rows.as_flattened_mut().iter_mut().zip(matrix) {
                 *sum += number * influence.weights[lane];
             }
