@@ -18,8 +18,8 @@ pub(super) type MatrixTable = [RootMatrix; NARROW];
 #[repr(C, align(32))]
 pub(super) struct InfluenceBlock {
     pub(super) joints: [u16; LANES],
-    /// The same, four in each, the first in the lowest bits. Where the widest registers are used, compilers read `joints`
-    /// as one vector and take it apart, which costs several times as much.
+    /// The same, four in each, the first in the lowest bits. Where many are used at once, compilers read `joints` as one
+    /// vector and take it apart, which costs several times as much.
     fours: [u64; LANES / 4],
     pub(super) weights: [f32; LANES],
 }
@@ -36,7 +36,7 @@ impl InfluenceBlock {
         self.weights[lane % LANES] = influence.weight;
     }
 
-    /// Returns the joint of vertex `lane`, for the widest registers.
+    /// Returns the joint of vertex `lane`, where many are used at once.
     #[inline(always)]
     fn joint(&self, lane: usize) -> u16 {
         (self.fours[lane / 4 % 2] >> (lane % 4 * 16)) as u16
@@ -149,7 +149,7 @@ fn two_rows<S: Simd, const ROW: usize, const LANE: usize>(
     influence: &InfluenceBlock,
     finals: &(impl Finals + ?Sized),
 ) -> S::F8 {
-    let [low, high] = [influence.joints[LANE % 4], influence.joints[LANE % 4 + 4]];
+    let [low, high] = [influence.joint(LANE % 4), influence.joint(LANE % 4 + 4)];
     S::F8::from_halves(finals.row(low, ROW), finals.row(high, ROW))
 }
 
