@@ -165,6 +165,18 @@ fn normals_of_flat_and_collapsed_surfaces_agree_with_the_open_path() {
 }
 
 #[test]
+fn normals_of_mirrored_bones_agree_with_the_open_path() {
+    let mut random = started(91);
+    for (count, most) in [(9, 1), (140, 1), (140, 2), (140, 4)] {
+        let primitive = primitive(&mut random, count, 6, most);
+        // All mirrored: a sum of both kinds would be nearly flat.
+        let mut finals = poses(&mut random, 6);
+        finals.iter_mut().for_each(|matrix| *matrix *= Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0)));
+        compare(&primitive, &finals, &[], &format!("{count} {most}"));
+    }
+}
+
+#[test]
 fn morph_targets_are_added_like_on_the_open_path() {
     let mut random = started(85);
     for count in [1, 8, 13, 128, 301] {

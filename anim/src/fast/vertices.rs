@@ -14,7 +14,10 @@
 use super::matrix::{Matrix34, RootMatrix, mat4};
 use super::morph::{Differences, ShapeBlock};
 use super::simd::{Float8, Kernel, LANES, Rows, Simd, SimdLevel, high, low};
-use super::weigh::{Finals, InfluenceBlock, NARROW, Sums, WeighedColumns, few, weigh, weigh_carefully};
+use super::weigh::{
+    Finals, InfluenceBlock, NARROW, Sums, WeighedColumns, columns, few, weigh, weigh_carefully,
+    weigh_in_memory,
+};
 use crate::data::{Primitive, Vertices};
 use crate::skin::{first_direction, near_one, normal_matrix};
 use glam::{Mat3, Vec3};
@@ -242,18 +245,25 @@ fn move_block<S: Simd, const EXACT: bool>(
     turned: &mut PointBlock,
 ) -> bool {
     // Written out, so that the sums stay in registers.
-    let is_pairwise = S::IS_WIDE && !S::Rows::IS_ONE_REGISTER;
+    let is_one = S::Rows::IS_ONE_REGISTER;
     match influences {
-        [a] if is_pairwise => move_by::<S, EXACT>(&few::<S, 1>([a], finals), shape, moved, turned),
-        [a, b] if is_pairwise => move_by::<S, EXACT>(&few::<S, 2>([a, b], finals), shape, moved, turned),
-        [a] => move_fours::<S, EXACT>(&weigh::<S, 1>([a], finals), shape, moved, turned),
-        [a, b] => move_fours::<S, EXACT>(&weigh::<S, 2>([a, b], finals), shape, moved, turned),
-        [a, b, c, d] => move_fours::<S, EXACT>(&weigh::<S, 4>([a, b, c, d], finals), shape, moved, turned),
-        [a, b, c, d, e, f, g, h] => {
+        [a] if is_one => move_fours::<S, EXACT>(&weigh::<S, 1>([a], finals), shape, moved, turned),
+        [a, b] if is_one => move_fours::<S, EXACT>(&weigh::<S, 2>([a, b], finals), shape, moved, turned),
+        [a, b, c, d] if is_one => {
+            move_fours::<S, EXACT>(&weigh::<S, 4>([a, b, c, d], finals), shape, moved, turned)
+        }
+        [a, b, c, d, e, f, g, h] if is_one => {
             let columns = weigh::<S, 8>([a, b, c, d, e, f, g, h], finals);
             move_fours::<S, EXACT>(&columns, shape, moved, turned)
         }
-        _ => false,
+        [a] if S::IS_WIDE => move_by::<S, EXACT>(&few::<S, 1>([a], finals), shape, moved, turned),
+        [a, b] if S::IS_WIDE => move_by::<S, EXACT>(&few::<S, 2>([a, b], finals), shape, moved, turned),
+        more => {
+            let mut matrices = [RootMatrix::IDENTITY; LANES];
+            weigh_in_memory::<S>(more, finals, &mut matrices);
+            let sums = [columns::<S>(&matrices, 0), columns::<S>(&matrices, 1), columns::<S>(&matrices, 2)];
+            move_by::<S, EXACT>(&sums, shape, moved, turned)
+        }
     }
 }
 
