@@ -13,6 +13,7 @@ mod fox_edits;
 mod held_feet;
 mod image_memory;
 mod images;
+mod import_options;
 mod import_takes;
 mod inbetween;
 mod journal_later;

@@ -41,6 +41,7 @@ mod gizmo_several;
 mod history_panel;
 mod hold_feet;
 mod hover;
+mod import_options;
 mod in_the_way;
 mod inbetween;
 mod keeping_save;

@@ -82,6 +82,11 @@ impl<T> Found<T> {
         Self { value, source: ConventionSource::Guess }
     }
 
+    /// Returns the value if the user chose it.
+    fn chosen(self) -> Option<T> {
+        (self.source == ConventionSource::User).then_some(self.value)
+    }
+
     /// Returns the user's choice, or this where the user chose nothing.
     pub fn or_chosen(self, chosen: Option<T>) -> Self {
         chosen.map_or(self, |value| Self { value, source: ConventionSource::User })
@@ -122,6 +127,16 @@ impl Conversion {
             up: self.up.or_chosen(chosen.up),
             handedness: self.handedness.or_chosen(chosen.handedness),
             frame_rate: self.frame_rate.map(|rate| rate.or_chosen(positive(chosen.frame_rate))),
+        }
+    }
+
+    /// Returns what the user chose: a file that is read with these conventions has this conversion.
+    pub fn chosen(&self) -> Conventions {
+        Conventions {
+            meters_per_unit: self.meters_per_unit.chosen(),
+            up: self.up.chosen(),
+            handedness: self.handedness.chosen(),
+            frame_rate: self.frame_rate.and_then(|rate| rate.chosen()),
         }
     }
 

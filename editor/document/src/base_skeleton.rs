@@ -127,7 +127,7 @@ mod tests {
             edited.apply(RenameTake { take: TakeRef::Index(0), name }.into(), None).unwrap();
         }
         assert!(edited.is_cut());
-        let bytes = Snapshot::bytes(EditsOrigin::new(None), &edited, None).unwrap();
+        let bytes = Snapshot::bytes(EditsOrigin::new(None, Default::default()), &edited, None).unwrap();
         let (snapshot, takes) = Snapshot::read(&bytes).unwrap();
         let start = snapshot.skeleton.unwrap().skeleton(&opened).unwrap();
         assert_eq!(&start, edited.adapter().skeleton());

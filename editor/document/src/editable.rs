@@ -2,6 +2,7 @@
 
 use super::adapter::{ModelAdapter, TakeId, TakeVersions};
 use super::beside::{BesideStamps, ReadOnce};
+use super::import::ImportDoor;
 use super::source::{LoadError, Source, file_name};
 use super::unused;
 use super::writing::{FilesSaved, Overwrite, SaveFailure, Writing};
@@ -10,7 +11,8 @@ use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::gltf::save::buffer_of_save;
 use dragonfly_anim::format::{
-    AssetFs, EditableFile, EditedTake, ExportError, Format, ImportError, NoFiles, ReadOptions, SavePlan,
+    AssetFs, Conventions, EditableFile, EditedTake, ExportError, Format, ImportError, NoFiles, ReadOptions,
+    SavePlan,
 };
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_anim::root_bone::BoneShift;
@@ -34,6 +36,8 @@ pub struct Editable {
     pub model: Arc<ModelData>,
     /// Contents that are not shown or were sanitized, one sentence each.
     pub warnings: Vec<String>,
+    /// Units, axes and frame rate that the user chose for the file.
+    conventions: Conventions,
     /// The opened file, which later saves start from.
     file: Arc<EditableFile>,
     /// State of the file when it was last read or saved.
@@ -54,7 +58,7 @@ impl Editable {
     pub fn open(source: &Source, cancel: &Cancel) -> Result<Self, LoadError> {
         let (name, bytes, path) = match source {
             Source::BuiltIn => ("dragonfly.glb".to_owned(), DRAGONFLY_GLB.to_vec(), None),
-            Source::File(path) => {
+            Source::File(path) | Source::FileAs(path, _) => {
                 let failed = |reason| LoadError::File { path: path.clone(), reason };
                 (file_name(path), read_file(path, FILE_BYTES).map_err(failed)?, Some(path.clone()))
             }
@@ -69,18 +73,31 @@ impl Editable {
         // bytes.
         let stamp = path.as_deref().and_then(|path| FileStamp::take(&RealFiles, path).ok());
         let door: &dyn AssetFs = read_once.as_ref().map_or(&NoFiles, |folder| folder);
-        let imported = import::read(&name, &bytes, door, &|_| {}, cancel)?;
+        let conventions = source.conventions();
+        let imported = import::read(&name, &bytes, ImportDoor { files: door, conventions }, &|_| {}, cancel)?;
         if stamp.as_ref().is_some_and(|stamp| !stamp.is_of(&bytes)) {
             return Err(wrong("the file changed while it was read; open it again".to_owned()));
         }
-        let file = imported.format.edit(&name, bytes, door, &ReadOptions::default());
+        let options = ReadOptions { conventions, ..ReadOptions::default() };
+        let file = imported.format.edit(&name, bytes, door, &options);
         let file = file.map_err(|error| wrong(error.to_string()))?;
         let (model, mut warnings) = (Arc::new(imported.model), imported.warnings);
         warnings.extend(imported.notes);
         let on_disk = Arc::clone(&model);
         let beside = read_once.as_ref().map(ReadOnce::stamps).unwrap_or_default();
         let file = Arc::new(file);
-        Ok(Self { title: source.title(), path, model, warnings, file, stamp, beside, on_disk, places: None })
+        Ok(Self {
+            title: source.title(),
+            path,
+            model,
+            warnings,
+            conventions,
+            file,
+            stamp,
+            beside,
+            on_disk,
+            places: None,
+        })
     }
 
     /// Returns the file of `loaded`, which was read from `bytes` while the file had this stamp, and the files next to it through `door`.
@@ -93,12 +110,14 @@ impl Editable {
     ) -> Result<Self, String> {
         let format = loaded.format.ok_or("it was not read from a file")?;
         let name = loaded.path.as_deref().map_or_else(|| "dragonfly.glb".to_owned(), file_name);
-        let file = opened(format, &name, bytes, door).map_err(|error| error.to_string())?;
+        let conventions = loaded.conversion.chosen();
+        let file = opened(format, &name, bytes, door, conventions).map_err(|error| error.to_string())?;
         Ok(Self {
             title: source.title(),
             path: loaded.path.clone(),
             model: Arc::clone(&loaded.model),
             warnings: loaded.warnings.iter().chain(&loaded.notes).cloned().collect(),
+            conventions,
             file: Arc::new(file),
             stamp,
             beside: door.map(ReadOnce::stamps).unwrap_or_default(),
@@ -300,7 +319,7 @@ impl Editable {
     /// Makes later saves relative to `bytes`, which contain the takes of `adapter`.
     fn begin_again(&mut self, adapter: &ModelAdapter, bytes: Vec<u8>) -> Result<(), String> {
         let door = self.path.as_deref().and_then(|path| ReadOnce::of(path).ok());
-        let file = opened(self.file.format(), &self.title, bytes, door.as_ref());
+        let file = opened(self.file.format(), &self.title, bytes, door.as_ref(), self.conventions);
         self.file = Arc::new(file.map_err(|error| error.to_string())?);
         self.beside.extend(door.map(|door| door.stamps()).unwrap_or_default());
         let skeleton = Arc::clone(adapter.skeleton());
@@ -332,8 +351,9 @@ fn opened(
     name: &str,
     bytes: Vec<u8>,
     door: Option<&ReadOnce>,
+    conventions: Conventions,
 ) -> Result<EditableFile, ImportError> {
-    let options = ReadOptions::default();
+    let options = ReadOptions { conventions, ..ReadOptions::default() };
     match door {
         Some(door) => format.edit(name, bytes, door, &options),
         None => format.edit(name, bytes, &NoFiles, &options),

@@ -4,7 +4,9 @@ use super::Cancel;
 use super::source::LoadError;
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::ModelData;
-use dragonfly_anim::format::{AssetFs, Conversion, Format, Formats, ImportError, NoFiles, ReadOptions};
+use dragonfly_anim::format::{
+    AssetFs, Conventions, Conversion, Format, Formats, ImportError, NoFiles, ReadOptions,
+};
 use dragonfly_fbx::FBX;
 
 /// Returns the file formats that the program knows: what it opens, saves, and lists in dialogs and help texts.
@@ -30,19 +32,34 @@ pub(super) struct ImportedModel {
 
 /// Imports the built-in model.
 pub(super) fn built_in(progress: &dyn Fn(f32), cancel: &Cancel) -> Result<ImportedModel, LoadError> {
-    read("dragonfly.glb", DRAGONFLY_GLB, &NoFiles, progress, cancel)
+    let files = ImportDoor { files: &NoFiles, conventions: Conventions::default() };
+    read("dragonfly.glb", DRAGONFLY_GLB, files, progress, cancel)
+}
+
+/// The files next to a model, and the conventions that the user chose for it.
+#[derive(Clone, Copy)]
+pub(super) struct ImportDoor<'a> {
+    /// The files.
+    pub(super) files: &'a dyn AssetFs,
+    /// Units, axes and frame rate.
+    pub(super) conventions: Conventions,
 }
 
 /// Imports `bytes` of a file called `title`. Files that it refers to are read through `door`.
 pub(super) fn read(
     title: &str,
     bytes: &[u8],
-    door: &dyn AssetFs,
+    door: ImportDoor<'_>,
     progress: &dyn Fn(f32),
     cancel: &Cancel,
 ) -> Result<ImportedModel, LoadError> {
-    let options = ReadOptions { is_cancelled: &|| cancel.is_cancelled(), progress, ..ReadOptions::default() };
-    match formats().read(title, bytes, door, &options) {
+    let options = ReadOptions {
+        is_cancelled: &|| cancel.is_cancelled(),
+        progress,
+        conventions: door.conventions,
+        ..ReadOptions::default()
+    };
+    match formats().read(title, bytes, door.files, &options) {
         Ok(imported) => {
             let (notes, warnings): (Vec<_>, Vec<_>) =
                 imported.warnings.iter().partition(|warning| warning.is_harmless());

@@ -12,6 +12,7 @@ use dragonfly_anim::bounds::bounds_of_pose;
 use dragonfly_anim::limits::FILE_BYTES;
 use dragonfly_store::{FileData, FileStamp, RealFiles};
 use std::cell::RefCell;
+use std::path::Path;
 use std::sync::Arc;
 
 /// An open model: the data to show, and everything needed to save it.
@@ -79,7 +80,7 @@ impl<'a> Read<'a> {
     fn file(source: &'a Source) -> Result<Self, LoadError> {
         let (bytes, before, door) = match source {
             Source::BuiltIn => (DRAGONFLY_GLB.to_vec(), None, None),
-            Source::File(path) => {
+            Source::File(path) | Source::FileAs(path, _) => {
                 let before = FileStamp::before(&RealFiles, path).ok();
                 let failed = |reason| LoadError::File { path: path.clone(), reason };
                 let bytes = read_file(path, FILE_BYTES).map_err(failed)?;
@@ -95,7 +96,7 @@ impl<'a> Read<'a> {
 
     /// Returns the state of the file now that it was read; `None` where there is no file.
     fn stamp(&self) -> Result<Option<FileStamp>, LoadError> {
-        let (Source::File(path), Some(before)) = (self.source, &self.before) else { return Ok(None) };
+        let (Some(path), Some(before)) = (self.source.path(), &self.before) else { return Ok(None) };
         match FileStamp::of_read(&RealFiles, path, before, &self.bytes) {
             Ok(stamp) => Ok(Some(stamp)),
             Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => Err(LoadError::Format {
@@ -118,7 +119,8 @@ impl<'a> Read<'a> {
                 (progress.borrow_mut())(Progress { stage: LoadStage::Understanding, done });
             };
             match (&self.door, self.source) {
-                (Some(door), source) => {
+                (Some(files), source) => {
+                    let door = import::ImportDoor { files, conventions: source.conventions() };
                     import::read(&source.title(), &self.bytes, door, &understanding, cancel)?
                 }
                 (None, _) => import::built_in(&understanding, cancel)?,
@@ -135,10 +137,7 @@ impl<'a> Read<'a> {
         check(cancel)?;
         progress(Progress { stage: LoadStage::Decoding, done: 1.0 });
         warnings.extend(of_images);
-        let path = match self.source {
-            Source::BuiltIn => None,
-            Source::File(path) => Some(path.clone()),
-        };
+        let path = self.source.path().map(Path::to_owned);
         let title = self.source.title();
         Ok(LoadedModel {
             conversion,

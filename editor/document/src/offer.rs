@@ -13,7 +13,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 const SHOWN: usize = 5;
 
 /// Unsaved work of an earlier session that can be restored.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Offer {
     /// Name of the file without folder, or a substitute.
     pub title: String,
@@ -40,8 +40,9 @@ impl Offer {
     pub(super) fn from_entries(found: &Recoverable, entries: &[JournalEntry]) -> Self {
         let mut outline = HistoryOutline::default();
         entries.iter().for_each(|entry| outline.add(entry));
+        let chosen = outline.about.as_ref().map(EditsOrigin::conventions).unwrap_or_default();
         let source = match &found.document {
-            Some(path) => Some(Source::File(path.clone())),
+            Some(path) => Some(Source::of(path.clone(), chosen)),
             None => outline.about.as_ref().and_then(EditsOrigin::source),
         };
         let title = match (&found.document, &source) {
@@ -104,8 +105,8 @@ impl Offer {
 
     /// Returns the present path of the file, if it was moved.
     pub(super) fn moved_to(&self) -> Option<&Path> {
-        match (&self.source, &self.found.document) {
-            (Some(Source::File(path)), Some(document)) if path != document => Some(path),
+        match (self.source.as_ref().and_then(Source::path), &self.found.document) {
+            (Some(path), Some(document)) if path != document => Some(path),
             _ => None,
         }
     }

@@ -59,6 +59,7 @@ impl Open {
         let OpenedModel { loaded, editable } = opened;
         let file = FileView { title: loaded.title.clone(), path: loaded.path.clone() };
         let source = loaded.path.is_none().then_some(Source::BuiltIn);
+        let conventions = loaded.conversion.chosen();
         let loaded = Arc::new(loaded);
         let mut open = Self {
             edited: Edited::new(ModelAdapter::of(&loaded.model)),
@@ -68,12 +69,18 @@ impl Open {
             editable,
             file: Arc::new(file),
             base: None,
-            about: EditsOrigin::new(source.as_ref()),
+            about: EditsOrigin::new(source.as_ref(), conventions),
             journal_writer: JournalWriter::new(autosave),
             unwanted: false,
         };
         open.look();
         open
+    }
+
+    /// Returns the source from which the model was read.
+    pub(super) fn source(&self) -> Source {
+        let chosen = self.opened.conversion.chosen();
+        self.opened.path.clone().map_or(Source::BuiltIn, |path| Source::of(path, chosen))
     }
 
     /// Returns the model as it was read.
@@ -97,8 +104,8 @@ impl Open {
 
     /// Detaches the document from its file: the next save asks for a path.
     pub(super) fn leave_file(&mut self) {
-        let source = self.loaded.path.clone().map_or(Source::BuiltIn, Source::File);
-        self.about = EditsOrigin::new(Some(&source));
+        let source = self.source();
+        self.about = EditsOrigin::new(Some(&source), source.conventions());
         self.file = Arc::new(FileView { title: recovered(&self.loaded.title), path: None });
         if let Ok(editable) = &mut self.editable {
             editable.forget_file();

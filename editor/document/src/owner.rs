@@ -328,7 +328,8 @@ impl Document {
             self.changed();
         } else if let Some(path) = open.file.path.clone() {
             // Undo no longer leads to the saved state, so the file is read again.
-            self.open(Source::File(path), None);
+            let chosen = open.source().conventions();
+            self.open(Source::of(path, chosen), None);
         } else {
             self.reply(DocumentReply::Refused(
                 "The document was never saved, so there is nothing to revert to".to_owned(),

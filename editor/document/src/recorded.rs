@@ -6,6 +6,7 @@ use super::history::{Edited, Gesture};
 use super::{Source, base};
 use crate::demo::DRAGONFLY_GLB;
 use dragonfly_anim::data::Take;
+use dragonfly_anim::format::{Conventions, Handedness, UpAxis};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -39,27 +40,89 @@ pub(super) struct EditsOrigin {
     /// The file that was read for a document that has no file now.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) source: Option<String>,
+    /// Units, axes and frame rate that the user chose for the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    conventions: Option<RecordedConventions>,
+}
+
+/// [`Conventions`] as JSON.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct RecordedConventions {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    meters_per_unit: Option<f32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    up: Option<RecordedUp>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    left_handed: Option<bool>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    frame_rate: Option<f32>,
+}
+
+/// [`UpAxis`] as JSON.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum RecordedUp {
+    X,
+    Y,
+    Z,
+}
+
+impl From<Conventions> for RecordedConventions {
+    fn from(chosen: Conventions) -> Self {
+        Self {
+            meters_per_unit: chosen.meters_per_unit,
+            up: chosen.up.map(|up| match up {
+                UpAxis::X => RecordedUp::X,
+                UpAxis::Y => RecordedUp::Y,
+                UpAxis::Z => RecordedUp::Z,
+            }),
+            left_handed: chosen.handedness.map(|hand| hand == Handedness::Left),
+            frame_rate: chosen.frame_rate,
+        }
+    }
+}
+
+impl From<RecordedConventions> for Conventions {
+    fn from(recorded: RecordedConventions) -> Self {
+        let hand = |left| if left { Handedness::Left } else { Handedness::Right };
+        Self {
+            meters_per_unit: recorded.meters_per_unit,
+            up: recorded.up.map(|up| match up {
+                RecordedUp::X => UpAxis::X,
+                RecordedUp::Y => UpAxis::Y,
+                RecordedUp::Z => UpAxis::Z,
+            }),
+            handedness: recorded.left_handed.map(hand),
+            frame_rate: recorded.frame_rate,
+        }
+    }
 }
 
 impl EditsOrigin {
     /// Describes a model that was read from `source` and is not saved yet, or the document of the journal where
-    /// `None`.
-    pub(super) fn new(source: Option<&Source>) -> Self {
+    /// `None`, which was read with these conventions.
+    pub(super) fn new(source: Option<&Source>, chosen: Conventions) -> Self {
         let (built_in, source) = match source {
             None => (None, None),
             Some(Source::BuiltIn) => (Some(built_in_hash()), None),
-            Some(Source::File(path)) => (None, path.to_str().map(str::to_owned)),
+            Some(Source::File(path) | Source::FileAs(path, _)) => (None, path.to_str().map(str::to_owned)),
         };
-        Self { version: VERSION, built_in, source }
+        let conventions = (chosen != Conventions::default()).then(|| chosen.into());
+        Self { version: VERSION, built_in, source, conventions }
     }
 
     /// Returns the model that was read for a document without a file; `None` where the document has a file.
     pub(super) fn source(&self) -> Option<Source> {
         match (&self.source, self.built_in) {
-            (Some(path), _) => Some(Source::File(path.into())),
+            (Some(path), _) => Some(Source::of(path.into(), self.conventions())),
             (None, Some(_)) => Some(Source::BuiltIn),
             (None, None) => None,
         }
+    }
+
+    /// Returns the units, axes and frame rate that the user chose for the file.
+    pub(super) fn conventions(&self) -> Conventions {
+        self.conventions.map(Conventions::from).unwrap_or_default()
     }
 }
 

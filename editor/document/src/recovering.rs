@@ -131,8 +131,10 @@ impl Document {
     pub(super) fn found_at(&mut self, offer: Offer, path: PathBuf) {
         match offer.is_of(&path) {
             Ok(true) => {
-                let offer = Offer { source: Some(Source::File(path.clone())), ..offer };
-                self.open(Source::File(path), Some((offer, Decision::Keep)));
+                let chosen = offer.source.as_ref().map(Source::conventions).unwrap_or_default();
+                let source = Source::of(path, chosen);
+                let offer = Offer { source: Some(source.clone()), ..offer };
+                self.open(source, Some((offer, Decision::Keep)));
             }
             Ok(false) => self.reply(DocumentReply::OtherFile(Box::new(offer), path)),
             Err(reason) => {

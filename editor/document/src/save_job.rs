@@ -99,7 +99,7 @@ impl SaveInput {
         let autosave = self.autosave.as_ref()?;
         let stamp = self.editable.stamp().copied();
         self.edited.end_save(true);
-        self.about = EditsOrigin::new(None);
+        self.about = EditsOrigin::new(None, self.about.conventions());
         let snapshot = self.snapshot().inspect_err(|reason| tracing::error!("{reason}")).ok()?;
         let journal = autosave.begin_another(Some(&self.output), stamp.as_ref()).and_then(|mut journal| {
             journal.compact_as(&snapshot, true)?;

@@ -229,7 +229,7 @@ impl Open {
     ) {
         let title = super::source::file_name(path);
         self.file = Arc::new(FileView { title, path: Some(path.to_path_buf()) });
-        self.about = EditsOrigin::new(None);
+        self.about = EditsOrigin::new(None, self.about.conventions());
         let (Some(autosave), Some(journal)) = (autosave, journal) else {
             return self.journal_writer.end_save(None);
         };

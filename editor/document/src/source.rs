@@ -1,24 +1,48 @@
 //! A model to open, and the reason why it could not be opened.
 
 use super::FileAccessError;
+use dragonfly_anim::format::Conventions;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// The model to open.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// The model that is part of the program.
     BuiltIn,
-    /// A file.
+    /// A file, with the units, axes and frame rate that it states.
     File(PathBuf),
+    /// A file, with units, axes and a frame rate that the user chose.
+    FileAs(PathBuf, Conventions),
 }
 
 impl Source {
+    /// Returns the source of a file with these conventions; where none is chosen, those of the file are taken.
+    pub fn of(path: PathBuf, chosen: Conventions) -> Self {
+        if chosen == Conventions::default() { Self::File(path) } else { Self::FileAs(path, chosen) }
+    }
+
+    /// Returns the path of the file; `None` for the built-in model.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Self::BuiltIn => None,
+            Self::File(path) | Self::FileAs(path, _) => Some(path),
+        }
+    }
+
+    /// Returns the conventions that the user chose.
+    pub fn conventions(&self) -> Conventions {
+        match self {
+            Self::BuiltIn | Self::File(_) => Conventions::default(),
+            Self::FileAs(_, chosen) => *chosen,
+        }
+    }
+
     /// Returns the file name without folder, or "Dragonfly" for the built-in model.
     pub fn title(&self) -> String {
         match self {
             Self::BuiltIn => "Dragonfly".to_owned(),
-            Self::File(path) => file_name(path),
+            Self::File(path) | Self::FileAs(path, _) => file_name(path),
         }
     }
 }

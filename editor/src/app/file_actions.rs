@@ -31,10 +31,10 @@ impl Running {
                 true
             }
             FileAction::Reload => {
-                let path = self.state_path();
-                path.is_none_or(|path| {
+                let source = self.open_file();
+                source.is_none_or(|source| {
                     self.tell(DocumentMessage::DoNotSave)
-                        && self.tell(DocumentMessage::Open { source: Source::File(path), anyway: true })
+                        && self.tell(DocumentMessage::Open { source, anyway: true })
                 })
             }
             FileAction::Stay => {
@@ -54,9 +54,11 @@ impl Running {
         false
     }
 
-    fn state_path(&self) -> Option<std::path::PathBuf> {
+    /// Returns the file of the document, with the import options with which it was read.
+    fn open_file(&self) -> Option<Source> {
         let interface = self.parts.interface.borrow();
-        interface.state.read().view.and_then(|view| view.file.path.clone())
+        let view = interface.state.read().view?;
+        Some(Source::of(view.file.path.clone()?, view.loaded.conversion.chosen()))
     }
 
     /// Sends a message to the document. Returns whether there is a document.

@@ -45,8 +45,8 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::Failed { source, reason } => {
             let passed_over = state.take_passed_over();
             state.set_loading(None);
-            if let Source::File(path) = source {
-                state.settings_mut().recent.retain(|other| *other != path || path.exists());
+            if let Some(path) = source.path() {
+                state.settings_mut().recent.retain(|other| other != path || path.exists());
             }
             say_passed_over(state, passed_over);
             state.say(MessageSeverity::Error, reason);

@@ -1,5 +1,6 @@
 //! Arguments that several commands share, and their parsers: a file, a take, times, a size, a color.
 
+use super::import_options::ImportArguments;
 use super::{Failure, progress::Teller};
 use dragonfly_anim::data::{ModelData, Take};
 use dragonfly_document::{Cancel, LoadedModel, Source, formats, load_model};
@@ -24,23 +25,33 @@ pub(super) fn models_help() -> String {
 pub(super) struct File {
     #[arg(value_name = "FILE", help = model_help())]
     path: PathBuf,
+    #[command(flatten)]
+    import: ImportArguments,
 }
 
 impl File {
     /// Loads the model, with progress on stderr if that takes long.
     pub(super) fn load(&self) -> Result<LoadedModel, Failure> {
-        load(&source(&self.path))
+        load(&source_as(&self.path, &self.import))
     }
 
     /// Does the same as [`Self::load`], with warnings about images that cannot be decoded.
     pub(super) fn load_checked(&self) -> Result<LoadedModel, Failure> {
-        load_checked(&source(&self.path))
+        load_checked(&source_as(&self.path, &self.import))
     }
 }
 
 /// Returns the source that `path` names.
 pub(super) fn source(path: &std::path::Path) -> Source {
     if path == std::path::Path::new(BUILT_IN) { Source::BuiltIn } else { Source::File(path.to_path_buf()) }
+}
+
+/// Returns the source that `path` names, read with these options.
+pub(super) fn source_as(path: &std::path::Path, import: &ImportArguments) -> Source {
+    match source(path) {
+        Source::File(path) => Source::of(path, import.conventions()),
+        other @ (Source::BuiltIn | Source::FileAs(..)) => other,
+    }
 }
 
 /// Loads `source`, with progress on stderr if that takes long.

@@ -1,6 +1,7 @@
 //! `dragonfly edit FILE --edits EDITS -o OUT`: applies edits without a window, and saves without changing other data.
 
-use super::choice::{model_help, source};
+use super::choice::{model_help, source, source_as};
+use super::import_options::ImportArguments;
 use super::output::{print, print_json, write_file};
 use super::run_command::RunCommand;
 use super::{Failure, tell};
@@ -38,6 +39,8 @@ pub(super) struct EditArguments {
     /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    import: ImportArguments,
     /// List every edit with an example
     #[arg(long, conflicts_with_all = ["file", "edits", "output", "dry_run", "compact", "schema"])]
     list: bool,
@@ -58,7 +61,7 @@ impl RunCommand for EditArguments {
             return print_json(&schemars::schema_for!(Edit));
         }
         let Some(file) = &self.file else { return Err(Failure::input("FILE", "is missing")) };
-        let editable = Editable::open(&source(file), &Cancel::default())?;
+        let editable = Editable::open(&source_as(file, &self.import), &Cancel::default())?;
         let edits = self.edits.as_deref().map(read_edits).transpose()?.unwrap_or_default();
         let mut adapter = ModelAdapter::of(&editable.model);
         for (line, edit) in &edits {

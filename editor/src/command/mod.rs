@@ -15,6 +15,7 @@ mod edit;
 mod explain;
 mod failure;
 mod farm;
+mod import_options;
 mod info;
 mod log;
 mod open;

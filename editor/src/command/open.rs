@@ -1,6 +1,7 @@
 //! `dragonfly [FILE…]`: opens the editor; without a display, renders an image instead.
 
-use super::choice::{Size, load, source};
+use super::choice::{Size, load, source_as};
+use super::import_options::ImportArguments;
 use super::{Failure, output, quiet, render, tell};
 use crate::app::{self, AppError, Options};
 use dragonfly_document::{Source, formats};
@@ -32,6 +33,8 @@ pub(super) struct OpenArguments {
     /// Folder for journals of unsaved work, instead of the default one
     #[arg(long, value_name = "FOLDER")]
     autosave: Option<PathBuf>,
+    #[command(flatten)]
+    import: ImportArguments,
 }
 
 impl OpenArguments {
@@ -71,7 +74,7 @@ impl OpenArguments {
     fn options(&self, base: Options) -> Options {
         let built_in = Source::BuiltIn;
         Options {
-            source: self.files.first().map_or(built_in, |file| source(file)),
+            source: self.files.first().map_or(built_in, |file| source_as(file, &self.import)),
             passed_over: self.files.len().saturating_sub(1),
             settings_folder: self.settings.clone(),
             autosave_folder: self.autosave.clone(),
@@ -84,7 +87,7 @@ impl OpenArguments {
         tell(format_args!("no display to open a window on ({why}); rendering an image instead"));
         let built_in = PathBuf::from(super::choice::BUILT_IN);
         let file = self.files.first().unwrap_or(&built_in);
-        let source = source(file);
+        let source = source_as(file, &self.import);
         let loaded = load(&source)?;
         let view =
             render::RenderView { size: Size { width: 1280, height: 720 }, ..render::RenderView::default() };
@@ -113,7 +116,7 @@ impl OpenArguments {
 fn stem(source: &Source) -> String {
     match source {
         Source::BuiltIn => "dragonfly".to_owned(),
-        Source::File(path) => {
+        Source::File(path) | Source::FileAs(path, _) => {
             path.file_stem().map_or_else(|| "model".to_owned(), |stem| stem.to_string_lossy().into_owned())
         }
     }

@@ -244,6 +244,7 @@ fn pose(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
 fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     item(ui, context, Id::Open, false, requests);
     item(ui, context, Id::OpenPath, false, requests);
+    item(ui, context, Id::ImportOptions, false, requests);
     submenu(ui, "Open recent", |ui| {
         if context.settings.recent.is_empty() {
             ui.add_enabled(false, Button::new("No recent files").frame(false));

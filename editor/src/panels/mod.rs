@@ -54,6 +54,7 @@ pub mod number_field;
 pub mod number_slider;
 pub mod number_text;
 pub mod open_model;
+mod open_path;
 mod overlay;
 mod overlay_title;
 pub mod overlays;

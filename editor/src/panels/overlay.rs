@@ -11,6 +11,8 @@ pub enum Overlay {
     About,
     /// A field for a path.
     OpenPath,
+    /// Units, axes and frame rate with which the open file is read again.
+    ImportOptions,
     /// A field for the path of the file with which takes are compared.
     ComparePath,
     /// The pairs of left and right bones, and what is mirrored.

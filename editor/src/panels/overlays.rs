@@ -3,26 +3,24 @@
 use super::context::PanelContext;
 use super::loop_dialog::LoopDialog;
 use super::mirror_pairs::MirrorDialog;
+use super::open_path::{OpenPathDialog, PathUse};
 use super::overlay_title;
 use super::palette::Palette;
 use super::prompts::Overlay;
 use super::reference::dialog::ReferenceDialog;
-use super::request::{FileAction, Request};
+use super::request::Request;
 use super::retarget::RetargetDialog;
 use super::root_motion::RootMotionDialog;
 use super::shortcuts::ShortcutSheet;
 use super::style::GRID;
 use super::theme::Theme;
-use super::widgets;
-use dragonfly_document::{DocumentMessage, Source};
-use egui::{Align2, Id as WidgetId, Key, Modal, RichText, TextEdit, TextStyle, Ui, vec2};
-use std::path::PathBuf;
+use egui::{Align2, Id as WidgetId, Modal, RichText, Ui, vec2};
 
-/// The text typed into overlays.
+/// The states of the overlays.
 #[derive(Debug, Default)]
 pub struct Overlays {
     palette: Palette,
-    path: String,
+    path: OpenPathDialog,
     shortcuts: ShortcutSheet,
     shown: Option<Overlay>,
     root_motion: RootMotionDialog,
@@ -63,49 +61,13 @@ impl Overlays {
             Overlay::RootMotion => self.root_motion.show(ui, context, requests),
             Overlay::Loop => self.loops.show(ui, context, requests),
             Overlay::Reference => self.reference.show(ui, context, requests),
-            Overlay::OpenPath | Overlay::ComparePath => self.path(ui, fresh, overlay, requests),
+            Overlay::OpenPath => self.path.show(ui, fresh, (PathUse::Open, context), requests),
+            Overlay::ImportOptions => self.path.show(ui, fresh, (PathUse::Again, context), requests),
+            Overlay::ComparePath => self.path.show(ui, fresh, (PathUse::Compare, context), requests),
         });
         if response.should_close() {
             requests.push(Request::Overlay(None));
         }
-    }
-
-    /// Draws a field for the path of a model that is opened or compared.
-    fn path(&mut self, ui: &mut Ui, fresh: bool, overlay: Overlay, requests: &mut Vec<Request>) {
-        let compares = overlay == Overlay::ComparePath;
-        let [title, action] =
-            if compares { ["Compare with another file", "Compare"] } else { ["Open by path", "Open"] };
-        ui.set_width(520.0);
-        ui.label(RichText::new(title).heading());
-        let field = TextEdit::singleline(&mut self.path)
-            .hint_text("/home/me/models/fox.glb")
-            .desired_width(f32::INFINITY);
-        let response = ui.add(field.font(TextStyle::Monospace).margin(egui::Margin::symmetric(10, 7)));
-        let response = response.accessible_name("Path of the model");
-        if fresh {
-            response.request_focus();
-            // The last path is selected, so that it can be corrected or typed over.
-            widgets::select_all(ui.ctx(), response.id, &self.path);
-        }
-        let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        ui.add_space(GRID);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            let able = !self.path.trim().is_empty();
-            let open = ui.add_enabled(able, egui::Button::new(action)).clicked();
-            if ui.button("Cancel").clicked() {
-                requests.push(Request::Overlay(None));
-            }
-            if able && (open || entered) {
-                let path = PathBuf::from(self.path.trim().trim_matches('"'));
-                requests.push(Request::Overlay(None));
-                let source = Source::File(path);
-                requests.push(if compares {
-                    Request::Answer(FileAction::Send(DocumentMessage::ReadCompared(source)))
-                } else {
-                    Request::Open(source)
-                });
-            }
-        });
     }
 }
 

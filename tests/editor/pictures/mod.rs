@@ -22,7 +22,7 @@ mod panels;
 mod questions;
 mod reference;
 mod series;
-mod states;
+pub(crate) mod states;
 mod windows;
 
 use reference::update;

@@ -30,7 +30,8 @@ overlays! {
         "the list of commands is the same whatever is open";
     Overlay::About => "about", vec2(560.0, 320.0), [Typical], "the text is the same whatever is open";
     Overlay::ComparePath => "compare-path", vec2(640.0, 320.0), [Typical], "the field is the same whatever is open";
-    Overlay::OpenPath => "open-path", vec2(640.0, 320.0), [Typical], "the field is the same whatever is open";
+    Overlay::OpenPath => "open-path", vec2(640.0, 420.0), [Typical], "the field is the same whatever is open";
+    Overlay::ImportOptions => "import-options", vec2(640.0, 420.0), [Typical], "the fields are the same whatever is open";
     Overlay::MirrorPairs => "mirror-pairs", vec2(640.0, 480.0), [Empty, Typical, Crowded], "";
     Overlay::Retarget => "retarget", vec2(720.0, 560.0), [Empty, Typical, Crowded], "";
     Overlay::Loop => "loop", vec2(640.0, 560.0), [Empty, Typical, Crowded], "";

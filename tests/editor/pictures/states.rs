@@ -49,7 +49,7 @@ impl Fullness {
 }
 
 /// Returns a view of a model.
-pub(super) fn view_of(source: &Source) -> View {
+pub(crate) fn view_of(source: &Source) -> View {
     let loaded = load_model(source, &mut |_| {}, &Cancel::default()).unwrap();
     View::opened(1, Arc::new(loaded))
 }

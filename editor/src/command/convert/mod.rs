@@ -4,11 +4,11 @@ mod plan;
 mod report;
 
 use super::farm::{FarmEngine, FarmJob};
+use super::import_options::ImportArguments;
 use super::output::print;
 use super::run_command::RunCommand;
 use super::{Failure, tell};
-use clap::ValueEnum;
-use dragonfly_anim::format::{Conventions, Handedness, UpAxis};
+use dragonfly_anim::format::Conventions;
 use dragonfly_document::{Cancel, ConvertedFile, convert, formats, make_folder, written_extensions};
 use dragonfly_runtime::{Job, Thread};
 use plan::{PlannedFile, Shard, plan};
@@ -39,18 +39,6 @@ pub(super) struct ConvertArguments {
     /// File name extension of the files in a folder
     #[arg(long, value_name = "EXT")]
     to: Option<String>,
-    /// Length of a unit of the input in meters, for example 0.01
-    #[arg(long, value_name = "METERS", value_parser = positive)]
-    scale: Option<f32>,
-    /// Axis of the input that points up
-    #[arg(long, value_enum)]
-    up: Option<Up>,
-    /// Sense of the axes of the input
-    #[arg(long, value_enum)]
-    hand: Option<AxisSense>,
-    /// Frames or ticks per second of the input, for formats that count them
-    #[arg(long, value_name = "FPS", value_parser = positive)]
-    rate: Option<f32>,
     /// Convert only part I of N of the files, to share the work between machines
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
@@ -72,33 +60,8 @@ pub(super) struct ConvertArguments {
     /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
-}
-
-/// The axis that points up.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Up {
-    /// The x axis
-    X,
-    /// The y axis
-    Y,
-    /// The z axis
-    Z,
-}
-
-/// The sense of the axes.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum AxisSense {
-    /// Left-handed
-    Left,
-    /// Right-handed
-    Right,
-}
-
-fn positive(text: &str) -> Result<f32, String> {
-    match super::choice::finite(text)? {
-        number if number > 0.0 => Ok(number),
-        _ => Err("must be greater than zero".to_owned()),
-    }
+    #[command(flatten)]
+    import: ImportArguments,
 }
 
 impl RunCommand for ConvertArguments {
@@ -112,7 +75,7 @@ impl RunCommand for ConvertArguments {
         if let Some(engine) = self.job {
             return self.print_job(engine);
         }
-        let conventions = self.conventions();
+        let conventions = self.import.conventions();
         let files = plan(&self.inputs, &self.output, self.to.as_deref(), self.shard)?;
         let resume = self.resume;
         let orders = Orders { files, conventions, is_written: !self.dry_run, resume };
@@ -127,39 +90,15 @@ impl ConvertArguments {
         let mut arguments = vec!["convert".to_owned()];
         arguments.extend(self.inputs.iter().map(|path| path.display().to_string()));
         arguments.extend(["-o".to_owned(), self.output.display().to_string()]);
-        let mut option = |name: &str, value: Option<String>| {
-            if let Some(value) = value {
-                arguments.extend([name.to_owned(), value]);
-            }
-        };
-        let word = |value: &dyn Fn() -> Option<String>| value();
-        option("--to", self.to.clone());
-        option("--scale", self.scale.map(|scale| scale.to_string()));
-        option("--up", word(&|| Some(self.up?.to_possible_value()?.get_name().to_owned())));
-        option("--hand", word(&|| Some(self.hand?.to_possible_value()?.get_name().to_owned())));
-        option("--rate", self.rate.map(|rate| rate.to_string()));
-        option("--jobs", self.jobs.map(|jobs| jobs.to_string()));
+        let options = [("--to", self.to.clone()), ("--jobs", self.jobs.map(|jobs| jobs.to_string()))];
+        let chosen = options.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?]));
+        arguments.extend(chosen.flatten());
+        arguments.extend(self.import.to_arguments());
         arguments.push("--resume".to_owned());
         let job =
             FarmJob::sharded("dragonfly-convert", arguments, self.parts.get()).map_err(Failure::Input)?;
         let text = engine.text(&job).map_err(Failure::Input)?;
         print(|out| out.write_all(text.as_bytes()))
-    }
-
-    fn conventions(&self) -> Conventions {
-        Conventions {
-            meters_per_unit: self.scale,
-            up: self.up.map(|up| match up {
-                Up::X => UpAxis::X,
-                Up::Y => UpAxis::Y,
-                Up::Z => UpAxis::Z,
-            }),
-            handedness: self.hand.map(|hand| match hand {
-                AxisSense::Left => Handedness::Left,
-                AxisSense::Right => Handedness::Right,
-            }),
-            frame_rate: self.rate,
-        }
     }
 }
 

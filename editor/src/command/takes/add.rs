@@ -1,7 +1,8 @@
 //! `dragonfly takes add MODEL CLIP… -o OUT`.
 
-use super::super::choice::{load, model_help, plain, source};
+use super::super::choice::{load, model_help, plain, source, source_as};
 use super::super::edit::save;
+use super::super::import_options::ImportArguments;
 use super::super::output::{print, print_json};
 use super::super::{Failure, tell};
 use clap::ValueEnum;
@@ -40,6 +41,9 @@ pub(super) struct AddClips {
     /// Print one JSON document instead of text
     #[arg(long)]
     json: bool,
+    /// Options for the clips; the model is read as it is.
+    #[command(flatten)]
+    import: ImportArguments,
 }
 
 /// How new takes are named.
@@ -83,11 +87,12 @@ impl AddClips {
         for path in &self.clips {
             let file = path.display().to_string();
             let skeleton = &editable.model.animation.skeleton;
-            let done = load(&source(path)).map_err(|error| failure_text(&error)).and_then(|clip| {
-                let animation = &clip.model.animation;
-                clip_takes(&clip.title, animation, &|_, _| true, skeleton, &mut names, &settings)
-                    .map_err(|reason| format!("{file}: {reason}"))
-            });
+            let done =
+                load(&source_as(path, &self.import)).map_err(|error| failure_text(&error)).and_then(|clip| {
+                    let animation = &clip.model.animation;
+                    clip_takes(&clip.title, animation, &|_, _| true, skeleton, &mut names, &settings)
+                        .map_err(|reason| format!("{file}: {reason}"))
+                });
             match done {
                 Ok(done) => {
                     report.push(AddedClip {

@@ -62,7 +62,8 @@ fn is_another(ask: &mut Ask<'_>, offer: &Offer, other: &Path) {
     let request = match pressed {
         Some(FindChoice::Another) => Request::Answer(FileAction::Find(Box::new(offer.clone()))),
         Some(FindChoice::Beside) => {
-            let offer = Offer { source: Some(Source::File(other.to_owned())), ..offer.clone() };
+            let chosen = offer.source.as_ref().map(Source::conventions).unwrap_or_default();
+            let offer = Offer { source: Some(Source::of(other.to_owned(), chosen)), ..offer.clone() };
             Request::Answer(FileAction::Send(DocumentMessage::Decide(Box::new(offer), Decision::Beside)))
         }
         Some(FindChoice::Later) => Request::Dismiss,

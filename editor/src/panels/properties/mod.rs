@@ -65,7 +65,7 @@ impl Panel for Properties {
                 ui.set_width(ui.available_width());
                 match context.selected() {
                     Some(bone) => self.bone(ui, context, bone, requests),
-                    None => model::show(ui, context),
+                    None => model::show(ui, context, requests),
                 }
             });
         });

@@ -2,12 +2,14 @@
 
 use super::super::context::PanelContext;
 use super::super::number_text::Digits;
+use super::super::prompts::Overlay;
+use super::super::request::Request;
 use super::super::theme::Theme;
 use super::super::widgets;
 use dragonfly_anim::format::Conversion;
 use egui::{RichText, Sense, TextStyle, Ui, vec2};
 
-pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>) {
+pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     let Some(view) = context.view else { return };
     let (loaded, file) = (&view.loaded, &view.file);
     let theme = Theme::of(ui);
@@ -46,6 +48,9 @@ pub(super) fn show(ui: &mut Ui, context: &PanelContext<'_>) {
         widgets::caption(ui, "Read as");
         for part in loaded.conversion.to_string().split(", ") {
             ui.label(RichText::new(part).small().color(theme.weak));
+        }
+        if ui.small_button("Import options…").clicked() {
+            requests.push(Request::Overlay(Some(Overlay::ImportOptions)));
         }
     }
     if !loaded.warnings.is_empty() {

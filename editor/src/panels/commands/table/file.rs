@@ -10,7 +10,8 @@ use dragonfly_document::{DocumentMessage, Source};
 
 commands! {
     Open => When::Always, "Open…", [key(CTRL, Key::O)], "Opens a model", |_| Some(Effect::OpenDialog);
-    OpenPath => When::Always, "Open by path…", [key(CTRL.plus(SHIFT), Key::O)], "Opens a model by typing or pasting its path", |w| { w.prompts.show(Some(Overlay::OpenPath)); None };
+    OpenPath => When::Always, "Open by path…", [key(CTRL.plus(SHIFT), Key::O)], "Opens a model by typing or pasting its path, with import options: unit, up axis, handedness, frame rate", |w| { w.prompts.show(Some(Overlay::OpenPath)); None };
+    ImportOptions => When::Model, "Import options…", [], "Opens the file again with another unit, up axis, handedness or frame rate (scale, import settings)", |w| { w.prompts.show(Some(Overlay::ImportOptions)); None };
     OpenBuiltIn => When::Always, "Built-in dragonfly", [], "Opens the built-in example model", |_| Some(Effect::File(FileAction::Leave(Then::Open(Source::BuiltIn))));
     ImportTakes => When::Model, "Import takes…", [], "Adds the takes of other files to the model: bones are matched by name, other figures are retargeted (clips, animations, captures)", |w| Some(Effect::Choose(FileChoice::Takes, w.read().model_folder()));
     CancelLoading => When::Loading, "Stop loading", [], "Cancels loading and keeps the open model", |_| Some(Effect::File(FileAction::Send(DocumentMessage::CancelLoading)));

@@ -1,0 +1,165 @@
+//! The field for the path of a model, with the import options.
+
+use super::context::PanelContext;
+use super::request::{FileAction, Request};
+use super::style::GRID;
+use super::theme::Theme;
+use super::widgets;
+use dragonfly_anim::format::{Conventions, Handedness, UpAxis};
+use dragonfly_document::{DocumentMessage, Source, View};
+use egui::{
+    Align, Button, ComboBox, DragValue, Grid, Key, Layout, Margin, RichText, TextEdit, TextStyle, Ui,
+};
+use std::path::PathBuf;
+
+/// Width of the dialog, points.
+const WIDTH: f32 = 520.0;
+/// Lengths of a unit that files have, in meters, with their names.
+const UNITS: [(f32, &str); 5] =
+    [(1.0, "Meter"), (0.01, "Centimeter"), (0.001, "Millimeter"), (0.0254, "Inch"), (0.3048, "Foot")];
+
+/// What the path is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PathUse {
+    /// A model is opened.
+    Open,
+    /// The open model is opened again with other import options.
+    Again,
+    /// The open model is compared with another one.
+    Compare,
+}
+
+/// The path that was typed, and the import options.
+#[derive(Debug, Default)]
+pub(super) struct OpenPathDialog {
+    path: String,
+    chosen: Conventions,
+}
+
+impl OpenPathDialog {
+    /// Draws the dialog; `fresh` where it was not shown in the frame before.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        fresh: bool,
+        (used, context): (PathUse, &PanelContext<'_>),
+        requests: &mut Vec<Request>,
+    ) {
+        if fresh {
+            self.begin(used, context.view);
+        }
+        let [title, action] = match used {
+            PathUse::Open => ["Open by path", "Open"],
+            PathUse::Again => ["Import options", "Open again"],
+            PathUse::Compare => ["Compare with another file", "Compare"],
+        };
+        ui.set_width(WIDTH);
+        ui.label(RichText::new(title).heading());
+        let entered = self.field(ui, fresh);
+        if used != PathUse::Compare {
+            ui.add_space(GRID);
+            self.options(ui);
+        }
+        ui.add_space(GRID);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let able = !self.path.trim().is_empty();
+            let open = ui.add_enabled(able, Button::new(action)).clicked();
+            if ui.button("Cancel").clicked() {
+                requests.push(Request::Overlay(None));
+            }
+            if able && (open || entered) {
+                requests.push(Request::Overlay(None));
+                requests.push(self.request(used));
+            }
+        });
+    }
+
+    /// Starts with the open file and the options with which it was read, where its import options are shown.
+    fn begin(&mut self, used: PathUse, view: Option<&View>) {
+        if used != PathUse::Again {
+            self.chosen = Conventions::default();
+            return;
+        }
+        if let Some(view) = view {
+            let path = view.file.path.as_ref().or(view.loaded.path.as_ref());
+            self.path = path.map_or_else(String::new, |path| path.display().to_string());
+            self.chosen = view.loaded.conversion.chosen();
+        }
+    }
+
+    fn request(&self, used: PathUse) -> Request {
+        let path = PathBuf::from(self.path.trim().trim_matches('"'));
+        if used == PathUse::Compare {
+            return Request::Answer(FileAction::Send(DocumentMessage::ReadCompared(Source::File(path))));
+        }
+        Request::Open(Source::of(path, self.chosen))
+    }
+
+    /// Draws the field. Returns whether the user pressed Enter in it.
+    fn field(&mut self, ui: &mut Ui, fresh: bool) -> bool {
+        let field = TextEdit::singleline(&mut self.path)
+            .hint_text("/home/me/models/fox.glb")
+            .desired_width(f32::INFINITY);
+        let response = ui.add(field.font(TextStyle::Monospace).margin(Margin::symmetric(10, 7)));
+        let response = response.accessible_name("Path of the model");
+        if fresh {
+            response.request_focus();
+            // The last path is selected, so that it can be corrected or typed over.
+            widgets::select_all(ui.ctx(), response.id, &self.path);
+        }
+        response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
+    }
+
+    fn options(&mut self, ui: &mut Ui) {
+        let weak = Theme::of(ui).weak;
+        let text =
+            "glTF and Dragonfly files state their units and axes; these options have no effect on them.";
+        ui.label(RichText::new(text).small().color(weak));
+        Grid::new("import options").num_columns(3).spacing([12.0, 8.0]).show(ui, |ui| {
+            ui.label("Unit");
+            self.unit(ui);
+            ui.end_row();
+            ui.label("Up axis");
+            let axes = [(UpAxis::X, "X"), (UpAxis::Y, "Y"), (UpAxis::Z, "Z")];
+            choice(ui, "Up axis", &mut self.chosen.up, &axes);
+            ui.end_row();
+            ui.label("Axes");
+            let hands = [(Handedness::Right, "Right-handed"), (Handedness::Left, "Left-handed")];
+            choice(ui, "Axes", &mut self.chosen.handedness, &hands);
+            ui.end_row();
+            ui.label("Frame rate");
+            self.rate(ui);
+            ui.end_row();
+        });
+    }
+
+    fn unit(&mut self, ui: &mut Ui) {
+        choice(ui, "Unit", &mut self.chosen.meters_per_unit, &UNITS);
+        if let Some(meters) = &mut self.chosen.meters_per_unit {
+            let field = DragValue::new(meters).range(1e-6..=1e6).speed(0.001).max_decimals(6).suffix(" m");
+            ui.add(field).on_hover_text("Length of a unit of the file");
+        }
+    }
+
+    fn rate(&mut self, ui: &mut Ui) {
+        let rates = [(24.0, "24"), (25.0, "25"), (30.0, "30"), (60.0, "60"), (120.0, "120")];
+        choice(ui, "Frame rate", &mut self.chosen.frame_rate, &rates);
+        if let Some(rate) = &mut self.chosen.frame_rate {
+            let field = DragValue::new(rate).range(0.01..=1e5).speed(0.5).suffix(" per second");
+            ui.add(field).on_hover_text("Frames or ticks per second of the file");
+        }
+    }
+}
+
+/// Draws a list with the entry “As in the file”, and these.
+fn choice<T: Copy + PartialEq>(ui: &mut Ui, name: &str, chosen: &mut Option<T>, entries: &[(T, &str)]) {
+    let named = |value: T| entries.iter().find(|(entry, _)| *entry == value).map(|(_, name)| *name);
+    let text = chosen.map_or("As in the file", |value| named(value).unwrap_or("Other"));
+    let response = ComboBox::from_id_salt(name).selected_text(text).width(150.0).show_ui(ui, |ui| {
+        ui.selectable_value(chosen, None, "As in the file");
+        for (value, text) in entries {
+            ui.selectable_value(chosen, Some(*value), *text);
+        }
+    });
+    response.response.accessible_name(name);
+}
