@@ -121,7 +121,7 @@ fn panics_on_files(
 ) -> Result<OpenedModel, LoadError> {
     match source {
         Source::BuiltIn => load_model(source, progress, cancel).map(OpenedModel::from),
-        Source::File(path) => match path.as_os_str().len() % 3 {
+        Source::File(path) | Source::FileAs(path, _) => match path.as_os_str().len() % 3 {
             0 => panic!("a text without numbers"),
             1 => panic!("a text about {}", path.display()),
             _ => std::panic::panic_any(path.clone()),

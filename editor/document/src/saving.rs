@@ -23,7 +23,7 @@ pub enum SaveTo {
 }
 
 /// The action that follows once nothing is unsaved.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Then {
     /// End the program.
     Quit,
@@ -32,7 +32,7 @@ pub enum Then {
 }
 
 /// A request to save.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SaveOrder {
     /// The file to write.
     pub to: SaveTo,
@@ -50,7 +50,7 @@ impl SaveOrder {
 }
 
 /// A completed save.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SavedFile {
     /// The file.
     pub path: PathBuf,

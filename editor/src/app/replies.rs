@@ -9,7 +9,7 @@ use crate::panels::dialogs::{ChangedQuestion, PlanQuestion, UnsavedQuestion};
 use crate::panels::open_model::Loading;
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction, State};
-use dragonfly_document::{Change, DocumentReply, LoadedModel, SavedFile, Source, View};
+use dragonfly_document::{Change, DocumentReply, LoadedModel, SavedFile, View};
 use dragonfly_runtime::{Context, Receiver};
 use std::cell::RefCell;
 use std::rc::Rc;
