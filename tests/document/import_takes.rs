@@ -1,6 +1,6 @@
 //! Takes of other files become takes of the open model: in one step, in a job, and in the journal.
 
-use dragonfly_document::{Change, Decision, DocumentMessage, DocumentReply, View};
+use dragonfly_document::{BoneMap, Change, ClipOrder, Decision, DocumentMessage, DocumentReply, View};
 use dragonfly_kit::document::test_document::{TestDocument, fox};
 use dragonfly_kit::folder::{Folder, data};
 use std::fs;
@@ -32,7 +32,7 @@ fn takes_of_several_files_are_added_in_one_step_that_can_be_undone() {
     let folder = Folder::new("import-takes");
     let mut document = TestDocument::new(&folder.join("autosave"));
     document.open(&fox(&folder));
-    document.send(DocumentMessage::ImportTakes(clips(&folder, 2)));
+    document.send(DocumentMessage::ImportTakes(ClipOrder::of(clips(&folder, 2))));
     let view = document.wait_for_view(|view| view.history.done == 1);
     assert_eq!(
         names(&view),
@@ -54,11 +54,11 @@ fn a_file_that_cannot_be_imported_is_reported_and_the_others_are_added() {
     fs::write(&broken, b"glTF").expect("a file");
     fs::copy(data("gltf/box_sparse.glb"), &still).expect("a copy");
     files.insert(0, broken);
-    document.send(DocumentMessage::ImportTakes(files));
+    document.send(DocumentMessage::ImportTakes(ClipOrder::of(files)));
     assert_eq!(document.wait_for_view(|view| view.history.done == 1).takes.len(), 6);
     assert!(document.wait_for_reply(notice).starts_with("broken.glb"));
     // If nothing fits, nothing changes.
-    document.send(DocumentMessage::ImportTakes(vec![still]));
+    document.send(DocumentMessage::ImportTakes(ClipOrder::of(vec![still])));
     assert!(document.wait_for_reply(notice).starts_with("still.glb"));
     assert_eq!(document.view().history.done, 1);
 }
@@ -70,7 +70,7 @@ fn imported_takes_are_in_the_journal() {
     let autosave = folder.join("autosave");
     let mut document = TestDocument::new(&autosave);
     document.open(&path);
-    document.send(DocumentMessage::ImportTakes(clips(&folder, 1)));
+    document.send(DocumentMessage::ImportTakes(ClipOrder::of(clips(&folder, 1))));
     let view = document.wait_for_view(|view| view.history.done == 1);
     drop(document);
     let mut again = TestDocument::new(&autosave);
@@ -79,4 +79,28 @@ fn imported_takes_are_in_the_journal() {
     again.send(DocumentMessage::Decide(Box::new(offer), Decision::Keep));
     let restored = again.wait_for_view(|view| view.history.done == 1);
     assert_eq!(restored.takes, view.takes);
+}
+
+#[test]
+fn files_are_imported_with_the_map_of_the_user() {
+    let folder = Folder::new("import-mapped");
+    let mut document = TestDocument::new(&folder.join("autosave"));
+    let before = document.open(&fox(&folder));
+    let turned = |view: &View, take: usize| {
+        let bones = &view.loaded.model.animation.skeleton.bones;
+        let tracks = view.takes[take].tracks.iter().filter(|track| !track.is_empty());
+        tracks.map(|track| bones[track.bone as usize].name.clone()).collect::<Vec<_>>()
+    };
+    assert!(turned(&before, 1).len() > 10);
+    // The head alone follows, and it follows the neck.
+    let map = r#"{"bone_map": 1, "bones": [["b_Neck_04", "b_Head_05"]]}"#;
+    let map = BoneMap::parse(map).expect("a map");
+    let order = ClipOrder { map: Some(map), contacts: false, ..ClipOrder::of(clips(&folder, 2)) };
+    document.send(DocumentMessage::ImportTakes(order));
+    let view = document.wait_for_view(|view| view.history.done == 1);
+    assert_eq!(view.takes.len(), 9);
+    for take in 3..9 {
+        assert_eq!(turned(&view, take), ["b_Head_05"], "{}", view.takes[take].name);
+    }
+    assert!(document.wait_for_reply(notice).contains("no bone follows"), "the others are named");
 }

@@ -4,8 +4,8 @@ use crate::timeline_rig::Animator;
 use dragonfly::panels::commands::Id;
 use dragonfly::panels::compared::CompareWith;
 use dragonfly::panels::prompts::Overlay;
-use dragonfly::panels::{Effect, Request};
-use dragonfly_document::{DocumentMessage, LoadedModel, Source};
+use dragonfly::panels::{Effect, FileAction, Request};
+use dragonfly_document::{BoneMap, DocumentMessage, LoadedModel, Source};
 use dragonfly_kit::document::fixture;
 use dragonfly_picture::SecondSkeleton;
 use egui_kittest::kittest::Queryable;
@@ -72,6 +72,33 @@ fn the_source_of_a_take_stands_beside_the_model_while_the_dialog_is_open() {
     assert!(Arc::ptr_eq(&shown.take, &source.model.animation.takes[1]));
     click(&mut animator, "Show the source beside the model");
     assert_eq!(second(&animator), None);
+}
+
+/// A bone of the source, and the bone of the model that it moves.
+const PAIR: [&str; 2] = ["rib_00_left_tip", "rib_00_right_tip"];
+
+#[test]
+fn files_are_chosen_for_the_map_that_the_dialog_shows() {
+    let mut animator = Animator::new(fixture::full());
+    let unmapped = animator.harness.state_mut().state.execute(Request::ImportMapped(Vec::new()));
+    assert_eq!(unmapped, None, "no map was chosen");
+    animator.request(Request::Command(Id::Retarget));
+    animator.steps(2);
+    animator.harness.state_mut().state.source_read(other(&[("Jump", 1.0, 5)]));
+    animator.steps(3);
+    // A map that was read is the one that is shown.
+    let map = r#"{"bone_map": 1, "bones": [["PAIR"]]}"#.replace("PAIR", &PAIR.join("\", \""));
+    animator.harness.state_mut().state.map_read(BoneMap::parse(&map).expect("a map"));
+    click(&mut animator, "Keep contacts");
+    click(&mut animator, "Import files…");
+    let files = vec!["/models/run.bvh".into()];
+    let effect = animator.harness.state_mut().state.execute(Request::ImportMapped(files.clone()));
+    let Some(Effect::File(FileAction::Send(DocumentMessage::ImportTakes(order)))) = effect else {
+        panic!("{effect:?}")
+    };
+    assert_eq!((&order.files, order.contacts), (&files, false));
+    assert_eq!(order.map.expect("a map").bones, [PAIR]);
+    assert_eq!(animator.harness.state().state.read().overlay, None);
 }
 
 #[test]

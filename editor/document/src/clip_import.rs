@@ -1,6 +1,7 @@
 //! The job that imports the takes of files onto the open model, as one edit.
 
 use super::Change;
+use super::bone_map::BoneMap;
 use super::clip_news::{ClipNews, imported};
 use super::job::JobNews;
 use super::message::DocumentReply;
@@ -11,21 +12,39 @@ use dragonfly_runtime::{Job, JobContext};
 use std::path::PathBuf;
 use std::time::Instant;
 
+/// The files whose takes are imported onto the open model, and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClipOrder {
+    /// The files.
+    pub files: Vec<PathBuf>,
+    /// The map of bones; guessed from their names for each file where absent.
+    pub map: Option<BoneMap>,
+    /// Whether feet stay where they touch the ground.
+    pub contacts: bool,
+}
+
+impl ClipOrder {
+    /// Returns the order to import files with guessed maps.
+    pub fn of(files: Vec<PathBuf>) -> Self {
+        Self { files, map: None, contacts: true }
+    }
+}
+
 impl Document {
     /// Imports the takes of files onto the open model, in a job.
-    pub(super) fn import_takes(&mut self, files: Vec<PathBuf>) {
+    pub(super) fn import_takes(&mut self, order: ClipOrder) {
         let Some(open) = &self.open else {
             return self.reply(DocumentReply::Refused("Open a model first".to_owned()));
         };
         let (adapter, load) = (open.edited.adapter().clone(), self.load);
-        let count = files.len();
+        let count = order.files.len();
         let work = move |job: &JobContext<JobNews>| {
             let mut progress = |read: usize| {
                 job.report(read as f32 / count.max(1) as f32, |_| {
                     JobNews::Clips(ClipNews::Progress(read, count))
                 });
             };
-            let done = imported(&files, &adapter, load, job.cancel_flag(), &mut progress);
+            let done = imported(&order, &adapter, load, job.cancel_flag(), &mut progress);
             JobNews::Clips(match job.is_cancelled() {
                 true => ClipNews::Failed("the import was cancelled".to_owned()),
                 false => ClipNews::Done(done),

@@ -1,11 +1,12 @@
 //! The takes that a job imports from several files, and its news.
 
 use super::adapter::ModelAdapter;
+use super::clip_import::ClipOrder;
 use super::clips::{ClipSettings, ClipTakes, TakeNames, clip_takes};
 use super::source::file_name;
 use super::{Cancel, Loader, Source};
 use crate::edit::AddTake;
-use std::path::PathBuf;
+use dragonfly_anim::retarget::FigureOptions;
 
 /// News of the job.
 #[derive(Debug)]
@@ -55,25 +56,26 @@ impl ImportedClips {
             count => format!(", {count} of the files retargeted"),
         };
         let unmatched = match &*self.unmatched {
-            [] => String::new(),
+            [] => return format!("{takes}{retargeted}"),
             [name] => format!("; no bone follows {name}"),
             [first, more @ ..] => format!("; no bone follows {first} and {} more", more.len()),
         };
-        format!("{takes}{retargeted}{unmatched}")
+        format!("{takes}{retargeted}{unmatched}. The map of bones can be corrected in “Retarget from file…”")
     }
 }
 
 /// Reads the files one after the other. One that cannot be imported does not stop the others.
 pub(super) fn imported(
-    files: &[PathBuf],
+    order: &ClipOrder,
     adapter: &ModelAdapter,
     load: Loader,
     cancel: &Cancel,
     progress: &mut dyn FnMut(usize),
 ) -> ImportedClips {
     let (mut result, mut names) = (ImportedClips::default(), TakeNames::of(adapter));
-    let settings = ClipSettings::default();
-    for (index, path) in files.iter().enumerate() {
+    let figure = FigureOptions { contacts: order.contacts, ..FigureOptions::default() };
+    let settings = ClipSettings { map: order.map.clone(), figure, ..ClipSettings::default() };
+    for (index, path) in order.files.iter().enumerate() {
         if cancel.is_cancelled() {
             break;
         }

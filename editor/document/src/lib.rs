@@ -67,6 +67,7 @@ mod writing;
 
 pub use bone_map::BoneMap;
 pub use cancel::{Cancel, LoadStage, Progress};
+pub use clip_import::ClipOrder;
 pub use clips::{ClipNaming, ClipSettings, ClipTakes, TakeNames, clip_takes};
 pub use conversion::{
     ConversionError, ConversionOrder, ConvertedFile, convert, write_files, written_extensions,

@@ -5,7 +5,7 @@ use super::retarget_order::{MapFile, RetargetOrder};
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
 use super::scan::Decision;
 use super::take_check::{CheckedTake, TakeCheck};
-use super::{BoneMap, LoadedModel, Offer, Progress, Source, View};
+use super::{BoneMap, ClipOrder, LoadedModel, Offer, Progress, Source, View};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -43,8 +43,8 @@ pub enum DocumentMessage {
     ReadCompared(Source),
     /// Computes a take of that model for the open one, and adds it.
     Retarget(RetargetOrder),
-    /// Imports all takes of these files onto the open model, as one step. Bones are matched by name.
-    ImportTakes(Vec<PathBuf>),
+    /// Imports all takes of files onto the open model, as one step.
+    ImportTakes(ClipOrder),
     /// Reads or writes a bone map.
     MapFile(MapFile),
     /// Checks a take for defects. The reply is [`DocumentReply::Checked`].

@@ -54,7 +54,7 @@ impl Document {
             DocumentMessage::ReadSource(source) => self.read_source(source, self.load),
             DocumentMessage::ReadCompared(source) => self.read_compared(source, self.load),
             DocumentMessage::Retarget(order) => self.retarget(order),
-            DocumentMessage::ImportTakes(files) => self.import_takes(files),
+            DocumentMessage::ImportTakes(order) => self.import_takes(order),
             DocumentMessage::MapFile(file) => self.map_file(file),
             DocumentMessage::CheckTake(check) => self.check_take(check),
             DocumentMessage::Poses(order) => self.pose_order(order),

@@ -157,6 +157,9 @@ pub(super) fn chosen(interface: &mut Interface, answer: file_dialog::Answer) {
                 FileChoice::Reference => Request::ReferenceFile(path),
                 FileChoice::Sound => Request::Sound(SoundSettings { file: path, start: 0 }),
                 FileChoice::Takes => Request::ImportTakes(std::iter::once(path).chain(others).collect()),
+                FileChoice::MappedTakes => {
+                    Request::ImportMapped(std::iter::once(path).chain(others).collect())
+                }
             };
             let effect = interface.state.execute(request);
             interface.effects.extend(effect);

@@ -69,7 +69,7 @@ pub(super) fn ask(purpose: Purpose, folder: Option<PathBuf>, to: Address<Answer>
                     None => pollster::block_on(dialog.pick_folder()),
                     Some((name, extensions)) => {
                         let dialog = dialog.add_filter(name, &extensions).add_filter("All files", &["*"]);
-                        if *choice == FileChoice::Takes {
+                        if matches!(choice, FileChoice::Takes | FileChoice::MappedTakes) {
                             let mut files =
                                 pollster::block_on(dialog.pick_files()).unwrap_or_default().into_iter();
                             let first = files.next();

@@ -13,6 +13,8 @@ pub enum FileChoice {
     Sound,
     /// Files whose takes are imported; several can be chosen.
     Takes,
+    /// Files whose takes are imported with the map of the dialog for retargeting; several can be chosen.
+    MappedTakes,
 }
 
 impl FileChoice {
@@ -22,7 +24,7 @@ impl FileChoice {
             Self::PoseFolder => "Choose the folder of poses",
             Self::Reference => "Choose a reference picture",
             Self::Sound => "Choose a sound",
-            Self::Takes => "Import takes",
+            Self::Takes | Self::MappedTakes => "Import takes",
         }
     }
 
@@ -32,7 +34,7 @@ impl FileChoice {
             Self::PoseFolder => None,
             Self::Reference => Some(("Pictures", vec!["png", "jpg", "jpeg", "webp", "gif"])),
             Self::Sound => Some(("Sounds", vec!["wav", "flac", "ogg"])),
-            Self::Takes => Some(("Models", formats().extensions())),
+            Self::Takes | Self::MappedTakes => Some(("Models", formats().extensions())),
         }
     }
 
@@ -42,7 +44,7 @@ impl FileChoice {
             Self::PoseFolder => "This desktop has no dialog for choosing folders; type the path instead",
             Self::Sound => "This desktop has no dialog for choosing files; type the path into “Open by path”",
             Self::Reference => "This desktop has no dialog for choosing files; type the path instead",
-            Self::Takes => {
+            Self::Takes | Self::MappedTakes => {
                 "This desktop has no dialog for choosing files; drop the files on the window instead"
             }
         }

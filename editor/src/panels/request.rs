@@ -18,7 +18,7 @@ use super::sound::SoundSettings;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::adapter::TakeId;
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{Change, DocumentMessage, Offer, Source, Then};
+use dragonfly_document::{Change, ClipOrder, DocumentMessage, Offer, Source, Then};
 use dragonfly_picture::camera::Camera;
 use dragonfly_picture::pick::OwnedRegion;
 use std::path::PathBuf;
@@ -91,8 +91,12 @@ pub enum Request {
     Point(Option<egui::Pos2>),
     /// Opens a model.
     Open(Source),
-    /// Imports the takes of files onto the open model.
+    /// Imports the takes of files onto the open model. Bones are matched by name.
     ImportTakes(Vec<PathBuf>),
+    /// Asks for files whose takes are imported with this map; the order has no files yet.
+    ChooseMapped(Box<ClipOrder>),
+    /// Imports the takes of files with the map of [`Self::ChooseMapped`].
+    ImportMapped(Vec<PathBuf>),
     /// Shows an overlay, or none.
     Overlay(Option<Overlay>),
     /// Shows or hides the panel with this id.

@@ -13,7 +13,7 @@ use super::widgets;
 use dragonfly_anim::data::{BoneIndex, Skeleton};
 use dragonfly_anim::retarget::{BindingGuess, BoneRole, FigureOptions, SkeletonBinding};
 use dragonfly_document::bones::Choice;
-use dragonfly_document::{BoneMap, DocumentMessage, LoadedModel, MapFile, RetargetOrder, Source};
+use dragonfly_document::{BoneMap, ClipOrder, DocumentMessage, LoadedModel, MapFile, RetargetOrder, Source};
 use egui::{Button, Key, Popup, RichText, ScrollArea, TextEdit, TextStyle, Ui, vec2};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -81,7 +81,7 @@ impl RetargetDialog {
         self.rows(ui, context, source, requests);
         self.map_row(ui, context, source, requests);
         self.show_source(ui, context, requests);
-        self.last_row(ui, source, requests);
+        self.last_row(ui, context, source, requests);
     }
 
     /// Guesses the map of new models, and applies a map that was read.
@@ -202,22 +202,29 @@ impl RetargetDialog {
         source: &LoadedModel,
         requests: &mut Vec<Request>,
     ) {
-        let Some((_, target, guess)) = &self.models else { return };
         let pressed = path_field(ui, &mut self.map_path, "Path of a bone map", &["Load map", "Save map"]);
-        let skeleton = &source.model.animation.skeleton;
         if let Some((button, path)) = pressed {
-            let file = if button == 0 {
-                MapFile::Read(path)
-            } else {
-                let binding = SkeletonBinding { source_of: self.source_of.clone(), ..guess.binding.clone() };
-                let own = context.loaded().map_or("", |loaded| &loaded.title);
-                MapFile::Write(path, BoneMap::of([&source.title, own], skeleton, target, &binding))
-            };
+            let map = self.bone_map(context, source).filter(|_| button > 0);
+            let file = map.map_or(MapFile::Read(path.clone()), |map| MapFile::Write(path, map));
             send(requests, DocumentMessage::MapFile(file));
         }
     }
 
-    fn last_row(&mut self, ui: &mut Ui, source: &LoadedModel, requests: &mut Vec<Request>) {
+    /// Returns the map as the user has it.
+    fn bone_map(&self, context: &PanelContext<'_>, source: &LoadedModel) -> Option<BoneMap> {
+        let (_, target, guess) = self.models.as_ref()?;
+        let binding = SkeletonBinding { source_of: self.source_of.clone(), ..guess.binding.clone() };
+        let titles = [source.title.as_str(), context.loaded().map_or("", |loaded| loaded.title.as_str())];
+        Some(BoneMap::of(titles, &source.model.animation.skeleton, target, &binding))
+    }
+
+    fn last_row(
+        &mut self,
+        ui: &mut Ui,
+        context: &PanelContext<'_>,
+        source: &LoadedModel,
+        requests: &mut Vec<Request>,
+    ) {
         let takes = &source.model.animation.takes;
         let name = |take: usize| takes.get(take).map_or("no take", |take| take.name.as_str()).to_owned();
         ui.horizontal(|ui| {
@@ -243,11 +250,19 @@ impl RetargetDialog {
                 .zip(&self.source_of)
                 .filter_map(|(to, from)| Some((from.as_ref().copied()?, to)))
                 .collect();
-            let able = self.take < takes.len() && !pairs.is_empty();
+            let has_pairs = !pairs.is_empty();
+            let able = self.take < takes.len() && has_pairs;
             if ui.add_enabled(able, Button::new("Add take")).clicked() {
                 let options = FigureOptions { contacts: self.contacts, ..FigureOptions::default() };
                 send(requests, DocumentMessage::Retarget(RetargetOrder { take: self.take, pairs, options }));
                 requests.push(Request::Overlay(None));
+            }
+            let button = ui.add_enabled(has_pairs, Button::new("Import files…"));
+            widgets::hint_beside(&button, "Adds all takes of files that you choose, with this map of bones");
+            if let Some(map) = self.bone_map(context, source).filter(|_| button.clicked()) {
+                let order =
+                    ClipOrder { map: Some(map), contacts: self.contacts, ..ClipOrder::of(Vec::new()) };
+                requests.push(Request::ChooseMapped(Box::new(order)));
             }
         });
     }

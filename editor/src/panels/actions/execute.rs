@@ -6,6 +6,7 @@ use super::{
     bones, clipboard, drags, files, framing, keys, layers, locks, look, playback, scope, sets, takes,
 };
 use crate::panels::commands;
+use crate::panels::file_choice::FileChoice;
 use crate::panels::keys::KeysRequest;
 use crate::panels::reference::settings::ReferenceSettings;
 use crate::panels::request::{Effect, FileAction, Request};
@@ -14,7 +15,7 @@ use crate::panels::sound::{SoundSettings, is_sound};
 use crate::panels::status::MessageSeverity;
 use crate::panels::workspace::Workspace;
 use dragonfly_document::edit::{Edit, TrimTake};
-use dragonfly_document::{Change, DocumentMessage, Source, Then};
+use dragonfly_document::{Change, ClipOrder, DocumentMessage, Source, Then};
 use dragonfly_picture::between;
 
 /// Executes a request of a panel.
@@ -76,7 +77,16 @@ fn perform(workspace: &mut Workspace, request: Request) -> Option<Effect> {
         }
         Request::Open(source) => return Some(Effect::File(FileAction::Leave(Then::Open(source)))),
         Request::ImportTakes(files) => {
-            return Some(Effect::File(FileAction::Send(DocumentMessage::ImportTakes(files))));
+            return Some(Effect::File(FileAction::Send(DocumentMessage::ImportTakes(ClipOrder::of(files)))));
+        }
+        Request::ChooseMapped(order) => {
+            workspace.retarget.set_order(*order);
+            return Some(Effect::Choose(FileChoice::MappedTakes, workspace.read().model_folder()));
+        }
+        Request::ImportMapped(files) => {
+            let order = ClipOrder { files, ..workspace.retarget.take_order()? };
+            workspace.prompts.show(None);
+            return Some(Effect::File(FileAction::Send(DocumentMessage::ImportTakes(order))));
         }
         Request::Overlay(overlay) => workspace.prompts.show(overlay),
         Request::TogglePanel(id) => return Some(Effect::TogglePanel(id)),
