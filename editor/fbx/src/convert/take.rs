@@ -2,7 +2,7 @@
 
 use super::channel::{channel, hold, interpolation};
 use super::curves::{AnimatedPart, ElementCurves, element_curves, range_of};
-use super::fit::{FitKind, FitValue, FittedKeys, KeyTime, fit};
+use crate::fit::{FitKind, FitValue, FittedKeys, KeyTime, fit};
 use super::keys::{ChannelTimes, channel_times, exactly};
 use super::mesh::FbxMesh;
 use super::morph::effective_weights;
