@@ -78,6 +78,32 @@ fn compare(name: &str, model: ModelData) -> (f32, f32) {
             return;
         }
         let (difference, place) = trip.bone_difference(take, time, size);
+        if difference > 1e-2 {
+            for bone in trip.bones().iter().enumerate() {
+                let (a, b) = (trip.before.model(), trip.after.model());
+                let n = &a.animation.skeleton.bones[bone.0].name;
+                if place.contains(n.as_str()) {
+                    println!(
+                        "DBG {n} {:?}\n{:?}\nA {:?}\nB {:?}",
+                        a.animation.skeleton.bones[bone.0].rest,
+                        b.animation.skeleton.bones[*bone.1].rest,
+                        a.animation.takes[take.unwrap_or(0)].tracks[bone.0]
+                            .rotation
+                            .values
+                            .iter()
+                            .take(4)
+                            .collect::<Vec<_>>(),
+                        b.animation.takes[take.unwrap_or(0)].tracks[*bone.1]
+                            .rotation
+                            .values
+                            .iter()
+                            .take(4)
+                            .collect::<Vec<_>>()
+                    );
+                    println!("P {:?} {:?}", trip.before.to_root()[bone.0], trip.after.to_root()[*bone.1]);
+                }
+            }
+        }
         let vertices = trip.vertex_difference(size);
         let limit = if is_key { ON_KEYS } else { BETWEEN_KEYS };
         let found = difference.max(vertices);
@@ -100,10 +126,22 @@ fn compare(name: &str, model: ModelData) -> (f32, f32) {
         assert!(was == is || trip.loses("is called"), "{name}: bone {was:?} is {is:?}");
     }
     for (take, (was, is)) in model.animation.takes.iter().zip(&after.animation.takes).enumerate() {
-        assert!(was.name == is.name || trip.loses("is called"), "{name}: take {:?} is {:?}", was.name, is.name);
+        assert!(
+            was.name == is.name || trip.loses("is called"),
+            "{name}: take {:?} is {:?}",
+            was.name,
+            is.name
+        );
         if was.length > 0.0 {
             let differences = [was.start - is.start, was.end() - is.end()].map(f32::abs);
-            assert!(differences < [1e-5; 2], "{name}: take {take} {} to {}, then {} to {}", was.start, was.end(), is.start, is.end());
+            assert!(
+                differences < [1e-5; 2],
+                "{name}: take {take} {} to {}, then {} to {}",
+                was.start,
+                was.end(),
+                is.start,
+                is.end()
+            );
         }
         for time in key_times(&model, take, TIMES) {
             check(&mut trip, Some(take), time, true);
@@ -114,7 +152,10 @@ fn compare(name: &str, model: ModelData) -> (f32, f32) {
             for (instance, read) in trip.instances().into_iter().enumerate() {
                 let pairs = trip.before.morph_weights(instance).iter().zip(trip.after.morph_weights(read));
                 for (was, is) in pairs {
-                    assert!(*was < 0.0 || (was - is).abs() < 2e-3, "{name}: weights {was} and {is} at {time} s");
+                    assert!(
+                        *was < 0.0 || (was - is).abs() < 2e-3,
+                        "{name}: weights {was} and {is} at {time} s"
+                    );
                 }
             }
         }

@@ -67,9 +67,8 @@ pub(super) fn add_node(
     kind: &str,
     pose: &LocalPose,
 ) -> ObjectId {
-    let vector = |name: &str, value: DVec3| {
-        setting(name, name, "", "A").with(value.x).with(value.y).with(value.z)
-    };
+    let vector =
+        |name: &str, value: DVec3| setting(name, name, "", "A").with(value.x).with(value.y).with(value.z);
     let angles = EulerAngles::of(space.rotation(pose.rotation)).degrees();
     let properties = FbxNode::new("Properties70").containing([
         setting("RotationActive", "bool", "", "").with(1),
@@ -81,8 +80,7 @@ pub(super) fn add_node(
         vector("Lcl Rotation", angles),
         vector("Lcl Scaling", space.factors(pose.scale)),
     ]);
-    let children =
-        [FbxNode::new("Version").with(232), properties, FbxNode::new("Shading").with(true)];
+    let children = [FbxNode::new("Version").with(232), properties, FbxNode::new("Shading").with(true)];
     let children = children.into_iter().chain([FbxNode::new("Culling").with("CullingOff")]);
     scene.object("Model", name, ("Model", kind), children)
 }

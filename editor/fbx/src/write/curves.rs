@@ -147,9 +147,8 @@ pub(super) fn rotation_keys(
     convert: impl Fn(DQuat) -> DQuat,
 ) -> CurveKeys {
     let numbers = |angles: &EulerAngles| angles.degrees().to_array().to_vec();
-    let mut at = |at: f64| {
-        Ok::<_, Infallible>(Some(EulerAngles::of(convert(rotation(channel, Quat::IDENTITY, at)))))
-    };
+    let mut at =
+        |at: f64| Ok::<_, Infallible>(Some(EulerAngles::of(convert(rotation(channel, Quat::IDENTITY, at)))));
     let times = key_times(&channel.times);
     let kind = match (channel.interpolation, style) {
         (Interpolation::Step | Interpolation::Closest, _) => FitKind::Step,
@@ -185,7 +184,8 @@ impl SampledValue for f32 {
 pub(super) fn weight_keys(weights: &Channel<f32>, style: KeyStyle) -> CurveKeys {
     // A weight is a vector of one number.
     let values: Vec<Vec3> = weights.values.iter().map(|&weight| Vec3::new(weight, 0.0, 0.0)).collect();
-    let channel = Channel { times: weights.times.clone(), values: values.into(), interpolation: weights.interpolation };
+    let channel =
+        Channel { times: weights.times.clone(), values: values.into(), interpolation: weights.interpolation };
     let mut keys = vector_keys(&channel, style, false, |value| value * 100.0);
     keys.values.iter_mut().for_each(|values| values.truncate(1));
     keys.slopes.iter_mut().flatten().for_each(|slopes| slopes.truncate(1));
@@ -208,8 +208,8 @@ impl AnimatedProperty<'_> {
     pub(super) fn add(&self, scene: &mut SceneWriter, layer: ObjectId, keys: &CurveKeys) {
         let Some(first) = keys.values.first() else { return };
         let defaults = self.parts.iter().zip(first);
-        let defaults = defaults
-            .map(|(part, &value)| setting(&format!("d|{part}"), "Number", "", "A").with(value));
+        let defaults =
+            defaults.map(|(part, &value)| setting(&format!("d|{part}"), "Number", "", "A").with(value));
         let properties = FbxNode::new("Properties70").containing(defaults);
         let node = scene.object("AnimationCurveNode", self.name, ("AnimCurveNode", ""), [properties]);
         scene.connect(node, layer);
@@ -229,9 +229,8 @@ fn curve(keys: &CurveKeys, part: usize) -> Vec<FbxNode> {
         slopes.and_then(|slopes| slopes.get(part)).copied().unwrap_or(0.0)
     };
     let count = keys.times.len();
-    let is_flat = (0..count).all(|key| {
-        value(key) == value(0) && slope(key, 0) == 0.0 && slope(key, 1) == 0.0
-    });
+    let is_flat =
+        (0..count).all(|key| value(key) == value(0) && slope(key, 0) == 0.0 && slope(key, 1) == 0.0);
     let mut kept: Vec<usize> = Vec::with_capacity(count);
     for key in 0..count {
         // Of a curve that does not change, the first and the last key are enough.

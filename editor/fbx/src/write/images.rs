@@ -1,9 +1,9 @@
 //! Images in the file, and the textures that use them.
 
 use super::losses::FbxLosses;
+use super::names::UsedNames;
 use super::node::{FbxNode, bytes_node, setting};
 use super::scene::{ObjectId, SceneWriter};
-use super::names::UsedNames;
 use dragonfly_anim::data::{Filter, Image, TextureRef, TextureTransform, Wrap};
 
 /// Names of the two sets of texture coordinates.
@@ -23,14 +23,17 @@ fn file_name(image: &Image, number: usize) -> String {
     let path = image.file_name.as_deref().unwrap_or(&image.name).replace('\\', "/");
     let name = path.rsplit('/').next().unwrap_or_default().trim();
     let allowed = |character: char| !character.is_control() && !"\\/:*?\"<>|".contains(character);
-    let name: String = name.chars().map(|character| if allowed(character) { character } else { '_' }).collect();
+    let name: String =
+        name.chars().map(|character| if allowed(character) { character } else { '_' }).collect();
     let name = if name.is_empty() { format!("image {number}") } else { name };
     let extensions: &[&str] = match image.mime.as_str() {
         "image/png" => &["png"],
         "image/jpeg" => &["jpg", "jpeg"],
         _ => return name,
     };
-    let has = name.rsplit_once('.').is_some_and(|(_, end)| extensions.iter().any(|own| end.eq_ignore_ascii_case(own)));
+    let has = name
+        .rsplit_once('.')
+        .is_some_and(|(_, end)| extensions.iter().any(|own| end.eq_ignore_ascii_case(own)));
     if has { name } else { format!("{name}.{}", extensions[0]) }
 }
 

@@ -54,9 +54,9 @@ impl InstanceSource<'_> {
             };
             list_losses(mesh, index, losses);
             let placed = self.place(instance);
-            let known = written.iter().position(|known| {
-                known.moved == placed.moved && self.is_same(known.instance, index)
-            });
+            let known = written
+                .iter()
+                .position(|known| known.moved == placed.moved && self.is_same(known.instance, index));
             let materials = self.materials_of(mesh, scene, &mut default_material);
             let known = known.unwrap_or_else(|| {
                 let geometry = self.add_geometry(scene, index, mesh, placed.moved, &materials, losses);
@@ -120,7 +120,8 @@ impl InstanceSource<'_> {
         scene: &mut SceneWriter,
         default: &mut Option<ObjectId>,
     ) -> Vec<(Option<u32>, ObjectId)> {
-        let known = |primitive: &Primitive| primitive.material.filter(|&at| (at as usize) < self.materials.len());
+        let known =
+            |primitive: &Primitive| primitive.material.filter(|&at| (at as usize) < self.materials.len());
         let mut materials: Vec<(Option<u32>, ObjectId)> = Vec::new();
         if mesh.primitives.iter().all(|primitive| known(primitive).is_none()) {
             return materials;

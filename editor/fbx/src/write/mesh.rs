@@ -69,8 +69,8 @@ impl GeometrySource<'_> {
     ) -> ObjectId {
         let corners = self.corners();
         let positions = self.vertices().flat_map(|vertices| &vertices.positions);
-        let positions = positions
-            .map(|position| self.space.position(self.moved.transform_point3(position.as_dvec3())));
+        let positions =
+            positions.map(|position| self.space.position(self.moved.transform_point3(position.as_dvec3())));
         let polygons = corners.iter().enumerate();
         let polygons = polygons.map(|(at, &corner)| if at % 3 == 2 { !corner } else { corner });
         let mut children = vec![
@@ -119,14 +119,19 @@ impl GeometrySource<'_> {
     fn normal_matrix(&self) -> DMat3 {
         let linear = DMat3::from_mat4(self.moved);
         let inverse = linear.inverse();
-        if self.moved == DMat4::IDENTITY || !inverse.is_finite() { DMat3::IDENTITY } else { inverse.transpose() }
+        if self.moved == DMat4::IDENTITY || !inverse.is_finite() {
+            DMat3::IDENTITY
+        } else {
+            inverse.transpose()
+        }
     }
 
     fn normals(&self) -> Vec<f64> {
         let matrix = self.normal_matrix();
         let of = |vertices: &Vertices, vertex: usize| {
             let normal = vertices.normals.get(vertex).map_or(DVec3::Y, |normal| normal.as_dvec3());
-            let moved = if matrix == DMat3::IDENTITY { normal } else { (matrix * normal).normalize_or_zero() };
+            let moved =
+                if matrix == DMat3::IDENTITY { normal } else { (matrix * normal).normalize_or_zero() };
             self.space.direction(moved)
         };
         numbers(self.each(of))
@@ -140,9 +145,8 @@ impl GeometrySource<'_> {
     }
 
     fn colors(&self) -> Vec<f64> {
-        let of = |vertices: &Vertices, vertex: usize| {
-            vertices.colors.get(vertex).copied().unwrap_or(Vec4::ONE)
-        };
+        let of =
+            |vertices: &Vertices, vertex: usize| vertices.colors.get(vertex).copied().unwrap_or(Vec4::ONE);
         self.each(of).flat_map(|color| color.as_dvec4().to_array()).collect()
     }
 
@@ -164,8 +168,7 @@ impl GeometrySource<'_> {
         }
         let first = *numbers.first()?;
         let is_same = numbers.iter().all(|&number| number == first);
-        let (mapping, numbers) =
-            if is_same { ("AllSame", vec![first]) } else { ("ByPolygon", numbers) };
+        let (mapping, numbers) = if is_same { ("AllSame", vec![first]) } else { ("ByPolygon", numbers) };
         Some(
             FbxNode::new("LayerElementMaterial")
                 .with(0)

@@ -91,9 +91,8 @@ impl SceneWriter {
     ) -> Result<Vec<u8>, ExportError> {
         let Self { objects, connections, counts, takes } = self;
         let kinds = counts.iter().map(|(&kind, &count)| (kind, count)).chain([("GlobalSettings", 1)]);
-        let kinds: Vec<FbxNode> = kinds
-            .map(|(kind, count)| FbxNode::new("ObjectType").with(kind).value("Count", count))
-            .collect();
+        let kinds: Vec<FbxNode> =
+            kinds.map(|(kind, count)| FbxNode::new("ObjectType").with(kind).value("Count", count)).collect();
         let total: i32 = counts.values().sum::<i32>() + 1;
         let definitions = FbxNode::new("Definitions").value("Version", 100).value("Count", total);
         encode(&[

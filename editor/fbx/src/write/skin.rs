@@ -66,7 +66,13 @@ pub(super) struct SkinSource<'a> {
 
 impl SkinSource<'_> {
     /// Adds the skin of a geometry.
-    pub(super) fn add(&self, scene: &mut SceneWriter, geometry: ObjectId, place: &str, losses: &mut FbxLosses) {
+    pub(super) fn add(
+        &self,
+        scene: &mut SceneWriter,
+        geometry: ObjectId,
+        place: &str,
+        losses: &mut FbxLosses,
+    ) {
         let children = [
             FbxNode::new("Version").with(101),
             FbxNode::new("Link_DeformAcuracy").with(50.0),
@@ -83,10 +89,8 @@ impl SkinSource<'_> {
             }
             let bound = self.bound.bones.get(joint).copied().unwrap_or(DMat4::IDENTITY);
             let matrix = |matrix: DMat4| self.space.matrix(matrix).to_cols_array().to_vec();
-            let mut children = vec![
-                FbxNode::new("Version").with(100),
-                FbxNode::new("UserData").with("").with(""),
-            ];
+            let mut children =
+                vec![FbxNode::new("Version").with(100), FbxNode::new("UserData").with("").with("")];
             if let Some((vertices, weights)) = weights.remove(&joint) {
                 children.push(FbxNode::new("Indexes").with(vertices));
                 children.push(FbxNode::new("Weights").with(weights));

@@ -46,7 +46,8 @@ impl FileSpace {
 
     /// Converts factors along the axes, or their derivative.
     pub(super) fn factors(&self, factors: DVec3) -> DVec3 {
-        let absolute = DMat3::from_cols(self.axes.x_axis.abs(), self.axes.y_axis.abs(), self.axes.z_axis.abs());
+        let absolute =
+            DMat3::from_cols(self.axes.x_axis.abs(), self.axes.y_axis.abs(), self.axes.z_axis.abs());
         absolute * factors
     }
 

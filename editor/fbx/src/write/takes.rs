@@ -80,7 +80,10 @@ impl TakeSource<'_> {
         for morph in &take.morphs {
             let shapes = self.shapes.get(morph.instance as usize).map_or(&[][..], |shapes| shapes);
             if weights_below_zero(morph) {
-                losses.add(format!("{place}/morphs"), "weights below zero are stored, but most programs show none");
+                losses.add(
+                    format!("{place}/morphs"),
+                    "weights below zero are stored, but most programs show none",
+                );
             }
             for (target, &shape) in shapes.iter().enumerate().take(morph.targets as usize) {
                 let keys = weight_keys(&weights_of(morph, target), self.keys);

@@ -69,7 +69,9 @@ fn with_rest(take: &Take, skeleton: &Skeleton, changed: &[usize]) -> Take {
     let mut take = take.clone();
     let start = take.start;
     for &bone in changed {
-        let (Some(track), Some(bone)) = (take.tracks.get_mut(bone), skeleton.bones.get(bone)) else { continue };
+        let (Some(track), Some(bone)) = (take.tracks.get_mut(bone), skeleton.bones.get(bone)) else {
+            continue;
+        };
         let hold = |channel: &mut Channel<Vec3>, value: Vec3| {
             if channel.is_empty() {
                 *channel = Channel::new([start], [value], Interpolation::Linear);

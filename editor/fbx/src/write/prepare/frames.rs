@@ -12,6 +12,9 @@ use dragonfly_anim::sample::sample_morph_weights;
 use glam::{DMat4, DQuat, DVec3, Mat4, Quat, Vec3};
 use std::sync::Arc;
 
+/// Lowest frame rate of keys at every frame.
+const LEAST_RATE: f32 = 24.0;
+
 /// Difference of a scale from 1 that counts.
 const SCALED: f32 = 1e-5;
 
@@ -33,10 +36,13 @@ pub(in super::super) fn at_frames(
     let mut framed = model.clone();
     let mut takes = Vec::with_capacity(model.animation.takes.len());
     for (index, take) in model.animation.takes.iter().enumerate() {
-        let rate = frame_rate(take);
+        let rate = fluent(frame_rate(take));
         losses.add(
             format!("/animation/takes/{index}"),
-            format!("the take \"{}\" has keys at every frame, {rate} per second, instead of its own", take.name),
+            format!(
+                "the take \"{}\" has keys at every frame, {rate} per second, instead of its own",
+                take.name
+            ),
         );
         takes.push(Arc::new(framed_take(take, skeleton, rate, &resting, is_scaled)?));
     }
@@ -61,6 +67,11 @@ pub(in super::super) fn at_frames(
     }
     framed.animation = AnimationData { takes, ..framed.animation };
     Ok(framed)
+}
+
+/// Returns a rate that is not too low for lines between frames: twice that of takes with few keys.
+fn fluent(rate: f32) -> f32 {
+    if rate < LEAST_RATE { 2.0 * rate } else { rate }
 }
 
 /// Returns whether a bone has a scale, and lists a loss for a scale that changes.
@@ -158,7 +169,8 @@ fn framed_take(
         columns.iter_mut().zip(row).for_each(|(column, pose)| column.push(pose));
     }
     let tracks = columns.iter().zip(resting).enumerate();
-    let tracks = tracks.map(|(bone, (column, rest))| framed_track(bone as u32, column, rest, &times)).collect();
+    let tracks =
+        tracks.map(|(bone, (column, rest))| framed_track(bone as u32, column, rest, &times)).collect();
     let morphs = take.morphs.iter().map(|morph| framed_weights(take, morph, &times)).collect();
     let length = at(frames - 1) as f32 - take.start;
     let mut framed = Take { tracks, morphs, length, ..take.clone() };
