@@ -70,7 +70,8 @@ pub use cancel::{Cancel, LoadStage, Progress};
 pub use clip_import::ClipOrder;
 pub use clips::{ClipNaming, ClipSettings, ClipTakes, TakeNames, clip_takes};
 pub use conversion::{
-    ConversionError, ConversionOrder, ConvertedFile, convert, write_files, written_extensions,
+    ConversionError, ConversionOrder, ConvertedFile, checked_preset, convert, export, export_presets,
+    write_files, written_extensions,
 };
 pub use editable::{Editable, WrittenFile, make_folder};
 pub use fault::{FaultInjection, FaultPlan, FaultPoint};

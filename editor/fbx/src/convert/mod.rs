@@ -6,7 +6,6 @@
 
 mod channel;
 mod curves;
-mod fit;
 mod image;
 mod keys;
 mod load;

@@ -6,7 +6,7 @@ use super::super::{Failure, tell};
 use super::chosen;
 use dragonfly_anim::data::{AnimationData, ModelData};
 use dragonfly_anim::format::Format;
-use dragonfly_document::{formats, make_folder, write_files, written_extensions};
+use dragonfly_document::{checked_preset, export, formats, make_folder, write_files, written_extensions};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -28,6 +28,9 @@ pub(super) struct ExtractTakes {
     /// File name extension of the files in the folder
     #[arg(long, value_name = "EXT", requires = "each")]
     to: Option<String>,
+    /// Program for which the files are written: unity, unreal, maya or blender, for .fbx
+    #[arg(long, value_name = "PRESET")]
+    preset: Option<String>,
     /// Leave out meshes, materials and images
     #[arg(long)]
     no_mesh: bool,
@@ -49,8 +52,8 @@ impl ExtractTakes {
         if !self.each {
             let extension =
                 self.output.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-            let format = writer(extension)?;
-            return write(&loaded.title, format, &part(&indices), &self.output);
+            let format = self.writer(extension)?;
+            return self.write(&loaded.title, format, &part(&indices), &self.output);
         }
         let extension = self.to.clone().unwrap_or_else(|| {
             loaded
@@ -59,14 +62,14 @@ impl ExtractTakes {
                 .map_or("glb", |format| format.extension())
                 .to_owned()
         });
-        let format = writer(&extension)?;
+        let format = self.writer(&extension)?;
         let stem = loaded.title.rsplit_once('.').map_or(&*loaded.title, |(stem, _)| stem);
         let mut used = HashSet::new();
         for index in indices {
             let name = file_name(stem, &takes[index].name, &extension, &mut used);
             let path = self.output.join(name);
             make_folder(&path).map_err(Failure::Input)?;
-            write(&loaded.title, format, &part(&[index]), &path)?;
+            self.write(&loaded.title, format, &part(&[index]), &path)?;
         }
         Ok(())
     }
@@ -82,6 +85,25 @@ impl ExtractTakes {
         }
         ModelData { animation, ..model.clone() }
     }
+
+    /// Returns the format of an extension that can be written, with the preset if there is one.
+    fn writer(&self, extension: &str) -> Result<Format, Failure> {
+        let format = writer(extension)?;
+        if let Some(preset) = &self.preset {
+            checked_preset(&format, preset).map_err(|reason| Failure::input("--preset", reason))?;
+        }
+        Ok(format)
+    }
+
+    fn write(&self, title: &str, format: Format, model: &ModelData, path: &Path) -> Result<(), Failure> {
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let plan = export(&format, model, &name, self.preset.as_deref())
+            .map_err(|error| Failure::input(title, error))?;
+        write_files(path, &plan).map_err(|error| Failure::Input(error.to_string()))?;
+        let bytes = plan.files.last().map_or(0, |file| file.bytes.len());
+        tell(format_args!("wrote {} ({bytes} bytes)", path.display()));
+        print(|out| plan.lost.iter().try_for_each(|lost| writeln!(out, "not written: {lost}")))
+    }
 }
 
 /// Returns the format of an extension that can be written.
@@ -92,16 +114,6 @@ fn writer(extension: &str) -> Result<Format, Failure> {
         let known = written_extensions();
         Failure::Input(format!(".{}: files of this kind cannot be written; use {known}", plain(extension)))
     })
-}
-
-fn write(title: &str, format: Format, model: &ModelData, path: &Path) -> Result<(), Failure> {
-    let Some(export) = format.export else { return Ok(()) };
-    let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let plan = export(model, &name).map_err(|error| Failure::input(title, error))?;
-    write_files(path, &plan).map_err(|error| Failure::Input(error.to_string()))?;
-    let bytes = plan.files.last().map_or(0, |file| file.bytes.len());
-    tell(format_args!("wrote {} ({bytes} bytes)", path.display()));
-    print(|out| plan.lost.iter().try_for_each(|lost| writeln!(out, "not written: {lost}")))
 }
 
 /// Returns a name that no file of this run has: `Model@Take.glb`, without characters that file systems forbid.
