@@ -67,13 +67,13 @@ pub struct Rebased {
     pub unfit: Vec<UnfitEdit>,
 }
 
-/// Applies edits to an old version of a model, and what they mean to a new one.
-#[derive(Debug)]
+/// Applies edits to an old version of a model, and what they mean to a new one. A clone is cheap: large data is shared.
+#[derive(Clone, Debug)]
 pub struct Rebase {
     old: ModelAdapter,
     new: Edited,
     takes: HashMap<TakeId, TakeId>,
-    bones: MappedBones,
+    bones: Arc<MappedBones>,
     /// The skeletons between which `bones` are paired.
     skeletons: [Arc<Skeleton>; 2],
     unfit: Vec<UnfitEdit>,
@@ -84,7 +84,7 @@ impl Rebase {
     pub fn new(old: ModelAdapter, new: &ModelData) -> Self {
         let new = Edited::new(ModelAdapter::of(new));
         let skeletons = [&old, new.adapter()].map(|adapter| Arc::clone(adapter.skeleton()));
-        let bones = MappedBones::between(&skeletons[0], &skeletons[1]);
+        let bones = Arc::new(MappedBones::between(&skeletons[0], &skeletons[1]));
         let mut takes = HashMap::new();
         pair_by_name(&mut takes, [&old, new.adapter()], |_| true, |_| true);
         Self { old, new, takes, bones, skeletons, unfit: Vec::new() }
@@ -137,7 +137,7 @@ impl Rebase {
     fn pair_bones(&mut self) {
         let [old, new] = [&self.old, self.new.adapter()].map(ModelAdapter::skeleton);
         if !Arc::ptr_eq(old, &self.skeletons[0]) || !Arc::ptr_eq(new, &self.skeletons[1]) {
-            self.bones = MappedBones::between(old, new);
+            self.bones = Arc::new(MappedBones::between(old, new));
             self.skeletons = [Arc::clone(old), Arc::clone(new)];
         }
     }

@@ -6,7 +6,7 @@ use super::take_event::TakeEvent;
 use super::{
     BoneRef, CopiedKey, CopiedShapeKey, CopiedShapes, CurveFilter, KeyInterpolation, KeySet, KeyTangents,
     KeyTarget, LayerKind, LayerWeightKey, Misfit, NewKey, OffsetFalloff, OffsetScope, Property, RepeatCount,
-    RepeatMode, ResetTo, ShapeScope, TakeRef, TravelPart, TurnWay,
+    RepeatMode, ResetTo, ShapeRef, ShapeScope, TakeRef, TravelPart, TurnWay,
 };
 use crate::bones::BodySide;
 
@@ -178,7 +178,13 @@ impl MapReferences for CopiedShapes {
         let (mut new_mesh, mut new_shapes, mut fitting) = (mesh.clone(), Vec::new(), Vec::new());
         let mut last = None;
         for shape in shapes {
-            match map.shape(Some(mesh), shape) {
+            // Another mesh than the given one is searched for the name, but not for the index.
+            let own = Some(mesh).filter(|mesh| map.has_shape(Some(mesh), shape));
+            if own.is_none() && matches!(shape, ShapeRef::Index(_)) {
+                fitting.push(false);
+                continue;
+            }
+            match map.shape(own, shape) {
                 Ok((mesh, shape)) => {
                     new_mesh = mesh.unwrap_or(new_mesh);
                     new_shapes.push(shape);

@@ -60,7 +60,14 @@ impl<'a> ReferenceMap<'a> {
             Ok(slot) => Misfit::NoTake(slot.original.name.clone()),
             Err(_) => Misfit::NoTake(format!("{take:?}")),
         };
-        let old = self.old.take(take).map_err(|_| no_take())?;
+        let old = match (self.old.take(take), take) {
+            (Ok(old), _) => old,
+            // Pending poses are those of the take, whatever the layer.
+            (Err(_), TakeRef::Layer { take, layer }) => {
+                return Ok(TakeRef::Layer { take: Box::new(self.take(take)?), layer: layer.clone() });
+            }
+            (Err(_), TakeRef::Index(_) | TakeRef::Name(_)) => return Err(no_take()),
+        };
         let new = self.takes.get(&old.id).copied();
         let Some((new, (index, layer))) = new.and_then(|new| Some((new, self.new.place_of(new)?))) else {
             return Err(self.no_layer(take).unwrap_or_else(no_take));
@@ -133,6 +140,11 @@ impl<'a> ReferenceMap<'a> {
         let new = self.bones.of(old).ok_or_else(|| self.bones.reason(old, self.old.skeleton()))?;
         let is_same = bone.find_in(self.new.skeleton()) == Some(new);
         Ok(if is_same { bone.clone() } else { BoneRef::Index(new) })
+    }
+
+    /// Returns whether the old version has the shape key.
+    pub(super) fn has_shape(&self, mesh: Option<&MeshRef>, shape: &ShapeRef) -> bool {
+        self.old.shapes().find(mesh, shape).is_some()
     }
 
     /// Returns the reference of a shape key in the new version. One that the old version does not have stays: it is that of a copied mesh.
