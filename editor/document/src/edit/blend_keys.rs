@@ -72,7 +72,9 @@ pub enum KeyTarget {
     Delayed(f32),
 }
 
-map_references!(BlendKeys { take, shapes, toward, factor, hold }, |edit, map| { keys: map.any(&edit.keys, !edit.shapes.is_empty())? });
+map_references!(BlendKeys { take, shapes, toward, factor, hold }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for BlendKeys {
     const EXAMPLE: Example = Example {

@@ -24,7 +24,9 @@ pub struct DeleteKeys {
     pub shapes: Vec<[f32; 2]>,
 }
 
-map_references!(DeleteKeys { take, shapes }, |edit, map| { keys: map.any(&edit.keys, !edit.shapes.is_empty())? });
+map_references!(DeleteKeys { take, shapes }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for DeleteKeys {
     const EXAMPLE: Example = Example {

@@ -24,7 +24,9 @@ pub struct DuplicateKeys {
     pub by: f32,
 }
 
-map_references!(DuplicateKeys { take, shapes, by }, |edit, map| { keys: map.any(&edit.keys, !edit.shapes.is_empty())? });
+map_references!(DuplicateKeys { take, shapes, by }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for DuplicateKeys {
     const EXAMPLE: Example = Example {

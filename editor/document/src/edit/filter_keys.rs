@@ -61,7 +61,9 @@ pub enum CurveFilter {
     },
 }
 
-map_references!(FilterKeys { take, shapes, filter, rate, hold }, |edit, map| { keys: map.any(&edit.keys, !edit.shapes.is_empty())? });
+map_references!(FilterKeys { take, shapes, filter, rate, hold }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for FilterKeys {
     const EXAMPLE: Example = Example {

@@ -12,7 +12,7 @@ use dragonfly_anim::data::Skeleton;
 /// A new kind is one file with a type that implements this trait, and one line in the list of [`super::Edit`]. The history, the
 /// locks of bones, the help of the command line and the property tests follow from the list.
 ///
-/// [`MapReferences`] says what the edit refers to, so that it can be applied to another version of the model.
+/// [`MapReferences`] lists what the edit refers to, so that it can be applied to another version of the model.
 pub(crate) trait EditKind: MapReferences {
     /// The edit as a line of JSON, with a description; for help texts and tests.
     const EXAMPLE: Example;

@@ -1,5 +1,5 @@
-//! Rewrites an edit of one version of a model for another version: every kind of edit, and every part of one, says here what it
-//! refers to.
+//! Rewrites an edit of one version of a model for another version: every kind of edit, and every part of one, lists what it refers
+//! to.
 
 use super::reference_map::ReferenceMap;
 use super::take_event::TakeEvent;

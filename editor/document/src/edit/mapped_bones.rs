@@ -6,8 +6,8 @@ use std::collections::HashMap;
 
 /// The counterpart of each bone of an old version of a skeleton in a new one.
 ///
-/// Bones are paired by name. Where several bones of either version share a name, those below the same parents are the same, the n-th
-/// one where even these are several and as many in both versions.
+/// Bones are paired by name. Where several bones of either version share a name, those below the same parents are the same. Where
+/// even these are several, and their number is the same in both versions, the n-th one is the n-th one.
 #[derive(Debug)]
 pub(crate) struct MappedBones(Vec<MappedBone>);
 
@@ -17,7 +17,7 @@ enum MappedBone {
     Is(BoneIndex),
     /// No bone has the name.
     Gone,
-    /// Bones have the name, but it cannot be told which of them is meant.
+    /// Several bones have the name, and none is below the same parents.
     Unclear,
 }
 

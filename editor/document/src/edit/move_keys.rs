@@ -24,7 +24,9 @@ pub struct MoveKeys {
     pub by: f32,
 }
 
-map_references!(MoveKeys { take, shapes, by }, |edit, map| { keys: map.any(&edit.keys, !edit.shapes.is_empty())? });
+map_references!(MoveKeys { take, shapes, by }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for MoveKeys {
     const EXAMPLE: Example = Example {

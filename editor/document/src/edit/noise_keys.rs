@@ -48,7 +48,9 @@ pub struct NoiseKeys {
     pub hold: Vec<BoneRef>,
 }
 
-map_references!(NoiseKeys { take, shapes, translation, rotation, scale, frequency, seed, hold }, |edit, map| { keys: map.any(&edit.keys, !edit.shapes.is_empty())? });
+map_references!(NoiseKeys { take, shapes, translation, rotation, scale, frequency, seed, hold }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for NoiseKeys {
     const EXAMPLE: Example = Example {

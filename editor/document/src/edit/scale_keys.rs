@@ -26,7 +26,9 @@ pub struct ScaleKeys {
     pub factor: f32,
 }
 
-map_references!(ScaleKeys { take, shapes, about, factor }, |edit, map| { keys: map.any(&edit.keys, !edit.shapes.is_empty())? });
+map_references!(ScaleKeys { take, shapes, about, factor }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for ScaleKeys {
     const EXAMPLE: Example = Example {

@@ -24,7 +24,9 @@ pub struct SnapKeys {
     pub rate: f32,
 }
 
-map_references!(SnapKeys { take, shapes, rate }, |edit, map| { keys: map.any(&edit.keys, !edit.shapes.is_empty())? });
+map_references!(SnapKeys { take, shapes, rate }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for SnapKeys {
     const EXAMPLE: Example = Example {
