@@ -70,6 +70,7 @@ mod properties;
 mod properties_formula;
 mod questions;
 mod quick_clicks;
+mod rebase_command;
 mod remembered;
 // The memory of another process can be read there only.
 #[cfg(target_os = "linux")]

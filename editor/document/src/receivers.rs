@@ -35,6 +35,7 @@ impl Document {
             DocumentMessage::CancelLoading => self.cancel(),
             DocumentMessage::Save(order) => self.save(order, now),
             DocumentMessage::Plan(order) => self.plan(order),
+            DocumentMessage::Reload => self.reload(),
             DocumentMessage::Revert => self.revert(now),
             DocumentMessage::Quit => {
                 let unsaved = self.has_unsaved_work();

@@ -57,6 +57,7 @@ fn waits(message: &DocumentMessage) -> Waits {
         | DocumentMessage::Poses(_) => Waits::No,
         DocumentMessage::Save(_) | DocumentMessage::LookAtFile => Waits::Alone,
         DocumentMessage::Open { .. }
+        | DocumentMessage::Reload
         | DocumentMessage::Revert
         | DocumentMessage::Quit
         | DocumentMessage::DoNotSave
