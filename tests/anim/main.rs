@@ -98,6 +98,8 @@ mod turns;
 mod two_takes;
 mod unbound;
 mod uris;
+mod vrm;
+mod vrma;
 mod write_gltf;
 mod x;
 

@@ -114,6 +114,14 @@ const BAD: &[(&str, Consequence, Bad)] = &[
         }),
     ),
     (
+        "VRM_INVALID",
+        Warn,
+        Edit(|f| {
+            let humanoid = json!({"humanBones": {"hips": {"node": 99}}});
+            f.set("/extensions/VRMC_vrm", json!({"humanoid": humanoid}));
+        }),
+    ),
+    (
         "MESHOPT_INVALID",
         Refuse,
         Edit(|f| {

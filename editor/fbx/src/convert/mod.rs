@@ -55,6 +55,7 @@ pub(crate) fn convert(bytes: &[u8], context: &ImportContext<'_>) -> Result<Conve
         materials,
         images,
         animation: AnimationData { skeleton, takes },
+        ..ModelData::default()
     };
     Ok(ConvertedScene { model, textures })
 }
