@@ -54,6 +54,7 @@ pub(crate) fn convert(bytes: &[u8], context: &ImportContext<'_>) -> Result<Conve
         materials,
         images,
         animation: AnimationData { skeleton, takes },
+        ..ModelData::default()
     };
     Ok(ConvertedScene { model, textures })
 }

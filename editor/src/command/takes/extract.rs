@@ -81,7 +81,10 @@ impl ExtractTakes {
         let takes = indices.iter().map(|&index| Arc::clone(&model.animation.takes[index])).collect();
         let animation = AnimationData { skeleton: Arc::clone(&model.animation.skeleton), takes };
         if self.no_mesh {
-            return ModelData { name: model.name.clone(), animation, ..ModelData::default() };
+            let mut avatar = model.avatar.clone();
+            // Expressions set morph targets of meshes.
+            avatar.expressions.iter_mut().for_each(|expression| expression.binds.clear());
+            return ModelData { name: model.name.clone(), animation, avatar, ..ModelData::default() };
         }
         ModelData { animation, ..model.clone() }
     }
