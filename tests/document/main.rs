@@ -9,6 +9,7 @@ mod documents;
 mod edit_cost;
 mod edits;
 mod events;
+mod export;
 mod fox_edits;
 mod held_feet;
 mod image_memory;

@@ -23,6 +23,7 @@ mod echo;
 mod edit_command;
 mod edit_scope;
 mod explain;
+mod export;
 mod eye;
 mod faults;
 mod fbx_command;

@@ -27,6 +27,8 @@ mod conversion;
 pub mod demo;
 pub mod edit;
 mod editable;
+mod export;
+mod exporting;
 mod fault;
 mod folder;
 mod handle;
@@ -76,6 +78,7 @@ pub use conversion::{
     write_files, written_extensions,
 };
 pub use editable::{Editable, WrittenFile, make_folder};
+pub use export::{ExportContent, ExportOrder, ExportReport, ExportedFile, export_files};
 pub use fault::{FaultInjection, FaultPlan, FaultPoint};
 pub use folder::{FileAccessError, Folder, read_file};
 pub use handle::DocumentHandle;

@@ -5,7 +5,9 @@ use super::retarget_order::{MapFile, RetargetOrder};
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
 use super::scan::Decision;
 use super::take_check::{CheckedTake, TakeCheck};
-use super::{BoneMap, ClipOrder, LoadedModel, Offer, Progress, Source, UnfitEdit, View};
+use super::{
+    BoneMap, ClipOrder, ExportOrder, ExportReport, LoadedModel, Offer, Progress, Source, UnfitEdit, View,
+};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -48,6 +50,8 @@ pub enum DocumentMessage {
     Retarget(RetargetOrder),
     /// Imports all takes of files onto the open model, as one step.
     ImportTakes(ClipOrder),
+    /// Writes files of any format from the open model, or finds out what they would lose. The reply is [`DocumentReply::Exported`].
+    Export(ExportOrder),
     /// Reads or writes a bone map.
     MapFile(MapFile),
     /// Checks a take for defects. The reply is [`DocumentReply::Checked`].
@@ -112,6 +116,8 @@ pub enum DocumentReply {
     ComparedRead(Arc<LoadedModel>),
     /// A bone map was read.
     MapRead(BoneMap),
+    /// Files were written from the open model, or would be; or the reason why they were not.
+    Exported(ExportOrder, Result<ExportReport, String>),
     /// A take was checked.
     Checked(CheckedTake),
     /// The poses of a folder.

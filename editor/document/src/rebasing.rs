@@ -15,7 +15,8 @@ impl Document {
             let reason = "The document was never saved, so there is no file to load again";
             return self.reply(DocumentReply::Refused(reason.to_owned()));
         };
-        self.open(Source::File(path), None);
+        let chosen = self.open.as_ref().map(|open| open.source().conventions()).unwrap_or_default();
+        self.open(Source::of(path, chosen), None);
         if let Some(job) = &mut self.job {
             job.gets_edits = true;
         }

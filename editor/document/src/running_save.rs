@@ -52,6 +52,7 @@ fn waits(message: &DocumentMessage) -> Waits {
         | DocumentMessage::ReadCompared(_)
         | DocumentMessage::Retarget(_)
         | DocumentMessage::ImportTakes(_)
+        | DocumentMessage::Export(_)
         | DocumentMessage::MapFile(_)
         | DocumentMessage::CheckTake(_)
         | DocumentMessage::Poses(_) => Waits::No,

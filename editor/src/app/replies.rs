@@ -90,6 +90,7 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::SourceRead(source) => state.source_read(source),
         DocumentReply::ComparedRead(file) => state.compared_read(file),
         DocumentReply::MapRead(map) => state.map_read(map),
+        DocumentReply::Exported(order, done) => state.exported(order, done),
         DocumentReply::Checked(checked) => state.checked(checked),
         DocumentReply::Poses(folder) => state.poses_read(folder),
         DocumentReply::Notice(text) => state.say(MessageSeverity::Info, text),

@@ -267,6 +267,7 @@ fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     item(ui, context, Id::Save, false, requests);
     item(ui, context, Id::SaveAs, false, requests);
     item(ui, context, Id::SaveCopy, false, requests);
+    item(ui, context, Id::Export, false, requests);
     item(ui, context, Id::Revert, false, requests);
     item(ui, context, Id::Reload, false, requests);
     item(ui, context, Id::WhatWillBeSaved, false, requests);
