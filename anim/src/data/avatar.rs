@@ -1,8 +1,8 @@
-//! A model of a person: which bones are which parts of the body, and named facial expressions.
+//! Humanoid models: the bones of the parts of the body, and named facial expressions.
 
 use super::BoneIndex;
 
-/// What a file says about a model of a person, as VRM files do; empty for all others.
+/// The humanoid bones and facial expressions of a VRM file; empty for all other models.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[doc(alias("VRM", "humanoid"))]
 pub struct Avatar {
@@ -16,7 +16,7 @@ pub struct Avatar {
 }
 
 impl Avatar {
-    /// Returns whether the file says nothing.
+    /// Returns whether there are neither bones nor expressions.
     pub fn is_empty(&self) -> bool {
         self.bones.is_empty() && self.expressions.is_empty()
     }

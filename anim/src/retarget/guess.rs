@@ -24,8 +24,8 @@ impl BindingGuess {
         Self::with(source, target, [SkeletonRoles::guess(source), SkeletonRoles::guess(target)])
     }
 
-    /// Guesses a binding as [`Self::of`] does. Where a file says which bones are which parts of the body, as VRM files do,
-    /// that takes precedence over the names of its bones.
+    /// Guesses a binding as [`Self::of`] does. Where an [`Avatar`](crate::data::Avatar) assigns bones to parts of the body, it
+    /// takes precedence over the names of its bones.
     pub fn of_models(source: &ModelData, target: &ModelData) -> Self {
         let roles = [source, target].map(|model| {
             let skeleton = &model.animation.skeleton;

@@ -87,7 +87,7 @@ struct InfoBone {
     node: Option<u32>,
 }
 
-/// What a VRM file says about a person.
+/// Humanoid bones and facial expressions of a VRM file.
 #[derive(Serialize)]
 struct InfoAvatar {
     humanoid_bones: Vec<InfoHumanBone>,

@@ -80,8 +80,8 @@ fn import(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, Import
     read_model(bytes, context, true)
 }
 
-/// Writes the whole file; the format represents everything that a model contains, but not the extras of its takes and what
-/// VRM says about a person.
+/// Writes the whole file; the format represents everything that a model contains, but not the extras of its takes and
+/// its avatar.
 fn export(model: &ModelData) -> Result<WholeFile, ExportError> {
     let takes = model.animation.takes.iter().enumerate().filter(|(_, take)| !take.extras.is_empty());
     let lost = takes.map(|(number, take)| {

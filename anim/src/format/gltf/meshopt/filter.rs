@@ -119,8 +119,8 @@ fn exponential(bytes: [u8; 4]) -> [u8; 4] {
     ((f64::from(mantissa) * power) as f32).to_le_bytes()
 }
 
-/// Returns red, green, blue and alpha, each 0..`largest`, of luma, orange, green and alpha. The highest bit of alpha tells
-/// how many bits the numbers have.
+/// Returns red, green, blue and alpha, each 0..`largest`, of luma, orange, green and alpha. The position of
+/// the highest bit of alpha is the number of bits of all numbers.
 fn color([luma, orange, green, alpha]: [i32; 4], largest: f32) -> [f32; 4] {
     let bits = 32 - alpha.leading_zeros();
     let all = (1 << bits) - 1;

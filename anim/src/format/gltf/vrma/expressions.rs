@@ -33,7 +33,7 @@ pub(super) struct ExpressionTracks<'a> {
     found: Vec<(&'a str, WeightSource)>,
 }
 
-/// Where the weight of an expression comes from.
+/// Source of the weight of an expression.
 enum WeightSource {
     /// The x translation of a bone.
     Bone(u32),

@@ -52,7 +52,7 @@ pub fn glb(model: &ModelData) -> Result<WholeFile, ExportError> {
     Ok(WholeFile { bytes, lost })
 }
 
-/// Returns the loss of what VRM says about a person, if the model has any of it.
+/// Returns the loss of the humanoid bones and expressions of VRM, if the model has any.
 fn avatar_lost(model: &ModelData) -> Option<Warning> {
     (!model.avatar.is_empty()).then(|| Warning {
         place: Place::Pointer("/avatar".to_owned()),
