@@ -3,6 +3,7 @@
 mod agreement;
 mod contained;
 mod content;
+mod figures;
 mod hostile;
 mod judges;
 mod round_trip;
