@@ -30,7 +30,7 @@
 //! ```
 
 use crate::data::{
-    AnimationData, Bone, BoneIndex, MeshInstance, ModelData, Skeleton, Skin, Take, Track, Transform,
+    AnimationData, Avatar, Bone, BoneIndex, MeshInstance, ModelData, Skeleton, Skin, Take, Track, Transform,
 };
 use crate::limits::{NODE_DEPTH, NODES};
 use glam::Mat4;
@@ -208,6 +208,22 @@ impl BoneShift {
         Some(MeshInstance { bone, ..instance.clone() })
     }
 
+    /// Returns the parts of the body for the second skeleton, without bones that only the first one has.
+    fn avatar(self, avatar: &Avatar) -> Avatar {
+        let mut avatar = avatar.clone();
+        avatar.bones.retain_mut(|human| match self.bone(human.bone) {
+            Some(bone) => {
+                human.bone = bone;
+                true
+            }
+            None => false,
+        });
+        for expression in &mut avatar.expressions {
+            expression.weight_bone = expression.weight_bone.and_then(|bone| self.bone(bone));
+        }
+        avatar
+    }
+
     /// Returns the model with the second skeleton, `to`; `None` where a mesh needs a bone that only the first one has.
     pub fn model(self, model: &ModelData, to: &Arc<Skeleton>) -> Option<ModelData> {
         let takes = model.animation.takes.iter().map(|take| Arc::new(self.take(take))).collect();
@@ -223,6 +239,7 @@ impl BoneShift {
             materials: model.materials.clone(),
             images: model.images.clone(),
             animation: AnimationData { skeleton: Arc::clone(to), takes },
+            avatar: self.avatar(&model.avatar),
         })
     }
 }

@@ -213,7 +213,7 @@ fn extensions_of_other_model_formats_are_known_as_such() {
         assert!(!formats.is_model_extension(extension), "{extension}");
     }
     assert_eq!(formats.by_extension("fbx"), None);
-    assert_eq!(formats.extensions(), ["dfm", "glb", "gltf", "bvh", "obj", "m3d", "x"]);
+    assert_eq!(formats.extensions(), ["dfm", "glb", "vrm", "gltf", "vrma", "bvh", "obj", "m3d", "x"]);
     assert_eq!(formats.extension_list(), ".dfm, .glb, .gltf, .bvh, .obj, .m3d, .x");
 }
 
@@ -285,7 +285,10 @@ use take_list::TAKE_LIST;
 fn a_format_of_another_crate_is_read_and_written_like_the_others() {
     let formats = Formats::builtin().with(TAKE_LIST);
     assert_eq!(formats.by_extension("TXT"), Some(&TAKE_LIST));
-    assert_eq!(formats.extensions(), ["takes", "txt", "dfm", "glb", "gltf", "bvh", "obj", "m3d", "x"]);
+    assert_eq!(
+        formats.extensions(),
+        ["takes", "txt", "dfm", "glb", "vrm", "gltf", "vrma", "bvh", "obj", "m3d", "x"]
+    );
     let bytes = b"TAKES\nwalk\n\ninclude run.name\n";
     let files = MemoryFs::with(&[("run.name", b"run")]);
     let options = ReadOptions::default();

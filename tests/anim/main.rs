@@ -3,6 +3,7 @@
 mod additional_turns;
 mod additive;
 mod agreement;
+mod animation_pointer;
 mod attachments;
 mod bad_files;
 mod blending;
@@ -59,6 +60,7 @@ mod loops;
 mod m3d;
 mod made;
 mod masks;
+mod meshopt;
 mod motion;
 mod obj;
 mod offset;
@@ -96,6 +98,8 @@ mod turns;
 mod two_takes;
 mod unbound;
 mod uris;
+mod vrm;
+mod vrma;
 mod write_gltf;
 mod x;
 

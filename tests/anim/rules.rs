@@ -103,11 +103,7 @@ const BAD: &[(&str, Consequence, Bad)] = &[
     ("EMPTY_ENTITY", Warn, Edit(|f| _ = f.set("/meshes/1", json!({"primitives": []})))),
     ("DUPLICATE_ELEMENTS", Warn, Edit(|f| _ = f.set("/skins/0/joints", json!([0, 0])))),
     ("UNSUPPORTED_EXTENSION", Warn, Edit(|f| _ = f.set("/extensionsUsed", json!(["EXT_unheard_of"])))),
-    (
-        "UNSUPPORTED_EXTENSION",
-        Refuse,
-        Edit(|f| _ = f.set("/extensionsRequired", json!(["EXT_meshopt_compression"]))),
-    ),
+    ("UNSUPPORTED_EXTENSION", Refuse, Edit(|f| _ = f.set("/extensionsRequired", json!(["EXT_unheard_of"])))),
     ("UNSUPPORTED_EXTENSION", Refuse, Edit(|f| _ = f.set("/asset/version", json!("1.0")))),
     ("UNSUPPORTED_EXTENSION", Refuse, Edit(|f| _ = f.set("/asset/minVersion", json!("3.0")))),
     (
@@ -115,6 +111,23 @@ const BAD: &[(&str, Consequence, Bad)] = &[
         Refuse,
         Edit(|f| {
             f.set("/extensionsUsed", json!(["KHR_draco_mesh_compression"])).remove("/accessors/0/bufferView");
+        }),
+    ),
+    (
+        "VRM_INVALID",
+        Warn,
+        Edit(|f| {
+            let humanoid = json!({"humanBones": {"hips": {"node": 99}}});
+            f.set("/extensions/VRMC_vrm", json!({"humanoid": humanoid}));
+        }),
+    ),
+    (
+        "MESHOPT_INVALID",
+        Refuse,
+        Edit(|f| {
+            let object =
+                json!({"buffer": 0, "byteLength": 1, "byteStride": 4, "count": 12, "mode": "ATTRIBUTES"});
+            f.set("/bufferViews/0/extensions", json!({"EXT_meshopt_compression": object}));
         }),
     ),
     ("BUFFER_BYTE_LENGTH_MISMATCH", Refuse, Edit(|f| _ = f.set("/buffers/0/byteLength", json!(1_u64 << 40)))),

@@ -21,6 +21,19 @@ pub(crate) fn faults(model: &ModelData) -> Vec<String> {
         check((bone.rest.rotation.length() - 1.0).abs() < 1e-5, "a rest rotation is normalized");
         check(bone.rest_matrix.is_none_or(|matrix| matrix.is_finite()), "a rest matrix is finite");
     }
+    let is_bone = |bone: u32| (bone as usize) < bones.len();
+    check(model.avatar.bones.iter().all(|human| is_bone(human.bone)), "a part of the body is a bone");
+    for expression in &model.avatar.expressions {
+        check(expression.weight_bone.is_none_or(is_bone), "the weight of an expression is that of a bone");
+        for bind in &expression.binds {
+            let instance = model.instances.get(bind.instance as usize);
+            let targets = instance.map_or(0, |instance| instance.morph_weights.len());
+            check(
+                (bind.target as usize) < targets && bind.weight.is_finite(),
+                "an expression sets a morph target",
+            );
+        }
+    }
     for skin in &model.skins {
         check(skin.bones.len() == skin.offsets.len() && !skin.bones.is_empty(), "a joint has an offset");
         check(skin.bones.iter().all(|&bone| (bone as usize) < bones.len()), "a joint is a bone");

@@ -209,6 +209,7 @@ fn unusual() -> ModelData {
     let take = Take { name: "closest".to_owned(), length: 3.0, tracks, ..Take::default() };
     let still = Take { name: "still".to_owned(), ..Take::default() };
     ModelData {
+        avatar: Default::default(),
         name: "unusual".to_owned(),
         meshes: vec![mesh, empty],
         instances: vec![instance(0, Some(0)), instance(1, None)],

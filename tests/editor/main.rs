@@ -23,6 +23,7 @@ mod echo;
 mod edit_command;
 mod edit_scope;
 mod explain;
+mod export;
 mod eye;
 mod faults;
 mod fbx_command;
@@ -70,6 +71,7 @@ mod properties;
 mod properties_formula;
 mod questions;
 mod quick_clicks;
+mod rebase_command;
 mod remembered;
 // The memory of another process can be read there only.
 #[cfg(target_os = "linux")]

@@ -4,10 +4,10 @@ use crate::panels::{Bench, harness_of};
 use dragonfly::panels::FileAction;
 use dragonfly::panels::dialogs::{
     ChangedQuestion, ExistsQuestion, FindQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion,
-    UnsavedQuestion,
+    UnfitQuestion, UnsavedQuestion,
 };
 use dragonfly::panels::{Effect, Request};
-use dragonfly_document::{Decision, DocumentMessage, Offer, SaveOrder, SaveTo, Source, Then};
+use dragonfly_document::{Decision, DocumentMessage, HistoryView, Offer, SaveOrder, SaveTo, Source, Then};
 use dragonfly_kit::document::fixture;
 use dragonfly_store::{DocumentFileState, FileState, JournalOwner, OwnerStatus, Readability, Recoverable};
 use egui_kittest::kittest::Queryable;
@@ -111,6 +111,7 @@ fn questions() -> Vec<(&'static str, Question)> {
         ),
         ("where", place(false)),
         ("where_copy", place(true)),
+        ("unfit", UnfitQuestion { lines: lines(2) }.into()),
     ]
 }
 
@@ -188,7 +189,7 @@ fn enter_chooses_the_default_button() {
                 ..SaveOrder::own(None)
             }))),
             "plan" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder::own(None)))),
-            "exists" | "plan_long" => None,
+            "exists" | "plan_long" | "unfit" => None,
             "where_copy" => Some(FileAction::Send(DocumentMessage::Save(SaveOrder {
                 // The fixture was opened by a relative path, and the field has a whole one.
                 to: SaveTo::Copy(std::path::absolute("Fox copy.glb").unwrap()),
@@ -245,4 +246,29 @@ fn an_open_question_receives_all_keys_and_the_next_question_follows() {
     assert_eq!(state.execute(Request::Dismiss), None);
     assert_eq!(state.read().question(), None);
     assert_eq!(state.execute(Request::Dismiss), None);
+}
+
+#[test]
+fn a_file_that_changed_on_disk_can_be_loaded_with_the_unsaved_changes() {
+    for order in [None, Some(SaveOrder::own(None))] {
+        let mut bench = bench(ChangedQuestion { file: FileState::Changed, order }.into());
+        let mut view = bench.state.read().view.cloned().expect("a model");
+        view.history = Arc::new(HistoryView { saved: false, ..(*view.history).clone() });
+        bench.state.show(view);
+        let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+        harness.run_steps(4);
+        harness.get_by_label("Load and apply my changes").click();
+        harness.run_steps(4);
+        let reload = Effect::File(FileAction::Send(DocumentMessage::Reload));
+        assert_eq!(harness.state().effects, [reload]);
+        assert_eq!(harness.state().state.read().question(), None);
+    }
+}
+
+#[test]
+fn without_unsaved_changes_there_is_nothing_to_apply_to_a_changed_file() {
+    let bench = bench(ChangedQuestion { file: FileState::Changed, order: None }.into());
+    let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+    harness.run_steps(4);
+    assert!(harness.query_by_label("Load and apply my changes").is_none());
 }

@@ -5,6 +5,7 @@ use crate::screen::{Screen, key};
 use crate::window::{Editor, SOON, alone};
 use dragonfly_document::adapter::ModelAdapter;
 use dragonfly_document::{Cancel, Editable, Source};
+use dragonfly_kit::document::new_version::{new_version, rename_nodes, reverse};
 use dragonfly_kit::document::test_document::fox;
 use dragonfly_kit::eventually;
 use dragonfly_kit::folder::{Folder, data};
@@ -256,6 +257,37 @@ fn a_document_without_a_file_is_saved_where_the_user_chooses() {
     eventually(SOON, || path.is_file());
     assert!(takes(&path).results().any(|take| take.name == "Hover"));
     screen.window("Dragonfly.glb", SOON);
+    screen.close(editor.window);
+    assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
+}
+
+#[test]
+fn a_file_changed_by_another_program_is_loaded_with_the_unsaved_changes() {
+    let _one = alone();
+    let bench = Bench::new("window-reload");
+    let mut screen = Screen::new("reload", 1280, 800);
+    let mut editor = bench.edit(&mut screen, &[]);
+    let [old, new] = ["old.glb", "new.glb"].map(|name| bench.folder.join(name));
+    let bytes = fs::read(&bench.file).unwrap();
+    fs::write(&old, &bytes).unwrap();
+    let changed = new_version(&bytes, |json| {
+        reverse(json);
+        rename_nodes(json, "b_Head_05", "b_Face");
+    });
+    [&new, &bench.file].map(|path| fs::write(path, &changed).unwrap());
+    screen.leave();
+    screen.focus(editor.window);
+    editor.wait_for_log("asked what becomes of a changed file", 1, SOON);
+    screen.press(key::ENTER);
+    editor.wait_for_log("showed which changes do not fit", 1, SOON);
+    screen.press(key::ENTER);
+    editor.window = screen.window("• Fox.glb", SOON);
+    control(&mut screen, key::S);
+    editor.wait_for_log("Saved Fox.glb", 1, SOON);
+    let expected = bench.folder.join("expected.glb");
+    let [old, new, out] = [&old, &new, &expected].map(|path| path.to_str().unwrap());
+    run(["edit", new, "--rebase", old, "--edits", &bench.edits, "-o", out]).expect(1);
+    assert!(fs::read(&bench.file).unwrap() == fs::read(&expected).unwrap(), "as `dragonfly edit --rebase`");
     screen.close(editor.window);
     assert_eq!(editor.ends(SOON).code(), Some(0), "{}", editor.log());
 }

@@ -3,11 +3,15 @@
 mod agreement;
 mod contained;
 mod content;
+mod figures;
 mod hostile;
 mod judges;
+mod round_trip;
 #[path = "../anim/soundness.rs"]
 mod soundness;
 mod support;
+mod written;
+mod written_crafted;
 
 #[global_allocator]
 static ALLOCATOR: dragonfly_kit::counting::CountingAllocator = dragonfly_kit::counting::CountingAllocator;

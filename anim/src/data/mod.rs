@@ -2,6 +2,7 @@
 //!
 //! Big arrays are `Arc<[T]>`, so that an editor can share unchanged ones and threads can read them without a copy.
 
+mod avatar;
 mod bone;
 mod channel;
 mod extras;
@@ -11,6 +12,7 @@ mod model;
 mod take;
 mod transform;
 
+pub use avatar::{Avatar, ExpressionBind, FaceExpression, HumanBone};
 pub use bone::{Bone, BoneIndex, Skeleton, Skin};
 pub use channel::{Channel, Interpolation};
 pub use extras::TakeExtras;

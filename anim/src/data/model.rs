@@ -1,6 +1,6 @@
 //! A complete model: geometry, skins, materials, images, and animation data.
 
-use super::{Image, Material, Mesh, MeshInstance, Skeleton, Skin, Take};
+use super::{Avatar, Image, Material, Mesh, MeshInstance, Skeleton, Skin, Take};
 use std::sync::Arc;
 
 /// The animated part: a skeleton and the takes that move it (thesis §3.1.2, `AnimationBase`).
@@ -29,4 +29,6 @@ pub struct ModelData {
     pub images: Vec<Image>,
     /// The skeleton and the takes.
     pub animation: AnimationData,
+    /// Parts of the body and facial expressions; empty where the file has none.
+    pub avatar: Avatar,
 }

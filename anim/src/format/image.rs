@@ -7,7 +7,7 @@ use crate::data::{Image, TextureRef, TextureTransform};
 use crate::limits::{IMAGE_PIXELS, IMAGE_SIDE, IMAGES_PIXELS};
 use std::collections::HashMap;
 
-/// An image cannot be read, or is neither PNG nor JPEG.
+/// An image cannot be read, or is neither PNG, JPEG nor WebP.
 pub(super) const IMAGE_DATA_INVALID: &str = "IMAGE_DATA_INVALID";
 /// The declared type of an image is not that of its bytes.
 pub(super) const IMAGE_MIME_TYPE_INVALID: &str = "IMAGE_MIME_TYPE_INVALID";
@@ -90,7 +90,11 @@ pub(super) fn judge(
         return;
     }
     let Some((mime, width, height)) = measure(&image.bytes) else {
-        context.warn(place.clone(), IMAGE_DATA_INVALID, "neither PNG nor JPEG; the image is left empty");
+        let text = match image.bytes.starts_with(b"\xabKTX 20\xbb") {
+            true => "a KTX 2 image (KHR_texture_basisu), which is not supported; it is left empty",
+            false => "neither PNG, JPEG nor WebP; the image is left empty",
+        };
+        context.warn(place.clone(), IMAGE_DATA_INVALID, text);
         image.bytes = Vec::new().into();
         return;
     };
@@ -113,12 +117,15 @@ pub(super) fn judge(
     }
 }
 
-/// Returns the type, width and height in the header, or `None` for anything but PNG and JPEG.
+/// Returns the type, width and height in the header, or `None` for anything but PNG, JPEG and WebP.
 pub fn measure(bytes: &[u8]) -> Option<(&'static str, u32, u32)> {
     if let Some(rest) = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n") {
         let header = rest.get(4..16)?.strip_prefix(b"IHDR")?;
         let word = |at: usize| Some(u32::from_be_bytes(*header.get(at..)?.first_chunk()?));
         return Some(("image/png", word(0)?, word(4)?));
+    }
+    if let Some(rest) = bytes.strip_prefix(b"RIFF") {
+        return measure_webp(rest.get(4..)?.strip_prefix(b"WEBP")?);
     }
     let mut rest = bytes.strip_prefix(b"\xff\xd8")?;
     loop {
@@ -137,4 +144,30 @@ pub fn measure(bytes: &[u8]) -> Option<(&'static str, u32, u32)> {
         }
         rest = body.get(length.max(2)..)?;
     }
+}
+
+/// Returns the size in the first chunk of a WebP: lossy, lossless or extended.
+fn measure_webp(chunk: &[u8]) -> Option<(&'static str, u32, u32)> {
+    let (kind, data) = (chunk.get(..4)?, chunk.get(8..)?);
+    let (width, height) = match kind {
+        b"VP8 " => {
+            let frame = data.get(3..)?.strip_prefix(b"\x9d\x01\x2a")?;
+            let side =
+                |at: usize| Some(u32::from(u16::from_le_bytes(*frame.get(at..)?.first_chunk()?) & 0x3fff));
+            (side(0)?, side(2)?)
+        }
+        b"VP8L" => {
+            let bits = u32::from_le_bytes(*data.strip_prefix(b"\x2f")?.first_chunk()?);
+            ((bits & 0x3fff) + 1, (bits >> 14 & 0x3fff) + 1)
+        }
+        b"VP8X" => {
+            let side = |at: usize| {
+                let [low, middle, high]: [u8; 3] = *data.get(at..)?.first_chunk()?;
+                Some(u32::from_le_bytes([low, middle, high, 0]) + 1)
+            };
+            (side(4)?, side(7)?)
+        }
+        _ => return None,
+    };
+    Some(("image/webp", width, height))
 }

@@ -87,6 +87,8 @@ pub const BUILTIN: &[Format] = &[
     gltf::GLB,
     #[cfg(feature = "gltf")]
     gltf::GLTF,
+    #[cfg(feature = "gltf")]
+    gltf::VRMA,
     bvh::BVH,
     obj::OBJ,
     m3d::M3D,

@@ -3,7 +3,7 @@
 use super::SkeletonBinding;
 use super::convention::{BodyPart, BoneRole, SkeletonRoles};
 use super::rest::RestPose;
-use crate::data::{BoneIndex, Skeleton};
+use crate::data::{BoneIndex, ModelData, Skeleton};
 
 /// The guessed binding of two skeletons, and the reasons for it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,7 +21,21 @@ impl BindingGuess {
     /// of different length the bones at the nearest share of the length. Otherwise, and for bones without a part, bones of the same
     /// name are bound as [`SkeletonBinding::by_name`] does. Two skeletons with the same names are always bound by name.
     pub fn of(source: &Skeleton, target: &Skeleton) -> Self {
-        let roles = [SkeletonRoles::guess(source), SkeletonRoles::guess(target)];
+        Self::with(source, target, [SkeletonRoles::guess(source), SkeletonRoles::guess(target)])
+    }
+
+    /// Guesses a binding as [`Self::of`] does. Where an [`Avatar`](crate::data::Avatar) assigns bones to parts of the body, it
+    /// takes precedence over the names of its bones.
+    pub fn of_models(source: &ModelData, target: &ModelData) -> Self {
+        let roles = [source, target].map(|model| {
+            let skeleton = &model.animation.skeleton;
+            let named = SkeletonRoles::of_avatar(skeleton, &model.avatar);
+            named.unwrap_or_else(|| SkeletonRoles::guess(skeleton))
+        });
+        Self::with(&source.animation.skeleton, &target.animation.skeleton, roles)
+    }
+
+    fn with(source: &Skeleton, target: &Skeleton, roles: [SkeletonRoles; 2]) -> Self {
         let named = SkeletonBinding::by_name(source, target);
         let [source_roles, target_roles] = roles;
         let same = target.len() == named.bound() && source.len() == target.len();

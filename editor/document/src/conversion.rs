@@ -3,8 +3,12 @@
 use super::import::formats;
 use super::source::{LoadError, file_name};
 use super::{Cancel, Folder, make_folder, read_file};
-use dragonfly_anim::format::{Conventions, Conversion, ImportError, NoFiles, ReadOptions, SavePlan};
+use dragonfly_anim::data::ModelData;
+use dragonfly_anim::format::{
+    Conventions, Conversion, ExportError, Format, ImportError, NoFiles, ReadOptions, SavePlan,
+};
 use dragonfly_anim::limits::FILE_BYTES;
+use dragonfly_fbx::{ExportPreset, FBX, PRESETS, export_with};
 use dragonfly_store::{folder_of, replace};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -18,6 +22,8 @@ pub struct ConversionOrder {
     pub output: PathBuf,
     /// Units, axes and frame rate of the input that the user chose.
     pub conventions: Conventions,
+    /// Name of the preset of the format, see [`export`].
+    pub preset: Option<String>,
     /// Whether to write the file, or only to find out what would be lost.
     pub is_written: bool,
 }
@@ -66,6 +72,45 @@ pub enum ConversionError {
     Write(String),
 }
 
+/// Returns the presets of a format: what other programs expect of its files.
+pub fn export_presets(format: &Format) -> &'static [ExportPreset] {
+    if *format == FBX { PRESETS } else { &[] }
+}
+
+/// Writes a model as a new file called `name`, with the preset of the format that has this name.
+///
+/// # Errors
+///
+/// Files of the format are not written, the format has no such preset, or it cannot represent the model.
+pub fn export(
+    format: &Format,
+    model: &ModelData,
+    name: &str,
+    preset: Option<&str>,
+) -> Result<SavePlan, ExportError> {
+    let Some(wanted) = preset else {
+        let write = format.export.ok_or_else(|| ExportError::new("files of this kind cannot be written"))?;
+        return write(model, name);
+    };
+    let found = checked_preset(format, wanted).map_err(ExportError::new)?;
+    export_with(model, name, Some(found))
+}
+
+/// Returns the preset of a format that has this name.
+///
+/// # Errors
+///
+/// A text that lists the presets of the format.
+pub fn checked_preset(format: &Format, name: &str) -> Result<&'static ExportPreset, String> {
+    let presets = export_presets(format);
+    let known = || presets.iter().map(ExportPreset::name).collect::<Vec<_>>().join(", ");
+    match presets.iter().find(|preset| preset.name() == name) {
+        Some(found) => Ok(found),
+        None if presets.is_empty() => Err(format!(".{} files have no presets", format.extension())),
+        None => Err(format!("\"{name}\" is not a preset of .{} files; use {}", format.extension(), known())),
+    }
+}
+
 /// Returns the extensions of the formats that are written, with their dots.
 pub fn written_extensions() -> String {
     let formats = formats();
@@ -82,7 +127,8 @@ pub fn convert(order: &ConversionOrder, cancel: &Cancel) -> Result<ConvertedFile
     let title = file_name(&order.input);
     let formats = formats();
     let target = order.output.extension().and_then(|extension| formats.by_extension(extension.to_str()?));
-    let write = target.and_then(|target| target.export).ok_or_else(|| ConversionError::NotWritable {
+    let target = target.filter(|target| target.export.is_some());
+    let target = target.ok_or_else(|| ConversionError::NotWritable {
         path: order.output.clone(),
         formats: written_extensions(),
     })?;
@@ -103,7 +149,7 @@ pub fn convert(order: &ConversionOrder, cancel: &Cancel) -> Result<ConvertedFile
     })?;
     drop(bytes);
     let name = file_name(&order.output);
-    let plan = write(&imported.model, &name)
+    let plan = export(target, &imported.model, &name, order.preset.as_deref())
         .map_err(|error| ConversionError::Export { title: title.clone(), reason: error.to_string() })?;
     if order.is_written {
         write_files(&order.output, &plan)?;

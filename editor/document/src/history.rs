@@ -7,6 +7,7 @@ use super::edit::Edit;
 use super::step_amount::{PoseBefore, StepAmount};
 use std::collections::VecDeque;
 use std::mem::discriminant;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Identifies one gesture, for example a drag.
@@ -45,6 +46,15 @@ struct RemovedSteps {
     saving: Option<usize>,
 }
 
+/// The difference between the last save and the present state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct UnsavedSteps {
+    /// The applied steps that the save does not contain; directly before them, all steps are in it.
+    pub(super) steps: Range<usize>,
+    /// Whether the save contains steps that are undone, or were undone and replaced.
+    pub(super) has_undone: bool,
+}
+
 /// A model's takes with their history.
 #[derive(Clone, Debug)]
 pub struct Edited {
@@ -56,6 +66,8 @@ pub struct Edited {
     saved: Option<usize>,
     /// The same for the save that is running.
     saving: Option<usize>,
+    /// Numbers of first steps that the last save and the running one contain too, while `saved` or `saving` is `None`.
+    shared: [usize; 2],
     /// Size of all steps in bytes, about.
     bytes: usize,
     /// Whether the oldest steps were removed because there were too many.
@@ -83,6 +95,7 @@ impl Edited {
             done: 0,
             saved: Some(0),
             saving: None,
+            shared: [0; 2],
             bytes: 0,
             cut: false,
             removed: None,
@@ -138,8 +151,7 @@ impl Edited {
                 step.edit = edit;
             }
             // The saved state is not the present one any more.
-            let done = self.done;
-            self.lose_saves(|saved| saved >= done);
+            self.lose_saves(self.done.saturating_sub(1));
             return Ok(());
         }
         let mut adapter = self.adapter.clone();
@@ -163,8 +175,7 @@ impl Edited {
             let steps = self.forget_after(self.done);
             self.removed = gesture.map(|_| RemovedSteps { steps, saved, saving });
         }
-        let kept = self.steps.len();
-        self.lose_saves(|saved| saved > kept);
+        self.lose_saves(self.steps.len());
         self.drag = gesture.and_then(|_| ValueDrag::of(&self.adapter, &edit, &inverse));
         if let Edit::AddRootBone(edit) = &edit {
             self.base.note(&edit.name);
@@ -242,6 +253,7 @@ impl Edited {
         let saving = self.saving.take();
         if succeeded {
             self.saved = saving;
+            self.shared[0] = self.shared[1];
         }
         if let Some(removed) = &mut self.removed {
             let saving = removed.saving.take();
@@ -251,10 +263,11 @@ impl Edited {
         }
     }
 
-    /// Forgets the saved states for which `is_lost` returns true: neither undo nor redo leads there.
-    fn lose_saves(&mut self, is_lost: impl Fn(usize) -> bool) {
-        for saved in [&mut self.saved, &mut self.saving] {
-            *saved = saved.filter(|saved| !is_lost(*saved));
+    /// Forgets the saved states after the first `common` steps: neither undo nor redo leads there.
+    fn lose_saves(&mut self, common: usize) {
+        for (saved, shared) in [&mut self.saved, &mut self.saving].into_iter().zip(&mut self.shared) {
+            *shared = saved.unwrap_or(*shared).min(common);
+            *saved = saved.filter(|saved| *saved <= common);
         }
     }
 
@@ -279,6 +292,13 @@ impl Edited {
             .all(|step| matches!(step.edit, Edit::SetPending(_) | Edit::PendShapes(_) | Edit::DropPending(_)))
     }
 
+    /// Returns the applied steps that the last save does not contain.
+    pub(super) fn unsaved(&self) -> UnsavedSteps {
+        let shared = self.saved.unwrap_or(self.shared[0]).min(self.done);
+        let has_undone = self.saved.is_none_or(|saved| saved > self.done);
+        UnsavedSteps { steps: shared..self.done, has_undone }
+    }
+
     /// Returns the number of steps that were applied at the last save; `None` where neither undo nor redo leads there.
     pub fn saved(&self) -> Option<usize> {
         self.saved
@@ -287,6 +307,7 @@ impl Edited {
     /// Sets the saved state of restored steps; none where there are fewer steps.
     pub fn set_saved(&mut self, saved: Option<usize>) {
         self.saved = saved.filter(|saved| *saved <= self.steps.len());
+        self.shared = [0; 2];
     }
 
     /// Returns whether the oldest steps were removed because there were too many.
@@ -318,6 +339,7 @@ impl Edited {
             }
             self.bytes -= oldest.bytes;
             self.done -= 1;
+            self.shared = self.shared.map(|shared| shared.saturating_sub(1));
             self.cut = true;
             let removed =
                 self.removed.iter_mut().flat_map(|removed| [&mut removed.saved, &mut removed.saving]);

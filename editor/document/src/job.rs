@@ -2,6 +2,7 @@
 //! panics.
 
 use super::clip_news::ClipNews;
+use super::export::{ExportOrder, ExportReport};
 use super::pose_library::PoseFolder;
 use super::retarget_order::RetargetNews;
 use super::scan::RecoveryScan;
@@ -28,6 +29,8 @@ pub(super) enum JobNews {
     Compared(Result<Arc<LoadedModel>, String>),
     /// The takes of files for the open model.
     Clips(ClipNews),
+    /// An export has ended, or what it would lose was found out.
+    Exported(Box<(ExportOrder, Result<ExportReport, String>)>),
     /// The defects of a take.
     Checked(Result<CheckedTake, String>),
     /// The folder of the pose library after an order.

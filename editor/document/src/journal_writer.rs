@@ -70,6 +70,16 @@ impl JournalWriter {
         self.journal.replace(journal)
     }
 
+    /// Continues with this journal, which begins with a snapshot; `saved` if the file has the same state.
+    pub(super) fn begin_with(&mut self, journal: Journal, snapshot: &[u8], saved: bool, now: Instant) {
+        self.set(journal);
+        let Some(journal) = &mut self.journal else { return };
+        match journal.compact_as(snapshot, saved) {
+            Ok(()) => self.compact = journal.size(),
+            Err(error) => self.failed(&error, now),
+        }
+    }
+
     /// Begins a save: later entries are not in the file. Returns the successor of the journal, which a job fills
     /// with a snapshot; `None` where nothing is recorded, or edits are missing.
     pub(super) fn begin_save(&mut self, now: Instant) -> Option<Successor> {

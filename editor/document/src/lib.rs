@@ -27,6 +27,8 @@ mod conversion;
 pub mod demo;
 pub mod edit;
 mod editable;
+mod export;
+mod exporting;
 mod fault;
 mod folder;
 mod handle;
@@ -44,6 +46,8 @@ mod pose_files;
 mod pose_library;
 pub mod posing;
 pub mod protocol;
+mod rebase;
+mod rebasing;
 mod receivers;
 mod recorded;
 mod recovering;
@@ -70,9 +74,11 @@ pub use cancel::{Cancel, LoadStage, Progress};
 pub use clip_import::ClipOrder;
 pub use clips::{ClipNaming, ClipSettings, ClipTakes, TakeNames, clip_takes};
 pub use conversion::{
-    ConversionError, ConversionOrder, ConvertedFile, convert, write_files, written_extensions,
+    ConversionError, ConversionOrder, ConvertedFile, checked_preset, convert, export, export_presets,
+    write_files, written_extensions,
 };
 pub use editable::{Editable, WrittenFile, make_folder};
+pub use export::{ExportContent, ExportOrder, ExportReport, ExportedFile, export_files};
 pub use fault::{FaultInjection, FaultPlan, FaultPoint};
 pub use folder::{FileAccessError, Folder, read_file};
 pub use handle::DocumentHandle;
@@ -84,6 +90,7 @@ pub use offer::Offer;
 pub use open::Change;
 pub use owner::{Document, Setup};
 pub use pose_library::{PoseFile, PoseFolder, PoseOrder, StoredPose};
+pub use rebase::{Rebase, Rebased, UnfitEdit};
 pub use reference_source::{REFERENCE_SIDE, ReferenceSource};
 pub use retarget_order::{MapFile, RetargetOrder};
 pub use saving::{NotSaved, SaveOrder, SaveTo, SavedFile, Then, check_extension};

@@ -5,7 +5,9 @@ use super::retarget_order::{MapFile, RetargetOrder};
 use super::saving::{NotSaved, SaveOrder, SavedFile, Then};
 use super::scan::Decision;
 use super::take_check::{CheckedTake, TakeCheck};
-use super::{BoneMap, ClipOrder, LoadedModel, Offer, Progress, Source, View};
+use super::{
+    BoneMap, ClipOrder, ExportOrder, ExportReport, LoadedModel, Offer, Progress, Source, UnfitEdit, View,
+};
 use dragonfly_store::FileState;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -27,6 +29,9 @@ pub enum DocumentMessage {
     Save(SaveOrder),
     /// Requests the list of what a save would change, and the save that follows once the user has seen it.
     Plan(Option<SaveOrder>),
+    /// Opens the file again, which another program may have changed, and applies the unsaved edits to it. The reply is
+    /// [`DocumentReply::Rebased`].
+    Reload,
     /// Reverts to the saved state.
     Revert,
     /// Asks whether the program may end: the reply is [`DocumentReply::MayQuit`] or [`DocumentReply::Unsaved`].
@@ -45,6 +50,8 @@ pub enum DocumentMessage {
     Retarget(RetargetOrder),
     /// Imports all takes of files onto the open model, as one step.
     ImportTakes(ClipOrder),
+    /// Writes files of any format from the open model, or finds out what they would lose. The reply is [`DocumentReply::Exported`].
+    Export(ExportOrder),
     /// Reads or writes a bone map.
     MapFile(MapFile),
     /// Checks a take for defects. The reply is [`DocumentReply::Checked`].
@@ -64,6 +71,8 @@ pub enum DocumentReply {
     View(View),
     /// A model has been opened: sent once for each, in order with the other replies.
     Opened(Arc<LoadedModel>),
+    /// The file was opened again with the unsaved edits; follows after [`DocumentReply::Opened`]. Contains the edits that do not fit.
+    Rebased(Vec<UnfitEdit>),
     /// A model is loading.
     Loading {
         /// Its title.
@@ -107,6 +116,8 @@ pub enum DocumentReply {
     ComparedRead(Arc<LoadedModel>),
     /// A bone map was read.
     MapRead(BoneMap),
+    /// Files were written from the open model, or would be; or the reason why they were not.
+    Exported(ExportOrder, Result<ExportReport, String>),
     /// A take was checked.
     Checked(CheckedTake),
     /// The poses of a folder.

@@ -10,7 +10,7 @@ use super::recorded::{EditsOrigin, Recorded, Snapshot};
 use super::replay::Replayed;
 use super::{FileView, HistoryView, LoadedModel, OpenedModel, Source, View};
 use dragonfly_anim::data::Take;
-use dragonfly_store::{Autosave, FileStamp};
+use dragonfly_store::{Autosave, FileStamp, Journal};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -86,6 +86,12 @@ impl Open {
     /// Returns the model as it was read.
     pub(super) fn opened(&self) -> &Arc<LoadedModel> {
         &self.opened
+    }
+
+    /// Starts with the edits of another version of the model.
+    pub(super) fn start_with(&mut self, edited: Edited) {
+        self.edited = edited;
+        self.look();
     }
 
     /// Continues with the history of a journal.
@@ -200,6 +206,21 @@ impl Open {
             Ok(bytes) => self.journal_writer.snapshot(&bytes, self.edited.is_saved(), now),
             Err(error) => tracing::error!("the history cannot be written as JSON: {error}"),
         }
+    }
+
+    /// Writes all steps to a journal that was created for them.
+    pub(super) fn begin_journal_with_steps(&mut self, journal: Journal, now: Instant) {
+        match Snapshot::bytes(self.about.clone(), &self.edited, None) {
+            Ok(bytes) => self.journal_writer.begin_with(journal, &bytes, self.edited.is_saved(), now),
+            Err(error) => tracing::error!("the history cannot be written as JSON: {error}"),
+        }
+    }
+
+    /// Moves the journal to the trash folder: another one has its work.
+    pub(super) fn discard_journal(&mut self, autosave: &Autosave) -> Result<(), String> {
+        let Some(journal) = self.journal_writer.take() else { return Ok(()) };
+        let done = if journal.is_empty() { journal.close() } else { autosave.discard_own(journal).map(drop) };
+        done.map_err(|error| error.to_string())
     }
 
     /// Returns the takes with which the history starts, unless its oldest steps were removed.

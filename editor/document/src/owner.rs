@@ -94,6 +94,8 @@ pub(super) struct LoadingModel {
     pub(super) source: Source,
     /// The unsaved work that is restored in it.
     pub(super) offer: Option<(Offer, Decision)>,
+    /// Whether it is the open file, which gets the unsaved edits of the open document.
+    pub(super) gets_edits: bool,
 }
 
 impl Document {
@@ -222,7 +224,9 @@ impl Document {
     pub(super) fn open(&mut self, source: Source, offer: Option<(Offer, Decision)>) {
         let ticket = self.next_ticket();
         match start_loading(&self.own, ticket, source.clone(), self.load) {
-            Ok(job) => self.job = Some(LoadingModel { _job: job, ticket, source, offer }),
+            Ok(job) => {
+                self.job = Some(LoadingModel { _job: job, ticket, source, offer, gets_edits: false });
+            }
             Err(error) => self.reply(DocumentReply::Failed { source, reason: error.to_string() }),
         }
     }
@@ -254,6 +258,7 @@ impl Document {
         }
         let Some(running) = self.job.take_if(|running| running.ticket == ticket) else { return };
         match loaded {
+            Ok(opened) if running.gets_edits => self.rebase(*opened),
             Ok(opened) => {
                 self.close();
                 let open = Open::new(*opened, self.autosave.clone());

@@ -35,6 +35,7 @@ impl Document {
             DocumentMessage::CancelLoading => self.cancel(),
             DocumentMessage::Save(order) => self.save(order, now),
             DocumentMessage::Plan(order) => self.plan(order),
+            DocumentMessage::Reload => self.reload(),
             DocumentMessage::Revert => self.revert(now),
             DocumentMessage::Quit => {
                 let unsaved = self.has_unsaved_work();
@@ -55,6 +56,7 @@ impl Document {
             DocumentMessage::ReadCompared(source) => self.read_compared(source, self.load),
             DocumentMessage::Retarget(order) => self.retarget(order),
             DocumentMessage::ImportTakes(order) => self.import_takes(order),
+            DocumentMessage::Export(order) => self.export(order),
             DocumentMessage::MapFile(file) => self.map_file(file),
             DocumentMessage::CheckTake(check) => self.check_take(check),
             DocumentMessage::Poses(order) => self.pose_order(order),
@@ -92,6 +94,7 @@ impl Receiver for JobReceiver {
             JobNews::Scanned(scan) => document.offer(scan),
             JobNews::Compared(loaded) => document.compared_read(loaded),
             JobNews::Retarget(news) => document.retarget_news(news, thread.now()),
+            JobNews::Exported(done) => document.exported(*done),
             JobNews::Clips(news) => document.clip_news(news, thread.now()),
             JobNews::Checked(result) => document.checked(result),
             JobNews::Poses(news) => document.poses_news(news),

@@ -52,11 +52,13 @@ fn waits(message: &DocumentMessage) -> Waits {
         | DocumentMessage::ReadCompared(_)
         | DocumentMessage::Retarget(_)
         | DocumentMessage::ImportTakes(_)
+        | DocumentMessage::Export(_)
         | DocumentMessage::MapFile(_)
         | DocumentMessage::CheckTake(_)
         | DocumentMessage::Poses(_) => Waits::No,
         DocumentMessage::Save(_) | DocumentMessage::LookAtFile => Waits::Alone,
         DocumentMessage::Open { .. }
+        | DocumentMessage::Reload
         | DocumentMessage::Revert
         | DocumentMessage::Quit
         | DocumentMessage::DoNotSave

@@ -21,6 +21,9 @@ pub const FBX_TEXT: &str = "FBX_TEXT";
 /// A message of the parser.
 pub const FBX_FOUND: &str = "FBX_FOUND";
 
+/// Content of a model that a written file does not contain.
+pub const NOT_IN_FBX: &str = "NOT_IN_FBX";
+
 /// All codes that the child may use.
 const CODES: &[&str] = &[
     FBX_INVALID,

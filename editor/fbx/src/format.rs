@@ -1,10 +1,11 @@
 //! The row of the format.
 
 use crate::parser::FbxParser;
+use crate::write::export_with;
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{Format, ImportContext, ImportError, WriteSupport};
 
-/// FBX 5.0 to 7.7, binary and text.
+/// FBX 5.0 to 7.7, binary and text; written as binary 7.4.
 ///
 /// A file is parsed by the running program, started again as a child process: a program with this format calls
 /// [`child::serve`](crate::child::serve) first of all if [`child::is_requested`](crate::child::is_requested).
@@ -15,7 +16,7 @@ pub const FBX: Format = Format {
     sniff: looks_like_fbx,
     read,
     write: WriteSupport::None,
-    export: None,
+    export: Some(|model, name| export_with(model, name, None)),
 };
 
 /// Start of a binary file.

@@ -1,4 +1,4 @@
-//! FBX files, read by the C library `ufbx`.
+//! FBX files, read by the C library `ufbx`, and written by [`export_with`].
 //!
 //! C code that parses files of strangers does not run in the process of the editor. [`FbxParser`] starts the program again
 //! as a child ([`child`]), which gives up its rights before it reads the first byte, converts the file to a model, and writes
@@ -21,11 +21,14 @@ mod answer;
 pub mod child;
 pub mod code;
 mod convert;
+mod fit;
 mod format;
 mod parser;
 mod request;
 mod textures;
+mod write;
 
 pub use answer::{answer_in_process, read_answer, read_in_process};
 pub use format::{FBX, looks_like_fbx};
 pub use parser::FbxParser;
+pub use write::{ExportPreset, PRESETS, export_with, preset};

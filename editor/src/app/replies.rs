@@ -5,7 +5,7 @@
 use super::file_actions;
 use super::file_dialog::Answer;
 use super::interface::Interface;
-use crate::panels::dialogs::{ChangedQuestion, PlanQuestion, UnsavedQuestion};
+use crate::panels::dialogs::{ChangedQuestion, PlanQuestion, UnfitQuestion, UnsavedQuestion};
 use crate::panels::open_model::Loading;
 use crate::panels::status::MessageSeverity;
 use crate::panels::{Effect, FileAction, State};
@@ -57,6 +57,13 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         }
         DocumentReply::View(view) => show_view(interface, view),
         DocumentReply::Opened(loaded) => opened(interface, &loaded),
+        DocumentReply::Rebased(unfit) if unfit.is_empty() => {
+            state.say(MessageSeverity::Info, "Loaded the file again and applied the unsaved changes");
+        }
+        DocumentReply::Rebased(unfit) => {
+            let lines: Vec<String> = unfit.iter().map(ToString::to_string).collect();
+            state.ask(UnfitQuestion { lines: Arc::from(lines) }.into());
+        }
         DocumentReply::Saved(saved) => show_saved(interface, saved),
         DocumentReply::NotSaved(order, reason) => {
             let effect = state.not_saved(order, reason);
@@ -83,6 +90,7 @@ fn show(interface: &mut Interface, reply: DocumentReply) {
         DocumentReply::SourceRead(source) => state.source_read(source),
         DocumentReply::ComparedRead(file) => state.compared_read(file),
         DocumentReply::MapRead(map) => state.map_read(map),
+        DocumentReply::Exported(order, done) => state.exported(order, done),
         DocumentReply::Checked(checked) => state.checked(checked),
         DocumentReply::Poses(folder) => state.poses_read(folder),
         DocumentReply::Notice(text) => state.say(MessageSeverity::Info, text),

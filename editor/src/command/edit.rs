@@ -6,9 +6,11 @@ use super::output::{print, print_json, write_file};
 use super::run_command::RunCommand;
 use super::{Failure, tell};
 use dragonfly_anim::format::SavePlan;
-use dragonfly_document::adapter::ModelAdapter;
+use dragonfly_document::adapter::{EditError, ModelAdapter};
 use dragonfly_document::edit::{EDITS, Edit, VERSION, parse_lines};
-use dragonfly_document::{Cancel, Editable, check_extension, make_folder, read_file};
+use dragonfly_document::{
+    Cancel, Editable, Rebase, Rebased, UnfitEdit, check_extension, make_folder, read_file,
+};
 use serde::Serialize;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -18,8 +20,11 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
 Edits are JSON, one object per line; --list shows every edit with an example. If an edit fails, the command stops, reports\n\
 its line, and writes nothing.\n\n\
+With --rebase, the edits were made for an older version of FILE: bones, takes, layers and shape keys are found by name in\n\
+FILE. What does not fit is listed on stderr, the rest is applied and written, and the exit code is 1.\n\n\
 Examples:\n  dragonfly edit --list\n  \
 dragonfly edit Fox.glb --edits changes.jsonl -o Fox2.glb\n  \
+dragonfly edit Fox_new.glb --rebase Fox.glb --edits changes.jsonl -o Fox_new.glb\n  \
 echo '{\"edit\":\"reverse_take\",\"take\":\"Run\"}' | dragonfly edit Fox.glb --edits - --dry-run")]
 pub(super) struct EditArguments {
     #[arg(value_name = "FILE", help = model_help(), required_unless_present_any = ["list", "schema"])]
@@ -27,6 +32,9 @@ pub(super) struct EditArguments {
     /// File of edits, one JSON object per line; `-` is standard input
     #[arg(long, value_name = "EDITS")]
     edits: Option<PathBuf>,
+    /// Older version of FILE, for which the edits were made: they are applied to FILE as far as they fit it
+    #[arg(long, value_name = "OLD", requires = "edits")]
+    rebase: Option<PathBuf>,
     /// File to write; FILE itself is allowed and is replaced atomically
     #[arg(short, long, value_name = "OUT", required_unless_present_any = ["list", "schema", "dry_run"])]
     output: Option<PathBuf>,
@@ -63,13 +71,7 @@ impl RunCommand for EditArguments {
         let Some(file) = &self.file else { return Err(Failure::input("FILE", "is missing")) };
         let editable = Editable::open(&source_as(file, &self.import), &Cancel::default())?;
         let edits = self.edits.as_deref().map(read_edits).transpose()?.unwrap_or_default();
-        let mut adapter = ModelAdapter::of(&editable.model);
-        for (line, edit) in &edits {
-            adapter
-                .allows(edit)
-                .and_then(|()| adapter.apply(edit))
-                .map_err(|error| Failure::input(self.edits_name(), format_args!("line {line}: {error}")))?;
-        }
+        let (adapter, unfit) = self.edited(&editable, &edits)?;
         let plan = if self.compact { editable.compact() } else { editable.plan(&adapter) };
         let plan = plan.map_err(|error| Failure::input(&editable.title, error))?;
         let written = match &self.output {
@@ -86,11 +88,42 @@ impl RunCommand for EditArguments {
                 "{pending} pending poses are not keyed and were not written; the edit \"key_pending\" keys them"
             ));
         }
-        self.report(&editable.title, edits.len(), &plan, written, removed)
+        self.report(&editable.title, edits.len(), &plan, written, removed, &unfit)?;
+        if unfit.is_empty() { Ok(()) } else { Err(Failure::Difference) }
     }
 }
 
 impl EditArguments {
+    /// Applies the edits. Returns the takes after them, and the edits that do not fit.
+    fn edited(
+        &self,
+        editable: &Editable,
+        edits: &[(usize, Edit)],
+    ) -> Result<(ModelAdapter, Vec<UnfitEdit>), Failure> {
+        let failed = |line: usize, error: EditError| {
+            Failure::input(self.edits_name(), format_args!("line {line}: {error}"))
+        };
+        let Some(old) = &self.rebase else {
+            let mut adapter = ModelAdapter::of(&editable.model);
+            for (line, edit) in edits {
+                let done = adapter.allows(edit).and_then(|()| adapter.apply(edit));
+                done.map_err(|error| failed(*line, error))?;
+            }
+            return Ok((adapter, Vec::new()));
+        };
+        let old = Editable::open(&source(old), &Cancel::default())?;
+        let mut rebase = Rebase::new(ModelAdapter::of(&old.model), &editable.model);
+        for (line, edit) in edits {
+            let done = rebase.old().allows(edit).and_then(|()| rebase.apply(*line, edit));
+            done.map_err(|error| failed(*line, error))?;
+        }
+        let Rebased { edited, unfit } = rebase.finish();
+        for unfit in &unfit {
+            tell(format_args!("{}: line {}: {unfit}", self.edits_name(), unfit.number));
+        }
+        Ok((edited.adapter().clone(), unfit))
+    }
+
     fn edits_name(&self) -> String {
         match &self.edits {
             Some(path) if path != Path::new("-") => path.display().to_string(),
@@ -105,12 +138,15 @@ impl EditArguments {
         plan: &SavePlan,
         written: Vec<Written>,
         removed: Vec<String>,
+        unfit: &[UnfitEdit],
     ) -> Result<(), Failure> {
         // If the model is written to stdout, nothing else is.
         let to_stdout = !self.dry_run && self.output.as_deref() == Some(Path::new("-"));
         if self.json && !to_stdout {
             let changes = plan.changes.as_ref().and_then(|changes| serde_json::from_str(&changes.json).ok());
-            return print_json(&EditReport { file: title.to_owned(), edits, changes, written, removed });
+            let unfit = unfit.iter().map(|edit| UnfitLine { line: edit.number, edit }).collect();
+            let file = title.to_owned();
+            return print_json(&EditReport { file, edits, changes, written, removed, unfit });
         }
         if self.dry_run {
             return print(|out| write!(out, "{plan}"));
@@ -126,7 +162,7 @@ impl EditArguments {
 }
 
 #[derive(Serialize)]
-struct EditReport {
+struct EditReport<'a> {
     file: String,
     edits: usize,
     /// Null if the whole file is written.
@@ -135,6 +171,16 @@ struct EditReport {
     /// Buffer files of earlier saves that nothing used any more.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     removed: Vec<String>,
+    /// The edits for another version that do not fit.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    unfit: Vec<UnfitLine<'a>>,
+}
+
+#[derive(Serialize)]
+struct UnfitLine<'a> {
+    line: usize,
+    #[serde(flatten)]
+    edit: &'a UnfitEdit,
 }
 
 #[derive(Serialize)]

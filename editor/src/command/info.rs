@@ -5,7 +5,7 @@ use super::choice::{File, plain};
 use super::output::{print, print_json};
 use super::run_command::RunCommand;
 use super::table::{Side, Table, count};
-use dragonfly_anim::data::{BoneIndex, ModelData, Skeleton};
+use dragonfly_anim::data::{Avatar, BoneIndex, ModelData, Skeleton};
 use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::{Conversion, Handedness};
 use dragonfly_document::LoadedModel;
@@ -42,6 +42,7 @@ struct Info {
     format: &'static str,
     conventions: InfoConventions,
     bones: Vec<InfoBone>,
+    avatar: InfoAvatar,
     skins: Vec<InfoSkin>,
     takes: Vec<InfoTake>,
     meshes: Vec<InfoMesh>,
@@ -84,6 +85,45 @@ struct InfoBone {
     name: String,
     parent: Option<BoneIndex>,
     node: Option<u32>,
+}
+
+/// Humanoid bones and facial expressions of a VRM file.
+#[derive(Serialize)]
+struct InfoAvatar {
+    humanoid_bones: Vec<InfoHumanBone>,
+    expressions: Vec<String>,
+    faces_minus_z: bool,
+}
+
+#[derive(Serialize)]
+struct InfoHumanBone {
+    name: String,
+    bone: BoneIndex,
+}
+
+impl InfoAvatar {
+    fn of(avatar: &Avatar) -> Self {
+        let bones = avatar.bones.iter();
+        Self {
+            humanoid_bones: bones.map(|it| InfoHumanBone { name: it.name.clone(), bone: it.bone }).collect(),
+            expressions: avatar.expressions.iter().map(|expression| expression.name.clone()).collect(),
+            faces_minus_z: avatar.faces_minus_z,
+        }
+    }
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        if !self.humanoid_bones.is_empty() {
+            let facing = if self.faces_minus_z { ", the figure faces -Z" } else { "" };
+            let bones = count(self.humanoid_bones.len(), "humanoid bone", "humanoid bones");
+            writeln!(out, "\n{bones}{facing}")?;
+        }
+        if !self.expressions.is_empty() {
+            writeln!(out, "\n{}", count(self.expressions.len(), "expression", "expressions"))?;
+            let names: Vec<String> = self.expressions.iter().map(|name| named(name)).collect();
+            writeln!(out, "  {}", names.join(", "))?;
+        }
+        Ok(())
+    }
 }
 
 #[derive(Serialize)]
@@ -143,6 +183,7 @@ impl Info {
             format: loaded.format.map_or("", |format| format.name),
             conventions: InfoConventions::of(&loaded.conversion),
             bones: bones(&model.animation.skeleton),
+            avatar: InfoAvatar::of(&model.avatar),
             skins: model
                 .skins
                 .iter()
@@ -180,6 +221,7 @@ impl Info {
             writeln!(out, "  {}", names.join(", "))?;
         }
         self.write_bones(out)?;
+        self.avatar.write(out)?;
         if !self.warnings.is_empty() {
             writeln!(out, "\n{}", count(self.warnings.len(), "warning", "warnings"))?;
             for warning in &self.warnings {

@@ -57,7 +57,7 @@ impl RunCommand for RetargetArguments {
         let from = load(&source(&self.source))?;
         let editable = Editable::open(&source(&self.target), &Cancel::default())?;
         let (source, target) = (&from.model.animation.skeleton, &editable.model.animation.skeleton);
-        let guess = BindingGuess::of(source, target);
+        let guess = BindingGuess::of_models(&from.model, &editable.model);
         let (binding, missing) = self.binding(source, target, &guess)?;
         if let Some(path) = &self.save_map {
             let map = BoneMap::of([&from.title, &editable.title], source, target, &binding);

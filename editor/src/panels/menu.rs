@@ -267,7 +267,9 @@ fn file(ui: &mut Ui, context: &PanelContext<'_>, requests: &mut Vec<Request>) {
     item(ui, context, Id::Save, false, requests);
     item(ui, context, Id::SaveAs, false, requests);
     item(ui, context, Id::SaveCopy, false, requests);
+    item(ui, context, Id::Export, false, requests);
     item(ui, context, Id::Revert, false, requests);
+    item(ui, context, Id::Reload, false, requests);
     item(ui, context, Id::WhatWillBeSaved, false, requests);
     item(ui, context, Id::ToggleShowChanges, context.settings.show_changes, requests);
     ui.separator();

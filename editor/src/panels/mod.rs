@@ -31,6 +31,7 @@ pub mod dragging;
 pub mod echo;
 pub mod edit_scope;
 mod edit_scope_menu;
+pub mod export;
 pub mod file_choice;
 mod foot_contacts;
 mod frame_rate;

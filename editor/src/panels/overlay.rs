@@ -13,6 +13,8 @@ pub enum Overlay {
     OpenPath,
     /// Units, axes and frame rate with which the open file is read again.
     ImportOptions,
+    /// Format, content and path of an export.
+    Export,
     /// A field for the path of the file with which takes are compared.
     ComparePath,
     /// The pairs of left and right bones, and what is mirrored.

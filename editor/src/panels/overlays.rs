@@ -1,6 +1,7 @@
 //! Overlays drawn over the panels: command palette, shortcut sheet, about, path field.
 
 use super::context::PanelContext;
+use super::export::ExportDialog;
 use super::loop_dialog::LoopDialog;
 use super::mirror_pairs::MirrorDialog;
 use super::open_path::{OpenPathDialog, PathUse};
@@ -21,6 +22,7 @@ use egui::{Align2, Id as WidgetId, Modal, RichText, Ui, vec2};
 pub struct Overlays {
     palette: Palette,
     path: OpenPathDialog,
+    export: ExportDialog,
     shortcuts: ShortcutSheet,
     shown: Option<Overlay>,
     root_motion: RootMotionDialog,
@@ -61,6 +63,7 @@ impl Overlays {
             Overlay::RootMotion => self.root_motion.show(ui, context, requests),
             Overlay::Loop => self.loops.show(ui, context, requests),
             Overlay::Reference => self.reference.show(ui, context, requests),
+            Overlay::Export => self.export.show(ui, fresh, context, requests),
             Overlay::OpenPath => self.path.show(ui, fresh, (PathUse::Open, context), requests),
             Overlay::ImportOptions => self.path.show(ui, fresh, (PathUse::Again, context), requests),
             Overlay::ComparePath => self.path.show(ui, fresh, (PathUse::Compare, context), requests),

@@ -3,6 +3,7 @@
 
 use super::actions::{bones, compare, drags, execute, feed, files, input, playback, show};
 use super::context::PanelContext;
+use super::export::AnsweredExport;
 use super::open_model::Loading;
 use super::prompts::{Overlay, Question};
 use super::reference::ReferenceTrack;
@@ -18,7 +19,8 @@ use crate::control::InputEvent;
 use dragonfly_anim::data::BoneIndex;
 use dragonfly_document::bones::Choice;
 use dragonfly_document::{
-    BoneMap, CheckedTake, LoadedModel, NotSaved, Offer, PoseFolder, SaveOrder, SavedFile, View,
+    BoneMap, CheckedTake, ExportOrder, ExportReport, LoadedModel, NotSaved, Offer, PoseFolder, SaveOrder,
+    SavedFile, View,
 };
 use egui::{Context, Pos2, RawInput};
 use std::path::PathBuf;
@@ -139,6 +141,29 @@ impl State {
     /// Compares the take that is shown with a take of a file that was read.
     pub fn compared_read(&mut self, file: Arc<LoadedModel>) {
         compare::file_read(&mut self.workspace, file);
+    }
+
+    /// Shows what an export would lose, or reports that it was written and closes its dialog.
+    pub fn exported(&mut self, order: ExportOrder, done: Result<ExportReport, String>) {
+        if !order.is_written {
+            self.workspace.export = Some(AnsweredExport { order, done });
+            return;
+        }
+        match done {
+            Ok(report) => {
+                let path = report.files.first().map(|file| file.path.display().to_string());
+                let files = match (report.files.len(), path) {
+                    (1, Some(path)) => format!("Exported {path}"),
+                    (count, _) => format!("Exported {count} files"),
+                };
+                self.say(MessageSeverity::Info, files);
+                self.workspace.export = None;
+                if self.workspace.prompts.overlay() == Some(Overlay::Export) {
+                    self.workspace.prompts.show(None);
+                }
+            }
+            Err(reason) => self.say(MessageSeverity::Error, reason),
+        }
     }
 
     /// Shows a bone map that was read, in the dialog for retargeting.

@@ -7,6 +7,7 @@ use super::curves::given::GivenAngles;
 use super::dialog_preview::DialogPreview;
 use super::dragging::Dragging;
 use super::edit_scope::EditOver;
+use super::export::AnsweredExport;
 use super::foot_contacts::FootContacts;
 use super::frame_rate::FrameRate;
 use super::keys::KeyEditing;
@@ -85,6 +86,7 @@ pub(super) struct Workspace {
     pub(super) prompts: Prompts,
     /// The model whose takes are wanted for the open one.
     pub(super) retarget: RetargetSource,
+    pub(super) export: Option<AnsweredExport>,
     /// The pose library.
     pub(super) poses: PoseLibrary,
     /// The reference picture.
@@ -129,6 +131,7 @@ impl Workspace {
             dragging: Dragging::default(),
             prompts: Prompts::default(),
             retarget: RetargetSource::default(),
+            export: None,
             poses: PoseLibrary::default(),
             reference: ReferenceTrack::default(),
             sound: SoundTrack::default(),
@@ -178,6 +181,7 @@ impl Workspace {
             sound: &self.sound,
             sets: &self.sets,
             retarget: &self.retarget,
+            export: self.export.as_ref(),
             status: &self.status,
             prompts: &self.prompts,
             overlay: self.prompts.overlay(),

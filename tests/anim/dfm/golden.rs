@@ -67,6 +67,7 @@ pub(crate) fn model() -> ModelData {
         ..Take::default()
     };
     ModelData {
+        avatar: Default::default(),
         name: "leg".to_owned(),
         meshes: vec![Mesh {
             name: "skin".to_owned(),

@@ -249,6 +249,7 @@ impl RandomModels {
         });
         let targets: Vec<usize> = instances.iter().map(|instance| instance.morph_weights.len()).collect();
         ModelData {
+            avatar: Default::default(),
             name: self.name(),
             instances,
             skins: self.list(skins, |maker| Skin {

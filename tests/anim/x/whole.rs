@@ -67,3 +67,23 @@ fn a_text_has_the_templates_of_skins_and_losses_are_listed() {
     );
     assert!(write(&Default::default()).unwrap().lost.is_empty());
 }
+
+#[test]
+fn no_list_of_weights_is_empty_and_joints_without_vertices_stay_so() {
+    let path = crate::doors::data().join("gltf/Fox.glb");
+    let fox =
+        read("Fox.glb", &std::fs::read(path).unwrap(), &NoFiles, &ReadOptions::default()).unwrap().model;
+    let bytes = write(&fox).unwrap().bytes;
+    let text = String::from_utf8(bytes.clone()).unwrap();
+    let starts = text.split("SkinWeights {\n\"").skip(1).map(|rest| rest.split('\n').nth(1).unwrap());
+    let counts: Vec<usize> = starts.map(|count| count.trim_end_matches(';').parse().unwrap()).collect();
+    let again = import(&bytes).unwrap().model;
+    assert_eq!(counts.len(), again.skins[0].bones.len());
+    assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
+    let joints = |model: &dragonfly_anim::data::ModelData| {
+        let influences = model.meshes[0].primitives[0].vertices.influences.iter();
+        let used = influences.filter(|influence| influence.weight > 0.0).map(|influence| influence.joint);
+        used.collect::<std::collections::BTreeSet<_>>().len()
+    };
+    assert_eq!(joints(&again), joints(&fox));
+}

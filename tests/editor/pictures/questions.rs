@@ -6,7 +6,7 @@ use crate::questions::offer;
 use crate::workbench::Workbench;
 use dragonfly::panels::dialogs::{
     ChangedQuestion, ExistsQuestion, FindQuestion, PlaceQuestion, PlanQuestion, Question, RecoverQuestion,
-    UnsavedQuestion,
+    UnfitQuestion, UnsavedQuestion,
 };
 use dragonfly_document::edit::{Edit, ReverseTake, TakeRef};
 use dragonfly_document::{Change, FileView, Offer, SaveOrder, Source, Then};
@@ -54,6 +54,15 @@ const TABLE: &[QuestionRow] = &[
         let (offer, other) = (Box::new(missing(&long("a bear"))), Some(long("another file").into()));
         FindQuestion { offer, other }.into()
     }),
+    ("unfit", "typical", || {
+        let reasons = [
+            r#"Rotate (b_Head_05, Survey, at 0.5 s): the new version has no bone "b_Head_05""#,
+            r#"Reverse take (Sprint): the new version has no take "Sprint""#,
+            r#"Move keys (3 bones, Walk), applied in part: "b_Neck_04" has no rotation key at 1.25 s in the new version"#,
+        ];
+        UnfitQuestion { lines: reasons.map(str::to_owned).into() }.into()
+    }),
+    ("unfit", "crowded", || UnfitQuestion { lines: lines(100_000) }.into()),
     ("place", "typical", || PlaceQuestion { copy: false, then: None }.into()),
     ("place", "crowded", || PlaceQuestion { copy: true, then: Some(Then::Quit) }.into()),
 ];

@@ -80,7 +80,8 @@ fn import(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, Import
     read_model(bytes, context, true)
 }
 
-/// Writes the whole file; the format represents everything that a model contains, but not the extras of its takes.
+/// Writes the whole file; the format represents everything that a model contains, but not the extras of its takes and
+/// its avatar.
 fn export(model: &ModelData) -> Result<WholeFile, ExportError> {
     let takes = model.animation.takes.iter().enumerate().filter(|(_, take)| !take.extras.is_empty());
     let lost = takes.map(|(number, take)| {
@@ -91,7 +92,12 @@ fn export(model: &ModelData) -> Result<WholeFile, ExportError> {
             text: format!("take \"{}\": this format has no room for its {}", take.name, names.join(", ")),
         }
     });
-    Ok(WholeFile { bytes: write(model)?, lost: lost.collect() })
+    let avatar = (!model.avatar.is_empty()).then(|| Warning {
+        place: Place::Pointer("/avatar".to_owned()),
+        code: code::DFM_EXTRAS,
+        text: "this format has no room for humanoid bones and facial expressions".to_owned(),
+    });
+    Ok(WholeFile { bytes: write(model)?, lost: lost.chain(avatar).collect() })
 }
 
 /// Detects the size of a vertex, at byte 8, or the ending.
@@ -117,5 +123,5 @@ fn read_model(bytes: &[u8], context: &ImportContext<'_>, strict: bool) -> Result
     let takes = take::read(&mut reader, &skeleton, &instances)?;
     reader.finish()?;
     let animation = AnimationData { skeleton: Arc::new(skeleton), takes };
-    Ok(ModelData { name, meshes, instances, skins, materials, images, animation })
+    Ok(ModelData { name, meshes, instances, skins, materials, images, animation, ..ModelData::default() })
 }

@@ -2,16 +2,22 @@
 
 use super::buffer::BufferData;
 use super::check as code;
+use super::pointer::ChannelPointers;
 use crate::format::{ImportContext, ImportError, Place};
 use crate::limits::{CANCEL_EVERY, VERTICES, ZERO_ELEMENTS};
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::validation::{Checked, USize64};
 use gltf::json::{Index, Root, buffer};
+use std::collections::HashMap;
 
 /// A document with its buffers; every other module of the importer reads from it.
 pub(super) struct GltfDocument<'a> {
     pub(super) root: &'a Root,
     pub(super) buffers: Vec<BufferData<'a>>,
+    /// Bytes of the compressed views, by number.
+    pub(super) decoded: HashMap<usize, Vec<u8>>,
+    /// Targets of channels that are JSON pointers.
+    pub(super) pointers: ChannelPointers,
     /// Total number of bytes read.
     pub(super) bytes: usize,
     pub(super) context: &'a ImportContext<'a>,
@@ -61,7 +67,27 @@ impl<'a> GltfDocument<'a> {
     ) -> Result<(&[u8], Option<usize>), ImportError> {
         let view =
             self.root.buffer_views.get(index.value()).ok_or_else(|| unresolved(from, index.value()))?;
-        let place = || format!("/bufferViews/{}", index.value());
+        let bytes = match self.decoded.get(&index.value()) {
+            Some(decoded) => decoded,
+            None => self.stored(view, index.value())?,
+        };
+        let stride = view.byte_stride.map(|stride| stride.0).filter(|&stride| stride > 0);
+        if let Some(stride) = view.byte_stride
+            && (!(4..=252).contains(&stride.0) || stride.0 % 4 != 0)
+        {
+            let text = format!("the byte stride {} should be a multiple of 4, 4..252", stride.0);
+            self.context.warn(
+                Place::Pointer(format!("/bufferViews/{}/byteStride", index.value())),
+                code::BUFFER_VIEW_INVALID_BYTE_STRIDE,
+                text,
+            );
+        }
+        Ok((bytes, stride))
+    }
+
+    /// Returns the bytes of the view `number` as they are in its buffer.
+    fn stored(&self, view: &buffer::View, number: usize) -> Result<&[u8], ImportError> {
+        let place = || format!("/bufferViews/{number}");
         let buffer = self
             .buffers
             .get(view.buffer.value())
@@ -80,18 +106,7 @@ impl<'a> GltfDocument<'a> {
             );
             invalid(Place::Pointer(place()), code::BUFFER_VIEW_TOO_LONG, reason)
         })?;
-        let stride = view.byte_stride.map(|stride| stride.0).filter(|&stride| stride > 0);
-        if let Some(stride) = view.byte_stride
-            && (!(4..=252).contains(&stride.0) || stride.0 % 4 != 0)
-        {
-            let text = format!("the byte stride {} should be a multiple of 4, 4..252", stride.0);
-            self.context.warn(
-                Place::Pointer(place() + "/byteStride"),
-                code::BUFFER_VIEW_INVALID_BYTE_STRIDE,
-                text,
-            );
-        }
-        Ok((bytes, stride))
+        Ok(bytes)
     }
 
     /// Returns the accessor `index`, referred to at `from`, if its format is one of `allowed`; otherwise an error with

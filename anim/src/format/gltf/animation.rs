@@ -7,7 +7,7 @@ use super::extras;
 use super::keys::{self, SamplerTimes, SamplerValues};
 use super::scene::SceneLayout;
 use crate::data::{Channel, MorphTrack, Take, Track};
-use crate::format::{ImportError, Place};
+use crate::format::{ImportError, Place, one_line};
 use crate::limits::KEYS;
 use glam::{Quat, Vec3};
 use gltf::json;
@@ -84,8 +84,7 @@ impl TakeReader<'_> {
         }
         let mut moved = HashSet::new();
         for (number, channel) in animation.channels.iter().enumerate() {
-            let path = format!("{path}/channels/{number}");
-            self.channel(animation, channel, &path, index, &mut moved, &mut take)?;
+            self.channel(animation, channel, (index, number), &mut moved, &mut take)?;
         }
         let (start, end) = take.range_of_keys().unwrap_or((0.0, 0.0));
         (take.start, take.length) = (start, end - start);
@@ -100,12 +99,12 @@ impl TakeReader<'_> {
         &mut self,
         animation: &json::Animation,
         channel: &json::animation::Channel,
-        path: &str,
-        index: usize,
+        (index, channel_number): (usize, usize),
         moved: &mut HashSet<(usize, u8)>,
         take: &mut Take,
     ) -> Result<(), ImportError> {
         let context = self.document.context;
+        let path = format!("/animations/{index}/channels/{channel_number}");
         let number = channel.sampler.value();
         let sampler =
             animation.samplers.get(number).ok_or_else(|| unresolved(&format!("{path}/sampler"), number))?;
@@ -114,7 +113,12 @@ impl TakeReader<'_> {
         let property = match channel.target.path {
             Checked::Valid(property) if node != NO_NODE => property,
             _ => {
-                let text = "the channel animates something that is not shown";
+                let text = match self.document.pointers.get(&(index, channel_number)) {
+                    Some(pointer) => {
+                        format!("the channel animates {}, which is not shown", one_line(pointer))
+                    }
+                    None => "the channel animates something that is not shown".to_owned(),
+                };
                 context.warn(target(), code::ANIMATION_CHANNEL_TARGET_UNKNOWN, text);
                 return Ok(());
             }
@@ -147,7 +151,7 @@ impl TakeReader<'_> {
                 keys::make_unit(&mut column, &format!("{sampler_path}/output"), context);
                 take.tracks[bone].rotation = channel_of(keys, column, Quat::from_array);
             }
-            Property::MorphTargetWeights => self.weights(sampler, node, path, &sampler_path, take)?,
+            Property::MorphTargetWeights => self.weights(sampler, node, &path, &sampler_path, take)?,
         }
         Ok(())
     }

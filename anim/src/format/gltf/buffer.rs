@@ -68,10 +68,12 @@ impl BufferData<'_> {
     }
 }
 
-/// Returns all buffers of `root`, each with exactly the length that its JSON declares.
+/// Returns all buffers of `root`, each with exactly the length that its JSON declares. Those that are fallbacks, for
+/// programs without an extension that this importer supports, are left out.
 pub(super) fn load<'a>(
     root: &json::Root,
     bin: Option<&'a [u8]>,
+    is_fallback: &[bool],
     context: &ImportContext<'_>,
 ) -> Result<Vec<BufferData<'a>>, ImportError> {
     let mut buffers = context.vec(&Place::Pointer("/buffers".to_owned()), root.buffers.len())?;
@@ -79,6 +81,12 @@ pub(super) fn load<'a>(
         context.work(1)?;
         let place = Place::Pointer(format!("/buffers/{index}"));
         let announced = buffer.byte_length.0;
+        if is_fallback.get(index) == Some(&true) {
+            let reason = "the buffer is for programs without an extension that is supported here".to_owned();
+            let error = invalid(place, code::BUFFER_MISSING_GLB_DATA, reason);
+            buffers.push(BufferData::Missing(error));
+            continue;
+        }
         let loaded = match &buffer.uri {
             Some(uri) => {
                 let place = Place::Pointer(format!("/buffers/{index}/uri"));

@@ -69,6 +69,7 @@ checks! {
     Refuse INVALID_URI "A URI cannot be decoded, or leads outside of the folder.";
     Refuse IO_ERROR "A referenced file is missing or may not be read.";
     Refuse BUFFER_VIEW_TOO_LONG "A buffer view reaches past the end of its buffer.";
+    Refuse MESHOPT_INVALID "The compressed data of a buffer view cannot be decoded.";
     Warn BUFFER_VIEW_INVALID_BYTE_STRIDE "A byte stride is outside 4..252 or not a multiple of 4.";
 
     Refuse ACCESSOR_TOO_LONG "An accessor reaches past the end of its buffer view.";
@@ -116,6 +117,7 @@ checks! {
     Warn NODE_WEIGHTS_INVALID "A node does not have one weight per morph target of its mesh.";
     Warn SCENE_NON_ROOT_NODE "A root node of a scene has a parent.";
     Warn NODE_NOT_IN_SCENE "A mesh is not in the scene that is shown.";
+    Warn VRM_INVALID "A VRM names a bone, node or morph target that is not there.";
     Warn CAMERA_NOT_SHOWN "The file has a camera, which is not used.";
 
     Refuse ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT "Key times are not single floats.";
@@ -133,6 +135,6 @@ checks! {
     Warn IMAGE_DATA_INVALID "An image cannot be read; it is left empty.";
     Warn IMAGE_TOO_LARGE "An image has too many pixels; it is left empty.";
     Warn IMAGE_MIME_TYPE_INVALID "The type of an image is not the one declared.";
-    Warn TEXTURE_NO_SOURCE "A texture has no image that can be shown.";
+    Warn TEXTURE_NO_SOURCE "A texture has no image that can be shown, or not the one it prefers.";
     Warn TEXTURE_COORDINATES "A texture uses a third or later set of coordinates.";
 }

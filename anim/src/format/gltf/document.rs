@@ -1,6 +1,7 @@
 //! Parses the JSON text into the document model; every error has a JSON pointer.
 
 use super::check as code;
+use super::pointer::ChannelPointers;
 use super::survey::{Survey, SurveyPatch, survey};
 use super::walk::pointer_before;
 use crate::format::{ImportContext, ImportError, Place};
@@ -15,10 +16,15 @@ const PARSE_AT_ONCE: usize = 4 << 20;
 /// Represents "no node" in the target of an animation.
 pub(super) const NO_NODE: usize = u32::MAX as usize;
 
-/// Parses the JSON text that starts at byte `at` of the file.
-pub(super) fn parse(bytes: &[u8], at: u64, context: &ImportContext<'_>) -> Result<json::Root, ImportError> {
+/// Parses the JSON text that starts at byte `at` of the file. Also returns the targets of channels that are JSON pointers,
+/// which the document model leaves out.
+pub(super) fn parse(
+    bytes: &[u8],
+    at: u64,
+    context: &ImportContext<'_>,
+) -> Result<(json::Root, ChannelPointers), ImportError> {
     let text = text_of(bytes, at)?;
-    let survey = survey(text.as_bytes(), context)?;
+    let mut survey = survey(text.as_bytes(), context)?;
     check_version(&survey)?;
     context.charge(&Place::Pointer(String::new()), survey.memory)?;
     let text = completed(text, &survey, context)?;
@@ -29,7 +35,8 @@ pub(super) fn parse(bytes: &[u8], at: u64, context: &ImportContext<'_>) -> Resul
         json::deserialize::from_reader(io::BufReader::with_capacity(1 << 16, reader))
     };
     context.progress(0.2)?;
-    parsed.map_err(|error| placed(&error, &text, at))
+    let root = parsed.map_err(|error| placed(&error, &text, at))?;
+    Ok((root, std::mem::take(&mut survey.pointers)))
 }
 
 /// Returns the text as UTF-8, without byte order mark and padding.

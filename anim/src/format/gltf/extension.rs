@@ -1,15 +1,23 @@
 //! Supported extensions, and the handling of all others.
 
-use super::check as code;
+use super::{avatar, check as code, material};
 use crate::format::{ImportContext, ImportError, Place};
 use gltf::json;
 
-/// Extensions that are supported completely.
+/// Extensions whose content is read, as far as a model has room for it.
 pub const SUPPORTED: &[&str] = &[
+    material::BASISU,
+    material::WEBP,
+    "EXT_meshopt_compression",
+    "KHR_animation_pointer",
     "KHR_materials_emissive_strength",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_texture_transform",
+    avatar::VRM_0,
+    avatar::VRM_1,
+    avatar::VRM_ANIMATION,
 ];
 
 /// Stores the data of accessors elsewhere. A file with accessors that have no data of their own needs this extension
@@ -22,20 +30,32 @@ pub(super) fn check(root: &json::Root, context: &ImportContext<'_>) -> Result<()
         context.work(1)?;
         if !SUPPORTED.contains(&name.as_str()) {
             let place = Place::Pointer(format!("/extensionsRequired/{index}"));
-            return Err(ImportError::Unsupported { place, feature: format!("the extension {name}") });
+            return Err(unsupported(place, name));
         }
     }
     for (index, name) in root.extensions_used.iter().enumerate() {
         context.work(1)?;
         if name == DRACO && root.accessors.iter().any(|a| a.buffer_view.is_none() && a.sparse.is_none()) {
             let place = Place::Pointer(format!("/extensionsUsed/{index}"));
-            return Err(ImportError::Unsupported { place, feature: format!("the extension {name}") });
+            return Err(unsupported(place, name));
         }
         if !SUPPORTED.contains(&name.as_str()) {
             let place = Place::Pointer(format!("/extensionsUsed/{index}"));
-            let what = if name == "KHR_lights_punctual" { "the file's lights" } else { name };
-            context.warn(place, code::UNSUPPORTED_EXTENSION, format!("{what} is not shown"));
+            let text = match name.as_str() {
+                "KHR_lights_punctual" => "the file's lights are not shown".to_owned(),
+                DRACO => format!("{name} is not supported; the meshes are read from their uncompressed data"),
+                _ => format!("{name} is not shown"),
+            };
+            context.warn(place, code::UNSUPPORTED_EXTENSION, text);
         }
     }
     Ok(())
+}
+
+fn unsupported(place: Place, name: &str) -> ImportError {
+    let feature = match name {
+        DRACO => format!("Draco (the extension {name}), with which its meshes are compressed"),
+        _ => format!("the extension {name}"),
+    };
+    ImportError::Unsupported { place, feature }
 }

@@ -10,6 +10,11 @@ use gltf::json::extensions::texture::TextureTransform as JsonTransform;
 use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
 use gltf::json::validation::Checked;
 
+/// Extension for textures with a WebP image.
+pub(super) const WEBP: &str = "EXT_texture_webp";
+/// Extension for textures with a KTX 2 image, which is not decoded.
+pub(super) const BASISU: &str = "KHR_texture_basisu";
+
 /// Returns all materials. `images` contains the number in the model for each image of the file.
 pub(super) fn materials(
     root: &json::Root,
@@ -170,13 +175,7 @@ impl MaterialReader<'_> {
             ),
             None => None,
         };
-        // The document model's value for "no source".
-        if texture.source.value() == u32::MAX as usize {
-            let text = "the texture has no PNG or JPEG image and is left out";
-            self.context.warn(Place::Pointer(path), code::TEXTURE_NO_SOURCE, text);
-            return Ok(None);
-        }
-        let source = texture.source.value();
+        let Some(source) = self.source(texture, &path) else { return Ok(None) };
         let image = *self.images.get(source).ok_or_else(|| unresolved(&format!("{path}/source"), source))?;
         let mut set = transform.and_then(|transform| transform.tex_coord).unwrap_or(set);
         if set > 1 {
@@ -198,6 +197,28 @@ impl MaterialReader<'_> {
             mip,
             transform: self.transform(transform, member)?,
         }))
+    }
+
+    /// Returns the number of the image of a texture: that of `EXT_texture_webp` where there is one, otherwise the plain one;
+    /// `None`, with a warning, if there is neither.
+    fn source(&self, texture: &json::Texture, path: &str) -> Option<usize> {
+        let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
+        let extension = |name: &str| others?.get(name)?.get("source")?.as_u64();
+        if let Some(source) = extension(WEBP) {
+            return usize::try_from(source).ok();
+        }
+        // The document model's value for "no source".
+        let source = Some(texture.source.value()).filter(|&source| source != u32::MAX as usize);
+        let text = match (source, extension(BASISU)) {
+            (Some(_), None) => return source,
+            (Some(_), Some(_)) => format!("{BASISU} is not supported; the texture's other image is used"),
+            (None, Some(_)) => {
+                format!("{BASISU} is not supported, and the texture has no other image; it is left out")
+            }
+            (None, None) => "the texture has no PNG, JPEG or WebP image and is left out".to_owned(),
+        };
+        self.context.warn(Place::Pointer(path.to_owned()), code::TEXTURE_NO_SOURCE, text);
+        source
     }
 
     fn transform(

@@ -4,12 +4,13 @@
 //! panic, hang or allocate gigabytes on small files, so this module has its own: `accessor` is the only module that
 //! reads a buffer, `graph` the only one that walks the nodes.
 //!
-//! Reading order: `survey` and `document` (text → model), `buffer`, `accessor`, `graph`, `node`, `skin`, `mesh`,
+//! Reading order: `survey` and `document` (text → model), `buffer`, `meshopt`, `accessor`, `graph`, `node`, `skin`, `mesh`,
 //! `animation`, `scene`. [`check`] lists every rule.
 
 mod accessor;
 mod animation;
 mod attribute;
+mod avatar;
 mod buffer;
 pub mod check;
 mod document;
@@ -22,14 +23,17 @@ mod influence;
 mod keys;
 mod material;
 mod mesh;
+mod meshopt;
 mod morph;
 mod node;
+mod pointer;
 mod references;
 pub mod save;
 mod scene;
 mod skin;
 mod survey;
 mod triangles;
+mod vrma;
 mod walk;
 mod whole;
 pub mod write;
@@ -38,7 +42,7 @@ pub use super::image::measure as measure_image;
 pub use extension::SUPPORTED;
 pub use material::phong;
 
-use super::{Format, ImportContext, ImportError, Place, WriteSupport};
+use super::{ExportError, Format, ImportContext, ImportError, Place, SavePlan, WriteSupport};
 use crate::data::{AnimationData, ModelData};
 use accessor::GltfDocument;
 use std::sync::Arc;
@@ -47,11 +51,22 @@ use std::sync::Arc;
 pub const GLB: Format = Format {
     name: "glb",
     title: "glTF 2.0, binary",
-    extensions: &["glb"],
-    sniff: |bytes| bytes.starts_with(b"glTF"),
+    extensions: &["glb", "vrm"],
+    sniff: |bytes| bytes.starts_with(b"glTF") && !vrma::names_extension(bytes),
     read: read_glb,
     write: WriteSupport::Surgical(save::open),
-    export: Some(|model, name| Ok(write::glb(model)?.named(name))),
+    export: Some(export_glb),
+};
+
+/// Animations for persons in one binary container, `.vrma`.
+pub const VRMA: Format = Format {
+    name: "vrma",
+    title: "VRM animation",
+    extensions: &["vrma"],
+    sniff: |bytes| bytes.starts_with(b"glTF") && vrma::names_extension(bytes),
+    read: read_glb,
+    write: WriteSupport::Surgical(save::open),
+    export: Some(|model, name| Ok(vrma::write(model)?.named(name))),
 };
 
 /// glTF 2.0 as JSON text, `.gltf`.
@@ -70,6 +85,18 @@ fn looks_like_json(bytes: &[u8]) -> bool {
     text.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{')
 }
 
+fn export_glb(model: &ModelData, name: &str) -> Result<SavePlan, ExportError> {
+    if name.to_ascii_lowercase().ends_with(".vrm") {
+        return Err(ExportError::new(VrmRefused));
+    }
+    Ok(write::glb(model)?.named(name))
+}
+
+/// A new VRM needs a license and other facts that no model here has.
+#[derive(Debug, thiserror::Error)]
+#[error("a new .vrm cannot be written, only edits of an opened one; write .glb, or .vrma for its animations")]
+struct VrmRefused;
+
 fn read_glb(bytes: &[u8], context: &ImportContext<'_>) -> Result<ModelData, ImportError> {
     let glb = glb::parse(bytes, context)?;
     read_document(glb.json, glb.json_at, glb.bin, bytes.len(), context)
@@ -87,17 +114,21 @@ fn read_document(
     size: usize,
     context: &ImportContext<'_>,
 ) -> Result<ModelData, ImportError> {
-    let root = document::parse(json, json_at, context)?;
+    let (mut root, pointers) = document::parse(json, json_at, context)?;
+    pointer::resolve(&mut root, &pointers);
     extension::check(&root, context)?;
     references::check(&root, context)?;
     let graph = graph::graph(&root, context)?;
-    let buffers = buffer::load(&root, bin, context)?;
+    let fallbacks = meshopt::fallbacks(&root, context)?;
+    let buffers = buffer::load(&root, bin, &fallbacks, context)?;
+    let decoded = meshopt::decode(&root, &buffers, context)?;
     let bytes = size.saturating_add(buffers.iter().map(|buffer| buffer.bytes().len()).sum());
-    let document = GltfDocument { root: &root, buffers, bytes, context };
+    let document = GltfDocument { root: &root, buffers, decoded, pointers, bytes, context };
 
     let mut is_bone = context.filled(&Place::Pointer("/nodes".to_owned()), root.nodes.len(), false)?;
     skin::mark_joints(&document, &mut is_bone)?;
     animation::mark_animated(&document, &mut is_bone)?;
+    let named = avatar::mark_bones(&root, &mut is_bone, context)?;
     let bones = scene::number_bones(&document, &graph, &mut is_bone)?;
 
     let locals = node::locals(&root, context)?;
@@ -115,6 +146,7 @@ fn read_document(
     let parts = scene::SceneParts { meshes: &meshes, skins: &skins.numbers, is_shown: &is_shown };
     let stage = scene::stage(&document, &graph, &locals, skeleton, bones, &parts)?;
     let takes = animation::takes(&document, &stage)?;
+    let avatar = avatar::avatar(&document, named, &stage)?;
 
     let scene = root.scene.and_then(|scene| root.scenes.get(scene.value())).or(root.scenes.first());
     Ok(ModelData {
@@ -128,5 +160,6 @@ fn read_document(
             skeleton: Arc::new(stage.skeleton),
             takes: takes.into_iter().map(Arc::new).collect(),
         },
+        avatar,
     })
 }

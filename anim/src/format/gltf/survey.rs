@@ -4,6 +4,7 @@
 //! so both are checked here first.
 
 use super::check as code;
+use super::pointer::{self, ChannelPointers};
 use super::walk::{Walk, WalkStep};
 use super::whole::whole;
 use crate::format::{ImportContext, ImportError, Place};
@@ -20,6 +21,8 @@ pub(super) struct Survey {
     pub(super) min_version: Option<String>,
     /// Requirements of the document model that the specification does not have, in the order of the text.
     pub(super) patches: Vec<SurveyPatch>,
+    /// Targets of channels that are JSON pointers.
+    pub(super) pointers: ChannelPointers,
 }
 
 /// A change of the text before it is parsed.
@@ -123,6 +126,12 @@ impl Survey {
         }
         if text.starts_with(b"\"") {
             self.memory += ALLOCATION + text.len() as u64;
+            if let Some(channel) = pointer_of(walk, last)
+                && let Ok(pointer) = serde_json::from_slice(text)
+            {
+                self.memory += size_of::<((usize, usize), String)>() as u64;
+                self.pointers.insert(channel, pointer);
+            }
             if last == 1 && walk.key(0) == b"asset" {
                 let word = || Some(String::from_utf8_lossy(&text[1..text.len() - 1]).into_owned());
                 match walk.key(1) {
@@ -162,6 +171,23 @@ impl Survey {
         }
         Ok(())
     }
+}
+
+/// Returns the animation and the channel whose target is the pointer here.
+fn pointer_of(walk: &mut Walk<'_>, last: usize) -> Option<(usize, usize)> {
+    let keys: [(usize, &[u8]); 6] = [
+        (7, b"pointer"),
+        (6, pointer::EXTENSION.as_bytes()),
+        (5, b"extensions"),
+        (4, b"target"),
+        (2, b"channels"),
+        (0, b"animations"),
+    ];
+    if last != 7 || keys.iter().any(|(depth, key)| walk.key(*depth) != *key) {
+        return None;
+    }
+    let frames = walk.frames();
+    Some((frames[1].count.checked_sub(1)?, frames[3].count.checked_sub(1)?))
 }
 
 /// A member that the document model requires.

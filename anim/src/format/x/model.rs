@@ -63,7 +63,16 @@ pub(super) fn model(
     let skeleton = Arc::new(bones.finish(offsets));
     let (materials, images) = materials.finish();
     let animation = AnimationData { skeleton, takes };
-    Ok(ModelData { name: String::new(), meshes, instances, skins, materials, images, animation })
+    Ok(ModelData {
+        name: String::new(),
+        meshes,
+        instances,
+        skins,
+        materials,
+        images,
+        animation,
+        ..ModelData::default()
+    })
 }
 
 /// Returns the numbers in the model of the materials of a mesh.

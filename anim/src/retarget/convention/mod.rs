@@ -17,7 +17,7 @@ mod vrm;
 
 pub use part::{BodyPart, BoneRole};
 
-use crate::data::{BoneIndex, Skeleton};
+use crate::data::{Avatar, BoneIndex, Skeleton};
 use part::Convention;
 
 /// All conventions. Where two recognize equally many parts of a skeleton, the first is taken.
@@ -62,6 +62,21 @@ impl SkeletonRoles {
             }
         }
         best
+    }
+
+    /// Returns the parts of a skeleton that an avatar names; `None` if they are too few for a figure.
+    pub fn of_avatar(skeleton: &Skeleton, avatar: &Avatar) -> Option<Self> {
+        let mut names = vec![String::new(); skeleton.len()];
+        for human in &avatar.bones {
+            if let Some(name) = names.get_mut(human.bone as usize) {
+                *name = simplified(&human.name);
+            }
+        }
+        let of = roles(&vrm::CONVENTION, &names, skeleton);
+        let found = Self { convention: Some(vrm::CONVENTION.name), of };
+        let parts = found.roles();
+        let has_hips = parts.iter().any(|role| role.part == BodyPart::Hips);
+        (has_hips && parts.len() >= FEWEST).then_some(found)
     }
 
     /// Returns the bones of a role in the order of the skeleton: of a chain, from the top.

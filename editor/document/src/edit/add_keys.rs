@@ -1,6 +1,7 @@
 //! Adds keys (thesis §2.2.2.4).
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, NewKey, Property, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::kind::with_kind;
@@ -30,6 +31,8 @@ pub struct AddKeys {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub keyed_only: bool,
 }
+
+map_references!(AddKeys { take, time, bones, properties, value, keyed_only });
 
 impl EditKind for AddKeys {
     const EXAMPLE: Example = Example {

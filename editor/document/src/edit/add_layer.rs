@@ -1,6 +1,7 @@
 //! Adds a layer to a take, or a copy of one.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, LayerKind, LayerRef, TakeRef};
 use crate::adapter::plan::{Transaction, layer};
 use crate::adapter::{EditError, LayerVersions};
@@ -35,6 +36,11 @@ pub struct AddLayer {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub copy: Option<LayerRef>,
 }
+
+map_references!(AddLayer { take, name, kind, bones }, |edit, map| {
+    at: edit.at.map(|at| map.layer_place(&edit.take, at, None)),
+    copy: edit.copy.as_ref().map(|layer| map.layer(layer)).transpose()?,
+});
 
 impl EditKind for AddLayer {
     const EXAMPLE: Example = Example {

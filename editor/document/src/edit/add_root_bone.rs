@@ -2,6 +2,7 @@
 
 use super::kept_travel::{TRAVEL, kept_travel, travel_text};
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::Transaction;
@@ -20,6 +21,8 @@ pub struct AddRootBone {
     /// Its name, which no other bone has.
     pub name: String,
 }
+
+map_references!(AddRootBone { name });
 
 impl EditKind for AddRootBone {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Adds a take with given keys.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, KeyInterpolation, Property, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, finite};
@@ -41,6 +42,8 @@ pub struct GivenChannel {
     /// The values, three numbers for each key, for rotations four; for splines in-tangent, value and out-tangent of each key.
     pub values: Vec<f32>,
 }
+
+map_references!(GivenChannel { bone, property, interpolation, times, values });
 
 impl AddTake {
     /// Returns the edit that adds `take`, without its morph tracks.
@@ -131,6 +134,8 @@ impl GivenChannel {
         Ok(Channel::new(self.times.clone(), values, Interpolation::from(self.interpolation)))
     }
 }
+
+map_references!(AddTake { name, tracks }, |edit, map| { at: edit.at.map(|at| map.take_place(at, None)) });
 
 impl EditKind for AddTake {
     const EXAMPLE: Example = Example {

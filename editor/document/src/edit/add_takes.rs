@@ -1,7 +1,9 @@
 //! Adds several takes with given keys in one step, for example the takes of a folder of captures.
 
 use super::kind::EditKind;
-use super::{AddTake, Arbitrary, EditedBones, Example, TakeRef};
+use super::map_references::MapReferences;
+use super::reference_map::ReferenceMap;
+use super::{AddTake, Arbitrary, EditedBones, Example, Misfit, TakeRef};
 use crate::adapter::plan::Transaction;
 use crate::adapter::{EditError, ModelAdapter, take_name};
 use dragonfly_anim::data::Skeleton;
@@ -14,6 +16,22 @@ use serde::{Deserialize, Serialize};
 pub struct AddTakes {
     /// The takes, each as in the edit `add_take`. Names differ.
     pub takes: Vec<AddTake>,
+}
+
+impl MapReferences for AddTakes {
+    /// The index of each take counts those of the edit before it.
+    fn mapped(&self, map: &mut ReferenceMap<'_>) -> Result<Self, Misfit> {
+        let Self { takes } = self;
+        let before = |(number, take): (usize, &AddTake)| {
+            let at = take.at.map(|at| at.saturating_sub(number));
+            AddTake { at, ..take.clone() }
+        };
+        let mut takes = takes.iter().enumerate().map(before).collect::<Vec<_>>().mapped(map)?;
+        for (number, take) in takes.iter_mut().enumerate() {
+            take.at = take.at.map(|at| at + number);
+        }
+        Ok(Self { takes })
+    }
 }
 
 impl EditKind for AddTakes {

@@ -2,6 +2,7 @@
 
 use super::hold::{self, HeldFeet};
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BonePose, BoneRef, EditedBones, Example, KeySet, TakeRef, cost};
 use crate::adapter::kind::ChannelKind;
 use crate::adapter::op::ChannelAddress;
@@ -70,6 +71,10 @@ pub enum KeyTarget {
     /// The curve of the key's own channel this many seconds earlier.
     Delayed(f32),
 }
+
+map_references!(BlendKeys { take, shapes, toward, factor, hold }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for BlendKeys {
     const EXAMPLE: Example = Example {

@@ -2,6 +2,7 @@
 
 use super::contact_span::{named, stored_of_limbs};
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, ContactSpan, EditedBones, Example, TakeRef};
 use crate::adapter::plan::{Transaction, rewrite};
 use crate::adapter::{EditError, ModelAdapter};
@@ -32,6 +33,8 @@ pub struct CloseLoop {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
 }
+
+map_references!(CloseLoop { take, frames, travel, contacts, rate });
 
 impl EditKind for CloseLoop {
     const EXAMPLE: Example = Example {

@@ -1,5 +1,6 @@
 //! Contacts as edits name them.
 
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef};
 use crate::adapter::plan::{Transaction, contacts, finite};
 use crate::adapter::{EditError, TakeId};
@@ -20,6 +21,8 @@ pub struct ContactSpan {
     /// End of the contact in seconds, not before `from`.
     pub to: f32,
 }
+
+map_references!(ContactSpan { bone, from, to });
 
 impl ContactSpan {
     pub(super) fn arbitrary(from: &mut Arbitrary<'_>) -> Self {

@@ -1,5 +1,6 @@
 //! Copied keys: their values, independent of where they were.
 
+use super::map_references::map_references;
 use super::{BoneRef, KeyInterpolation, MeshRef, Property, ShapeRef};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,8 @@ pub struct CopiedChannel {
     /// The keys.
     pub keys: Vec<CopiedKey>,
 }
+
+map_references!(CopiedChannel { bone, property, interpolation, keys });
 
 /// One key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,6 +1,7 @@
 //! Creates a take (thesis §2.2.2.4).
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::Transaction;
@@ -26,6 +27,8 @@ pub struct CreateTake {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<usize>,
 }
+
+map_references!(CreateTake { name, copy }, |edit, map| { at: edit.at.map(|at| map.take_place(at, None)) });
 
 impl EditKind for CreateTake {
     const EXAMPLE: Example = Example {

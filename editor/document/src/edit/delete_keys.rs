@@ -1,6 +1,7 @@
 //! Deletes keys (thesis §2.2.2.4).
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, KeySet, SAME_TIME, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, finite, layer, morph};
@@ -22,6 +23,10 @@ pub struct DeleteKeys {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shapes: Vec<[f32; 2]>,
 }
+
+map_references!(DeleteKeys { take, shapes }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for DeleteKeys {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Deletes a layer.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{Transaction, layer};
@@ -15,6 +16,8 @@ pub struct DeleteLayer {
     /// The layer.
     pub take: TakeRef,
 }
+
+map_references!(DeleteLayer { take });
 
 impl EditKind for DeleteLayer {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Deletes a take (thesis §2.2.2.4).
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::op::Op;
@@ -16,6 +17,8 @@ pub struct DeleteTake {
     /// The take.
     pub take: TakeRef,
 }
+
+map_references!(DeleteTake { take });
 
 impl EditKind for DeleteTake {
     const EXAMPLE: Example =

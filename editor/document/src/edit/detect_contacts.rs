@@ -2,6 +2,7 @@
 
 use super::contact_span::detected;
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef};
 use crate::adapter::plan::{Transaction, contacts, finite};
 use crate::adapter::{EditError, ModelAdapter};
@@ -37,6 +38,8 @@ fn one() -> f32 {
 fn is_one(number: &f32) -> bool {
     *number == 1.0
 }
+
+map_references!(DetectContacts { take, bones, meters_per_unit, rate });
 
 impl EditKind for DetectContacts {
     const EXAMPLE: Example = Example {

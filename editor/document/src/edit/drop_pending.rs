@@ -1,6 +1,7 @@
 //! Discards pending poses.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef, cost};
 use crate::adapter::plan::{Transaction, pending};
 use crate::adapter::{EditError, ModelAdapter};
@@ -24,6 +25,8 @@ pub struct DropPending {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub shapes: bool,
 }
+
+map_references!(DropPending { take, time, bones, shapes });
 
 impl EditKind for DropPending {
     const EXAMPLE: Example = Example {

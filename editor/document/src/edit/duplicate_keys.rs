@@ -1,6 +1,7 @@
 //! Copies keys to other times.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, KeySet, SAME_TIME, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{KeyMove, Transaction, finite, timing::move_keys};
@@ -22,6 +23,10 @@ pub struct DuplicateKeys {
     /// Seconds from each key to its copy.
     pub by: f32,
 }
+
+map_references!(DuplicateKeys { take, shapes, by }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for DuplicateKeys {
     const EXAMPLE: Example = Example {

@@ -2,6 +2,7 @@
 
 use super::hold::{self, HeldFeet};
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, KeySet, TakeRef, cost};
 use crate::adapter::kind::ChannelKind;
 use crate::adapter::op::ChannelAddress;
@@ -59,6 +60,10 @@ pub enum CurveFilter {
         threshold: f32,
     },
 }
+
+map_references!(FilterKeys { take, shapes, filter, rate, hold }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for FilterKeys {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Sets or removes a key of the weight of a layer.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{Transaction, finite, layer};
@@ -22,6 +23,8 @@ pub struct KeyLayerWeight {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weight: Option<f32>,
 }
+
+map_references!(KeyLayerWeight { take, time, weight });
 
 impl EditKind for KeyLayerWeight {
     const EXAMPLE: Example = Example {

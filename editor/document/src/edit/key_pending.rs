@@ -1,6 +1,7 @@
 //! Keys pending poses.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, with_kind};
 use crate::adapter::op::ChannelAddress;
@@ -30,6 +31,8 @@ pub struct KeyPending {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unstep: bool,
 }
+
+map_references!(KeyPending { take, time, bones, shapes, unstep });
 
 impl EditKind for KeyPending {
     const EXAMPLE: Example = Example {

@@ -1,5 +1,6 @@
 //! The trait of all kinds of edits, and the macro that makes the list of them.
 
+use super::map_references::MapReferences;
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef, cost};
 use crate::adapter::plan::{PoseMode, Transaction};
 use crate::adapter::{EditError, ModelAdapter};
@@ -10,7 +11,9 @@ use dragonfly_anim::data::Skeleton;
 ///
 /// A new kind is one file with a type that implements this trait, and one line in the list of [`super::Edit`]. The history, the
 /// locks of bones, the help of the command line and the property tests follow from the list.
-pub(crate) trait EditKind: Sized {
+///
+/// [`MapReferences`] lists what the edit refers to, so that it can be applied to another version of the model.
+pub(crate) trait EditKind: MapReferences {
     /// The edit as a line of JSON, with a description; for help texts and tests.
     const EXAMPLE: Example;
 
@@ -181,6 +184,15 @@ macro_rules! edits {
                 let layers = match self { $(Self::$Kind(_) => <$Kind as EditKind>::LAYERS,)* };
                 layers.allows(work.adapter(), self.take(), self.label())?;
                 match self { $(Self::$Kind(edit) => edit.plan(work),)* }
+            }
+
+            /// Returns the same edit for a new version of the model. Parts that do not fit it are left out and noted in `map`.
+            ///
+            /// # Errors
+            ///
+            /// The reason why nothing of it fits.
+            pub(crate) fn mapped(&self, map: &mut ReferenceMap<'_>) -> Result<Self, Misfit> {
+                Ok(match self { $(Self::$Kind(edit) => Self::$Kind(edit.mapped(map)?),)* })
             }
 
             /// Checks whether users and programs may ask for it now.

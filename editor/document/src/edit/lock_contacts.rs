@@ -2,6 +2,7 @@
 
 use super::contact_span::{detected, named, stored_of_limbs};
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, ContactSpan, EditedBones, Example, TakeRef};
 use crate::adapter::plan::{Transaction, rewrite};
 use crate::adapter::{EditError, ModelAdapter};
@@ -34,6 +35,8 @@ pub struct LockContacts {
 fn four() -> u32 {
     4
 }
+
+map_references!(LockContacts { take, contacts, ease, rate });
 
 impl EditKind for LockContacts {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Merges a layer with the one below it, or all layers into their take.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, Property, TakeRef};
 use crate::adapter::kind::{ChannelKind, with_kind};
 use crate::adapter::plan::{Transaction, layer, rewrite};
@@ -20,6 +21,8 @@ pub struct MergeLayers {
     /// The layer to merge with the one below it, the lowest one with the take; or the take, to merge all.
     pub take: TakeRef,
 }
+
+map_references!(MergeLayers { take });
 
 impl EditKind for MergeLayers {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Mirrors a take.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::target::BoneFinder;
 use super::{Arbitrary, BoneRef, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::plan::{Transaction, contacts, finite, rewrite};
@@ -63,6 +64,8 @@ impl MirrorTake {
         MirrorPairs::of(skeleton).corrected(&corrections)
     }
 }
+
+map_references!(MirrorTake { take, bones, side, pairs, from, to });
 
 impl EditKind for MirrorTake {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Moves keys in time.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{KeyMove, Transaction, finite, timing::move_keys};
@@ -22,6 +23,10 @@ pub struct MoveKeys {
     /// Seconds; negative is earlier.
     pub by: f32,
 }
+
+map_references!(MoveKeys { take, shapes, by }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for MoveKeys {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Moves a layer up or down, or to another take.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{Transaction, layer};
@@ -20,6 +21,10 @@ pub struct MoveLayer {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to_take: Option<TakeRef>,
 }
+
+map_references!(MoveLayer { take, to_take }, |edit, map| {
+    to: map.layer_place(edit.to_take.as_ref().unwrap_or(&edit.take), edit.to, Some(&edit.take)),
+});
 
 impl EditKind for MoveLayer {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Moves a take in the list (thesis §2.2.2.4).
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::op::Op;
@@ -18,6 +19,8 @@ pub struct MoveTake {
     /// Its new index; the last one where there are fewer takes.
     pub to: usize,
 }
+
+map_references!(MoveTake { take }, |edit, map| { to: map.take_place(edit.to, Some(&edit.take)) });
 
 impl EditKind for MoveTake {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Moves the travel of a figure from one bone to another.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::travel_parts::travel_options;
 use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef, TravelPart};
 use crate::adapter::plan::{Transaction, rewrite};
@@ -32,6 +33,8 @@ pub struct MoveTravel {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
 }
+
+map_references!(MoveTravel { take, from, to, parts, smooth, rate });
 
 impl EditKind for MoveTravel {
     const EXAMPLE: Example = Example {

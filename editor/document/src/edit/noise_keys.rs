@@ -2,6 +2,7 @@
 
 use super::hold::{self, HeldFeet};
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, KeySet, Property, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, RotationChannel, TranslationChannel};
 use crate::adapter::op::ChannelAddress;
@@ -46,6 +47,10 @@ pub struct NoiseKeys {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub hold: Vec<BoneRef>,
 }
+
+map_references!(NoiseKeys { take, shapes, translation, rotation, scale, frequency, seed, hold }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for NoiseKeys {
     const EXAMPLE: Example = Example {

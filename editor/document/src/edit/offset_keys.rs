@@ -1,6 +1,7 @@
 //! Offsets many keys at once.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::set_pose::pose_label;
 use super::{Arbitrary, BonePose, BoneRef, EditedBones, Example, OffsetFalloff, OffsetScope, TakeRef, cost};
 use crate::adapter::plan::{Transaction, offset};
@@ -38,6 +39,8 @@ impl OffsetKeys {
         self.poses.iter().filter_map(index).collect()
     }
 }
+
+map_references!(OffsetKeys { take, poses, at, over, falloff });
 
 impl EditKind for OffsetKeys {
     const EXAMPLE: Example = Example {

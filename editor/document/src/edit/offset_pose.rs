@@ -1,6 +1,7 @@
 //! Moves, rotates and scales bones on top of their pose.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::set_pose::pose_label;
 use super::{Arbitrary, BonePose, EditedBones, Example, TakeRef, cost};
 use crate::adapter::plan::{PoseMode, Transaction, pose};
@@ -25,6 +26,8 @@ pub struct OffsetPose {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unstep: bool,
 }
+
+map_references!(OffsetPose { take, time, poses, unstep });
 
 impl EditKind for OffsetPose {
     const EXAMPLE: Example = Example {

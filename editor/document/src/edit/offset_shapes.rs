@@ -1,6 +1,7 @@
 //! Adds to the weights of shape keys at many keys.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::set_shapes::{arbitrary_weights, found, names};
 use super::{Arbitrary, EditedBones, Example, OffsetFalloff, ShapeScope, ShapeWeight, TakeRef, cost};
 use crate::adapter::plan::{Transaction, morph_offset};
@@ -26,6 +27,8 @@ pub struct OffsetShapes {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub falloff: Option<OffsetFalloff>,
 }
+
+map_references!(OffsetShapes { take, shapes, at, over, falloff });
 
 impl EditKind for OffsetShapes {
     const EXAMPLE: Example = Example {

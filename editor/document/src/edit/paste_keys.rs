@@ -1,6 +1,7 @@
 //! Pastes copied keys.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::paste_shapes::paste_shapes;
 use super::{
     Arbitrary, CopiedChannel, CopiedKey, CopiedShapeKey, CopiedShapes, EditedBones, Example,
@@ -38,6 +39,11 @@ pub struct PasteKeys {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shapes: Vec<CopiedShapes>,
 }
+
+map_references!(PasteKeys { take, time }, |edit, map| {
+    channels: map.any(&edit.channels, !edit.shapes.is_empty())?,
+    shapes: map.any(&edit.shapes, !edit.channels.is_empty())?,
+});
 
 impl EditKind for PasteKeys {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Pastes a copied pose.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::target::BoneFinder;
 use super::{
     Arbitrary, BonePose, BoneRef, EditedBones, Example, OffsetFalloff, OffsetKeys, OffsetScope, SetPending,
@@ -48,6 +49,8 @@ pub struct PastePose {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub falloff: Option<OffsetFalloff>,
 }
+
+map_references!(PastePose { take, time, poses, mirrored, pending, unstep, over, falloff });
 
 impl EditKind for PastePose {
     const EXAMPLE: Example = Example {

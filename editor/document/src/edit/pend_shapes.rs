@@ -1,6 +1,7 @@
 //! Sets pending weights of shape keys.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::set_shapes::{arbitrary_weights, found, names};
 use super::{Arbitrary, EditedBones, Example, ShapeWeight, TakeRef, cost};
 use crate::adapter::PendingAt;
@@ -24,6 +25,8 @@ pub struct PendShapes {
     /// The shape keys with their wanted weights. Of one that occurs twice, the last weight counts.
     pub shapes: Vec<ShapeWeight>,
 }
+
+map_references!(PendShapes { take, time, shapes });
 
 impl EditKind for PendShapes {
     const EXAMPLE: Example = Example {

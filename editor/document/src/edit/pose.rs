@@ -1,5 +1,6 @@
 //! Poses of single bones.
 
+use super::map_references::map_references;
 use super::{BoneRef, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -21,6 +22,8 @@ pub struct BonePose {
     pub scale: Option<[f32; 3]>,
 }
 
+map_references!(BonePose { bone, translation, rotation, scale });
+
 impl BonePose {
     /// Returns whether the pose has this part.
     pub(crate) fn gives(&self, property: Property) -> bool {
@@ -41,3 +44,5 @@ pub struct PoseAt {
     /// The wanted poses; one for each bone.
     pub poses: Vec<BonePose>,
 }
+
+map_references!(PoseAt { time, poses });

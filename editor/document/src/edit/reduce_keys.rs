@@ -1,6 +1,7 @@
 //! Removes keys that the motion hardly needs.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, KeySet, Property, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, contacts};
@@ -35,6 +36,8 @@ fn meters() -> f32 {
 fn is_meters(unit: &f32) -> bool {
     *unit == meters()
 }
+
+map_references!(ReduceKeys { take, keys, tolerance, unit });
 
 impl EditKind for ReduceKeys {
     const EXAMPLE: Example = Example {

@@ -2,6 +2,7 @@
 
 use super::kept_travel::{TRAVEL, kept_travel, travel_text};
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::travel_parts::travel_options;
 use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef, TravelPart};
 use crate::adapter::op::Op;
@@ -31,6 +32,8 @@ pub struct RemoveTravel {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
 }
+
+map_references!(RemoveTravel { take, bone, parts, smooth, rate });
 
 impl EditKind for RemoveTravel {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Renames a take (thesis §2.2.2.4).
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::about::shortened;
 use crate::adapter::op::Op;
@@ -19,6 +20,8 @@ pub struct RenameTake {
     /// Its new name.
     pub name: String,
 }
+
+map_references!(RenameTake { take, name });
 
 impl EditKind for RenameTake {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Repeats keys before and after.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, KeySet, Property, SAME_TIME, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{Transaction, rewrite};
@@ -75,6 +76,8 @@ impl From<RepeatMode> for CycleMode {
         }
     }
 }
+
+map_references!(RepeatKeys { take, keys, mode, before, after });
 
 impl EditKind for RepeatKeys {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Replaces keys by keys on whole frames.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, KeySet, SAME_TIME, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::kind::{ChannelKind, with_kind};
@@ -36,6 +37,8 @@ fn one() -> u32 {
 fn is_one(number: &u32) -> bool {
     *number == 1
 }
+
+map_references!(ResampleKeys { take, keys, rate, every });
 
 impl EditKind for ResampleKeys {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Resets keys to the original or to the rest pose.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, Property, ResetTo, TakeRef, cost};
 use crate::adapter::kind::{ChannelKind, with_kind};
 use crate::adapter::op::{ChannelAddress, Op};
@@ -28,6 +29,8 @@ pub struct ResetPose {
     #[serde(default)]
     pub to: ResetTo,
 }
+
+map_references!(ResetPose { take, time, bones, properties, to });
 
 impl EditKind for ResetPose {
     const EXAMPLE: Example = Example {

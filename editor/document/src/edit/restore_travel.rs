@@ -2,6 +2,7 @@
 
 use super::kept_travel::{TRAVEL, kept_travel, travel_text};
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, rewrite};
@@ -19,6 +20,8 @@ pub struct RestoreTravel {
     /// The take.
     pub take: TakeRef,
 }
+
+map_references!(RestoreTravel { take });
 
 impl EditKind for RestoreTravel {
     const EXAMPLE: Example = Example {

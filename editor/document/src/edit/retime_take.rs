@@ -1,6 +1,7 @@
 //! Changes the start and the length of a take.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{
@@ -24,6 +25,8 @@ pub struct RetimeTake {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub length: Option<f32>,
 }
+
+map_references!(RetimeTake { take, start, length });
 
 impl EditKind for RetimeTake {
     const EXAMPLE: Example = Example {

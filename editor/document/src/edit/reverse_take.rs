@@ -1,6 +1,7 @@
 //! Reverses a take.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{
@@ -18,6 +19,8 @@ pub struct ReverseTake {
     /// The take.
     pub take: TakeRef,
 }
+
+map_references!(ReverseTake { take });
 
 impl EditKind for ReverseTake {
     const EXAMPLE: Example =

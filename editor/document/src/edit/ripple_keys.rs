@@ -1,6 +1,7 @@
 //! Inserts or removes time.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{
@@ -22,6 +23,8 @@ pub struct RippleKeys {
     /// Seconds; negative closes a gap and deletes the keys in it.
     pub by: f32,
 }
+
+map_references!(RippleKeys { take, from, by });
 
 impl EditKind for RippleKeys {
     const EXAMPLE: Example = Example {

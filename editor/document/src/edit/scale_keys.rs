@@ -1,6 +1,7 @@
 //! Scales the times of keys.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{KeyMove, Transaction, finite, timing::move_keys};
@@ -24,6 +25,10 @@ pub struct ScaleKeys {
     /// Factor, not zero.
     pub factor: f32,
 }
+
+map_references!(ScaleKeys { take, shapes, about, factor }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for ScaleKeys {
     const EXAMPLE: Example = Example {

@@ -2,6 +2,7 @@
 
 use super::contact_span::named;
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, ContactSpan, EditedBones, Example, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{Transaction, contacts};
@@ -24,6 +25,8 @@ pub struct SetContacts {
     #[serde(default)]
     pub contacts: Vec<ContactSpan>,
 }
+
+map_references!(SetContacts { take, bones, contacts });
 
 impl EditKind for SetContacts {
     const EXAMPLE: Example = Example {

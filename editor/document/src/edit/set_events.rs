@@ -1,9 +1,10 @@
 //! Stores events with a take.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeEvent, TakeRef};
-use crate::adapter::EditError;
 use crate::adapter::plan::{Transaction, events};
+use crate::adapter::{EditError, stored_events};
 use dragonfly_anim::data::Skeleton;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,33 @@ pub struct SetEvents {
     /// All events of the take, in any order; none where empty.
     #[serde(default)]
     pub events: Vec<TakeEvent>,
+}
+
+map_references!(SetEvents { take }, |edit, map| {
+    events: match map.slots() {
+        Some((old, new)) => {
+            let [old, new] = [old, new].map(|slot| stored_events(&slot.original.extras));
+            merged(&old, &edit.events, new)
+        }
+        None => edit.events.clone(),
+    },
+});
+
+/// Returns the events `new` with the difference between `before` and `after`.
+fn merged(before: &[TakeEvent], after: &[TakeEvent], mut new: Vec<TakeEvent>) -> Vec<TakeEvent> {
+    let mut added = after.to_vec();
+    for event in before {
+        match added.iter().position(|other| other == event) {
+            Some(kept) => drop(added.remove(kept)),
+            None => {
+                if let Some(removed) = new.iter().position(|other| other == event) {
+                    new.remove(removed);
+                }
+            }
+        }
+    }
+    new.extend(added);
+    new
 }
 
 impl EditKind for SetEvents {

@@ -1,6 +1,7 @@
 //! Keeps data with a take, or removes it.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::LAYERS;
@@ -28,6 +29,8 @@ pub struct SetExtras {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<Value>,
 }
+
+map_references!(SetExtras { take, name, value });
 
 impl EditKind for SetExtras {
     const EXAMPLE: Example = Example {

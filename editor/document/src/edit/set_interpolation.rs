@@ -1,6 +1,7 @@
 //! Sets the interpolation of channels.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, KeyInterpolation, Property, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::change::{KeyChange, add, put, subtract};
@@ -33,6 +34,8 @@ pub struct SetInterpolation {
     /// The interpolation.
     pub interpolation: KeyInterpolation,
 }
+
+map_references!(SetInterpolation { take, bones, properties, interpolation });
 
 impl EditKind for SetInterpolation {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Changes the settings of a layer.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, LayerKind, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{Transaction, layer};
@@ -37,6 +38,8 @@ pub struct SetLayer {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bones: Option<Vec<BoneRef>>,
 }
+
+map_references!(SetLayer { take, name, kind, weight, muted, solo, color, bones });
 
 impl EditKind for SetLayer {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Replaces the keys of the weight of a layer.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{Transaction, finite, layer};
@@ -34,6 +35,8 @@ pub struct LayerWeightKey {
 
 /// Largest number of keys of a weight.
 const MOST: usize = 10_000;
+
+map_references!(SetLayerWeights { take, keys });
 
 impl EditKind for SetLayerWeights {
     const EXAMPLE: Example = Example {

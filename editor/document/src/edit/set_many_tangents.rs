@@ -1,6 +1,7 @@
 //! Sets the tangents of several keys.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::plan::Transaction;
 use crate::adapter::{EditError, ModelAdapter};
@@ -35,6 +36,10 @@ pub struct TangentsAt {
     #[serde(default, rename = "out", skip_serializing_if = "Option::is_none")]
     pub leave: Option<Vec<f32>>,
 }
+
+map_references!(TangentsAt { time, bone, property, arrive, leave });
+
+map_references!(SetManyTangents { take, at });
 
 impl EditKind for SetManyTangents {
     const EXAMPLE: Example = Example {

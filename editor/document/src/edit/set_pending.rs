@@ -1,6 +1,7 @@
 //! Sets pending poses.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::set_pose::pose_label;
 use super::{Arbitrary, BonePose, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::PendingAt;
@@ -28,6 +29,8 @@ pub struct SetPending {
     /// The wanted poses; one for each bone.
     pub poses: Vec<BonePose>,
 }
+
+map_references!(SetPending { take, time, poses });
 
 impl EditKind for SetPending {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Sets the pose of bones at a time.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BonePose, EditedBones, Example, TakeRef, cost};
 use crate::adapter::plan::{PoseMode, Transaction, pose};
 use crate::adapter::{EditError, ModelAdapter};
@@ -23,6 +24,8 @@ pub struct SetPose {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unstep: bool,
 }
+
+map_references!(SetPose { take, time, poses, unstep });
 
 impl EditKind for SetPose {
     const EXAMPLE: Example = Example {

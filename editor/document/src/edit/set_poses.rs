@@ -1,6 +1,7 @@
 //! Sets poses at several times.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::set_pose::pose_label;
 use super::{Arbitrary, EditedBones, Example, PoseAt, TakeRef, cost};
 use crate::adapter::plan::{PoseMode, Transaction, pose};
@@ -22,6 +23,8 @@ pub struct SetPoses {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unstep: bool,
 }
+
+map_references!(SetPoses { take, at, unstep });
 
 impl EditKind for SetPoses {
     const EXAMPLE: Example = Example {

@@ -1,8 +1,10 @@
 //! Sets weights and tangents of several keys of shape keys.
 
 use super::kind::EditKind;
+use super::map_references::{MapReferences, map_references};
+use super::reference_map::ReferenceMap;
 use super::set_shapes::arbitrary_shape;
-use super::{Arbitrary, EditedBones, Example, MeshRef, ShapeRef, TakeRef, cost};
+use super::{Arbitrary, EditedBones, Example, MeshRef, Misfit, ShapeRef, TakeRef, cost};
 use crate::adapter::plan::morph_given::{GivenWeight, WeightRules, give_weights};
 use crate::adapter::plan::{Transaction, finite, key_at, key_time};
 use crate::adapter::{EditError, ModelAdapter};
@@ -43,6 +45,16 @@ pub struct ShapeKeyAt {
     #[serde(default, rename = "out", skip_serializing_if = "Option::is_none")]
     pub leave: Option<f32>,
 }
+
+impl MapReferences for ShapeKeyAt {
+    fn mapped(&self, map: &mut ReferenceMap<'_>) -> Result<Self, Misfit> {
+        let Self { time, mesh, shape, weight, arrive, leave } = self;
+        let (mesh, shape) = map.shape(mesh.as_ref(), shape)?;
+        Ok(Self { mesh, shape, time: *time, weight: *weight, arrive: *arrive, leave: *leave })
+    }
+}
+
+map_references!(SetShapeKeys { take, keys });
 
 impl EditKind for SetShapeKeys {
     const EXAMPLE: Example = Example {

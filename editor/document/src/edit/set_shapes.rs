@@ -1,7 +1,9 @@
 //! Sets weights of shape keys at a time.
 
 use super::kind::EditKind;
-use super::{Arbitrary, EditedBones, Example, MeshRef, ShapeRef, TakeRef, cost};
+use super::map_references::{MapReferences, map_references};
+use super::reference_map::ReferenceMap;
+use super::{Arbitrary, EditedBones, Example, MeshRef, Misfit, ShapeRef, TakeRef, cost};
 use crate::adapter::plan::morph_keys::MeshWeight;
 use crate::adapter::plan::{Transaction, finite, key_time, morph_keys, pending};
 use crate::adapter::{EditError, ModelAdapter};
@@ -34,6 +36,16 @@ pub struct ShapeWeight {
     /// The weight, usually 0 to 1.
     pub weight: f32,
 }
+
+impl MapReferences for ShapeWeight {
+    fn mapped(&self, map: &mut ReferenceMap<'_>) -> Result<Self, Misfit> {
+        let Self { mesh, shape, weight } = self;
+        let (mesh, shape) = map.shape(mesh.as_ref(), shape)?;
+        Ok(Self { mesh, shape, weight: *weight })
+    }
+}
+
+map_references!(SetShapes { take, time, shapes });
 
 impl EditKind for SetShapes {
     const EXAMPLE: Example = Example {

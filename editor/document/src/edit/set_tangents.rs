@@ -1,6 +1,7 @@
 //! Sets the tangents of a key.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::set_many_tangents::TangentsAt;
 use super::{Arbitrary, BoneRef, EditedBones, Example, Property, TakeRef, cost};
 use crate::adapter::change::KeyChange;
@@ -32,6 +33,8 @@ pub struct SetTangents {
     #[serde(default, rename = "out", skip_serializing_if = "Option::is_none")]
     pub leave: Option<Vec<f32>>,
 }
+
+map_references!(SetTangents { take, time, bone, property, arrive, leave });
 
 impl EditKind for SetTangents {
     const EXAMPLE: Example = Example {

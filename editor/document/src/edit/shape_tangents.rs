@@ -1,6 +1,7 @@
 //! Computes the tangents of keys from the keys around them.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::set_interpolation::become_interpolation;
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef, cost};
 use crate::adapter::change::{KeyChange, Triple};
@@ -52,6 +53,8 @@ impl From<KeyTangents> for dragonfly_anim::tangents::TangentKind {
         }
     }
 }
+
+map_references!(ShapeTangents { take, keys, kind });
 
 impl EditKind for ShapeTangents {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Moves the keys of a take around its loop.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, BoneRef, EditedBones, Example, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{Transaction, contacts, finite, moments, rewrite};
@@ -28,6 +29,8 @@ pub struct ShiftLoop {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rate: Option<f32>,
 }
+
+map_references!(ShiftLoop { take, by, travel, rate });
 
 impl EditKind for ShiftLoop {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Moves keys to whole frames.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, KeySet, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{KeyMove, Transaction, timing::move_keys};
@@ -22,6 +23,10 @@ pub struct SnapKeys {
     /// Frames per second, 1 to 1000; frame 0 is at 0 s.
     pub rate: f32,
 }
+
+map_references!(SnapKeys { take, shapes, rate }, |edit, map| {
+    keys: map.any(&edit.keys, !edit.shapes.is_empty())?,
+});
 
 impl EditKind for SnapKeys {
     const EXAMPLE: Example = Example {

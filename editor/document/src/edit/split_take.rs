@@ -1,6 +1,7 @@
 //! Splits a take in two.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::op::Op;
 use crate::adapter::plan::{
@@ -26,6 +27,8 @@ pub struct SplitTake {
     /// Name of the second part.
     pub name: String,
 }
+
+map_references!(SplitTake { take, time, name });
 
 impl EditKind for SplitTake {
     const EXAMPLE: Example = Example {

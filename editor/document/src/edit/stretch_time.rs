@@ -1,6 +1,7 @@
 //! Slows or quickens a part of a take.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{
@@ -26,6 +27,8 @@ pub struct StretchTime {
     /// New length divided by old length, 0.001 to 1000.
     pub factor: f32,
 }
+
+map_references!(StretchTime { take, from, to, factor });
 
 impl EditKind for StretchTime {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Trims a take.
 
 use super::kind::EditKind;
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, SAME_TIME, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{
@@ -27,6 +28,8 @@ pub struct TrimTake {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub to_start: bool,
 }
+
+map_references!(TrimTake { take, from, to, to_start });
 
 impl EditKind for TrimTake {
     const EXAMPLE: Example = Example {

@@ -1,6 +1,7 @@
 //! Turns between rotation keys: the shortest way, and full turns.
 
 use super::kind::{EditKind, LayerUse};
+use super::map_references::map_references;
 use super::{Arbitrary, EditedBones, Example, KeySet, Property, TakeRef};
 use crate::adapter::EditError;
 use crate::adapter::plan::{Transaction, rewrite};
@@ -48,6 +49,8 @@ fn is_up(axis: &[f32; 3]) -> bool {
 
 /// Largest number of turns between two keys.
 const MOST_TURNS: i32 = 100;
+
+map_references!(TurnKeys { take, keys, way });
 
 impl EditKind for TurnKeys {
     const EXAMPLE: Example = Example {

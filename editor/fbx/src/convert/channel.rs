@@ -1,6 +1,6 @@
 //! Channels of fitted keys.
 
-use super::fit::{FitKind, FittedKeys};
+use crate::fit::{FitKind, FittedKeys};
 use dragonfly_anim::data::{Channel, Interpolation};
 use glam::{Quat, Vec3};
 
@@ -8,6 +8,7 @@ use glam::{Quat, Vec3};
 pub(super) fn interpolation<V>(keys: &FittedKeys<V>, kind: FitKind) -> Interpolation {
     match kind {
         FitKind::Step => Interpolation::Step,
+        FitKind::Lines | FitKind::Given => Interpolation::Linear,
         FitKind::Smooth if keys.tangents.is_empty() => Interpolation::Linear,
         FitKind::Smooth => Interpolation::CubicSpline,
     }

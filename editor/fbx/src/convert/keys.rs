@@ -1,6 +1,6 @@
 //! Times of keys: those of the curves of the file, within the range of a take.
 
-use super::fit::{FitKind, KeyTime};
+use crate::fit::{FitKind, KeyTime};
 use dragonfly_anim::format::{ImportContext, ImportError, Place};
 use dragonfly_anim::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};
 use ufbx::{AnimCurve, ExtrapolationMode, Interpolation, Keyframe};

@@ -52,6 +52,12 @@ fn color(map: &MaterialMap) -> Option<Vec3> {
     (map.has_value && color.is_finite()).then(|| color.clamp(Vec3::ZERO, Vec3::ONE))
 }
 
+/// Returns the opacity that materials of Phong and Lambert state beside their transparency; the parser does not map it.
+fn plain_opacity(material: &ufbx::Material) -> Option<f32> {
+    let value = material.element.props.find_prop("Opacity")?.value_vec4.x;
+    value.is_finite().then(|| value.clamp(0.0, 1.0) as f32)
+}
+
 impl FbxMaterials<'_> {
     fn material(&self, material: &ufbx::Material) -> Material {
         let (pbr, fbx) = (&material.pbr, &material.fbx);
@@ -64,7 +70,8 @@ impl FbxMaterials<'_> {
             None => Vec3::ONE,
         };
         // A material without any opacity is a known mistake of exporters.
-        let opacity = fraction(&pbr.opacity).filter(|&opacity| opacity > 0.0).unwrap_or(1.0);
+        let opacity = fraction(&pbr.opacity).or_else(|| plain_opacity(material));
+        let opacity = opacity.filter(|&opacity| opacity > 0.0).unwrap_or(1.0);
         let metallic = fraction(&pbr.metalness).unwrap_or(0.0);
         let roughness = fraction(&pbr.roughness).unwrap_or(DULL);
         let emissive_texture = self.texture(&pbr.emission_color);

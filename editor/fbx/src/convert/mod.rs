@@ -6,7 +6,6 @@
 
 mod channel;
 mod curves;
-mod fit;
 mod image;
 mod keys;
 mod load;
@@ -55,6 +54,7 @@ pub(crate) fn convert(bytes: &[u8], context: &ImportContext<'_>) -> Result<Conve
         materials,
         images,
         animation: AnimationData { skeleton, takes },
+        ..ModelData::default()
     };
     Ok(ConvertedScene { model, textures })
 }

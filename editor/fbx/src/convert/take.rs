@@ -2,13 +2,13 @@
 
 use super::channel::{channel, hold, interpolation};
 use super::curves::{AnimatedPart, ElementCurves, element_curves, range_of};
-use super::fit::{FitKind, FitValue, FittedKeys, KeyTime, fit};
 use super::keys::{ChannelTimes, channel_times, exactly};
 use super::mesh::FbxMesh;
 use super::morph::effective_weights;
 use super::nodes::{BoneLayout, is_top, place_of};
 use super::space::{FbxSpace, Pose64, dmat4, warn_numbers};
 use crate::code::FBX_KEYS;
+use crate::fit::{FitKind, FitValue, FittedKeys, KeyTime, fit};
 use dragonfly_anim::data::{MeshInstance, MorphTrack, Skeleton, Take, TakeExtras, Track, Transform};
 use dragonfly_anim::format::{ImportContext, ImportError, Place};
 use glam::{DQuat, DVec3};

@@ -9,7 +9,9 @@ use super::output::print;
 use super::run_command::RunCommand;
 use super::{Failure, tell};
 use dragonfly_anim::format::Conventions;
-use dragonfly_document::{Cancel, ConvertedFile, convert, formats, make_folder, written_extensions};
+use dragonfly_document::{
+    Cancel, ConvertedFile, checked_preset, convert, formats, make_folder, written_extensions,
+};
 use dragonfly_runtime::{Job, Thread};
 use plan::{PlannedFile, Shard, plan};
 use report::{ConvertReport, FileOutcome};
@@ -26,6 +28,7 @@ A folder stands for all models in it and in its folders; their paths are kept be
 reported and the others are converted; the exit code is 2 then. Formats that are written: {}.\n\n\
 Examples:\n  dragonfly convert Walk.bvh -o Walk.glb\n  \
 dragonfly convert captures -o models --to glb --scale 0.01\n  \
+dragonfly convert Hero.glb -o Hero.fbx --preset unity\n  \
 dragonfly convert captures -o models --to glb --shard 2/8 --resume\n  \
 dragonfly convert captures -o models --to glb --job openjd --parts 32 > job.json\n  \
 dragonfly convert Hero.x -o Hero.glb --dry-run", written_extensions()))]
@@ -39,6 +42,9 @@ pub(super) struct ConvertArguments {
     /// File name extension of the files in a folder
     #[arg(long, value_name = "EXT")]
     to: Option<String>,
+    /// Program for which the files are written: unity, unreal, maya or blender, for .fbx
+    #[arg(long, value_name = "PRESET")]
+    preset: Option<String>,
     /// Convert only part I of N of the files, to share the work between machines
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
@@ -72,25 +78,41 @@ impl RunCommand for ConvertArguments {
             let known = written_extensions();
             return Err(Failure::input("--to", format_args!("{extension:?} cannot be written; use {known}")));
         }
+        self.check_preset()?;
         if let Some(engine) = self.job {
             return self.print_job(engine);
         }
         let conventions = self.import.conventions();
         let files = plan(&self.inputs, &self.output, self.to.as_deref(), self.shard)?;
         let resume = self.resume;
-        let orders = Orders { files, conventions, is_written: !self.dry_run, resume };
+        let preset = self.preset;
+        let orders = Orders { files, conventions, preset, is_written: !self.dry_run, resume };
         let outcomes = run(orders, self.jobs)?;
         ConvertReport::of(outcomes).print(self.json)
     }
 }
 
 impl ConvertArguments {
+    /// Checks that the format that is written has the preset.
+    fn check_preset(&self) -> Result<(), Failure> {
+        let Some(preset) = &self.preset else { return Ok(()) };
+        let of_file = || self.output.extension().and_then(|extension| extension.to_str());
+        let extension = self.to.as_deref().or_else(of_file).unwrap_or_default();
+        // A format that is not written is reported with the file.
+        let Some(format) = formats().by_extension(extension).copied() else { return Ok(()) };
+        checked_preset(&format, preset).map(drop).map_err(|reason| Failure::input("--preset", reason))
+    }
+
     /// Prints the job file of an engine. Parts that were converted before a task failed are skipped when it is run again.
     fn print_job(&self, engine: FarmEngine) -> Result<(), Failure> {
         let mut arguments = vec!["convert".to_owned()];
         arguments.extend(self.inputs.iter().map(|path| path.display().to_string()));
         arguments.extend(["-o".to_owned(), self.output.display().to_string()]);
-        let options = [("--to", self.to.clone()), ("--jobs", self.jobs.map(|jobs| jobs.to_string()))];
+        let options = [
+            ("--to", self.to.clone()),
+            ("--preset", self.preset.clone()),
+            ("--jobs", self.jobs.map(|jobs| jobs.to_string())),
+        ];
         let chosen = options.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?]));
         arguments.extend(chosen.flatten());
         arguments.extend(self.import.to_arguments());
@@ -106,6 +128,7 @@ impl ConvertArguments {
 struct Orders {
     files: Vec<PlannedFile>,
     conventions: Conventions,
+    preset: Option<String>,
     is_written: bool,
     resume: bool,
 }
@@ -123,7 +146,7 @@ impl Orders {
         {
             return outcome(Err(reason));
         }
-        let converted = convert(&file.order(self.conventions, self.is_written), cancel);
+        let converted = convert(&file.order(self.conventions, self.preset.clone(), self.is_written), cancel);
         outcome(converted.map(Some).map_err(|error| error.to_string()))
     }
 }

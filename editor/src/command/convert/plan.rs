@@ -27,8 +27,14 @@ impl PlannedFile {
         matches!((changed(&self.input), changed(&self.output)), (Some(input), Some(output)) if output >= input)
     }
 
-    pub(super) fn order(&self, conventions: Conventions, is_written: bool) -> ConversionOrder {
-        ConversionOrder { input: self.input.clone(), output: self.output.clone(), conventions, is_written }
+    pub(super) fn order(
+        &self,
+        conventions: Conventions,
+        preset: Option<String>,
+        is_written: bool,
+    ) -> ConversionOrder {
+        let (input, output) = (self.input.clone(), self.output.clone());
+        ConversionOrder { input, output, conventions, preset, is_written }
     }
 }
 

@@ -15,6 +15,7 @@ use super::dialog_preview::DialogPreview;
 use super::digest::Digest;
 use super::dragging::Dragging;
 use super::edit_scope::EditOver;
+use super::export::AnsweredExport;
 use super::foot_contacts::FootContacts;
 use super::keys::KeyEditing;
 use super::layer_choice::LayerChoice;
@@ -114,6 +115,8 @@ pub struct PanelContext<'a> {
     pub settings: &'a Settings,
     /// The model whose takes are wanted for the open one.
     pub retarget: &'a RetargetSource,
+    /// The export that the document answered last.
+    pub export: Option<&'a AnsweredExport>,
     /// The selection sets of the model.
     pub sets: &'a SelectionSets,
     /// The pose library.

@@ -11,6 +11,7 @@ use dragonfly_store::FileState;
 enum ChangedChoice {
     Overwrite,
     SaveAs,
+    Apply,
     Reload,
     Cancel,
 }
@@ -30,9 +31,9 @@ impl QuestionKind for ChangedQuestion {
     }
 
     fn show(&self, ask: &mut Ask<'_>) {
-        ask.ui.set_width(480.0);
         let Some(view) = ask.view else { return };
         let (title, saved) = (view.file.title.clone(), view.history.saved);
+        ask.ui.set_width(if saved { 480.0 } else { 600.0 });
         let order = self.order.as_ref();
         let gone = self.file == FileState::Missing;
         let then = order.and_then(|order| order.then.clone());
@@ -45,7 +46,7 @@ impl QuestionKind for ChangedQuestion {
             "Another program changed the file after it was opened."
         });
         if !saved && !gone {
-            ask.adds("Your changes are not saved. Reloading discards them; a copy stays in the bin of the autosave folder for a while.");
+            ask.adds("Your changes are not saved. They can be applied to the new version: bones and takes are found by name, and what does not fit is listed. Reloading discards them; a copy stays in the bin of the autosave folder for a while.");
         }
         let reload =
             ("Reload", "Open the file as it is on disk now", if saved { Tone::First } else { Tone::Loses });
@@ -66,6 +67,20 @@ impl QuestionKind for ChangedQuestion {
                 save_as,
                 (overwrite.0, overwrite.1, Tone::Loses, ChangedChoice::Overwrite),
             ])
+        } else if !saved {
+            let apply = (
+                "Load and apply my changes",
+                "Open the file as it is on disk now, with your unsaved changes",
+                Tone::First,
+                ChangedChoice::Apply,
+            );
+            ask.buttons(&[
+                apply,
+                save_as,
+                cancel,
+                (overwrite.0, overwrite.1, Tone::Loses, ChangedChoice::Overwrite),
+                (reload.0, reload.1, Tone::Loses, ChangedChoice::Reload),
+            ])
         } else {
             let reload = (reload.0, reload.1, Tone::Loses, ChangedChoice::Reload);
             let save_as = (save_as.0, save_as.1, Tone::First, ChangedChoice::SaveAs);
@@ -84,6 +99,7 @@ impl QuestionKind for ChangedQuestion {
                 })))
             }
             Some(ChangedChoice::SaveAs) => Request::Answer(FileAction::Where { copy: false, then }),
+            Some(ChangedChoice::Apply) => Request::Answer(FileAction::Send(DocumentMessage::Reload)),
             Some(ChangedChoice::Reload) => Request::Answer(FileAction::Reload),
             Some(ChangedChoice::Cancel) => Request::Dismiss,
             None => return,

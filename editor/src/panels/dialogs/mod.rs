@@ -9,10 +9,12 @@ mod changed;
 mod exists;
 mod find;
 mod kind;
+mod line_list;
 mod place;
 mod plan;
 mod recover;
 mod show;
+mod unfit;
 mod unsaved;
 
 pub(super) use show::Dialogs;
@@ -57,4 +59,5 @@ questions! {
     Recover => recover::RecoverQuestion,
     Find => find::FindQuestion,
     Place => place::PlaceQuestion,
+    Unfit => unfit::UnfitQuestion,
 }

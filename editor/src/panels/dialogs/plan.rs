@@ -1,17 +1,12 @@
 //! The list of changes that a save would make, before it is written.
 
-use super::ask::{Ask, Tone, inset};
+use super::ask::{Ask, Tone};
 use super::kind::QuestionKind;
+use super::line_list::line_list;
 use crate::panels::request::FileAction;
 use crate::panels::request::Request;
-use crate::panels::style::{self, GRID};
-use crate::panels::theme::Theme;
 use dragonfly_document::{DocumentMessage, SaveOrder};
-use egui::{Align, Label, Layout, RichText, ScrollArea, Ui, vec2};
 use std::sync::Arc;
-
-/// Height of a line of the list, in points.
-const LINE: f32 = 18.0;
 
 /// Lists the changes that a save will make; confirming saves if there is an order.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +39,9 @@ impl QuestionKind for PlanQuestion {
                 lines => lines,
             };
             ask.adds("Everything else is kept byte for byte.".to_owned());
-            egui::CollapsingHeader::new("Details").default_open(false).show(ask.ui, |ui| details(ui, lines));
+            egui::CollapsingHeader::new("Details")
+                .default_open(false)
+                .show(ask.ui, |ui| line_list(ui, lines));
         }
         let close = ("Close", "Close without saving", Tone::First, false);
         let cancel = ("Cancel", "Close without saving", Tone::Plain, false);
@@ -58,27 +55,4 @@ impl QuestionKind for PlanQuestion {
             (None, _) => {}
         }
     }
-}
-
-/// Lists the changes one by one.
-fn details(ui: &mut Ui, lines: &[String]) {
-    let theme = Theme::of(ui);
-    inset(theme).inner_margin(2.0 * GRID).show(ui, |ui| {
-        ui.spacing_mut().item_spacing.y = 0.0;
-        let height = (lines.len() as f32 * LINE).min(320.0);
-        ScrollArea::both()
-            .max_height(height)
-            .min_scrolled_height(height)
-            .auto_shrink([false, true])
-            .show_rows(ui, LINE, lines.len(), |ui, range| {
-                for line in &lines[range] {
-                    let text = RichText::new(line).monospace().size(style::SMALL);
-                    let room = vec2(ui.available_width(), LINE);
-                    ui.allocate_ui_with_layout(room, Layout::left_to_right(Align::Center), |ui| {
-                        ui.set_min_height(LINE);
-                        ui.add(Label::new(text).extend());
-                    });
-                }
-            });
-    });
 }

@@ -51,6 +51,7 @@ fn model() -> ModelData {
         ],
         images: Vec::new(),
         animation: AnimationData { skeleton: Arc::new(skeleton()), takes: vec![Arc::new(bend())] },
+        ..ModelData::default()
     }
 }
 

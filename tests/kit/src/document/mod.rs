@@ -5,5 +5,6 @@ pub mod fixture;
 pub mod large;
 pub mod made;
 pub mod made_take;
+pub mod new_version;
 pub mod received;
 pub mod test_document;

@@ -45,7 +45,8 @@ impl TargetBuffer {
         let present = |index| document.buffer(index).map_or(0, <[u8]>::len);
         if let Some(chunks) = &document.source.container.glb {
             let bin = chunks.bin.as_ref();
-            if count == 0 || (bin.is_some() && json.member(document.buffers[0], "uri").is_none()) {
+            let is_chunk = |buffer| json.member(buffer, "uri").is_none() && !document.is_fallback(buffer);
+            if count == 0 || (bin.is_some() && is_chunk(document.buffers[0])) {
                 return Self { home: BufferHome::Chunk, index: 0, present: bin.map_or(0, |bin| bin.len()) };
             }
         }
@@ -57,8 +58,11 @@ impl TargetBuffer {
         if let Some(index) = ours {
             return Self { home: BufferHome::OurFile, index, present: present(index) };
         }
-        let data =
-            |index: &usize| uri(*index).is_some_and(|uri| is_data(&uri)) && document.buffer(*index).is_some();
+        let data = |index: &usize| {
+            uri(*index).is_some_and(|uri| is_data(&uri))
+                && document.buffer(*index).is_some()
+                && !document.is_fallback(document.buffers[*index])
+        };
         if let Some(index) = (0..count).find(data) {
             return Self { home: BufferHome::DataUri, index, present: present(index) };
         }

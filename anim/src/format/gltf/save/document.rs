@@ -1,5 +1,6 @@
 //! The animations of the JSON text and where their numbers are stored, without reading the numbers.
 
+use super::super::pointer;
 use super::json::tree::{Json, ValueId};
 use super::source::{SourceFile, is_data};
 use crate::format::uri::DataUri;
@@ -28,7 +29,8 @@ impl TargetPath {
         }
     }
 
-    fn named(name: &str) -> Option<Self> {
+    /// Returns the property of this name.
+    pub(in crate::format::gltf) fn named(name: &str) -> Option<Self> {
         [Self::Translation, Self::Rotation, Self::Scale, Self::Weights]
             .into_iter()
             .find(|path| path.name() == name)
@@ -80,7 +82,10 @@ impl FileAnimation {
 }
 
 fn target_of(json: Json<'_>, target: ValueId) -> Option<ChannelTarget> {
-    let path = TargetPath::named(&json.string_member(target, "path")?)?;
+    let Some(path) = TargetPath::named(&json.string_member(target, "path")?) else {
+        let extension = json.member(json.member(target, "extensions")?, pointer::EXTENSION)?;
+        return pointer::node_target(&json.string_member(extension, "pointer")?);
+    };
     let node = u32::try_from(json.whole_member(target, "node")?).ok()?;
     (node != u32::MAX).then_some((node, path))
 }
@@ -150,6 +155,17 @@ impl<'a> SourceDocument<'a> {
     /// Returns whether this object has an extension.
     pub(super) fn is_extended(&self, id: ValueId) -> bool {
         self.json.member(id, "extensions").is_some()
+    }
+
+    /// Returns whether a buffer is for programs that do not support the extension of the views that refer to it; no other
+    /// view may refer to it.
+    pub(super) fn is_fallback(&self, buffer: ValueId) -> bool {
+        let extensions = self.json.member(buffer, "extensions");
+        let mut objects = extensions.into_iter().flat_map(|extensions| self.json.items(extensions));
+        objects.any(|object| {
+            let fallback = self.json.member(object, "fallback");
+            fallback.is_some_and(|fallback| self.json.token(fallback) == b"true")
+        })
     }
 
     /// Returns buffer, offset and length of a view.

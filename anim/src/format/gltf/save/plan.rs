@@ -19,7 +19,7 @@ use super::planned::{Plan, TakeDraft};
 use super::reuse::{Granted, RoomRequest, SavedSlot, grant, slots};
 use super::roots::{RootNodes, with_roots};
 use super::source::SourceFile;
-use crate::data::{ModelData, Skeleton, TakeExtras};
+use crate::data::{Bone, ModelData, Skeleton, TakeExtras};
 use crate::format::EditedTake;
 use std::collections::{HashMap, HashSet};
 
@@ -290,9 +290,18 @@ fn bones_lost(document: &SourceDocument<'_>, opened: &ModelData, takes: &[TakeDr
         after.extend(targets.into_iter().map(|(node, _)| node));
     }
     let (before, after) = (are_bones(opened, &before), are_bones(opened, &after));
+    // The importer makes bones of all nodes that a VRM names.
+    let is_named = |bone: &Bone| {
+        let named = opened.avatar.bones.iter().map(|human| human.bone);
+        let weights = opened.avatar.expressions.iter().filter_map(|expression| expression.weight_bone);
+        let mut named =
+            named.chain(weights).filter_map(|index| opened.animation.skeleton.bones.get(index as usize));
+        named.any(|named| named.node == bone.node)
+    };
     let bones = opened.animation.skeleton.bones.iter().zip(before.into_iter().zip(after));
     bones
         .filter(|(_, (before, after))| *before && !after)
+        .filter(|(bone, _)| !is_named(bone))
         .filter_map(|(bone, _)| Some((bone.node?, bone.name.clone())))
         .collect()
 }

@@ -3,8 +3,12 @@
 use super::bytes::ViewTarget;
 use super::{GltfWriter, named, number, numbers};
 use crate::data::{AlphaMode, Filter, Image, Material, TextureRef, TextureTransform, Wrap};
+use crate::format::gltf::material::WEBP;
 use glam::Vec4;
 use serde_json::{Map, Value, json};
+
+/// Media type of WebP.
+const WEBP_TYPE: &str = "image/webp";
 
 /// The materials of a written file, and what they use.
 #[derive(Default)]
@@ -56,11 +60,11 @@ impl GltfWriter<'_> {
             self.lose(format!("/images/{index}"), "an image that could not be read is left out");
             return None;
         }
-        if !["image/png", "image/jpeg"].contains(&image.mime.as_str()) {
+        if !["image/png", "image/jpeg", WEBP_TYPE].contains(&image.mime.as_str()) {
             let kind = if image.mime.is_empty() { "of an unknown kind" } else { &image.mime };
             self.lose(
                 format!("/images/{index}"),
-                format!("the image is {kind}; glTF allows PNG and JPEG, so it is left out"),
+                format!("the image is {kind}; glTF allows PNG, JPEG and WebP, so it is left out"),
             );
             return None;
         }
@@ -150,8 +154,16 @@ impl GltfWriter<'_> {
     ) -> Option<Map<String, Value>> {
         let source = images.get(texture.image as usize).copied().flatten()?;
         let sampler = WrittenMaterials::position(&mut written.samplers, sampler(texture));
-        let index =
-            WrittenMaterials::position(&mut written.textures, json!({"sampler": sampler, "source": source}));
+        let is_webp =
+            self.model.images.get(texture.image as usize).is_some_and(|image| image.mime == WEBP_TYPE);
+        let entry = match is_webp {
+            true => {
+                self.extensions.insert(WEBP);
+                json!({"sampler": sampler, "extensions": {WEBP: {"source": source}}})
+            }
+            false => json!({"sampler": sampler, "source": source}),
+        };
+        let index = WrittenMaterials::position(&mut written.textures, entry);
         let mut info = Map::new();
         info.insert("index".to_owned(), json!(index));
         if texture.set != 0 {

@@ -46,8 +46,24 @@ pub(super) const NOT_IN_GLTF: &str = "NOT_IN_GLTF";
 ///
 /// Keys that no reader would accept (the rules of [`super::save`]), or more than 4 GiB.
 pub fn glb(model: &ModelData) -> Result<WholeFile, ExportError> {
-    let (root, binary, lost) = document(model)?;
-    let mut text = serde_json::to_vec(&root).map_err(ExportError::new)?;
+    let (root, binary, mut lost) = document(model)?;
+    lost.extend(avatar_lost(model));
+    let bytes = container(&root, binary)?;
+    Ok(WholeFile { bytes, lost })
+}
+
+/// Returns the loss of the humanoid bones and expressions of VRM, if the model has any.
+fn avatar_lost(model: &ModelData) -> Option<Warning> {
+    (!model.avatar.is_empty()).then(|| Warning {
+        place: Place::Pointer("/avatar".to_owned()),
+        code: NOT_IN_GLTF,
+        text: "humanoid bones and facial expressions are written to .vrma only".to_owned(),
+    })
+}
+
+/// Returns a document and its buffer in a binary container.
+pub(super) fn container(root: &Value, binary: Vec<u8>) -> Result<Vec<u8>, ExportError> {
+    let mut text = serde_json::to_vec(root).map_err(ExportError::new)?;
     text.resize(text.len().next_multiple_of(4), b' ');
     let mut binary = binary;
     binary.resize(binary.len().next_multiple_of(4), 0);
@@ -69,7 +85,7 @@ pub fn glb(model: &ModelData) -> Result<WholeFile, ExportError> {
             bytes.extend(chunk);
         }
     }
-    Ok(WholeFile { bytes, lost })
+    Ok(bytes)
 }
 
 /// Returns the model as the text of a `.gltf` that contains its buffer and images.
@@ -78,7 +94,8 @@ pub fn glb(model: &ModelData) -> Result<WholeFile, ExportError> {
 ///
 /// As for [`glb`].
 pub fn gltf(model: &ModelData) -> Result<WholeFile, ExportError> {
-    let (mut root, binary, lost) = document(model)?;
+    let (mut root, binary, mut lost) = document(model)?;
+    lost.extend(avatar_lost(model));
     if !binary.is_empty() {
         let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&binary));
         root["buffers"][0]["uri"] = Value::String(uri);
@@ -104,7 +121,7 @@ impl GltfWriter<'_> {
 }
 
 /// Returns the document, its buffer, and what is not in it.
-fn document(model: &ModelData) -> Result<(Value, Vec<u8>, Vec<Warning>), ExportError> {
+pub(super) fn document(model: &ModelData) -> Result<(Value, Vec<u8>, Vec<Warning>), ExportError> {
     let mut writer =
         GltfWriter { model, binary: BinaryWriter::default(), extensions: BTreeSet::new(), lost: Vec::new() };
     let meshes = writer.meshes();
@@ -116,6 +133,8 @@ fn document(model: &ModelData) -> Result<(Value, Vec<u8>, Vec<Warning>), ExportE
     let mut root = Map::new();
     root.insert("asset".to_owned(), json!({"version": "2.0", "generator": "Dragonfly"}));
     let used: Vec<&str> = writer.extensions.iter().copied().collect();
+    // Such a texture has no other image.
+    let required = writer.extensions.get(super::material::WEBP).copied();
     let (views, accessors, binary) = writer.binary.finish();
     let buffers = if binary.is_empty() { vec![] } else { vec![json!({"byteLength": binary.len()})] };
     let mut list = |name: &str, values: Vec<Value>| {
@@ -125,6 +144,7 @@ fn document(model: &ModelData) -> Result<(Value, Vec<u8>, Vec<Warning>), ExportE
         }
     };
     list("extensionsUsed", used.into_iter().map(Value::from).collect());
+    list("extensionsRequired", required.map(Value::from).into_iter().collect());
     list("scenes", vec![scene.scene]);
     list("nodes", scene.nodes);
     list("meshes", meshes.values);

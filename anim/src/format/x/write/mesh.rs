@@ -152,6 +152,11 @@ impl MeshWriter<'_> {
             }
             first += part.vertices.len();
         }
+        // An empty list of weights makes the text unreadable for some programs.
+        joints
+            .iter_mut()
+            .filter(|weights| weights.is_empty() && first > 0)
+            .for_each(|weights| weights.push((0, 0.0)));
         let _ = writeln!(text, "XSkinMeshHeader {{\n{most};\n{};\n{};\n}}", 3 * most, skin.bones.len());
         for (weights, (&bone, &offset)) in joints.iter().zip(skin.bones.iter().zip(&skin.offsets)) {
             let _ = writeln!(text, "SkinWeights {{\n\"{}\";\n{};", self.frames[bone as usize], weights.len());

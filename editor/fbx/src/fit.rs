@@ -16,7 +16,7 @@ const ON_LINES: [f64; 5] = [0.125, 0.375, 0.5, 0.625, 0.875];
 const ON_SPLINES: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
 
 /// A value that is fitted.
-pub(super) trait FitValue: Clone {
+pub(crate) trait FitValue: Clone {
     /// Returns the value between two, as a sampler computes it.
     fn between(&self, next: &Self, part: f64) -> Self;
     /// Returns the weighted sum, component by component.
@@ -100,28 +100,32 @@ impl FitValue for Vec<f64> {
 
 /// A time of a key: when the motion is evaluated, and the time that the key gets.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct KeyTime {
-    pub(super) at: f64,
-    pub(super) key: f32,
+pub(crate) struct KeyTime {
+    pub(crate) at: f64,
+    pub(crate) key: f32,
 }
 
 /// How the keys are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum FitKind {
+pub(crate) enum FitKind {
     /// Every value holds until the next key: no key is added.
     Step,
     /// Lines or splines, whichever needs fewer keys.
     Smooth,
+    /// Lines only.
+    Lines,
+    /// The given times only, with lines between them.
+    Given,
 }
 
 /// The keys of one channel.
-pub(super) struct FittedKeys<V> {
-    pub(super) times: Vec<f32>,
-    pub(super) values: Vec<V>,
+pub(crate) struct FittedKeys<V> {
+    pub(crate) times: Vec<f32>,
+    pub(crate) values: Vec<V>,
     /// In- and out-tangents of each key in units per second; empty unless the keys are those of a spline.
-    pub(super) tangents: Vec<[V; 2]>,
+    pub(crate) tangents: Vec<[V; 2]>,
     /// Whether some span is not followed within the tolerance.
-    pub(super) is_coarse: bool,
+    pub(crate) is_coarse: bool,
 }
 
 /// A key, and the tangent at its time in the spans before and after it.
@@ -132,10 +136,10 @@ struct MadeKey<V> {
 }
 
 /// Samples a motion at a time; `None` when the work of the import is used up.
-pub(super) type SampleMotion<'a, V, E> = dyn FnMut(f64) -> Result<Option<V>, E> + 'a;
+pub(crate) type SampleMotion<'a, V, E> = dyn FnMut(f64) -> Result<Option<V>, E> + 'a;
 
 /// Returns keys for the motion `sample`, at each of `times` and where else the tolerance needs them.
-pub(super) fn fit<V: FitValue, E>(
+pub(crate) fn fit<V: FitValue, E>(
     times: &[KeyTime],
     kind: FitKind,
     tolerance: f64,
@@ -150,11 +154,13 @@ pub(super) fn fit<V: FitValue, E>(
         };
         base.push(MadeKey { time, value, tangents: [None, None] });
     }
-    if kind == FitKind::Step {
-        return Ok(plain(base, false));
-    }
+    let only_lines = match kind {
+        FitKind::Step | FitKind::Given => return Ok(plain(base, false)),
+        FitKind::Lines => true,
+        FitKind::Smooth => false,
+    };
     let (lines, coarse) = divided(&base, tolerance, sample, line)?;
-    if lines.len() == base.len() {
+    if only_lines || lines.len() == base.len() {
         return Ok(plain(lines, coarse));
     }
     let (splines, coarse_splines) = divided(&base, tolerance, sample, spline)?;

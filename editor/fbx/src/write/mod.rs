@@ -1,0 +1,89 @@
+//! Writes a whole binary FBX file from any model.
+//!
+//! ```text
+//! prepare/     what a preset wants: bind pose at rest, one root, no scale, keys at frames
+//! names.rs     names of bones and takes
+//! bones.rs     a node for each bone
+//! instances.rs nodes of meshes ── mesh.rs geometry, shapes ── skin.rs clusters, bind pose
+//! materials.rs Phong values ── images.rs textures and embedded images
+//! takes.rs     a stack for each take ── curves.rs keys ── euler.rs angles, sample.rs channels
+//! scene.rs     objects and connections, the sections around them ── node.rs the bytes
+//! ```
+//!
+//! Keys keep their times and values. Between two keys angles do not run as rotations do: where they differ by more than 0.01°, the
+//! curve is cubic or gets more keys. The same model gives the same bytes on every system.
+
+mod bones;
+mod curves;
+mod euler;
+mod images;
+mod instances;
+mod losses;
+mod materials;
+mod mesh;
+mod names;
+mod node;
+mod prepare;
+mod preset;
+mod sample;
+mod scene;
+mod skin;
+mod space;
+mod takes;
+
+pub use preset::{ExportPreset, PRESETS, preset};
+
+use dragonfly_anim::data::ModelData;
+use dragonfly_anim::format::{ExportError, SavePlan, WholeFile};
+use dragonfly_anim::frames::frame_rate;
+use losses::FbxLosses;
+use preset::{ExportSettings, USUAL};
+
+/// Writes a model as a binary FBX file called `name`, with the settings of a preset, or in centimeters with Y up. Images are in
+/// the file.
+///
+/// # Errors
+///
+/// An array of 4 GiB.
+pub fn export_with(
+    model: &ModelData,
+    name: &str,
+    preset: Option<&ExportPreset>,
+) -> Result<SavePlan, ExportError> {
+    let settings = preset.map_or(&USUAL, ExportPreset::settings);
+    let mut losses = FbxLosses::default();
+    let bytes = match prepare::prepared(model, settings, &mut losses)? {
+        Some(prepared) => write(&prepared, settings, &mut losses)?,
+        None => write(model, settings, &mut losses)?,
+    };
+    Ok(WholeFile { bytes, lost: losses.into_list() }.named(name))
+}
+
+fn write(
+    model: &ModelData,
+    settings: &ExportSettings,
+    losses: &mut FbxLosses,
+) -> Result<Vec<u8>, ExportError> {
+    let space = &space::FileSpace::new(settings.up, settings.meters_per_unit);
+    let skeleton = &model.animation.skeleton;
+    let mut scene = scene::SceneWriter::default();
+    for (index, bone) in skeleton.bones.iter().enumerate() {
+        if bone.rest_matrix.is_some() {
+            let place = format!("/animation/skeleton/bones/{index}/rest_matrix");
+            losses.add(place, format!("the shear of the bone \"{}\" is not stored", bone.name));
+        }
+    }
+    let rest = &bones::rest_matrices(skeleton);
+    let names = names::bone_names(model, settings.unique_bones, losses);
+    let bones = &bones::add_bones(&mut scene, space, model, &names, settings.one_root);
+    let images = images::add_images(&mut scene, &model.images, losses);
+    let materials = &materials::add_materials(&mut scene, &model.materials, &images, losses);
+    let bound: Vec<skin::BoundSkin> = model.skins.iter().map(|skin| skin::bind(skin, rest)).collect();
+    let source = instances::InstanceSource { model, space, bones, rest, materials, bound: &bound };
+    let shapes = &source.add(&mut scene, losses);
+    let takes = takes::TakeSource { model, space, keys: settings.keys, bones, shapes };
+    let names = names::take_names(model, losses);
+    takes.add(&mut scene, names, losses);
+    let rate = model.animation.takes.first().map_or(30.0, |take| frame_rate(take));
+    scene.finish(&model.name, rate, settings)
+}

@@ -1,0 +1,26 @@
+//! The tables of `anim/FORMATS.md` are those that were recorded.
+
+#[path = "../../benches/formats/report/mod.rs"]
+mod report;
+
+use report::PAGE;
+use std::fs;
+
+#[test]
+fn every_table_of_the_page_of_formats_is_made_from_the_recorded_results() {
+    let page = fs::read_to_string(PAGE.path()).expect("the page");
+    let made = PAGE.render(&PAGE.read().expect("the results"), &page).expect("all tables");
+    assert!(made == page, "run `cargo bench -p dragonfly-fbx --bench formats -- --report`");
+}
+
+#[test]
+fn every_file_of_results_of_formats_names_its_machine_commit_and_command() {
+    let recorded = PAGE.read().expect("the results");
+    for (name, results) in recorded.files() {
+        for about in ["machine", "commit", "command", "priority", "rust"] {
+            assert!(!["", "unknown"].contains(&results.about(about)), "{name}.csv has no {about}");
+        }
+        assert!(results.about("command").contains("-- --record"), "{name}.csv was not recorded");
+        assert!(!results.rows.is_empty(), "{name}.csv has no rows");
+    }
+}
