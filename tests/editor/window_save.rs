@@ -274,7 +274,9 @@ fn a_file_changed_by_another_program_is_loaded_with_the_unsaved_changes() {
         reverse(json);
         rename_nodes(json, "b_Head_05", "b_Face");
     });
-    [&new, &bench.file].map(|path| fs::write(path, &changed).unwrap());
+    for path in [&new, &bench.file] {
+        fs::write(path, &changed).unwrap();
+    }
     screen.leave();
     screen.focus(editor.window);
     editor.wait_for_log("asked what becomes of a changed file", 1, SOON);
