@@ -24,7 +24,7 @@ enum Channel {
     Bytes,
     /// Two numbers of 16 bits.
     Words,
-    /// Exclusive or with a number of 32 bits, rotated to the left by this many bits.
+    /// Exclusive or with a number of 32 bits, which is stored rotated to the left by this many bits.
     Bits(u32),
 }
 
@@ -57,7 +57,7 @@ impl Channel {
                 *before = [a, b, c, d];
             }
             Self::Bits(rotation) => {
-                let rotated = u32::from_le_bytes(difference).rotate_left(rotation);
+                let rotated = u32::from_le_bytes(difference).rotate_right(rotation);
                 *before = (u32::from_le_bytes(*before) ^ rotated).to_le_bytes();
             }
         }
