@@ -250,7 +250,7 @@ fn a_save_keeps_compressed_views_and_appends_edited_keys_uncompressed() {
         let (opened, door) = OpenedFile::file(&data().join("meshopt").join(name));
         let before = opened.source.bytes();
         let mut takes = opened.takes();
-        assert!(&opened.saved(&takes, &door).bytes() == &&before[..], "{name}: nothing was edited");
+        assert!(opened.saved(&takes, &door).bytes() == &before[..], "{name}: nothing was edited");
         match takes[0].take.morphs.is_empty() {
             false => shift(&mut takes, 0),
             true => {

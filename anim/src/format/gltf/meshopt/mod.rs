@@ -137,7 +137,9 @@ impl CompressedView {
     /// Checks the size of an element against mode and filter.
     fn check(&self) -> Result<(), MeshoptFault> {
         match self.mode {
-            MeshoptMode::Attributes if self.stride % 4 != 0 || !(4..=256).contains(&self.stride) => {
+            MeshoptMode::Attributes
+                if !self.stride.is_multiple_of(4) || !(4..=256).contains(&self.stride) =>
+            {
                 Err("the byte stride of attributes must be a multiple of 4, 4..256")
             }
             MeshoptMode::Attributes if !self.filter.allows(self.stride) => {

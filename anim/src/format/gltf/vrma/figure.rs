@@ -112,9 +112,8 @@ fn is_finger(part: &str) -> bool {
 fn turn_to_front(humans: &[HumanBone], origin: impl Fn(BoneIndex) -> Vec3) -> Quat {
     let mut to_left = Vec3::ZERO;
     for human in humans {
-        match side(&human.name) {
-            Some((side, "UpperArm" | "UpperLeg")) => to_left += origin(human.bone) * side.x,
-            _ => {}
+        if let Some((side, "UpperArm" | "UpperLeg")) = side(&human.name) {
+            to_left += origin(human.bone) * side.x;
         }
     }
     let Some(to_left) = to_left.with_y(0.0).try_normalize() else { return Quat::IDENTITY };
