@@ -18,12 +18,10 @@ use filter::MeshoptFilter;
 use gltf::json;
 use serde_json::{Map, Value};
 use std::collections::HashMap;
+use stream::MeshoptFault;
 
 /// Names of the extensions; the first one that a view has is used.
 const NAMES: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
-
-/// Reason why compressed data cannot be decoded.
-type MeshoptFault = &'static str;
 
 /// Encoding of the data of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

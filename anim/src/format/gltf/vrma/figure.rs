@@ -9,7 +9,7 @@ use std::borrow::Cow;
 const ALONG: f32 = 0.98;
 
 /// A figure, and the skeleton that it is made from.
-pub(super) struct Figure<'a> {
+pub(super) struct VrmaFigure<'a> {
     /// The humanoid bones of the model, in the order of the bones of the figure.
     pub(super) humans: &'a [HumanBone],
     /// The bones of the figure, one for each humanoid bone.
@@ -19,7 +19,7 @@ pub(super) struct Figure<'a> {
     turn: Quat,
 }
 
-impl<'a> Figure<'a> {
+impl<'a> VrmaFigure<'a> {
     /// Returns the figure of a skeleton; `humans` are in the order of its bones.
     pub(super) fn of(source: &'a Skeleton, humans: &'a [HumanBone]) -> Self {
         let mut matrices = vec![Mat4::IDENTITY; source.len()];
