@@ -98,7 +98,7 @@ fn a_texture_of_an_image_that_is_not_there_is_an_error() {
         fixture.set("/textures/0/extensions/EXT_texture_webp/source", source);
         assert!(read("a.glb", &fixture.glb(), &NoFiles, &ReadOptions::default()).is_err());
     }
-    // What is no number is no source.
+    // A source that is no number is ignored.
     let mut fixture = with_image("EXT_texture_webp", &decoded(ONE_PIXEL[0]), "image/webp");
     fixture.set("/textures/0/extensions/EXT_texture_webp", Value::Null);
     assert_eq!(image_of(&imported(&fixture).model), Some(0));
