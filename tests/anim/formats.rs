@@ -214,7 +214,7 @@ fn extensions_of_other_model_formats_are_known_as_such() {
     }
     assert_eq!(formats.by_extension("fbx"), None);
     assert_eq!(formats.extensions(), ["dfm", "glb", "vrm", "gltf", "vrma", "bvh", "obj", "m3d", "x"]);
-    assert_eq!(formats.extension_list(), ".dfm, .glb, .gltf, .bvh, .obj, .m3d, .x");
+    assert_eq!(formats.extension_list(), ".dfm, .glb, .vrm, .gltf, .vrma, .bvh, .obj, .m3d, .x");
 }
 
 /// A format of another crate: a line `TAKES` and then the name of one take in each line. Meshes are not stored.

@@ -43,6 +43,7 @@ mod fixture;
 mod formats;
 mod front_door;
 mod gaze;
+mod gltf_images;
 mod held_contacts;
 mod hits;
 mod hostile;

@@ -188,7 +188,7 @@ fn data_with_references_from_another_program_is_not_overwritten() {
                 let view = json["bufferViews"][last(json, "bufferViews")].clone();
                 let range =
                     serde_json::json!({"buffer": 0, "byteOffset": view["byteOffset"], "byteLength": 4});
-                json["bufferViews"][0]["extensions"] = serde_json::json!({"EXT_meshopt_compression": range});
+                json["bufferViews"][0]["extensions"] = serde_json::json!({"EXT_of_another_program": range});
             }),
             false,
         ),

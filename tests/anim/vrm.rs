@@ -225,10 +225,16 @@ fn a_new_root_bone_moves_the_parts_of_the_body_along() {
 
 #[test]
 fn a_take_that_no_longer_moves_a_humanoid_bone_does_not_lose_the_bone() {
-    let opened = OpenedFile::alone("a.vrm", &vrm_1().glb());
+    // The toe is no joint of a skin.
+    let channel = json!({"sampler": 0, "target": {"node": 2, "path": "translation"}});
+    let mut fixture = vrm_1();
+    fixture.set("/animations/0/channels/5", channel);
+    fixture.set("/extensions/VRMC_vrm/humanoid/humanBones/leftToes", json!({"node": 2}));
+    let opened = OpenedFile::alone("a.vrm", &fixture.glb());
     let mut takes: Vec<EditedTake> = opened.takes();
-    let take = Arc::make_mut(&mut takes[0].take);
-    take.tracks.iter_mut().for_each(|track| track.scale = Default::default());
+    let toe = opened.model.avatar.bone("leftToes").unwrap() as usize;
+    Arc::make_mut(&mut takes[0].take).tracks[toe].translation = Default::default();
     let saved = opened.saved(&takes, &NoFiles);
     assert_eq!(saved.changes.bones_lost, []);
+    assert_eq!(saved.opened.model.avatar, opened.model.avatar);
 }

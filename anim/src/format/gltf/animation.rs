@@ -2,10 +2,10 @@
 
 use super::accessor::{ElementFormat, GltfDocument, invalid, unresolved};
 use super::check as code;
-use super::document::NO_NODE;
 use super::extras;
 use super::keys::{self, SamplerTimes, SamplerValues};
 use super::scene::SceneLayout;
+use super::target_path::NO_NODE;
 use crate::data::{Channel, MorphTrack, Take, Track};
 use crate::format::{ImportError, Place, one_line};
 use crate::limits::KEYS;

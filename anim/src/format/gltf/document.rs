@@ -13,9 +13,6 @@ use std::io::{self, Read};
 /// is slower.
 const PARSE_AT_ONCE: usize = 4 << 20;
 
-/// Represents "no node" in the target of an animation.
-pub(super) const NO_NODE: usize = u32::MAX as usize;
-
 /// Parses the JSON text that starts at byte `at` of the file. Also returns the targets of channels that are JSON pointers,
 /// which the document model leaves out.
 pub(super) fn parse(

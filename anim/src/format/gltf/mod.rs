@@ -32,6 +32,7 @@ pub mod save;
 mod scene;
 mod skin;
 mod survey;
+mod target_path;
 mod triangles;
 mod vrma;
 mod walk;

@@ -4,7 +4,8 @@
 //! so both are checked here first.
 
 use super::check as code;
-use super::pointer::{self, ChannelPointers};
+use super::pointer::ChannelPointers;
+use super::target_path::POINTER_EXTENSION;
 use super::walk::{Walk, WalkStep};
 use super::whole::whole;
 use crate::format::{ImportContext, ImportError, Place};
@@ -177,7 +178,7 @@ impl Survey {
 fn pointer_of(walk: &mut Walk<'_>, last: usize) -> Option<(usize, usize)> {
     let keys: [(usize, &[u8]); 6] = [
         (7, b"pointer"),
-        (6, pointer::EXTENSION.as_bytes()),
+        (6, POINTER_EXTENSION.as_bytes()),
         (5, b"extensions"),
         (4, b"target"),
         (2, b"channels"),

@@ -4,8 +4,7 @@
 //! encoding is that of `EXT_meshopt_compression`; version 1 has control modes (which widths a byte uses) and channel
 //! modes (how differences are added).
 
-use super::MeshoptFault;
-use super::stream::{MeshoptStream, unzigzag};
+use super::stream::{MeshoptFault, MeshoptStream, unzigzag};
 
 /// Number of elements of a group.
 const GROUP: usize = 16;
@@ -19,16 +18,16 @@ const WIDE_WIDTHS: [u8; 4] = [1, 2, 4, 8];
 
 /// How the differences of four bytes are added to the element before.
 #[derive(Clone, Copy, Debug)]
-enum Channel {
+enum MeshoptChannel {
     /// Each byte on its own.
     Bytes,
     /// Two numbers of 16 bits.
     Words,
-    /// Exclusive or with a number of 32 bits, rotated to the left by this many bits.
+    /// Exclusive or with a number of 32 bits, which is stored rotated to the left by this many bits.
     Bits(u32),
 }
 
-impl Channel {
+impl MeshoptChannel {
     fn of(mode: u8) -> Result<Self, MeshoptFault> {
         match (mode & 15, mode >> 4) {
             (0, 0) => Ok(Self::Bytes),
@@ -57,7 +56,7 @@ impl Channel {
                 *before = [a, b, c, d];
             }
             Self::Bits(rotation) => {
-                let rotated = u32::from_le_bytes(difference).rotate_left(rotation);
+                let rotated = u32::from_le_bytes(difference).rotate_right(rotation);
                 *before = (u32::from_le_bytes(*before) ^ rotated).to_le_bytes();
             }
         }
@@ -77,9 +76,9 @@ pub(super) fn decode(data: &[u8], stride: usize, out: &mut [u8]) -> Result<(), M
     let mut tail = MeshoptStream::new(tail);
     let modes = tail.take_last(modes)?;
     let (baseline, _) = tail.take_last(stride)?.as_chunks::<4>();
-    let mut channels = vec![Channel::Bytes; stride / 4];
+    let mut channels = vec![MeshoptChannel::Bytes; stride / 4];
     for (channel, &mode) in channels.iter_mut().zip(modes) {
-        *channel = Channel::of(mode)?;
+        *channel = MeshoptChannel::of(mode)?;
     }
     let mut before = baseline.to_vec();
     // At most 64 KiB: the differences of a block, by position in the element.

@@ -1,7 +1,6 @@
 //! Mode 2, indices: differences to one of two earlier indices.
 
-use super::MeshoptFault;
-use super::stream::{MeshoptStream, put_index, unzigzag};
+use super::stream::{MeshoptFault, MeshoptStream, put_index, unzigzag};
 
 /// Decodes indices of `stride` bytes, 2 or 4, until `out` is full.
 pub(super) fn decode(data: &[u8], stride: usize, out: &mut [u8]) -> Result<(), MeshoptFault> {

@@ -18,12 +18,10 @@ use filter::MeshoptFilter;
 use gltf::json;
 use serde_json::{Map, Value};
 use std::collections::HashMap;
+use stream::MeshoptFault;
 
 /// Names of the extensions; the first one that a view has is used.
 const NAMES: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
-
-/// Reason why compressed data cannot be decoded.
-type MeshoptFault = &'static str;
 
 /// Encoding of the data of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,7 +135,9 @@ impl CompressedView {
     /// Checks the size of an element against mode and filter.
     fn check(&self) -> Result<(), MeshoptFault> {
         match self.mode {
-            MeshoptMode::Attributes if self.stride % 4 != 0 || !(4..=256).contains(&self.stride) => {
+            MeshoptMode::Attributes
+                if !self.stride.is_multiple_of(4) || !(4..=256).contains(&self.stride) =>
+            {
                 Err("the byte stride of attributes must be a multiple of 4, 4..256")
             }
             MeshoptMode::Attributes if !self.filter.allows(self.stride) => {

@@ -1,6 +1,7 @@
 //! Bytes of compressed data, read from the front.
 
-use super::MeshoptFault;
+/// Reason why compressed data cannot be decoded.
+pub(super) type MeshoptFault = &'static str;
 
 /// Fault of data that ends too early.
 pub(super) const ENDS_EARLY: MeshoptFault = "it ends too early";

@@ -1,7 +1,6 @@
 //! Mode 1, triangles: one code for each triangle, which mostly shares an edge with an earlier one.
 
-use super::MeshoptFault;
-use super::stream::{MeshoptStream, put_index, unzigzag};
+use super::stream::{MeshoptFault, MeshoptStream, put_index, unzigzag};
 
 /// The last 16 values, the newest first.
 struct Recent<T> {

@@ -1,7 +1,8 @@
 //! Finds the edited channels by comparing the takes as they were opened with the takes as they are now.
 
+use super::super::target_path::TargetPath;
 use super::columns::{EncodedKeys, KeyColumns, KeysOwner, keys};
-use super::document::{ChannelTarget, FileAnimation, TargetPath};
+use super::document::{ChannelTarget, FileAnimation};
 use super::error::SaveError;
 use crate::data::{Channel, Interpolation, ModelData, MorphTrack, Take, Track};
 use crate::limits::CLIP_SECONDS;

@@ -1,6 +1,6 @@
 //! Converts a channel to glTF: times and values as bytes, and the name of the interpolation.
 
-use super::document::TargetPath;
+use super::super::target_path::TargetPath;
 use super::error::SaveError;
 use crate::data::{Channel, Interpolation, MorphTrack};
 use crate::limits::{CLIP_SECONDS, KEYS_PER_CHANNEL};

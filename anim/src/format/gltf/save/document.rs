@@ -1,6 +1,6 @@
 //! The animations of the JSON text and where their numbers are stored, without reading the numbers.
 
-use super::super::pointer;
+use super::super::target_path::{self, TargetPath};
 use super::json::tree::{Json, ValueId};
 use super::source::{SourceFile, is_data};
 use crate::format::uri::DataUri;
@@ -8,34 +8,6 @@ use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
-
-/// Animated property of a node or mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(in crate::format::gltf) enum TargetPath {
-    Translation,
-    Rotation,
-    Scale,
-    Weights,
-}
-
-impl TargetPath {
-    /// Returns the name in the file.
-    pub(in crate::format::gltf) fn name(self) -> &'static str {
-        match self {
-            Self::Translation => "translation",
-            Self::Rotation => "rotation",
-            Self::Scale => "scale",
-            Self::Weights => "weights",
-        }
-    }
-
-    /// Returns the property of this name.
-    pub(in crate::format::gltf) fn named(name: &str) -> Option<Self> {
-        [Self::Translation, Self::Rotation, Self::Scale, Self::Weights]
-            .into_iter()
-            .find(|path| path.name() == name)
-    }
-}
 
 /// A node and its animated property.
 pub(super) type ChannelTarget = (u32, TargetPath);
@@ -83,8 +55,8 @@ impl FileAnimation {
 
 fn target_of(json: Json<'_>, target: ValueId) -> Option<ChannelTarget> {
     let Some(path) = TargetPath::named(&json.string_member(target, "path")?) else {
-        let extension = json.member(json.member(target, "extensions")?, pointer::EXTENSION)?;
-        return pointer::node_target(&json.string_member(extension, "pointer")?);
+        let extension = json.member(json.member(target, "extensions")?, target_path::POINTER_EXTENSION)?;
+        return target_path::node_target(&json.string_member(extension, "pointer")?);
     };
     let node = u32::try_from(json.whole_member(target, "node")?).ok()?;
     (node != u32::MAX).then_some((node, path))

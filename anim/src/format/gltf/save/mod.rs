@@ -99,7 +99,6 @@ pub use buffer::buffer_of_save;
 pub use changes::{ChangedChannel, ChangedToken, Changes, ChannelChange, TakeChange, WrittenAccessor};
 pub(super) use columns::{EncodedKeys, KeyColumns, KeysOwner, keys as encode_keys};
 pub use compact::compact;
-pub(super) use document::TargetPath;
 pub use error::SaveError;
 pub use mark::MARK;
 pub use plan::{plan, plan_with_skeleton};

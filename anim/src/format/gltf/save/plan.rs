@@ -1,11 +1,12 @@
 //! From takes to the bytes that change.
 
+use super::super::target_path::TargetPath;
 use super::animation::{Draft, SamplerNumbers};
 use super::buffer::TargetBuffer;
 use super::changes::{ChangedChannel, Changes, ChannelChange, TakeChange, WrittenAccessor};
 use super::channels::{Action, ChannelEdit, edits, placeholder};
 use super::columns::shape_width;
-use super::document::{FileAnimation, SourceDocument, TargetPath};
+use super::document::{FileAnimation, SourceDocument};
 use super::draw::Draw;
 use super::error::SaveError;
 use super::extras::are_closed;

@@ -4,8 +4,9 @@
 //! in every scene that lists one of them. Where the bone is gone again, so is its node, if it is still the last one;
 //! otherwise the number of every node after it would change, so it stays, without children and in no scene.
 
+use super::super::target_path::TargetPath;
 use super::channels::{Action, ChannelEdit};
-use super::document::{FileAnimation, SourceDocument, TargetPath};
+use super::document::{FileAnimation, SourceDocument};
 use super::draw::Draw;
 use super::error::SaveError;
 use super::json::list::{ListEdit, edit};

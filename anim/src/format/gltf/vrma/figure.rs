@@ -9,7 +9,7 @@ use std::borrow::Cow;
 const ALONG: f32 = 0.98;
 
 /// A figure, and the skeleton that it is made from.
-pub(super) struct Figure<'a> {
+pub(super) struct VrmaFigure<'a> {
     /// The humanoid bones of the model, in the order of the bones of the figure.
     pub(super) humans: &'a [HumanBone],
     /// The bones of the figure, one for each humanoid bone.
@@ -19,7 +19,7 @@ pub(super) struct Figure<'a> {
     turn: Quat,
 }
 
-impl<'a> Figure<'a> {
+impl<'a> VrmaFigure<'a> {
     /// Returns the figure of a skeleton; `humans` are in the order of its bones.
     pub(super) fn of(source: &'a Skeleton, humans: &'a [HumanBone]) -> Self {
         let mut matrices = vec![Mat4::IDENTITY; source.len()];
@@ -112,9 +112,8 @@ fn is_finger(part: &str) -> bool {
 fn turn_to_front(humans: &[HumanBone], origin: impl Fn(BoneIndex) -> Vec3) -> Quat {
     let mut to_left = Vec3::ZERO;
     for human in humans {
-        match side(&human.name) {
-            Some((side, "UpperArm" | "UpperLeg")) => to_left += origin(human.bone) * side.x,
-            _ => {}
+        if let Some((side, "UpperArm" | "UpperLeg")) = side(&human.name) {
+            to_left += origin(human.bone) * side.x;
         }
     }
     let Some(to_left) = to_left.with_y(0.0).try_normalize() else { return Quat::IDENTITY };

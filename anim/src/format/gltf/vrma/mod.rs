@@ -15,7 +15,7 @@ use crate::data::{AnimationData, Bone, HumanBone, ModelData, Skeleton, Take, Tra
 use crate::format::{ExportError, Place, Warning, WholeFile};
 use crate::retarget::{RetargetOptions, SkeletonBinding, retarget};
 use expressions::{ExpressionTracks, PRESETS};
-use figure::Figure;
+use figure::VrmaFigure;
 use glam::Mat4;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
@@ -50,7 +50,7 @@ pub(super) fn write(model: &ModelData) -> Result<WholeFile, ExportError> {
         return Err(ExportError::new(text));
     }
     let mut lost = losses(model, &humans);
-    let figure = Figure::of(&model.animation.skeleton, &humans);
+    let figure = VrmaFigure::of(&model.animation.skeleton, &humans);
     let expressions = ExpressionTracks::of(model);
     let mut bones = figure.skeleton.bones.clone();
     bones.extend(expressions.names().map(expression_bone));
@@ -89,7 +89,7 @@ fn expression_bone(name: &str) -> Bone {
 }
 
 /// Returns a take for the figure: rotations, and the translation of the hips.
-fn moved(figure: &Figure, take: &Take) -> Take {
+fn moved(figure: &VrmaFigure, take: &Take) -> Take {
     let (source, take) = figure.turned(take);
     let pairs: Vec<(u32, u32)> = figure.humans.iter().map(|human| human.bone).zip(0..).collect();
     let Ok(binding) = SkeletonBinding::from_map(&source, &figure.skeleton, &pairs) else {
@@ -108,7 +108,7 @@ fn moved(figure: &Figure, take: &Take) -> Take {
 }
 
 /// Returns the object of the extension; bones and nodes have the same numbers.
-fn extension(figure: &Figure, expressions: &ExpressionTracks<'_>) -> Value {
+fn extension(figure: &VrmaFigure, expressions: &ExpressionTracks<'_>) -> Value {
     let bones = figure.humans.iter().enumerate();
     let bones: Map<String, Value> =
         bones.map(|(node, human)| (human.name.clone(), json!({"node": node}))).collect();

@@ -1,0 +1,120 @@
+//! Images and meshes in formats that glTF allows by an extension: WebP is read and written, KTX 2 has a fallback or is left
+//! out, Draco is refused where there is nothing else.
+
+use crate::fixture::Fixture;
+use dragonfly_anim::data::ModelData;
+use dragonfly_anim::format::uri::DataUri;
+use dragonfly_anim::format::{Imported, NoFiles, ReadOptions, gltf, read};
+use serde_json::{Value, json};
+
+/// Images of one pixel, made by the encoder of WebP: lossy, lossless, with alpha (those of Modernizr, MIT).
+const ONE_PIXEL: [&str; 3] = [
+    "UklGRiIAAABXRUJQVlA4IBYAAAAwAQCdASoBAAEADsD+JaQAA3AAAAAA",
+    "UklGRhoAAABXRUJQVlA4TA0AAAAvAAAAEAcQERGIiP4HAA==",
+    "UklGRkoAAABXRUJQVlA4WAoAAAAQAAAAAAAAAAAAQUxQSAwAAAARBxAR/Q9ERP8DAABWUDggGAAAABQBAJ0BKgEAAQAAAP4AAA3AAP7mtQAAAA==",
+];
+
+fn decoded(text: &str) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    DataUri::parse(&format!("data:;base64,{text}")).unwrap().unwrap().decode(&mut bytes).unwrap();
+    bytes
+}
+
+/// Returns the fixture with a second image, that of the texture's extension.
+fn with_image(extension: &str, bytes: &[u8], mime: &str) -> Fixture {
+    let mut fixture = Fixture::new();
+    let view = fixture.view(bytes);
+    fixture.set("/images/1", json!({"bufferView": view, "mimeType": mime}));
+    fixture.set(&format!("/textures/0/extensions/{extension}/source"), json!(1));
+    fixture.set("/extensionsUsed", json!([extension]));
+    fixture
+}
+
+fn imported(fixture: &Fixture) -> Imported {
+    read("a.glb", &fixture.glb(), &NoFiles, &ReadOptions::default()).unwrap()
+}
+
+fn image_of(model: &ModelData) -> Option<u32> {
+    model.materials[0].base_color_texture.map(|texture| texture.image)
+}
+
+#[test]
+fn the_webp_image_of_a_texture_is_read_instead_of_the_plain_one() {
+    for text in ONE_PIXEL {
+        let bytes = decoded(text);
+        let mut fixture = with_image("EXT_texture_webp", &bytes, "image/webp");
+        let Imported { model, warnings, .. } = imported(&fixture);
+        assert_eq!((warnings, image_of(&model)), (Vec::new(), Some(1)));
+        let image = &model.images[1];
+        assert_eq!(
+            (&*image.mime, image.width, image.height, &image.bytes[..]),
+            ("image/webp", 1, 1, &bytes[..])
+        );
+        // Without a plain image too.
+        fixture.remove("/textures/0/source").set("/extensionsRequired", json!(["EXT_texture_webp"]));
+        assert_eq!(imported(&fixture).model, model);
+        // Written with the extension, it is the same image again.
+        let written = gltf::write::glb(&model).unwrap();
+        let again = read("b.glb", &written.bytes, &NoFiles, &ReadOptions::default()).unwrap();
+        assert_eq!(again.warnings, []);
+        let image = &again.model.images[image_of(&again.model).unwrap() as usize];
+        assert_eq!((&*image.mime, &image.bytes[..]), ("image/webp", &bytes[..]));
+        for length in 0..bytes.len() {
+            let sized = gltf::measure_image(&bytes[..length]);
+            assert!(sized.is_none_or(|sized| sized == ("image/webp", 1, 1)), "{length} bytes");
+        }
+    }
+    let wide = [b"RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\0\0\0\0".as_slice(), &[2, 0, 0, 4, 1, 0]].concat();
+    assert_eq!(gltf::measure_image(&wide), Some(("image/webp", 3, 261)));
+}
+
+#[test]
+fn a_texture_with_ktx_uses_its_other_image_or_is_left_out_with_a_warning() {
+    let ktx = b"\xabKTX 20\xbb\r\n\x1a\n and so on";
+    let mut fixture = with_image("KHR_texture_basisu", ktx, "image/ktx2");
+    fixture.set("/extensionsRequired", json!(["KHR_texture_basisu"]));
+    let codes = |imported: &Imported| -> Vec<&str> { imported.warnings.iter().map(|it| it.code).collect() };
+    let got = imported(&fixture);
+    assert_eq!(image_of(&got.model), Some(0));
+    assert_eq!(codes(&got), ["IMAGE_DATA_INVALID", "TEXTURE_NO_SOURCE"]);
+    fixture.remove("/textures/0/source");
+    let got = imported(&fixture);
+    assert_eq!(image_of(&got.model), None);
+    assert_eq!(codes(&got), ["IMAGE_DATA_INVALID", "TEXTURE_NO_SOURCE"]);
+    assert!(
+        got.warnings.iter().all(|warning| warning.text.contains("KHR_texture_basisu")),
+        "{:?}",
+        got.warnings
+    );
+    // A save keeps both.
+    let opened = crate::save_support::OpenedFile::alone("a.glb", &fixture.glb());
+    assert!(opened.saved(&opened.takes(), &NoFiles).bytes() == fixture.glb());
+}
+
+#[test]
+fn a_texture_of_an_image_that_is_not_there_is_an_error() {
+    for source in [json!(9), json!(u64::MAX)] {
+        let mut fixture = with_image("EXT_texture_webp", &decoded(ONE_PIXEL[0]), "image/webp");
+        fixture.set("/textures/0/extensions/EXT_texture_webp/source", source);
+        assert!(read("a.glb", &fixture.glb(), &NoFiles, &ReadOptions::default()).is_err());
+    }
+    // A source that is no number is ignored.
+    let mut fixture = with_image("EXT_texture_webp", &decoded(ONE_PIXEL[0]), "image/webp");
+    fixture.set("/textures/0/extensions/EXT_texture_webp", Value::Null);
+    assert_eq!(image_of(&imported(&fixture).model), Some(0));
+}
+
+#[test]
+fn meshes_compressed_with_draco_are_refused_unless_there_is_uncompressed_data() {
+    const DRACO: &str = "KHR_draco_mesh_compression";
+    let mut fixture = Fixture::new();
+    fixture.set("/extensionsUsed", json!([DRACO]));
+    let object = json!({"bufferView": 0, "attributes": {"POSITION": 0}});
+    fixture.set(&format!("/meshes/0/primitives/0/extensions/{DRACO}"), object);
+    let got = imported(&fixture);
+    assert_eq!(got.model, imported(&Fixture::new()).model);
+    assert!(got.warnings.len() == 1 && got.warnings[0].text.contains("uncompressed"), "{:?}", got.warnings);
+    fixture.set("/extensionsRequired", json!([DRACO]));
+    let error = read("a.glb", &fixture.glb(), &NoFiles, &ReadOptions::default()).unwrap_err().to_string();
+    assert!(error.contains("Draco") && error.contains(DRACO) && error.contains("not supported"), "{error}");
+}
