@@ -29,16 +29,15 @@ pub(crate) fn all(bench: &mut FigureBench) {
     if bench.wants("bvh") {
         text(bench, bvh::BVH, inputs::bvh(), &folder, &assimp);
     }
-    let rig = inputs::rig();
-    let written = |format: Format, name: &str| {
+    let written = |format: Format, name: &str, repeated: usize| {
         let export = format.export.expect("a format that is written");
-        export(&rig, name).expect("the rig").files.pop().expect("a file").bytes
+        export(&inputs::rig(repeated), name).expect("the rig").files.pop().expect("a file").bytes
     };
     if bench.wants("m3d") {
-        text(bench, m3d::M3D, written(m3d::M3D, "rig.m3d"), &folder, &assimp);
+        text(bench, m3d::M3D, written(m3d::M3D, "rig.m3d", 12), &folder, &assimp);
     }
     if bench.wants("x") {
-        against(bench, x::X, written(x::X, "rig.x"), &folder, &assimp);
+        against(bench, x::X, written(x::X, "rig.x", 1), &folder, &assimp);
     }
     if bench.wants("obj") {
         against(bench, obj::OBJ, inputs::obj(), &folder, &assimp);
