@@ -16,9 +16,6 @@ const FRAMES: usize = 20_000;
 /// Vertices along one side of the surface of the OBJ file: 500 000 triangles.
 const SIDE: usize = 501;
 
-/// Number of times that the takes of the rig are repeated in the `.m3d` and `.x` files.
-const REPEATED: usize = 12;
-
 /// Keys of each channel of the glTF file: with 30 bones of three channels, 90 000 keys.
 const KEYS: usize = 1_000;
 
@@ -75,15 +72,15 @@ pub(crate) fn obj() -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Returns the rig of the benchmarks with its takes repeated.
+/// Returns the rig of the benchmarks with all takes `repeated` times.
 ///
 /// # Panics
 /// If the rig cannot be read.
-pub(crate) fn rig() -> ModelData {
+pub(crate) fn rig(repeated: usize) -> ModelData {
     let bytes = std::fs::read(root().join("tests/data/bench/pab.glb")).expect("the rig of the benchmarks");
     let mut model = read("pab.glb", &bytes, &NoFiles, &ReadOptions::default()).expect("a model").model;
     let takes = model.animation.takes.clone();
-    for number in 1..REPEATED {
+    for number in 1..repeated {
         let renamed = takes
             .iter()
             .map(|take| Arc::new(Take { name: format!("{}{number}", take.name), ..(**take).clone() }));
@@ -97,7 +94,7 @@ pub(crate) fn rig() -> ModelData {
 /// # Panics
 /// If the rig cannot be read or written.
 pub(crate) fn glb() -> Vec<u8> {
-    let mut model = rig();
+    let mut model = rig(1);
     let times: Arc<[f32]> = (0..KEYS).map(|key| key as f32 / 30.0).collect();
     let mut take = (*model.animation.takes[0]).clone();
     (take.start, take.length) = (0.0, times[KEYS - 1]);

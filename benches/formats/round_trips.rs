@@ -9,7 +9,7 @@ use dragonfly_anim::evaluator::Evaluator;
 use dragonfly_anim::format::{Conventions, Format, ReadOptions};
 use dragonfly_kit::figures::FigureBench;
 use glam::Vec3;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -118,7 +118,7 @@ fn compared(model: &Arc<ModelData>, again: &Arc<ModelData>) -> Option<RoundTripE
         pair[0].pose(ours, times[0]);
         pair[1].pose(theirs, times[1]);
         let [before, after] = if by_vertices {
-            pair.each_ref().map(Evaluator::all_positions)
+            pair.each_ref().map(used_positions)
         } else {
             pair.each_ref().map(|one| one.to_root().iter().map(|root| root.w_axis.truncate()).collect())
         };
@@ -127,7 +127,8 @@ fn compared(model: &Arc<ModelData>, again: &Arc<ModelData>) -> Option<RoundTripE
                 names.iter().map(|&(a, b)| before[a].distance(after[b])).fold(0.0, f32::max)
             }
             _ if by_vertices => nearest(&before, &after).max(nearest(&after, &before)),
-            _ => nearest(&after, &before),
+            // Formats add bones, for tips and meshes, or leave out those that no skin needs.
+            _ => nearest(&after, &before).min(nearest(&before, &after)),
         };
         let all = pair[0].bounds();
         let of_bones =
@@ -158,6 +159,20 @@ fn pairs(model: &ModelData, again: &ModelData) -> Option<Vec<(usize, usize)>> {
     let common: Vec<(usize, usize)> =
         ours.iter().filter_map(|(name, &number)| Some((number?, (*theirs.get(name)?)?))).collect();
     (common.len() * 2 > ours.len().min(theirs.len())).then_some(common)
+}
+
+/// Returns the positions of the vertices that triangles have: formats do not keep others.
+fn used_positions(evaluator: &Evaluator) -> Vec<Vec3> {
+    let mut all = Vec::new();
+    for instance in 0..evaluator.model().instances.len() {
+        for (number, primitive) in evaluator.primitives(instance).iter().enumerate() {
+            let mut positions = vec![Vec3::ZERO; primitive.vertices.len()];
+            evaluator.positions(instance, number, &mut positions);
+            let used: BTreeSet<u32> = primitive.indices.iter().copied().collect();
+            all.extend(used.into_iter().filter_map(|index| positions.get(index as usize)));
+        }
+    }
+    all
 }
 
 /// Returns the largest distance of some of the points to the nearest of the others.

@@ -29,16 +29,15 @@ pub(crate) fn all(bench: &mut FigureBench) {
     if bench.wants("bvh") {
         text(bench, bvh::BVH, inputs::bvh(), &folder, &assimp);
     }
-    let rig = inputs::rig();
-    let written = |format: Format, name: &str| {
+    let written = |format: Format, name: &str, repeated: usize| {
         let export = format.export.expect("a format that is written");
-        export(&rig, name).expect("the rig").files.pop().expect("a file").bytes
+        export(&inputs::rig(repeated), name).expect("the rig").files.pop().expect("a file").bytes
     };
     if bench.wants("m3d") {
-        text(bench, m3d::M3D, written(m3d::M3D, "rig.m3d"), &folder, &assimp);
+        text(bench, m3d::M3D, written(m3d::M3D, "rig.m3d", 12), &folder, &assimp);
     }
     if bench.wants("x") {
-        against(bench, x::X, written(x::X, "rig.x"), &folder, &assimp);
+        against(bench, x::X, written(x::X, "rig.x", 1), &folder, &assimp);
     }
     if bench.wants("obj") {
         against(bench, obj::OBJ, inputs::obj(), &folder, &assimp);
@@ -88,7 +87,7 @@ fn text(
     folder: &Folder,
     assimp: &RefCell<Option<Assimp>>,
 ) {
-    let task = format!("read {}, {} MB", format.extension(), bytes.len() / 1_000_000);
+    let task = format!("read {} of {} MB", format.extension(), bytes.len() / 1_000_000);
     let path = folder.join(&format!("large.{}", format.extension()));
     std::fs::write(&path, &bytes).expect("a folder of this bench");
     let mut works = works(format, &bytes, path, assimp);
@@ -113,7 +112,7 @@ fn against(
     folder: &Folder,
     assimp: &RefCell<Option<Assimp>>,
 ) {
-    let task = format!("read {}, {} MB", format.extension(), bytes.len() / 1_000_000);
+    let task = format!("read {} of {} MB", format.extension(), bytes.len() / 1_000_000);
     let path = folder.join(&format!("large.{}", format.extension()));
     std::fs::write(&path, &bytes).expect("a folder of this bench");
     let mut works = works(format, &bytes, path, assimp);
@@ -139,8 +138,11 @@ fn fbx(bench: &mut FigureBench) {
     let largest = models.iter().filter(is_fbx).max_by_key(|path| size(path));
     let path = largest.cloned().unwrap_or_else(|| root().join("tests/data/fbx"));
     let bytes = std::fs::read(&path).expect("an FBX file of the repository");
-    let task =
-        format!("read {}, {} KB", path.file_name().unwrap_or_default().to_string_lossy(), bytes.len() / 1000);
+    let task = format!(
+        "read {} of {} KB",
+        path.file_name().unwrap_or_default().to_string_lossy(),
+        bytes.len() / 1000
+    );
     let parser = FbxParser::this_program().expect("this program");
     let here = |read: &dyn Fn(&ImportContext<'_>)| {
         let options = ReadOptions::default();
@@ -198,8 +200,8 @@ fn glb(bench: &mut FigureBench, folder: &Folder) {
     let measured =
         in_turns(ROUNDS, vec![("ours", Box::new(|| Some(open()))), ("save", Box::new(|| Some(save())))]);
     for (task, own, theirs, goal) in [
-        ("open a glTF of 90,000 keys", &measured[0].1, opens, 1.0 / 20.0),
-        ("save an edit of a glTF of 90,000 keys", &measured[1].1, saves, 1.0 / 100.0),
+        ("open a glTF of 90 000 keys", &measured[0].1, opens, 1.0 / 20.0),
+        ("save an edit of a glTF of 90 000 keys", &measured[1].1, saves, 1.0 / 100.0),
     ] {
         let mut both = vec![("ours", own.clone())];
         if !theirs.is_empty() {

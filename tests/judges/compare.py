@@ -32,6 +32,12 @@ LOOKED_AT = 1500
 # How a file came to be that Dragonfly did not write: only to know how well a judge reads it.
 ORIGINAL = "original"
 
+# Reason of a row without comparison: bones without names, or with names that are not unique.
+NO_NAME = "no bone with a common name"
+
+# What the program says of a model that a BVH file cannot contain.
+NO_BONE = "the model has no bone"
+
 EDIT = {
     "edit": "offset_keys",
     "take": 0,
@@ -234,7 +240,7 @@ def judged(judge, files):
             if distance is not None:
                 row.relative = distance / max(file.size, 1e-6)
             if row.compared == 0 and not row.reason:
-                row.relative, row.reason = None, "no bone with a common name"
+                row.relative, row.reason, row.is_excused = None, NO_NAME, True
         rows.append(row)
     return without_originals(rows)
 
@@ -244,7 +250,7 @@ def without_originals(rows):
     key = lambda row: (row.source, row.take)
     misread = {key(row) for row in rows if row.how == ORIGINAL and row.is_wrong(TOLERANCE)}
     for row in rows:
-        row.is_excused = row.how == "edited" and key(row) in misread
+        row.is_excused |= row.how == "edited" and key(row) in misread
     return [row for row in rows if row.how != ORIGINAL]
 
 
@@ -270,7 +276,7 @@ def main():
         files = [file for files in of_models for file in files]
     print(f"{len(models)} models, {len(files)} files", flush=True)
     rows = [results.Row("Dragonfly", file.kind, file.how, file.source, -1, reason=file.error)
-            for file in files if file.error]
+            for file in files if file.error and NO_BONE not in file.error]
     for judge in here:
         print(f"{judge.name} {judge.version}", flush=True)
         rows += judged(judge, files)

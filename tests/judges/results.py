@@ -19,7 +19,7 @@ class Row:
     compared: int = 0
     relative: float | None = None
     reason: str = ""
-    # Whether the judge reads the file before the edit no better.
+    # Whether nothing follows: there was nothing to compare, or the judge reads the file before the edit no better.
     is_excused: bool = False
 
     def is_wrong(self, tolerance):
@@ -35,7 +35,7 @@ def summary(rows, tolerance):
     groups = {}
     for row in rows:
         groups.setdefault((row.judge, row.format), []).append(row)
-    lines = ["| judge | format | files | poses of takes | positions | worst relative error | beyond the tolerance | before the edit also |",
+    lines = ["| judge | format | files | poses of takes | positions | worst relative error | beyond the tolerance | not comparable |",
              "|---|---|--:|--:|--:|--:|--:|--:|"]
     for (judge, kind), group in sorted(groups.items()):
         files = len({(row.source, row.how) for row in group})

@@ -87,3 +87,23 @@ fn no_list_of_weights_is_empty_and_joints_without_vertices_stay_so() {
     };
     assert_eq!(joints(&again), joints(&fox));
 }
+
+#[test]
+fn the_time_to_read_a_text_grows_as_its_length_does() {
+    let path = crate::doors::data().join("bench/pab.glb");
+    let rig =
+        read("pab.glb", &std::fs::read(path).unwrap(), &NoFiles, &ReadOptions::default()).unwrap().model;
+    let time = |repeated: usize| {
+        let mut model = rig.clone();
+        model.animation.takes = vec![Arc::clone(&rig.animation.takes[0]); repeated];
+        let bytes = write(&model).unwrap().bytes;
+        let read_once = || {
+            let start = std::time::Instant::now();
+            import(&bytes).unwrap();
+            start.elapsed().as_secs_f64()
+        };
+        (0..3).map(|_| read_once()).fold(f64::INFINITY, f64::min)
+    };
+    let [short, long] = [time(2), time(32)];
+    assert!(long < 60.0 * short, "16 times the takes take {} times as long", long / short);
+}

@@ -108,9 +108,11 @@ pub(super) fn animation_set(
                 return Ok(set);
             }
             XToken::Word(b"Animation") => {
+                // Before the places in it: lines are counted from the last one.
+                let place = lexer.place(found.at);
                 let animation = animation(lexer, found, &mut keys, context)?;
                 let bytes = 4 * size_of::<XAnimation>() + 4 * animation.keys.capacity() * size_of::<XKeys>();
-                context.charge(&lexer.place(found.at), bytes as u64)?;
+                context.charge(&place, bytes as u64)?;
                 set.animations.push(animation);
             }
             XToken::Word(_) => {

@@ -54,7 +54,7 @@ pub(super) fn model(
     }
     let mut takes = context.vec(&Place::File, scene.sets.len())?;
     let count = bones.len();
-    let reader = SetReader { file, bones: &bones, axes, conversion, context };
+    let reader = SetReader { file, places: file.lexer(), bones: &bones, axes, conversion, context };
     for set in &scene.sets {
         takes.push(Arc::new(reader.take(set, count)?));
     }

@@ -3,6 +3,7 @@
 use super::animation::{XAnimation, XKeyKind, XKeys, XSet};
 use super::check as code;
 use super::header::XFile;
+use super::lexer::XLexer;
 use super::names::decoded;
 use super::scene::{XScene, affine};
 use super::skeleton::BoneList;
@@ -77,6 +78,8 @@ pub(super) fn used_rows(keys: &XKeys, conversion: &Conversion) -> (Vec<u32>, Vec
 /// Makes takes of the sets of a file.
 pub(super) struct SetReader<'a> {
     pub(super) file: &'a XFile<'a>,
+    /// Finds lines and columns; one for all sets, since it counts lines from the last place that it was asked for.
+    pub(super) places: XLexer<'a>,
     pub(super) bones: &'a BoneList<'a>,
     pub(super) axes: AxisMap,
     pub(super) conversion: &'a Conversion,
@@ -112,7 +115,7 @@ impl SetReader<'_> {
     }
 
     fn place(&self, at: usize) -> Place {
-        self.file.lexer().place(at)
+        self.places.place(at)
     }
 
     fn bone_of(&self, animation: &XAnimation) -> Option<BoneIndex> {
