@@ -30,6 +30,11 @@ fn open() -> Window {
     window
 }
 
+fn press(window: &mut Window, button: &str) {
+    window.get_by_role_and_label(Role::Button, button).click();
+    window.run_steps(4);
+}
+
 fn choose(window: &mut Window, list: &str, entry: &str) {
     window.get_by_role_and_label(Role::ComboBox, list).click();
     window.run_steps(4);
@@ -62,13 +67,11 @@ fn the_dialog_shows_what_is_lost_and_sends_the_order_that_was_chosen() {
     let other = ExportOrder { each: false, ..order.clone() };
     answer(&mut window, &other, false, &["an older answer"]);
     assert!(window.query_by_label("an older answer").is_none());
-    window.get_by_label("Export").click();
-    window.run_steps(4);
+    press(&mut window, "Export");
     assert_eq!(orders(&mut window), [], "the answer is not there");
     answer(&mut window, &order, false, &["take \"Walk\": a BVH file has one take"]);
     assert!(window.query_by_label("take \"Walk\": a BVH file has one take").is_some());
-    window.query_all_by_role_and_label(Role::Button, "Export").last().expect("a button").click();
-    window.run_steps(4);
+    press(&mut window, "Export");
     let written = orders(&mut window);
     assert_eq!(written[0], ExportOrder { is_written: true, ..order.clone() });
     window.state_mut().state.exported(written[0].clone(), Err("no space left".to_owned()));
