@@ -1,4 +1,4 @@
-//! What conversions keep, and how fast formats are read: `cargo bench -p dragonfly-fbx --bench formats`, or
+//! Accuracy of conversions and speed of readers: `cargo bench -p dragonfly-fbx --bench formats`, or
 //! `-- formats/round-trips` and `-- formats/speed` for one of both. `-- --record` writes the files in `results` and the tables
 //! of `anim/FORMATS.md`.
 //!

@@ -98,7 +98,7 @@ fn a_part_of_the_model_can_be_exported_and_each_take_as_a_file_of_its_own() {
 }
 
 #[test]
-fn what_a_format_cannot_contain_is_told_before_anything_is_written() {
+fn what_a_format_cannot_contain_is_listed_before_anything_is_written() {
     let (mut exporter, _) = Exporter::new("export-plan");
     fs::write(exporter.folder.join("there.bvh"), b"an older file").expect("a file");
     let plan = ExportOrder { is_written: false, ..exporter.order("there.bvh") };

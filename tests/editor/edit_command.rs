@@ -102,14 +102,14 @@ fn a_dry_run_reports_what_would_change_and_writes_nothing() {
 fn an_extension_of_another_format_is_refused() {
     let folder = Folder::new("edit-ending");
     let edits = edits(&folder, TURN);
-    for ending in ["gltf", "fbx", "DFM"] {
+    for ending in ["gltf", "fbx", "vrm", "DFM"] {
         let out = text(&folder.join(&format!("out.{ending}")));
         let said = run(["edit", &fox(), "--edits", &edits, "-o", &out]).expect(2);
         assert!(said.stderr.contains("the format of the file stays .glb"), "{}", said.stderr);
         assert!(!std::path::Path::new(&out).exists());
     }
     // An unknown extension, or the same one in another case, is the user's choice.
-    for name in ["out.vrm", "out.GLB", "out"] {
+    for name in ["out.model", "out.GLB", "out"] {
         run(["edit", &fox(), "--edits", &edits, "-o", &text(&folder.join(name))]).expect(0);
     }
 }

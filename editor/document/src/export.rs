@@ -62,7 +62,7 @@ pub struct ExportReport {
     pub lost: Vec<String>,
 }
 
-/// Writes `model` as `order` says. With `is_written` false, only finds out what would be lost.
+/// Writes the files of `order` from `model`. With `is_written` false, only finds out what would be lost.
 ///
 /// # Errors
 ///

@@ -33,7 +33,7 @@ overlays! {
     Overlay::OpenPath => "open-path", vec2(640.0, 420.0), [Typical], "the field is the same whatever is open";
     Overlay::ImportOptions => "import-options", vec2(640.0, 420.0), [Typical], "the fields are the same whatever is open";
     Overlay::Export => "export", vec2(640.0, 560.0), [Empty, Typical], "the list of takes is one line";
-    Overlay::MirrorPairs => "mirror-pairs", vec2(640.0, 480.0), [Empty, Typical, Crowded], "";
+    Overlay::MirrorPairs => "mirror-pairs", vec2(640.0, 480.0), [Empty, Typical], "more bones only make the list scroll";
     Overlay::Retarget => "retarget", vec2(720.0, 560.0), [Empty, Typical, Crowded], "";
     Overlay::Loop => "loop", vec2(640.0, 560.0), [Empty, Typical, Crowded], "";
     Overlay::Reference => "reference", vec2(560.0, 480.0), [Typical], "the dialog is the same whatever is open";

@@ -52,7 +52,7 @@ fn color(map: &MaterialMap) -> Option<Vec3> {
     (map.has_value && color.is_finite()).then(|| color.clamp(Vec3::ZERO, Vec3::ONE))
 }
 
-/// Returns the opacity that materials of Phong and Lambert state beside their transparency; the parser does not map it.
+/// Returns the opacity that materials of Phong and Lambert have in addition to their transparency; the parser does not map it.
 fn plain_opacity(material: &ufbx::Material) -> Option<f32> {
     let value = material.element.props.find_prop("Opacity")?.value_vec4.x;
     value.is_finite().then(|| value.clamp(0.0, 1.0) as f32)

@@ -4,7 +4,7 @@ use crate::fit::FitValue;
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Cosine of the middle angle below which the other two cannot be told apart.
+/// Cosine of the middle angle below which the other two cannot be distinguished.
 const LOCKED: f64 = 1e-6;
 
 /// Angles in radians, of any number of turns.

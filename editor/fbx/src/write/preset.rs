@@ -1,4 +1,4 @@
-//! What other programs expect of a file: one row for each.
+//! The expectations of other programs of a file: one row for each.
 
 use dragonfly_anim::format::UpAxis;
 

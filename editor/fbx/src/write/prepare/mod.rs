@@ -1,4 +1,4 @@
-//! Models as a preset wants them.
+//! Models as a preset requires them.
 
 mod bind_pose;
 mod frames;
