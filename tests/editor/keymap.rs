@@ -88,7 +88,7 @@ fn unknown_names_and_keys_in_the_settings_are_ignored() {
 fn a_shortcut_is_changed_in_the_shortcut_sheet_by_pressing_its_new_key() {
     let mut bench = Bench::new(Some(fixture::full()));
     bench.state.show_overlay(Some(Overlay::Shortcuts));
-    let mut harness = harness_of(bench, egui::vec2(1280.0, 720.0), 1.0, egui::Theme::Dark);
+    let mut harness = harness_of(bench, egui::vec2(1280.0, 1000.0), 1.0, egui::Theme::Dark);
     harness.run_steps(4);
     harness.get_by_label("Undo: Ctrl+Z").click();
     harness.run_steps(3);
