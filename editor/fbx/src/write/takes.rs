@@ -52,7 +52,8 @@ impl TakeSource<'_> {
             time("ReferenceStop", stop),
         ]);
         let stack = scene.object("AnimationStack", &name, ("AnimStack", ""), [properties]);
-        let layer = scene.object("AnimationLayer", "BaseLayer", ("AnimLayer", ""), []);
+        // Blender names actions after both unless they are the same.
+        let layer = scene.object("AnimationLayer", &name, ("AnimLayer", ""), []);
         scene.connect(layer, stack);
         scene.takes.push(WrittenTake { name, start, stop });
         let mut is_coarse = false;
