@@ -78,32 +78,6 @@ fn compare(name: &str, model: ModelData) -> (f32, f32) {
             return;
         }
         let (difference, place) = trip.bone_difference(take, time, size);
-        if difference > 1e-2 {
-            for bone in trip.bones().iter().enumerate() {
-                let (a, b) = (trip.before.model(), trip.after.model());
-                let n = &a.animation.skeleton.bones[bone.0].name;
-                if place.contains(n.as_str()) {
-                    println!(
-                        "DBG {n} {:?}\n{:?}\nA {:?}\nB {:?}",
-                        a.animation.skeleton.bones[bone.0].rest,
-                        b.animation.skeleton.bones[*bone.1].rest,
-                        a.animation.takes[take.unwrap_or(0)].tracks[bone.0]
-                            .rotation
-                            .values
-                            .iter()
-                            .take(4)
-                            .collect::<Vec<_>>(),
-                        b.animation.takes[take.unwrap_or(0)].tracks[*bone.1]
-                            .rotation
-                            .values
-                            .iter()
-                            .take(4)
-                            .collect::<Vec<_>>()
-                    );
-                    println!("P {:?} {:?}", trip.before.to_root()[bone.0], trip.after.to_root()[*bone.1]);
-                }
-            }
-        }
         let vertices = trip.vertex_difference(size);
         let limit = if is_key { ON_KEYS } else { BETWEEN_KEYS };
         let found = difference.max(vertices);

@@ -158,8 +158,12 @@ impl StackReader<'_> {
             wanted.filter_map(|(_, curve)| *curve).filter(|curve| !curve.keyframes.is_empty()).collect()
         };
         use AnimatedPart::{Pose, Rotation, Scale, Translation};
-        let translation =
-            if pivots { of(&[Translation, Rotation, Scale, Pose]) } else { of(&[Translation, Pose]) };
+        // What the take does not move rests. `ufbx` 0.11.5 may evaluate it as that of another node.
+        let moves = |targets: &[AnimatedPart]| curves.iter().any(|(target, _)| targets.contains(target));
+        let parts: &[AnimatedPart] =
+            if pivots { &[Translation, Rotation, Scale, Pose] } else { &[Translation, Pose] };
+        let is_moved = [moves(parts), moves(&[Rotation, Pose]), moves(&[Scale])];
+        let translation = of(parts);
         let (rotation, scale) = (of(&[Rotation, Pose]), of(&[Scale]));
         let top = is_top(node);
         let tolerances = self.tolerances(node);
@@ -167,26 +171,30 @@ impl StackReader<'_> {
         let pose = |at: f64| self.pose(node, at, &known);
         let space = self.space;
 
-        let times = self.times(&translation)?;
-        let keys =
-            self.fit(&times, tolerances.translation, &mut |at| Ok(pose(at)?.map(|pose| pose.translation)))?;
-        let convert = |value: &DVec3| space.translation(*value, top);
-        track.translation = channel(&keys, times.kind, &rest.translation, convert, convert);
-
-        let mut times = self.times(&rotation)?;
-        if times.kind == FitKind::Smooth {
-            self.divide_turns(node, &mut times)?;
+        if is_moved[0] {
+            let times = self.times(&translation)?;
+            let mut sample = |at| Ok(pose(at)?.map(|pose| pose.translation));
+            let keys = self.fit(&times, tolerances.translation, &mut sample)?;
+            let convert = |value: &DVec3| space.translation(*value, top);
+            track.translation = channel(&keys, times.kind, &rest.translation, convert, convert);
         }
-        let keys =
-            self.fit(&times, tolerances.rotation, &mut |at| Ok(pose(at)?.map(|pose| pose.rotation)))?;
-        let value = |value: &DQuat| space.rotation(*value, top).normalize();
-        track.rotation =
-            channel(&keys, times.kind, &rest.rotation, value, |value| space.rotation(*value, top));
-
-        let times = self.times(&scale)?;
-        let keys = self.fit(&times, tolerances.scale, &mut |at| Ok(pose(at)?.map(|pose| pose.scale)))?;
-        let convert = |value: &DVec3| space.factors(*value);
-        track.scale = channel(&keys, times.kind, &rest.scale, convert, convert);
+        if is_moved[1] {
+            let mut times = self.times(&rotation)?;
+            if times.kind == FitKind::Smooth {
+                self.divide_turns(node, &mut times)?;
+            }
+            let keys =
+                self.fit(&times, tolerances.rotation, &mut |at| Ok(pose(at)?.map(|pose| pose.rotation)))?;
+            let value = |value: &DQuat| space.rotation(*value, top).normalize();
+            track.rotation =
+                channel(&keys, times.kind, &rest.rotation, value, |value| space.rotation(*value, top));
+        }
+        if is_moved[2] {
+            let times = self.times(&scale)?;
+            let keys = self.fit(&times, tolerances.scale, &mut |at| Ok(pose(at)?.map(|pose| pose.scale)))?;
+            let convert = |value: &DVec3| space.factors(*value);
+            track.scale = channel(&keys, times.kind, &rest.scale, convert, convert);
+        }
         self.context.charge(&Place::File, 64 * track.keys() as u64)?;
         Ok(true)
     }

@@ -7,6 +7,7 @@ use super::preset::KeyStyle;
 use super::scene::{ObjectId, SceneWriter, WrittenTake, ticks};
 use super::space::FileSpace;
 use dragonfly_anim::data::{Channel, Interpolation, ModelData, MorphTrack, Take};
+use glam::Quat;
 
 /// The objects to which the takes of a file refer.
 pub(super) struct TakeSource<'a> {
@@ -52,7 +53,8 @@ impl TakeSource<'_> {
             time("ReferenceStop", stop),
         ]);
         let stack = scene.object("AnimationStack", &name, ("AnimStack", ""), [properties]);
-        let layer = scene.object("AnimationLayer", "BaseLayer", ("AnimLayer", ""), []);
+        // Blender names actions after both unless they are the same.
+        let layer = scene.object("AnimationLayer", &name, ("AnimLayer", ""), []);
         scene.connect(layer, stack);
         scene.takes.push(WrittenTake { name, start, stop });
         let mut is_coarse = false;
@@ -67,8 +69,17 @@ impl TakeSource<'_> {
                 let keys = vector_keys(&track.translation, style, true, |value| space.position(value));
                 add(scene, bone, "Lcl Translation", "T", &XYZ, &keys);
             }
-            if !track.rotation.is_empty() {
-                let keys = rotation_keys(&track.rotation, style, |value| space.rotation(value));
+            // Every bone that moves has curves of its rotation: `ufbx` 0.11.5 takes the translation of a bone without one from the
+            // next bone if that has no rotation either.
+            let rest = self.model.animation.skeleton.bones.get(track.bone as usize);
+            let held = Channel::new(
+                [take.start],
+                [rest.map_or(Quat::IDENTITY, |bone| bone.rest.rotation)],
+                Interpolation::Linear,
+            );
+            if !track.is_empty() {
+                let rotation = if track.rotation.is_empty() { &held } else { &track.rotation };
+                let keys = rotation_keys(rotation, style, |value| space.rotation(value));
                 add(scene, bone, "Lcl Rotation", "R", &XYZ, &keys);
             }
             if !track.scale.is_empty() {
