@@ -43,6 +43,7 @@ mod key_pending;
 mod kind;
 mod lines;
 mod lock_contacts;
+mod map_parts;
 mod map_references;
 pub(crate) mod mapped_bones;
 pub(crate) mod mapped_places;
