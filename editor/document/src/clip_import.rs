@@ -1,34 +1,15 @@
 //! The job that imports the takes of files onto the open model, as one edit.
 
 use super::Change;
-use super::bone_map::BoneMap;
 use super::clip_news::{ClipNews, imported};
+use super::clip_order::ClipOrder;
 use super::job::JobNews;
 use super::message::DocumentReply;
 use super::owner::Document;
 use crate::edit::{AddTakes, Edit};
 use crate::text::sentence;
 use dragonfly_runtime::{Job, JobContext};
-use std::path::PathBuf;
 use std::time::Instant;
-
-/// The files whose takes are imported onto the open model, and how.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ClipOrder {
-    /// The files.
-    pub files: Vec<PathBuf>,
-    /// The map of bones; guessed from their names for each file where absent.
-    pub map: Option<BoneMap>,
-    /// Whether feet stay where they touch the ground.
-    pub contacts: bool,
-}
-
-impl ClipOrder {
-    /// Returns the order to import files with guessed maps.
-    pub fn of(files: Vec<PathBuf>) -> Self {
-        Self { files, map: None, contacts: true }
-    }
-}
 
 impl Document {
     /// Imports the takes of files onto the open model, in a job.

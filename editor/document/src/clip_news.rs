@@ -1,7 +1,7 @@
 //! The takes that a job imports from several files, and its news.
 
 use super::adapter::ModelAdapter;
-use super::clip_import::ClipOrder;
+use super::clip_order::ClipOrder;
 use super::clips::{ClipSettings, ClipTakes, TakeNames, clip_takes};
 use super::source::file_name;
 use super::{Cancel, Loader, Source};

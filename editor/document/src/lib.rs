@@ -21,6 +21,7 @@ mod cancel;
 mod checking;
 mod clip_import;
 mod clip_news;
+mod clip_order;
 mod clips;
 mod comparing;
 mod conversion;
@@ -71,7 +72,7 @@ mod writing;
 
 pub use bone_map::BoneMap;
 pub use cancel::{Cancel, LoadStage, Progress};
-pub use clip_import::ClipOrder;
+pub use clip_order::ClipOrder;
 pub use clips::{ClipNaming, ClipSettings, ClipTakes, TakeNames, clip_takes};
 pub use conversion::{
     ConversionError, ConversionOrder, ConvertedFile, checked_preset, convert, export, export_presets,

@@ -21,7 +21,7 @@ const JUMP: f64 = 1.0 / 2000.0;
 
 /// How a curve runs from key to key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum CurveKind {
+enum WrittenCurveKind {
     Constant,
     Linear,
     Cubic,
@@ -29,7 +29,7 @@ enum CurveKind {
 
 /// Keys of a few curves at the same times.
 pub(super) struct CurveKeys {
-    kind: CurveKind,
+    kind: WrittenCurveKind,
     /// Seconds.
     times: Vec<f64>,
     /// The values of all curves at each time.
@@ -41,7 +41,7 @@ pub(super) struct CurveKeys {
 }
 
 impl CurveKeys {
-    fn new(kind: CurveKind, times: Vec<f64>, values: Vec<Vec<f64>>) -> Self {
+    fn new(kind: WrittenCurveKind, times: Vec<f64>, values: Vec<Vec<f64>>) -> Self {
         Self { kind, times, values, slopes: Vec::new(), is_coarse: false }
     }
 
@@ -50,14 +50,14 @@ impl CurveKeys {
         let values = keys.values.iter().map(&numbers).collect();
         let slopes = keys.tangents.iter();
         let slopes: Vec<_> = slopes.map(|tangents| [0, 1].map(|side| numbers(&tangents[side]))).collect();
-        let kind = if slopes.is_empty() { CurveKind::Linear } else { CurveKind::Cubic };
+        let kind = if slopes.is_empty() { WrittenCurveKind::Linear } else { WrittenCurveKind::Cubic };
         Self { kind, times, values, slopes, is_coarse: keys.is_coarse }
     }
 
     /// Returns keys whose values hold until the next key; as lines where steps are not read.
     fn steps(times: Vec<f64>, values: Vec<Vec<f64>>, style: KeyStyle) -> Self {
         match style {
-            KeyStyle::Curves => Self::new(CurveKind::Constant, times, values),
+            KeyStyle::Curves => Self::new(WrittenCurveKind::Constant, times, values),
             KeyStyle::Lines | KeyStyle::Frames => {
                 let (mut more, mut held) = (Vec::new(), Vec::new());
                 for (key, (&time, value)) in times.iter().zip(&values).enumerate() {
@@ -68,7 +68,7 @@ impl CurveKeys {
                         held.push(value.clone());
                     }
                 }
-                Self::new(CurveKind::Linear, more, held)
+                Self::new(WrittenCurveKind::Linear, more, held)
             }
         }
     }
@@ -123,13 +123,13 @@ pub(super) fn vector_keys(
         }
         Interpolation::Linear => {
             let values = values(&mut (0..times.len()));
-            CurveKeys::new(CurveKind::Linear, times, values)
+            CurveKeys::new(WrittenCurveKind::Linear, times, values)
         }
         Interpolation::CubicSpline if style == KeyStyle::Curves => {
             let tangent = |at: usize| numbers(&channel.values.get(at).map_or(DVec3::ZERO, |v| v.as_dvec3()));
             let slopes = (0..times.len()).map(|key| [tangent(3 * key), tangent(3 * key + 2)]).collect();
             let values = values(&mut (0..times.len()));
-            CurveKeys { slopes, ..CurveKeys::new(CurveKind::Cubic, times, values) }
+            CurveKeys { slopes, ..CurveKeys::new(WrittenCurveKind::Cubic, times, values) }
         }
         Interpolation::CubicSpline => {
             let mut at = |at: f64| Ok::<_, Infallible>(sample(channel, at).map(|value| value.truncate()));
@@ -240,13 +240,14 @@ fn curve(keys: &CurveKeys, part: usize) -> Vec<FbxNode> {
             kept.push(key);
         }
     }
-    let kind = if is_flat && keys.kind == CurveKind::Cubic { CurveKind::Linear } else { keys.kind };
+    let kind =
+        if is_flat && keys.kind == WrittenCurveKind::Cubic { WrittenCurveKind::Linear } else { keys.kind };
     // Weights of a third on both sides, as two numbers of 16 bits.
     let third = f32::from_bits(0x0d05_0d05);
     let (flags, data, counts) = match kind {
-        CurveKind::Constant => (vec![0x2], vec![0.0, 0.0, third, 0.0], vec![kept.len() as i32]),
-        CurveKind::Linear => (vec![0x4], vec![0.0, 0.0, third, 0.0], vec![kept.len() as i32]),
-        CurveKind::Cubic => {
+        WrittenCurveKind::Constant => (vec![0x2], vec![0.0, 0.0, third, 0.0], vec![kept.len() as i32]),
+        WrittenCurveKind::Linear => (vec![0x4], vec![0.0, 0.0, third, 0.0], vec![kept.len() as i32]),
+        WrittenCurveKind::Cubic => {
             let next = |at: usize| kept.get(at + 1).map_or(0.0, |&next| slope(next, 0));
             let rows = kept.iter().enumerate();
             let rows = rows.flat_map(|(at, &key)| [slope(key, 1) as f32, next(at) as f32, third, 0.0]);
