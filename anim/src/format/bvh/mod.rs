@@ -9,7 +9,7 @@
 //!
 //! # Units
 //!
-//! The format has Y up and right-handed axes, and does not contain a unit of length: [`Conversion::meters_per_unit`] is guessed
+//! The format has Y up and right-handed axes, and does not contain a unit of length: [`Conversion::meters_per_unit`](super::Conversion::meters_per_unit) is guessed
 //! from the size of the figure (meters, centimeters, millimeters, inches, or inches divided by 0.45 as in the database of CMU),
 //! such that a human is as tall as a human; where none of these fits, such that the figure is 1.7 m tall.
 //!
