@@ -8,20 +8,12 @@
 //! bones.
 //!
 //! ```
-//! use dragonfly_anim::data::{Bone, ModelData, Skeleton, Transform};
+//! use dragonfly_anim::data::{Bone, ModelData, Skeleton};
 //! use dragonfly_anim::root_bone::with_root_bone;
 //! use std::sync::Arc;
 //!
-//! let hips = Bone {
-//!     name: "Hips".to_owned(),
-//!     parent: None,
-//!     rest: Transform::IDENTITY,
-//!     rest_matrix: None,
-//!     offset: glam::Mat4::IDENTITY,
-//!     node: None,
-//! };
 //! let mut model = ModelData::default();
-//! model.animation.skeleton = Arc::new(Skeleton { bones: vec![hips] });
+//! model.animation.skeleton = Arc::new(Skeleton { bones: vec![Bone::root("Hips")] });
 //!
 //! let model = with_root_bone(&model, "Root")?;
 //! let bones = &model.animation.skeleton.bones;
@@ -30,10 +22,9 @@
 //! ```
 
 use crate::data::{
-    AnimationData, Avatar, Bone, BoneIndex, MeshInstance, ModelData, Skeleton, Skin, Take, Track, Transform,
+    AnimationData, Avatar, Bone, BoneIndex, MeshInstance, ModelData, Skeleton, Skin, Take, Track,
 };
 use crate::limits::{NODE_DEPTH, NODES};
-use glam::Mat4;
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -80,14 +71,7 @@ pub fn skeleton_with_root(skeleton: &Skeleton, name: &str) -> Result<Skeleton, R
     if levels >= NODE_DEPTH {
         return Err(RootBoneError::TooDeep(levels));
     }
-    let root = Bone {
-        name: name.to_owned(),
-        parent: None,
-        rest: Transform::IDENTITY,
-        rest_matrix: None,
-        offset: Mat4::IDENTITY,
-        node: None,
-    };
+    let root = Bone::root(name);
     let below =
         |bone: &Bone| Bone { parent: Some(bone.parent.map_or(0, |parent| parent + 1)), ..bone.clone() };
     let bones = std::iter::once(root).chain(skeleton.bones.iter().map(below)).collect();

@@ -66,17 +66,21 @@ fn keep(bench: &mut FigureBench, task: &str, measured: &[(&str, Vec<f64>)], goal
     }
 }
 
-/// Returns the works of this library and of assimp.
+/// Writes the file that assimp reads. Returns the name of the task, and the works of this library and of assimp.
 fn works<'a>(
     format: Format,
     bytes: &'a [u8],
-    path: PathBuf,
+    folder: &Folder,
     assimp: &'a RefCell<Option<Assimp>>,
-) -> Vec<TimedWork<'a>> {
-    vec![
+) -> (String, Vec<TimedWork<'a>>) {
+    let task = format!("read {} of {} MB", format.extension(), bytes.len() / 1_000_000);
+    let path = folder.join(&format!("large.{}", format.extension()));
+    std::fs::write(&path, bytes).expect("a folder of this bench");
+    let works: Vec<TimedWork<'a>> = vec![
         ("ours", Box::new(move || read_ours(format, bytes))),
         ("assimp", Box::new(move || assimp.borrow_mut().as_mut()?.read(&path))),
-    ]
+    ];
+    (task, works)
 }
 
 /// Measures a text whose goal is a number of bytes per second, or a fifth of the time of assimp.
@@ -87,10 +91,7 @@ fn text(
     folder: &Folder,
     assimp: &RefCell<Option<Assimp>>,
 ) {
-    let task = format!("read {} of {} MB", format.extension(), bytes.len() / 1_000_000);
-    let path = folder.join(&format!("large.{}", format.extension()));
-    std::fs::write(&path, &bytes).expect("a folder of this bench");
-    let mut works = works(format, &bytes, path, assimp);
+    let (task, mut works) = works(format, &bytes, folder, assimp);
     if format == m3d::M3D {
         // assimp knows another format of this name.
         works.truncate(1);
@@ -112,10 +113,7 @@ fn against(
     folder: &Folder,
     assimp: &RefCell<Option<Assimp>>,
 ) {
-    let task = format!("read {} of {} MB", format.extension(), bytes.len() / 1_000_000);
-    let path = folder.join(&format!("large.{}", format.extension()));
-    std::fs::write(&path, &bytes).expect("a folder of this bench");
-    let mut works = works(format, &bytes, path, assimp);
+    let (task, mut works) = works(format, &bytes, folder, assimp);
     if format == obj::OBJ {
         let text = &bytes;
         works.push(("tobj", Box::new(move || Some(timed(|| tobj_read(text))))));

@@ -129,3 +129,26 @@ fn an_export_that_is_not_possible_names_the_reason_and_writes_nothing() {
     fs::create_dir(exporter.folder.join("Fox3.glb")).expect("a folder");
     assert!(exporter.export(exporter.order("Fox3.glb")).unwrap_err().contains("Fox3.glb"));
 }
+
+#[test]
+fn of_many_questions_at_once_the_newest_one_is_answered_and_the_others_are_left_out() {
+    let (mut exporter, _) = Exporter::new("export-questions");
+    let question =
+        |number: usize| ExportOrder { is_written: false, ..exporter.order(&format!("{number}.glb")) };
+    let questions: Vec<ExportOrder> = (0..50).map(question).collect();
+    for question in &questions {
+        exporter.document.send(DocumentMessage::Export(question.clone()));
+    }
+    let mut answered = Vec::new();
+    exporter.document.wait_for_reply(|reply| {
+        if let DocumentReply::Exported(order, done) = reply {
+            assert!(done.is_ok(), "{done:?}");
+            answered.push(order.clone());
+        }
+        (answered.last() == questions.last()).then_some(())
+    });
+    assert_eq!(answered[0], questions[0]);
+    assert!(answered.len() < questions.len(), "{} answers", answered.len());
+    // The next question is answered again.
+    assert!(exporter.export(questions[7].clone()).is_ok());
+}

@@ -15,12 +15,5 @@ fn every_table_of_the_page_of_formats_is_made_from_the_recorded_results() {
 
 #[test]
 fn every_file_of_results_of_formats_names_its_machine_commit_and_command() {
-    let recorded = PAGE.read().expect("the results");
-    for (name, results) in recorded.files() {
-        for about in ["machine", "commit", "command", "priority", "rust"] {
-            assert!(!["", "unknown"].contains(&results.about(about)), "{name}.csv has no {about}");
-        }
-        assert!(results.about("command").contains("-- --record"), "{name}.csv was not recorded");
-        assert!(!results.rows.is_empty(), "{name}.csv has no rows");
-    }
+    PAGE.read().expect("the results").assert_origins();
 }

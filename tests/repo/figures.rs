@@ -35,14 +35,7 @@ fn no_measured_figure_of_the_editor_is_typed_outside_the_tables() {
 
 #[test]
 fn every_file_of_results_names_its_machine_commit_and_command() {
-    let recorded = PAGE.read().expect("the results");
-    for (name, results) in recorded.files() {
-        for about in ["machine", "commit", "command", "priority", "rust"] {
-            assert!(!["", "unknown"].contains(&results.about(about)), "{name}.csv has no {about}");
-        }
-        assert!(results.about("command").contains("-- --record"), "{name}.csv was not recorded");
-        assert!(!results.rows.is_empty(), "{name}.csv has no rows");
-    }
+    PAGE.read().expect("the results").assert_origins();
 }
 
 #[test]

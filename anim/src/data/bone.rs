@@ -29,6 +29,20 @@ pub struct Bone {
     pub node: Option<u32>,
 }
 
+impl Bone {
+    /// Returns a root bone of no file, which rests at the origin.
+    pub fn root(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            parent: None,
+            rest: Transform::IDENTITY,
+            rest_matrix: None,
+            offset: Mat4::IDENTITY,
+            node: None,
+        }
+    }
+}
+
 /// All bones, parents before children.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[doc(alias("rig", "armature"))]

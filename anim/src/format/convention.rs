@@ -21,6 +21,11 @@ pub enum UpAxis {
     Z,
 }
 
+impl UpAxis {
+    /// All axes. The position of an axis is its number where it is stored.
+    pub const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+}
+
 /// Sense of the axes of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Handedness {
@@ -29,6 +34,13 @@ pub enum Handedness {
     /// Right-handed, as in this library.
     #[default]
     Right,
+}
+
+impl Handedness {
+    /// Returns the sense of left-handed or right-handed axes.
+    pub const fn of_left(is_left: bool) -> Self {
+        if is_left { Self::Left } else { Self::Right }
+    }
 }
 
 /// What the user says about a file, where it does not say so itself or is wrong. The default says nothing.

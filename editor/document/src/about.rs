@@ -44,19 +44,11 @@ pub(crate) fn shortened(name: &str) -> String {
 pub(crate) mod tests {
     use super::*;
     use crate::edit::{BonePose, BoneRef, EDITS, PastePose, TakeRef};
-    use dragonfly_anim::data::{AnimationData, Bone, Skeleton, Take, Transform};
-    use glam::Mat4;
+    use dragonfly_anim::data::{AnimationData, Bone, Skeleton, Take};
 
     /// Creates a root bone.
     pub(crate) fn bone(name: &str) -> Bone {
-        Bone {
-            name: name.to_owned(),
-            parent: None,
-            rest: Transform::IDENTITY,
-            rest_matrix: None,
-            offset: Mat4::IDENTITY,
-            node: None,
-        }
+        Bone::root(name)
     }
 
     fn take(name: &str) -> Arc<Take> {

@@ -62,6 +62,32 @@ pub struct ExportReport {
     pub lost: Vec<String>,
 }
 
+/// Questions what exports would lose. One is answered at a time, and only the newest one waits: while a path is typed, each letter is a
+/// new question, and an answer takes as long as the export.
+#[derive(Debug, Default)]
+pub(super) struct ExportQuestions {
+    is_running: bool,
+    waiting: Option<ExportOrder>,
+}
+
+impl ExportQuestions {
+    /// Returns the order if it can start now. A question that cannot waits in place of an older one.
+    pub(super) fn begin(&mut self, order: ExportOrder) -> Option<ExportOrder> {
+        if order.is_written || !std::mem::replace(&mut self.is_running, true) {
+            return Some(order);
+        }
+        self.waiting = Some(order);
+        None
+    }
+
+    /// Ends the question that was answered. Returns the one that waits.
+    pub(super) fn next(&mut self) -> Option<ExportOrder> {
+        let next = self.waiting.take();
+        self.is_running = next.is_some();
+        next
+    }
+}
+
 /// Writes the files of `order` from `model`. With `is_written` false, only finds out what would be lost.
 ///
 /// # Errors

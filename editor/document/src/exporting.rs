@@ -1,6 +1,6 @@
 //! The job that exports the open model.
 
-use super::export::{ExportOrder, ExportReport, export_files};
+use super::export::{ExportOrder, ExportQuestions, ExportReport, export_files};
 use super::job::JobNews;
 use super::message::DocumentReply;
 use super::owner::Document;
@@ -11,7 +11,14 @@ use std::sync::Arc;
 impl Document {
     /// Exports the open model as it is now, in a job; or finds out what the export would lose.
     pub(super) fn export(&mut self, order: ExportOrder) {
+        if let Some(order) = self.export_questions.begin(order) {
+            self.start_export(order);
+        }
+    }
+
+    fn start_export(&mut self, order: ExportOrder) {
         let Some(open) = &self.open else {
+            self.export_questions = ExportQuestions::default();
             return self.reply(DocumentReply::Refused("Open a model first".to_owned()));
         };
         let adapter = open.edited.adapter().clone();
@@ -30,12 +37,19 @@ impl Document {
         match Job::start(&self.own, "export", work, panicked) {
             // Dropping a job would cancel it; files are written to their end.
             Ok(job) => job.detach(),
-            Err(error) => self.reply(DocumentReply::Warning(error.to_string())),
+            Err(error) => {
+                self.export_questions = ExportQuestions::default();
+                self.reply(DocumentReply::Warning(error.to_string()));
+            }
         }
     }
 
     /// Handles the end of the job.
     pub(super) fn exported(&mut self, (order, done): (ExportOrder, Result<ExportReport, String>)) {
+        let is_question = !order.is_written;
         self.reply(DocumentReply::Exported(order, done));
+        if is_question && let Some(next) = self.export_questions.next() {
+            self.start_export(next);
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! The document thread: owns the open document, loads models in jobs, publishes the newest view, writes the journal.
 
+use super::export::ExportQuestions;
 use super::fault::{FaultInjection, FaultPoint};
 use super::handle::DocumentHandle;
 use super::job::{JobNews, start_loading, start_search};
@@ -59,6 +60,7 @@ pub struct Document {
     pub(super) retargeting: Retargeting,
     /// The job that imports takes; dropping it cancels it.
     pub(super) clip_import: Option<Job>,
+    pub(super) export_questions: ExportQuestions,
     /// The check of a take; dropping it cancels it.
     pub(super) checking: Option<Job>,
     /// The job that reads a file to compare with; dropping it cancels it.
@@ -147,6 +149,7 @@ impl Document {
                 load: setup.load,
                 retargeting: Retargeting::default(),
                 clip_import: None,
+                export_questions: ExportQuestions::default(),
                 checking: None,
                 comparing: None,
                 pose_files: PoseFiles::default(),

@@ -119,7 +119,7 @@ impl Rebase {
             None => false,
         };
         if applied {
-            self.pair_created([&self.old.clone(), &after], &before);
+            self.pair_created(&after, &before);
         }
         if !reasons.is_empty() {
             let edit = described(&self.old, edit);
@@ -142,9 +142,9 @@ impl Rebase {
         }
     }
 
-    /// Pairs the takes and layers that the last edit created in both versions.
-    fn pair_created(&mut self, [old, after]: [&ModelAdapter; 2], before: &ModelAdapter) {
-        let (known, known_new) = (ids(old), ids(before));
+    /// Pairs the takes and layers that the last edit created in both versions: the old one is `after` it, the new one was `before`.
+    fn pair_created(&mut self, after: &ModelAdapter, before: &ModelAdapter) {
+        let (known, known_new) = (ids(&self.old), ids(before));
         let new = self.new.adapter();
         pair_by_name(&mut self.takes, [after, new], |id| !known.contains(&id), |id| !known_new.contains(&id));
     }

@@ -50,32 +50,20 @@ pub(super) struct EditsOrigin {
 struct RecordedConventions {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     meters_per_unit: Option<f32>,
+    /// Position among [`UpAxis::ALL`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    up: Option<RecordedUp>,
+    up: Option<u8>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     left_handed: Option<bool>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     frame_rate: Option<f32>,
 }
 
-/// [`UpAxis`] as JSON.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum RecordedUp {
-    X,
-    Y,
-    Z,
-}
-
 impl From<Conventions> for RecordedConventions {
     fn from(chosen: Conventions) -> Self {
         Self {
             meters_per_unit: chosen.meters_per_unit,
-            up: chosen.up.map(|up| match up {
-                UpAxis::X => RecordedUp::X,
-                UpAxis::Y => RecordedUp::Y,
-                UpAxis::Z => RecordedUp::Z,
-            }),
+            up: chosen.up.map(|up| up as u8),
             left_handed: chosen.handedness.map(|hand| hand == Handedness::Left),
             frame_rate: chosen.frame_rate,
         }
@@ -84,15 +72,10 @@ impl From<Conventions> for RecordedConventions {
 
 impl From<RecordedConventions> for Conventions {
     fn from(recorded: RecordedConventions) -> Self {
-        let hand = |left| if left { Handedness::Left } else { Handedness::Right };
         Self {
             meters_per_unit: recorded.meters_per_unit,
-            up: recorded.up.map(|up| match up {
-                RecordedUp::X => UpAxis::X,
-                RecordedUp::Y => UpAxis::Y,
-                RecordedUp::Z => UpAxis::Z,
-            }),
-            handedness: recorded.left_handed.map(hand),
+            up: recorded.up.and_then(|up| UpAxis::ALL.get(usize::from(up)).copied()),
+            handedness: recorded.left_handed.map(Handedness::of_left),
             frame_rate: recorded.frame_rate,
         }
     }

@@ -9,7 +9,7 @@
 
 use crate::code::{FBX_PARSER, known};
 use crate::convert::{ConvertedScene, MEMORY, convert};
-use crate::request::{handedness, up_axis, up_number};
+use crate::request::up_axis;
 use crate::textures::{self, ExternalTexture};
 use dragonfly_anim::data::ModelData;
 use dragonfly_anim::format::{
@@ -115,7 +115,7 @@ impl WireConversion {
         let Conversion { meters_per_unit, up, handedness, frame_rate: _ } = conversion;
         Self {
             meters_per_unit: (meters_per_unit.value, source_number(meters_per_unit.source)),
-            up: (up_number(up.value), source_number(up.source)),
+            up: (up.value as u8, source_number(up.source)),
             is_left: (handedness.value == Handedness::Left, source_number(handedness.source)),
         }
     }
@@ -129,7 +129,7 @@ impl WireConversion {
         Some(Conversion {
             meters_per_unit: Found { value: meters, source: source(self.meters_per_unit.1)? },
             up: Found { value: up_axis(self.up.0)?, source: source(self.up.1)? },
-            handedness: Found { value: handedness(self.is_left.0), source: source(self.is_left.1)? },
+            handedness: Found { value: Handedness::of_left(self.is_left.0), source: source(self.is_left.1)? },
             frame_rate: None,
         })
     }

@@ -30,7 +30,7 @@ impl ParseRequest {
         Self {
             memory,
             meters_per_unit: conventions.meters_per_unit,
-            up: conventions.up.map(up_number),
+            up: conventions.up.map(|up| up as u8),
             is_left: conventions.handedness.map(|handedness| handedness == Handedness::Left),
             frame_rate: conventions.frame_rate,
         }
@@ -41,7 +41,7 @@ impl ParseRequest {
         Conventions {
             meters_per_unit: self.meters_per_unit,
             up: self.up.and_then(up_axis),
-            handedness: self.is_left.map(handedness),
+            handedness: self.is_left.map(Handedness::of_left),
             frame_rate: self.frame_rate,
         }
     }
@@ -62,21 +62,7 @@ impl ParseRequest {
     }
 }
 
-/// Returns the number of an axis in messages between the processes.
-pub(crate) fn up_number(up: UpAxis) -> u8 {
-    match up {
-        UpAxis::X => 0,
-        UpAxis::Y => 1,
-        UpAxis::Z => 2,
-    }
-}
-
 /// Returns the axis of this number.
 pub(crate) fn up_axis(number: u8) -> Option<UpAxis> {
-    [UpAxis::X, UpAxis::Y, UpAxis::Z].get(usize::from(number)).copied()
-}
-
-/// Returns the sense of the axes.
-pub(crate) fn handedness(is_left: bool) -> Handedness {
-    if is_left { Handedness::Left } else { Handedness::Right }
+    UpAxis::ALL.get(usize::from(number)).copied()
 }

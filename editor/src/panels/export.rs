@@ -66,10 +66,13 @@ impl ExportDialog {
         let field = ui.add(field.font(TextStyle::Monospace).margin(Margin::symmetric(10, 7)));
         field.accessible_name("Path of the exported file");
         ui.add_space(GRID);
-        self.choices(ui, context);
+        let format = self.format();
+        self.choices(ui, format, context);
         let order = self.order(context);
-        self.ask(view, &order, requests);
-        self.losses(ui, context, &order);
+        if format.is_some() {
+            self.ask(view, &order, requests);
+        }
+        self.losses(ui, format.is_some(), context, &order);
         ui.add_space(GRID);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let done = self.answer(context, &order);
@@ -110,8 +113,7 @@ impl ExportDialog {
         formats().by_extension(&extension).filter(|format| format.export.is_some()).copied()
     }
 
-    fn choices(&mut self, ui: &mut Ui, context: &PanelContext<'_>) {
-        let format = self.format();
+    fn choices(&mut self, ui: &mut Ui, format: Option<Format>, context: &PanelContext<'_>) {
         Grid::new("export").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
             ui.label("Format");
             self.choose_format(ui, format);
@@ -189,7 +191,7 @@ impl ExportDialog {
     /// Asks the document what an order would lose, once for each order and state of the model.
     fn ask(&mut self, view: &View, order: &ExportOrder, requests: &mut Vec<Request>) {
         let asked = (view.generation, order.clone());
-        if self.asked.as_ref() != Some(&asked) && self.format().is_some() {
+        if self.asked.as_ref() != Some(&asked) {
             requests.push(Request::Answer(FileAction::Send(DocumentMessage::Export(order.clone()))));
             self.asked = Some(asked);
         }
@@ -205,8 +207,8 @@ impl ExportDialog {
         (answered.order == *order).then_some(&answered.done)
     }
 
-    /// Lists what the files cannot contain, or why they cannot be written.
-    fn losses(&self, ui: &mut Ui, context: &PanelContext<'_>, order: &ExportOrder) {
+    /// Lists what the files cannot contain, or why they cannot be written; `is_written` is whether the path names a format.
+    fn losses(&self, ui: &mut Ui, is_written: bool, context: &PanelContext<'_>, order: &ExportOrder) {
         let theme = Theme::of(ui);
         widgets::caption(ui, "What will be lost");
         let line = |ui: &mut Ui, text: &str, color| {
@@ -214,7 +216,7 @@ impl ExportDialog {
         };
         let area = ScrollArea::vertical().max_height(6.0 * ROW).min_scrolled_height(6.0 * ROW);
         area.auto_shrink([false, false]).show(ui, |ui| match self.answer(context, order) {
-            None if self.format().is_none() => line(ui, "The path has no extension of a format", theme.weak),
+            None if !is_written => line(ui, "The path has no extension of a format", theme.weak),
             None => line(ui, "…", theme.weak),
             Some(Err(reason)) => line(ui, reason, theme.warning),
             Some(Ok(report)) => {

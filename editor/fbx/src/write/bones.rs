@@ -51,10 +51,16 @@ impl LocalPose {
 
 /// Returns the matrices of all bones in the scene at rest.
 pub(super) fn rest_matrices(skeleton: &Skeleton) -> Vec<DMat4> {
-    let mut matrices: Vec<DMat4> = Vec::with_capacity(skeleton.len());
-    for bone in &skeleton.bones {
+    let poses: Vec<LocalPose> = skeleton.bones.iter().map(|bone| LocalPose::of(&bone.rest)).collect();
+    bone_matrices(skeleton, &poses)
+}
+
+/// Returns the matrices of all bones in the scene in these poses.
+pub(super) fn bone_matrices(skeleton: &Skeleton, poses: &[LocalPose]) -> Vec<DMat4> {
+    let mut matrices: Vec<DMat4> = Vec::with_capacity(poses.len());
+    for (bone, pose) in skeleton.bones.iter().zip(poses) {
         let parent = bone.parent.and_then(|parent| matrices.get(parent as usize).copied());
-        matrices.push(parent.unwrap_or(DMat4::IDENTITY) * LocalPose::of(&bone.rest).matrix());
+        matrices.push(parent.unwrap_or(DMat4::IDENTITY) * pose.matrix());
     }
     matrices
 }

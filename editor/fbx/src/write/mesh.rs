@@ -38,6 +38,13 @@ fn layer(
         .value(indices, corners.to_vec())
 }
 
+/// Returns the triangles of a primitive whose vertices exist.
+fn triangles(primitive: &Primitive) -> impl Iterator<Item = &[u32]> {
+    let count = primitive.vertices.len();
+    let whole = primitive.indices.chunks_exact(3);
+    whole.filter(move |triangle| triangle.iter().all(|&index| (index as usize) < count))
+}
+
 impl GeometrySource<'_> {
     fn vertices(&self) -> impl Iterator<Item = &Vertices> {
         self.mesh.primitives.iter().map(|primitive| &primitive.vertices)
@@ -52,11 +59,8 @@ impl GeometrySource<'_> {
         let mut corners = Vec::new();
         let mut first = 0;
         for primitive in &self.mesh.primitives {
-            let count = primitive.vertices.len();
-            let whole = primitive.indices.chunks_exact(3);
-            let whole = whole.filter(|triangle| triangle.iter().all(|&index| (index as usize) < count));
-            corners.extend(whole.flatten().map(|&index| (first + index as usize) as i32));
-            first += count;
+            corners.extend(triangles(primitive).flatten().map(|&index| (first + index as usize) as i32));
+            first += primitive.vertices.len();
         }
         corners
     }
@@ -160,11 +164,8 @@ impl GeometrySource<'_> {
     fn materials(&self, material_of: impl Fn(&Primitive) -> Option<i32>) -> Option<FbxNode> {
         let mut numbers: Vec<i32> = Vec::new();
         for primitive in &self.mesh.primitives {
-            let count = primitive.vertices.len();
-            let whole = primitive.indices.chunks_exact(3);
-            let triangles = whole.filter(|triangle| triangle.iter().all(|&index| (index as usize) < count));
             let material = material_of(primitive)?;
-            numbers.extend(triangles.map(|_| material));
+            numbers.extend(triangles(primitive).map(|_| material));
         }
         let first = *numbers.first()?;
         let is_same = numbers.iter().all(|&number| number == first);

@@ -72,13 +72,15 @@ impl TakeSource<'_> {
             // Every bone that moves has curves of its rotation: `ufbx` 0.11.5 takes the translation of a bone without one from the
             // next bone if that has no rotation either.
             let rest = self.model.animation.skeleton.bones.get(track.bone as usize);
-            let held = Channel::new(
-                [take.start],
-                [rest.map_or(Quat::IDENTITY, |bone| bone.rest.rotation)],
-                Interpolation::Linear,
-            );
             if !track.is_empty() {
-                let rotation = if track.rotation.is_empty() { &held } else { &track.rotation };
+                let held: Channel<Quat>;
+                let rotation = if track.rotation.is_empty() {
+                    let rest = rest.map_or(Quat::IDENTITY, |bone| bone.rest.rotation);
+                    held = Channel::new([take.start], [rest], Interpolation::Linear);
+                    &held
+                } else {
+                    &track.rotation
+                };
                 let keys = rotation_keys(rotation, style, |value| space.rotation(value));
                 add(scene, bone, "Lcl Rotation", "R", &XYZ, &keys);
             }

@@ -106,6 +106,20 @@ impl RecordedResults {
     pub fn files(&self) -> impl Iterator<Item = (&'static str, &Results)> {
         self.0.iter().map(|(name, results)| (*name, results))
     }
+
+    /// Checks that each file names its machine, commit and command, was recorded, and has rows.
+    ///
+    /// # Panics
+    /// If one does not.
+    pub fn assert_origins(&self) {
+        for (name, results) in self.files() {
+            for about in ["machine", "commit", "command", "priority", "rust"] {
+                assert!(!["", "unknown"].contains(&results.about(about)), "{name}.csv has no {about}");
+            }
+            assert!(results.about("command").contains("-- --record"), "{name}.csv was not recorded");
+            assert!(!results.rows.is_empty(), "{name}.csv has no rows");
+        }
+    }
 }
 
 /// Returns a number with a measured unit that occurs in a page outside its tables: a figure that no bench writes again.

@@ -11,12 +11,11 @@ mod names;
 
 use super::avatar::VRM_ANIMATION;
 use super::write::{container, document};
-use crate::data::{AnimationData, Bone, HumanBone, ModelData, Skeleton, Take, Track, Transform};
+use crate::data::{AnimationData, Bone, HumanBone, ModelData, Skeleton, Take, Track};
 use crate::format::{ExportError, Place, Warning, WholeFile};
 use crate::retarget::{RetargetOptions, SkeletonBinding, retarget};
 use expressions::{ExpressionTracks, PRESETS};
 use figure::VrmaFigure;
-use glam::Mat4;
 use serde_json::{Map, Value, json};
 use std::sync::Arc;
 
@@ -53,7 +52,8 @@ pub(super) fn write(model: &ModelData) -> Result<WholeFile, ExportError> {
     let figure = VrmaFigure::of(&model.animation.skeleton, &humans);
     let expressions = ExpressionTracks::of(model);
     let mut bones = figure.skeleton.bones.clone();
-    bones.extend(expressions.names().map(expression_bone));
+    // The translation of the bone of an expression is its weight.
+    bones.extend(expressions.names().map(Bone::root));
     let mut takes = Vec::with_capacity(model.animation.takes.len());
     for (index, take) in model.animation.takes.iter().enumerate() {
         let mut moved = moved(&figure, take);
@@ -74,18 +74,6 @@ pub(super) fn write(model: &ModelData) -> Result<WholeFile, ExportError> {
     root["extensionsUsed"] = json!([VRM_ANIMATION]);
     root["extensions"] = json!({VRM_ANIMATION: extension(&figure, &expressions)});
     Ok(WholeFile { bytes: container(&root, binary)?, lost })
-}
-
-/// Returns the bone whose translation is the weight of an expression.
-fn expression_bone(name: &str) -> Bone {
-    Bone {
-        name: name.to_owned(),
-        parent: None,
-        rest: Transform::IDENTITY,
-        rest_matrix: None,
-        offset: Mat4::IDENTITY,
-        node: None,
-    }
 }
 
 /// Returns a take for the figure: rotations, and the translation of the hips.

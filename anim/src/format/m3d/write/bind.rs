@@ -34,14 +34,7 @@ impl FileSkeleton {
             return Self { skeleton };
         }
         if model.instances.iter().any(|instance| instance.skin.is_none() && instance.bone.is_none()) {
-            skeleton.bones.push(Bone {
-                name: STATIC.to_owned(),
-                parent: None,
-                rest: Transform::IDENTITY,
-                rest_matrix: None,
-                offset: Mat4::IDENTITY,
-                node: None,
-            });
+            skeleton.bones.push(Bone::root(STATIC));
         }
         let mut locals = vec![Transform::IDENTITY; skeleton.len()];
         let mut matrices = vec![Mat4::IDENTITY; skeleton.len()];

@@ -1,6 +1,6 @@
 //! Takes with a key at every frame, and bones without scale.
 
-use super::super::bones::LocalPose;
+use super::super::bones::{LocalPose, bone_matrices};
 use super::super::losses::FbxLosses;
 use super::super::sample::{rotation, vector};
 use dragonfly_anim::data::{
@@ -93,15 +93,6 @@ fn has_scale(model: &ModelData, losses: &mut FbxLosses) -> bool {
         }
     }
     found
-}
-
-fn bone_matrices(skeleton: &Skeleton, poses: &[LocalPose]) -> Vec<DMat4> {
-    let mut matrices: Vec<DMat4> = Vec::with_capacity(poses.len());
-    for (bone, pose) in skeleton.bones.iter().zip(poses) {
-        let parent = bone.parent.and_then(|parent| matrices.get(parent as usize).copied());
-        matrices.push(parent.unwrap_or(DMat4::IDENTITY) * pose.matrix());
-    }
-    matrices
 }
 
 /// Returns poses without scale whose bones have the same origins and directions, and their matrices in the scene.
