@@ -152,17 +152,18 @@ fn framed_take(
         )));
     }
     let at = |frame: usize| f64::from(take.start) + frame as f64 / f64::from(rate);
+    // In single precision, as the times of keys: a step at a frame happens at that frame.
     let times: Arc<[f32]> = (0..frames).map(|frame| at(frame) as f32).collect();
     let mut columns: Vec<Vec<LocalPose>> = vec![Vec::with_capacity(frames); bones];
-    for frame in 0..frames {
+    for time in times.iter().map(|&time| f64::from(time)) {
         let mut row: Vec<LocalPose> = Vec::with_capacity(bones);
         for (index, bone) in skeleton.bones.iter().enumerate() {
             let nothing = Track::default();
             let track = take.tracks.get(index).unwrap_or(&nothing);
             row.push(LocalPose {
-                translation: vector(&track.translation, bone.rest.translation, at(frame)),
-                rotation: rotation(&track.rotation, bone.rest.rotation, at(frame)),
-                scale: vector(&track.scale, bone.rest.scale, at(frame)),
+                translation: vector(&track.translation, bone.rest.translation, time),
+                rotation: rotation(&track.rotation, bone.rest.rotation, time),
+                scale: vector(&track.scale, bone.rest.scale, time),
             });
         }
         let row = if is_scaled { unscaled(skeleton, &row).0 } else { row };
