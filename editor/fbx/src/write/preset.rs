@@ -1,4 +1,4 @@
-//! What other programs expect of a file: one row for each.
+//! Presets: the files that other programs expect, one row for each.
 
 use dragonfly_anim::format::UpAxis;
 

@@ -9,7 +9,7 @@ use super::space::FileSpace;
 use dragonfly_anim::data::{Channel, Interpolation, ModelData, MorphTrack, Take};
 use glam::Quat;
 
-/// What the takes of a file refer to.
+/// The objects to which the takes of a file refer.
 pub(super) struct TakeSource<'a> {
     pub(super) model: &'a ModelData,
     pub(super) space: &'a FileSpace,

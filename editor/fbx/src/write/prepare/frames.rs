@@ -47,7 +47,7 @@ pub(in super::super) fn at_frames(
         takes.push(Arc::new(framed_take(take, skeleton, rate, &resting, is_scaled)?));
     }
     if is_scaled {
-        // What a bone carries gets the scale that the bone loses.
+        // Meshes and skins get the scale that their bones lose.
         let scaled = bone_matrices(skeleton, &rest);
         let lost = |bone: u32| {
             let (now, before) = (globals.get(bone as usize)?, scaled.get(bone as usize)?);
